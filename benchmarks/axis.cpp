@@ -1,0 +1,101 @@
+#include "benchmarks/axis.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/pointer.h"
+#include "benchmarks/read_settings.h"
+#include "benchmarks/write_settings.h"
+#include "engine/error.h"
+
+namespace benchmarks {
+namespace {
+
+std::vector<std::string> splitAtTopLevelCommas(std::string_view text) {
+    std::vector<std::string> parts(1);
+    int depth = 0;
+    bool quoted = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '"') quoted = !quoted;
+        if (!quoted && (c == '[' || c == '{')) ++depth;
+        if (!quoted && (c == ']' || c == '}')) --depth;
+        if (c == ',' && !quoted && depth <= 0) {
+            parts.emplace_back();
+            continue;
+        }
+        parts.back() += c;
+        if (quoted && c == '\\' && i + 1 < text.size()) parts.back() += text[++i];
+    }
+    return parts;
+}
+
+bool isIndex(std::string_view token) {
+    return !token.empty() && token.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+std::string joinedTail(const std::vector<std::string>& tokens, std::size_t count) {
+    std::string text;
+    for (std::size_t i = tokens.size() - count; i < tokens.size(); ++i)
+        text += (text.empty() ? "" : ".") + tokens[i];
+    return text;
+}
+
+}  // namespace
+
+Axis parseAxis(std::string_view argument) {
+    const std::size_t equals = argument.find('=');
+    if (equals == std::string_view::npos || equals == 0)
+        throw engine::Error(
+            "-a " + std::string(argument), "expected POINTER=V1,V2, as in /strands/density=16,64");
+    Axis axis{.pointer = std::string(argument.substr(0, equals)), .values = {}};
+    for (const std::string& text : splitAtTopLevelCommas(argument.substr(equals + 1))) {
+        if (text.empty()) throw engine::Error("-a " + std::string(argument), "a value is empty");
+        const Json value = Json::parse(text, nullptr, false);
+        axis.values.push_back((value.is_discarded() ? Json(text) : value)
+                                  .dump(-1, ' ', false, Json::error_handler_t::replace));
+    }
+    return axis;
+}
+
+Axis checkedAxis(const Axis& axis, const Json& resolved) {
+    if (axis.values.empty()) throw engine::Error(axis.pointer, "an axis needs at least one value");
+    Axis checked{.pointer = axis.pointer, .values = {}};
+    for (const std::string& text : axis.values) {
+        Json document = resolved;
+        const Json value = Json::parse(text);
+        patch(document, axis.pointer, value);
+        Json echo = writeSettings(readSettings(document));
+        const std::string normal = value.is_object() ? text : valueAt(echo, axis.pointer).dump();
+        if (std::ranges::find(checked.values, normal) != checked.values.end())
+            throw engine::Error(axis.pointer, valueLabel(normal) + " is there twice");
+        checked.values.push_back(normal);
+    }
+    return checked;
+}
+
+std::vector<std::string> axisLabels(const std::vector<std::string>& pointers) {
+    std::vector<std::vector<std::string>> tokens;
+    for (const std::string& pointer : pointers) tokens.push_back(pointerTokens(pointer));
+    std::vector<std::string> labels;
+    for (const auto& mine : tokens) {
+        std::size_t count = isIndex(mine.back()) && mine.size() > 1 ? 2 : 1;
+        const auto shared = [&](const auto& other) {
+            return &other != &mine && other.size() >= count &&
+                   std::equal(
+                       mine.end() - static_cast<std::ptrdiff_t>(count), mine.end(),
+                       other.end() - static_cast<std::ptrdiff_t>(count));
+        };
+        while (count < mine.size() && std::ranges::any_of(tokens, shared)) ++count;
+        labels.push_back(joinedTail(mine, count));
+    }
+    return labels;
+}
+
+std::string valueLabel(const std::string& value) {
+    if (!value.starts_with('"')) return value;
+    return Json::parse(value).get<std::string>();
+}
+
+}  // namespace benchmarks

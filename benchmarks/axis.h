@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "benchmarks/json_fwd.h"
+
+namespace benchmarks {
+
+// A field that a sweep varies. Values are compact JSON texts: 64, "lines", [0,0,1].
+struct Axis {
+    std::string pointer;  // JSON pointer of a field, such as /strands/density
+    std::vector<std::string> values;
+};
+
+// The value of one axis in one case.
+struct AxisValue {
+    std::string pointer;
+    std::string value;  // compact JSON text
+};
+
+// "POINTER=V1,V2" of the command line. A value is JSON if it reads as such, otherwise a string;
+// commas inside brackets and quotes belong to the value: /camera/position=[0,0,1],[0,0,2] has two.
+// Throws engine::Error.
+Axis parseAxis(std::string_view argument);
+
+// The axis if its pointer names a field of `resolved` (a scene's document with every field) and
+// each value is one that the field takes, each once; otherwise engine::Error "<JSON pointer>:
+// <reason>". Values come back as the report echoes them: 64 for 64.0. An object is merged into the
+// group it is for, so that one axis can vary several fields together.
+Axis checkedAxis(const Axis& axis, const Json& resolved);
+
+// A short, distinct name for each pointer: its last token, with tokens before it as far as it takes
+// to tell two apart, or for an index: "density", "wind.strength", "position.2".
+std::vector<std::string> axisLabels(const std::vector<std::string>& pointers);
+
+// The value as names and tables show it: a string without its quotes.
+std::string valueLabel(const std::string& value);
+
+}  // namespace benchmarks

@@ -1,0 +1,77 @@
+#include "benchmarks/check_settings.h"
+
+#include <algorithm>
+#include <optional>
+
+#include <glm/geometric.hpp>
+
+#include "engine/error.h"
+
+namespace benchmarks {
+namespace {
+
+using hair::Settings;
+using Broken = std::optional<std::string>;  // the reason, if the rule is broken
+
+// Sine of the angle under which two directions count as parallel: a look-at matrix loses half of a
+// float's digits there.
+constexpr float kParallel = 1e-4f;
+
+Broken hasGuides(const Settings& s) {
+    if (!s.groom.file.empty() || !s.groom.grow.mesh.empty()) return {};
+    return "is empty, and /groom/file too: there is nothing to take guides from";
+}
+
+Broken windHasDirection(const Settings& s) {
+    if (s.simulation.wind.strength == 0.0f || glm::length(s.simulation.wind.direction) > 0.0f)
+        return {};
+    return "has no length while /simulation/wind/strength is above 0";
+}
+
+Broken lodDistancesAscend(const Settings& s) {
+    if (s.lod.near_distance < s.lod.far_distance) return {};
+    return "is not below /lod/far_distance";
+}
+
+Broken planesAscend(const Settings& s) {
+    if (s.camera.near_plane < s.camera.far_plane) return {};
+    return "is not below /camera/far_plane";
+}
+
+Broken cameraLooksSomewhere(const Settings& s) {
+    if (s.camera.position != s.camera.target) return {};
+    return "is where /camera/position is";
+}
+
+Broken upStandsOut(const Settings& s) {
+    const float length = glm::length(s.camera.up);
+    if (length == 0.0f) return "has no length";
+    const glm::vec3 view = glm::normalize(s.camera.target - s.camera.position);
+    if (glm::length(glm::cross(s.camera.up / length, view)) > kParallel) return {};
+    return "is parallel to the view";
+}
+
+struct Rule {
+    const char* pointer;
+    Broken (*broken)(const Settings&);
+};
+
+constexpr Rule kRules[] = {
+    {"/groom/grow/mesh", hasGuides},
+    {"/simulation/wind/direction", windHasDirection},
+    {"/lod/near_distance", lodDistancesAscend},
+    {"/camera/near_plane", planesAscend},
+    {"/camera/target", cameraLooksSomewhere},
+    {"/camera/up", upStandsOut}};
+
+}  // namespace
+
+void checkSettings(const Settings& settings, GuideCount guide_count) {
+    for (const Rule& rule : kRules)
+        if (const Broken reason = rule.broken(settings)) throw engine::Error(rule.pointer, *reason);
+    if (guide_count == GuideCount::written && !settings.groom.file.empty())
+        throw engine::Error(
+            "/groom/guides", "a guide file has its own count; leave out this or /groom/file");
+}
+
+}  // namespace benchmarks

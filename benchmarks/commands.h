@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "benchmarks/axis.h"
+#include "benchmarks/scene.h"
+#include "benchmarks/sweep.h"
+#include "engine/device.h"
+
+// The program's commands. Each prints what it has to say, returns the exit status, and throws engine::Error
+// for what the user has to mend.
+namespace benchmarks {
+
+// Which cases of a scene, and on what.
+struct SceneOptions {
+    std::filesystem::path scene;
+    std::vector<std::string> axes;  // "POINTER=V1,V2"
+    std::optional<std::uint32_t> frames;
+    std::optional<std::uint32_t> warmup;
+    engine::DeviceOptions device;
+};
+
+// The scene's cases with what the command line changes. Every asset that they name is read once.
+std::vector<CaseSpec> selectCases(Scene& scene, const SceneOptions& options);
+
+struct RunOptions {
+    SceneOptions scene;
+    std::string filter;
+    std::filesystem::path out;  // empty: results/local/<scene>.json
+    bool dry_run = false;
+    std::vector<std::string> command;  // as the report quotes it
+};
+int runScene(const RunOptions& options);
+
+struct RenderOptions {
+    SceneOptions scene;
+    std::filesystem::path out;
+    std::uint32_t frame = 0;
+};
+int renderScene(const RenderOptions& options);
+
+int validateScenes(const std::vector<std::filesystem::path>& scenes);
+int printSchema();
+int printDevices();
+
+}  // namespace benchmarks

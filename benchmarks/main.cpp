@@ -1,0 +1,108 @@
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "benchmarks/commands.h"
+#include "benchmarks/environment.h"
+#include "benchmarks/exit_codes.h"
+#include "engine/instance.h"
+
+namespace {
+
+using namespace benchmarks;
+
+constexpr const char* kExamples = R"(Examples:
+  hairbench run scenes/thesis.json -a /strands/density=16,32,64 -a /render/msaa=1,4
+  hairbench run scenes/thesis.json --filter 'guides:86/.*msaa:1' --out results/mine.json
+  hairbench render scenes/strong_wind.json -o wind.png --frame 60
+  hairbench validate scenes/*.json
+Exit status: 0 ok, 1 internal error, 2 usage or invalid scene, 14 nothing ran,
+77 no suitable device, 130 interrupted (what was done is saved).)";
+
+void addDeviceOptions(CLI::App& command, engine::DeviceOptions& options) {
+    command.add_option("--device", options.wanted,
+                       "index or part of the name of the device (see 'hairbench devices')");
+    command.add_flag_callback(
+        "--validate", [&options] { options.validation = engine::Validation::on; },
+        "run under the Vulkan validation layer; slow");
+}
+
+void addSceneOptions(CLI::App& command, SceneOptions& options) {
+    command.add_option("scene", options.scene, "scene file (.json)")->required()->type_name("FILE");
+    command
+        .add_option("-a,--axis", options.axes,
+                    "replaces or adds an axis of the sweep: /strands/density=16,32")
+        ->type_name("POINTER=V1,V2")
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false);
+    addDeviceOptions(command, options.device);
+}
+
+CLI::App* addRun(CLI::App& app, RunOptions& options) {
+    CLI::App* command = app.add_subcommand("run", "plays a scene's cases and writes a report");
+    addSceneOptions(*command, options.scene);
+    command->add_option("--frames", options.scene.frames, "measured frames per case and mode");
+    command->add_option("--warmup", options.scene.warmup, "frames drawn before measuring");
+    command->add_option("--filter", options.filter, "run the cases whose name matches")
+        ->type_name("REGEX");
+    command->add_option("--out", options.out, "report file (default results/local/<scene>.json)")
+        ->type_name("FILE");
+    command->add_flag("--dry-run", options.dry_run, "list the cases and stop");
+    return command;
+}
+
+CLI::App* addRender(CLI::App& app, RenderOptions& options) {
+    CLI::App* command = app.add_subcommand("render", "writes the picture of one frame");
+    addSceneOptions(*command, options.scene);
+    command->add_option("-o,--out", options.out, "picture (.png)")->required()->type_name("FILE");
+    command->add_option("--frame", options.frame, "frame to draw, from 0 (default 0)");
+    return command;
+}
+
+int dispatch(int argc, char** argv) {
+    CLI::App app("hairbench: measures simulated and rendered hair on Vulkan devices", "hairbench");
+    app.set_version_flag("--version", versionText());
+    app.require_subcommand(1);
+    app.footer(kExamples);
+
+    RunOptions run;
+    run.command.assign(argv, argv + argc);
+    RenderOptions render;
+    std::vector<std::filesystem::path> scenes;
+    const CLI::App* run_command = addRun(app, run);
+    const CLI::App* render_command = addRender(app, render);
+    CLI::App* validate_command = app.add_subcommand("validate", "checks scene files and their assets");
+    validate_command->add_option("scenes", scenes, "scene files")->required()->type_name("FILE...");
+    const CLI::App* schema_command =
+        app.add_subcommand("schema", "prints the JSON Schema of scene files");
+    app.add_subcommand("devices", "lists the Vulkan devices and what they lack");
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? kOk : kUsageError;
+    }
+    if (run_command->parsed()) return runScene(run);
+    if (render_command->parsed()) return renderScene(render);
+    if (validate_command->parsed()) return validateScenes(scenes);
+    if (schema_command->parsed()) return printSchema();
+    return printDevices();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return dispatch(argc, argv);
+    } catch (const engine::NoDevice& error) {
+        std::cerr << "hairbench: " << error.what() << '\n';
+        return kNoDevice;
+    } catch (const engine::Error& error) {
+        std::cerr << "hairbench: " << error.what() << '\n';
+        return kUsageError;
+    } catch (const std::exception& error) {
+        std::cerr << "hairbench: internal error: " << error.what() << '\n';
+        return kInternalError;
+    }
+}

@@ -1,0 +1,148 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+
+#include <unistd.h>
+
+#include "benchmarks/case.h"
+#include "benchmarks/commands.h"
+#include "benchmarks/environment.h"
+#include "benchmarks/exit_codes.h"
+#include "benchmarks/hash.h"
+#include "benchmarks/interrupt.h"
+#include "benchmarks/measure.h"
+#include "benchmarks/report.h"
+#include "benchmarks/write_file.h"
+#include "benchmarks/table.h"
+
+namespace benchmarks {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// "[3/12] 0:41 left ~1:50  thesis/density:16" on stderr: one line that is rewritten on a terminal, a line
+// per case elsewhere.
+class Progress {
+public:
+    explicit Progress(std::size_t total) : total_(total), start_(Clock::now()) {}
+
+    void begin(const std::string& name) {
+        const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+        std::string line = "[" + std::to_string(done_ + 1) + "/" + std::to_string(total_) + "] " +
+                           minutes(elapsed);
+        if (done_ > 0) {
+            const double each = elapsed / static_cast<double>(done_);
+            line += ", about " + minutes(each * static_cast<double>(total_ - done_)) + " left";
+        }
+        line += "  " + name;
+        ++done_;
+        if (terminal_) {
+            std::cerr << "\r\033[K" << line << std::flush;
+        } else {
+            std::cerr << line << '\n';
+        }
+    }
+
+    void clear() const {
+        if (terminal_) std::cerr << "\r\033[K" << std::flush;
+    }
+
+private:
+    static std::string minutes(double seconds) {
+        char text[32];
+        const int whole = static_cast<int>(seconds + 0.5);
+        std::snprintf(text, sizeof text, "%d:%02d", whole / 60, whole % 60);
+        return text;
+    }
+
+    std::size_t total_;
+    std::size_t done_ = 0;
+    Clock::time_point start_;
+    bool terminal_ = isatty(STDERR_FILENO) != 0;
+};
+
+// A case that can't run here is part of the result, and the sweep goes on.
+CaseResult runCase(const engine::Device& device, const CaseSpec& spec,
+                   const std::filesystem::path& directory) {
+    CaseResult result{.name = spec.name, .axes = spec.axes};
+    try {
+        Case test_case(device, spec.settings, directory);
+        measure(device, test_case, spec.settings.run, interrupted, result);
+    } catch (const engine::Unsupported& error) {
+        result = {.name = spec.name, .axes = spec.axes, .status = Status::skipped,
+                  .reason = error.what()};
+    } catch (const engine::Error& error) {
+        result = {.name = spec.name, .axes = spec.axes, .status = Status::failed,
+                  .reason = error.what()};
+    }
+    return result;
+}
+
+void listCases(const std::vector<CaseSpec>& cases) {
+    for (const CaseSpec& each : cases) std::cout << each.name << '\n';
+    std::cout << cases.size() << (cases.size() == 1 ? " case\n" : " cases\n");
+}
+
+}  // namespace
+
+int runScene(const RunOptions& options) {
+    Scene scene = loadScene(options.scene.scene);
+    std::vector<CaseSpec> cases = selectCases(scene, options.scene);
+    if (!options.filter.empty()) cases = keepMatching(std::move(cases), options.filter);
+    if (options.dry_run) {
+        listCases(cases);
+        return kOk;
+    }
+    if (cases.empty()) {
+        std::cerr << "hairbench: no case's name matches '" << options.filter << "'\n";
+        return kNothingRan;
+    }
+    const std::filesystem::path out =
+        options.out.empty() ? std::filesystem::path("results/local") / (scene.name + ".json")
+                            : options.out;
+    checkWritable(out);
+
+    catchInterrupts();
+    const engine::Device device(options.scene.device);
+    Report report{.environment = describeEnvironment(device.info(), options.command,
+                                                     scene.settings.seed),
+                  .scene = {.path = scene.path.string(),
+                            .hash = hashText(scene.resolved),
+                            .document = scene.resolved}};
+    std::cerr << versionText() << " on " << device.info().name << " (" << device.info().driver << ' '
+              << device.info().driver_version << ")\n";
+    Progress progress(cases.size());
+    try {
+        for (const CaseSpec& each : cases) {
+            progress.begin(each.name);
+            report.cases.push_back(runCase(device, each, scene.directory));
+            for (const std::string& message : device.messages().take()) {
+                report.cases.back().trust.warnings.push_back("validation: " + message);
+            }
+        }
+    } catch (const Interrupted&) {
+        report.interrupted = true;
+    }
+    progress.clear();
+    writeReport(report, out);
+
+    std::cout << table(report) << '\n';
+    for (const CaseResult& each : report.cases) {
+        for (const std::string& warning : each.trust.warnings) {
+            std::cout << each.name << ": " << warning << '\n';
+        }
+    }
+    std::cout << "report: " << out.string() << '\n';
+    if (report.interrupted) {
+        std::cerr << "interrupted after " << report.cases.size() << " of " << cases.size()
+                  << " cases\n";
+        return kInterrupted;
+    }
+    const bool any_ran = std::ranges::any_of(
+        report.cases, [](const CaseResult& each) { return each.status == Status::ok; });
+    return any_ran ? kOk : kNothingRan;
+}
+
+}  // namespace benchmarks

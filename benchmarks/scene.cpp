@@ -1,0 +1,148 @@
+#include "benchmarks/scene.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/json_text.h"
+#include "benchmarks/merge_patch.h"
+#include "benchmarks/pointer.h"
+#include "benchmarks/read_settings.h"
+#include "benchmarks/write_settings.h"
+#include "engine/error.h"
+
+namespace benchmarks {
+namespace {
+
+namespace fs = std::filesystem;
+using engine::Error;
+
+// Fields that are file names.
+constexpr const char* kFileFields[] = {"/groom/file", "/groom/grow/mesh"};
+
+std::string readFile(const fs::path& path) {
+    std::error_code error;
+    if (!fs::exists(path, error)) throw Error(path.string(), "no such file");
+    if (fs::is_directory(path, error)) throw Error(path.string(), "is a folder, not a scene file");
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    if (!file || !(text << file.rdbuf()).good()) {
+        if (file && file.peek() == std::ifstream::traits_type::eof()) return {};  // an empty file
+        throw Error(path.string(), "cannot be read");
+    }
+    return std::move(text).str();
+}
+
+// Calls `action` and puts the file's name in front of the reasons it throws.
+template <class Action>
+auto inFile(const fs::path& path, Action&& action) {
+    try {
+        return action();
+    } catch (const Error& error) {
+        throw Error(path.string(), error.what());
+    }
+}
+
+const std::string* stringMember(const Json& document, const char* key) {
+    const auto member = document.find(key);
+    if (member == document.end()) return nullptr;
+    if (!member->is_string())
+        throw Error('/' + std::string(key), "expected a string, found " + described(*member));
+    return &member->get_ref<const std::string&>();
+}
+
+std::vector<Axis> readSweep(const Json& document, const Json& resolved) {
+    std::vector<Axis> axes;
+    const auto sweep = document.find("sweep");
+    if (sweep == document.end()) return axes;
+    if (!sweep->is_object())
+        throw Error("/sweep", "expected an object, found " + described(*sweep));
+    for (const auto& [pointer, values] : sweep->items()) {
+        try {
+            if (!values.is_array())
+                throw Error(pointer, "expected an array of values, found " + described(values));
+            Axis axis{.pointer = pointer, .values = {}};
+            for (const Json& value : values) axis.values.push_back(value.dump());
+            axes.push_back(checkedAxis(axis, resolved));
+        } catch (const Error& error) {
+            throw Error("/sweep", error.what());
+        }
+    }
+    return axes;
+}
+
+Scene makeScene(const fs::path& path, Json document) {
+    Scene scene;
+    scene.path = path;
+    scene.directory = path.parent_path();
+    scene.name = path.stem().string();
+    scene.settings = readSettings(document);
+    const Json resolved = writeSettings(scene.settings);
+    scene.axes = readSweep(document, resolved);
+    for (const std::string_view key : kSceneKeys) document.erase(std::string(key));
+    scene.document = document.dump();
+    scene.resolved = resolved.dump();
+    return scene;
+}
+
+// File names are relative to the scene that is opened, so a base in another folder has its own
+// rewritten.
+void moveFileNames(Json& base, const fs::path& folder) {
+    if (folder.empty()) return;
+    Json resolved = writeSettings(readSettings(base));
+    for (const char* pointer : kFileFields) {
+        const fs::path file = valueAt(resolved, pointer).get<std::string>();
+        if (!file.empty() && file.is_relative())
+            base[Json::json_pointer(pointer)] = (folder / file).lexically_normal().string();
+    }
+}
+
+Json everyMember() {
+    Json known = writeSettings({});
+    for (const std::string_view key : kSceneKeys) known[std::string(key)] = Json::object();
+    return known;
+}
+
+// The document with its bases merged and all of it checked. `opened`: the files that led here.
+Json loadDocument(const fs::path& path, std::vector<fs::path> opened) {
+    const std::string text = readFile(path);
+    Json document = parseJson(text, path.string());
+    return inFile(path, [&] {
+        if (!document.is_object()) throw Error("expected an object, found " + described(document));
+        stringMember(document, "$schema");
+        if (const std::string* const base = stringMember(document, "base")) {
+            const fs::path base_path = path.parent_path() / *base;
+            opened.push_back(fs::weakly_canonical(path));
+            if (std::ranges::find(opened, fs::weakly_canonical(base_path)) != opened.end())
+                throw Error("/base", base_path.string() + " is built on this file: a cycle");
+            Json merged;
+            try {
+                merged = loadDocument(base_path, opened);
+            } catch (const Error& error) {
+                throw Error("/base", error.what());
+            }
+            moveFileNames(merged, fs::path(*base).parent_path());
+            document.erase("base");
+            mergePatch(merged, document, everyMember());
+            document = std::move(merged);
+        }
+        makeScene(path, document);
+        return document;
+    });
+}
+
+}  // namespace
+
+Scene loadScene(const fs::path& path) { return makeScene(path, loadDocument(path, {})); }
+
+void setField(Scene& scene, const std::string& pointer, const std::string& value) {
+    Json document = Json::parse(scene.document);
+    document[Json::json_pointer(pointer)] = Json::parse(value);
+    scene.settings = readSettings(document);
+    scene.document = document.dump();
+    scene.resolved = writeSettings(scene.settings).dump();
+}
+
+}  // namespace benchmarks

@@ -1,0 +1,24 @@
+#include <set>
+
+#include "benchmarks/case.h"
+#include "benchmarks/commands.h"
+
+namespace benchmarks {
+
+std::vector<CaseSpec> selectCases(Scene& scene, const SceneOptions& options) {
+    if (options.frames) setField(scene, "/run/frames", std::to_string(*options.frames));
+    if (options.warmup) setField(scene, "/run/warmup", std::to_string(*options.warmup));
+    std::vector<Axis> overrides;
+    for (const std::string& axis : options.axes) overrides.push_back(parseAxis(axis));
+    std::vector<CaseSpec> cases = expand(scene, overrides);
+
+    std::set<std::string> checked;
+    for (const CaseSpec& each : cases) {
+        const hair::GroomSettings& groom = each.settings.groom;
+        const std::string files = groom.file + '\n' + groom.grow.mesh;
+        if (checked.insert(files).second) checkAssets(each.settings, scene.directory);
+    }
+    return cases;
+}
+
+}  // namespace benchmarks

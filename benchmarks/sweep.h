@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "benchmarks/axis.h"
+#include "benchmarks/scene.h"
+
+namespace benchmarks {
+
+inline constexpr std::size_t kMaximumCases = 100000;
+
+// One combination of a sweep's values.
+struct CaseSpec {
+    std::string name;  // "thesis/guides:86/msaa:4", distinct; the scene's name if nothing is swept
+    std::vector<AxisValue> axes;  // in the sweep's order
+    std::string document;  // JSON text: every field
+    hair::Settings settings;
+};
+
+// The cartesian product of the scene's axes in their written order, the last one fastest. An
+// override replaces the values of the axis with its pointer, in place, or adds an axis at the end.
+// Throws engine::Error: an override that names no field or a value it does not take ("-a:
+// <pointer>: ..."), axes inside one another, more than kMaximumCases, a case that breaks a rule
+// between fields
+// ("<file>: <case>: <pointer>: ...").
+std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides = {});
+
+// The cases in whose name the ECMAScript regular expression is found. A malformed one is an
+// engine::Error.
+std::vector<CaseSpec> keepMatching(std::vector<CaseSpec> cases, const std::string& regex);
+
+}  // namespace benchmarks

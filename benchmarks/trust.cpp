@@ -1,0 +1,56 @@
+#include "benchmarks/trust.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "benchmarks/statistics.h"
+#include "benchmarks/table.h"
+
+namespace benchmarks {
+
+namespace {
+
+std::vector<double> timesOf(std::span<const engine::FrameRecord> frames, const std::string& pass) {
+    std::vector<double> times;
+    for (const engine::FrameRecord& frame : frames) {
+        const auto found = std::ranges::find(frame.passes, pass, &engine::PassTime::name);
+        if (found != frame.passes.end()) times.push_back(found->milliseconds);
+    }
+    return times;
+}
+
+}  // namespace
+
+double passSum(const engine::FrameRecord& frame) {
+    double sum = 0.0;
+    for (const engine::PassTime& pass : frame.passes) sum += pass.milliseconds;
+    return sum;
+}
+
+double passSumOverWall(std::span<const engine::FrameRecord> isolated) {
+    std::vector<double> ratios;
+    for (const engine::FrameRecord& frame : isolated) ratios.push_back(passSum(frame) / frame.wall);
+    return summarize(ratios).median;
+}
+
+std::vector<std::string> timestampFaults(std::span<const engine::FrameRecord> isolated,
+                                         std::span<const engine::FrameRecord> wall_clock) {
+    std::vector<std::string> faults;
+    for (const engine::PassTime& pass : isolated.front().passes) {
+        const std::vector<double> stamped_times = timesOf(isolated, pass.name);
+        const std::vector<double> clocked_times = timesOf(wall_clock, pass.name);
+        if (clocked_times.empty()) continue;
+        // A busy machine only ever adds time, so the fastest frames are the ones to compare.
+        const double stamped = std::ranges::min(stamped_times);
+        const double clocked = std::ranges::min(clocked_times);
+        const bool too_long = stamped > clocked * (1.0 + kTrustTolerance) + kSubmissionCost;
+        const bool too_short = stamped < clocked * (1.0 - kTrustTolerance) - kSubmissionCost;
+        if (too_long || too_short) {
+            faults.push_back("pass." + pass.name + ": timestamps say " + shortNumber(stamped) +
+                             " ms, the CPU's clock " + shortNumber(clocked) + " ms");
+        }
+    }
+    return faults;
+}
+
+}  // namespace benchmarks

@@ -1,0 +1,280 @@
+#include "engine/frame_loop.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+namespace engine {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint32_t kMaxStamps = 512;
+
+double millisecondsBetween(Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double, std::milli>(to - from).count();
+}
+
+void addTime(std::vector<PassTime>& passes, const std::string& name, double milliseconds) {
+    const auto found = std::ranges::find(passes, name, &PassTime::name);
+    if (found != passes.end()) {
+        found->milliseconds += milliseconds;
+    } else {
+        passes.push_back({name, milliseconds});
+    }
+}
+
+Handle<VkSemaphore, &vkDestroySemaphore> makeTimeline(VkDevice device) {
+    VkSemaphoreTypeCreateInfo type{};
+    type.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO;
+    type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
+    VkSemaphoreCreateInfo create{};
+    create.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
+    create.pNext = &type;
+    VkSemaphore semaphore{};
+    check(vkCreateSemaphore(device, &create, nullptr, &semaphore), "create a timeline semaphore");
+    return {device, semaphore};
+}
+
+void waitFor(VkDevice device, VkSemaphore timeline, std::uint64_t value) {
+    VkSemaphoreWaitInfo wait{};
+    wait.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO;
+    wait.semaphoreCount = 1;
+    wait.pSemaphores = &timeline;
+    wait.pValues = &value;
+    check(vkWaitSemaphores(device, &wait, std::numeric_limits<std::uint64_t>::max()),
+          "wait for a frame");
+}
+
+void submit(const Device& device, VkCommandBuffer commands, VkSemaphore timeline,
+            std::uint64_t value) {
+    const VkCommandBufferSubmitInfo buffer{
+        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
+        .pNext = nullptr,
+        .commandBuffer = commands,
+        .deviceMask = 0};
+    VkSemaphoreSubmitInfo signal{};
+    signal.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO;
+    signal.semaphore = timeline;
+    signal.value = value;
+    signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    VkSubmitInfo2 info{};
+    info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
+    info.commandBufferInfoCount = 1;
+    info.pCommandBufferInfos = &buffer;
+    info.signalSemaphoreInfoCount = 1;
+    info.pSignalSemaphoreInfos = &signal;
+    check(vkQueueSubmit2(device.queue(), 1, &info, VK_NULL_HANDLE), "submit a frame");
+}
+
+}  // namespace
+
+// What one frame in flight owns.
+struct FrameLoop::Slot {
+    Slot(const Device& device, Timing timing) {
+        const VkCommandPoolCreateInfo create{
+            .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+            .pNext = nullptr,
+            .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
+            .queueFamilyIndex = device.info().queue_family};
+        VkCommandPool handle{};
+        check(vkCreateCommandPool(device.get(), &create, nullptr, &handle),
+              "create a command pool");
+        pool = {device.get(), handle};
+        const VkCommandBufferAllocateInfo allocate{
+            .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+            .pNext = nullptr,
+            .commandPool = handle,
+            .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+            .commandBufferCount = 1};
+        check(vkAllocateCommandBuffers(device.get(), &allocate, &buffer),
+              "allocate a command buffer");
+        if (timing == Timing::overlapped || timing == Timing::isolated) {
+            timestamps.emplace(device, kMaxStamps);
+        }
+    }
+
+    struct Span {
+        std::string name;
+        std::uint32_t first_stamp;
+        std::uint32_t last_stamp;
+    };
+    struct Query {
+        std::string name;
+        PipelineStatistics statistics;
+    };
+
+    Handle<VkCommandPool, &vkDestroyCommandPool> pool;
+    VkCommandBuffer buffer{};
+    std::optional<Timestamps> timestamps;
+    std::vector<Span> spans;
+    std::vector<Query> queries;
+    std::uint64_t value = 0;         // of the timeline when the slot's frame is done
+    std::optional<std::size_t> record;  // index of the frame whose results are still to be read
+};
+
+namespace {
+
+// Overlapped, isolated and statistics frames: all passes in one command buffer.
+template <class Slot>
+class OneBufferPasses : public Passes {
+public:
+    OneBufferPasses(const Device& device, Timing timing, Slot& slot, std::uint32_t index)
+        : device_(device), timing_(timing), slot_data_(slot), commands_(slot.buffer) {
+        slot_ = index;
+        if (timing_ == Timing::overlapped) slot_data_.timestamps->write(commands_);
+    }
+
+    void pass(const char* name, PassKind kind,
+              const std::function<void(Commands&)>& record) override {
+        commands_.beginLabel(name);
+        switch (timing_) {
+            case Timing::overlapped: {
+                record(commands_);
+                const std::uint32_t stamp = slot_data_.timestamps->write(commands_);
+                slot_data_.spans.push_back({name, stamp - 1, stamp});
+                break;
+            }
+            case Timing::isolated: {
+                const std::uint32_t first = slot_data_.timestamps->write(commands_);
+                commands_.barrier(Access::anything, Access::anything);
+                record(commands_);
+                commands_.barrier(Access::anything, Access::anything);
+                slot_data_.spans.push_back({name, first, slot_data_.timestamps->write(commands_)});
+                break;
+            }
+            case Timing::statistics:
+                if (kind == PassKind::graphics && device_.hasPipelineStatistics()) {
+                    auto& query = slot_data_.queries.emplace_back(name, PipelineStatistics(device_));
+                    query.statistics.begin(commands_);
+                    record(commands_);
+                    query.statistics.end(commands_);
+                    break;
+                }
+                [[fallthrough]];
+            case Timing::wall_clock: record(commands_); break;
+        }
+        commands_.endLabel();
+    }
+
+private:
+    const Device& device_;
+    Timing timing_;
+    Slot& slot_data_;
+    Commands commands_;
+};
+
+// Wall-clock frames: a submission per pass.
+template <class Slot>
+class SubmittedPasses : public Passes {
+public:
+    SubmittedPasses(const Device& device, Slot& slot, VkSemaphore timeline,
+                    std::uint64_t& submitted, FrameRecord& record)
+        : device_(device), slot_data_(slot), timeline_(timeline), submitted_(submitted),
+          record_(record) {}
+
+    void pass(const char* name, PassKind, const std::function<void(Commands&)>& record) override {
+        Commands commands(slot_data_.buffer);
+        commands.begin();
+        commands.barrier(Access::anything, Access::anything);
+        record(commands);
+        commands.barrier(Access::anything, Access::anything);
+        commands.end();
+        const Clock::time_point start = Clock::now();
+        submit(device_, slot_data_.buffer, timeline_, ++submitted_);
+        waitFor(device_.get(), timeline_, submitted_);
+        const double time = millisecondsBetween(start, Clock::now());
+        record_.wall += time;
+        addTime(record_.passes, name, time);
+    }
+
+private:
+    const Device& device_;
+    Slot& slot_data_;
+    VkSemaphore timeline_;
+    std::uint64_t& submitted_;
+    FrameRecord& record_;
+};
+
+}  // namespace
+
+FrameLoop::FrameLoop(const Device& device, Timing timing)
+    : device_(device), timing_(timing), timeline_(makeTimeline(device.get())) {
+    const std::uint32_t count = timing == Timing::overlapped ? kMaxSlots : 1;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        slots_.push_back(std::make_unique<Slot>(device, timing));
+    }
+}
+
+FrameLoop::~FrameLoop() { vkQueueWaitIdle(device_.queue()); }
+
+void FrameLoop::frame(const std::function<void(Passes&)>& record) {
+    const std::uint32_t index = static_cast<std::uint32_t>(starts_.size() % slots_.size());
+    Slot& slot = *slots_[index];
+    collect(slot);
+    const Clock::time_point start = Clock::now();
+    if (!starts_.empty()) {
+        records_[starts_.size() - 1].interval = millisecondsBetween(starts_.back(), start);
+    }
+    starts_.push_back(start);
+    FrameRecord& result = records_.emplace_back();
+
+    if (timing_ == Timing::wall_clock) {
+        SubmittedPasses<Slot> passes(device_, slot, timeline_.get(), submitted_, result);
+        record(passes);
+        return;
+    }
+
+    if (slot.timestamps) slot.timestamps->reset();
+    slot.spans.clear();
+    slot.queries.clear();
+    Commands commands(slot.buffer);
+    commands.begin();
+    {
+        OneBufferPasses<Slot> passes(device_, timing_, slot, index);
+        record(passes);
+    }
+    commands.end();
+    const Clock::time_point recorded = Clock::now();
+    slot.value = ++submitted_;
+    slot.record = records_.size() - 1;
+    submit(device_, slot.buffer, timeline_.get(), slot.value);
+    const Clock::time_point submitted = Clock::now();
+    result.record = millisecondsBetween(start, recorded);
+    result.submit = millisecondsBetween(recorded, submitted);
+    if (timing_ != Timing::overlapped) {
+        waitFor(device_.get(), timeline_.get(), slot.value);
+        result.wall = millisecondsBetween(recorded, Clock::now());
+        collect(slot);
+    }
+}
+
+std::vector<FrameRecord> FrameLoop::finish() {
+    for (const auto& slot : slots_) collect(*slot);
+    if (!starts_.empty()) {
+        records_.back().interval = millisecondsBetween(starts_.back(), Clock::now());
+    }
+    starts_.clear();
+    return std::exchange(records_, {});
+}
+
+// Waits for the slot's frame and reads what it measured.
+void FrameLoop::collect(Slot& slot) {
+    if (!slot.record) return;
+    waitFor(device_.get(), timeline_.get(), slot.value);
+    FrameRecord& record = records_[*slot.record];
+    slot.record.reset();
+    if (slot.timestamps) {
+        const std::vector<double> times = slot.timestamps->read();
+        for (const Slot::Span& span : slot.spans) {
+            addTime(record.passes, span.name, times[span.last_stamp] - times[span.first_stamp]);
+        }
+        if (!times.empty()) record.device = times.back();
+    }
+    for (Slot::Query& query : slot.queries) {
+        record.statistics.push_back({query.name, query.statistics.read()});
+    }
+}
+
+}  // namespace engine

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/commands.h"
+#include "engine/pipeline_statistics.h"
+#include "engine/timestamps.h"
+
+namespace engine {
+
+// How the passes of a frame are timed. Figures of different modes are never compared.
+enum class Timing {
+    overlapped,  // a stamp at each pass boundary, two frames in flight: the frame as it is used
+    isolated,    // stamp, full barrier, pass, full barrier, stamp; one frame at a time
+    wall_clock,  // every pass submitted and waited for by itself, timed by the CPU
+    statistics,  // untimed, with pipeline statistics of the graphics passes
+};
+
+enum class PassKind { compute, graphics };
+
+struct PassTime {
+    std::string name;
+    double milliseconds = 0.0;
+};
+
+struct PassStatistics {
+    std::string name;
+    StatisticCounts counts{};
+};
+
+// What was measured of one frame. Times are in ms.
+struct FrameRecord {
+    double interval = 0.0;  // CPU: from this frame's start to the next one's
+    double wall = 0.0;      // CPU: from submission until completion was seen (isolated, wall_clock)
+    double record = 0.0;    // CPU: recording the commands
+    double submit = 0.0;    // CPU: in vkQueueSubmit2
+    double device = 0.0;    // GPU: first to last stamp (overlapped, isolated)
+    std::vector<PassTime> passes;  // passes of one name are summed
+    std::vector<PassStatistics> statistics;
+};
+
+// Handed to the function that records a frame.
+class Passes {
+public:
+    virtual ~Passes() = default;
+
+    // Records one pass. Its name is the debug label, the timer and the metric.
+    virtual void pass(const char* name, PassKind kind,
+                      const std::function<void(Commands&)>& record) = 0;
+
+    // Index of the frame in flight, below FrameLoop::kMaxSlots: for buffers that the CPU writes each frame.
+    std::uint32_t slot() const { return slot_; }
+
+protected:
+    std::uint32_t slot_ = 0;
+};
+
+// Records, submits and times frames. Every frame is one command buffer, but in the wall_clock mode.
+class FrameLoop {
+public:
+    static constexpr std::uint32_t kMaxSlots = 2;
+
+    FrameLoop(const Device& device, Timing timing);
+    ~FrameLoop();
+    FrameLoop(const FrameLoop&) = delete;
+    FrameLoop& operator=(const FrameLoop&) = delete;
+
+    void frame(const std::function<void(Passes&)>& record);
+
+    // Waits for all frames; returns what was measured of each since the last call. The interval of the
+    // last frame runs until here, so it contains the wait: leave it out of statistics.
+    std::vector<FrameRecord> finish();
+
+private:
+    struct Slot;
+    void collect(Slot& slot);
+
+    const Device& device_;
+    Timing timing_;
+    Handle<VkSemaphore, &vkDestroySemaphore> timeline_;
+    std::uint64_t submitted_ = 0;
+    std::vector<std::unique_ptr<Slot>> slots_;
+    std::vector<FrameRecord> records_;
+    std::vector<std::chrono::steady_clock::time_point> starts_;
+};
+
+}  // namespace engine

@@ -1,0 +1,211 @@
+#include "engine/pipeline.h"
+
+#include <array>
+#include <span>
+#include <utility>
+
+#include "engine/shader_code.h"
+
+namespace engine {
+
+namespace {
+
+using ShaderModule = Handle<VkShaderModule, &vkDestroyShaderModule>;
+using PipelineLayout = Handle<VkPipelineLayout, &vkDestroyPipelineLayout>;
+
+constexpr std::array kStages{
+    std::pair{".vert", VK_SHADER_STAGE_VERTEX_BIT},
+    std::pair{".tesc", VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT},
+    std::pair{".tese", VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT},
+    std::pair{".geom", VK_SHADER_STAGE_GEOMETRY_BIT},
+    std::pair{".frag", VK_SHADER_STAGE_FRAGMENT_BIT},
+    std::pair{".comp", VK_SHADER_STAGE_COMPUTE_BIT},
+};
+
+VkShaderStageFlagBits stageOf(const std::string& path) {
+    for (const auto& [extension, stage] : kStages) {
+        if (path.ends_with(extension)) return stage;
+    }
+    throw Error("shader '" + path + "'", "its extension names no stage");
+}
+
+ShaderModule loadModule(const Device& device, const std::string& path) {
+    const std::span<const std::uint32_t> code = shaderCode(path);
+    const VkShaderModuleCreateInfo create{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                          .pNext = nullptr,
+                                          .flags = 0,
+                                          .codeSize = code.size_bytes(),
+                                          .pCode = code.data()};
+    VkShaderModule module{};
+    check(vkCreateShaderModule(device.get(), &create, nullptr, &module), "create a shader module");
+    return {device.get(), module};
+}
+
+// Constants with the ids 0, 1, 2 … Keeps what `info` points to.
+struct Specialization {
+    explicit Specialization(const Constants& constants) : entries(constants.size()) {
+        for (std::uint32_t i = 0; i < entries.size(); ++i) entries[i] = {i, 4 * i, 4};
+        info = {.mapEntryCount = static_cast<std::uint32_t>(entries.size()),
+                .pMapEntries = entries.data(),
+                .dataSize = 4 * constants.size(),
+                .pData = constants.data()};
+    }
+
+    std::vector<VkSpecializationMapEntry> entries;
+    VkSpecializationInfo info{};
+};
+
+VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, const ShaderModule& module,
+                                          const Specialization& specialization) {
+    return {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+            .pNext = nullptr,
+            .flags = 0,
+            .stage = stage,
+            .module = module.get(),
+            .pName = "main",
+            .pSpecializationInfo = &specialization.info};
+}
+
+PipelineLayout makeLayout(const Device& device, VkShaderStageFlags stages, std::uint32_t push_size,
+                          VkDescriptorSetLayout images) {
+    const VkPushConstantRange range{.stageFlags = stages, .offset = 0, .size = push_size};
+    const VkPipelineLayoutCreateInfo create{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+        .pNext = nullptr,
+        .flags = 0,
+        .setLayoutCount = images ? 1u : 0u,
+        .pSetLayouts = &images,
+        .pushConstantRangeCount = push_size ? 1u : 0u,
+        .pPushConstantRanges = &range};
+    VkPipelineLayout layout{};
+    check(vkCreatePipelineLayout(device.get(), &create, nullptr, &layout),
+          "create a pipeline layout");
+    return {device.get(), layout};
+}
+
+VkDescriptorSetLayout makeImageLayout(const Device& device, std::uint32_t sampled,
+                                      std::uint32_t storage) {
+    std::vector<VkDescriptorSetLayoutBinding> bindings(sampled + storage);
+    for (std::uint32_t i = 0; i < bindings.size(); ++i) {
+        bindings[i].binding = i;
+        bindings[i].descriptorType =
+            i < sampled ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+        bindings[i].descriptorCount = 1;
+        bindings[i].stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
+    }
+    const VkDescriptorSetLayoutCreateInfo create{
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+        .pNext = nullptr,
+        .flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR,
+        .bindingCount = static_cast<std::uint32_t>(bindings.size()),
+        .pBindings = bindings.data()};
+    VkDescriptorSetLayout layout{};
+    check(vkCreateDescriptorSetLayout(device.get(), &create, nullptr, &layout),
+          "create a descriptor set layout");
+    return layout;
+}
+
+}  // namespace
+
+ComputePipeline::ComputePipeline(const Device& device, const ComputeDescription& description) {
+    if (description.sampled_images + description.storage_images > 0) {
+        images_ = {device.get(), makeImageLayout(device, description.sampled_images,
+                                                 description.storage_images)};
+    }
+    layout_ = makeLayout(device, VK_SHADER_STAGE_COMPUTE_BIT, description.push_size, images_.get());
+
+    const ShaderModule module = loadModule(device, description.shader);
+    const Specialization specialization(description.constants);
+    VkComputePipelineCreateInfo create{};
+    create.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    create.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module, specialization);
+    create.layout = layout_.get();
+    VkPipeline pipeline{};
+    check(vkCreateComputePipelines(device.get(), device.pipelineCache(), 1, &create, nullptr,
+                                   &pipeline),
+          description.shader.c_str());
+    pipeline_ = {device.get(), pipeline};
+    device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline),
+                   description.shader);
+}
+
+GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsDescription& description)
+    : layout_(makeLayout(device, VK_SHADER_STAGE_ALL_GRAPHICS, description.push_size, {})) {
+    const Specialization specialization(description.constants);
+    std::vector<ShaderModule> modules;
+    std::vector<VkPipelineShaderStageCreateInfo> stages;
+    for (const std::string& path : description.shaders) {
+        modules.push_back(loadModule(device, path));
+        stages.push_back(stageInfo(stageOf(path), modules.back(), specialization));
+    }
+
+    VkPipelineVertexInputStateCreateInfo vertex_input{};
+    vertex_input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
+    VkPipelineInputAssemblyStateCreateInfo assembly{};
+    assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
+    assembly.topology = description.topology;
+    VkPipelineTessellationStateCreateInfo tessellation{};
+    tessellation.sType = VK_STRUCTURE_TYPE_PIPELINE_TESSELLATION_STATE_CREATE_INFO;
+    tessellation.patchControlPoints = description.patch_control_points;
+    VkPipelineViewportStateCreateInfo viewport{};
+    viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
+    viewport.viewportCount = 1;
+    viewport.scissorCount = 1;
+    VkPipelineRasterizationStateCreateInfo rasterization{};
+    rasterization.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+    rasterization.polygonMode = VK_POLYGON_MODE_FILL;
+    rasterization.cullMode = description.cull;
+    rasterization.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+    rasterization.lineWidth = 1.0f;
+    VkPipelineMultisampleStateCreateInfo multisample{};
+    multisample.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
+    multisample.rasterizationSamples = static_cast<VkSampleCountFlagBits>(description.samples);
+    VkPipelineDepthStencilStateCreateInfo depth{};
+    depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
+    depth.depthTestEnable = VK_TRUE;
+    depth.depthWriteEnable = VK_TRUE;
+    depth.depthCompareOp = description.depth_compare;
+    VkPipelineColorBlendAttachmentState attachment{};
+    attachment.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
+                                VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+    VkPipelineColorBlendStateCreateInfo blend{};
+    blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
+    blend.attachmentCount = 1;
+    blend.pAttachments = &attachment;
+    constexpr std::array dynamic_states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    VkPipelineDynamicStateCreateInfo dynamic{};
+    dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
+    dynamic.dynamicStateCount = static_cast<std::uint32_t>(dynamic_states.size());
+    dynamic.pDynamicStates = dynamic_states.data();
+
+    VkPipelineRenderingCreateInfo rendering{};
+    rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
+    rendering.colorAttachmentCount = 1;
+    rendering.pColorAttachmentFormats = &description.color_format;
+    rendering.depthAttachmentFormat = description.depth_format;
+
+    VkGraphicsPipelineCreateInfo create{};
+    create.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
+    create.pNext = &rendering;
+    create.stageCount = static_cast<std::uint32_t>(stages.size());
+    create.pStages = stages.data();
+    create.pVertexInputState = &vertex_input;
+    create.pInputAssemblyState = &assembly;
+    create.pTessellationState = description.patch_control_points ? &tessellation : nullptr;
+    create.pViewportState = &viewport;
+    create.pRasterizationState = &rasterization;
+    create.pMultisampleState = &multisample;
+    create.pDepthStencilState = &depth;
+    create.pColorBlendState = &blend;
+    create.pDynamicState = &dynamic;
+    create.layout = layout_.get();
+    VkPipeline pipeline{};
+    check(vkCreateGraphicsPipelines(device.get(), device.pipelineCache(), 1, &create, nullptr,
+                                    &pipeline),
+          description.shaders.front().c_str());
+    pipeline_ = {device.get(), pipeline};
+    device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline),
+                   description.shaders.front());
+}
+
+}  // namespace engine

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/device.h"
+
+namespace engine {
+
+// A specialization constant's 32 bits, in the order of the constant ids from 0. Floats by bit_cast.
+using Constants = std::vector<std::uint32_t>;
+
+struct ComputeDescription {
+    std::string shader;  // path under shaders/, e.g. "simulation/wind.comp"
+    Constants constants;
+    std::uint32_t push_size = 0;  // B
+    std::uint32_t sampled_images = 0;
+    std::uint32_t storage_images = 0;
+};
+
+class ComputePipeline {
+public:
+    ComputePipeline(const Device& device, const ComputeDescription& description);
+
+    VkPipeline get() const { return pipeline_.get(); }
+    VkPipelineLayout layout() const { return layout_.get(); }
+
+private:
+    Handle<VkDescriptorSetLayout, &vkDestroyDescriptorSetLayout> images_;
+    Handle<VkPipelineLayout, &vkDestroyPipelineLayout> layout_;
+    Handle<VkPipeline, &vkDestroyPipeline> pipeline_;
+};
+
+struct GraphicsDescription {
+    std::vector<std::string> shaders;  // one per stage, by extension: .vert .tesc .tese .geom .frag
+    Constants constants;               // the same for every stage
+    std::uint32_t push_size = 0;       // B
+    VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    std::uint32_t patch_control_points = 0;  // with PATCH_LIST
+    VkFormat color_format = VK_FORMAT_UNDEFINED;
+    VkFormat depth_format = VK_FORMAT_UNDEFINED;
+    std::uint32_t samples = 1;
+    VkCullModeFlags cull = VK_CULL_MODE_NONE;
+    VkCompareOp depth_compare = VK_COMPARE_OP_LESS;
+};
+
+// Viewport and scissor are dynamic; the rest of the state is in the description.
+class GraphicsPipeline {
+public:
+    GraphicsPipeline(const Device& device, const GraphicsDescription& description);
+
+    VkPipeline get() const { return pipeline_.get(); }
+    VkPipelineLayout layout() const { return layout_.get(); }
+
+private:
+    Handle<VkPipelineLayout, &vkDestroyPipelineLayout> layout_;
+    Handle<VkPipeline, &vkDestroyPipeline> pipeline_;
+};
+
+}  // namespace engine

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+
+#include "engine/commands.h"
+
+namespace engine {
+
+struct TargetDescription {
+    std::uint32_t width = 1;   // of the picture, px
+    std::uint32_t height = 1;  // of the picture, px
+    std::uint32_t msaa = 1;    // samples per rendered pixel
+    std::uint32_t ssaa = 1;    // rendered pixels per picture pixel, along each side
+};
+
+enum class Load { clear, keep };
+
+// The images of an offscreen picture: color and depth that passes render into, and the output picture
+// that the resolve pass writes (8-bit RGBA, display-referred).
+class Target {
+public:
+    static constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_UNORM;
+    static constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+
+    // Throws Unsupported where the device lacks the sample count or the size.
+    Target(const Device& device, const TargetDescription& description);
+
+    // Renders between these two; `background` is used by Load::clear.
+    void beginRendering(Commands& commands, Load load, const std::array<float, 3>& background) const;
+    void endRendering(Commands& commands) const;
+
+    // Bracket a compute pass that reads color() and writes output().
+    void beginResolve(Commands& commands) const;
+    void endResolve(Commands& commands) const;
+
+    const TargetDescription& description() const { return description_; }
+    const Image& color() const { return color_; }
+    const Image& output() const { return output_; }  // TRANSFER_SRC_OPTIMAL after endResolve
+
+private:
+    TargetDescription description_;
+    Image color_;
+    Image depth_;
+    Image output_;
+};
+
+// The output picture's pixels: [row][column] RGBA, top row first.
+std::vector<std::uint8_t> readOutput(const Device& device, const Target& target);
+
+}  // namespace engine

@@ -1,0 +1,31 @@
+#include "engine/transfer.h"
+
+#include <algorithm>
+
+#include "engine/commands.h"
+
+namespace engine {
+
+void upload(const Device& device, std::span<const std::byte> bytes, const Buffer& destination) {
+    const Buffer staging(device,
+                         {.size = bytes.size(), .usage = Usage::upload, .name = "upload staging"});
+    std::ranges::copy(bytes, staging.mapped().begin());
+    device.runOnce([&](Commands& commands) {
+        commands.copy(staging, destination, bytes.size());
+        commands.barrier(Access::transfer_write, Access::anything);
+    });
+}
+
+std::vector<std::byte> download(const Device& device, const Buffer& source) {
+    const Buffer staging(
+        device, {.size = source.size(), .usage = Usage::readback, .name = "download staging"});
+    device.runOnce([&](Commands& commands) {
+        commands.barrier(Access::anything, Access::transfer_read);
+        commands.copy(source, staging, source.size());
+        commands.barrier(Access::transfer_write, Access::host_read);
+    });
+    const std::span<std::byte> mapped = staging.mapped();
+    return {mapped.begin(), mapped.end()};
+}
+
+}  // namespace engine

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/buffer.h"
+
+namespace engine {
+
+// Fills `destination` from its start; returns when the device has it. For set-up, not for frames.
+void upload(const Device& device, std::span<const std::byte> bytes, const Buffer& destination);
+
+// Returns a copy of the buffer's bytes, after all work submitted so far.
+std::vector<std::byte> download(const Device& device, const Buffer& source);
+
+// A device-local buffer that holds `values`. At least one element is allocated, so it has an address.
+template <class Value>
+Buffer makeBuffer(const Device& device, std::span<const Value> values, const std::string& name) {
+    Buffer buffer(device, {.size = std::max(values.size_bytes(), sizeof(Value)),
+                           .usage = Usage::storage,
+                           .name = name});
+    if (!values.empty()) upload(device, std::as_bytes(values), buffer);
+    return buffer;
+}
+
+template <class Value>
+std::vector<Value> downloadAs(const Device& device, const Buffer& source) {
+    const std::vector<std::byte> bytes = download(device, source);
+    std::vector<Value> values(bytes.size() / sizeof(Value));
+    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(Value));
+    return values;
+}
+
+}  // namespace engine

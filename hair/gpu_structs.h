@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+// The structs that C++ and GLSL share. Scalar layout on both sides: no padding but what is written.
+namespace hair::gpu {
+
+using glm::mat4;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+using uint = std::uint32_t;
+
+#include "shaders/shared/simulation_structs.h"
+#include "shaders/shared/strand_structs.h"
+
+}  // namespace hair::gpu

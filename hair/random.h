@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+// Random numbers without state: a hash of (seed, index, purpose), the same on every machine and in any order.
+// shaders/common/random.glsl has the same functions.
+namespace hair {
+
+// PCG as a hash; Jarzynski and Olano 2020, Hash functions for GPU rendering, JCGT 9(3).
+constexpr std::uint32_t pcg(std::uint32_t value) {
+    const std::uint32_t state = value * 747796405u + 2891336453u;
+    const std::uint32_t word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return (word >> 22u) ^ word;
+}
+
+// `index` counts the things of one kind, `purpose` tells apart the numbers that one thing needs.
+constexpr std::uint32_t hash(std::uint32_t seed, std::uint32_t index, std::uint32_t purpose) {
+    return pcg(purpose + pcg(index + pcg(seed)));
+}
+
+// In [0, 1): the hash's top 24 bits, all of which a float holds.
+constexpr float random01(std::uint32_t seed, std::uint32_t index, std::uint32_t purpose) {
+    return static_cast<float>(hash(seed, index, purpose) >> 8u) * 0x1p-24f;
+}
+
+// Every purpose that C++ uses, so that no two are the same.
+namespace purpose {
+inline constexpr std::uint32_t root_triangle = 1;
+inline constexpr std::uint32_t root_u = 2;
+inline constexpr std::uint32_t root_v = 3;
+}  // namespace purpose
+
+}  // namespace hair

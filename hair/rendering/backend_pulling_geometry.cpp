@@ -1,0 +1,41 @@
+#include "hair/gpu_structs.h"
+#include "hair/rendering/backends.h"
+
+namespace hair {
+
+namespace {
+
+class PullingGeometryBackend : public StrandBackend {
+public:
+    explicit PullingGeometryBackend(const BackendContext& context)
+        : vertices_(2 * context.plan.patches() * context.plan.strands_per_patch *
+                    context.plan.forced_tessellation),
+          pipeline_(context.device, describe(context)) {}
+
+    void draw(engine::Commands& commands, std::uint64_t picture) const override {
+        commands.bind(pipeline_, gpu::StrandPush{.picture = picture});
+        commands.draw({.vertices = vertices_});
+    }
+
+    std::optional<ExpectedCounts> expected() const override { return std::nullopt; }
+
+private:
+    static engine::GraphicsDescription describe(const BackendContext& context) {
+        engine::GraphicsDescription description = strandPipeline(context);
+        description.shaders = {"strands/pulling.vert", "strands/strand.geom",
+                               "strands/strand.frag"};
+        description.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
+        return description;
+    }
+
+    std::uint32_t vertices_;
+    engine::GraphicsPipeline pipeline_;
+};
+
+}  // namespace
+
+std::unique_ptr<StrandBackend> makePullingGeometryBackend(const BackendContext& context) {
+    return std::make_unique<PullingGeometryBackend>(context);
+}
+
+}  // namespace hair

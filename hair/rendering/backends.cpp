@@ -1,0 +1,39 @@
+#include "hair/rendering/backends.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+#include "engine/target.h"
+#include "hair/gpu_structs.h"
+
+namespace hair {
+
+namespace {
+
+constexpr std::array kBackends{
+    BackendRow{Backend::tessellation, makeTessellationBackend},
+    BackendRow{Backend::pulling_geometry, makePullingGeometryBackend},
+};
+
+}  // namespace
+
+std::span<const BackendRow> backendTable() { return kBackends; }
+
+std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext& context) {
+    const auto row = std::ranges::find(kBackends, backend, &BackendRow::backend);
+    assert(row != kBackends.end());
+    return row->make(context);
+}
+
+engine::GraphicsDescription strandPipeline(const BackendContext& context) {
+    return {.constants = {static_cast<std::uint32_t>(context.strands.curve),
+                          static_cast<std::uint32_t>(context.strands.taper),
+                          static_cast<std::uint32_t>(context.plan.lod_mode)},
+            .push_size = sizeof(gpu::StrandPush),
+            .color_format = engine::Target::kColorFormat,
+            .depth_format = engine::Target::kDepthFormat,
+            .samples = context.samples};
+}
+
+}  // namespace hair

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "engine/pipeline.h"
+#include "hair/rendering/strand_backend.h"
+
+// The makers that the table in backends.cpp lists.
+namespace hair {
+
+// Vertex -> control -> isolines -> evaluation -> geometry (camera-facing quads) -> fragment: thesis 2.2, 2.3.5.
+std::unique_ptr<StrandBackend> makeTessellationBackend(const BackendContext& context);
+
+// Strand points evaluated in the vertex stage of a line list, then the same geometry and fragment stages.
+std::unique_ptr<StrandBackend> makePullingGeometryBackend(const BackendContext& context);
+
+// The pipeline state that all line back ends share.
+engine::GraphicsDescription strandPipeline(const BackendContext& context);
+
+}  // namespace hair

@@ -1,0 +1,46 @@
+#include "hair/rendering/overlay_pass.h"
+
+#include "engine/commands.h"
+#include "engine/target.h"
+#include "hair/gpu_structs.h"
+
+namespace hair {
+
+namespace {
+
+constexpr glm::vec3 kGuideColor{0.05f, 0.2f, 0.9f};
+constexpr glm::vec3 kTriangleColor{0.85f, 0.1f, 0.1f};
+
+engine::GraphicsDescription lines(const char* vertex_shader, std::uint32_t samples) {
+    return {.shaders = {vertex_shader, "overlay/color.frag"},
+            .push_size = sizeof(gpu::OverlayPush),
+            .topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST,
+            .color_format = engine::Target::kColorFormat,
+            .depth_format = engine::Target::kDepthFormat,
+            .samples = samples,
+            .depth_compare = VK_COMPARE_OP_ALWAYS};  // seen through the hair
+}
+
+}  // namespace
+
+OverlayPass::OverlayPass(const engine::Device& device, const OverlaySettings& overlays,
+                         std::uint32_t samples) {
+    if (overlays.guides) guides_.emplace(device, lines("overlay/guides.vert", samples));
+    if (overlays.root_triangles) {
+        root_triangles_.emplace(device, lines("overlay/root_triangles.vert", samples));
+    }
+}
+
+void OverlayPass::draw(engine::Commands& commands, std::uint64_t picture,
+                       const StrandView& view) const {
+    if (root_triangles_) {
+        commands.bind(*root_triangles_, gpu::OverlayPush{picture, kTriangleColor});
+        commands.draw({.vertices = 2 * 3 * view.triangle_count});
+    }
+    if (guides_) {
+        commands.bind(*guides_, gpu::OverlayPush{picture, kGuideColor});
+        commands.draw({.vertices = 2 * view.guide_count * (view.vertices_per_guide - 1)});
+    }
+}
+
+}  // namespace hair

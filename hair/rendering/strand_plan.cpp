@@ -1,0 +1,77 @@
+#include "hair/rendering/strand_plan.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace hair {
+
+namespace {
+
+constexpr std::uint32_t divideUp(std::uint32_t value, std::uint32_t divisor) {
+    return (value + divisor - 1) / divisor;
+}
+
+}  // namespace
+
+std::uint32_t countAtLevel(std::uint32_t count, float level) {
+    const double scaled = std::floor(count * std::exp2(-static_cast<double>(level)) + 0.5);
+    return std::max(1u, static_cast<std::uint32_t>(scaled));
+}
+
+StrandPlan planStrands(std::uint32_t triangles, std::uint32_t segments,
+                       const StrandSettings& strands, const LodSettings& lod,
+                       std::uint32_t isoline_limit) {
+    StrandPlan plan;
+    plan.triangles = triangles;
+    plan.segments = segments;
+    plan.density = strands.density;
+    plan.tessellation = strands.tessellation;
+    plan.lod_mode = lod.mode;
+    const bool forced = lod.mode == LodMode::forced;
+    plan.forced_density = forced ? countAtLevel(strands.density, lod.level) : strands.density;
+    plan.forced_tessellation =
+        forced ? countAtLevel(strands.tessellation, lod.level) : strands.tessellation;
+    plan.patches_per_triangle = divideUp(plan.forced_density, isoline_limit);
+    plan.strands_per_patch = divideUp(plan.forced_density, plan.patches_per_triangle);
+    return plan;
+}
+
+std::uint32_t StrandPlan::verticesPerPatch() const {
+    return strands_per_patch * (forced_tessellation + 1);
+}
+
+std::uint64_t StrandPlan::strands() const { return std::uint64_t{triangles} * forced_density; }
+
+std::uint64_t StrandPlan::drawnSegments() const {
+    return strands() * segments * forced_tessellation;
+}
+
+ExpectedCounts expectedCounts(const StrandPlan& plan) {
+    ExpectedCounts counts{.tessellation_control_patches = plan.patches()};
+    if (plan.lod_mode == LodMode::distance) return counts;
+    counts.tessellation_evaluation_invocations =
+        plan.strands() * plan.segments * (plan.forced_tessellation + 1);
+    counts.geometry_invocations = plan.drawnSegments();
+    counts.geometry_primitives = 2 * plan.drawnSegments();  // a quad is a strip of two triangles
+    return counts;
+}
+
+std::vector<engine::Draw> planDraws(const StrandPlan& plan, Submission submission,
+                                    std::uint32_t max_vertices) {
+    const std::uint32_t patches_per_draw = max_vertices / plan.verticesPerPatch();
+    assert(patches_per_draw > 0);
+    const bool instanced = submission == Submission::instanced;
+    const std::uint32_t patches = instanced ? plan.segments : plan.patches();
+    const std::uint32_t instances = instanced ? plan.triangles * plan.patches_per_triangle : 1;
+    std::vector<engine::Draw> draws;
+    for (std::uint32_t first = 0; first < patches; first += patches_per_draw) {
+        draws.push_back({.vertices = std::min(patches_per_draw, patches - first),
+                         .instances = instances,
+                         .first_vertex = first});
+        if (patches - first <= patches_per_draw) break;  // first may overflow on devices with no limit
+    }
+    return draws;
+}
+
+}  // namespace hair

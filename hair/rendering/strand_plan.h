@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/commands.h"
+#include "hair/settings.h"
+
+namespace hair {
+
+// How many strands, patches and vertices a picture draws, and by which draws: thesis 2.3.5.
+struct StrandPlan {
+    std::uint32_t triangles = 0;
+    std::uint32_t segments = 0;       // guide segments per guide
+    std::uint32_t density = 0;        // strands per root triangle at level 0
+    std::uint32_t tessellation = 0;   // drawn segments per guide segment at level 0
+    std::uint32_t forced_density = 0;  // the same at the forced level
+    std::uint32_t forced_tessellation = 0;
+    std::uint32_t patches_per_triangle = 0;  // per guide segment
+    std::uint32_t strands_per_patch = 0;
+    LodMode lod_mode = LodMode::forced;
+
+    // Patches of the whole picture, numbered [triangle][part][segment].
+    std::uint32_t patches() const { return triangles * patches_per_triangle * segments; }
+    // Most vertices that one patch tessellates to.
+    std::uint32_t verticesPerPatch() const;
+    // Drawn strands and their drawn segments; at LodMode::distance those of level 0.
+    std::uint64_t strands() const;
+    std::uint64_t drawnSegments() const;
+};
+
+// A count at a level of detail: count / 2^level, rounded, at least 1.
+std::uint32_t countAtLevel(std::uint32_t count, float level);
+
+// `isoline_limit` is the device's maxTessellationGenerationLevel: a denser triangle takes several patches.
+StrandPlan planStrands(std::uint32_t triangles, std::uint32_t segments, const StrandSettings& strands,
+                       const LodSettings& lod, std::uint32_t isoline_limit);
+
+// What the pipeline statistics must say of the strands' draws. Absent where only the device knows.
+struct ExpectedCounts {
+    std::uint64_t tessellation_control_patches = 0;
+    std::optional<std::uint64_t> tessellation_evaluation_invocations;
+    std::optional<std::uint64_t> geometry_invocations;
+    std::optional<std::uint64_t> geometry_primitives;
+};
+ExpectedCounts expectedCounts(const StrandPlan& plan);
+
+// Draws of one vertex per patch such that no draw, counted per instance, tessellates to more than
+// `max_vertices`. Patch index = instance * segments + vertex in all of them.
+std::vector<engine::Draw> planDraws(const StrandPlan& plan, Submission submission,
+                                    std::uint32_t max_vertices);
+
+}  // namespace hair

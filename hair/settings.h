@@ -1,0 +1,375 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "hair/fields.h"
+
+// Every parameter of a case, with the thesis's values (section 6 there) as defaults. A new parameter is a
+// member and a row in the table below its struct; nothing else has to be edited.
+namespace hair {
+
+// ---- Groom -------------------------------------------------------------------------------------------
+
+// Guides grown on the scalp of a mesh.
+struct GrowSettings {
+    std::string mesh = "assets/head.glb";
+    std::uint32_t vertices = 8;
+    float length = 0.15f;
+    glm::vec3 comb{0.0f, 0.0f, 0.0f};
+    float droop = 0.0f;
+};
+
+constexpr auto fields(const GrowSettings*) {
+    using S = GrowSettings;
+    return std::tuple{
+        Text<S>{"mesh", &S::mesh,
+                "mesh with a material named 'scalp'; the path is relative to the scene file"},
+        Field{"vertices", &S::vertices, 2, 64, "count", "vertices per guide, root included"},
+        Field{"length", &S::length, 0.001, 2, "m", "length of a guide"},
+        Field{"comb", &S::comb, -10, 10, "1",
+              "vector added to the unit surface normal before a guide's direction is normalised"},
+        Field{"droop", &S::droop, 0, 100, "1/m",
+              "how fast the direction turns toward gravity along the guide; 0 is straight"}};
+}
+
+struct GroomSettings {
+    std::string file;
+    std::uint32_t guides = 86;
+    GrowSettings grow;
+};
+
+constexpr auto fields(const GroomSettings*) {
+    using S = GroomSettings;
+    return std::tuple{
+        Text<S>{"file", &S::file,
+                "guide file (.hgl), relative to the scene file; empty: guides are grown"},
+        Field{"guides", &S::guides, 4, 200000, "count", "number of guides to grow"},
+        Group<S, GrowSettings>{"grow", &S::grow, "guides grown on a scalp"}};
+}
+
+// ---- Simulation --------------------------------------------------------------------------------------
+
+// Thesis equation (10): X += k_G (X_rest - X).
+struct GlobalSettings {
+    float stiffness = 0.002f;
+};
+
+constexpr auto fields(const GlobalSettings*) {
+    using S = GlobalSettings;
+    return std::tuple{Field{"stiffness", &S::stiffness, 0, 1, "1",
+                            "fraction of the way to the rest position, per 1/60 s"}};
+}
+
+// Thesis equation (11); Han and Harada 2012, Real-time hair simulation with efficient hair style preservation.
+struct LocalSettings {
+    float stiffness = 0.01f;
+    std::uint32_t iterations = 10;
+};
+
+constexpr auto fields(const LocalSettings*) {
+    using S = LocalSettings;
+    return std::tuple{
+        Field{"stiffness", &S::stiffness, 0, 1, "1",
+              "k_L per iteration at 10 iterations, 1/60 s and segments of 21.4285 mm; used up to 0.95"},
+        Field{"iterations", &S::iterations, 0, 64, "count", "iterations per step"}};
+}
+
+// Thesis equation (12); Mueller et al. 2007, Position based dynamics.
+struct LengthSettings {
+    std::uint32_t iterations = 5;
+};
+
+constexpr auto fields(const LengthSettings*) {
+    using S = LengthSettings;
+    return std::tuple{
+        Field{"iterations", &S::iterations, 0, 256, "count", "red-black iterations per step"}};
+}
+
+// Thesis equations (13) and (14).
+struct WindSettings {
+    float strength = 0.0f;
+    glm::vec3 direction{1.0f, 0.0f, 0.0f};
+    float cone_angle = 20.0f;
+    float gust_rate = 3.0f;
+};
+
+constexpr auto fields(const WindSettings*) {
+    using S = WindSettings;
+    return std::tuple{
+        Field{"strength", &S::strength, 0, 1500, "m/s^2", "acceleration at magnitude 1; the thesis uses 0 to 15"},
+        Field{"direction", &S::direction, -1, 1, "1", "where the wind blows to; any length but zero"},
+        Field{"cone_angle", &S::cone_angle, 0, 89, "deg",
+              "half-angle of the cone of four wind vectors round the direction"},
+        Field{"gust_rate", &S::gust_rate, 0, 100, "rad/s",
+              "w in magnitude = sin^2(w t) + 0.5; the thesis's 0.05 per frame at 60 Hz is 3"}};
+}
+
+// A capsule, or a sphere where a == b.
+struct Collider {
+    glm::vec3 a{0.0f};
+    glm::vec3 b{0.0f};
+    float radius = 0.1f;
+};
+
+constexpr auto fields(const Collider*) {
+    using S = Collider;
+    return std::tuple{Field{"a", &S::a, -100, 100, "m", "one end of the axis"},
+                      Field{"b", &S::b, -100, 100, "m", "other end of the axis"},
+                      Field{"radius", &S::radius, 0.0001, 10, "m", "radius"}};
+}
+
+enum class Solver { none, shape };
+enum class StiffnessScaling { invariant, thesis };
+
+struct SimulationSettings {
+    Solver solver = Solver::shape;
+    float time_step = 1.0f / 60.0f;
+    std::uint32_t settle_steps = 0;
+    glm::vec3 gravity{0.0f, -9.8f, 0.0f};
+    float friction = 0.05f;
+    StiffnessScaling stiffness_scaling = StiffnessScaling::invariant;
+    GlobalSettings global;
+    LocalSettings local;
+    LengthSettings length;
+    WindSettings wind;
+    std::vector<Collider> colliders;
+};
+
+constexpr auto fields(const SimulationSettings*) {
+    using S = SimulationSettings;
+    return std::tuple{
+        Choice<S, Solver, 2>{"solver", &S::solver,
+                             {{{Solver::none, "none"}, {Solver::shape, "shape"}}},
+                             "none: frozen at rest; shape: the thesis's Verlet with shape constraints"},
+        Field{"time_step", &S::time_step, 0.0005, 0.1, "s", "fixed step of simulated time"},
+        Field{"settle_steps", &S::settle_steps, 0, 100000, "count",
+              "steps simulated without wind before the first frame"},
+        Field{"gravity", &S::gravity, -100, 100, "m/s^2", "acceleration of gravity"},
+        Field{"friction", &S::friction, 0, 1, "1", "fraction of the velocity lost per 1/60 s"},
+        Choice<S, StiffnessScaling, 2>{
+            "stiffness_scaling",
+            &S::stiffness_scaling,
+            {{{StiffnessScaling::invariant, "invariant"}, {StiffnessScaling::thesis, "thesis"}}},
+            "invariant: stiffness means the same at any time step, iteration count and segment length; "
+            "thesis: the raw factor, applied once per iteration"},
+        Group<S, GlobalSettings>{"global", &S::global, "pull toward the rest position"},
+        Group<S, LocalSettings>{"local", &S::local, "pull toward the rest shape"},
+        Group<S, LengthSettings>{"length", &S::length, "inextensible segments"},
+        Group<S, WindSettings>{"wind", &S::wind, "wind"},
+        List<S, Collider>{"colliders", &S::colliders, 64, "capsules that push guides out"}};
+}
+
+// ---- Strands -----------------------------------------------------------------------------------------
+
+enum class Backend { tessellation, pulling_geometry };
+enum class Curve { bspline, bspline_unpinned };
+enum class Taper { strand, segment };
+enum class Submission { instanced, batched };
+
+struct StrandSettings {
+    Backend backend = Backend::tessellation;
+    std::uint32_t density = 64;
+    std::uint32_t tessellation = 4;
+    float root_width = 0.002f;
+    float tip_width = 0.0005f;
+    Curve curve = Curve::bspline;
+    Taper taper = Taper::strand;
+    Submission submission = Submission::instanced;
+};
+
+constexpr auto fields(const StrandSettings*) {
+    using S = StrandSettings;
+    return std::tuple{
+        Choice<S, Backend, 2>{
+            "backend",
+            &S::backend,
+            {{{Backend::tessellation, "tessellation"}, {Backend::pulling_geometry, "pulling_geometry"}}},
+            "tessellation: control, isolines, evaluation, geometry; pulling_geometry: points evaluated in "
+            "the vertex stage, the same geometry stage"},
+        Field{"density", &S::density, 1, 4096, "count", "strands per root triangle"},
+        Field{"tessellation", &S::tessellation, 1, 64, "count", "drawn segments per guide segment"},
+        Field{"root_width", &S::root_width, 0, 0.1, "m", "width at the root"},
+        Field{"tip_width", &S::tip_width, 0, 0.1, "m", "width at the tip"},
+        Choice<S, Curve, 2>{"curve",
+                            &S::curve,
+                            {{{Curve::bspline, "bspline"}, {Curve::bspline_unpinned, "bspline_unpinned"}}},
+                            "bspline: uniform cubic B-spline through root and tip; bspline_unpinned: the "
+                            "thesis's, which floats off the scalp"},
+        Choice<S, Taper, 2>{"taper",
+                            &S::taper,
+                            {{{Taper::strand, "strand"}, {Taper::segment, "segment"}}},
+                            "strand: width falls along the whole strand; segment: the published program's, "
+                            "which restarts in every guide segment"},
+        Choice<S, Submission, 2>{
+            "submission",
+            &S::submission,
+            {{{Submission::instanced, "instanced"}, {Submission::batched, "batched"}}},
+            "instanced: a root triangle is an instance; batched: patches in draws that fit the device"}};
+}
+
+// Level of detail: at level L density and tessellation are divided by 2^L and the width grows so that the
+// covered area is kept (thesis 2.3.8.1).
+enum class LodMode { forced, distance };
+
+struct LodSettings {
+    LodMode mode = LodMode::forced;
+    float level = 0.0f;
+    float near_distance = 0.5f;
+    float far_distance = 8.0f;
+    float maximum_level = 4.0f;
+};
+
+constexpr auto fields(const LodSettings*) {
+    using S = LodSettings;
+    return std::tuple{
+        Choice<S, LodMode, 2>{"mode",
+                              &S::mode,
+                              {{{LodMode::forced, "forced"}, {LodMode::distance, "distance"}}},
+                              "forced: `level` everywhere; distance: by distance from the camera"},
+        Field{"level", &S::level, 0, 8, "1", "forced level; may be fractional"},
+        Field{"near_distance", &S::near_distance, 0.001, 1000, "m", "distance up to which level 0 is drawn"},
+        Field{"far_distance", &S::far_distance, 0.001, 1000, "m", "distance at which maximum_level is reached"},
+        Field{"maximum_level", &S::maximum_level, 0, 8, "1", "level at far_distance and beyond"}};
+}
+
+// ---- Picture -----------------------------------------------------------------------------------------
+
+struct LightSettings {
+    glm::vec3 position{5.0f, 5.0f, 5.0f};
+    glm::vec3 color{1.0f, 1.0f, 1.0f};
+};
+
+constexpr auto fields(const LightSettings*) {
+    using S = LightSettings;
+    return std::tuple{Field{"position", &S::position, -1000, 1000, "m", "position of the point light"},
+                      Field{"color", &S::color, 0, 100, "1", "intensity, display RGB"}};
+}
+
+enum class ShadingModel { phong };
+
+// Thesis equations (5) and (6), colours in display RGB as there.
+struct ShadingSettings {
+    ShadingModel model = ShadingModel::phong;
+    glm::vec3 color{0.95f, 0.9f, 0.625f};
+    float ambient = 0.5f;
+    float diffuse = 0.5f;
+    float specular = 0.5f;
+    float exponent = 50.0f;
+    LightSettings light;
+};
+
+constexpr auto fields(const ShadingSettings*) {
+    using S = ShadingSettings;
+    return std::tuple{
+        Choice<S, ShadingModel, 1>{
+            "model", &S::model, {{{ShadingModel::phong, "phong"}}}, "how a strand is lit"},
+        Field{"color", &S::color, 0, 1, "1", "hair colour, display RGB"},
+        Field{"ambient", &S::ambient, 0, 10, "1", "ambient factor"},
+        Field{"diffuse", &S::diffuse, 0, 10, "1", "k_d"},
+        Field{"specular", &S::specular, 0, 10, "1", "k_s"},
+        Field{"exponent", &S::exponent, 1, 10000, "1", "n of the specular term"},
+        Group<S, LightSettings>{"light", &S::light, "the light"}};
+}
+
+struct CameraSettings {
+    glm::vec3 position{0.0f, 0.0f, 0.5f};
+    glm::vec3 target{0.0f, 0.0f, 0.0f};
+    glm::vec3 up{0.0f, 1.0f, 0.0f};
+    float field_of_view = 100.0f;
+    float near_plane = 0.01f;
+    float far_plane = 100.0f;
+};
+
+constexpr auto fields(const CameraSettings*) {
+    using S = CameraSettings;
+    return std::tuple{Field{"position", &S::position, -1000, 1000, "m", "eye"},
+                      Field{"target", &S::target, -1000, 1000, "m", "point looked at"},
+                      Field{"up", &S::up, -1, 1, "1", "up direction"},
+                      Field{"field_of_view", &S::field_of_view, 1, 170, "deg", "vertical field of view"},
+                      Field{"near_plane", &S::near_plane, 0.0001, 100, "m", "near plane"},
+                      Field{"far_plane", &S::far_plane, 0.001, 10000, "m", "far plane"}};
+}
+
+struct OverlaySettings {
+    bool guides = false;
+    bool root_triangles = false;
+};
+
+constexpr auto fields(const OverlaySettings*) {
+    using S = OverlaySettings;
+    return std::tuple{Toggle<S>{"guides", &S::guides, "draw the simulated guides over the hair"},
+                      Toggle<S>{"root_triangles", &S::root_triangles, "draw the root triangles"}};
+}
+
+struct RenderSettings {
+    std::uint32_t width = 1280;
+    std::uint32_t height = 720;
+    std::uint32_t msaa = 1;
+    std::uint32_t ssaa = 1;
+    glm::vec3 background{0.25f, 0.15f, 0.18f};
+    bool head = true;
+    OverlaySettings overlays;
+};
+
+constexpr auto fields(const RenderSettings*) {
+    using S = RenderSettings;
+    return std::tuple{
+        Field{"width", &S::width, 1, 8192, "px", "width of the picture"},
+        Field{"height", &S::height, 1, 8192, "px", "height of the picture"},
+        OneOf<S, 4>{"msaa", &S::msaa, {1, 2, 4, 8}, "samples", "multisampling; a count the device lacks is skipped"},
+        OneOf<S, 2>{"ssaa", &S::ssaa, {1, 2}, "factor", "supersampling along each side"},
+        Field{"background", &S::background, 0, 1, "1", "background colour, display RGB"},
+        Toggle<S>{"head", &S::head, "draw the mesh that the hair grows on"},
+        Group<S, OverlaySettings>{"overlays", &S::overlays, "what is drawn over the hair"}};
+}
+
+// ---- Run ---------------------------------------------------------------------------------------------
+
+struct RunSettings {
+    std::uint32_t warmup = 3;
+    std::uint32_t frames = 10;
+    float frame_time = 1.0f / 60.0f;
+};
+
+constexpr auto fields(const RunSettings*) {
+    using S = RunSettings;
+    return std::tuple{
+        Field{"warmup", &S::warmup, 2, 10000, "count", "frames drawn before measuring"},
+        Field{"frames", &S::frames, 1, 1000000, "count", "frames measured in each mode"},
+        Field{"frame_time", &S::frame_time, 0, 1, "s",
+              "simulated time that a frame advances; 0 draws the same instant again"}};
+}
+
+// Everything a case needs: the members of a scene file but its sweep.
+struct Settings {
+    std::string description;
+    std::uint32_t seed = 1;
+    GroomSettings groom;
+    SimulationSettings simulation;
+    StrandSettings strands;
+    LodSettings lod;
+    ShadingSettings shading;
+    CameraSettings camera;
+    RenderSettings render;
+    RunSettings run;
+};
+
+constexpr auto fields(const Settings*) {
+    using S = Settings;
+    return std::tuple{
+        Text<S>{"description", &S::description, "what the scene shows, for people"},
+        Field{"seed", &S::seed, 0, 4294967295.0, "1", "seed of every random number"},
+        Group<S, GroomSettings>{"groom", &S::groom, "the guides"},
+        Group<S, SimulationSettings>{"simulation", &S::simulation, "how the guides move"},
+        Group<S, StrandSettings>{"strands", &S::strands, "how strands are made from guides"},
+        Group<S, LodSettings>{"lod", &S::lod, "level of detail"},
+        Group<S, ShadingSettings>{"shading", &S::shading, "how strands are lit"},
+        Group<S, CameraSettings>{"camera", &S::camera, "the camera"},
+        Group<S, RenderSettings>{"render", &S::render, "the picture"},
+        Group<S, RunSettings>{"run", &S::run, "what is measured"}};
+}
+
+}  // namespace hair

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+
+namespace hair {
+
+// Where the guides are on the device, for who draws them. Valid as long as the simulation that gave it.
+struct GuideView {
+    std::uint64_t positions = 0;  // device address of vec4 [strand][vertex], root first, m; w: inverse mass
+    std::uint32_t strand_count = 0;
+    std::uint32_t vertices_per_strand = 0;
+};
+
+}  // namespace hair

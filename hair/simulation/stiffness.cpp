@@ -1,0 +1,43 @@
+#include "hair/simulation/stiffness.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hair {
+
+namespace {
+
+double stepRatio(const SimulationSettings& settings) {
+    return double{settings.time_step} / kReferenceStep;
+}
+
+}  // namespace
+
+double velocityKept(const SimulationSettings& settings) {
+    const double kept = 1.0 - double{settings.friction};
+    if (settings.stiffness_scaling == StiffnessScaling::thesis) return kept;
+    return std::pow(kept, stepRatio(settings));
+}
+
+double globalStiffness(const SimulationSettings& settings) {
+    const double k = settings.global.stiffness;
+    if (settings.stiffness_scaling == StiffnessScaling::thesis || k >= 1.0) return k;
+    const double c = k / (1.0 - k) * std::pow(stepRatio(settings), 2.0);
+    return c / (1.0 + c);
+}
+
+double localStiffness(const SimulationSettings& settings, double segment_length) {
+    const double k = std::min(double{settings.local.stiffness}, kGreatestLocalStiffness);
+    if (k == 0.0 || settings.local.iterations == 0) return 0.0;
+    if (settings.stiffness_scaling == StiffnessScaling::thesis) return k;
+    if (segment_length <= 0.0) return kGreatestLocalStiffness;
+
+    // c0 = total0 / (1 - total0), written without the difference of two numbers that are almost 1.
+    const double c0 = std::expm1(-kReferenceIterations * std::log1p(-k));
+    const double c = c0 * std::pow(stepRatio(settings), 2.0) *
+                     std::pow(kReferenceSegment / segment_length, 4.0);
+    const double iterations = settings.local.iterations;
+    return std::min(-std::expm1(-std::log1p(c) / iterations), kGreatestLocalStiffness);
+}
+
+}  // namespace hair

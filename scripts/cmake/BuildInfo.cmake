@@ -1,0 +1,27 @@
+# cmake -DOUTPUT=build_info.h -DSOURCE=… -DVERSION=… -DCOMPILER=… -DTYPE=… -P BuildInfo.cmake
+# Run at every build: the commit changes without CMake being run again. The file is touched only when
+# something in it changed.
+find_program(GIT git)
+set(commit "")
+if(GIT)
+    execute_process(COMMAND "${GIT}" -C "${SOURCE}" rev-parse --short=12 HEAD
+        OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+    execute_process(COMMAND "${GIT}" -C "${SOURCE}" status --porcelain --untracked-files=no
+        OUTPUT_VARIABLE changes OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+    if(commit AND changes)
+        string(APPEND commit "-dirty")
+    endif()
+endif()
+set(text "#pragma once
+inline constexpr const char* kBuildVersion = \"${VERSION}\";
+inline constexpr const char* kBuildCommit = \"${commit}\";
+inline constexpr const char* kBuildCompiler = \"${COMPILER}\";
+inline constexpr const char* kBuildType = \"${TYPE}\";
+")
+set(old "")
+if(EXISTS "${OUTPUT}")
+    file(READ "${OUTPUT}" old)
+endif()
+if(NOT text STREQUAL old)
+    file(WRITE "${OUTPUT}" "${text}")
+endif()

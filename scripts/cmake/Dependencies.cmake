@@ -1,0 +1,78 @@
+# Finds every library and tool, and gives each one target name whatever the system calls it.
+# Packages come first everywhere, so a vcpkg toolchain or a Vulkan SDK works as well as scripts/setup.
+# Nothing is downloaded here. docs/dependencies.md says why each one is needed.
+
+set(HAIRBENCH_DEPS "${CMAKE_CURRENT_LIST_DIR}/../../.deps")  # what scripts/setup fetched
+
+# hairbench_header_only(<name> <header> [path suffix...]): hairbench::<name>, a system include folder.
+function(hairbench_header_only name header)
+    string(TOUPPER "${name}_INCLUDE_DIR" variable)
+    # PATHS is searched last: a packaged header wins over a fetched one.
+    find_path(${variable} ${header}
+        HINTS "$ENV{VULKAN_SDK}/include" "$ENV{VULKAN_SDK}/Include"
+        PATH_SUFFIXES ${ARGN}
+        PATHS "${HAIRBENCH_DEPS}/${name}/include")
+    mark_as_advanced(${variable})
+    if(NOT ${variable})
+        message(FATAL_ERROR
+            "${header} (${name}) was not found: run scripts/setup, or set ${variable} to its folder")
+    endif()
+    add_library(hairbench::${name} INTERFACE IMPORTED GLOBAL)  # IMPORTED: its headers are SYSTEM
+    target_include_directories(hairbench::${name} INTERFACE "${${variable}}")
+endfunction()
+
+# ---- tools
+find_program(CCACHE ccache)
+if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_C_COMPILER_LAUNCHER "${CCACHE}")
+    set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE}")
+endif()
+find_program(GLSLANG_VALIDATOR NAMES glslangValidator glslang
+    HINTS "$ENV{VULKAN_SDK}/bin" "$ENV{VULKAN_SDK}/Bin" REQUIRED)
+find_program(SPIRV_VAL spirv-val HINTS "$ENV{VULKAN_SDK}/bin" "$ENV{VULKAN_SDK}/Bin")
+mark_as_advanced(CCACHE GLSLANG_VALIDATOR SPIRV_VAL)
+
+# ---- Vulkan
+find_package(VulkanHeaders CONFIG QUIET)
+if(NOT TARGET Vulkan::Headers)
+    find_package(Vulkan REQUIRED)
+endif()
+
+# volk is compiled here: Debian 12 packages only its sources, and a packaged library may have been
+# built for other headers than the ones we include.
+find_file(VOLK_SOURCE volk.c
+    HINTS "$ENV{VULKAN_SDK}/include" "$ENV{VULKAN_SDK}/Include"
+    PATH_SUFFIXES volk Volk)
+mark_as_advanced(VOLK_SOURCE)
+if(VOLK_SOURCE)
+    get_filename_component(VOLK_INCLUDE_DIR "${VOLK_SOURCE}" DIRECTORY)
+    add_library(hairbench_volk STATIC "${VOLK_SOURCE}")
+    set_target_properties(hairbench_volk PROPERTIES C_VISIBILITY_PRESET hidden)
+    target_include_directories(hairbench_volk SYSTEM PUBLIC "${VOLK_INCLUDE_DIR}")
+    target_compile_definitions(hairbench_volk PUBLIC VK_NO_PROTOTYPES)
+    target_link_libraries(hairbench_volk PUBLIC Vulkan::Headers ${CMAKE_DL_LIBS})
+    add_library(hairbench::volk ALIAS hairbench_volk)
+else()
+    find_package(volk CONFIG REQUIRED)
+    add_library(hairbench::volk INTERFACE IMPORTED GLOBAL)
+    target_compile_definitions(hairbench::volk INTERFACE VK_NO_PROTOTYPES)
+    target_link_libraries(hairbench::volk INTERFACE volk::volk)
+endif()
+
+hairbench_header_only(vma vk_mem_alloc.h vma)
+target_link_libraries(hairbench::vma INTERFACE Vulkan::Headers)
+
+# ---- everything else
+find_package(glm CONFIG REQUIRED)
+find_package(assimp CONFIG REQUIRED)
+find_package(nlohmann_json CONFIG REQUIRED)
+find_package(CLI11 CONFIG REQUIRED)
+find_package(Threads REQUIRED)
+hairbench_header_only(tinygltf tiny_gltf.h)
+hairbench_header_only(stb stb_image_write.h stb)
+
+# ---- tests only
+if(BUILD_TESTING OR NOT DEFINED BUILD_TESTING)
+    find_package(GTest CONFIG REQUIRED)
+    hairbench_header_only(valijson valijson/validator.hpp)
+endif()

@@ -1,0 +1,67 @@
+# Compiles GLSL to SPIR-V when the project is built and puts it into a static library, so that the
+# program needs no file at run time. Expects GLSLANG_VALIDATOR and SPIRV_VAL (Dependencies.cmake).
+
+# hairbench_shaders(<target> SHADERS <path>...)
+# Adds the static library <target>, which defines engine::shaderCode() (engine/shader_code.h).
+# A path is an entry point, relative to shaders/ and with the stage as its extension:
+# simulation/wind.comp, strands/tessellation.tese. Included files are found relative to shaders/ too
+# and need not be listed: the compiler reports them, and changing one rebuilds whoever includes it.
+# One program has one such library.
+function(hairbench_shaders target)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SHADERS")
+    set(source_dir "${PROJECT_SOURCE_DIR}/shaders")
+    set(output_dir "${CMAKE_CURRENT_BINARY_DIR}/${target}")
+
+    set(arrays "")
+    set(rows "")
+    set(embedded "")
+    foreach(shader IN LISTS arg_SHADERS)
+        _hairbench_shader("${source_dir}" "${output_dir}" "${shader}")
+        string(MAKE_C_IDENTIFIER "${shader}" name)
+        string(APPEND arrays
+            "constexpr std::uint32_t ${name}[] = {\n#include \"${output_dir}/${shader}.inc\"\n};\n")
+        string(APPEND rows "    Row{\"${shader}\", ${name}},\n")
+        list(APPEND embedded "${output_dir}/${shader}.inc")
+    endforeach()
+
+    set(HAIRBENCH_SHADER_ARRAYS "${arrays}")
+    set(HAIRBENCH_SHADER_ROWS "${rows}")
+    configure_file("${CMAKE_CURRENT_FUNCTION_LIST_DIR}/shader_code.cpp.in"
+        "${output_dir}/shader_code.cpp" @ONLY)
+    # The includes are found by the compiler only once they exist, hence OBJECT_DEPENDS.
+    set_source_files_properties("${output_dir}/shader_code.cpp"
+        PROPERTIES OBJECT_DEPENDS "${embedded}")
+    add_library(${target} STATIC "${output_dir}/shader_code.cpp")
+    target_compile_features(${target} PUBLIC cxx_std_20)
+    target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}")
+endfunction()
+
+# One shader: GLSL -> SPIR-V, validated where spirv-val exists -> a list of words to #include.
+function(_hairbench_shader source_dir output_dir shader)
+    set(spirv "${output_dir}/${shader}.spv")
+    set(embed "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/EmbedShader.cmake")
+    get_filename_component(folder "${spirv}" DIRECTORY)
+    file(MAKE_DIRECTORY "${folder}")
+
+    set(validate "")
+    if(SPIRV_VAL)
+        set(validate COMMAND "${SPIRV_VAL}" --target-env vulkan1.3 --scalar-block-layout "${spirv}")
+    endif()
+    # -g keeps names and source lines for captures and messages; -gVS would need an extension.
+    add_custom_command(
+        OUTPUT "${spirv}"
+        COMMAND "${GLSLANG_VALIDATOR}" --quiet --target-env vulkan1.3 -g "-I${source_dir}"
+            --depfile "${spirv}.d" -o "${spirv}" "${source_dir}/${shader}"
+        ${validate}
+        DEPENDS "${source_dir}/${shader}"
+        DEPFILE "${spirv}.d"
+        COMMENT "Compiling shader ${shader}"
+        VERBATIM)
+    add_custom_command(
+        OUTPUT "${output_dir}/${shader}.inc"
+        COMMAND "${CMAKE_COMMAND}" "-DINPUT=${spirv}" "-DOUTPUT=${output_dir}/${shader}.inc"
+            -P "${embed}"
+        DEPENDS "${spirv}" "${embed}"
+        COMMENT "Embedding shader ${shader}"
+        VERBATIM)
+endfunction()

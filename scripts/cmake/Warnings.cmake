@@ -1,0 +1,52 @@
+# What our own targets are compiled with; libraries of others are left alone.
+
+option(HAIRBENCH_WERROR "Treat warnings in our own code as errors" ON)
+option(HAIRBENCH_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
+
+# Hidden by default, project-wide: assimp pulls in a library that exports its own tinygltf, and the
+# two would otherwise be merged when the program starts.
+set(CMAKE_C_VISIBILITY_PRESET hidden)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+
+# Every target of ours calls this; it also applies the sanitizers when they are asked for.
+function(hairbench_warnings target)
+    hairbench_sanitizers(${target})
+    if(NOT CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+        return()
+    endif()
+    target_compile_options(${target} PRIVATE
+        -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wextra-semi
+        # Designated initializers leave members to their defaults on purpose.
+        -Wno-missing-field-initializers)
+    if(HAIRBENCH_WERROR)
+        target_compile_options(${target} PRIVATE -Werror)
+    endif()
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+        # These depend on what the optimizer sees, so they come and go with the compiler's version:
+        # worth reading, not worth failing a build for. Under the sanitizers they are mostly wrong.
+        set(keep "-Wno-error=")
+        if(HAIRBENCH_SANITIZE)
+            set(keep "-Wno-")
+        endif()
+        foreach(warning IN ITEMS maybe-uninitialized array-bounds stringop-overflow
+                stringop-overread free-nonheap-object)
+            target_compile_options(${target} PRIVATE ${keep}${warning})
+        endforeach()
+        if(CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+            target_compile_options(${target} PRIVATE -Wno-restrict)  # GCC bug 105651: std::string
+        endif()
+    endif()
+endfunction()
+
+# The link option is PUBLIC: whoever links a sanitized library needs the run-time library too.
+function(hairbench_sanitizers target)
+    if(NOT HAIRBENCH_SANITIZE)
+        return()
+    endif()
+    set(sanitizers -fsanitize=address,undefined)
+    target_compile_options(${target} PRIVATE
+        ${sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS)
+    target_link_options(${target} PUBLIC ${sanitizers})
+endfunction()

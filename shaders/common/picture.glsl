@@ -1,0 +1,17 @@
+// The parameters of the picture being drawn, behind the address in the push constants.
+#ifndef HAIRBENCH_PICTURE_GLSL
+#define HAIRBENCH_PICTURE_GLSL
+
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_GOOGLE_include_directive : require
+
+#include "shared/strand_structs.h"
+
+layout(buffer_reference, scalar) readonly buffer PictureReference { PictureParameters parameters; };
+layout(buffer_reference, scalar) readonly buffer GuidePoints { vec4 points[]; };
+layout(buffer_reference, scalar) readonly buffer RootTriangles { uint guides[]; };
+
+#endif

@@ -1,0 +1,20 @@
+// Averages the rendered samples of each pixel of the picture. Colours are display-referred, and so is the
+// mean, as fixed-function resolve of such images does it.
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const int kSamples = 1;  // per rendered pixel
+layout(constant_id = 1) const int kFactor = 1;   // rendered pixels per picture pixel, along each side
+layout(binding = 1, rgba8) uniform writeonly image2D picture;
+
+vec4 renderedSample(ivec2 pixel, int sample_index);
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(picture)))) return;
+    vec4 sum = vec4(0.0);
+    for (int y = 0; y < kFactor; ++y) {
+        for (int x = 0; x < kFactor; ++x) {
+            for (int i = 0; i < kSamples; ++i) sum += renderedSample(pixel * kFactor + ivec2(x, y), i);
+        }
+    }
+    imageStore(picture, pixel, sum / float(kFactor * kFactor * kSamples));
+}

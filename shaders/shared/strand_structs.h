@@ -1,0 +1,57 @@
+#ifndef HAIRBENCH_STRAND_STRUCTS_H
+#define HAIRBENCH_STRAND_STRUCTS_H
+
+// What the renderer's host and shader code share. Scalar layout; addresses are device addresses.
+
+// Purpose of the random numbers that place strands in their root triangle.
+const uint kRootPurpose = 0x524f4f54u;
+
+// Everything that a picture's draws read; one per frame in flight.
+struct PictureParameters {
+    mat4 view_projection;  // world -> clip, y down, depth 0 near to 1 far
+    vec3 eye;              // m
+    float lod_near;        // m: level 0 up to here
+    vec3 light_position;   // m
+    float lod_far;         // m: maximum level from here on
+    vec3 light_color;
+    float lod_maximum_level;
+    vec3 hair_color;
+    float ambient;
+    float diffuse;
+    float specular;
+    float exponent;
+    float root_width;  // m
+    float tip_width;   // m
+
+    uint64_t guides;          // vec4 [guide][vertex], m, root first; w is not read
+    uint64_t root_triangles;  // uint [triangle][3], guide indices
+    uint vertices_per_guide;
+    uint density;               // strands per root triangle at level 0
+    uint tessellation;          // segments per guide segment at level 0
+    uint patches_per_triangle;  // per guide segment: density beyond the device's isolines is split
+    uint strands_per_patch;
+    uint forced_density;       // the same at the forced level
+    uint forced_tessellation;
+    uint seed;
+};
+
+// Push constants of everything that draws strands.
+struct StrandPush {
+    uint64_t picture;  // PictureParameters
+};
+
+// Push constants of scene/mesh.
+struct MeshPush {
+    uint64_t picture;    // PictureParameters
+    uint64_t positions;  // vec3, m
+    uint64_t normals;    // vec3, unit length
+    vec3 base_color;
+};
+
+// Push constants of overlay/*.
+struct OverlayPush {
+    uint64_t picture;  // PictureParameters
+    vec3 color;
+};
+
+#endif

@@ -1,0 +1,10 @@
+#ifndef HAIRBENCH_SIMULATION_INTEGRATE_GLSL
+#define HAIRBENCH_SIMULATION_INTEGRATE_GLSL
+
+// Verlet integration without velocities, thesis eq. 9, with friction.
+vec3 integrate(
+    vec3 position, vec3 previous, vec3 acceleration, float velocity_kept, float time_step_squared) {
+    return position + velocity_kept * (position - previous) + acceleration * time_step_squared;
+}
+
+#endif

@@ -1,0 +1,37 @@
+#version 460
+// One invocation a patch: its level of detail, its strands (isolines) and segments along each, and the
+// control points of its three guides, fetched once for all strands. Thesis 2.3.5.
+#extension GL_GOOGLE_include_directive : require
+#include "strands/strand.glsl"
+
+layout(vertices = 1) out;
+layout(push_constant, scalar) uniform Push { StrandPush push; };
+
+layout(location = 0) in uint patch_index[];
+layout(location = 0) patch out uvec4 patch_ids;  // key, segment, first strand, isolines
+layout(location = 1) patch out vec2 patch_lod;   // tessellation, width scale
+layout(location = 2) patch out vec3 control_points[12];  // [guide of the triangle][r(i-1) … r(i+2)]
+
+void main() {
+    PictureParameters picture = PictureReference(push.picture).parameters;
+    StrandPatch strand_patch = strandPatch(picture, patch_index[0]);
+    uvec3 guides = rootTriangle(picture, strand_patch.triangle);
+    strand_patch.lod = triangleLod(picture, guides);
+    uint isolines = strandsInPatch(picture, strand_patch);
+
+    patch_ids = uvec4(strand_patch.key, strand_patch.segment, strand_patch.first_strand, isolines);
+    patch_lod = vec2(strand_patch.lod.tessellation, strand_patch.lod.width_scale);
+    for (int corner = 0; corner < 3; ++corner) {
+        for (int k = 0; k < 4; ++k) {
+            control_points[4 * corner + k] =
+                guideControlPoint(picture, guides[corner], int(strand_patch.segment) + k - 1);
+        }
+    }
+
+    gl_TessLevelOuter[0] = float(isolines);  // 0 drops the patch
+    gl_TessLevelOuter[1] = float(strand_patch.lod.tessellation);
+    gl_TessLevelOuter[2] = 0.0;
+    gl_TessLevelOuter[3] = 0.0;
+    gl_TessLevelInner[0] = 0.0;
+    gl_TessLevelInner[1] = 0.0;
+}

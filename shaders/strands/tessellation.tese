@@ -1,0 +1,29 @@
+#version 460
+// A vertex of a strand: interpolation between the guides, then the curve. Thesis 2.3.2 and 2.3.5.
+#extension GL_GOOGLE_include_directive : require
+#include "strands/strand.glsl"
+
+layout(isolines, equal_spacing) in;
+layout(push_constant, scalar) uniform Push { StrandPush push; };
+
+layout(location = 0) patch in uvec4 patch_ids;
+layout(location = 1) patch in vec2 patch_lod;
+layout(location = 2) patch in vec3 control_points[12];
+layout(location = 0) out vec4 position_and_width;
+layout(location = 1) out vec4 tangent_and_along;
+
+void main() {
+    PictureParameters picture = PictureReference(push.picture).parameters;
+    // Whole numbers again, so that no rounding of the tessellator moves a strand or opens a joint.
+    uint isoline = uint(gl_TessCoord.y * float(patch_ids.w) + 0.5);
+    float t = floor(gl_TessCoord.x * patch_lod.x + 0.5) / patch_lod.x;
+
+    vec3 weights = rootWeights(patch_ids.x, patch_ids.z + isoline);
+    vec3 r[4];
+    for (int k = 0; k < 4; ++k) {
+        r[k] = mixGuides(weights, control_points[k], control_points[4 + k], control_points[8 + k]);
+    }
+    StrandPoint point = pointOnStrand(picture, patch_ids.y, patch_lod.y, r, t);
+    position_and_width = vec4(point.position, point.width);
+    tangent_and_along = vec4(point.tangent, point.along);
+}
