@@ -11,12 +11,10 @@ namespace benchmarks {
 
 namespace {
 
-// The mesh that the hair grows on and that is drawn under it. Hair from a file needs none.
+// The mesh that the hair grows on and that is drawn under it. Hair from a file grows on none.
 std::optional<hair::Mesh> loadMesh(const hair::Settings& settings,
                                    const std::filesystem::path& directory) {
-    const bool grown = settings.groom.file.empty();
-    const bool drawn = settings.render.head && !settings.groom.grow.mesh.empty();
-    if (!grown && !drawn) return std::nullopt;
+    if (!settings.groom.file.empty()) return std::nullopt;
     return hair::importMesh(directory / settings.groom.grow.mesh);
 }
 
@@ -37,6 +35,8 @@ Case::Case(const engine::Device& device, const hair::Settings& settings,
       root_triangles_(engine::makeBuffer(
           device, std::span<const std::array<std::uint32_t, 3>>(groom_.root_triangles),
           "root triangles")),
+      root_normals_(engine::makeBuffer(device, std::span<const glm::vec3>(groom_.root_normals),
+                                       "root normals")),
       renderer_(device, settings, view(), pointerTo(mesh_)) {}
 
 void Case::frame(engine::Passes& passes) {
@@ -84,6 +84,7 @@ hair::StrandView Case::view() const {
     const hair::GuideView guides = simulation_.guides();
     return {.guides = guides.positions,
             .root_triangles = root_triangles_.address(),
+            .root_normals = groom_.root_normals.empty() ? 0 : root_normals_.address(),
             .guide_count = guides.strand_count,
             .vertices_per_guide = guides.vertices_per_strand,
             .triangle_count = static_cast<std::uint32_t>(groom_.root_triangles.size())};

@@ -52,6 +52,7 @@ private:
     hair::Simulation simulation_;
     hair::FixedStep fixed_step_;
     engine::Buffer root_triangles_;
+    engine::Buffer root_normals_;
     hair::Renderer renderer_;
 };
 

@@ -11,9 +11,9 @@ namespace benchmarks {
 
 int renderScene(const RenderOptions& options) {
     Scene scene = loadScene(options.scene.scene);
+    scene.axes.clear();  // the scene's own settings, with what the command line changes
     const std::vector<CaseSpec> cases = selectCases(scene, options.scene);
     checkWritable(options.out);
-    // The scene's own settings: of a sweep, only what the command line names is applied.
     const hair::Settings& settings = cases.front().settings;
 
     const engine::Device device(options.scene.device);

@@ -60,8 +60,8 @@ struct Metric {
     std::string name;  // "frame.time", "pass.strands.time", "fps", "memory.device"
     std::string unit;  // "ms", "1/s", "B"
     std::vector<double> samples;
-    std::string
-        mode;  // "overlapped" or "isolated" if it was timed in one; never compared across them
+    // "overlapped", "isolated" or "wall_clock" if it was timed in one; never compared across them.
+    std::string mode;
 };
 
 // A pipeline statistic, and the count that the scene implies.

@@ -13,15 +13,14 @@ namespace benchmarks {
 // A scene file, checked: hair::Settings members plus
 //   "$schema"  a string for editors, ignored
 //   "base"     another scene file, relative to this one; this document is applied to it as a JSON
-//   merge
-//              patch (RFC 7386), so null takes a member of the base away
+//              merge patch (RFC 7386), so null takes a member of the base away
 //   "sweep"    JSON pointer -> array of values; one case for each combination, in the written order
 struct Scene {
     std::filesystem::path path;  // as given
     std::filesystem::path directory;  // what file names in the scene are relative to
     std::string name;  // file name without its extension
-    std::string
-        document;  // JSON text: what is written, bases merged, without the three members above
+    // JSON text: what is written, bases merged, without the three members above.
+    std::string document;
     std::string resolved;  // JSON text: every field, absent ones with their defaults
     hair::Settings settings;  // of `resolved`: no axis applied
     std::vector<Axis> axes;
@@ -29,8 +28,7 @@ struct Scene {
 
 // Reads and checks everything but the rules between fields, which hold for cases: expand() checks
 // those. Throws engine::Error, one line: "<file>: <JSON pointer>: <reason>"; what is wrong in a
-// base is reported as
-// "<file>: /base: <base file>: ...".
+// base is reported as "<file>: /base: <base file>: ...".
 Scene loadScene(const std::filesystem::path& path);
 
 // Sets one field of every case, as if the file had it. `value` is JSON text.

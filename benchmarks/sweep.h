@@ -24,8 +24,7 @@ struct CaseSpec {
 // override replaces the values of the axis with its pointer, in place, or adds an axis at the end.
 // Throws engine::Error: an override that names no field or a value it does not take ("-a:
 // <pointer>: ..."), axes inside one another, more than kMaximumCases, a case that breaks a rule
-// between fields
-// ("<file>: <case>: <pointer>: ...").
+// between fields ("<file>: <case>: <pointer>: ...").
 std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides = {});
 
 // The cases in whose name the ECMAScript regular expression is found. A malformed one is an

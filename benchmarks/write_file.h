@@ -10,8 +10,8 @@ namespace benchmarks {
 // engine::Error "<path>: <reason>" and leaves nothing behind.
 void writeFileAtomically(const std::filesystem::path& path, std::string_view text);
 
-// Throws the Error that writing the file would, before the work whose result it is to hold: a missing
-// folder is made, one that can't be written is an error.
+// Throws the Error that writing the file would, before the work whose result it is to hold: a
+// missing folder is made, one that can't be written is an error.
 void checkWritable(const std::filesystem::path& path);
 
 }  // namespace benchmarks

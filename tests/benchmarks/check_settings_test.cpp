@@ -1,0 +1,64 @@
+#include "benchmarks/check_settings.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/error_text.h"
+
+namespace benchmarks {
+namespace {
+
+template <class Change>
+std::string broken(Change&& change, GuideCount guide_count = GuideCount::by_default) {
+    hair::Settings settings;
+    change(settings);
+    return errorText([&] { checkSettings(settings, guide_count); });
+}
+
+TEST(CheckSettings, AcceptsTheDefaults) {
+    EXPECT_EQ(broken([](hair::Settings&) {}), "no error");
+    EXPECT_EQ(broken([](hair::Settings&) {}, GuideCount::written), "no error");
+}
+
+TEST(CheckSettings, WantsPlanesInOrder) {
+    EXPECT_EQ(
+        broken([](hair::Settings& s) { s.camera.near_plane = s.camera.far_plane; }),
+        "/camera/near_plane: is not below /camera/far_plane");
+    EXPECT_EQ(
+        broken([](hair::Settings& s) { s.lod.near_distance = 9.0f; }),
+        "/lod/near_distance: is not below /lod/far_distance");
+}
+
+TEST(CheckSettings, WantsACameraThatLooksSomewhere) {
+    EXPECT_EQ(
+        broken([](hair::Settings& s) { s.camera.target = s.camera.position; }),
+        "/camera/target: is where /camera/position is");
+    EXPECT_EQ(
+        broken([](hair::Settings& s) { s.camera.up = glm::vec3(0.0f); }),
+        "/camera/up: has no length");
+    EXPECT_EQ(
+        broken([](hair::Settings& s) { s.camera.up = {0.0f, 0.0f, -0.5f}; }),
+        "/camera/up: is parallel to the view");
+    EXPECT_EQ(broken([](hair::Settings& s) { s.camera.up = {0.0f, 0.001f, 0.5f}; }), "no error");
+}
+
+TEST(CheckSettings, WantsWindToBlowSomewhere) {
+    const auto calm = [](hair::Settings& s) { s.simulation.wind.direction = glm::vec3(0.0f); };
+    EXPECT_EQ(broken(calm), "no error");
+    EXPECT_EQ(
+        broken([&](hair::Settings& s) { calm(s), s.simulation.wind.strength = 3.0f; }),
+        "/simulation/wind/direction: has no length while /simulation/wind/strength is above 0");
+}
+
+TEST(CheckSettings, WantsOneSourceOfGuides) {
+    const auto from_file = [](hair::Settings& s) { s.groom.file = "a.hgl"; };
+    EXPECT_EQ(broken(from_file), "no error");
+    EXPECT_EQ(
+        broken(from_file, GuideCount::written),
+        "/groom/guides: a guide file has its own count; leave out this or /groom/file");
+    EXPECT_EQ(
+        broken([](hair::Settings& s) { s.groom.grow.mesh = ""; }),
+        "/groom/grow/mesh: is empty, and /groom/file too: there is nothing to take guides from");
+}
+
+}  // namespace
+}  // namespace benchmarks

@@ -1,0 +1,152 @@
+#include "benchmarks/report.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/write_file.h"
+#include "tests/error_text.h"
+#include "tests/benchmarks/sample_report.h"
+#include "tests/benchmarks/schema_errors.h"
+#include "tests/temporary_folder.h"
+
+namespace benchmarks {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+const std::filesystem::path kReportSchemaFile =
+    std::filesystem::path(HAIRBENCH_SCENES_DIR) / "../results/report.schema.json";
+
+Json written() { return Json::parse(reportText(sampleReport())); }
+
+TEST(Report, KeepsTheContractsNames) {
+    const Json report = written();
+    EXPECT_EQ(report["schema"], "hairbench-report/1.0.0");
+    EXPECT_EQ(
+        report["environment"]["device"].dump(),
+        R"({"name":"Soft","type":"cpu","driver":"llvmpipe","driver_version":"22.3.6",)"
+        R"("api_version":"1.3.230","timestamp_period_ns":1.0})");
+    EXPECT_EQ(report["environment"]["command"][1], "run");
+    EXPECT_EQ(report["environment"]["seed"], 7);
+    EXPECT_EQ(
+        report["scene"].dump(),
+        R"({"path":"scenes/thesis.json","hash":"0123456789abcdef","document":{"seed":7}})");
+    const Json& result = report["cases"][0];
+    EXPECT_EQ(
+        result["axes"].dump(), R"({"/strands/density":64,"/strands/backend":"tessellation"})");
+    EXPECT_EQ(result["status"], "ok");
+    EXPECT_EQ(
+        result["statistics"]["tessellation_control_patches"].dump(),
+        R"({"measured":952,"expected":952})");
+    EXPECT_EQ(result["counts"].dump(), R"({"guides":86,"strands":8704})");
+    EXPECT_EQ(result["trust"].dump(), R"({"pass_sum_over_wall":0.99,"warnings":["clock fell"]})");
+    EXPECT_EQ(result["image_hash"], "00000000000000ff");
+}
+
+TEST(Report, SummarizesTheFiniteSamples) {
+    const Json frame = written()["cases"][0]["metrics"]["frame.time"];
+    EXPECT_EQ(frame["unit"], "ms");
+    EXPECT_EQ(frame["mode"], "overlapped");
+    EXPECT_EQ(frame["median"], 3.0);
+    EXPECT_EQ(frame["mad"], 1.0);
+    EXPECT_EQ(frame["samples"].dump(), "[2.0,4.0,3.0]");
+    EXPECT_EQ(frame["missing_samples"], 1);
+}
+
+TEST(Report, LeavesOutWhatIsNotKnown) {
+    const Json report = written();
+    EXPECT_FALSE(report["cases"][0].contains("reason"));
+    EXPECT_FALSE(report["cases"][0]["metrics"].contains("pass.ui.time"));  // no finite sample
+    EXPECT_FALSE(report["cases"][0]["metrics"]["memory.device"].contains("mode"));
+    EXPECT_EQ(
+        report["cases"][1].dump(),
+        R"({"name":"thesis/density:64/backend:mesh","axes":{"/strands/density":64,"/strands/backend":"mesh"},)"
+        R"("status":"skipped","reason":"the device has no VK_EXT_mesh_shader, which the back end needs"})");
+    Report bare;
+    bare.scene.document = "{}";
+    bare.cases.push_back(
+        {.name = "x", .trust = {.pass_sum_over_wall = std::nan(""), .warnings = {}}});
+    const Json empty = Json::parse(reportText(bare));
+    EXPECT_EQ(empty["environment"]["device"].dump(), "{}");
+    EXPECT_EQ(empty["environment"]["host"].dump(), "{}");
+    EXPECT_EQ(empty["cases"][0]["trust"].dump(), R"({"warnings":[]})");
+    EXPECT_THAT(reportText(bare), Not(HasSubstr("null")));
+}
+
+TEST(Report, SurvivesTextThatIsNotUtf8) {
+    Report report = sampleReport();
+    report.environment.device.name = "GPU \xff";
+    EXPECT_EQ(Json::parse(reportText(report))["environment"]["device"]["name"], "GPU \xef\xbf\xbd");
+}
+
+TEST(ReportSchema, DescribesTheReport) {
+    EXPECT_THAT(schemaErrors(textOf(kReportSchemaFile), reportText(sampleReport())), IsEmpty());
+}
+
+TEST(ReportSchema, FindsWhatIsWrong) {
+    const std::string schema = textOf(kReportSchemaFile);
+    const char* const removed[] = {"/schema",          "/environment/device",
+                                   "/scene/hash",      "/cases/0/status",
+                                   "/cases/0/metrics", "/cases/0/metrics/frame.time/samples",
+                                   "/cases/1/reason"};
+    for (const char* pointer : removed) {
+        Json report = written();
+        const Json::json_pointer place(pointer);
+        report[place.parent_pointer()].erase(place.back());
+        EXPECT_THAT(schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
+    }
+    const std::pair<const char*, Json> replaced[] = {
+        {"/schema", "hairbench-report/2"},
+        {"/cases/0/image_hash", "FF"},
+        {"/cases/0/status", "great"},
+        {"/cases/0/counts/strands", -1},
+        {"/cases/0/metrics/fps/median", "fast"},
+        {"/cases/0/metrics/fps/median", nullptr}};
+    for (const auto& [pointer, value] : replaced) {
+        Json report = written();
+        report[Json::json_pointer(pointer)] = value;
+        EXPECT_THAT(schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
+    }
+}
+
+TEST(WriteReport, MakesFoldersAndLeavesOnlyTheReport) {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "a/b/r.json";
+    writeReport(sampleReport(), path);
+    writeReport(sampleReport(), path);  // over the first
+    EXPECT_EQ(textOf(path), reportText(sampleReport()));
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path.parent_path()), {}), 1);
+}
+
+TEST(WriteReport, SaysWhyItCannot) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder.path() / "taken");
+    folder.write("file", "");
+    const std::pair<const char*, const char*> errors[] = {
+        {"taken", "taken: is a folder, not a file to write"},
+        {"new/", "new/: is a folder, not a file to write"},
+        {"file/r.json", "file: cannot be made: Not a directory"}};
+    for (const auto& [name, error] : errors) {
+        const auto path = folder.path() / name;
+        EXPECT_EQ(folder.relative(errorText([&] { writeReport(sampleReport(), path); })), error);
+        EXPECT_EQ(folder.relative(errorText([&] { checkWritable(path); })), error);
+    }
+}
+
+TEST(CheckWritable, MakesTheFolderButNotTheFile) {
+    const TemporaryFolder folder;
+    checkWritable(folder.path() / "a/r.json");
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "a"));
+}
+
+TEST(WriteReport, WritesIntoWhatIsNoFile) {
+    EXPECT_NO_THROW(writeReport(sampleReport(), "/dev/null"));
+}
+
+}  // namespace
+}  // namespace benchmarks

@@ -1,0 +1,265 @@
+#include "benchmarks/scene.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/error_text.h"
+#include "tests/temporary_folder.h"
+
+namespace benchmarks {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(Scene, KnowsWhereItIs) {
+    const TemporaryFolder folder;
+    const auto path = folder.write("curl.json", "{}");
+    const Scene scene = loadScene(path);
+    EXPECT_EQ(scene.path, path);
+    EXPECT_EQ(scene.directory, folder.path());
+    EXPECT_EQ(scene.name, "curl");
+    EXPECT_EQ(scene.document, "{}");
+    EXPECT_TRUE(scene.axes.empty());
+}
+
+TEST(Scene, SeparatesSettingsFromTheReadersMembers) {
+    const TemporaryFolder folder;
+    const Scene scene = loadScene(folder.write(
+        "s.json",
+        R"({"$schema": "x", "seed": 7, "sweep": {"/strands/density": [64.0, 16], "/render/msaa": [1]}})"));
+    EXPECT_EQ(scene.document, R"({"seed":7})");
+    EXPECT_THAT(scene.resolved, HasSubstr(R"("seed":7,"groom":{"file":"","guides":86,)"));
+    EXPECT_THAT(scene.resolved, Not(HasSubstr("sweep")));
+    EXPECT_EQ(scene.settings.seed, 7u);
+    ASSERT_EQ(scene.axes.size(), 2u);
+    EXPECT_EQ(scene.axes[0].pointer, "/strands/density");
+    EXPECT_THAT(scene.axes[0].values, ElementsAre("64", "16"));
+}
+
+TEST(Scene, IsAppliedToItsBase) {
+    const TemporaryFolder folder;
+    folder.write("base.json", R"({"seed": 7, "strands": {"density": 8, "tessellation": 2},
+                                  "sweep": {"/strands/density": [1, 2], "/render/msaa": [1, 4]}})");
+    const Scene scene = loadScene(folder.write(
+        "s.json", R"({"base": "base.json", "strands": {"density": 9, "tessellation": null},
+                      "sweep": {"/strands/density": null}})"));
+    EXPECT_EQ(scene.document, R"({"seed":7,"strands":{"density":9}})");
+    ASSERT_EQ(scene.axes.size(), 1u);
+    EXPECT_EQ(scene.axes[0].pointer, "/render/msaa");
+}
+
+TEST(Scene, TakesAwayTheBasesSweep) {
+    const TemporaryFolder folder;
+    folder.write("a.json", R"({"sweep": {"/strands/density": [1, 2]}})");
+    folder.write("b.json", R"({"base": "a.json", "sweep": null})");
+    EXPECT_TRUE(
+        loadScene(folder.write("c.json", R"({"base": "b.json", "sweep": null})")).axes.empty());
+}
+
+TEST(Scene, FindsTheFilesOfABaseInAnotherFolder) {
+    const TemporaryFolder folder;
+    folder.write("lib/base.json", R"({"groom": {"grow": {"mesh": "../m/head.glb"}}})");
+    folder.write("lib/file.json", R"({"groom": {"file": "a.hgl", "grow": {"mesh": "/head.glb"}}})");
+    folder.write("lib/silent.json", "{}");
+    const auto load = [&](const char* text) {
+        return loadScene(folder.write("s.json", text)).settings.groom;
+    };
+    EXPECT_EQ(load(R"({"base": "lib/base.json"})").grow.mesh, "m/head.glb");
+    EXPECT_EQ(load(R"({"base": "lib/file.json"})").file, "lib/a.hgl");
+    EXPECT_EQ(load(R"({"base": "lib/file.json"})").grow.mesh, "/head.glb");
+    EXPECT_EQ(load(R"({"base": "lib/silent.json"})").grow.mesh, "lib/assets/head.glb");
+}
+
+TEST(SetField, IsAsIfTheFileHadIt) {
+    const TemporaryFolder folder;
+    Scene scene = loadScene(folder.write("s.json", R"({"seed": 7})"));
+    setField(scene, "/run/frames", "64");
+    EXPECT_EQ(scene.document, R"({"seed":7,"run":{"frames":64}})");
+    EXPECT_EQ(scene.settings.run.frames, 64u);
+    EXPECT_THAT(scene.resolved, HasSubstr(R"("frames":64)"));
+    EXPECT_EQ(
+        errorText([&] { setField(scene, "/run/frames", "0"); }),
+        "/run/frames: 0 is outside [1, 1000000] count");
+}
+
+// ---- Errors ---------------------------------------------------------------------------------
+
+struct BadScene {
+    const char* text;
+    const char* error;  // after the file's name
+};
+
+void PrintTo(const BadScene& scene, std::ostream* out) { *out << scene.text; }
+
+class SceneError : public testing::TestWithParam<BadScene> {};
+
+TEST_P(SceneError, IsOneLine) {
+    const TemporaryFolder folder;
+    const auto path = folder.write("s.json", GetParam().text);
+    const std::string error = folder.relative(errorText([&] { loadScene(path); }));
+    EXPECT_EQ(error, std::string("s.json") + GetParam().error);
+    EXPECT_EQ(error.find('\n'), std::string::npos);
+}
+
+const BadScene kBadJson[] = {
+    {"", ":1:1: syntax error while parsing value - unexpected end of input; expected '[', '{', or "
+         "a literal"},
+    {"{\n  \"seed\": 1,\n}",
+     ":3:1: syntax error while parsing object key - unexpected '}'; expected string literal"},
+    {"{} x", ":1:4: syntax error while parsing value - invalid literal; last read: '{} x'; "
+             "expected end of input"},
+    {"{ // why\n}", ":1:3: syntax error while parsing object key - invalid literal; last read: '{ "
+                    "/'; expected string "
+                    "literal"},
+    {R"({"seed": 1e999})", ":1:14: number overflow parsing '1e999'"},
+    {"[1]", ": expected an object, found an array of 1"},
+    {R"({"seed": 1, "seed": 2})", ": /seed: is there twice"},
+    {R"({"simulation": {"colliders": [{}, {"radius": 1, "radius": 2}]}})",
+     ": /simulation/colliders/1/radius: is there twice"}};
+INSTANTIATE_TEST_SUITE_P(Json, SceneError, testing::ValuesIn(kBadJson));
+
+const BadScene kBadFields[] = {
+    {R"({"strands": {"tessalation": 1}})",
+     ": /strands/tessalation: unknown key (did you mean \"tessellation\"?); known: backend, "
+     "density, "
+     "tessellation, root_width, tip_width, curve, taper, submission"},
+    {R"({"sweeep": {}})", ": /sweeep: unknown key (did you mean \"sweep\"?); known: description, "
+                          "seed, groom, simulation, strands, "
+                          "lod, shading, camera, render, run, $schema, base, sweep"},
+    {R"({"run": {"a/b\n~": 1}})", ": /run/a~1b?~0: unknown key; known: warmup, frames, frame_time"},
+    {R"({"strands": 3})", ": /strands: expected an object, found 3"},
+    {R"({"strands": {"density": "64"}})",
+     ": /strands/density: expected an integer, found the string \"64\""},
+    {R"({"strands": {"density": null}})", ": /strands/density: expected an integer, found null"},
+    {R"({"strands": {"root_width": true}})",
+     ": /strands/root_width: expected a number, found true"},
+    {R"({"strands": {"backend": 1}})", ": /strands/backend: expected a name, found 1"},
+    {R"({"render": {"head": 1}})", ": /render/head: expected true or false, found 1"},
+    {R"({"groom": {"file": {}}})", ": /groom/file: expected a string, found an object"},
+    {R"({"render": {"msaa": "x"}})", ": /render/msaa: expected an integer, found the string \"x\""},
+    {R"({"strands": {"density": 0}})", ": /strands/density: 0 is outside [1, 4096] count"},
+    {R"({"strands": {"density": -1}})", ": /strands/density: -1 is outside [1, 4096] count"},
+    {R"({"groom": {"guides": 300000}})", ": /groom/guides: 300000 is outside [4, 200000] count"},
+    {R"({"seed": 4294967296})", ": /seed: 4294967296 is outside [0, 4294967295]"},
+    {R"({"simulation": {"friction": 1.5}})", ": /simulation/friction: 1.5 is outside [0, 1]"},
+    {R"({"simulation": {"time_step": 1e-9}})",
+     ": /simulation/time_step: 1e-09 is outside [0.0005, 0.1] s"},
+    {R"({"strands": {"density": 2.5}})", ": /strands/density: 2.5 is not an integer"},
+    {R"({"render": {"msaa": 3}})", ": /render/msaa: 3 is not one of 1, 2, 4, 8 samples"},
+    {R"({"strands": {"curve": "bsplin"}})",
+     ": /strands/curve: unknown name \"bsplin\" (did you mean \"bspline\"?); known: bspline, "
+     "bspline_unpinned"},
+    {R"({"camera": {"position": [0, 1]}})",
+     ": /camera/position: expected an array of 3 numbers, found an array of 2"},
+    {R"({"camera": {"position": 1}})",
+     ": /camera/position: expected an array of 3 numbers, found 1"},
+    {R"({"camera": {"position": [0, "y", 1]}})",
+     ": /camera/position/1: expected a number, found the string \"y\""},
+    {R"({"camera": {"up": [0, 0, 2]}})", ": /camera/up/2: 2 is outside [-1, 1]"},
+    {R"({"simulation": {"colliders": {}}})",
+     ": /simulation/colliders: expected an array, found an object"},
+    {R"({"simulation": {"colliders": [{"radius": 0}]}})",
+     ": /simulation/colliders/0/radius: 0 is outside [0.0001, 10] m"},
+    {R"({"simulation": {"colliders": [{"r": 1}]}})",
+     ": /simulation/colliders/0/r: unknown key; known: a, b, radius"}};
+INSTANTIATE_TEST_SUITE_P(Fields, SceneError, testing::ValuesIn(kBadFields));
+
+const BadScene kBadReaderMembers[] = {
+    {R"({"$schema": 1})", ": /$schema: expected a string, found 1"},
+    {R"({"base": 1})", ": /base: expected a string, found 1"},
+    {R"({"base": "none.json"})", ": /base: none.json: no such file"},
+    {R"({"base": "s.json"})", ": /base: s.json is built on this file: a cycle"},
+    {R"({"sweep": null})", ": /sweep: expected an object, found null"},
+    {R"({"sweep": []})", ": /sweep: expected an object, found an array of 0"},
+    {R"({"sweep": {"/strands/density": 3}})",
+     ": /sweep: /strands/density: expected an array of values, found 3"},
+    {R"({"sweep": {"/strands/density": []}})",
+     ": /sweep: /strands/density: an axis needs at least one value"},
+    {R"({"sweep": {"/strands/density": [4, 4.0]}})",
+     ": /sweep: /strands/density: 4 is there twice"},
+    {R"({"sweep": {"/strands/density": [1, 0]}})",
+     ": /sweep: /strands/density: 0 is outside [1, 4096] count"},
+    {R"({"sweep": {"/strands/density": [1, null]}})",
+     ": /sweep: /strands/density: expected an integer, found null"},
+    {R"({"sweep": {"strands": [1]}})",
+     ": /sweep: \"strands\": a JSON pointer starts with '/', as in /strands/density"},
+    {R"({"sweep": {"/lod~2": [1]}})",
+     ": /sweep: /lod~2: '~' must be written ~0, and '/' in a name ~1"},
+    {R"({"sweep": {"/lod/levle": [1]}})", ": /sweep: /lod/levle: unknown key (did you mean "
+                                          "\"level\"?); known: mode, level, near_distance, "
+                                          "far_distance, maximum_level"},
+    {R"({"sweep": {"/seed/x": [1]}})", ": /sweep: /seed/x: 1 has no members"},
+    {R"({"sweep": {"/sweep": [1]}})",
+     ": /sweep: /sweep: unknown key (did you mean \"seed\"?); known: description, seed, "
+     "groom, simulation, strands, lod, shading, "
+     "camera, render, run"},
+    {R"({"sweep": {"/camera/up/3": [1]}})", ": /sweep: /camera/up/3: the array has 3 elements"},
+    {R"({"sweep": {"/simulation/colliders/0/radius": [1]}})",
+     ": /sweep: /simulation/colliders/0: the array has 0 elements"},
+    {R"({"sweep": {"/simulation/wind": [{"strenght": 1}]}})",
+     ": /sweep: /simulation/wind/strenght: unknown key (did you mean \"strength\"?); known: "
+     "strength, "
+     "direction, cone_angle, gust_rate"}};
+INSTANTIATE_TEST_SUITE_P(ReaderMembers, SceneError, testing::ValuesIn(kBadReaderMembers));
+
+TEST(SceneErrors, OfAFile) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(
+        folder.relative(errorText([&] { loadScene(folder.path() / "no.json"); })),
+        "no.json: no such file");
+    EXPECT_EQ(
+        errorText([&] { loadScene(folder.path()); }),
+        folder.path().string() + ": is a folder, not a scene file");
+}
+
+TEST(SceneErrors, OfALongList) {
+    const TemporaryFolder folder;
+    std::string list = "{}";
+    for (int i = 0; i < 64; ++i) list += ", {}";
+    const auto path = folder.write("s.json", R"({"simulation": {"colliders": [)" + list + "]}}");
+    EXPECT_EQ(
+        folder.relative(errorText([&] { loadScene(path); })),
+        "s.json: /simulation/colliders: 65 elements are more than 64");
+}
+
+TEST(SceneErrors, OfDeepNesting) {
+    const TemporaryFolder folder;
+    const auto path = folder.write("s.json", std::string(1000000, '['));
+    EXPECT_EQ(
+        folder.relative(errorText([&] { loadScene(path); })), "s.json: nested deeper than 64");
+}
+
+TEST(SceneErrors, OfABaseNameBothFiles) {
+    const TemporaryFolder folder;
+    folder.write("base.json", R"({"seed": -1})");
+    const auto path = folder.write("s.json", R"({"base": "base.json", "seed": 1})");
+    EXPECT_EQ(
+        folder.relative(errorText([&] { loadScene(path); })),
+        "s.json: /base: base.json: /seed: -1 is outside [0, 4294967295]");
+}
+
+TEST(SceneErrors, OfACycleOfBases) {
+    const TemporaryFolder folder;
+    folder.write("a.json", R"({"base": "sub/../b.json"})");
+    folder.write("sub/x", "");
+    const auto path = folder.write("b.json", R"({"base": "a.json"})");
+    EXPECT_EQ(
+        folder.relative(errorText([&] { loadScene(path); })),
+        "b.json: /base: a.json: /base: sub/../b.json is built on this file: a cycle");
+}
+
+TEST(SceneErrors, OfARemovalThatRemovesNothing) {
+    const TemporaryFolder folder;
+    folder.write("base.json", R"({"sweep": {"/strands/density": [1, 2]}})");
+    const auto path =
+        folder.write("s.json", R"({"base": "base.json", "sweep": {"/strands/densty": null}})");
+    EXPECT_EQ(
+        folder.relative(errorText([&] { loadScene(path); })),
+        "s.json: /sweep/~1strands~1densty: nothing to remove (did you mean \"/strands/density\"?); "
+        "known: "
+        "/strands/density");
+}
+
+}  // namespace
+}  // namespace benchmarks

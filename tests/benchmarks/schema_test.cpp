@@ -1,0 +1,97 @@
+#include "benchmarks/schema.h"
+
+#include <filesystem>
+
+#include <gmock/gmock.h>
+
+#include "benchmarks/sweep.h"
+#include "tests/error_text.h"
+#include "tests/benchmarks/schema_errors.h"
+#include "tests/temporary_folder.h"
+
+namespace benchmarks {
+namespace {
+
+using testing::IsEmpty;
+using testing::Not;
+
+const std::filesystem::path kScenes = HAIRBENCH_SCENES_DIR;
+
+std::vector<std::filesystem::path> committedScenes() {
+    std::vector<std::filesystem::path> paths;
+    for (const auto& entry : std::filesystem::directory_iterator(kScenes))
+        if (entry.path().extension() == ".json" && entry.path().stem().extension() != ".schema")
+            paths.push_back(entry.path());
+    return paths;
+}
+
+TEST(SceneSchema, IsTheCommittedOne) {
+    EXPECT_EQ(textOf(kScenes / "scene.schema.json"), sceneSchema())
+        << "write it anew: hairbench schema > scenes/scene.schema.json";
+}
+
+TEST(CommittedScenes, FitTheSchemaAndExpand) {
+    EXPECT_THAT(committedScenes(), Not(IsEmpty()));
+    for (const auto& path : committedScenes()) {
+        EXPECT_THAT(schemaErrors(sceneSchema(), textOf(path)), IsEmpty()) << path;
+        EXPECT_EQ(errorText([&] { expand(loadScene(path)); }), "no error");
+    }
+}
+
+TEST(CommittedScenes, SweepWhatTheThesisCaseNeeds) {
+    const auto cases = expand(loadScene(kScenes / "thesis.json"));
+    EXPECT_EQ(cases.size(), 243u);  // 3 guide counts x 3 densities x 3 factors x 3 MSAA x 3 levels
+    EXPECT_EQ(cases.front().name, "thesis/guides:86/density:16/tessellation:1/msaa:1/level:0");
+    EXPECT_EQ(expand(loadScene(kScenes / "smoke.json")).size(), 2u);
+    for (const char* name :
+         {"rest", "guides_overlay", "other_camera", "weak_wind", "strong_wind",
+          "strong_wind_guides"})
+        EXPECT_EQ(expand(loadScene(kScenes / (std::string(name) + ".json"))).size(), 1u) << name;
+}
+
+class BadDocument : public testing::TestWithParam<const char*> {};
+
+// What the reader refuses the schema refuses too, as far as a schema can tell.
+TEST_P(BadDocument, BreaksTheSchema) {
+    EXPECT_THAT(schemaErrors(sceneSchema(), GetParam()), Not(IsEmpty()));
+    const TemporaryFolder folder;
+    const auto path = folder.write("s.json", GetParam());
+    EXPECT_NE(errorText([&] { loadScene(path); }), "no error");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    SceneSchema, BadDocument,
+    testing::Values(
+        "[]", R"({"densty": 1})", R"({"strands": {"densty": 1}})", R"({"strands": 3})",
+        R"({"strands": {"density": "64"}})", R"({"strands": {"density": 0}})",
+        R"({"strands": {"density": 4097}})", R"({"strands": {"density": 2.5}})",
+        R"({"strands": {"curve": "x"}})", R"({"render": {"msaa": 3}})",
+        R"({"render": {"head": 1}})", R"({"groom": {"file": 1}})", R"({"camera": {"up": [0, 1]}})",
+        R"({"camera": {"up": [0, 1, 2]}})", R"({"simulation": {"colliders": [{"r": 1}]}})",
+        R"({"simulation": {"colliders": [{"radius": null}]}})", R"({"base": 1})",
+        R"({"$schema": 1})", R"({"sweep": []})", R"({"sweep": {"strands": [1]}})",
+        R"({"sweep": {"/strands/density": 1}})", R"({"sweep": {"/strands/density": []}})",
+        R"({"sweep": {"/strands/density": [0]}})", R"({"sweep": {"/render/msaa": [1, 1]}})"));
+
+TEST(SceneSchema, AcceptsWhatTheReaderAccepts) {
+    for (
+        const char* text :
+        {"{}", R"({"sweep": {"/simulation/wind": [{"strength": 3}], "/camera/up/1": [1]}})",
+         R"({"simulation": {"colliders": [{"a": [0, 0, 0], "radius": 1}, {}]}, "render": {"msaa": 8}})"}) {
+        EXPECT_THAT(schemaErrors(sceneSchema(), text), IsEmpty()) << text;
+        const TemporaryFolder folder;
+        EXPECT_EQ(errorText([&] { loadScene(folder.write("s.json", text)); }), "no error");
+    }
+}
+
+TEST(SceneSchema, AcceptsRemovals) {
+    EXPECT_THAT(
+        schemaErrors(
+            sceneSchema(),
+            R"({"base": "a.json", "groom": null, "strands": {"curve": null, "density": null},
+                                 "render": {"msaa": null}, "camera": {"up": null}, "sweep": null})"),
+        IsEmpty());
+}
+
+}  // namespace
+}  // namespace benchmarks

@@ -1,0 +1,166 @@
+#include "benchmarks/sweep.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/error_text.h"
+#include "tests/temporary_folder.h"
+
+namespace benchmarks {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class Sweep : public testing::Test {
+protected:
+    Scene load(std::string_view text) const { return loadScene(folder_.write("s.json", text)); }
+
+    std::vector<std::string> names(std::string_view text, std::vector<Axis> overrides = {}) const {
+        std::vector<std::string> result;
+        for (const CaseSpec& spec : expand(load(text), overrides)) result.push_back(spec.name);
+        return result;
+    }
+
+    std::string error(std::string_view text, std::vector<Axis> overrides = {}) const {
+        return folder_.relative(errorText([&] { expand(load(text), overrides); }));
+    }
+
+private:
+    TemporaryFolder folder_;
+};
+
+TEST_F(Sweep, IsTheProductWithTheLastAxisFastest) {
+    EXPECT_THAT(
+        names(R"({"sweep": {"/strands/density": [16, 64], "/lod/level": [2, 0, 1.5]}})"),
+        ElementsAre(
+            "s/density:16/level:2", "s/density:16/level:0", "s/density:16/level:1.5",
+            "s/density:64/level:2", "s/density:64/level:0", "s/density:64/level:1.5"));
+}
+
+TEST_F(Sweep, OfNothingIsOneCase) { EXPECT_THAT(names("{}"), ElementsAre("s")); }
+
+TEST_F(Sweep, SetsTheFieldsOfEachCase) {
+    const auto cases = expand(load(R"({
+        "strands": {"tessellation": 2},
+        "simulation": {"colliders": [{"radius": 1}]},
+        "sweep": {"/simulation/colliders/0/radius": [2, 3], "/camera/position/2": [1],
+                  "/strands/backend": ["pulling_geometry"], "/camera/target": [[1, 2, 3]]}})"));
+    ASSERT_EQ(cases.size(), 2u);
+    const CaseSpec& last = cases[1];
+    EXPECT_EQ(last.name, "s/radius:3/position.2:1/backend:pulling_geometry/target:[1,2,3]");
+    EXPECT_EQ(last.settings.simulation.colliders[0].radius, 3.0f);
+    EXPECT_EQ(last.settings.camera.position, glm::vec3(0.0f, 0.0f, 1.0f));
+    EXPECT_EQ(last.settings.camera.target, glm::vec3(1.0f, 2.0f, 3.0f));
+    EXPECT_EQ(last.settings.strands.backend, hair::Backend::pulling_geometry);
+    EXPECT_EQ(last.settings.strands.tessellation, 2u);
+    EXPECT_EQ(last.axes[0].pointer, "/simulation/colliders/0/radius");
+    EXPECT_EQ(last.axes[0].value, "3");
+    EXPECT_EQ(last.axes[2].value, "\"pulling_geometry\"");
+    EXPECT_THAT(last.document, HasSubstr(R"("target":[1,2,3])"));
+}
+
+TEST_F(Sweep, VariesSeveralFieldsTogetherByAGroup) {
+    const auto cases = expand(load(R"({
+        "simulation": {"wind": {"gust_rate": 1}},
+        "sweep": {"/simulation/wind": [{"strength": 3}, {"strength": 15, "gust_rate": 2}]}})"));
+    ASSERT_EQ(cases.size(), 2u);
+    EXPECT_EQ(cases[0].name, "s/wind:{\"strength\":3}");
+    EXPECT_EQ(cases[0].settings.simulation.wind.strength, 3.0f);
+    EXPECT_EQ(cases[0].settings.simulation.wind.gust_rate, 1.0f);
+    EXPECT_EQ(cases[1].settings.simulation.wind.gust_rate, 2.0f);
+}
+
+TEST_F(Sweep, NamesAxesApart) {
+    EXPECT_THAT(
+        names(
+            R"({"sweep": {"/simulation/global/stiffness": [0], "/simulation/local/stiffness": [1]}})"),
+        ElementsAre("s/global.stiffness:0/local.stiffness:1"));
+}
+
+TEST_F(Sweep, IsReplacedAndExtendedByOverrides) {
+    const char* const scene = R"({"sweep": {"/strands/density": [16, 64], "/render/msaa": [1]}})";
+    EXPECT_THAT(
+        names(scene, {parseAxis("/strands/density=8"), parseAxis("/lod/level=0,1")}),
+        ElementsAre("s/density:8/msaa:1/level:0", "s/density:8/msaa:1/level:1"));
+    EXPECT_THAT(
+        names("{}", {parseAxis("/camera/position=[0,0,1],[0,0,2]")}),
+        ElementsAre("s/position:[0,0,1]", "s/position:[0,0,2]"));
+    EXPECT_THAT(
+        names("{}", {parseAxis("/seed=1,2"), parseAxis("/seed=3")}), ElementsAre("s/seed:3"));
+}
+
+TEST_F(Sweep, RefusesBadOverrides) {
+    EXPECT_EQ(
+        error("{}", {parseAxis("/strands/density=0")}),
+        "-a: /strands/density: 0 is outside [1, 4096] count");
+    EXPECT_EQ(
+        error("{}", {parseAxis("/strands/density=many")}),
+        "-a: /strands/density: expected an integer, found the string \"many\"");
+    EXPECT_EQ(
+        error("{}", {parseAxis("density=1")}),
+        "-a: \"density\": a JSON pointer starts with '/', as in /strands/density");
+    EXPECT_EQ(
+        error("{}", {parseAxis("/run/frame=1")}),
+        "-a: /run/frame: unknown key (did you mean \"frames\"?); known: warmup, frames, "
+        "frame_time");
+    EXPECT_EQ(error("{}", {parseAxis("/seed=1,1")}), "-a: /seed: 1 is there twice");
+}
+
+TEST_F(Sweep, RefusesAxesInsideOneAnother) {
+    EXPECT_EQ(
+        error(R"({"sweep": {"/camera/up/0": [0], "/camera/up": [[0, 1, 0]]}})"),
+        "s.json: /camera/up/0: is inside the axis /camera/up");
+}
+
+TEST_F(Sweep, RefusesMoreCasesThanAnyoneRuns) {
+    std::string values = "0";
+    for (int i = 1; i < 400; ++i) values += ',' + std::to_string(i);
+    EXPECT_EQ(
+        error("{}", {parseAxis("/seed=" + values), parseAxis("/run/frames=" + values + ",400")}),
+        "-a: /run/frames: 0 is outside [1, 1000000] count");
+    EXPECT_EQ(
+        error(
+            "{}", {parseAxis("/seed=" + values), parseAxis("/simulation/settle_steps=" + values)}),
+        "s.json: /sweep: more than 100000 cases");
+}
+
+TEST_F(Sweep, ChecksTheRulesBetweenFieldsOfEveryCase) {
+    EXPECT_EQ(
+        error(R"({"camera": {"near_plane": 2, "far_plane": 1}})"),
+        "s.json: /camera/near_plane: is not below /camera/far_plane");
+    EXPECT_EQ(
+        error(R"({"sweep": {"/camera/far_plane": [10, 0.001]}})"),
+        "s.json: s/far_plane:0.001: /camera/near_plane: is not below /camera/far_plane");
+    // Each case is sound, though the document without its axes is not.
+    EXPECT_EQ(
+        error(
+            R"({"camera": {"near_plane": 2, "far_plane": 1}, "sweep": {"/camera/far_plane": [10]}})"),
+        "no error");
+}
+
+TEST_F(Sweep, RefusesAGuideCountBesideAGuideFile) {
+    const std::string reason =
+        "/groom/guides: a guide file has its own count; leave out this or /groom/file";
+    EXPECT_EQ(error(R"({"groom": {"file": "a.hgl", "guides": 86}})"), "s.json: " + reason);
+    EXPECT_EQ(
+        error(R"({"groom": {"file": "a.hgl"}, "sweep": {"/groom/guides": [86]}})"),
+        "s.json: s/guides:86: " + reason);
+    EXPECT_EQ(error(R"({"groom": {"file": "a.hgl"}})"), "no error");
+}
+
+TEST_F(Sweep, IsFilteredByName) {
+    auto kept = keepMatching(
+        expand(load(R"({"sweep": {"/strands/density": [1, 16, 64]}})")), "density:(1|64)$");
+    ASSERT_EQ(kept.size(), 2u);
+    EXPECT_EQ(kept[0].name, "s/density:1");
+    EXPECT_EQ(kept[1].name, "s/density:64");
+    EXPECT_THAT(keepMatching(std::move(kept), "x"), IsEmpty());
+}
+
+TEST_F(Sweep, RefusesAMalformedFilter) {
+    EXPECT_THAT(errorText([] { keepMatching({}, "(x"); }), testing::StartsWith("--filter (x: "));
+}
+
+}  // namespace
+}  // namespace benchmarks

@@ -1,0 +1,225 @@
+// The program as a user meets it: its exit status, its one-line errors, the files it writes and leaves alone.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+#include "tests/temporary_folder.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+struct Outcome {
+    int status;
+    std::string output;  // stdout and stderr
+};
+
+Outcome hairbench(const std::string& arguments) {
+    const std::string command = std::string("'") + HAIRBENCH_PROGRAM + "' " + arguments + " 2>&1";
+    FILE* pipe = popen(command.c_str(), "r");
+    if (!pipe) throw std::runtime_error("popen failed");
+    Outcome outcome{};
+    std::array<char, 4096> part{};
+    while (std::size_t count = fread(part.data(), 1, part.size(), pipe)) {
+        outcome.output.append(part.data(), count);
+    }
+    outcome.status = WEXITSTATUS(pclose(pipe));
+    return outcome;
+}
+
+std::string scene(const std::string& name) {
+    return std::string("'") + HAIRBENCH_SCENES_DIR + "/" + name + "'";
+}
+
+nlohmann::json reportOf(const fs::path& path) { return nlohmann::json::parse(textOf(path)); }
+
+bool hasDevice() {
+    static const bool found = hairbench("devices").status == 0;
+    return found;
+}
+
+TEST(Cli, HelpShowsExamplesAndExitStatuses) {
+    const Outcome outcome = hairbench("--help");
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_THAT(outcome.output, HasSubstr("hairbench run scenes/thesis.json"));
+    EXPECT_THAT(outcome.output, HasSubstr("77 no suitable device"));
+}
+
+TEST(Cli, VersionIsOneLine) {
+    const Outcome outcome = hairbench("--version");
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_THAT(outcome.output, testing::MatchesRegex("hairbench [0-9]+\\.[0-9]+\\.[0-9]+.*\n"));
+}
+
+TEST(Cli, SchemaIsTheCommittedOne) {
+    const Outcome outcome = hairbench("schema");
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.output, textOf(fs::path(HAIRBENCH_SCENES_DIR) / "scene.schema.json"));
+}
+
+TEST(Cli, DryRunListsTheWholeSweep) {
+    const Outcome outcome = hairbench("run " + scene("thesis.json") + " --dry-run");
+    EXPECT_EQ(outcome.status, 0);
+    // 3 guide counts x 3 densities x 3 tessellation factors x 3 sample counts x 3 levels.
+    EXPECT_THAT(outcome.output, HasSubstr("243 cases"));
+    EXPECT_THAT(outcome.output, HasSubstr("thesis/guides:86/density:64/tessellation:4/msaa:1/level:0\n"));
+}
+
+// ---- What is refused: one line, status 2, nothing written ------------------------------------------------
+
+struct Refusal {
+    const char* name;
+    const char* file;  // written in the scene's place; null: none
+    const char* reason;
+};
+
+class CliRefusal : public testing::TestWithParam<Refusal> {};
+
+TEST_P(CliRefusal, IsOneLineWithStatus2AndWritesNothing) {
+    const TemporaryFolder folder;
+    const fs::path path = folder.path() / "scene.json";
+    if (GetParam().file) folder.write("scene.json", GetParam().file);
+    folder.write("bald.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl skin\nf 1 2 3\n");
+    folder.write("short.hgl", std::string("\2\0\0\0\1\0\0\0\0\0\0\0 cut", 16));
+    folder.write("lies.hgl", std::string("\xff\xff\xff\x7f\1\0\0\0\0\0\0\0", 12));
+    const fs::path out = folder.path() / "out" / "report.json";
+    const Outcome outcome = hairbench("run '" + path.string() + "' --out '" + out.string() + "'");
+    EXPECT_EQ(outcome.status, 2) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(GetParam().reason));
+    EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
+    EXPECT_FALSE(fs::exists(out.parent_path()));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , CliRefusal,
+    testing::Values(
+        Refusal{"MissingScene", nullptr, "scene.json: no such file"},
+        Refusal{"BrokenJson", "{\"strands\": {", "scene.json:"},
+        Refusal{"UnknownKey", R"({"strands": {"densty": 3}})", "/strands/densty: unknown key"},
+        Refusal{"OutOfRange", R"({"strands": {"density": 0}})", "/strands/density: 0 is outside"},
+        Refusal{"WrongType", R"({"render": {"width": "wide"}})", "/render/width: "},
+        Refusal{"MissingMesh", R"({"groom": {"grow": {"mesh": "none.glb"}}})", "none.glb"},
+        Refusal{"MeshWithoutScalp", R"({"groom": {"grow": {"mesh": "bald.obj"}}})",
+                "no material named 'scalp'"},
+        Refusal{"GuideFileCutShort", R"({"groom": {"file": "short.hgl"}})", "short.hgl"},
+        Refusal{"GuideFileWithFalseCount", R"({"groom": {"file": "lies.hgl"}})", "lies.hgl"}),
+    [](const auto& each) { return each.param.name; });
+
+TEST(Cli, RefusesWhatItDoesNotKnow) {
+    EXPECT_EQ(hairbench("").status, 2);
+    EXPECT_EQ(hairbench("fly").status, 2);
+    EXPECT_EQ(hairbench("run").status, 2);
+    EXPECT_EQ(hairbench("run " + scene("smoke.json") + " -a /no/such=1").status, 2);
+    EXPECT_EQ(hairbench("run " + scene("smoke.json") + " --filter '['").status, 2);
+}
+
+TEST(Cli, ValidateNamesEveryBadScene) {
+    const TemporaryFolder folder;
+    const fs::path bad = folder.write("bad.json", "[]");
+    const Outcome outcome = hairbench("validate " + scene("smoke.json") + " '" + bad.string() + "'");
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_THAT(outcome.output, HasSubstr("smoke.json: ok, "));
+    EXPECT_THAT(outcome.output, HasSubstr("bad.json: "));
+}
+
+TEST(Cli, NothingMatchesTheFilter) {
+    const Outcome outcome = hairbench("run " + scene("smoke.json") + " --filter none_at_all");
+    EXPECT_EQ(outcome.status, 14);
+}
+
+TEST(Cli, UnknownDeviceIsStatus77) {
+    const TemporaryFolder folder;
+    const Outcome outcome = hairbench("run " + scene("smoke.json") + " --device 'no such' --out '" +
+                                      (folder.path() / "r.json").string() + "'");
+    EXPECT_EQ(outcome.status, 77);
+}
+
+// ---- The main job ----------------------------------------------------------------------------------------
+
+class CliRun : public testing::Test {
+protected:
+    void SetUp() override {
+        if (!hasDevice()) GTEST_SKIP() << "no Vulkan device";
+    }
+
+    nlohmann::json run(const std::string& name, const std::string& options) {
+        const fs::path out = folder_.path() / (name + ".json");
+        const Outcome outcome =
+            hairbench("run " + scene("smoke.json") + " " + options + " --out '" + out.string() + "'");
+        EXPECT_EQ(outcome.status, 0) << outcome.output;
+        EXPECT_THAT(outcome.output, HasSubstr("report: " + out.string()));
+        return reportOf(out);
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(CliRun, GivesEveryFigureOfACase) {
+    const nlohmann::json report = run("figures", "--validate");
+    ASSERT_FALSE(report["cases"].empty());
+    for (const nlohmann::json& each : report["cases"]) {
+        if (each["status"] == "skipped") continue;
+        ASSERT_EQ(each["status"], "ok") << each["reason"];
+        for (const char* metric :
+             {"frame.time", "fps", "pass.wind.time", "pass.simulate.time", "pass.scene.time",
+              "pass.strands.time", "pass.resolve.time", "memory.device"}) {
+            ASSERT_TRUE(each["metrics"].contains(metric)) << metric;
+            EXPECT_GT(each["metrics"][metric]["median"], 0.0) << metric;
+        }
+        for (const auto& [name, statistic] : each["statistics"].items()) {
+            if (statistic.contains("expected")) {
+                EXPECT_EQ(statistic["measured"], statistic["expected"]) << name;
+            }
+        }
+        EXPECT_EQ(each["image_hash"].get<std::string>().size(), 16u);
+        EXPECT_EQ(each["state_hash"].get<std::string>().size(), 16u);
+        for (const nlohmann::json& warning : each["trust"]["warnings"]) {
+            EXPECT_THAT(warning.get<std::string>(), Not(HasSubstr("validation"))) << warning;
+            EXPECT_THAT(warning.get<std::string>(), Not(HasSubstr("expected"))) << warning;
+            EXPECT_THAT(warning.get<std::string>(), Not(HasSubstr("different"))) << warning;
+        }
+    }
+}
+
+TEST_F(CliRun, GivesEqualHashesTwice) {
+    const nlohmann::json first = run("first", "");
+    const nlohmann::json second = run("second", "");
+    ASSERT_EQ(first["cases"].size(), second["cases"].size());
+    for (std::size_t i = 0; i < first["cases"].size(); ++i) {
+        EXPECT_EQ(first["cases"][i]["image_hash"], second["cases"][i]["image_hash"]);
+        EXPECT_EQ(first["cases"][i]["state_hash"], second["cases"][i]["state_hash"]);
+    }
+}
+
+TEST_F(CliRun, SaysWhyACaseIsSkippedAndGoesOn) {
+    const nlohmann::json report = run("skipped", "-a /render/msaa=1 -a /render/width=64,8192 "
+                                                 "-a /render/height=64 -a /render/ssaa=1,2 "
+                                                 "--frames 1 --warmup 2");
+    EXPECT_EQ(report["cases"].size(), 4u);
+    EXPECT_EQ(report["cases"][0]["status"], "ok");
+    for (const nlohmann::json& each : report["cases"]) {
+        if (each["status"] == "ok") continue;
+        EXPECT_EQ(each["status"], "skipped");
+        EXPECT_THAT(each["reason"].get<std::string>(), HasSubstr("px"));
+        EXPECT_FALSE(each.contains("metrics") && each["metrics"].contains("frame.time"));
+    }
+}
+
+TEST_F(CliRun, RendersThePictureThatItMeasures) {
+    const fs::path picture = folder_.path() / "picture.png";
+    const Outcome outcome = hairbench("render " + scene("smoke.json") + " --frame 3 -o '" +
+                                      picture.string() + "'");
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_GT(fs::file_size(picture), 1000u);
+}
+
+}  // namespace

@@ -1,0 +1,67 @@
+#include "engine/device.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/pipeline.h"
+#include "engine/shader_code.h"
+#include "engine/target.h"
+#include "tests/gpu_fixture.h"
+
+namespace engine {
+namespace {
+
+using testing::HasSubstr;
+
+template <class Exception, class Call>
+std::string messageOf(Call&& call) {
+    try {
+        call();
+    } catch (const Exception& error) {
+        return error.what();
+    }
+    return "nothing was thrown";
+}
+
+using DeviceTest = GpuTest;
+
+TEST_F(DeviceTest, IsFoundByIndexAndByPartOfItsName) {
+    const Instance instance(Validation::off);
+    const std::vector<DeviceInfo> devices = listDevices(instance);
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+        if (!devices[i].missing.empty()) continue;
+        EXPECT_EQ(chooseDevice(instance, std::to_string(i)).name, devices[i].name);
+        EXPECT_EQ(chooseDevice(instance, devices[i].name.substr(0, 4)).missing.size(), 0u);
+    }
+}
+
+TEST_F(DeviceTest, ThatDoesNotExistIsNamedWithThoseThatDo) {
+    const Instance instance(Validation::off);
+    const std::string message =
+        messageOf<NoDevice>([&] { chooseDevice(instance, "no such device"); });
+    EXPECT_THAT(message, HasSubstr("no device is named 'no such device'"));
+    EXPECT_THAT(message, HasSubstr(device().info().name));
+}
+
+TEST_F(DeviceTest, RefusesASampleCountThatItLacks) {
+    if (device().supportsSamples(64)) GTEST_SKIP() << "this device has 64 samples";
+    EXPECT_THAT(messageOf<Unsupported>([&] {
+                    Target(device(), {.width = 4, .height = 4, .msaa = 64, .ssaa = 1});
+                }),
+                HasSubstr("no 64-sample images"));
+}
+
+TEST_F(DeviceTest, RefusesAPictureThatIsTooLarge) {
+    EXPECT_THAT(messageOf<Unsupported>([&] {
+                    Target(device(), {.width = 1u << 20, .height = 4, .msaa = 1, .ssaa = 1});
+                }),
+                HasSubstr("an image side of 1048576 px is over the device's"));
+}
+
+TEST_F(DeviceTest, ListsTheShadersWhenOneIsUnknown) {
+    EXPECT_THAT(messageOf<Error>([] { shaderCode("strands/none.vert"); }),
+                HasSubstr("strands/tessellation.vert"));
+}
+
+}  // namespace
+}  // namespace engine

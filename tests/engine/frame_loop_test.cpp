@@ -1,0 +1,114 @@
+#include "engine/frame_loop.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "engine/target.h"
+#include "tests/gpu_fixture.h"
+
+namespace engine {
+namespace {
+
+class FrameLoopTest : public GpuTest {
+protected:
+    void SetUp() override {
+        GpuTest::SetUp();
+        if (IsSkipped()) return;
+        big_.emplace(device(), BufferDescription{.size = 64 << 20, .name = "big"});
+        small_.emplace(device(), BufferDescription{.size = 1 << 10, .name = "small"});
+    }
+
+    void TearDown() override {
+        big_.reset();
+        small_.reset();
+        GpuTest::TearDown();
+    }
+
+    // Two passes of very different cost, the first of them in two parts.
+    void record(Passes& passes) {
+        const auto fill = [&](const Buffer& buffer) {
+            return [&](Commands& commands) {
+                commands.fill(buffer, 1);
+                commands.barrier(Access::transfer_write, Access::anything);
+            };
+        };
+        passes.pass("big", PassKind::compute, fill(*big_));
+        passes.pass("small", PassKind::compute, fill(*small_));
+        passes.pass("big", PassKind::compute, fill(*big_));
+        slots_.push_back(passes.slot());
+    }
+
+    std::vector<FrameRecord> play(Timing timing, int frames) {
+        FrameLoop loop(device(), timing);
+        slots_.clear();
+        for (int i = 0; i < frames; ++i) loop.frame([&](Passes& passes) { record(passes); });
+        return loop.finish();
+    }
+
+    std::optional<Buffer> big_;
+    std::optional<Buffer> small_;
+    std::vector<std::uint32_t> slots_;
+};
+
+TEST_F(FrameLoopTest, SumsPassesOfOneNameInEveryTimedMode) {
+    for (const Timing timing : {Timing::overlapped, Timing::isolated, Timing::wall_clock}) {
+        const std::vector<FrameRecord> frames = play(timing, 3);
+        ASSERT_EQ(frames.size(), 3u);
+        for (const FrameRecord& frame : frames) {
+            ASSERT_EQ(frame.passes.size(), 2u);
+            EXPECT_EQ(frame.passes[0].name, "big");
+            EXPECT_EQ(frame.passes[1].name, "small");
+            EXPECT_GE(frame.passes[1].milliseconds, 0.0);
+            EXPECT_GT(frame.interval, 0.0);
+        }
+    }
+}
+
+TEST_F(FrameLoopTest, ChargesWorkToThePassThatDidIt) {
+    // 128 MiB against 1 KiB: whichever way the machine is disturbed, the order stays in the fastest frame.
+    for (const Timing timing : {Timing::isolated, Timing::wall_clock}) {
+        double big = 1e9;
+        double small = 1e9;
+        for (const FrameRecord& frame : play(timing, 5)) {
+            big = std::min(big, frame.passes[0].milliseconds);
+            small = std::min(small, frame.passes[1].milliseconds);
+        }
+        EXPECT_GT(big, small);
+    }
+}
+
+TEST_F(FrameLoopTest, KeepsTwoFramesInFlightWhenOverlapped) {
+    play(Timing::overlapped, 4);
+    EXPECT_EQ(slots_, (std::vector<std::uint32_t>{0, 1, 0, 1}));
+    play(Timing::isolated, 3);
+    EXPECT_EQ(slots_, (std::vector<std::uint32_t>{0, 0, 0}));
+}
+
+TEST_F(FrameLoopTest, GivesTheFramesSinceTheLastTime) {
+    FrameLoop loop(device(), Timing::overlapped);
+    loop.frame([&](Passes& passes) { record(passes); });
+    EXPECT_EQ(loop.finish().size(), 1u);
+    EXPECT_TRUE(loop.finish().empty());
+    for (int i = 0; i < 3; ++i) loop.frame([&](Passes& passes) { record(passes); });
+    EXPECT_EQ(loop.finish().size(), 3u);
+}
+
+TEST_F(FrameLoopTest, CountsNothingForAGraphicsPassThatDrawsNothing) {
+    if (!device().hasPipelineStatistics()) GTEST_SKIP() << "no pipeline statistics";
+    const Target target(device(), {.width = 8, .height = 8, .msaa = 1, .ssaa = 1});
+    FrameLoop loop(device(), Timing::statistics);
+    loop.frame([&](Passes& passes) {
+        passes.pass("empty", PassKind::graphics, [&](Commands& commands) {
+            target.beginRendering(commands, Load::clear, {0.0f, 0.0f, 0.0f});
+            target.endRendering(commands);
+        });
+    });
+    const std::vector<FrameRecord> frames = loop.finish();
+    ASSERT_EQ(frames.size(), 1u);
+    ASSERT_EQ(frames[0].statistics.size(), 1u);
+    EXPECT_EQ(frames[0].statistics[0].counts, StatisticCounts{});
+}
+
+}  // namespace
+}  // namespace engine

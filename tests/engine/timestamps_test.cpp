@@ -1,0 +1,46 @@
+#include "engine/timestamps.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/gpu_fixture.h"
+
+namespace engine {
+namespace {
+
+TEST(TimestampTicks, MaskHasTheValidBits) {
+    EXPECT_EQ(validMask(64), ~std::uint64_t{0});
+    EXPECT_EQ(validMask(36), 0xF'FFFF'FFFFu);
+    EXPECT_EQ(validMask(1), 1u);
+}
+
+TEST(TimestampTicks, CountAcrossTheWrapOfACounter) {
+    EXPECT_EQ(ticksBetween(10, 25, validMask(64)), 15u);
+    EXPECT_EQ(ticksBetween(0xFFFF'FFF0, 0x10, validMask(32)), 0x20u);
+    // Bits above the valid ones are undefined and must not count.
+    EXPECT_EQ(ticksBetween(0xA00'0000'0005, 0xC00'0000'0009, validMask(40)), 4u);
+}
+
+using TimestampsTest = GpuTest;
+
+TEST_F(TimestampsTest, NeverRunBackwards) {
+    Timestamps stamps(device(), 4);
+    device().runOnce([&](Commands& commands) {
+        for (int i = 0; i < 4; ++i) stamps.write(commands);
+    });
+    const std::vector<double> times = stamps.read();
+    ASSERT_EQ(times.size(), 4u);
+    EXPECT_EQ(times[0], 0.0);
+    for (std::size_t i = 1; i < times.size(); ++i) EXPECT_GE(times[i], times[i - 1]);
+}
+
+TEST_F(TimestampsTest, AreGoneAfterReset) {
+    Timestamps stamps(device(), 2);
+    device().runOnce([&](Commands& commands) { stamps.write(commands); });
+    EXPECT_EQ(stamps.read().size(), 1u);
+    stamps.reset();
+    EXPECT_EQ(stamps.count(), 0u);
+    EXPECT_TRUE(stamps.read().empty());
+}
+
+}  // namespace
+}  // namespace engine

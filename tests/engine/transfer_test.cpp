@@ -1,0 +1,60 @@
+#include "engine/transfer.h"
+
+#include <numeric>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/commands.h"
+#include "tests/gpu_fixture.h"
+
+namespace engine {
+namespace {
+
+using TransferTest = GpuTest;
+
+TEST_F(TransferTest, BringsBackWhatItTookThere) {
+    std::vector<std::uint32_t> values(100'000);
+    std::iota(values.begin(), values.end(), 7u);
+    const Buffer buffer = makeBuffer(device(), std::span<const std::uint32_t>(values), "values");
+    EXPECT_NE(buffer.address(), 0u);
+    EXPECT_EQ(downloadAs<std::uint32_t>(device(), buffer), values);
+}
+
+TEST_F(TransferTest, GivesAnEmptyArrayAnAddress) {
+    const Buffer buffer = makeBuffer(device(), std::span<const std::uint32_t>(), "nothing");
+    EXPECT_NE(buffer.address(), 0u);
+    EXPECT_EQ(buffer.size(), sizeof(std::uint32_t));
+}
+
+TEST_F(TransferTest, FillsABuffer) {
+    const Buffer buffer(device(), {.size = 64, .usage = Usage::storage, .name = "filled"});
+    device().runOnce([&](Commands& commands) {
+        commands.fill(buffer, 0xABCD1234u);
+        commands.barrier(Access::transfer_write, Access::anything);
+    });
+    EXPECT_EQ(downloadAs<std::uint32_t>(device(), buffer),
+              std::vector<std::uint32_t>(16, 0xABCD1234u));
+}
+
+TEST_F(TransferTest, CountsTheMemoryThatBuffersHold) {
+    const std::uint64_t before = device().allocatedBytes();
+    {
+        const Buffer buffer(device(), {.size = 1 << 20, .usage = Usage::storage, .name = "MiB"});
+        EXPECT_GE(device().allocatedBytes(), before + (1 << 20));
+    }
+    EXPECT_EQ(device().allocatedBytes(), before);
+}
+
+TEST_F(TransferTest, SaysWhichBufferTheDeviceHasNoRoomFor) {
+    try {
+        const Buffer buffer(device(), {.size = std::size_t{1} << 50, .name = "a petabyte"});
+        FAIL() << "a petabyte was allocated";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("buffer 'a petabyte' of 1125899906842624 B"));
+    }
+    device().messages().take();  // the validation layer has its say about the size too
+}
+
+}  // namespace
+}  // namespace engine
