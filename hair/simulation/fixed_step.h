@@ -5,8 +5,8 @@
 namespace hair {
 
 // Turns the simulated time that frames advance into whole steps and carries the rest over. Time is
-// counted in whole parts of a step, 720,720 of them, so that every ratio p / q of frame to step with
-// q <= 16 is exact and no error builds up; any other is off by less than 1e-6 steps a frame.
+// counted in whole parts of a step, 720,720 of them, so that every ratio p / q of frame to step
+// with q <= 16 is exact and no error builds up; any other is off by less than 1e-6 steps a frame.
 class FixedStep {
 public:
     // time_step > 0, s.

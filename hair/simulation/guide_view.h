@@ -4,9 +4,11 @@
 
 namespace hair {
 
-// Where the guides are on the device, for who draws them. Valid as long as the simulation that gave it.
+// Where the guides are on the device, for who draws them. Valid as long as the simulation that gave
+// it.
 struct GuideView {
-    std::uint64_t positions = 0;  // device address of vec4 [strand][vertex], root first, m; w: inverse mass
+    std::uint64_t positions =
+        0;  // device address of vec4 [strand][vertex], root first, m; w: inverse mass
     std::uint32_t strand_count = 0;
     std::uint32_t vertices_per_strand = 0;
 };

@@ -5,8 +5,9 @@
 
 namespace hair {
 
-// A unit vector perpendicular to `v`: its cross product with the axis it has least of (x before y before
-// z where they tie). (0, 1, 0) for v = 0. The same choice as in shaders/common/quaternion.glsl.
+// A unit vector perpendicular to `v`: its cross product with the axis it has least of (x before y
+// before z where they tie). (0, 1, 0) for v = 0. The same choice as in
+// shaders/common/quaternion.glsl.
 inline glm::dvec3 perpendicular(const glm::dvec3& v) {
     const glm::dvec3 size = glm::abs(v);
     glm::dvec3 axis{0.0, 0.0, 1.0};

@@ -64,8 +64,8 @@ void Reference::advance(std::span<const glm::dvec3> wind_accelerations) {
     }
 }
 
-// The scalings that stiffness.h describes, from its text: the step against 1/60 s, 10 iterations and
-// segments of 0.15/7 m.
+// The scalings that stiffness.h describes, from its text: the step against 1/60 s, 10 iterations
+// and segments of 0.15/7 m.
 
 double Reference::keptFactor() const {
     const double kept = 1.0 - double{settings_.friction};
@@ -87,8 +87,8 @@ double Reference::localFactor(double segment_length) const {
     if (segment_length == 0.0) return 0.95;
     const double steps = double{settings_.time_step} * 60.0;
     const double left = std::pow(1.0 - k, 10.0);  // of an error after a reference step
-    const double c = (1.0 - left) / left * steps * steps *
-                     std::pow(0.15 / 7.0 / segment_length, 4.0);
+    const double c =
+        (1.0 - left) / left * steps * steps * std::pow(0.15 / 7.0 / segment_length, 4.0);
     const double left_by_step = 1.0 / (1.0 + c);
     return std::min(1.0 - std::pow(left_by_step, 1.0 / settings_.local.iterations), 0.95);
 }

@@ -11,8 +11,9 @@
 
 namespace hair {
 
-// The `shape` solver on the CPU in double: the functions of reference_constraints.h in the order of thesis
-// section 3.2, then collisions. Plain and slow; see simulation.h for the one that is measured.
+// The `shape` solver on the CPU in double: the functions of reference_constraints.h in the order of
+// thesis section 3.2, then collisions. Plain and slow; see simulation.h for the one that is
+// measured.
 class Reference {
 public:
     Reference(const Groom& groom, const SimulationSettings& settings, std::uint32_t seed);

@@ -72,8 +72,8 @@ void pullToRest(Points positions, ConstPoints rest, double stiffness) {
         positions[i] += stiffness * (rest[i] - positions[i]);
 }
 
-std::vector<glm::dmat3> segmentFrames(
-    ConstPoints positions, ConstPoints rest, const glm::dmat3& root_frame) {
+std::vector<glm::dmat3>
+segmentFrames(ConstPoints positions, ConstPoints rest, const glm::dmat3& root_frame) {
     std::vector<glm::dmat3> frames{root_frame};
     glm::dvec3 rest_tangent{0.0, 1.0, 0.0};  // of the segment before
     glm::dvec3 tangent{0.0};
@@ -81,8 +81,7 @@ std::vector<glm::dmat3> segmentFrames(
         const glm::dvec3 rest_edge = rest[i] - rest[i - 1];
         const glm::dvec3 edge = positions[i] - positions[i - 1];
         const bool has_rest_direction = glm::length(rest_edge) >= kShortest;
-        const glm::dvec3 next_rest =
-            has_rest_direction ? glm::normalize(rest_edge) : rest_tangent;
+        const glm::dvec3 next_rest = has_rest_direction ? glm::normalize(rest_edge) : rest_tangent;
         if (i == 1) {
             rest_tangent = next_rest;
             tangent = root_frame * next_rest;
@@ -131,14 +130,13 @@ void pushOut(Points positions, std::span<const Collider> colliders) {
             const glm::dvec3 axis = glm::dvec3(capsule.b) - a;
             double along = 0.0;
             if (glm::dot(axis, axis) > 0.0)
-                along = std::clamp(
-                    glm::dot(positions[i] - a, axis) / glm::dot(axis, axis), 0.0, 1.0);
+                along =
+                    std::clamp(glm::dot(positions[i] - a, axis) / glm::dot(axis, axis), 0.0, 1.0);
             const glm::dvec3 nearest = a + along * axis;
             const double distance = glm::distance(positions[i], nearest);
             if (distance >= double{capsule.radius}) continue;
-            const glm::dvec3 normal = distance < kShortest
-                                          ? sideways(axis)
-                                          : (positions[i] - nearest) / distance;
+            const glm::dvec3 normal =
+                distance < kShortest ? sideways(axis) : (positions[i] - nearest) / distance;
             positions[i] = nearest + double{capsule.radius} * normal;
         }
     }
@@ -172,8 +170,8 @@ glm::dvec3 strandWind(const WindSettings& settings, const std::array<double, 4>&
     return double{settings.strength} * wind;
 }
 
-std::vector<glm::dvec3> windAccelerations(
-    ConstPoints positions, const glm::dvec3& wind, double magnitude) {
+std::vector<glm::dvec3>
+windAccelerations(ConstPoints positions, const glm::dvec3& wind, double magnitude) {
     std::vector<glm::dvec3> accelerations(positions.size(), glm::dvec3(0.0));
     for (std::size_t i = 1; i < positions.size(); ++i) {
         const glm::dvec3 edge = positions[i] - positions[i - 1];

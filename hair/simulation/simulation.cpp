@@ -41,8 +41,8 @@ void dispatch(Commands& commands, std::uint32_t groups) {
 }
 
 // w: inverse mass.
-std::vector<glm::vec4> withMasses(
-    std::span<const glm::vec3> positions, std::uint32_t vertices_per_strand) {
+std::vector<glm::vec4>
+withMasses(std::span<const glm::vec3> positions, std::uint32_t vertices_per_strand) {
     std::vector<glm::vec4> result;
     result.reserve(positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i)
@@ -70,6 +70,7 @@ std::vector<gpu::Capsule> capsulesOf(const SimulationSettings& settings) {
 }
 
 std::uint32_t strandsPerGroup(const Device& device, const Groom& groom) {
+    assert(groom.strand_count > 0 && groom.vertices_per_strand > 1);
     const std::uint32_t most = device.info().limits.maxComputeWorkGroupInvocations;
     if (groom.vertices_per_strand > most)
         throw engine::Unsupported(
@@ -101,7 +102,6 @@ Simulation::Simulation(
           device, {.shader = "simulation/simulate.comp",
                    .constants = {strands_per_group_ * vertices_per_strand_, vertices_per_strand_},
                    .push_size = sizeof(gpu::SimulateParameters)}) {
-    assert(strand_count_ > 0 && vertices_per_strand_ > 1);
     assert(groom.points.size() == std::size_t{strand_count_} * vertices_per_strand_);
     restoreRest();
     settle(settings.settle_steps);

@@ -17,25 +17,25 @@
 namespace hair {
 
 // The guides on the device and the two compute passes that move them. A step is recordWind, then
-// recordStep; the constraints and their order are those of thesis section 3.2, then collisions. Simulated
-// time is the number of recorded steps times the time step: nothing depends on frames or clocks. Solver
-// `none` keeps the guides at rest and records nothing.
-// Between submissions the device's work is ordered by the barriers that are recorded here. Borrows the device.
+// recordStep; the constraints and their order are those of thesis section 3.2, then collisions.
+// Simulated time is the number of recorded steps times the time step: nothing depends on frames or
+// clocks. Solver `none` keeps the guides at rest and records nothing. Between submissions the
+// device's work is ordered by the barriers that are recorded here. Borrows the device.
 class Simulation {
 public:
     // The groom needs at least one strand and two vertices. Settles the guides (see settle) for
-    // settings.settle_steps. Throws Error for a wind direction without length, Unsupported if a strand
-    // has more vertices than the device has invocations in a workgroup.
+    // settings.settle_steps. Throws Error for a wind direction without length, Unsupported if a
+    // strand has more vertices than the device has invocations in a workgroup.
     Simulation(
         const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
         std::uint32_t seed);
 
-    // The wind's acceleration of every vertex at the current time. Recorded at strength 0 too, so that
-    // frames with and without wind do the same work.
+    // The wind's acceleration of every vertex at the current time. Recorded at strength 0 too, so
+    // that frames with and without wind do the same work.
     void recordWind(engine::Commands& commands) const;
 
-    // One time step under gravity and the wind recorded last. Positions are then visible to compute and
-    // to every graphics stage.
+    // One time step under gravity and the wind recorded last. Positions are then visible to compute
+    // and to every graphics stage.
     void recordStep(engine::Commands& commands);
 
     // Simulates steps without wind and waits for them; time stands still.

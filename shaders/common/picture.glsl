@@ -13,5 +13,6 @@
 layout(buffer_reference, scalar) readonly buffer PictureReference { PictureParameters parameters; };
 layout(buffer_reference, scalar) readonly buffer GuidePoints { vec4 points[]; };
 layout(buffer_reference, scalar) readonly buffer RootTriangles { uint guides[]; };
+layout(buffer_reference, scalar) readonly buffer RootNormals { vec3 normals[]; };
 
 #endif

@@ -15,8 +15,8 @@ vec3 rotate(vec4 rotation, vec3 v) {
     return v + rotation.w * t + cross(rotation.xyz, t);
 }
 
-// A unit vector perpendicular to v: its cross product with the axis it has least of (x before y before
-// z where they tie). (0, 1, 0) for v = 0.
+// A unit vector perpendicular to v: its cross product with the axis it has least of (x before y
+// before z where they tie). (0, 1, 0) for v = 0.
 vec3 perpendicular(vec3 v) {
     vec3 size = abs(v);
     vec3 axis = size.x <= size.y && size.x <= size.z ? vec3(1.0, 0.0, 0.0)

@@ -1,7 +1,8 @@
 #ifndef HAIRBENCH_COMMON_RANDOM_GLSL
 #define HAIRBENCH_COMMON_RANDOM_GLSL
 
-// Random numbers without state: a hash of (seed, index, purpose). hair/random.h has the same functions.
+// Random numbers without state: a hash of (seed, index, purpose). hair/random.h has the same
+// functions.
 
 // PCG hash: Jarzynski and Olano 2020, Hash Functions for GPU Rendering.
 uint pcg(uint value) {
@@ -18,6 +19,8 @@ uint hash(uint seed, uint index, uint purpose) {
 // In [0, 1): the top 24 bits, all of which a float holds.
 float unitFloat(uint bits) { return float(bits >> 8u) * (1.0 / 16777216.0); }
 
-float random01(uint seed, uint index, uint purpose) { return unitFloat(hash(seed, index, purpose)); }
+float random01(uint seed, uint index, uint purpose) {
+    return unitFloat(hash(seed, index, purpose));
+}
 
 #endif

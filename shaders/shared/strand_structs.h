@@ -25,6 +25,7 @@ struct PictureParameters {
 
     uint64_t guides;          // vec4 [guide][vertex], m, root first; w is not read
     uint64_t root_triangles;  // uint [triangle][3], guide indices
+    uint64_t root_normals;    // vec3 [guide], unit length; 0: not known, root triangles are flat
     uint vertices_per_guide;
     uint density;               // strands per root triangle at level 0
     uint tessellation;          // segments per guide segment at level 0
@@ -38,6 +39,21 @@ struct PictureParameters {
 // Push constants of everything that draws strands.
 struct StrandPush {
     uint64_t picture;  // PictureParameters
+};
+
+// A point of a strand, as strands/evaluate.comp writes it.
+struct StrandPointRecord {
+    vec3 position;  // m
+    float width;    // m; negative: the level of detail does not draw this point
+    vec3 tangent;   // d position / d t, t in [0, 1] along the guide segment; m
+    float along;    // 0 at the root, 1 at the tip
+};
+
+// Push constants of strands/evaluate.comp.
+struct StrandPointsPush {
+    uint64_t picture;  // PictureParameters
+    uint64_t records;  // StrandPointRecord [triangle][strand][guide segment][0 .. tessellation], written
+    uint count;
 };
 
 // Push constants of scene/mesh.

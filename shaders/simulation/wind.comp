@@ -26,7 +26,8 @@ vec3 strandWind(uint strand) {
            weights.z * params.directions[2] + weights.w * params.directions[3];
 }
 
-// The part of the wind across a segment with tangent T: (T x W) x T. None along a segment without one.
+// The part of the wind across a segment with tangent T: (T x W) x T. None along a segment without
+// one.
 vec3 across(vec3 edge, vec3 wind) {
     float len = length(edge);
     if (len < kShortestSegment) return vec3(0.0);

@@ -36,6 +36,7 @@ void main() {
     }
     StrandPoint point =
         pointOnStrand(picture, strand_patch.segment, strand_patch.lod.width_scale, r, t);
+    point.position += strandLift(rootLift(picture, guides), weights);
     position_and_width = vec4(point.position, drawn ? point.width : -1.0);
     tangent_and_along = vec4(point.tangent, point.along);
 }

@@ -90,11 +90,44 @@ vec3 rootWeights(uint key, uint strand) {
     uint bits = pcg(key + strand);
     float u = unitFloat(bits);
     float v = unitFloat(pcg(bits));
-    if (u + v > 1.0) {
+    if (u > 1.0 - v) {  // the difference is exact, the sum u + v is not
         u = 1.0 - u;
         v = 1.0 - v;
     }
     return vec3(u, v, 1.0 - u - v);
+}
+
+// The scalp bulges out of its flat root triangles. edges[i] times the product of its corners'
+// weights is the offset that the edge from corner i to corner i + 1 adds: half of the projection onto the corners' tangent
+// planes (Boubekeur and Alexa 2008, Phong tessellation, with alpha = 1/2, which is exact to second order on a
+// sphere).
+struct RootLift {
+    vec3 edges[3];
+};
+
+vec3 edgeLift(vec3 from, vec3 to, vec3 normal_from, vec3 normal_to) {
+    vec3 edge = from - to;
+    return 0.5 * (dot(edge, normal_from) * normal_from - dot(edge, normal_to) * normal_to);
+}
+
+RootLift rootLift(PictureParameters picture, uvec3 guides) {
+    RootLift lift;
+    for (int i = 0; i < 3; ++i) lift.edges[i] = vec3(0.0);
+    if (picture.root_normals == 0) return lift;
+    RootNormals normals = RootNormals(picture.root_normals);
+    for (int i = 0; i < 3; ++i) {
+        uint from = guides[i];
+        uint to = guides[(i + 1) % 3];
+        lift.edges[i] = edgeLift(guideVertex(picture, from, 0), guideVertex(picture, to, 0),
+                                 normals.normals[from], normals.normals[to]);
+    }
+    return lift;
+}
+
+// What a whole strand is moved by, so that its root is on the scalp.
+vec3 strandLift(RootLift lift, vec3 weights) {
+    return weights.x * weights.y * lift.edges[0] + weights.y * weights.z * lift.edges[1] +
+           weights.z * weights.x * lift.edges[2];
 }
 
 // Control point k of the strand from control point k of its three guides.

@@ -11,6 +11,7 @@ layout(location = 0) in uint patch_index[];
 layout(location = 0) patch out uvec4 patch_ids;  // key, segment, first strand, isolines
 layout(location = 1) patch out vec2 patch_lod;   // tessellation, width scale
 layout(location = 2) patch out vec3 control_points[12];  // [guide of the triangle][r(i-1) … r(i+2)]
+layout(location = 14) patch out vec3 root_lift[3];
 
 void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;
@@ -27,6 +28,8 @@ void main() {
                 guideControlPoint(picture, guides[corner], int(strand_patch.segment) + k - 1);
         }
     }
+
+    root_lift = rootLift(picture, guides).edges;
 
     gl_TessLevelOuter[0] = float(isolines);  // 0 drops the patch
     gl_TessLevelOuter[1] = float(strand_patch.lod.tessellation);

@@ -9,6 +9,7 @@ layout(push_constant, scalar) uniform Push { StrandPush push; };
 layout(location = 0) patch in uvec4 patch_ids;
 layout(location = 1) patch in vec2 patch_lod;
 layout(location = 2) patch in vec3 control_points[12];
+layout(location = 14) patch in vec3 root_lift[3];
 layout(location = 0) out vec4 position_and_width;
 layout(location = 1) out vec4 tangent_and_along;
 
@@ -24,6 +25,7 @@ void main() {
         r[k] = mixGuides(weights, control_points[k], control_points[4 + k], control_points[8 + k]);
     }
     StrandPoint point = pointOnStrand(picture, patch_ids.y, patch_lod.y, r, t);
+    point.position += strandLift(RootLift(root_lift), weights);
     position_and_width = vec4(point.position, point.width);
     tangent_and_along = vec4(point.tangent, point.along);
 }

@@ -4,8 +4,8 @@
 #include "common/quaternion.glsl"
 #include "shared/simulation_structs.h"
 
-// The nearest point that is not inside the capsule. From a point on its axis that is sideways, along
-// perpendicular(axis).
+// The nearest point that is not inside the capsule. From a point on its axis that is sideways,
+// along perpendicular(axis).
 vec3 pushOut(vec3 position, Capsule capsule) {
     vec3 axis = capsule.b - capsule.a;
     float size = dot(axis, axis);

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/commands.h"
+#include "engine/device.h"
+#include "hair/simulation/simulation.h"
+
+namespace hair {
+
+// Runs wind and step `steps` times and waits.
+inline void advance(const engine::Device& device, Simulation& simulation, int steps) {
+    device.runOnce([&](engine::Commands& commands) {
+        for (int i = 0; i < steps; ++i) {
+            simulation.recordWind(commands);
+            simulation.recordStep(commands);
+        }
+    });
+}
+
+}  // namespace hair

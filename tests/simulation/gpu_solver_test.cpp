@@ -1,0 +1,182 @@
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "hair/simulation/reference.h"
+#include "tests/gpu_fixture.h"
+#include "tests/simulation/gpu_simulation.h"
+#include "tests/simulation/strands.h"
+
+// The whole solver on the device.
+namespace hair {
+namespace {
+
+bool sameBits(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
+}
+
+SimulationSettings windy() {
+    SimulationSettings settings;
+    settings.wind.strength = 10.0f;
+    settings.colliders = {{.a = {0, 0, 0}, .b = {0, 0.05f, 0}, .radius = 0.06f}};
+    return settings;
+}
+
+using GpuSolver = GpuTest;
+
+TEST_F(GpuSolver, FollowsVerletsDiscreteParabola) {
+    const Groom groom = straightGroom(3, 4);
+    SimulationSettings settings = nothingActs();
+    settings.gravity = {0.5f, -9.8f, 0.25f};
+    Simulation simulation(device(), groom, settings, 1);
+    advance(device(), simulation, 60);
+    const double dt = settings.time_step;
+    const glm::dvec3 fallen = 60.0 * 61.0 / 2.0 * dt * dt * glm::dvec3(settings.gravity);
+    const auto points = simulation.readPositions();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const glm::dvec3 moved = i % 4 == 0 ? glm::dvec3(0.0) : fallen;
+        // Positions up to 5 m are rounded by up to 2.4e-7 m a step, and a rounding in step n is
+        // velocity for the 60 - n after it: 60 * 61 / 2 * 2.4e-7 m at worst, a tenth of that as
+        // they are random.
+        EXPECT_LT(
+            glm::distance(glm::dvec3(points[i]), glm::dvec3(groom.points[i]) + moved), 4.4e-5);
+    }
+}
+
+// A hundred steps of everything together. The bound comes from the problem, not from the device: a
+// second reference is disturbed by the rounding of a float in every vertex after every step, and
+// the distance between the two says how far the solver spreads one rounding a step. The device
+// rounds once per pull and sweep, independently, so its error is larger by the root of their
+// number; twice that, because it may divide and take roots to less than a float's precision.
+TEST_F(GpuSolver, StaysNearTheReferenceForAHundredSteps) {
+    for (const StiffnessScaling scaling : {StiffnessScaling::thesis, StiffnessScaling::invariant})
+        for (const std::uint32_t vertices : {2u, 3u, 8u, 9u, 16u, 33u, 64u}) {
+            const Groom groom = wavyGroom(5, vertices);
+            SimulationSettings settings = windy();
+            settings.stiffness_scaling = scaling;
+            Simulation simulation(device(), groom, settings, 3);
+            Reference solver(groom, settings, 3);
+            Reference rounded(groom, settings, 3);
+            std::mt19937 random(1);
+            for (int i = 0; i < 100; ++i) {
+                solver.step();
+                rounded.step();
+                auto positions =
+                    std::vector(rounded.positions().begin(), rounded.positions().end());
+                for (std::size_t v = 0; v < positions.size(); ++v)
+                    if (v % vertices != 0)
+                        positions[v] *= glm::dvec3(1.0) + 0x1p-24 * randomVector(random);
+                rounded.setState(
+                    positions, std::vector(rounded.previous().begin(), rounded.previous().end()));
+            }
+            advance(device(), simulation, 100);
+            const double spread = largestDistance(rounded.positions(), solver.positions());
+            const double roundings =
+                2.0 + 2.0 * (settings.local.iterations + settings.length.iterations);
+            const double error = largestDistance(simulation.readPositions(), solver.positions());
+            EXPECT_LT(error, 2.0 * std::sqrt(roundings) * spread) << vertices << " vertices";
+            EXPECT_LT(spread, 1e-4 * longestStrand(groom)) << vertices << " vertices";
+        }
+}
+
+TEST_F(GpuSolver, GivesTheSameBitsEveryTime) {
+    const Groom groom = wavyGroom(37, 9);
+    Simulation first(device(), groom, windy(), 3);
+    Simulation second(device(), groom, windy(), 3);
+    advance(device(), first, 50);
+    for (int i = 0; i < 50; ++i) advance(device(), second, 1);  // in submissions of their own
+    const auto points = first.readPositions();
+    EXPECT_TRUE(sameBits(points, second.readPositions()));
+    EXPECT_DOUBLE_EQ(first.time(), 50 * double{windy().time_step});
+
+    first.reset();
+    EXPECT_EQ(first.time(), 0.0);
+    EXPECT_TRUE(sameBits(first.readPositions(), groom.points));
+    advance(device(), first, 50);
+    EXPECT_TRUE(sameBits(points, first.readPositions()));
+}
+
+// A strand's motion depends on neither its neighbours nor its place in a workgroup.
+TEST_F(GpuSolver, MovesAStrandTheSameInAnyCompany) {
+    const Groom many = wavyGroom(21, 9);
+    Groom few = many;
+    few.strand_count = 4;
+    few.points.resize(4 * 9);
+    Simulation crowd(device(), many, windy(), 3);
+    Simulation group(device(), few, windy(), 3);
+    advance(device(), crowd, 20);
+    advance(device(), group, 20);
+    auto points = crowd.readPositions();
+    points.resize(few.points.size());
+    EXPECT_TRUE(sameBits(points, group.readPositions()));
+}
+
+TEST_F(GpuSolver, SeedChangesTheWind) {
+    const Groom groom = wavyGroom(4, 8);
+    Simulation first(device(), groom, windy(), 3);
+    Simulation second(device(), groom, windy(), 4);
+    advance(device(), first, 10);
+    advance(device(), second, 10);
+    EXPECT_FALSE(sameBits(first.readPositions(), second.readPositions()));
+}
+
+TEST_F(GpuSolver, SettlesWithoutWindOrTime) {
+    const Groom groom = wavyGroom(4, 8);
+    SimulationSettings calm = windy();
+    calm.wind.strength = 0.0f;
+    Simulation expected(device(), groom, calm, 3);
+    advance(device(), expected, 100);
+
+    SimulationSettings settings = windy();
+    settings.settle_steps = 100;
+    Simulation simulation(device(), groom, settings, 3);
+    EXPECT_EQ(simulation.time(), 0.0);
+    EXPECT_TRUE(sameBits(simulation.readPositions(), expected.readPositions()));
+    advance(device(), simulation, 1);
+    simulation.reset();
+    EXPECT_TRUE(sameBits(simulation.readPositions(), expected.readPositions()));
+}
+
+TEST_F(GpuSolver, NoneStaysAtRest) {
+    const Groom groom = wavyGroom(4, 8);
+    SimulationSettings settings = windy();
+    settings.solver = Solver::none;
+    settings.settle_steps = 3;
+    Simulation simulation(device(), groom, settings, 3);
+    advance(device(), simulation, 5);
+    EXPECT_TRUE(sameBits(simulation.readPositions(), groom.points));
+}
+
+TEST_F(GpuSolver, ShowsWhereTheGuidesAre) {
+    const Groom groom = wavyGroom(4, 8);
+    const Simulation simulation(device(), groom, windy(), 3);
+    const GuideView view = simulation.guides();
+    EXPECT_NE(view.positions, 0u);
+    EXPECT_EQ(view.strand_count, 4u);
+    EXPECT_EQ(view.vertices_per_strand, 8u);
+}
+
+// More workgroups than one row of a dispatch holds (65,535 strands that fill a workgroup each).
+TEST_F(GpuSolver, MovesMoreStrandsThanARowOfWorkgroups) {
+    const Groom one = wavyGroom(1, 33);
+    Groom groom{.strand_count = 66000, .vertices_per_strand = 33};
+    for (std::uint32_t s = 0; s < groom.strand_count; ++s)
+        groom.points.insert(groom.points.end(), one.points.begin(), one.points.end());
+    SimulationSettings settings;  // no wind, so that all strands move alike
+    settings.local.iterations = 1;
+    settings.length.iterations = 1;
+    Simulation simulation(device(), groom, settings, 3);
+    Simulation single(device(), one, settings, 3);
+    advance(device(), simulation, 1);
+    advance(device(), single, 1);
+    const auto points = simulation.readPositions();
+    const auto expected = single.readPositions();
+    for (const std::size_t strand : {0u, 65534u, 65535u, 65999u})
+        for (std::size_t v = 0; v < 33; ++v)
+            EXPECT_EQ(points[strand * 33 + v], expected[v]) << strand;
+}
+
+}  // namespace
+}  // namespace hair

@@ -1,0 +1,86 @@
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "hair/simulation/reference_constraints.h"
+#include "tests/simulation/strands.h"
+
+namespace hair {
+namespace {
+
+// Largest |length / rest length - 1| of the strand's segments.
+double lengthError(std::span<const glm::dvec3> points, std::span<const glm::dvec3> rest) {
+    double largest = 0.0;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const double ratio =
+            glm::distance(points[i], points[i - 1]) / glm::distance(rest[i], rest[i - 1]);
+        largest = std::max(largest, std::abs(ratio - 1.0));
+    }
+    return largest;
+}
+
+TEST(LengthConstraint, LeavesRestAndPinnedRootInPlace) {
+    const Groom groom = wavyGroom(1, 9);
+    const auto rest = toDouble(groom.points);
+    auto points = rest;
+    reference::projectLengths(points, rest);
+    EXPECT_LT(largestDistance(points, rest), 1e-15);
+
+    points = toDouble(disturbed(groom, 0.02, 2));
+    for (int i = 0; i < 100; ++i) reference::projectLengths(points, rest);
+    EXPECT_EQ(points[0], rest[0]);
+}
+
+// By hand, (12): the root's segment 3 long for 1 moves vertex 1 to 1; then the next is 5 long for 1
+// and each of its ends moves by 2.
+TEST(LengthConstraint, MovesRedThenBlackSegments) {
+    const std::vector<glm::dvec3> rest{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+    std::vector<glm::dvec3> points{{0, 0, 0}, {3, 0, 0}, {6, 0, 0}};
+    reference::projectLengths(points, rest);
+    EXPECT_LT(glm::distance(points[1], glm::dvec3(3, 0, 0)), 1e-15);
+    EXPECT_LT(glm::distance(points[2], glm::dvec3(4, 0, 0)), 1e-15);
+}
+
+// On a straight strand the stretch of a segment is handed on to its neighbours: half to each, all
+// of it away from the root, and half is lost at the tip. That is a random walk between a mirror and
+// a sink N steps apart, so Jacobi's slowest mode shrinks by cos(pi / 2N) and red-black
+// Gauss-Seidel's by its square.
+TEST(LengthConstraint, ConvergesAtTheRateOfTheory) {
+    for (const std::size_t segments : {2u, 3u, 7u, 15u}) {
+        std::vector<glm::dvec3> rest;
+        std::vector<glm::dvec3> points;
+        for (std::size_t i = 0; i <= segments; ++i) {
+            rest.emplace_back(0.0, -0.02 * static_cast<double>(i), 0.0);
+            points.push_back(1.2 * rest.back());
+        }
+        const double theory =
+            std::pow(std::cos(std::numbers::pi / (2.0 * static_cast<double>(segments))), 2.0);
+        // Skips until only the slowest mode is left, and stays far above rounding.
+        const int skipped = static_cast<int>(std::log(1e-3) / std::log(theory));
+        for (int i = 0; i < skipped; ++i) reference::projectLengths(points, rest);
+        for (int i = 0; i < 5; ++i) {
+            const double before = lengthError(points, rest);
+            reference::projectLengths(points, rest);
+            EXPECT_NEAR(lengthError(points, rest) / before, theory, 1e-4) << segments;
+        }
+    }
+}
+
+TEST(LengthConstraint, ConvergesFromADisturbedStrand) {
+    const Groom groom = wavyGroom(1, 8);
+    const auto rest = toDouble(groom.points);
+    auto points = toDouble(disturbed(groom, 0.01, 4));
+    for (int i = 0; i < 500; ++i) reference::projectLengths(points, rest);
+    EXPECT_LT(lengthError(points, rest), 1e-6);
+}
+
+TEST(LengthConstraint, PartsVerticesThatCoincide) {
+    const std::vector<glm::dvec3> rest{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+    std::vector<glm::dvec3> points(3, glm::dvec3(0.0));
+    for (int i = 0; i < 100; ++i) reference::projectLengths(points, rest);
+    EXPECT_LT(lengthError(points, rest), 1e-12);
+}
+
+}  // namespace
+}  // namespace hair
