@@ -113,6 +113,17 @@ void Commands::copy(const Image& source, const Buffer& destination) {
                            destination.get(), 1, &region);
 }
 
+void Commands::copy(const Image& source, const Image& destination) {
+    const VkExtent2D extent = source.extent();
+    const VkImageCopy region{.srcSubresource = {source.aspect(), 0, 0, 1},
+                             .srcOffset = {0, 0, 0},
+                             .dstSubresource = {destination.aspect(), 0, 0, 1},
+                             .dstOffset = {0, 0, 0},
+                             .extent = {extent.width, extent.height, 1}};
+    vkCmdCopyImage(buffer_, source.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, destination.get(),
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+}
+
 void Commands::fill(const Buffer& buffer, std::uint32_t value) {
     vkCmdFillBuffer(buffer_, buffer.get(), 0, VK_WHOLE_SIZE, value);
 }

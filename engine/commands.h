@@ -50,6 +50,8 @@ public:
                     Access after);
 
     void copy(const Buffer& source, const Buffer& destination, std::size_t bytes);
+    // Of one size; TRANSFER_SRC_OPTIMAL to TRANSFER_DST_OPTIMAL.
+    void copy(const Image& source, const Image& destination);
     void copy(const Image& source, const Buffer& destination);  // TRANSFER_SRC_OPTIMAL, tightly packed
     void fill(const Buffer& buffer, std::uint32_t value);
 

@@ -66,11 +66,17 @@ Device::Device(const DeviceOptions& options)
     VkCommandPool handle{};
     check(vkCreateCommandPool(device_, &pool, nullptr, &handle), "create a command pool");
     pool_ = {device_, handle};
+    const VkFenceCreateInfo fence{
+        .sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, .pNext = nullptr, .flags = 0};
+    VkFence fence_handle{};
+    check(vkCreateFence(device_, &fence, nullptr, &fence_handle), "create a fence");
+    fence_ = {device_, fence_handle};
 }
 
 Device::~Device() {
     vkDeviceWaitIdle(device_);
     pool_ = {};
+    fence_ = {};
     cache_.reset();
     vmaDestroyAllocator(allocator_);
     vkDestroyDevice(device_, nullptr);
@@ -132,8 +138,11 @@ void Device::runOnce(const std::function<void(Commands&)>& record) const {
     submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
     submit.commandBufferInfoCount = 1;
     submit.pCommandBufferInfos = &submitted;
-    check(vkQueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE), "submit");
-    check(vkQueueWaitIdle(queue_), "wait for the device");
+    const VkFence fence = fence_.get();
+    check(vkQueueSubmit2(queue_, 1, &submit, fence), "submit");
+    check(vkWaitForFences(device_, 1, &fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max()),
+          "wait for the device");
+    check(vkResetFences(device_, 1, &fence), "reset a fence");
     vkFreeCommandBuffers(device_, pool_.get(), 1, &buffer);
 }
 

@@ -61,6 +61,7 @@ private:
     VmaAllocator_T* allocator_{};
     std::unique_ptr<PipelineCache> cache_;
     Handle<VkCommandPool, &vkDestroyCommandPool> pool_;
+    Handle<VkFence, &vkDestroyFence> fence_;
 };
 
 }  // namespace engine

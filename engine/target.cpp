@@ -47,7 +47,8 @@ VkRenderingAttachmentInfo attachment(const Image& image, Load load, VkImageLayou
 Target::Target(const Device& device, const TargetDescription& description)
     : description_(checked(device, description)),
       color_(device, rendered(description, kColorFormat,
-                              VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                              VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                  VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                               "color")),
       depth_(device, rendered(description, kDepthFormat,
                               VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, "depth")),
@@ -55,7 +56,8 @@ Target::Target(const Device& device, const TargetDescription& description)
                        .width = description.width,
                        .height = description.height,
                        .samples = 1,
-                       .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                       .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                VK_IMAGE_USAGE_TRANSFER_DST_BIT,
                        .name = "output"}) {}
 
 void Target::beginRendering(Commands& commands, Load load,
@@ -63,8 +65,8 @@ void Target::beginRendering(Commands& commands, Load load,
     constexpr VkImageLayout kColor = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
     constexpr VkImageLayout kDepth = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
     if (load == Load::clear) {
-        commands.transition(color_, VK_IMAGE_LAYOUT_UNDEFINED, kColor, Access::compute_read,
-                            Access::attachment);
+        commands.transition(color_, VK_IMAGE_LAYOUT_UNDEFINED, kColor, Access::anything,
+                            Access::attachment);  // after the last frame's resolve
         commands.transition(depth_, VK_IMAGE_LAYOUT_UNDEFINED, kDepth, Access::attachment,
                             Access::attachment);
     } else {
@@ -105,6 +107,18 @@ void Target::beginResolve(Commands& commands) const {
 void Target::endResolve(Commands& commands) const {
     commands.transition(output_, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                         Access::compute_write, Access::transfer_read);
+}
+
+void Target::copyToOutput(Commands& commands) const {
+    commands.transition(color_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, Access::attachment,
+                        Access::transfer_read);
+    commands.transition(output_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                        Access::transfer_read, Access::transfer_write);
+    commands.copy(color_, output_);
+    commands.transition(output_, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, Access::transfer_write,
+                        Access::transfer_read);
 }
 
 std::vector<std::uint8_t> readOutput(const Device& device, const Target& target) {

@@ -33,9 +33,12 @@ public:
     void beginResolve(Commands& commands) const;
     void endResolve(Commands& commands) const;
 
+    // Copies color() to output(): the resolve of a target with one sample a pixel.
+    void copyToOutput(Commands& commands) const;
+
     const TargetDescription& description() const { return description_; }
     const Image& color() const { return color_; }
-    const Image& output() const { return output_; }  // TRANSFER_SRC_OPTIMAL after endResolve
+    const Image& output() const { return output_; }  // TRANSFER_SRC_OPTIMAL once resolved
 
 private:
     TargetDescription description_;

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-// Random numbers without state: a hash of (seed, index, purpose), the same on every machine and in any order.
-// shaders/common/random.glsl has the same functions.
+// Random numbers without state: a hash of (seed, index, purpose), the same on every machine and in
+// any order. shaders/common/random.glsl has the same functions.
 namespace hair {
 
 // PCG as a hash; Jarzynski and Olano 2020, Hash functions for GPU rendering, JCGT 9(3).

@@ -121,6 +121,18 @@ constexpr auto fields(const Collider*) {
                       Field{"radius", &S::radius, 0.0001, 10, "m", "radius"}};
 }
 
+struct CollisionSettings {
+    float margin = 0.0f;
+    float friction = 0.0f;
+};
+
+constexpr auto fields(const CollisionSettings*) {
+    using S = CollisionSettings;
+    return std::tuple{
+        Field{"margin", &S::margin, 0, 1, "m", "distance that guides keep from colliders"},
+        Field{"friction", &S::friction, 0, 10, "1", "Coulomb's coefficient of friction on colliders"}};
+}
+
 enum class Solver { none, shape };
 enum class StiffnessScaling { invariant, thesis };
 
@@ -135,6 +147,7 @@ struct SimulationSettings {
     LocalSettings local;
     LengthSettings length;
     WindSettings wind;
+    CollisionSettings collision;
     std::vector<Collider> colliders;
 };
 
@@ -159,6 +172,7 @@ constexpr auto fields(const SimulationSettings*) {
         Group<S, LocalSettings>{"local", &S::local, "pull toward the rest shape"},
         Group<S, LengthSettings>{"length", &S::length, "inextensible segments"},
         Group<S, WindSettings>{"wind", &S::wind, "wind"},
+        Group<S, CollisionSettings>{"collision", &S::collision, "contact with colliders"},
         List<S, Collider>{"colliders", &S::colliders, 64, "capsules that push guides out"}};
 }
 

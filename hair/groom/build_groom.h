@@ -20,9 +20,10 @@ struct GroomImporter {
 // A new format is a row here.
 std::span<const GroomImporter> groomImporters();
 
-// The guides that a scene asks for: read from settings.file, relative to `directory` (the scene's folder), or,
-// if that is empty, grown on `mesh`, which is then needed: it is what settings.grow.mesh names.
-// Throws engine::Error "path: reason" with the path of the guide file or of the mesh.
+// The guides that a scene asks for: read from settings.file, relative to `directory` (the scene's
+// folder), or, if that is empty, grown on `mesh`, which is then needed: it is what
+// settings.grow.mesh names. Throws engine::Error "path: reason" with the path of the guide file or
+// of the mesh.
 Groom buildGroom(
     const GroomSettings& settings, const Mesh* mesh, const std::filesystem::path& directory,
     std::uint32_t seed);

@@ -33,15 +33,14 @@ bool edgesMeet(const Edge& p, const Edge& q) {
 
 // Whether the edges from b go back along each other.
 bool foldsBack(GridPoint a, GridPoint b, GridPoint c) {
-    return orientation(a, b, c) == 0 &&
-           (a.x - b.x) * (c.x - b.x) + (a.y - b.y) * (c.y - b.y) >= 0;
+    return orientation(a, b, c) == 0 && (a.x - b.x) * (c.x - b.x) + (a.y - b.y) * (c.y - b.y) >= 0;
 }
 
 void checkSimple(std::span<const GridPoint> polygon) {
     const std::size_t n = polygon.size();
     const auto fail = [](std::size_t i, std::size_t j) {
-        throw engine::Error("the boundary meets itself: edges " + std::to_string(i) + " and " +
-                            std::to_string(j));
+        throw engine::Error(
+            "the boundary meets itself: edges " + std::to_string(i) + " and " + std::to_string(j));
     };
     const auto edge = [&](std::size_t i) { return Edge{polygon[i], polygon[(i + 1) % n]}; };
     for (std::size_t i = 0; i < n; ++i) {
@@ -53,8 +52,8 @@ void checkSimple(std::span<const GridPoint> polygon) {
     }
 }
 
-// Twice the area, counter-clockwise positive. Below 2^(2 kGridBits + 1) for a simple polygon, and sums that
-// overflow on the way wrap back.
+// Twice the area, counter-clockwise positive. Below 2^(2 kGridBits + 1) for a simple polygon, and
+// sums that overflow on the way wrap back.
 bool isClockwise(std::span<const GridPoint> polygon) {
     std::uint64_t sum = 0;
     for (std::size_t i = 0; i < polygon.size(); ++i) {

@@ -9,7 +9,8 @@
 namespace hair {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the file is written as it lies in memory");
+static_assert(
+    std::endian::native == std::endian::little, "the file is written as it lies in memory");
 static_assert(sizeof(glm::vec3) == 12 && sizeof(std::array<std::uint32_t, 3>) == 12);
 
 template <class Element>
@@ -24,8 +25,9 @@ void write(std::ofstream& file, std::span<const Element> elements) {
 void exportHgl(const Groom& groom, const std::filesystem::path& path) {
     if (groom.strand_count < 1) throw engine::Error(path.string(), "the groom has no strands");
     if (groom.vertices_per_strand < 2 || groom.vertices_per_strand > 256) {
-        throw engine::Error(path.string(), std::to_string(groom.vertices_per_strand) +
-                                               " vertices per strand is outside [2, 256]");
+        throw engine::Error(
+            path.string(),
+            std::to_string(groom.vertices_per_strand) + " vertices per strand is outside [2, 256]");
     }
     assert(groom.points.size() == std::size_t{groom.strand_count} * groom.vertices_per_strand);
     const std::array<std::uint32_t, 3> header{

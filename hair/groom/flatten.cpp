@@ -26,7 +26,8 @@ std::vector<Facet> facets(const Scalp& scalp) {
         const glm::dvec3 b(scalp.positions[j]);
         const glm::dvec3 c(scalp.positions[k]);
         const glm::dvec3 area_vector = 0.5 * glm::cross(b - a, c - a);
-        if (glm::length(area_vector) > 0.0) facets.push_back({(a + b + c) / 3.0, area_vector, {a, b, c}});
+        if (glm::length(area_vector) > 0.0)
+            facets.push_back({(a + b + c) / 3.0, area_vector, {a, b, c}});
     }
     return facets;
 }
@@ -99,8 +100,9 @@ Flattening flatten(const Scalp& scalp) {
         flattening.centre = centre;
     }
     if (best <= 0.0) {
-        throw engine::Error("the scalp folds over itself when flattened: there is no point inside from "
-                            "which every triangle is seen from behind");
+        throw engine::Error(
+            "the scalp folds over itself when flattened: there is no point inside from "
+            "which every triangle is seen from behind");
     }
     if (coversAntipode(scalp_facets, flattening)) {
         throw engine::Error("the scalp wraps all the way round and can't be flattened");

@@ -5,7 +5,8 @@
 // Points of the plane with whole coordinates, on which geometric questions have exact answers.
 namespace hair {
 
-// |coordinate| < 2^kGridBits: then the largest intermediate of inCircle() is below 2^(4 kGridBits + 6) < 2^127.
+// |coordinate| < 2^kGridBits: then the largest intermediate of inCircle() is below 2^(4 kGridBits +
+// 6) < 2^127.
 inline constexpr int kGridBits = 29;
 
 struct GridPoint {
@@ -20,9 +21,9 @@ constexpr std::int64_t orientation(GridPoint a, GridPoint b, GridPoint c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// Whether d lies strictly inside the circle through a, b and c, which are counter-clockwise. The usual
-// determinant of the paraboloid lift; Guibas and Stolfi 1985, Primitives for the manipulation of general
-// subdivisions and the computation of Voronoi diagrams, lemma 8.1.
+// Whether d lies strictly inside the circle through a, b and c, which are counter-clockwise. The
+// usual determinant of the paraboloid lift; Guibas and Stolfi 1985, Primitives for the manipulation
+// of general subdivisions and the computation of Voronoi diagrams, lemma 8.1.
 constexpr bool inCircle(GridPoint a, GridPoint b, GridPoint c, GridPoint d) {
     __extension__ using Wide = __int128;
     const auto term = [&d](GridPoint p, GridPoint q, GridPoint r) {

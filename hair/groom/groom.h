@@ -15,6 +15,7 @@ struct Groom {
     std::uint32_t strand_count = 0;
     std::uint32_t vertices_per_strand = 0;  // V >= 2, the same for every strand
     std::vector<glm::vec3> points;          // [strand][vertex], m, root first
+    std::vector<glm::vec3> root_normals;    // [strand], of the scalp, unit length; empty: not known
     std::vector<std::array<std::uint32_t, 3>> root_triangles;  // guide indices; strands grow between them
 
     std::uint32_t segmentsPerStrand() const { return vertices_per_strand - 1; }

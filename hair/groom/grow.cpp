@@ -31,7 +31,8 @@ glm::dvec3 drooped(const glm::dvec3& direction, double turn) {
 
 }  // namespace
 
-Groom grow(const Mesh& mesh, const GrowSettings& settings, std::uint32_t guides, std::uint32_t seed) {
+Groom grow(
+    const Mesh& mesh, const GrowSettings& settings, std::uint32_t guides, std::uint32_t seed) {
     assert(settings.vertices >= 2);
     Roots roots = placeRoots(extractScalp(mesh), guides, seed);
     Groom groom;
@@ -39,11 +40,13 @@ Groom grow(const Mesh& mesh, const GrowSettings& settings, std::uint32_t guides,
     groom.vertices_per_strand = settings.vertices;
     groom.root_triangles = std::move(roots.triangles);
     groom.points.reserve(std::size_t{guides} * settings.vertices);
+    groom.root_normals.reserve(guides);
     const double segment_length = double{settings.length} / groom.segmentsPerStrand();
     for (const SurfacePoint& root : roots.points) {
         const glm::dvec3 direction = rootDirection(root, settings.comb);
         glm::dvec3 position(root.position);
         groom.points.push_back(root.position);
+        groom.root_normals.push_back(root.normal);
         for (std::uint32_t segment = 0; segment < groom.segmentsPerStrand(); ++segment) {
             const double middle = (segment + 0.5) * segment_length;
             position += segment_length * drooped(direction, settings.droop * middle);

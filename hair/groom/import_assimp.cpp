@@ -41,10 +41,10 @@ void append(Mesh& mesh, const aiMesh& part) {
         if (face.mNumIndices != 3) continue;
         for (unsigned corner = 0; corner < 3; ++corner) {
             if (face.mIndices[corner] >= part.mNumVertices) {
-                throw engine::Error("triangle " + std::to_string(i) + " of mesh '" +
-                                    part.mName.C_Str() + "' names vertex " +
-                                    std::to_string(face.mIndices[corner]) + ", there are " +
-                                    std::to_string(part.mNumVertices));
+                throw engine::Error(
+                    "triangle " + std::to_string(i) + " of mesh '" + part.mName.C_Str() +
+                    "' names vertex " + std::to_string(face.mIndices[corner]) + ", there are " +
+                    std::to_string(part.mNumVertices));
             }
         }
         mesh.triangles.push_back(
@@ -57,8 +57,8 @@ void append(Mesh& mesh, const aiMesh& part) {
 
 Mesh importAssimp(const std::filesystem::path& path) {
     Assimp::Importer importer;
-    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
-                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    importer.SetPropertyInteger(
+        AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, kIgnored);
     const aiScene* scene = importer.ReadFile(path.string(), kSteps | aiProcess_RemoveComponent);
     if (!scene) throw engine::Error(importer.GetErrorString());

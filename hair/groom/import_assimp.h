@@ -6,7 +6,8 @@
 
 namespace hair {
 
-// Whatever assimp reads, with node transforms applied, polygons triangulated, points and lines left out.
+// Whatever assimp reads, with node transforms applied, polygons triangulated, points and lines left
+// out.
 Mesh importAssimp(const std::filesystem::path& path);
 
 }  // namespace hair

@@ -10,8 +10,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 
-// The only unit that sees tinygltf: assimp's libdraco exports a tinygltf of its own, so this one is compiled in here,
-// with hidden visibility.
+// The only unit that sees tinygltf: assimp's libdraco exports a tinygltf of its own, so this one is
+// compiled in here, with hidden visibility.
 #include <nlohmann/json.hpp>
 #define TINYGLTF_IMPLEMENTATION
 #define TINYGLTF_NO_INCLUDE_JSON
@@ -30,8 +30,9 @@ std::string describe(const char* kind, int index) { return kind + (" " + std::to
 template <class Element>
 const Element& at(const std::vector<Element>& elements, int index, const char* kind) {
     if (index < 0 || static_cast<std::size_t>(index) >= elements.size()) {
-        throw engine::Error("the file names " + describe(kind, index) + ", it has " +
-                            std::to_string(elements.size()));
+        throw engine::Error(
+            "the file names " + describe(kind, index) + ", it has " +
+            std::to_string(elements.size()));
     }
     return elements[static_cast<std::size_t>(index)];
 }
@@ -57,8 +58,9 @@ Elements elements(const tinygltf::Model& model, int index) {
     const tinygltf::BufferView& view = at(model.bufferViews, accessor.bufferView, "buffer view");
     const tinygltf::Buffer& buffer = at(model.buffers, view.buffer, "buffer");
     const int stride = accessor.ByteStride(view);
-    const int size = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType)) *
-                     tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+    const int size =
+        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType)) *
+        tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
     if (stride <= 0 || size <= 0) throw engine::Error(name, "unknown type");
     const auto step = static_cast<std::size_t>(stride);
     const auto width = static_cast<std::size_t>(size);
@@ -98,10 +100,17 @@ std::vector<std::uint32_t> readIndices(const tinygltf::Model& model, int index) 
         throw engine::Error(describe("accessor", index), "indices are not SCALAR");
     }
     switch (accessor.componentType) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: readAs(std::uint8_t{}); break;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: readAs(std::uint16_t{}); break;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: readAs(std::uint32_t{}); break;
-    default: throw engine::Error(describe("accessor", index), "indices are not unsigned integers");
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        readAs(std::uint8_t{});
+        break;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        readAs(std::uint16_t{});
+        break;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        readAs(std::uint32_t{});
+        break;
+    default:
+        throw engine::Error(describe("accessor", index), "indices are not unsigned integers");
     }
     return indices;
 }
@@ -110,16 +119,18 @@ void appendPrimitive(
     Mesh& mesh, const tinygltf::Model& model, const tinygltf::Primitive& primitive,
     const glm::dmat4& transform) {
     if (primitive.mode != TINYGLTF_MODE_TRIANGLES) {
-        throw engine::Error("mode " + std::to_string(primitive.mode) +
-                            " is not supported, only triangles (4)");
+        throw engine::Error(
+            "mode " + std::to_string(primitive.mode) + " is not supported, only triangles (4)");
     }
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) throw engine::Error("no POSITION");
     const std::vector<glm::vec3> positions = readVectors(model, position->second);
     std::vector<glm::vec3> normals(positions.size(), glm::vec3(0.0f));
-    if (const auto normal = primitive.attributes.find("NORMAL"); normal != primitive.attributes.end()) {
+    if (const auto normal = primitive.attributes.find("NORMAL");
+        normal != primitive.attributes.end()) {
         normals = readVectors(model, normal->second);
-        if (normals.size() != positions.size()) throw engine::Error("NORMAL and POSITION differ in count");
+        if (normals.size() != positions.size())
+            throw engine::Error("NORMAL and POSITION differ in count");
     }
     std::vector<std::uint32_t> indices;
     if (primitive.indices >= 0) {
@@ -147,9 +158,10 @@ void appendPrimitive(
     for (std::size_t i = 0; i < indices.size(); i += 3) {
         for (std::size_t corner = i; corner < i + 3; ++corner) {
             if (indices[corner] < positions.size()) continue;
-            throw engine::Error("index " + std::to_string(corner) + " names vertex " +
-                                std::to_string(indices[corner]) + ", there are " +
-                                std::to_string(positions.size()));
+            throw engine::Error(
+                "index " + std::to_string(corner) + " names vertex " +
+                std::to_string(indices[corner]) + ", there are " +
+                std::to_string(positions.size()));
         }
         const std::uint32_t second = indices[i + (mirrored ? 2 : 1)];
         const std::uint32_t third = indices[i + (mirrored ? 1 : 2)];
@@ -169,7 +181,8 @@ glm::dmat4 localTransform(const tinygltf::Node& node) {
         transform *= glm::mat4_cast(glm::normalize(glm::dquat(r[3], r[0], r[1], r[2])));
     }
     if (node.scale.size() == 3) {
-        for (int axis = 0; axis < 3; ++axis) transform[axis] *= node.scale[static_cast<std::size_t>(axis)];
+        for (int axis = 0; axis < 3; ++axis)
+            transform[axis] *= node.scale[static_cast<std::size_t>(axis)];
     }
     return transform;
 }
@@ -180,8 +193,8 @@ void appendMesh(Mesh& mesh, const tinygltf::Model& model, int index, const glm::
         try {
             appendPrimitive(mesh, model, primitives[i], transform);
         } catch (const engine::Error& error) {
-            throw engine::Error(describe("mesh", index) + ", primitive " + std::to_string(i),
-                                error.what());
+            throw engine::Error(
+                describe("mesh", index) + ", primitive " + std::to_string(i), error.what());
         }
     }
 }
@@ -212,8 +225,8 @@ void appendScene(Mesh& mesh, const tinygltf::Model& model) {
 
 // glTF's factors are linear, ours are display RGB; IEC 61966-2-1.
 float encodeSrgb(double linear) {
-    return static_cast<float>(linear <= 0.0031308 ? 12.92 * linear
-                                                  : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055);
+    return static_cast<float>(
+        linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055);
 }
 
 std::vector<Material> materials(const tinygltf::Model& model) {
@@ -222,7 +235,8 @@ std::vector<Material> materials(const tinygltf::Model& model) {
         const std::vector<double>& color = source.pbrMetallicRoughness.baseColorFactor;
         Material material{.name = source.name};
         if (color.size() >= 3) {
-            material.base_color = {encodeSrgb(color[0]), encodeSrgb(color[1]), encodeSrgb(color[2])};
+            material.base_color = {
+                encodeSrgb(color[0]), encodeSrgb(color[1]), encodeSrgb(color[2])};
         }
         materials.push_back(material);
     }
@@ -231,7 +245,8 @@ std::vector<Material> materials(const tinygltf::Model& model) {
 
 void checkExtensions(const tinygltf::Model& model) {
     for (const std::string& extension : model.extensionsRequired) {
-        if (extension.starts_with("KHR_materials_") || extension == "KHR_texture_transform") continue;
+        if (extension.starts_with("KHR_materials_") || extension == "KHR_texture_transform")
+            continue;
         throw engine::Error("the file needs " + extension + ", which is not supported");
     }
 }
@@ -258,8 +273,9 @@ Mesh importGltf(const std::filesystem::path& path) {
     tinygltf::Model model;
     std::string error;
     std::string warning;
-    const bool loaded = isBinary(path) ? loader.LoadBinaryFromFile(&model, &error, &warning, path.string())
-                                       : loader.LoadASCIIFromFile(&model, &error, &warning, path.string());
+    const bool loaded = isBinary(path)
+                            ? loader.LoadBinaryFromFile(&model, &error, &warning, path.string())
+                            : loader.LoadASCIIFromFile(&model, &error, &warning, path.string());
     if (!loaded) throw engine::Error(firstLine(error));
     checkExtensions(model);
     Mesh mesh;

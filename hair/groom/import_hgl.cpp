@@ -30,7 +30,9 @@ struct Header {
 
 Header readHeader(std::span<const std::byte> bytes) {
     if (bytes.size() < kHeaderSize) {
-        fail(bytes.size(), "truncated: the header alone is " + std::to_string(kHeaderSize) + " bytes");
+        fail(
+            bytes.size(),
+            "truncated: the header alone is " + std::to_string(kHeaderSize) + " bytes");
     }
     Header header{};
     std::memcpy(&header, bytes.data(), kHeaderSize);
@@ -38,8 +40,9 @@ Header readHeader(std::span<const std::byte> bytes) {
         fail(0, std::to_string(header.strands) + " strands, at least 1 is needed");
     }
     if (header.segments < 1 || header.segments > kMaximumSegments) {
-        fail(4, std::to_string(header.segments) + " segments is outside [1, " +
-                    std::to_string(kMaximumSegments) + "]");
+        fail(
+            4, std::to_string(header.segments) + " segments is outside [1, " +
+                   std::to_string(kMaximumSegments) + "]");
     }
     if (header.triangles < 0) fail(8, std::to_string(header.triangles) + " triangles is negative");
     return header;
@@ -52,9 +55,10 @@ void checkSize(const Header& header, std::uint64_t size) {
     const auto triangles = static_cast<std::uint64_t>(header.triangles);
     const std::uint64_t expected = kHeaderSize + kTripleSize * (strands * vertices + triangles);
     if (size < expected) {
-        fail(size, "truncated: " + std::to_string(strands) + " strands of " + std::to_string(vertices) +
-                       " vertices and " + std::to_string(triangles) + " triangles are " +
-                       std::to_string(expected) + " bytes");
+        fail(
+            size, "truncated: " + std::to_string(strands) + " strands of " +
+                      std::to_string(vertices) + " vertices and " + std::to_string(triangles) +
+                      " triangles are " + std::to_string(expected) + " bytes");
     }
     if (size > expected) {
         fail(expected, std::to_string(size - expected) + " trailing bytes after the last triangle");
@@ -65,9 +69,10 @@ void checkPoints(const Groom& groom) {
     for (std::size_t i = 0; i < groom.points.size(); ++i) {
         const glm::vec3& p = groom.points[i];
         if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
-        fail(kHeaderSize + kTripleSize * i,
-             "strand " + std::to_string(i / groom.vertices_per_strand) + ", vertex " +
-                 std::to_string(i % groom.vertices_per_strand) + " is not finite");
+        fail(
+            kHeaderSize + kTripleSize * i,
+            "strand " + std::to_string(i / groom.vertices_per_strand) + ", vertex " +
+                std::to_string(i % groom.vertices_per_strand) + " is not finite");
     }
 }
 
@@ -77,9 +82,10 @@ void checkTriangles(const Groom& groom) {
         const std::size_t offset = kHeaderSize + kTripleSize * (groom.points.size() + i);
         for (const std::uint32_t guide : {a, b, c}) {
             if (guide >= groom.strand_count) {
-                fail(offset, "triangle " + std::to_string(i) + " names strand " +
-                                 std::to_string(static_cast<std::int32_t>(guide)) + ", there are " +
-                                 std::to_string(groom.strand_count));
+                fail(
+                    offset, "triangle " + std::to_string(i) + " names strand " +
+                                std::to_string(static_cast<std::int32_t>(guide)) + ", there are " +
+                                std::to_string(groom.strand_count));
             }
         }
         if (a == b || b == c || c == a) {
@@ -112,8 +118,9 @@ Groom parseHgl(std::span<const std::byte> bytes) {
     const std::size_t points_size = groom.points.size() * kTripleSize;
     std::memcpy(groom.points.data(), bytes.data() + kHeaderSize, points_size);
     if (!groom.root_triangles.empty()) {
-        std::memcpy(groom.root_triangles.data(), bytes.data() + kHeaderSize + points_size,
-                    groom.root_triangles.size() * kTripleSize);
+        std::memcpy(
+            groom.root_triangles.data(), bytes.data() + kHeaderSize + points_size,
+            groom.root_triangles.size() * kTripleSize);
     }
     checkPoints(groom);
     checkTriangles(groom);

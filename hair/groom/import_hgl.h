@@ -12,9 +12,10 @@
 //   int32 root_triangles[triangles][3]          guide indices
 namespace hair {
 
-// Refuses whatever is not exactly such a file: no strands, segments outside [1, 255], a size that the counts don't
-// give (looked at before anything is allocated), a point that is not finite, a triangle that names a
-// guide twice or one that isn't there. Throws engine::Error "path: byte N: reason".
+// Refuses whatever is not exactly such a file: no strands, segments outside [1, 255], a size that
+// the counts don't give (looked at before anything is allocated), a point that is not finite, a
+// triangle that names a guide twice or one that isn't there.
+// Throws engine::Error "path: byte N: reason".
 Groom importHgl(const std::filesystem::path& path);
 
 // The same for a file in memory; the errors begin with "byte N".

@@ -13,8 +13,8 @@ namespace hair {
 namespace {
 
 constexpr std::array<std::string_view, 2> gltf_extensions{".glb", ".gltf"};
-constexpr std::array<std::string_view, 7> assimp_extensions{".obj", ".ply", ".stl", ".off",
-                                                            ".fbx", ".dae", ".3ds"};
+constexpr std::array<std::string_view, 6> assimp_extensions{".obj", ".ply", ".stl",
+                                                            ".off", ".fbx", ".dae"};
 constexpr std::array mesh_importers{
     MeshImporter{gltf_extensions, importGltf},
     MeshImporter{assimp_extensions, importAssimp},
@@ -31,7 +31,13 @@ const MeshImporter& importerFor(const std::string& extension) {
     throw engine::Error("unknown mesh format '" + extension + "'; known are " + known);
 }
 
-void checkPositions(const Mesh& mesh) {
+void check(const Mesh& mesh) {
+    if (mesh.triangles.empty()) throw engine::Error("the mesh has no triangles");
+    for (const std::uint32_t material : mesh.triangle_materials) {
+        if (material >= mesh.materials.size()) {
+            throw engine::Error("no material " + std::to_string(material));
+        }
+    }
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const glm::vec3& p = mesh.positions[i];
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
@@ -40,7 +46,8 @@ void checkPositions(const Mesh& mesh) {
     }
 }
 
-// Keeps the normals that the file has; the others become the sum of the vertex's triangle normals weighted by area.
+// Keeps the normals that the file has; the others become the sum of the vertex's triangle normals
+// weighted by area.
 void completeNormals(Mesh& mesh) {
     std::vector<glm::vec3> sums(mesh.positions.size(), glm::vec3(0.0f));
     for (const auto& [a, b, c] : mesh.triangles) {
@@ -70,8 +77,7 @@ Mesh importMesh(const std::filesystem::path& path) {
         if (!std::filesystem::exists(path, error)) throw engine::Error("no such file");
         if (!std::filesystem::is_regular_file(path, error)) throw engine::Error("not a file");
         Mesh mesh = importer.import(path);
-        if (mesh.triangles.empty()) throw engine::Error("the mesh has no triangles");
-        checkPositions(mesh);
+        check(mesh);
         completeNormals(mesh);
         return mesh;
     } catch (const engine::Error& error) {

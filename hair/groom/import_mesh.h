@@ -19,9 +19,9 @@ struct MeshImporter {
 // A new format is a row here.
 std::span<const MeshImporter> meshImporters();
 
-// Reads a mesh by its extension, in any case. The mesh has at least one triangle, finite positions and unit normals.
-// Lengths are the file's; formats that state their unit (glTF, FBX, COLLADA) come out in metres.
-// Throws engine::Error "path: reason".
+// Reads a mesh by its extension, in any case. The mesh has at least one triangle, finite positions
+// and unit normals. Lengths are the file's; formats that state their unit (glTF, FBX, COLLADA) come
+// out in metres. Throws engine::Error "path: reason".
 Mesh importMesh(const std::filesystem::path& path);
 
 }  // namespace hair

@@ -16,8 +16,9 @@ namespace {
 
 constexpr std::uint32_t kCandidatesPerRoot = 10;
 
-// Distance that a root keeps from a hairline edge, as a fraction of the edge: no slivers there.
-constexpr double kMargin = 0.1;
+// Distance that a root keeps from a hairline edge, as a fraction of the edge: enough that rounding
+// puts none on it. Keeping more is spread()'s part.
+constexpr double kMargin = 0.001;
 
 bool isNearEdge(const glm::dvec2& point, const glm::dvec2& a, const glm::dvec2& b) {
     const glm::dvec2 edge = b - a;
@@ -44,7 +45,8 @@ bool isWellInside(const std::vector<glm::dvec2>& polygon, const glm::dvec2& poin
     return inside;
 }
 
-// Between neighbouring roots the hairline is a straight line of the flattened scalp: candidates beyond it don't count.
+// Between neighbouring roots the hairline is a straight line of the flattened scalp: candidates
+// beyond it don't count.
 std::vector<SurfacePoint> insideCandidates(
     const Scalp& scalp, const Flattening& flattening, const std::vector<glm::dvec2>& polygon,
     std::uint32_t count, std::uint32_t seed) {
@@ -56,8 +58,8 @@ std::vector<SurfacePoint> insideCandidates(
                     random01(seed, i, purpose::root_v)});
         if (isWellInside(polygon, flattening(candidate.position))) candidates.push_back(candidate);
     }
-    if (candidates.size() < count) throw engine::Error("too little of the scalp lies inside its hairline");
-    return candidates;
+    if (candidates.size() == count) return candidates;
+    throw engine::Error("too little of the scalp lies inside its hairline");
 }
 
 std::vector<glm::vec3> positions(const std::vector<SurfacePoint>& points) {

@@ -30,11 +30,13 @@ std::vector<std::size_t> scalpTriangles(const Mesh& mesh) {
     bool named = false;
     for (const Material& material : mesh.materials) named = named || material.name == kMaterialName;
     if (!named) {
-        throw engine::Error(std::string("the mesh has no material named '") + kMaterialName +
-                            "'; it has: " + materialNames(mesh));
+        throw engine::Error(
+            std::string("the mesh has no material named '") + kMaterialName +
+            "'; it has: " + materialNames(mesh));
     }
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        if (mesh.materials[mesh.triangle_materials[i]].name == kMaterialName) triangles.push_back(i);
+        if (mesh.materials[mesh.triangle_materials[i]].name == kMaterialName)
+            triangles.push_back(i);
     }
     if (triangles.empty()) throw engine::Error("no triangle has the material 'scalp'");
     return triangles;
@@ -86,10 +88,12 @@ void measureAreas(Scalp& scalp) {
 }
 
 std::string describe(const glm::vec3& p) {
-    return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + ")";
+    return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) +
+           ")";
 }
 
-using Edges = std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t>;  // to the triangle on the left
+using Edges =
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t>;  // to the triangle on the left
 
 Edges directedEdges(const Scalp& scalp) {
     Edges edges;
@@ -98,10 +102,10 @@ Edges directedEdges(const Scalp& scalp) {
             const std::uint32_t from = scalp.triangles[i][corner];
             const std::uint32_t to = scalp.triangles[i][(corner + 1) % 3];
             if (edges.try_emplace({from, to}, i).second) continue;
-            throw engine::Error("the scalp is not a surface: more than two triangles, or two with "
-                                "opposite windings, meet at the edge from " +
-                                describe(scalp.positions[from]) + " to " +
-                                describe(scalp.positions[to]));
+            throw engine::Error(
+                "the scalp is not a surface: more than two triangles, or two with "
+                "opposite windings, meet at the edge from " +
+                describe(scalp.positions[from]) + " to " + describe(scalp.positions[to]));
         }
     }
     return edges;
@@ -132,8 +136,8 @@ void traceBoundary(Scalp& scalp) {
     for (const auto& [edge, triangle] : edges) {
         if (edges.contains({edge.second, edge.first})) continue;
         if (next.try_emplace(edge.first, edge.second).second) continue;
-        throw engine::Error("the scalp's boundary touches itself at " +
-                            describe(scalp.positions[edge.first]));
+        throw engine::Error(
+            "the scalp's boundary touches itself at " + describe(scalp.positions[edge.first]));
     }
     const std::size_t boundary_edges = next.size();
     std::size_t loops = 0;
@@ -148,19 +152,22 @@ void traceBoundary(Scalp& scalp) {
         }
     }
     if (loops != 1) {
-        throw engine::Error("the scalp has " + std::to_string(loops) + " boundary loops, 1 is needed");
+        throw engine::Error(
+            "the scalp has " + std::to_string(loops) + " boundary loops, 1 is needed");
     }
     const std::size_t edge_count = (edges.size() + boundary_edges) / 2;
-    const auto euler = static_cast<std::ptrdiff_t>(scalp.positions.size() + scalp.triangles.size()) -
-                       static_cast<std::ptrdiff_t>(edge_count);
+    const auto euler =
+        static_cast<std::ptrdiff_t>(scalp.positions.size() + scalp.triangles.size()) -
+        static_cast<std::ptrdiff_t>(edge_count);
     const std::size_t pieces = countPieces(scalp, edges);
     if (euler == 1 && pieces == 1) return;
-    throw engine::Error("the scalp is not a disc: it has " + std::to_string(pieces) +
-                        " pieces and the Euler characteristic " + std::to_string(euler));
+    throw engine::Error(
+        "the scalp is not a disc: it has " + std::to_string(pieces) +
+        " pieces and the Euler characteristic " + std::to_string(euler));
 }
 
-SurfacePoint blend(
-    const Scalp& scalp, const std::array<std::uint32_t, 3>& vertices, const glm::dvec3& weights) {
+SurfacePoint
+blend(const Scalp& scalp, const std::array<std::uint32_t, 3>& vertices, const glm::dvec3& weights) {
     glm::dvec3 position(0.0);
     glm::dvec3 normal(0.0);
     for (int i = 0; i < 3; ++i) {
@@ -169,8 +176,9 @@ SurfacePoint blend(
         normal += weights[i] * glm::dvec3(scalp.normals[vertex]);
     }
     const double length = glm::length(normal);
-    return {glm::vec3(position),
-            length > 1e-6 ? glm::vec3(normal / length) : scalp.normals[vertices[0]]};
+    return {
+        glm::vec3(position),
+        length > 1e-6 ? glm::vec3(normal / length) : scalp.normals[vertices[0]]};
 }
 
 }  // namespace

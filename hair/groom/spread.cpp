@@ -15,8 +15,8 @@
 namespace hair {
 namespace {
 
-// Points sorted into cubes as wide as the radius, the cubes into buckets. A point is known by its slot, its
-// place in that order: what is near is near in memory.
+// Points sorted into cubes as wide as the radius, the cubes into buckets. A point is known by its
+// slot, its place in that order: what is near is near in memory.
 class PointGrid {
 public:
     PointGrid(std::span<const glm::vec3> points, double radius)
@@ -41,8 +41,9 @@ public:
         const glm::vec3 point = points_[slot];
         const Cube centre = cube(point);
         for (int neighbour = 0; neighbour < 27; ++neighbour) {
-            const Cube at{centre.x + neighbour % 3 - 1, centre.y + neighbour / 3 % 3 - 1,
-                          centre.z + neighbour / 9 - 1};
+            const Cube at{
+                centre.x + neighbour % 3 - 1, centre.y + neighbour / 3 % 3 - 1,
+                centre.z + neighbour / 9 - 1};
             const std::size_t home = bucket(at);
             for (std::uint32_t i = starts_[home]; i < starts_[home + 1]; ++i) {
                 const double distance = glm::distance(points_[i], point);
@@ -59,15 +60,17 @@ private:
     };
 
     Cube cube(const glm::vec3& point) const {
+        static constexpr double limit = 1e9;  // what lies further out shares the last cube
         const auto along = [this](float coordinate) {
-            return static_cast<int>(std::floor(coordinate / radius_));
+            return static_cast<int>(std::clamp(std::floor(coordinate / radius_), -limit, limit));
         };
         return {along(point.x), along(point.y), along(point.z)};
     }
 
     std::size_t bucket(const Cube& cube) const {
-        return hash(static_cast<std::uint32_t>(cube.x), static_cast<std::uint32_t>(cube.y),
-                    static_cast<std::uint32_t>(cube.z)) &
+        return hash(
+                   static_cast<std::uint32_t>(cube.x), static_cast<std::uint32_t>(cube.y),
+                   static_cast<std::uint32_t>(cube.z)) &
                (starts_.size() - 2);
     }
 
@@ -90,8 +93,8 @@ std::vector<std::uint32_t> spread(
     double area) {
     assert(count <= candidates.size());
     if (count == 0) return {};
-    // Yuksel's r_max: no set of so many points has all of them further apart than 2 r_max. A point on the
-    // boundary has half of its disc on the surface.
+    // Yuksel's r_max: no set of so many points has all of them further apart than 2 r_max. A point
+    // on the boundary has half of its disc on the surface.
     const double discs = count + 0.5 * static_cast<double>(fixed.size());
     const double reach = 2.0 * std::sqrt(area / (2.0 * std::numbers::sqrt3 * discs));
     std::vector<glm::vec3> points(candidates.begin(), candidates.end());
@@ -103,8 +106,8 @@ std::vector<std::uint32_t> spread(
         return near4 * near4;
     };
 
-    // Takes away the most crowded candidate until `count` are left. Weights only fall, so an entry whose weight is
-    // out of date can wait until it comes up.
+    // Takes away the most crowded candidate until `count` are left. Weights only fall, so an entry
+    // whose weight is out of date can wait until it comes up.
     const auto slots = static_cast<std::uint32_t>(points.size());
     std::vector<double> weights(slots, 0.0);
     std::vector<bool> present(slots, false);

@@ -12,9 +12,10 @@
 #include "hair/groom/ear_clipping.h"
 #include "hair/random.h"
 
-// The polygon is cut into ears, the points inside are inserted one after the other, and edges are flipped until
-// they are all Delaunay. Boundary edges have a triangle on one side only, so nothing flips them.
-// Lawson 1977, Software for C1 surface interpolation; Guibas and Stolfi 1985 for the walk to a point.
+// The polygon is cut into ears, the points inside are inserted one after the other, and edges are
+// flipped until they are all Delaunay. Boundary edges have a triangle on one side only, so nothing
+// flips them. Lawson 1977, Software for C1 surface interpolation; Guibas and Stolfi 1985 for the
+// walk to a point.
 namespace hair {
 namespace {
 
@@ -52,7 +53,7 @@ private:
     std::span<const GridPoint> points_;
     std::vector<Cell> cells_;
     std::vector<Edge> suspects_;  // edges that may not be Delaunay
-    std::uint32_t last_ = 0;      // the cell where the last point went: the next one is near
+    std::uint32_t last_ = 0;  // the cell where the last point went: the next one is near
 };
 
 Triangulation::Triangulation(std::span<const GridPoint> points, std::uint32_t boundary_count)
@@ -82,17 +83,20 @@ void Triangulation::linkNeighbours() {
     }
 }
 
-// Positive if the point is on the inner side of the edge opposite the corner, 0 if it is on its line.
+// Positive if the point is on the inner side of the edge opposite the corner, 0 if it is on its
+// line.
 std::int64_t Triangulation::side(const Cell& cell, std::size_t corner, std::uint32_t point) const {
-    return orientation(points_[cell.vertices[after(corner)]], points_[cell.vertices[before(corner)]],
-                       points_[point]);
+    return orientation(
+        points_[cell.vertices[after(corner)]], points_[cell.vertices[before(corner)]],
+        points_[point]);
 }
 
 bool Triangulation::contains(const Cell& cell, std::uint32_t point) const {
     return side(cell, 0, point) >= 0 && side(cell, 1, point) >= 0 && side(cell, 2, point) >= 0;
 }
 
-// Walks across edges that have the point on their far side; where the boundary is in the way, looks at every cell.
+// Walks across edges that have the point on their far side; where the boundary is in the way, looks
+// at every cell.
 std::uint32_t Triangulation::locate(std::uint32_t point) const {
     std::uint32_t at = last_;
     for (std::size_t steps = 0; at != kNone && steps < cells_.size(); ++steps) {
@@ -121,7 +125,8 @@ std::size_t Triangulation::cornerFacing(std::uint32_t cell, std::uint32_t neighb
     return static_cast<std::size_t>(corner);
 }
 
-// The edge b-c between the cells a b c and d c b becomes a-d. The quadrilateral's sides become suspect.
+// The edge b-c between the cells a b c and d c b becomes a-d. The quadrilateral's sides become
+// suspect.
 void Triangulation::flip(Edge edge) {
     const std::uint32_t first = edge.cell;
     const std::uint32_t second = cells_[first].neighbours[edge.corner];
@@ -153,8 +158,9 @@ void Triangulation::makeDelaunay() {
         if (neighbour == kNone) continue;
         const std::uint32_t opposite =
             cells_[neighbour].vertices[cornerFacing(neighbour, edge.cell)];
-        if (inCircle(points_[cell.vertices[0]], points_[cell.vertices[1]],
-                     points_[cell.vertices[2]], points_[opposite])) {
+        if (inCircle(
+                points_[cell.vertices[0]], points_[cell.vertices[1]], points_[cell.vertices[2]],
+                points_[opposite])) {
             flip(edge);
         }
     }
@@ -213,21 +219,23 @@ void checkDistinct(std::span<const GridPoint> points) {
     const auto twin = std::ranges::adjacent_find(order, {}, key);
     if (twin == order.end()) return;
     const auto [first, second] = std::minmax(twin[0], twin[1]);
-    throw engine::Error("points " + std::to_string(first) + " and " + std::to_string(second) +
-                        " coincide");
+    throw engine::Error(
+        "points " + std::to_string(first) + " and " + std::to_string(second) + " coincide");
 }
 
 // Bits of x at the even places, of y at the odd ones: points that follow each other are close.
 std::uint64_t mortonCode(GridPoint point) {
     std::uint64_t code = 0;
     for (int bit = 0; bit < kGridBits; ++bit) {
-        code |= static_cast<std::uint64_t>((point.x >> bit & 1) | (point.y >> bit & 1) << 1) << 2 * bit;
+        code |= static_cast<std::uint64_t>((point.x >> bit & 1) | (point.y >> bit & 1) << 1)
+                << 2 * bit;
     }
     return code;
 }
 
-// Rounds of random points, each about twice as large as the one before, along a curve within a round: walks stay
-// short and so do flip cascades. Amenta, Choi and Rote 2003, Incremental constructions con BRIO.
+// Rounds of random points, each about twice as large as the one before, along a curve within a
+// round: walks stay short and so do flip cascades. Amenta, Choi and Rote 2003, Incremental
+// constructions con BRIO.
 std::vector<std::uint32_t> insertionOrder(std::span<const GridPoint> points, std::uint32_t first) {
     struct Entry {
         int round;
@@ -247,8 +255,8 @@ std::vector<std::uint32_t> insertionOrder(std::span<const GridPoint> points, std
 
 }  // namespace
 
-std::vector<std::array<std::uint32_t, 3>> triangulate(
-    std::span<const glm::dvec2> points, std::uint32_t boundary_count) {
+std::vector<std::array<std::uint32_t, 3>>
+triangulate(std::span<const glm::dvec2> points, std::uint32_t boundary_count) {
     assert(boundary_count <= points.size());
     if (boundary_count < 3) throw engine::Error("a boundary needs at least 3 points");
     const std::vector<GridPoint> snapped = snapToGrid(points);

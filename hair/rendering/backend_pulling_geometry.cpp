@@ -1,3 +1,6 @@
+#include <limits>
+
+#include "engine/error.h"
 #include "hair/gpu_structs.h"
 #include "hair/rendering/backends.h"
 
@@ -8,8 +11,7 @@ namespace {
 class PullingGeometryBackend : public StrandBackend {
 public:
     explicit PullingGeometryBackend(const BackendContext& context)
-        : vertices_(2 * context.plan.patches() * context.plan.strands_per_patch *
-                    context.plan.forced_tessellation),
+        : vertices_(vertexCount(context.plan)),
           pipeline_(context.device, describe(context)) {}
 
     void draw(engine::Commands& commands, std::uint64_t picture) const override {
@@ -20,6 +22,16 @@ public:
     std::optional<ExpectedCounts> expected() const override { return std::nullopt; }
 
 private:
+    static std::uint32_t vertexCount(const StrandPlan& plan) {
+        const std::uint64_t count =
+            std::uint64_t{2} * plan.patches() * plan.strands_per_patch * plan.forced_tessellation;
+        if (count > std::numeric_limits<std::uint32_t>::max()) {
+            throw engine::Unsupported("pulling_geometry",
+                                      std::to_string(count) + " vertices do not fit one draw");
+        }
+        return static_cast<std::uint32_t>(count);
+    }
+
     static engine::GraphicsDescription describe(const BackendContext& context) {
         engine::GraphicsDescription description = strandPipeline(context);
         description.shaders = {"strands/pulling.vert", "strands/strand.geom",

@@ -12,6 +12,9 @@ std::unique_ptr<StrandBackend> makeTessellationBackend(const BackendContext& con
 // Strand points evaluated in the vertex stage of a line list, then the same geometry and fragment stages.
 std::unique_ptr<StrandBackend> makePullingGeometryBackend(const BackendContext& context);
 
+// The specialization constants of every shader that includes strands/strand.glsl.
+engine::Constants strandConstants(const StrandSettings& strands, LodMode lod_mode);
+
 // The pipeline state that all line back ends share.
 engine::GraphicsDescription strandPipeline(const BackendContext& context);
 

@@ -1,17 +1,11 @@
 #include "hair/rendering/renderer.h"
 
-#include <cstddef>
-
 #include "hair/gpu_structs.h"
-#include "hair/rendering/camera.h"
+#include "hair/rendering/picture_parameters.h"
 
 namespace hair {
 
 namespace {
-
-// Scalar layout aligns 64-bit members to 8, as C++ does.
-static_assert(offsetof(gpu::PictureParameters, guides) == 152);
-static_assert(sizeof(gpu::PictureParameters) == 200);
 
 engine::TargetDescription targetDescription(const RenderSettings& render) {
     return {.width = render.width, .height = render.height, .msaa = render.msaa, .ssaa = render.ssaa};
@@ -21,37 +15,6 @@ engine::Buffer parameterBuffer(const engine::Device& device) {
     return {device, {.size = sizeof(gpu::PictureParameters),
                      .usage = engine::Usage::upload,
                      .name = "picture parameters"}};
-}
-
-gpu::PictureParameters pictureParameters(const Settings& settings, const StrandPlan& plan,
-                                         const StrandView& view) {
-    const RenderSettings& render = settings.render;
-    const ShadingSettings& shading = settings.shading;
-    const float aspect = static_cast<float>(render.width) / static_cast<float>(render.height);
-    return {.view_projection = viewProjection(settings.camera, aspect),
-            .eye = settings.camera.position,
-            .lod_near = settings.lod.near_distance,
-            .light_position = shading.light.position,
-            .lod_far = settings.lod.far_distance,
-            .light_color = shading.light.color,
-            .lod_maximum_level = settings.lod.maximum_level,
-            .hair_color = shading.color,
-            .ambient = shading.ambient,
-            .diffuse = shading.diffuse,
-            .specular = shading.specular,
-            .exponent = shading.exponent,
-            .root_width = settings.strands.root_width,
-            .tip_width = settings.strands.tip_width,
-            .guides = view.guides,
-            .root_triangles = view.root_triangles,
-            .vertices_per_guide = view.vertices_per_guide,
-            .density = plan.density,
-            .tessellation = plan.tessellation,
-            .patches_per_triangle = plan.patches_per_triangle,
-            .strands_per_patch = plan.strands_per_patch,
-            .forced_density = plan.forced_density,
-            .forced_tessellation = plan.forced_tessellation,
-            .seed = settings.seed};
 }
 
 }  // namespace

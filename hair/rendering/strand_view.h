@@ -9,6 +9,7 @@ namespace hair {
 struct StrandView {
     std::uint64_t guides = 0;          // device address, vec4 [guide][vertex], m, root first
     std::uint64_t root_triangles = 0;  // device address, uint [triangle][3], guide indices
+    std::uint64_t root_normals = 0;    // device address, vec3 [guide], unit length; 0: not known
     std::uint32_t guide_count = 0;
     std::uint32_t vertices_per_guide = 0;
     std::uint32_t triangle_count = 0;

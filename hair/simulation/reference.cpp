@@ -53,6 +53,7 @@ void Reference::advance(std::span<const glm::dvec3> wind_accelerations) {
         const double local = localFactor(length / static_cast<double>(vertices_ - 1));
 
         positions[0] = previous[0] = rest[0];
+        const std::vector<glm::dvec3> before(positions.begin(), positions.end());
         reference::integrate(
             positions, previous, accelerations, keptFactor(), double{settings_.time_step});
         reference::pullToRest(positions, rest, globalFactor());
@@ -60,7 +61,7 @@ void Reference::advance(std::span<const glm::dvec3> wind_accelerations) {
             reference::pullToShape(positions, rest, local);
         for (std::uint32_t i = 0; i < settings_.length.iterations; ++i)
             reference::projectLengths(positions, rest);
-        reference::pushOut(positions, settings_.colliders);
+        reference::pushOut(positions, before, settings_.colliders, settings_.collision);
     }
 }
 
@@ -87,9 +88,8 @@ double Reference::localFactor(double segment_length) const {
     if (segment_length == 0.0) return 0.95;
     const double steps = double{settings_.time_step} * 60.0;
     const double left = std::pow(1.0 - k, 10.0);  // of an error after a reference step
-    const double c =
-        (1.0 - left) / left * steps * steps * std::pow(0.15 / 7.0 / segment_length, 4.0);
-    const double left_by_step = 1.0 / (1.0 + c);
+    const double left_by_step =
+        std::pow(left, steps * steps * std::pow(0.15 / 7.0 / segment_length, 4.0));
     return std::min(1.0 - std::pow(left_by_step, 1.0 / settings_.local.iterations), 0.95);
 }
 

@@ -123,7 +123,9 @@ void projectLengths(Points positions, ConstPoints rest) {
     });
 }
 
-void pushOut(Points positions, std::span<const Collider> colliders) {
+void pushOut(
+    Points positions, ConstPoints before, std::span<const Collider> colliders,
+    const CollisionSettings& settings) {
     for (std::size_t i = 1; i < positions.size(); ++i) {
         for (const Collider& capsule : colliders) {
             const glm::dvec3 a = capsule.a;
@@ -134,10 +136,16 @@ void pushOut(Points positions, std::span<const Collider> colliders) {
                     std::clamp(glm::dot(positions[i] - a, axis) / glm::dot(axis, axis), 0.0, 1.0);
             const glm::dvec3 nearest = a + along * axis;
             const double distance = glm::distance(positions[i], nearest);
-            if (distance >= double{capsule.radius}) continue;
+            const double radius = double{capsule.radius} + double{settings.margin};
+            if (distance >= radius) continue;
             const glm::dvec3 normal =
                 distance < kShortest ? sideways(axis) : (positions[i] - nearest) / distance;
-            positions[i] = nearest + double{capsule.radius} * normal;
+            positions[i] = nearest + radius * normal;
+            const glm::dvec3 moved = positions[i] - before[i];
+            const glm::dvec3 slid = moved - glm::dot(moved, normal) * normal;
+            const double held = double{settings.friction} * (radius - distance);
+            if (const double length = glm::length(slid); length > 0.0)
+                positions[i] -= std::min(1.0, held / length) * slid;
         }
     }
 }

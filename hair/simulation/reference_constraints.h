@@ -50,8 +50,13 @@ void pullToShape(
 void projectLengths(Points positions, ConstPoints rest);
 
 // Moves every vertex but the root to the surface of each capsule it is inside of, in the list's
-// order, the shortest way; from a point on the axis along the perpendicular described above.
-void pushOut(Points positions, std::span<const Collider> colliders);
+// order and the margin away from it, the shortest way; from a point on the axis along the perpendicular
+// described above. Friction then takes back what the vertex moved along the surface since `before`, at
+// most the coefficient times the depth: Macklin et al. 2014, Unified particle physics for real-time
+// applications, eq. 24.
+void pushOut(
+    Points positions, ConstPoints before, std::span<const Collider> colliders,
+    const CollisionSettings& settings);
 
 // Four random numbers of a strand that sum to 1.
 std::array<double, 4> windWeights(std::uint32_t seed, std::uint32_t strand);

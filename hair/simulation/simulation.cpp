@@ -25,7 +25,7 @@ static_assert(sizeof(gpu::Capsule) == 28 && offsetof(gpu::Capsule, b) == 16);
 static_assert(sizeof(gpu::WindParameters) == 80);
 static_assert(offsetof(gpu::WindParameters, directions) == 16);
 static_assert(offsetof(gpu::WindParameters, magnitude) == 64);
-static_assert(sizeof(gpu::SimulateParameters) == 96);
+static_assert(sizeof(gpu::SimulateParameters) == 104);
 static_assert(offsetof(gpu::SimulateParameters, gravity) == 56);
 static_assert(offsetof(gpu::SimulateParameters, local_iterations) == 80);
 
@@ -187,7 +187,9 @@ void Simulation::recordSolver(Commands& commands, std::uint64_t accelerations) c
         .local_iterations = settings_.local.iterations,
         .length_iterations = settings_.length.iterations,
         .capsule_count = static_cast<std::uint32_t>(settings_.colliders.size()),
-        .strand_count = strand_count_};
+        .strand_count = strand_count_,
+        .collision_margin = settings_.collision.margin,
+        .friction = settings_.collision.friction};
 
     // After the wind, an earlier step, and whoever still draws the positions that are overwritten.
     commands.barrier(Access::anything, Access::compute_write);

@@ -32,12 +32,10 @@ double localStiffness(const SimulationSettings& settings, double segment_length)
     if (settings.stiffness_scaling == StiffnessScaling::thesis) return k;
     if (segment_length <= 0.0) return kGreatestLocalStiffness;
 
-    // c0 = total0 / (1 - total0), written without the difference of two numbers that are almost 1.
-    const double c0 = std::expm1(-kReferenceIterations * std::log1p(-k));
-    const double c =
-        c0 * std::pow(stepRatio(settings), 2.0) * std::pow(kReferenceSegment / segment_length, 4.0);
-    const double iterations = settings.local.iterations;
-    return std::min(-std::expm1(-std::log1p(c) / iterations), kGreatestLocalStiffness);
+    const double scale =
+        std::pow(stepRatio(settings), 2.0) * std::pow(kReferenceSegment / segment_length, 4.0);
+    const double exponent = kReferenceIterations / settings.local.iterations * scale;
+    return std::min(-std::expm1(exponent * std::log1p(-k)), kGreatestLocalStiffness);
 }
 
 }  // namespace hair

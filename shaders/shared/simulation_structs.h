@@ -45,6 +45,8 @@ struct SimulateParameters {
     uint length_iterations;
     uint capsule_count;
     uint strand_count;
+    float collision_margin;  // m
+    float friction;          // Coulomb's coefficient
 };
 
 #endif

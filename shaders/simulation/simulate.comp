@@ -137,7 +137,9 @@ void main() {
     point = points[lane];
     if (point.w > 0.0) {
         for (uint i = 0; i < params.capsule_count; ++i)
-            point.xyz = pushOut(point.xyz, Capsules(params.capsules).at[i]);
+            point.xyz = pushOut(
+                point.xyz, before_step, Capsules(params.capsules).at[i], params.collision_margin,
+                params.friction);
     }
     if (present) {
         State(params.positions).at[index] = point;

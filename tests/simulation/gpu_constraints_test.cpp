@@ -99,6 +99,8 @@ TEST_F(GpuConstraints, CollidesLikeTheReference) {
         {.a = {-0.1f, 0, 0}, .b = {0.1f, 0.05f, 0}, .radius = 0.08f},
         {.a = {0, 0.1f, 0.1f}, .b = {0, 0.1f, 0.1f}, .radius = 0.1f}};
     expectReference(settings);
+    settings.collision = {.margin = 0.01f, .friction = 0.25f};
+    expectReference(settings);
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ bool sameBits(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) 
 SimulationSettings windy() {
     SimulationSettings settings;
     settings.wind.strength = 10.0f;
+    settings.collision = {.margin = 0.002f, .friction = 0.3f};
     settings.colliders = {{.a = {0, 0, 0}, .b = {0, 0.05f, 0}, .radius = 0.06f}};
     return settings;
 }

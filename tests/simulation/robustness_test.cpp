@@ -44,6 +44,7 @@ std::vector<SimulationSettings> extremes() {
                     settings.friction = stiffness;
                     settings.wind.strength = wind;
                     settings.wind.gust_rate = 100.0f;
+                    settings.collision = {.margin = 0.01f, .friction = 0.5f};
                     settings.colliders = {{.radius = 0.05f}, {.a = {1, 1, 1}, .b = {-1, 1, 1}}};
                     all.push_back(settings);
                 }

@@ -66,15 +66,16 @@ TEST(Stiffness, ComposesToTheSameLocalFactorAtAnyIterationCount) {
     }
 }
 
-// With one iteration and c = 1 at the reference: c is proportional to dt^2 / l^4.
+// Ten iterations at the reference leave one half; the exponent of what is left is proportional to dt^2 / l^4.
 TEST(Stiffness, ScalesTheLocalFactorWithStepAndSegmentLength) {
     SimulationSettings settings;
     settings.local.stiffness = static_cast<float>(1.0 - std::pow(0.5, 0.1));  // ten leave one half
     settings.local.iterations = 1;
     EXPECT_NEAR(localStiffness(settings, kReferenceSegment), 0.5, 1e-6);
-    EXPECT_NEAR(localStiffness(settings, 2.0 * kReferenceSegment), 1.0 / 17.0, 1e-6);
+    const double sixteenth = 1.0 - std::pow(0.5, 1.0 / 16.0);
+    EXPECT_NEAR(localStiffness(settings, 2.0 * kReferenceSegment), sixteenth, 1e-6);
     settings.time_step = 1.0f / 240.0f;
-    EXPECT_NEAR(localStiffness(settings, kReferenceSegment), 1.0 / 17.0, 1e-6);
+    EXPECT_NEAR(localStiffness(settings, kReferenceSegment), sixteenth, 1e-6);
     EXPECT_NEAR(localStiffness(settings, 0.5 * kReferenceSegment), 0.5, 1e-6);
 }
 
