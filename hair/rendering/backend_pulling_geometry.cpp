@@ -11,8 +11,7 @@ namespace {
 class PullingGeometryBackend : public StrandBackend {
 public:
     explicit PullingGeometryBackend(const BackendContext& context)
-        : vertices_(vertexCount(context.plan)),
-          pipeline_(context.device, describe(context)) {}
+        : vertices_(vertexCount(context.plan)), pipeline_(context.device, describe(context)) {}
 
     void draw(engine::Commands& commands, std::uint64_t picture) const override {
         commands.bind(pipeline_, gpu::StrandPush{.picture = picture});
@@ -26,16 +25,16 @@ private:
         const std::uint64_t count =
             std::uint64_t{2} * plan.patches() * plan.strands_per_patch * plan.forced_tessellation;
         if (count > std::numeric_limits<std::uint32_t>::max()) {
-            throw engine::Unsupported("pulling_geometry",
-                                      std::to_string(count) + " vertices do not fit one draw");
+            throw engine::Unsupported(
+                "pulling_geometry", std::to_string(count) + " vertices do not fit one draw");
         }
         return static_cast<std::uint32_t>(count);
     }
 
     static engine::GraphicsDescription describe(const BackendContext& context) {
         engine::GraphicsDescription description = strandPipeline(context);
-        description.shaders = {"strands/pulling.vert", "strands/strand.geom",
-                               "strands/strand.frag"};
+        description.shaders = {
+            "strands/pulling.vert", "strands/strand.geom", "strands/strand.frag"};
         description.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
         return description;
     }

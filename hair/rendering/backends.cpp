@@ -27,16 +27,18 @@ std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext
 }
 
 engine::Constants strandConstants(const StrandSettings& strands, LodMode lod_mode) {
-    return {static_cast<std::uint32_t>(strands.curve), static_cast<std::uint32_t>(strands.taper),
-            static_cast<std::uint32_t>(lod_mode)};
+    return {
+        static_cast<std::uint32_t>(strands.curve), static_cast<std::uint32_t>(strands.taper),
+        static_cast<std::uint32_t>(lod_mode)};
 }
 
 engine::GraphicsDescription strandPipeline(const BackendContext& context) {
-    return {.constants = strandConstants(context.strands, context.plan.lod_mode),
-            .push_size = sizeof(gpu::StrandPush),
-            .color_format = engine::Target::kColorFormat,
-            .depth_format = engine::Target::kDepthFormat,
-            .samples = context.samples};
+    return {
+        .constants = strandConstants(context.strands, context.plan.lod_mode),
+        .push_size = sizeof(gpu::StrandPush),
+        .color_format = engine::Target::kColorFormat,
+        .depth_format = engine::Target::kDepthFormat,
+        .samples = context.samples};
 }
 
 }  // namespace hair

@@ -6,10 +6,12 @@
 // The makers that the table in backends.cpp lists.
 namespace hair {
 
-// Vertex -> control -> isolines -> evaluation -> geometry (camera-facing quads) -> fragment: thesis 2.2, 2.3.5.
+// Vertex -> control -> isolines -> evaluation -> geometry (camera-facing quads) -> fragment:
+// thesis 2.2, 2.3.5.
 std::unique_ptr<StrandBackend> makeTessellationBackend(const BackendContext& context);
 
-// Strand points evaluated in the vertex stage of a line list, then the same geometry and fragment stages.
+// Strand points evaluated in the vertex stage of a line list, then the same geometry and fragment
+// stages.
 std::unique_ptr<StrandBackend> makePullingGeometryBackend(const BackendContext& context);
 
 // The specialization constants of every shader that includes strands/strand.glsl.

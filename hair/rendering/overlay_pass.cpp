@@ -12,13 +12,12 @@ constexpr glm::vec3 kGuideColor{0.05f, 0.2f, 0.9f};
 constexpr glm::vec3 kTriangleColor{0.85f, 0.1f, 0.1f};
 
 engine::GraphicsDescription lines(const char* vertex_shader, std::uint32_t samples) {
-    return {.shaders = {vertex_shader, "overlay/color.frag"},
+    return {.shaders = {vertex_shader, "strands/strand.geom", "overlay/color.frag"},
             .push_size = sizeof(gpu::OverlayPush),
             .topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST,
             .color_format = engine::Target::kColorFormat,
             .depth_format = engine::Target::kDepthFormat,
-            .samples = samples,
-            .depth_compare = VK_COMPARE_OP_ALWAYS};  // seen through the hair
+            .samples = samples};
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 namespace hair {
 
-// Lines over the finished hair: the simulated guides and the root triangles (thesis figures 4.2 and 4.6).
+// Ribbons over the finished hair: the simulated guides and the root triangles (thesis figures 4.2 and 4.6).
 class OverlayPass {
 public:
     OverlayPass(const engine::Device& device, const OverlaySettings& overlays, std::uint32_t samples);

@@ -8,26 +8,30 @@ namespace hair {
 namespace {
 
 engine::TargetDescription targetDescription(const RenderSettings& render) {
-    return {.width = render.width, .height = render.height, .msaa = render.msaa, .ssaa = render.ssaa};
+    return {
+        .width = render.width, .height = render.height, .msaa = render.msaa, .ssaa = render.ssaa};
 }
 
 engine::Buffer parameterBuffer(const engine::Device& device) {
-    return {device, {.size = sizeof(gpu::PictureParameters),
-                     .usage = engine::Usage::upload,
-                     .name = "picture parameters"}};
+    return {
+        device,
+        {.size = sizeof(gpu::PictureParameters),
+         .usage = engine::Usage::upload,
+         .name = "picture parameters"}};
 }
 
 }  // namespace
 
-Renderer::Renderer(const engine::Device& device, const Settings& settings, const StrandView& view,
-                   const Mesh* mesh)
-    : settings_(settings),
-      plan_(planStrands(view.triangle_count, view.vertices_per_guide - 1, settings.strands,
-                        settings.lod, device.info().limits.maxTessellationGenerationLevel)),
+Renderer::Renderer(
+    const engine::Device& device, const Settings& settings, const StrandView& view,
+    const Mesh* mesh)
+    : settings_(settings), plan_(planStrands(
+                               view.triangle_count, view.vertices_per_guide - 1, settings.strands,
+                               settings.lod, device.info().limits.maxTessellationGenerationLevel)),
       target_(device, targetDescription(settings.render)),
       parameters_{parameterBuffer(device), parameterBuffer(device)},
-      backend_(makeBackend(settings.strands.backend,
-                           {device, plan_, settings_.strands, settings_.render.msaa})),
+      backend_(makeBackend(
+          settings.strands.backend, {device, plan_, settings_.strands, settings_.render.msaa})),
       overlay_(device, settings.render.overlays, settings.render.msaa),
       resolve_(device, target_.description()) {
     if (mesh && settings.render.head) mesh_.emplace(device, *mesh, settings.render.msaa);
@@ -49,14 +53,17 @@ void Renderer::record(engine::Passes& passes, const StrandView& view) {
     render("scene", engine::Load::clear, [&](engine::Commands& commands) {
         if (mesh_) mesh_->draw(commands, picture);
     });
-    render("strands", engine::Load::keep,
-           [&](engine::Commands& commands) { backend_->draw(commands, picture); });
+    render("strands", engine::Load::keep, [&](engine::Commands& commands) {
+        backend_->draw(commands, picture);
+    });
     if (!overlay_.empty()) {
-        render("overlay", engine::Load::keep,
-               [&](engine::Commands& commands) { overlay_.draw(commands, picture, view); });
+        render("overlay", engine::Load::keep, [&](engine::Commands& commands) {
+            overlay_.draw(commands, picture, view);
+        });
     }
-    passes.pass("resolve", engine::PassKind::compute,
-                [&](engine::Commands& commands) { resolve_.record(commands, target_); });
+    passes.pass("resolve", engine::PassKind::compute, [&](engine::Commands& commands) {
+        resolve_.record(commands, target_);
+    });
 }
 
 }  // namespace hair

@@ -26,28 +26,31 @@ std::uint32_t pointCount(const engine::Device& device, const StrandPlan& plan) {
     const std::uint64_t count = plan.strands() * plan.segments * (plan.forced_tessellation + 1);
     const std::uint64_t limit = device.info().limits.maxStorageBufferRange / sizeof(Record);
     if (count > limit) {
-        throw engine::Unsupported("strand points", std::to_string(count) +
-                                                       " are over the device's " +
-                                                       std::to_string(limit));
+        throw engine::Unsupported(
+            "strand points",
+            std::to_string(count) + " are over the device's " + std::to_string(limit));
     }
     return static_cast<std::uint32_t>(count);
 }
 
 }  // namespace
 
-const Record& StrandPoints::at(std::uint32_t triangle, std::uint32_t strand, std::uint32_t segment,
-                               std::uint32_t point) const {
-    assert(triangle < plan.triangles && strand < plan.forced_density && segment < plan.segments &&
-           point <= plan.forced_tessellation);
+const Record& StrandPoints::at(
+    std::uint32_t triangle, std::uint32_t strand, std::uint32_t segment,
+    std::uint32_t point) const {
+    assert(
+        triangle < plan.triangles && strand < plan.forced_density && segment < plan.segments &&
+        point <= plan.forced_tessellation);
     const std::size_t line = std::size_t{triangle} * plan.forced_density + strand;
     return records[(line * plan.segments + segment) * (plan.forced_tessellation + 1) + point];
 }
 
-StrandPoints evaluateStrandPoints(const engine::Device& device, const Settings& settings,
-                                  const StrandView& view) {
-    StrandPoints result{.plan = planStrands(view.triangle_count, view.vertices_per_guide - 1,
-                                            settings.strands, settings.lod,
-                                            device.info().limits.maxTessellationGenerationLevel)};
+StrandPoints evaluateStrandPoints(
+    const engine::Device& device, const Settings& settings, const StrandView& view) {
+    StrandPoints result{
+        .plan = planStrands(
+            view.triangle_count, view.vertices_per_guide - 1, settings.strands, settings.lod,
+            device.info().limits.maxTessellationGenerationLevel)};
     const std::uint32_t count = pointCount(device, result.plan);
     if (count == 0) return result;
 
@@ -55,16 +58,17 @@ StrandPoints evaluateStrandPoints(const engine::Device& device, const Settings& 
         device, {.shader = "strands/evaluate.comp",
                  .constants = strandConstants(settings.strands, settings.lod.mode),
                  .push_size = sizeof(gpu::StrandPointsPush)});
-    const engine::Buffer parameters(device, {.size = sizeof(gpu::PictureParameters),
-                                             .usage = engine::Usage::upload,
-                                             .name = "picture parameters"});
-    const engine::Buffer records(device,
-                                 {.size = count * sizeof(Record), .name = "strand points"});
+    const engine::Buffer parameters(
+        device, {.size = sizeof(gpu::PictureParameters),
+                 .usage = engine::Usage::upload,
+                 .name = "picture parameters"});
+    const engine::Buffer records(device, {.size = count * sizeof(Record), .name = "strand points"});
     parameters.write(pictureParameters(settings, result.plan, view));
     device.runOnce([&](engine::Commands& commands) {
-        commands.bind(pipeline, gpu::StrandPointsPush{.picture = parameters.address(),
-                                                      .records = records.address(),
-                                                      .count = count});
+        commands.bind(
+            pipeline,
+            gpu::StrandPointsPush{
+                .picture = parameters.address(), .records = records.address(), .count = count});
         const std::uint32_t groups = (count + kGroup - 1) / kGroup;
         const std::uint32_t columns = std::min(groups, kMostGroupsInRow);
         commands.dispatch(columns, (groups + columns - 1) / columns);

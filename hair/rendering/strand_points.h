@@ -10,22 +10,23 @@
 
 namespace hair {
 
-// The strands of a picture as points in memory, for who exports, measures or tests them. Both ends of
-// every guide segment are there: the last point of one is the first of the next.
+// The strands of a picture as points in memory, for who exports, measures or tests them. Both ends
+// of every guide segment are there: the last point of one is the first of the next.
 struct StrandPoints {
     StrandPlan plan;
-    // [triangle][strand][guide segment][0 .. tessellation], root first. In LodMode::distance the counts
-    // are those of level 0, and the points that are not drawn have a negative width.
+    // [triangle][strand][guide segment][0 .. tessellation], root first. In LodMode::distance the
+    // counts are those of level 0, and the points that are not drawn have a negative width.
     std::vector<gpu::StrandPointRecord> records;
 
     // `point` is in [0, tessellation].
-    const gpu::StrandPointRecord& at(std::uint32_t triangle, std::uint32_t strand,
-                                     std::uint32_t segment, std::uint32_t point) const;
+    const gpu::StrandPointRecord&
+    at(std::uint32_t triangle, std::uint32_t strand, std::uint32_t segment,
+       std::uint32_t point) const;
 };
 
-// Evaluates all strands on the device and waits. Throws engine::Unsupported for more points than one of
-// its buffers holds.
-StrandPoints
-evaluateStrandPoints(const engine::Device& device, const Settings& settings, const StrandView& view);
+// Evaluates all strands on the device and waits. Throws engine::Unsupported for more points than
+// one of its buffers holds.
+StrandPoints evaluateStrandPoints(
+    const engine::Device& device, const Settings& settings, const StrandView& view);
 
 }  // namespace hair

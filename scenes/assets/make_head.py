@@ -33,6 +33,7 @@ from skimage.measure import marching_cubes
 
 STAR = np.array([0.0, -0.01, -0.015])
 BUST_Y = -0.30
+# As shown on a display; glTF stores colours linear.
 MATERIALS = {"skin": (0.80, 0.62, 0.52), "scalp": (0.45, 0.34, 0.27)}
 
 # Hairline: azimuth from the face (degrees) -> lowest elevation of the scalp.
@@ -48,13 +49,15 @@ DETAIL = [
     ((.0780, -.0290, -.018), .032, .0025),
 ]
 # Capsules (a, b, radius) for the simulation.  The first five were fitted to
-# the scalp by least squares; write_colliders() reports how well they follow.
+# the scalp by least squares, the two of the face to its skin; write_colliders() reports how well they follow.
 COLLIDERS = [
     ((0, .0140, .0120), (0, .0140, .0120), .0661),             # forehead
     ((-.0023, -.0135, -.0330), (.0023, -.0135, -.0330), .0679),  # occiput
     ((-.0070, -.0131, .0018), (.0070, -.0131, .0018), .0666),  # temples
     ((0, .0120, -.0086), (0, .0070, -.0313), .0725),           # vault
     ((0, -.0004, -.0322), (0, .0099, -.0242), .0730),          # back
+    ((-.0124, .0004, .0315), (.0124, .0004, .0315), .0498),    # upper face
+    ((-.0147, -.0472, .0299), (.0147, -.0472, .0299), .0521),  # cheeks
     ((0, -.065, .040), (0, -.098, .052), .037),                # jaw
     ((0, -.065, -.0295), (0, -.230, -.040), .0512),            # neck
     ((-.140, -.264, -.033), (.140, -.264, -.033), .056),       # shoulders
@@ -427,6 +430,13 @@ def check(points, skin, scalp):
           f"facing cosine on the scalp >= {facing:.2f}")
 
 
+def linear(value):
+    """Return the linear value of an sRGB channel (IEC 61966-2-1)."""
+    if value <= 0.04045:
+        return value / 12.92
+    return ((value + 0.055) / 1.055) ** 2.4
+
+
 def write_glb(path, points, normals, parts):
     """Write one mesh with a primitive (and a material) per part."""
     binary, views, accessors, primitives = b"", [], [], []
@@ -457,7 +467,7 @@ def write_glb(path, points, normals, parts):
         "nodes": [{"mesh": 0, "name": "head"}],
         "meshes": [{"name": "head", "primitives": primitives}],
         "materials": [{"name": name, "pbrMetallicRoughness": {
-            "baseColorFactor": [*MATERIALS[name], 1.0],
+            "baseColorFactor": [*map(linear, MATERIALS[name]), 1.0],
             "metallicFactor": 0.0, "roughnessFactor": 0.55}}
             for name in parts],
         "accessors": accessors, "bufferViews": views,

@@ -1,15 +1,17 @@
 #version 460
 // The edges of the root triangles as a line list: [triangle][edge][end].
 #extension GL_GOOGLE_include_directive : require
-#include "common/picture.glsl"
+#include "overlay/overlay.glsl"
 
-layout(push_constant, scalar) uniform Push { OverlayPush push; };
+vec3 corner(PictureParameters picture, uint triangle, uint index) {
+    uint guide = RootTriangles(picture.root_triangles).guides[3u * triangle + index % 3u];
+    return GuidePoints(picture.guides).points[guide * picture.vertices_per_guide].xyz;
+}
 
 void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;
     uint line = uint(gl_VertexIndex) / 2u;
-    uint corner = (line + uint(gl_VertexIndex) % 2u) % 3u;
-    uint guide = RootTriangles(picture.root_triangles).guides[3u * (line / 3u) + corner];
-    vec3 root = GuidePoints(picture.guides).points[guide * picture.vertices_per_guide].xyz;
-    gl_Position = picture.view_projection * vec4(root, 1.0);
+    vec3 from = corner(picture, line / 3u, line % 3u);
+    vec3 to = corner(picture, line / 3u, line % 3u + 1u);
+    emitLineEnd(picture, gl_VertexIndex % 2 == 0 ? from : to, to - from);
 }

@@ -1,6 +1,6 @@
 #version 460
-// Every point of every strand into a buffer; one invocation per point. The same functions as the back
-// ends that draw them.
+// Every point of every strand into a buffer; one invocation per point. The same functions as the
+// back ends that draw them.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/strand.glsl"
 

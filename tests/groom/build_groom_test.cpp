@@ -4,7 +4,8 @@
 
 #include "hair/groom/export_hgl.h"
 #include "hair/groom/grow.h"
-#include "tests/groom/temporary_folder.h"
+#include "tests/error_text.h"
+#include "tests/temporary_folder.h"
 #include "tests/groom/test_meshes.h"
 
 namespace hair {
@@ -36,17 +37,17 @@ TEST(BuildGroom, GrowsWhereNoFileIsNamed) {
 TEST(BuildGroom, NamesThePath) {
     GroomSettings settings;
     EXPECT_THAT(
-        errorOf([&] { buildGroom(settings, nullptr, "scenes", 1); }),
+        errorText([&] { buildGroom(settings, nullptr, "scenes", 1); }),
         StartsWith("scenes/assets/head.glb: "));
     Mesh bald = makeCap();
     bald.materials.pop_back();
     bald.triangle_materials.assign(bald.triangle_materials.size(), 0);
     EXPECT_THAT(
-        errorOf([&] { buildGroom(settings, &bald, "scenes", 1); }),
+        errorText([&] { buildGroom(settings, &bald, "scenes", 1); }),
         StartsWith("scenes/assets/head.glb: the mesh has no material named 'scalp'"));
     settings.file = "gone.hgl";
     EXPECT_EQ(
-        errorOf([&] { buildGroom(settings, nullptr, "scenes", 1); }),
+        errorText([&] { buildGroom(settings, nullptr, "scenes", 1); }),
         "scenes/gone.hgl: no such file");
 }
 
@@ -54,11 +55,11 @@ TEST(BuildGroom, ListsTheFormatsItKnows) {
     GroomSettings settings;
     settings.file = "guides.abc";
     EXPECT_EQ(
-        errorOf([&] { buildGroom(settings, nullptr, "scenes", 1); }),
+        errorText([&] { buildGroom(settings, nullptr, "scenes", 1); }),
         "scenes/guides.abc: unknown guide format '.abc'; known are .hgl");
     for (const GroomImporter& importer : groomImporters()) {
         EXPECT_THAT(
-            errorOf([&] { buildGroom(settings, nullptr, "scenes", 1); }),
+            errorText([&] { buildGroom(settings, nullptr, "scenes", 1); }),
             HasSubstr(std::string(importer.extension)));
     }
 }

@@ -5,7 +5,8 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-#include "tests/groom/temporary_folder.h"
+#include "tests/error_text.h"
+#include "tests/temporary_folder.h"
 #include "tests/groom/test_meshes.h"
 
 namespace hair {
@@ -61,7 +62,7 @@ TEST(Flatten, RefusesAScalpThatFolds) {
         if (position.x == 2.0f) position = {0.2f, 0.3f, position.z};
         if (position.x == 3.0f) position = {1.2f, 0.6f, position.z};
     }
-    EXPECT_THAT(errorOf([&] { flatten(extractScalp(mesh)); }), HasSubstr("folds over itself"));
+    EXPECT_THAT(errorText([&] { flatten(extractScalp(mesh)); }), HasSubstr("folds over itself"));
 }
 
 // A sphere with a C-shaped hole, wide along the equator: the mean normal points away from the
@@ -85,13 +86,13 @@ TEST(Flatten, RefusesAScalpOnBothEndsOfItsAxis) {
         }
     }
     EXPECT_THAT(
-        errorOf([&] { flatten(extractScalp(mesh)); }), HasSubstr("wraps all the way round"));
+        errorText([&] { flatten(extractScalp(mesh)); }), HasSubstr("wraps all the way round"));
 }
 
 TEST(Flatten, RefusesAnAlmostClosedScalp) {
     const Scalp scalp =
         extractScalp(makeCap({.opening = 3.12f, .hairline = 3.2f, .rings = 64, .sectors = 16}));
-    EXPECT_THAT(errorOf([&] { flatten(scalp); }), HasSubstr("can't be flattened"));
+    EXPECT_THAT(errorText([&] { flatten(scalp); }), HasSubstr("can't be flattened"));
 }
 
 }  // namespace

@@ -11,7 +11,8 @@
 
 #include "hair/groom/import_mesh.h"
 #include "hair/groom/roots.h"
-#include "tests/groom/temporary_folder.h"
+#include "tests/error_text.h"
+#include "tests/temporary_folder.h"
 #include "tests/groom/test_meshes.h"
 
 namespace hair {
@@ -303,9 +304,9 @@ TEST(Grow, RefusesMeshesWithoutAScalp) {
     Mesh mesh = makeCap();
     mesh.materials[1].name = "felt";
     EXPECT_EQ(
-        errorOf([&] { grow(mesh, {}, 86, 1); }),
+        errorText([&] { grow(mesh, {}, 86, 1); }),
         "the mesh has no material named 'scalp'; it has: 'skin', 'felt'");
-    EXPECT_THAT(errorOf([&] { grow(makeCap(), {}, 2, 1); }), HasSubstr("at least 3"));
+    EXPECT_THAT(errorText([&] { grow(makeCap(), {}, 2, 1); }), HasSubstr("at least 3"));
 }
 
 }  // namespace

@@ -3,7 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "hair/groom/import_mesh.h"
-#include "tests/groom/temporary_folder.h"
+#include "tests/error_text.h"
+#include "tests/temporary_folder.h"
 
 namespace hair {
 namespace {
@@ -106,7 +107,7 @@ TEST(ImportAssimp, RefusesBrokenFiles) {
     const TemporaryFolder folder;
     const auto refusal = [&](const char* name, std::string_view content) {
         const auto path = folder.write(name, content);
-        const std::string error = errorOf([&] { importMesh(path); });
+        const std::string error = errorText([&] { importMesh(path); });
         EXPECT_THAT(error, AllOf(StartsWith(path.string() + ": "), testing::Not(HasSubstr("\n"))));
         return error;
     };
@@ -127,16 +128,16 @@ TEST(ImportMesh, SaysWhatIsMissing) {
     const TemporaryFolder folder;
     for (const char* name : {"gone.glb", "gone.obj"}) {
         EXPECT_EQ(
-            errorOf([&] { importMesh(folder.file(name)); }),
+            errorText([&] { importMesh(folder.file(name)); }),
             folder.file(name).string() + ": no such file");
     }
     std::filesystem::create_directory(folder.file("folder.obj"));
-    EXPECT_THAT(errorOf([&] { importMesh(folder.file("folder.obj")); }), HasSubstr("not a file"));
+    EXPECT_THAT(errorText([&] { importMesh(folder.file("folder.obj")); }), HasSubstr("not a file"));
 }
 
 TEST(ImportMesh, ListsTheFormatsItKnows) {
     const TemporaryFolder folder;
-    const std::string error = errorOf([&] { importMesh(folder.write("head.xyz", "")); });
+    const std::string error = errorText([&] { importMesh(folder.write("head.xyz", "")); });
     EXPECT_THAT(error, HasSubstr("unknown mesh format '.xyz'; known are .glb, .gltf, .obj"));
     for (const MeshImporter& importer : meshImporters()) {
         for (const std::string_view extension : importer.extensions) {

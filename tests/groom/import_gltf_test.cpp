@@ -6,7 +6,8 @@
 #include <gmock/gmock.h>
 
 #include "hair/groom/import_mesh.h"
-#include "tests/groom/temporary_folder.h"
+#include "tests/error_text.h"
+#include "tests/temporary_folder.h"
 
 namespace hair {
 namespace {
@@ -80,7 +81,7 @@ Mesh import(const Document& document) {
 std::string errorOfBytes(const std::string& bytes) {
     const TemporaryFolder folder;
     const auto path = folder.write("a.glb", bytes);
-    const std::string error = errorOf([&] { importMesh(path); });
+    const std::string error = errorText([&] { importMesh(path); });
     EXPECT_THAT(error, AllOf(StartsWith(path.string() + ": "), Not(HasSubstr("\n"))));
     return error;
 }

@@ -7,7 +7,8 @@
 #include <gmock/gmock.h>
 
 #include "hair/groom/export_hgl.h"
-#include "tests/groom/temporary_folder.h"
+#include "tests/error_text.h"
+#include "tests/temporary_folder.h"
 
 namespace hair {
 namespace {
@@ -44,7 +45,7 @@ std::string patched(std::string bytes, std::size_t offset, Value value) {
 }
 
 std::string parseError(const std::string& bytes) {
-    return errorOf([&] { parseHgl(std::as_bytes(std::span(bytes))); });
+    return errorText([&] { parseHgl(std::as_bytes(std::span(bytes))); });
 }
 
 TEST(ExportHgl, WritesTheDocumentedLayout) {
@@ -60,13 +61,13 @@ TEST(ExportHgl, WritesTheDocumentedLayout) {
 TEST(ExportHgl, RefusesGroomsThatTheFormatCannotHold) {
     const TemporaryFolder folder;
     const auto path = folder.file("a.hgl");
-    EXPECT_THAT(errorOf([&] { exportHgl({}, path); }), StartsWith(path.string() + ": "));
+    EXPECT_THAT(errorText([&] { exportHgl({}, path); }), StartsWith(path.string() + ": "));
     Groom groom = smallGroom();
     groom.vertices_per_strand = 257;
     groom.points.resize(std::size_t{3} * 257);
-    EXPECT_THAT(errorOf([&] { exportHgl(groom, path); }), HasSubstr("257"));
+    EXPECT_THAT(errorText([&] { exportHgl(groom, path); }), HasSubstr("257"));
     const auto nowhere = folder.file("no/such/folder.hgl");
-    EXPECT_THAT(errorOf([&] { exportHgl(smallGroom(), nowhere); }), HasSubstr("can't be written"));
+    EXPECT_THAT(errorText([&] { exportHgl(smallGroom(), nowhere); }), HasSubstr("can't be written"));
 }
 
 TEST(ImportHgl, GivesBackEveryBit) {
@@ -97,10 +98,10 @@ TEST(ImportHgl, NamesFileAndOffset) {
     const TemporaryFolder folder;
     const auto path = folder.write("bad.hgl", smallFile().substr(0, 50));
     EXPECT_THAT(
-        errorOf([&] { importHgl(path); }), StartsWith(path.string() + ": byte 50: truncated"));
+        errorText([&] { importHgl(path); }), StartsWith(path.string() + ": byte 50: truncated"));
     const auto missing = folder.file("missing.hgl");
-    EXPECT_EQ(errorOf([&] { importHgl(missing); }), missing.string() + ": no such file");
-    EXPECT_THAT(errorOf([&] { importHgl(folder.file("")); }), HasSubstr("not a file"));
+    EXPECT_EQ(errorText([&] { importHgl(missing); }), missing.string() + ": no such file");
+    EXPECT_THAT(errorText([&] { importHgl(folder.file("")); }), HasSubstr("not a file"));
 }
 
 TEST(ImportHgl, RefusesEveryTruncation) {

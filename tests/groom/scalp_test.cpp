@@ -7,7 +7,8 @@
 #include <gmock/gmock.h>
 
 #include "hair/random.h"
-#include "tests/groom/temporary_folder.h"
+#include "tests/error_text.h"
+#include "tests/temporary_folder.h"
 #include "tests/groom/test_meshes.h"
 
 namespace hair {
@@ -72,20 +73,20 @@ TEST(Scalp, NeedsItsMaterial) {
     Mesh mesh = makeCap();
     mesh.materials[1].name = "hat";
     EXPECT_EQ(
-        errorOf([&] { extractScalp(mesh); }),
+        errorText([&] { extractScalp(mesh); }),
         "the mesh has no material named 'scalp'; it has: 'skin', 'hat'");
     mesh.materials.push_back({.name = "scalp"});
-    EXPECT_EQ(errorOf([&] { extractScalp(mesh); }), "no triangle has the material 'scalp'");
-    EXPECT_THAT(errorOf([&] { extractScalp(Mesh{}); }), HasSubstr("it has: none"));
+    EXPECT_EQ(errorText([&] { extractScalp(mesh); }), "no triangle has the material 'scalp'");
+    EXPECT_THAT(errorText([&] { extractScalp(Mesh{}); }), HasSubstr("it has: none"));
 }
 
 TEST(Scalp, NeedsExactlyOneHairline) {
     const auto ring =
         makeGrid(3, 3, [](std::uint32_t x, std::uint32_t z) { return x == 1 && z == 1; });
-    EXPECT_EQ(errorOf([&] { extractScalp(ring); }), "the scalp has 2 boundary loops, 1 is needed");
+    EXPECT_EQ(errorText([&] { extractScalp(ring); }), "the scalp has 2 boundary loops, 1 is needed");
     const auto islands = makeGrid(3, 3, [](std::uint32_t x, std::uint32_t) { return x == 1; });
     EXPECT_EQ(
-        errorOf([&] { extractScalp(islands); }), "the scalp has 2 boundary loops, 1 is needed");
+        errorText([&] { extractScalp(islands); }), "the scalp has 2 boundary loops, 1 is needed");
     Mesh closed;  // a tetrahedron
     closed.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     closed.normals.resize(4, glm::vec3(0, 1, 0));
@@ -93,20 +94,20 @@ TEST(Scalp, NeedsExactlyOneHairline) {
     closed.triangle_materials.resize(4, 0);
     closed.materials = {{.name = "scalp"}};
     EXPECT_EQ(
-        errorOf([&] { extractScalp(closed); }), "the scalp has 0 boundary loops, 1 is needed");
+        errorText([&] { extractScalp(closed); }), "the scalp has 0 boundary loops, 1 is needed");
 }
 
 TEST(Scalp, RefusesWhatIsNoSurface) {
     const auto corner = makeGrid(2, 2, [](std::uint32_t x, std::uint32_t z) { return x != z; });
     EXPECT_EQ(
-        errorOf([&] { extractScalp(corner); }),
+        errorText([&] { extractScalp(corner); }),
         "the scalp's boundary touches itself at (1.000000, 0.000000, 1.000000)");
     Mesh fin = makeGrid(1, 1, kNoHole);
     fin.positions.emplace_back(0.5f, 1.0f, 0.5f);
     fin.normals.emplace_back(0.0f, 1.0f, 0.0f);
     fin.triangles.push_back({0, 3, 4});
     fin.triangle_materials.push_back(0);
-    EXPECT_THAT(errorOf([&] { extractScalp(fin); }), HasSubstr("not a surface"));
+    EXPECT_THAT(errorText([&] { extractScalp(fin); }), HasSubstr("not a surface"));
 }
 
 // A closed piece beside a disc adds no boundary loop.
@@ -123,7 +124,7 @@ TEST(Scalp, RefusesASecondPiece) {
         mesh.triangle_materials.push_back(0);
     }
     EXPECT_EQ(
-        errorOf([&] { extractScalp(mesh); }),
+        errorText([&] { extractScalp(mesh); }),
         "the scalp is not a disc: it has 2 pieces and the Euler characteristic 3");
 }
 

@@ -12,7 +12,8 @@
 
 #include "hair/groom/ear_clipping.h"
 #include "hair/random.h"
-#include "tests/groom/temporary_folder.h"
+#include "tests/error_text.h"
+#include "tests/temporary_folder.h"
 
 namespace hair {
 namespace {
@@ -249,37 +250,37 @@ TEST(Triangulate, CoversTwentyThousandPointsWithinSeconds) {
 
 TEST(Triangulate, RefusesPointsThatCoincide) {
     const Points points{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5, 0.5}, {0.25, 0.5}, {0.5, 0.5}};
-    EXPECT_EQ(errorOf([&] { triangulate(points, 4); }), "points 4 and 6 coincide");
+    EXPECT_EQ(errorText([&] { triangulate(points, 4); }), "points 4 and 6 coincide");
     EXPECT_EQ(
-        errorOf([&] { triangulate(Points(4, glm::dvec2(1.0)), 4); }), "points 0 and 1 coincide");
+        errorText([&] { triangulate(Points(4, glm::dvec2(1.0)), 4); }), "points 0 and 1 coincide");
 }
 
 TEST(Triangulate, RefusesPointsThatAreNotInside) {
     for (const glm::dvec2 point : {glm::dvec2(2, 2), glm::dvec2(0.5, 1.5), glm::dvec2(0.5, 0.0)}) {
         const Points points{{0, 0}, {1, 0}, {1, 1}, {0, 1}, point};
-        EXPECT_THAT(errorOf([&] { triangulate(points, 4); }), HasSubstr("point 4"));
+        EXPECT_THAT(errorText([&] { triangulate(points, 4); }), HasSubstr("point 4"));
     }
     const Points notch{{0, 0}, {4, 0}, {4, 4},
                        {2, 1}, {0, 4}, {2, 3}};  // in the notch, not in the polygon
-    EXPECT_THAT(errorOf([&] { triangulate(notch, 5); }), HasSubstr("point 5 is not inside"));
+    EXPECT_THAT(errorText([&] { triangulate(notch, 5); }), HasSubstr("point 5 is not inside"));
 }
 
 TEST(Triangulate, RefusesBoundariesThatMeetThemselves) {
     const Points bow_tie{{0, 0}, {1, 1}, {1, 0}, {0, 1}};
-    EXPECT_THAT(errorOf([&] { triangulate(bow_tie, 4); }), HasSubstr("meets itself"));
+    EXPECT_THAT(errorText([&] { triangulate(bow_tie, 4); }), HasSubstr("meets itself"));
     const Points touching{{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}};
-    EXPECT_THAT(errorOf([&] { triangulate(touching, 5); }), HasSubstr("meets itself"));
+    EXPECT_THAT(errorText([&] { triangulate(touching, 5); }), HasSubstr("meets itself"));
     const Points spike{{0, 0}, {4, 0}, {2, 0}, {2, 4}};
-    EXPECT_THAT(errorOf([&] { triangulate(spike, 4); }), HasSubstr("meets itself"));
+    EXPECT_THAT(errorText([&] { triangulate(spike, 4); }), HasSubstr("meets itself"));
     const Points flat{{0, 0}, {1, 0}, {2, 0}};
-    EXPECT_THAT(errorOf([&] { triangulate(flat, 3); }), HasSubstr("meets itself"));
+    EXPECT_THAT(errorText([&] { triangulate(flat, 3); }), HasSubstr("meets itself"));
 }
 
 TEST(Triangulate, RefusesTooFewOrInfinitePoints) {
     const Points two{{0, 0}, {1, 0}};
-    EXPECT_THAT(errorOf([&] { triangulate(two, 2); }), HasSubstr("at least 3"));
+    EXPECT_THAT(errorText([&] { triangulate(two, 2); }), HasSubstr("at least 3"));
     const Points infinite{{0, 0}, {1, 0}, {0, HUGE_VAL}};
-    EXPECT_EQ(errorOf([&] { triangulate(infinite, 3); }), "point 2 is not finite");
+    EXPECT_EQ(errorText([&] { triangulate(infinite, 3); }), "point 2 is not finite");
 }
 
 TEST(GridPoint, IsExactAtItsLimits) {
