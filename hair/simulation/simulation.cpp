@@ -96,6 +96,10 @@ Simulation::Simulation(
       capsules_(makeBuffer(device, capsulesOf(settings), "capsules")),
       positions_(device, {.size = rest_positions_.size(), .name = "guide positions"}),
       previous_(device, {.size = rest_positions_.size(), .name = "guide previous positions"}),
+      settled_positions_(
+          device, {.size = rest_positions_.size(), .name = "guide settled positions"}),
+      settled_previous_(
+          device, {.size = rest_positions_.size(), .name = "guide settled previous positions"}),
       accelerations_(device, {.size = rest_positions_.size(), .name = "guide accelerations"}),
       wind_(device, {.shader = "simulation/wind.comp", .push_size = sizeof(gpu::WindParameters)}),
       simulate_(
@@ -103,8 +107,9 @@ Simulation::Simulation(
                    .constants = {strands_per_group_ * vertices_per_strand_, vertices_per_strand_},
                    .push_size = sizeof(gpu::SimulateParameters)}) {
     assert(groom.points.size() == std::size_t{strand_count_} * vertices_per_strand_);
-    restoreRest();
+    restore(rest_positions_, rest_positions_);
     settle(settings.settle_steps);
+    keepSettled();
 }
 
 void Simulation::recordWind(Commands& commands) const {
@@ -144,8 +149,7 @@ void Simulation::settle(std::uint32_t steps) {
 
 void Simulation::reset() {
     steps_ = 0;
-    restoreRest();
-    settle(settings_.settle_steps);
+    restore(settled_positions_, settled_previous_);
 }
 
 void Simulation::setState(
@@ -198,12 +202,21 @@ void Simulation::recordSolver(Commands& commands, std::uint64_t accelerations) c
     commands.barrier(Access::compute_write, Access::graphics_read);
 }
 
-void Simulation::restoreRest() {
+void Simulation::restore(const engine::Buffer& positions, const engine::Buffer& previous) {
     device_->runOnce([&](Commands& commands) {
         commands.barrier(Access::anything, Access::transfer_write);
-        commands.copy(rest_positions_, positions_, rest_positions_.size());
-        commands.copy(rest_positions_, previous_, rest_positions_.size());
+        commands.copy(positions, positions_, positions_.size());
+        commands.copy(previous, previous_, previous_.size());
         commands.fill(accelerations_, 0);
+        commands.barrier(Access::transfer_write, Access::anything);
+    });
+}
+
+void Simulation::keepSettled() {
+    device_->runOnce([&](Commands& commands) {
+        commands.barrier(Access::anything, Access::transfer_write);
+        commands.copy(positions_, settled_positions_, positions_.size());
+        commands.copy(previous_, settled_previous_, previous_.size());
         commands.barrier(Access::transfer_write, Access::anything);
     });
 }

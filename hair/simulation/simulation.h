@@ -55,7 +55,8 @@ public:
 
 private:
     void recordSolver(engine::Commands& commands, std::uint64_t accelerations) const;
-    void restoreRest();
+    void restore(const engine::Buffer& positions, const engine::Buffer& previous);
+    void keepSettled();
 
     const engine::Device* device_;
     SimulationSettings settings_;
@@ -70,6 +71,8 @@ private:
     engine::Buffer capsules_;
     engine::Buffer positions_;
     engine::Buffer previous_;
+    engine::Buffer settled_positions_;  // the state after construction
+    engine::Buffer settled_previous_;
     engine::Buffer accelerations_;
     engine::ComputePipeline wind_;
     engine::ComputePipeline simulate_;
