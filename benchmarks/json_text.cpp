@@ -111,6 +111,8 @@ private:
 }  // namespace
 
 Json parseJson(std::string_view text, const std::string& name) {
+    if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
+        throw engine::Error(name, "is empty; a scene is at least {}");
     Builder builder(text, name);
     Json::sax_parse(text, &builder);
     return builder.take();

@@ -103,8 +103,8 @@ TEST_P(SceneError, IsOneLine) {
 }
 
 const BadScene kBadJson[] = {
-    {"", ":1:1: syntax error while parsing value - unexpected end of input; expected '[', '{', or "
-         "a literal"},
+    {"", ": is empty; a scene is at least {}"},
+    {" \n", ": is empty; a scene is at least {}"},
     {"{\n  \"seed\": 1,\n}",
      ":3:1: syntax error while parsing object key - unexpected '}'; expected string literal"},
     {"{} x", ":1:4: syntax error while parsing value - invalid literal; last read: '{} x'; "
