@@ -12,8 +12,8 @@ namespace benchmarks {
 namespace {
 
 // The mesh that the hair grows on and that is drawn under it. Hair from a file grows on none.
-std::optional<hair::Mesh> loadMesh(const hair::Settings& settings,
-                                   const std::filesystem::path& directory) {
+std::optional<hair::Mesh>
+loadMesh(const hair::Settings& settings, const std::filesystem::path& directory) {
     if (!settings.groom.file.empty()) return std::nullopt;
     return hair::importMesh(directory / settings.groom.grow.mesh);
 }
@@ -24,19 +24,18 @@ const hair::Mesh* pointerTo(const std::optional<hair::Mesh>& mesh) {
 
 }  // namespace
 
-Case::Case(const engine::Device& device, const hair::Settings& settings,
-           const std::filesystem::path& directory)
-    : device_(device),
-      settings_(settings),
-      mesh_(loadMesh(settings, directory)),
+Case::Case(
+    const engine::Device& device, const hair::Settings& settings,
+    const std::filesystem::path& directory)
+    : device_(device), settings_(settings), mesh_(loadMesh(settings, directory)),
       groom_(hair::buildGroom(settings.groom, pointerTo(mesh_), directory, settings.seed)),
       simulation_(device, groom_, settings.simulation, settings.seed),
       fixed_step_(double{settings.simulation.time_step}),
       root_triangles_(engine::makeBuffer(
           device, std::span<const std::array<std::uint32_t, 3>>(groom_.root_triangles),
           "root triangles")),
-      root_normals_(engine::makeBuffer(device, std::span<const glm::vec3>(groom_.root_normals),
-                                       "root normals")),
+      root_normals_(engine::makeBuffer(
+          device, std::span<const glm::vec3>(groom_.root_normals), "root normals")),
       renderer_(device, settings, view(), pointerTo(mesh_)) {}
 
 void Case::frame(engine::Passes& passes) {
@@ -45,10 +44,12 @@ void Case::frame(engine::Passes& passes) {
                                     ? 0
                                     : fixed_step_.stepsFor(double{settings_.run.frame_time});
     for (std::uint32_t i = 0; i < steps; ++i) {
-        passes.pass("wind", PassKind::compute,
-                    [&](engine::Commands& commands) { simulation_.recordWind(commands); });
-        passes.pass("simulate", PassKind::compute,
-                    [&](engine::Commands& commands) { simulation_.recordStep(commands); });
+        passes.pass("wind", PassKind::compute, [&](engine::Commands& commands) {
+            simulation_.recordWind(commands);
+        });
+        passes.pass("simulate", PassKind::compute, [&](engine::Commands& commands) {
+            simulation_.recordStep(commands);
+        });
     }
     renderer_.record(passes, view());
 }
@@ -73,21 +74,23 @@ std::string Case::stateHash() const {
 }
 
 std::vector<std::pair<std::string, std::uint64_t>> Case::counts() const {
-    return {{"guides", groom_.strand_count},
-            {"vertices_per_guide", groom_.vertices_per_strand},
-            {"root_triangles", groom_.root_triangles.size()},
-            {"strands", plan().strands()},
-            {"segments", plan().drawnSegments()}};
+    return {
+        {"guides", groom_.strand_count},
+        {"vertices_per_guide", groom_.vertices_per_strand},
+        {"root_triangles", groom_.root_triangles.size()},
+        {"strands", plan().strands()},
+        {"segments", plan().drawnSegments()}};
 }
 
 hair::StrandView Case::view() const {
     const hair::GuideView guides = simulation_.guides();
-    return {.guides = guides.positions,
-            .root_triangles = root_triangles_.address(),
-            .root_normals = groom_.root_normals.empty() ? 0 : root_normals_.address(),
-            .guide_count = guides.strand_count,
-            .vertices_per_guide = guides.vertices_per_strand,
-            .triangle_count = static_cast<std::uint32_t>(groom_.root_triangles.size())};
+    return {
+        .guides = guides.positions,
+        .root_triangles = root_triangles_.address(),
+        .root_normals = groom_.root_normals.empty() ? 0 : root_normals_.address(),
+        .guide_count = guides.strand_count,
+        .vertices_per_guide = guides.vertices_per_strand,
+        .triangle_count = static_cast<std::uint32_t>(groom_.root_triangles.size())};
 }
 
 void checkAssets(const hair::Settings& settings, const std::filesystem::path& directory) {

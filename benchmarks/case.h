@@ -17,14 +17,15 @@
 
 namespace benchmarks {
 
-// One set of settings, ready to play: the groom, its simulation and its renderer. Owns every GPU object
-// that it uses; leaving its scope frees them.
+// One set of settings, ready to play: the groom, its simulation and its renderer. Owns every GPU
+// object that it uses; leaving its scope frees them.
 class Case {
 public:
-    // `directory` is what file names in the settings are relative to. Throws engine::Error for files that
-    // can't be used, engine::Unsupported for what the device lacks.
-    Case(const engine::Device& device, const hair::Settings& settings,
-         const std::filesystem::path& directory);
+    // `directory` is what file names in the settings are relative to. Throws engine::Error for
+    // files that can't be used, engine::Unsupported for what the device lacks.
+    Case(
+        const engine::Device& device, const hair::Settings& settings,
+        const std::filesystem::path& directory);
 
     // Records the next frame: simulated time advances by /run/frame_time, then a picture is drawn.
     void frame(engine::Passes& passes);

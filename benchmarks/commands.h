@@ -11,8 +11,8 @@
 #include "benchmarks/sweep.h"
 #include "engine/device.h"
 
-// The program's commands. Each prints what it has to say, returns the exit status, and throws engine::Error
-// for what the user has to mend.
+// The program's commands. Each prints what it has to say, returns the exit status, and throws
+// engine::Error for what the user has to mend.
 namespace benchmarks {
 
 // Which cases of a scene, and on what.

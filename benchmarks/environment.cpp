@@ -19,7 +19,8 @@ std::string processorName() {
     std::ifstream file("/proc/cpuinfo");
     for (std::string line; std::getline(file, line);) {
         const std::size_t colon = line.find(':');
-        if (line.starts_with("model name") && colon + 2 < line.size()) return line.substr(colon + 2);
+        if (line.starts_with("model name") && colon + 2 < line.size())
+            return line.substr(colon + 2);
     }
     return {};
 }
@@ -49,10 +50,11 @@ std::string utcNow() {
 }
 
 HostRecord describeHost() {
-    HostRecord host{.system = systemName(),
-                    .processor = processorName(),
-                    .processor_count = std::thread::hardware_concurrency(),
-                    .memory_bytes = std::nullopt};
+    HostRecord host{
+        .system = systemName(),
+        .processor = processorName(),
+        .processor_count = std::thread::hardware_concurrency(),
+        .memory_bytes = std::nullopt};
     const long pages = sysconf(_SC_PHYS_PAGES);
     const long page_size = sysconf(_SC_PAGE_SIZE);
     if (pages > 0 && page_size > 0) {
@@ -69,22 +71,25 @@ std::string versionText() {
     return "hairbench " + std::string(kBuildVersion) + (commit.empty() ? "" : " (" + commit + ")");
 }
 
-Environment describeEnvironment(const engine::DeviceInfo& device, std::vector<std::string> command,
-                                std::uint64_t seed) {
-    return {.device = {.name = device.name,
-                       .type = device.type,
-                       .driver = device.driver,
-                       .driver_version = device.driver_version,
-                       .api_version = device.api_version,
-                       .timestamp_period_ns = double{device.limits.timestampPeriod}},
-            .host = describeHost(),
-            .build = {.version = kBuildVersion,
-                      .commit = kBuildCommit,
-                      .compiler = kBuildCompiler,
-                      .type = kBuildType},
-            .command = std::move(command),
-            .started = utcNow(),
-            .seed = seed};
+Environment describeEnvironment(
+    const engine::DeviceInfo& device, std::vector<std::string> command, std::uint64_t seed) {
+    return {
+        .device =
+            {.name = device.name,
+             .type = device.type,
+             .driver = device.driver,
+             .driver_version = device.driver_version,
+             .api_version = device.api_version,
+             .timestamp_period_ns = double{device.limits.timestampPeriod}},
+        .host = describeHost(),
+        .build =
+            {.version = kBuildVersion,
+             .commit = kBuildCommit,
+             .compiler = kBuildCompiler,
+             .type = kBuildType},
+        .command = std::move(command),
+        .started = utcNow(),
+        .seed = seed};
 }
 
 }  // namespace benchmarks

@@ -13,7 +13,8 @@ int validateScenes(const std::vector<std::filesystem::path>& scenes) {
         try {
             Scene scene = loadScene(path);
             const std::size_t count = selectCases(scene, {.scene = path}).size();
-            std::cout << path.string() << ": ok, " << count << (count == 1 ? " case\n" : " cases\n");
+            std::cout << path.string() << ": ok, " << count
+                      << (count == 1 ? " case\n" : " cases\n");
         } catch (const engine::Error& error) {
             std::cerr << error.what() << '\n';
             status = kUsageError;

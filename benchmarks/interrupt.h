@@ -2,7 +2,8 @@
 
 namespace benchmarks {
 
-// From here on Ctrl-C and termination are remembered instead of ending the program; a second one ends it.
+// From here on Ctrl-C and termination are remembered instead of ending the program; a second one
+// ends it.
 void catchInterrupts();
 
 // Whether one came.

@@ -20,8 +20,9 @@ Exit status: 0 ok, 1 internal error, 2 usage or invalid scene, 14 nothing ran,
 77 no suitable device, 130 interrupted (what was done is saved).)";
 
 void addDeviceOptions(CLI::App& command, engine::DeviceOptions& options) {
-    command.add_option("--device", options.wanted,
-                       "index or part of the name of the device (see 'hairbench devices')");
+    command.add_option(
+        "--device", options.wanted,
+        "index or part of the name of the device (see 'hairbench devices')");
     command.add_flag_callback(
         "--validate", [&options] { options.validation = engine::Validation::on; },
         "run under the Vulkan validation layer; slow");
@@ -30,8 +31,9 @@ void addDeviceOptions(CLI::App& command, engine::DeviceOptions& options) {
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("scene", options.scene, "scene file (.json)")->required()->type_name("FILE");
     command
-        .add_option("-a,--axis", options.axes,
-                    "replaces or adds an axis of the sweep: /strands/density=16,32")
+        .add_option(
+            "-a,--axis", options.axes,
+            "replaces or adds an axis of the sweep: /strands/density=16,32")
         ->type_name("POINTER=V1,V2")
         ->take_all()
         ->expected(1)
@@ -72,7 +74,8 @@ int dispatch(int argc, char** argv) {
     std::vector<std::filesystem::path> scenes;
     const CLI::App* run_command = addRun(app, run);
     const CLI::App* render_command = addRender(app, render);
-    CLI::App* validate_command = app.add_subcommand("validate", "checks scene files and their assets");
+    CLI::App* validate_command =
+        app.add_subcommand("validate", "checks scene files and their assets");
     validate_command->add_option("scenes", scenes, "scene files")->required()->type_name("FILE...");
     const CLI::App* schema_command =
         app.add_subcommand("schema", "prints the JSON Schema of scene files");

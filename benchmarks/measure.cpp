@@ -16,8 +16,8 @@ namespace {
 using engine::FrameRecord;
 using engine::Timing;
 
-// Pairs of an isolated and a wall-clock frame that the timestamps are tested with. A fault of the device
-// stays, a disturbance passes: while there are faults, more pairs are drawn.
+// Pairs of an isolated and a wall-clock frame that the timestamps are tested with. A fault of the
+// device stays, a disturbance passes: while there are faults, more pairs are drawn.
 constexpr std::uint32_t kTrustPairs = 2;
 constexpr std::uint32_t kMostTrustPairs = 16;
 
@@ -34,15 +34,17 @@ void playFrame(engine::FrameLoop& loop, Case& test_case, const StopRequest& stop
 }
 
 // All modes play the same frames, so that their pictures and states must be equal.
-Played play(const engine::Device& device, Case& test_case, Timing timing,
-            const hair::RunSettings& run, const StopRequest& stop) {
+Played play(
+    const engine::Device& device, Case& test_case, Timing timing, const hair::RunSettings& run,
+    const StopRequest& stop) {
     test_case.reset();
     engine::FrameLoop loop(device, timing);
     Played played;
     playFrame(loop, test_case, stop);
     played.first_frame = loop.finish().front().interval;
     for (std::uint32_t i = 1; i < run.warmup; ++i) playFrame(loop, test_case, stop);
-    // The interval of the last frame contains the wait for it: one more frame is drawn than measured.
+    // The interval of the last frame contains the wait for it: one more frame is drawn than
+    // measured.
     for (std::uint32_t i = 0; i <= run.frames; ++i) playFrame(loop, test_case, stop);
     const std::vector<FrameRecord> frames = loop.finish();
     played.frames.assign(frames.end() - 1 - run.frames, frames.end() - 1);
@@ -58,8 +60,8 @@ std::vector<double> collect(const std::vector<FrameRecord>& frames, Get get) {
     return values;
 }
 
-void addPassTimes(const std::vector<FrameRecord>& frames, const std::string& mode,
-                  CaseResult& result) {
+void addPassTimes(
+    const std::vector<FrameRecord>& frames, const std::string& mode, CaseResult& result) {
     for (const engine::PassTime& pass : frames.front().passes) {
         Metric metric{"pass." + pass.name + ".time", "ms", {}, mode};
         for (const FrameRecord& frame : frames) {
@@ -85,8 +87,8 @@ void addFrameTimes(const Played& played, CaseResult& result) {
     result.metrics.push_back({"frame.first.time", "ms", {played.first_frame}, mode});
 }
 
-void addStatistics(const engine::Device& device, Case& test_case, const StopRequest& stop,
-                   CaseResult& result) {
+void addStatistics(
+    const engine::Device& device, Case& test_case, const StopRequest& stop, CaseResult& result) {
     if (!device.hasPipelineStatistics()) return;
     engine::FrameLoop loop(device, Timing::statistics);
     playFrame(loop, test_case, stop);
@@ -107,31 +109,33 @@ void addStatistics(const engine::Device& device, Case& test_case, const StopRequ
         return std::nullopt;
     };
     for (std::size_t i = 0; i < engine::kStatisticNames.size(); ++i) {
-        Statistic statistic{.name = std::string(engine::kStatisticNames[i]),
-                            .measured = strands->counts[i],
-                            .expected = expectedOf(engine::kStatisticNames[i]),
-                            .note = ""};
+        Statistic statistic{
+            .name = std::string(engine::kStatisticNames[i]),
+            .measured = strands->counts[i],
+            .expected = expectedOf(engine::kStatisticNames[i]),
+            .note = ""};
         const bool fragments = statistic.name == "fragment_invocations";
         if (fragments && device.fragmentCountsAreApproximate()) {
             statistic.note = "approximate: this driver counts too many";
         }
         if (statistic.expected && *statistic.expected != statistic.measured) {
-            result.trust.warnings.push_back(statistic.name + ": measured " +
-                                            std::to_string(statistic.measured) + ", expected " +
-                                            std::to_string(*statistic.expected));
+            result.trust.warnings.push_back(
+                statistic.name + ": measured " + std::to_string(statistic.measured) +
+                ", expected " + std::to_string(*statistic.expected));
         }
         result.statistics.push_back(std::move(statistic));
     }
 }
 
 // Adds the isolated pass times, by timestamps if they can be trusted and else by the CPU's clock.
-void addPasses(const engine::Device& device, Case& test_case, const hair::RunSettings& run,
-               const Played& isolated, const StopRequest& stop, CaseResult& result) {
+void addPasses(
+    const engine::Device& device, Case& test_case, const hair::RunSettings& run,
+    const Played& isolated, const StopRequest& stop, CaseResult& result) {
     const double ratio = passSumOverWall(isolated.frames);
     result.trust.pass_sum_over_wall = ratio;
     if (std::abs(ratio - 1.0) > kTrustTolerance) {
-        result.trust.warnings.push_back("the passes add up to " + shortNumber(ratio) +
-                                        " of the frame's wall clock");
+        result.trust.warnings.push_back(
+            "the passes add up to " + shortNumber(ratio) + " of the frame's wall clock");
     }
 
     engine::FrameLoop stamped(device, Timing::isolated);
@@ -161,8 +165,9 @@ void addPasses(const engine::Device& device, Case& test_case, const hair::RunSet
 
 }  // namespace
 
-void measure(const engine::Device& device, Case& test_case, const hair::RunSettings& run,
-             const StopRequest& stop, CaseResult& result) {
+void measure(
+    const engine::Device& device, Case& test_case, const hair::RunSettings& run,
+    const StopRequest& stop, CaseResult& result) {
     result.counts = test_case.counts();
     const Played overlapped = play(device, test_case, Timing::overlapped, run, stop);
     const Played isolated = play(device, test_case, Timing::isolated, run, stop);

@@ -12,11 +12,12 @@ using StopRequest = std::function<bool()>;
 
 class Interrupted {};
 
-// Plays the case from its first frame once overlapped and once isolated, each with /run/warmup frames of
-// warm-up and /run/frames measured ones, checks that both made the same picture and state, holds the
-// timestamps against the CPU's clock, and counts with pipeline statistics in a frame of its own.
-// Fills in metrics, statistics, counts, trust and hashes of `result`.
-void measure(const engine::Device& device, Case& test_case, const hair::RunSettings& run,
-             const StopRequest& stop, CaseResult& result);
+// Plays the case from its first frame once overlapped and once isolated, each with /run/warmup
+// frames of warm-up and /run/frames measured ones, checks that both made the same picture and
+// state, holds the timestamps against the CPU's clock, and counts with pipeline statistics in a
+// frame of its own. Fills in metrics, statistics, counts, trust and hashes of `result`.
+void measure(
+    const engine::Device& device, Case& test_case, const hair::RunSettings& run,
+    const StopRequest& stop, CaseResult& result);
 
 }  // namespace benchmarks

@@ -22,8 +22,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// "[3/12] 0:41 left ~1:50  thesis/density:16" on stderr: one line that is rewritten on a terminal, a line
-// per case elsewhere.
+// "[3/12] 0:41 left ~1:50  thesis/density:16" on stderr: one line that is rewritten on a terminal,
+// a line per case elsewhere.
 class Progress {
 public:
     explicit Progress(std::size_t total) : total_(total), start_(Clock::now()) {}
@@ -64,18 +64,21 @@ private:
 };
 
 // A case that can't run here is part of the result, and the sweep goes on.
-CaseResult runCase(const engine::Device& device, const CaseSpec& spec,
-                   const std::filesystem::path& directory) {
+CaseResult runCase(
+    const engine::Device& device, const CaseSpec& spec, const std::filesystem::path& directory) {
     CaseResult result{.name = spec.name, .axes = spec.axes};
     try {
         Case test_case(device, spec.settings, directory);
         measure(device, test_case, spec.settings.run, interrupted, result);
     } catch (const engine::Unsupported& error) {
-        result = {.name = spec.name, .axes = spec.axes, .status = Status::skipped,
-                  .reason = error.what()};
+        result = {
+            .name = spec.name,
+            .axes = spec.axes,
+            .status = Status::skipped,
+            .reason = error.what()};
     } catch (const engine::Error& error) {
-        result = {.name = spec.name, .axes = spec.axes, .status = Status::failed,
-                  .reason = error.what()};
+        result = {
+            .name = spec.name, .axes = spec.axes, .status = Status::failed, .reason = error.what()};
     }
     return result;
 }
@@ -106,13 +109,14 @@ int runScene(const RunOptions& options) {
 
     catchInterrupts();
     const engine::Device device(options.scene.device);
-    Report report{.environment = describeEnvironment(device.info(), options.command,
-                                                     scene.settings.seed),
-                  .scene = {.path = scene.path.string(),
-                            .hash = hashText(scene.resolved),
-                            .document = scene.resolved}};
-    std::cerr << versionText() << " on " << device.info().name << " (" << device.info().driver << ' '
-              << device.info().driver_version << ")\n";
+    Report report{
+        .environment = describeEnvironment(device.info(), options.command, scene.settings.seed),
+        .scene = {
+            .path = scene.path.string(),
+            .hash = hashText(scene.resolved),
+            .document = scene.resolved}};
+    std::cerr << versionText() << " on " << device.info().name << " (" << device.info().driver
+              << ' ' << device.info().driver_version << ")\n";
     Progress progress(cases.size());
     try {
         for (const CaseSpec& each : cases) {

@@ -33,8 +33,9 @@ double passSumOverWall(std::span<const engine::FrameRecord> isolated) {
     return summarize(ratios).median;
 }
 
-std::vector<std::string> timestampFaults(std::span<const engine::FrameRecord> isolated,
-                                         std::span<const engine::FrameRecord> wall_clock) {
+std::vector<std::string> timestampFaults(
+    std::span<const engine::FrameRecord> isolated,
+    std::span<const engine::FrameRecord> wall_clock) {
     std::vector<std::string> faults;
     for (const engine::PassTime& pass : isolated.front().passes) {
         const std::vector<double> stamped_times = timesOf(isolated, pass.name);
@@ -46,8 +47,9 @@ std::vector<std::string> timestampFaults(std::span<const engine::FrameRecord> is
         const bool too_long = stamped > clocked * (1.0 + kTrustTolerance) + kSubmissionCost;
         const bool too_short = stamped < clocked * (1.0 - kTrustTolerance) - kSubmissionCost;
         if (too_long || too_short) {
-            faults.push_back("pass." + pass.name + ": timestamps say " + shortNumber(stamped) +
-                             " ms, the CPU's clock " + shortNumber(clocked) + " ms");
+            faults.push_back(
+                "pass." + pass.name + ": timestamps say " + shortNumber(stamped) +
+                " ms, the CPU's clock " + shortNumber(clocked) + " ms");
         }
     }
     return faults;

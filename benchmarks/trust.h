@@ -14,15 +14,15 @@ inline constexpr double kTrustTolerance = 0.1;
 // The sum of a frame's pass times, ms.
 double passSum(const engine::FrameRecord& frame);
 
-// Median over frames of (sum of the passes / wall clock from submission to completion). 1 if the passes
-// are all of the frame and the timestamps are right.
+// Median over frames of (sum of the passes / wall clock from submission to completion). 1 if the
+// passes are all of the frame and the timestamps are right.
 double passSumOverWall(std::span<const engine::FrameRecord> isolated);
 
-// What is wrong with a device's timestamps: isolated frames by timestamps against frames whose passes
-// were submitted and waited for one by one, the fastest of each. A pass is named if it is off by more
-// than kTrustTolerance and kSubmissionCost together. Empty: the timestamps are right.
-std::vector<std::string> timestampFaults(std::span<const engine::FrameRecord> isolated,
-                                         std::span<const engine::FrameRecord> wall_clock);
+// What is wrong with a device's timestamps: isolated frames by timestamps against frames whose
+// passes were submitted and waited for one by one, the fastest of each. A pass is named if it is
+// off by more than kTrustTolerance and kSubmissionCost together. Empty: the timestamps are right.
+std::vector<std::string> timestampFaults(
+    std::span<const engine::FrameRecord> isolated, std::span<const engine::FrameRecord> wall_clock);
 
 // What a submission and the wait for it may add to a pass by itself, ms.
 inline constexpr double kSubmissionCost = 0.5;

@@ -40,16 +40,16 @@ Buffer::Buffer(const Device& device, const BufferDescription& description)
     const VkResult result =
         vmaCreateBuffer(allocator_, &create, &allocate, &buffer_, &allocation_, &allocated);
     if (result != VK_SUCCESS) {
-        throw Error("buffer '" + description.name + "' of " + std::to_string(description.size) + " B",
-                    resultName(result));
+        throw Error(
+            "buffer '" + description.name + "' of " + std::to_string(description.size) + " B",
+            resultName(result));
     }
     mapped_ = allocated.pMappedData;
-    const VkBufferDeviceAddressInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO,
-                                         .pNext = nullptr,
-                                         .buffer = buffer_};
+    const VkBufferDeviceAddressInfo info{
+        .sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, .pNext = nullptr, .buffer = buffer_};
     address_ = vkGetBufferDeviceAddress(device.get(), &info);
-    device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer_),
-                   description.name);
+    device.setName(
+        VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer_), description.name);
 }
 
 Buffer::~Buffer() {

@@ -15,8 +15,8 @@ struct Scope {
 };
 
 constexpr VkPipelineStageFlags2 kAttachmentStages =
-    VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT |
-    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
+    VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT |
+    VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
 
 constexpr VkAccessFlags2 kAttachmentAccess =
     VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
@@ -24,34 +24,42 @@ constexpr VkAccessFlags2 kAttachmentAccess =
 
 Scope scope(Access access) {
     switch (access) {
-        case Access::nothing: return {VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE};
-        case Access::compute_read:
-            return {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT};
-        case Access::compute_write:
-            return {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                    VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT};
-        case Access::graphics_read:
-            return {VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT,
-                    VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT};
-        case Access::attachment: return {kAttachmentStages, kAttachmentAccess};
-        case Access::transfer_read:
-            return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
-        case Access::transfer_write:
-            return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
-        case Access::host_read: return {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT};
-        case Access::anything: break;
+    case Access::nothing:
+        return {VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE};
+    case Access::compute_read:
+        return {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT};
+    case Access::compute_write:
+        return {
+            VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+            VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT};
+    case Access::graphics_read:
+        return {
+            VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT,
+            VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT};
+    case Access::attachment:
+        return {kAttachmentStages, kAttachmentAccess};
+    case Access::transfer_read:
+        return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
+    case Access::transfer_write:
+        return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
+    case Access::host_read:
+        return {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT};
+    case Access::anything:
+        break;
     }
-    return {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-            VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+    return {
+        VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+        VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
 }
 
 }  // namespace
 
 void Commands::begin() {
-    const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                        .pNext = nullptr,
-                                        .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
-                                        .pInheritanceInfo = nullptr};
+    const VkCommandBufferBeginInfo info{
+        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+        .pNext = nullptr,
+        .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
+        .pInheritanceInfo = nullptr};
     check(vkBeginCommandBuffer(buffer_, &info), "begin a command buffer");
 }
 
@@ -60,12 +68,13 @@ void Commands::end() { check(vkEndCommandBuffer(buffer_), "end a command buffer"
 void Commands::barrier(Access before, Access after) {
     const Scope from = scope(before);
     const Scope to = scope(after);
-    const VkMemoryBarrier2 memory{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                  .pNext = nullptr,
-                                  .srcStageMask = from.stages,
-                                  .srcAccessMask = from.access,
-                                  .dstStageMask = to.stages,
-                                  .dstAccessMask = to.access};
+    const VkMemoryBarrier2 memory{
+        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+        .pNext = nullptr,
+        .srcStageMask = from.stages,
+        .srcAccessMask = from.access,
+        .dstStageMask = to.stages,
+        .dstAccessMask = to.access};
     VkDependencyInfo dependency{};
     dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
     dependency.memoryBarrierCount = 1;
@@ -73,22 +82,23 @@ void Commands::barrier(Access before, Access after) {
     vkCmdPipelineBarrier2(buffer_, &dependency);
 }
 
-void Commands::transition(const Image& image, VkImageLayout from, VkImageLayout to, Access before,
-                          Access after) {
+void Commands::transition(
+    const Image& image, VkImageLayout from, VkImageLayout to, Access before, Access after) {
     const Scope source = scope(before);
     const Scope target = scope(after);
-    const VkImageMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                                        .pNext = nullptr,
-                                        .srcStageMask = source.stages,
-                                        .srcAccessMask = source.access,
-                                        .dstStageMask = target.stages,
-                                        .dstAccessMask = target.access,
-                                        .oldLayout = from,
-                                        .newLayout = to,
-                                        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                        .image = image.get(),
-                                        .subresourceRange = {image.aspect(), 0, 1, 0, 1}};
+    const VkImageMemoryBarrier2 barrier{
+        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+        .pNext = nullptr,
+        .srcStageMask = source.stages,
+        .srcAccessMask = source.access,
+        .dstStageMask = target.stages,
+        .dstAccessMask = target.access,
+        .oldLayout = from,
+        .newLayout = to,
+        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .image = image.get(),
+        .subresourceRange = {image.aspect(), 0, 1, 0, 1}};
     VkDependencyInfo dependency{};
     dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
     dependency.imageMemoryBarrierCount = 1;
@@ -103,33 +113,37 @@ void Commands::copy(const Buffer& source, const Buffer& destination, std::size_t
 
 void Commands::copy(const Image& source, const Buffer& destination) {
     const VkExtent2D extent = source.extent();
-    const VkBufferImageCopy region{.bufferOffset = 0,
-                                   .bufferRowLength = 0,
-                                   .bufferImageHeight = 0,
-                                   .imageSubresource = {source.aspect(), 0, 0, 1},
-                                   .imageOffset = {0, 0, 0},
-                                   .imageExtent = {extent.width, extent.height, 1}};
-    vkCmdCopyImageToBuffer(buffer_, source.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                           destination.get(), 1, &region);
+    const VkBufferImageCopy region{
+        .bufferOffset = 0,
+        .bufferRowLength = 0,
+        .bufferImageHeight = 0,
+        .imageSubresource = {source.aspect(), 0, 0, 1},
+        .imageOffset = {0, 0, 0},
+        .imageExtent = {extent.width, extent.height, 1}};
+    vkCmdCopyImageToBuffer(
+        buffer_, source.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, destination.get(), 1, &region);
 }
 
 void Commands::copy(const Image& source, const Image& destination) {
     const VkExtent2D extent = source.extent();
-    const VkImageCopy region{.srcSubresource = {source.aspect(), 0, 0, 1},
-                             .srcOffset = {0, 0, 0},
-                             .dstSubresource = {destination.aspect(), 0, 0, 1},
-                             .dstOffset = {0, 0, 0},
-                             .extent = {extent.width, extent.height, 1}};
-    vkCmdCopyImage(buffer_, source.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, destination.get(),
-                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+    const VkImageCopy region{
+        .srcSubresource = {source.aspect(), 0, 0, 1},
+        .srcOffset = {0, 0, 0},
+        .dstSubresource = {destination.aspect(), 0, 0, 1},
+        .dstOffset = {0, 0, 0},
+        .extent = {extent.width, extent.height, 1}};
+    vkCmdCopyImage(
+        buffer_, source.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, destination.get(),
+        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }
 
 void Commands::fill(const Buffer& buffer, std::uint32_t value) {
     vkCmdFillBuffer(buffer_, buffer.get(), 0, VK_WHOLE_SIZE, value);
 }
 
-void Commands::images(const ComputePipeline& pipeline, std::span<const Image* const> sampled,
-                      std::span<const Image* const> storage) {
+void Commands::images(
+    const ComputePipeline& pipeline, std::span<const Image* const> sampled,
+    std::span<const Image* const> storage) {
     std::vector<VkDescriptorImageInfo> infos;
     for (const Image* image : sampled) {
         infos.push_back({VK_NULL_HANDLE, image->view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
@@ -146,8 +160,9 @@ void Commands::images(const ComputePipeline& pipeline, std::span<const Image* co
                                                       : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
         writes[i].pImageInfo = &infos[i];
     }
-    vkCmdPushDescriptorSetKHR(buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout(), 0,
-                              static_cast<std::uint32_t>(writes.size()), writes.data());
+    vkCmdPushDescriptorSetKHR(
+        buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout(), 0,
+        static_cast<std::uint32_t>(writes.size()), writes.data());
 }
 
 void Commands::dispatch(std::uint32_t groups_x, std::uint32_t groups_y) {
@@ -181,14 +196,16 @@ void Commands::bind(const ComputePipeline& pipeline) {
 
 void Commands::bindCompute(const ComputePipeline& pipeline, std::span<const std::byte> push) {
     bind(pipeline);
-    vkCmdPushConstants(buffer_, pipeline.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                       static_cast<std::uint32_t>(push.size()), push.data());
+    vkCmdPushConstants(
+        buffer_, pipeline.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+        static_cast<std::uint32_t>(push.size()), push.data());
 }
 
 void Commands::bindGraphics(const GraphicsPipeline& pipeline, std::span<const std::byte> push) {
     vkCmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
-    vkCmdPushConstants(buffer_, pipeline.layout(), VK_SHADER_STAGE_ALL_GRAPHICS, 0,
-                       static_cast<std::uint32_t>(push.size()), push.data());
+    vkCmdPushConstants(
+        buffer_, pipeline.layout(), VK_SHADER_STAGE_ALL_GRAPHICS, 0,
+        static_cast<std::uint32_t>(push.size()), push.data());
 }
 
 }  // namespace engine

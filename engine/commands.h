@@ -46,13 +46,14 @@ public:
     void barrier(Access before, Access after);
 
     // Also moves an image between layouts. UNDEFINED as `from` discards what it holds.
-    void transition(const Image& image, VkImageLayout from, VkImageLayout to, Access before,
-                    Access after);
+    void transition(
+        const Image& image, VkImageLayout from, VkImageLayout to, Access before, Access after);
 
     void copy(const Buffer& source, const Buffer& destination, std::size_t bytes);
     // Of one size; TRANSFER_SRC_OPTIMAL to TRANSFER_DST_OPTIMAL.
     void copy(const Image& source, const Image& destination);
-    void copy(const Image& source, const Buffer& destination);  // TRANSFER_SRC_OPTIMAL, tightly packed
+    void
+    copy(const Image& source, const Buffer& destination);  // TRANSFER_SRC_OPTIMAL, tightly packed
     void fill(const Buffer& buffer, std::uint32_t value);
 
     // Pipelines are bound with the constants that their next dispatch or draws use.
@@ -68,10 +69,11 @@ public:
         bindGraphics(pipeline, std::as_bytes(std::span(&push, 1)));
     }
 
-    // Gives the bound compute pipeline its images: sampled ones in SHADER_READ_ONLY_OPTIMAL at bindings
-    // 0.., then storage ones in GENERAL.
-    void images(const ComputePipeline& pipeline, std::span<const Image* const> sampled,
-                std::span<const Image* const> storage);
+    // Gives the bound compute pipeline its images: sampled ones in SHADER_READ_ONLY_OPTIMAL at
+    // bindings 0.., then storage ones in GENERAL.
+    void images(
+        const ComputePipeline& pipeline, std::span<const Image* const> sampled,
+        std::span<const Image* const> storage);
 
     void dispatch(std::uint32_t groups_x, std::uint32_t groups_y = 1);
     void draw(const Draw& draw);

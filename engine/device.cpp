@@ -35,12 +35,13 @@ Device::Device(const DeviceOptions& options)
     pipeline_statistics_ = features.core.features.pipelineStatisticsQuery == VK_TRUE;
 
     const float priority = 1.0f;
-    const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
-                                        .pNext = nullptr,
-                                        .flags = 0,
-                                        .queueFamilyIndex = info_.queue_family,
-                                        .queueCount = 1,
-                                        .pQueuePriorities = &priority};
+    const VkDeviceQueueCreateInfo queue{
+        .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+        .pNext = nullptr,
+        .flags = 0,
+        .queueFamilyIndex = info_.queue_family,
+        .queueCount = 1,
+        .pQueuePriorities = &priority};
     const std::vector<const char*> extensions = requiredExtensions();
     const VkDeviceCreateInfo create{
         .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
@@ -59,10 +60,11 @@ Device::Device(const DeviceOptions& options)
     allocator_ = createAllocator(instance_.get(), info_, device_);
     cache_ = std::make_unique<PipelineCache>(device_, info_);
 
-    const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-                                       .pNext = nullptr,
-                                       .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
-                                       .queueFamilyIndex = info_.queue_family};
+    const VkCommandPoolCreateInfo pool{
+        .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+        .pNext = nullptr,
+        .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+        .queueFamilyIndex = info_.queue_family};
     VkCommandPool handle{};
     check(vkCreateCommandPool(device_, &pool, nullptr, &handle), "create a command pool");
     pool_ = {device_, handle};
@@ -89,8 +91,8 @@ std::uint32_t Device::maxTessellatedVertices() const {
 }
 
 bool Device::supportsSamples(std::uint32_t samples) const {
-    return (info_.limits.framebufferColorSampleCounts &
-            info_.limits.framebufferDepthSampleCounts & samples) != 0;
+    return (info_.limits.framebufferColorSampleCounts & info_.limits.framebufferDepthSampleCounts &
+            samples) != 0;
 }
 
 bool Device::fragmentCountsAreApproximate() const {
@@ -140,8 +142,9 @@ void Device::runOnce(const std::function<void(Commands&)>& record) const {
     submit.pCommandBufferInfos = &submitted;
     const VkFence fence = fence_.get();
     check(vkQueueSubmit2(queue_, 1, &submit, fence), "submit");
-    check(vkWaitForFences(device_, 1, &fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max()),
-          "wait for the device");
+    check(
+        vkWaitForFences(device_, 1, &fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max()),
+        "wait for the device");
     check(vkResetFences(device_, 1, &fence), "reset a fence");
     vkFreeCommandBuffers(device_, pool_.get(), 1, &buffer);
 }

@@ -19,7 +19,8 @@ struct DeviceOptions {
     Validation validation = Validation::off;
 };
 
-// One logical device with one queue, its memory allocator and pipeline cache. Everything else borrows it.
+// One logical device with one queue, its memory allocator and pipeline cache. Everything else
+// borrows it.
 class Device {
 public:
     explicit Device(const DeviceOptions& options = {});
@@ -34,8 +35,8 @@ public:
     const DeviceInfo& info() const { return info_; }
     MessageLog& messages() const { return instance_.messages(); }
 
-    // Largest number of vertices that one tessellated draw (one instance of it) can make and still be
-    // right. lavapipe's tessellator has 16-bit indices and fails silently above.
+    // Largest number of vertices that one tessellated draw (one instance of it) can make and still
+    // be right. lavapipe's tessellator has 16-bit indices and fails silently above.
     std::uint32_t maxTessellatedVertices() const;
 
     bool supportsSamples(std::uint32_t samples) const;

@@ -43,12 +43,13 @@ void waitFor(VkDevice device, VkSemaphore timeline, std::uint64_t value) {
     wait.semaphoreCount = 1;
     wait.pSemaphores = &timeline;
     wait.pValues = &value;
-    check(vkWaitSemaphores(device, &wait, std::numeric_limits<std::uint64_t>::max()),
-          "wait for a frame");
+    check(
+        vkWaitSemaphores(device, &wait, std::numeric_limits<std::uint64_t>::max()),
+        "wait for a frame");
 }
 
-void submit(const Device& device, VkCommandBuffer commands, VkSemaphore timeline,
-            std::uint64_t value) {
+void submit(
+    const Device& device, VkCommandBuffer commands, VkSemaphore timeline, std::uint64_t value) {
     const VkCommandBufferSubmitInfo buffer{
         .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
         .pNext = nullptr,
@@ -79,8 +80,8 @@ struct FrameLoop::Slot {
             .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
             .queueFamilyIndex = device.info().queue_family};
         VkCommandPool handle{};
-        check(vkCreateCommandPool(device.get(), &create, nullptr, &handle),
-              "create a command pool");
+        check(
+            vkCreateCommandPool(device.get(), &create, nullptr, &handle), "create a command pool");
         pool = {device.get(), handle};
         const VkCommandBufferAllocateInfo allocate{
             .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
@@ -88,8 +89,9 @@ struct FrameLoop::Slot {
             .commandPool = handle,
             .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
             .commandBufferCount = 1};
-        check(vkAllocateCommandBuffers(device.get(), &allocate, &buffer),
-              "allocate a command buffer");
+        check(
+            vkAllocateCommandBuffers(device.get(), &allocate, &buffer),
+            "allocate a command buffer");
         if (timing == Timing::overlapped || timing == Timing::isolated) {
             timestamps.emplace(device, kMaxStamps);
         }
@@ -126,34 +128,36 @@ public:
         if (timing_ == Timing::overlapped) slot_data_.timestamps->write(commands_);
     }
 
-    void pass(const char* name, PassKind kind,
-              const std::function<void(Commands&)>& record) override {
+    void
+    pass(const char* name, PassKind kind, const std::function<void(Commands&)>& record) override {
         commands_.beginLabel(name);
         switch (timing_) {
-            case Timing::overlapped: {
+        case Timing::overlapped: {
+            record(commands_);
+            const std::uint32_t stamp = slot_data_.timestamps->write(commands_);
+            slot_data_.spans.push_back({name, stamp - 1, stamp});
+            break;
+        }
+        case Timing::isolated: {
+            const std::uint32_t first = slot_data_.timestamps->write(commands_);
+            commands_.barrier(Access::anything, Access::anything);
+            record(commands_);
+            commands_.barrier(Access::anything, Access::anything);
+            slot_data_.spans.push_back({name, first, slot_data_.timestamps->write(commands_)});
+            break;
+        }
+        case Timing::statistics:
+            if (kind == PassKind::graphics && device_.hasPipelineStatistics()) {
+                auto& query = slot_data_.queries.emplace_back(name, PipelineStatistics(device_));
+                query.statistics.begin(commands_);
                 record(commands_);
-                const std::uint32_t stamp = slot_data_.timestamps->write(commands_);
-                slot_data_.spans.push_back({name, stamp - 1, stamp});
+                query.statistics.end(commands_);
                 break;
             }
-            case Timing::isolated: {
-                const std::uint32_t first = slot_data_.timestamps->write(commands_);
-                commands_.barrier(Access::anything, Access::anything);
-                record(commands_);
-                commands_.barrier(Access::anything, Access::anything);
-                slot_data_.spans.push_back({name, first, slot_data_.timestamps->write(commands_)});
-                break;
-            }
-            case Timing::statistics:
-                if (kind == PassKind::graphics && device_.hasPipelineStatistics()) {
-                    auto& query = slot_data_.queries.emplace_back(name, PipelineStatistics(device_));
-                    query.statistics.begin(commands_);
-                    record(commands_);
-                    query.statistics.end(commands_);
-                    break;
-                }
-                [[fallthrough]];
-            case Timing::wall_clock: record(commands_); break;
+            [[fallthrough]];
+        case Timing::wall_clock:
+            record(commands_);
+            break;
         }
         commands_.endLabel();
     }
@@ -169,8 +173,9 @@ private:
 template <class Slot>
 class SubmittedPasses : public Passes {
 public:
-    SubmittedPasses(const Device& device, Slot& slot, VkSemaphore timeline,
-                    std::uint64_t& submitted, FrameRecord& record)
+    SubmittedPasses(
+        const Device& device, Slot& slot, VkSemaphore timeline, std::uint64_t& submitted,
+        FrameRecord& record)
         : device_(device), slot_data_(slot), timeline_(timeline), submitted_(submitted),
           record_(record) {}
 

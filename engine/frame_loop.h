@@ -36,10 +36,10 @@ struct PassStatistics {
 // What was measured of one frame. Times are in ms.
 struct FrameRecord {
     double interval = 0.0;  // CPU: from this frame's start to the next one's
-    double wall = 0.0;      // CPU: from submission until completion was seen (isolated, wall_clock)
-    double record = 0.0;    // CPU: recording the commands
-    double submit = 0.0;    // CPU: in vkQueueSubmit2
-    double device = 0.0;    // GPU: first to last stamp (overlapped, isolated)
+    double wall = 0.0;  // CPU: from submission until completion was seen (isolated, wall_clock)
+    double record = 0.0;  // CPU: recording the commands
+    double submit = 0.0;  // CPU: in vkQueueSubmit2
+    double device = 0.0;  // GPU: first to last stamp (overlapped, isolated)
     std::vector<PassTime> passes;  // passes of one name are summed
     std::vector<PassStatistics> statistics;
 };
@@ -50,10 +50,11 @@ public:
     virtual ~Passes() = default;
 
     // Records one pass. Its name is the debug label, the timer and the metric.
-    virtual void pass(const char* name, PassKind kind,
-                      const std::function<void(Commands&)>& record) = 0;
+    virtual void
+    pass(const char* name, PassKind kind, const std::function<void(Commands&)>& record) = 0;
 
-    // Index of the frame in flight, below FrameLoop::kMaxSlots: for buffers that the CPU writes each frame.
+    // Index of the frame in flight, below FrameLoop::kMaxSlots: for buffers that the CPU writes
+    // each frame.
     std::uint32_t slot() const { return slot_; }
 
 protected:
@@ -72,8 +73,8 @@ public:
 
     void frame(const std::function<void(Passes&)>& record);
 
-    // Waits for all frames; returns what was measured of each since the last call. The interval of the
-    // last frame runs until here, so it contains the wait: leave it out of statistics.
+    // Waits for all frames; returns what was measured of each since the last call. The interval of
+    // the last frame runs until here, so it contains the wait: leave it out of statistics.
     std::vector<FrameRecord> finish();
 
 private:

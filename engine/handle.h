@@ -6,8 +6,8 @@
 
 namespace engine {
 
-// Owns one Vulkan object that a device made. `Destroy` is the address of volk's function pointer, e.g.
-// Handle<VkSampler, &vkDestroySampler>.
+// Owns one Vulkan object that a device made. `Destroy` is the address of volk's function pointer,
+// e.g. Handle<VkSampler, &vkDestroySampler>.
 template <class Object, auto Destroy>
 class Handle {
 public:

@@ -7,11 +7,11 @@
 namespace engine {
 
 Image::Image(const Device& device, const ImageDescription& description)
-    : allocator_(device.allocator()),
-      format_(description.format),
+    : allocator_(device.allocator()), format_(description.format),
       extent_{description.width, description.height},
-      aspect_(description.format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT
-                                                         : VK_IMAGE_ASPECT_COLOR_BIT) {
+      aspect_(
+          description.format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                                     : VK_IMAGE_ASPECT_COLOR_BIT) {
     VkImageCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
     create.imageType = VK_IMAGE_TYPE_2D;
@@ -29,10 +29,11 @@ Image::Image(const Device& device, const ImageDescription& description)
     if (const VkResult result =
             vmaCreateImage(allocator_, &create, &allocate, &image_, &allocation_, nullptr);
         result != VK_SUCCESS) {
-        throw Error("image '" + description.name + "' of " + std::to_string(extent_.width) + " x " +
-                        std::to_string(extent_.height) + " px, " +
-                        std::to_string(description.samples) + " samples",
-                    resultName(result));
+        throw Error(
+            "image '" + description.name + "' of " + std::to_string(extent_.width) + " x " +
+                std::to_string(extent_.height) + " px, " + std::to_string(description.samples) +
+                " samples",
+            resultName(result));
     }
 
     VkImageViewCreateInfo view{};
@@ -48,13 +49,9 @@ Image::Image(const Device& device, const ImageDescription& description)
 }
 
 Image::Image(Image&& other) noexcept
-    : allocator_(other.allocator_),
-      allocation_(std::exchange(other.allocation_, nullptr)),
-      format_(other.format_),
-      extent_(other.extent_),
-      aspect_(other.aspect_),
-      image_(std::exchange(other.image_, VkImage{})),
-      view_(std::move(other.view_)) {}
+    : allocator_(other.allocator_), allocation_(std::exchange(other.allocation_, nullptr)),
+      format_(other.format_), extent_(other.extent_), aspect_(other.aspect_),
+      image_(std::exchange(other.image_, VkImage{})), view_(std::move(other.view_)) {}
 
 Image::~Image() {
     view_ = {};

@@ -12,24 +12,24 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
-VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
-                                         VkDebugUtilsMessageTypeFlagsEXT,
-                                         const VkDebugUtilsMessengerCallbackDataEXT* data,
-                                         void* log) {
+VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(
+    VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+    const VkDebugUtilsMessengerCallbackDataEXT* data, void* log) {
     static_cast<MessageLog*>(log)->add(data->pMessage);
     return VK_FALSE;
 }
 
 VkDebugUtilsMessengerCreateInfoEXT messengerInfo(MessageLog& log) {
-    return {.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
-            .pNext = nullptr,
-            .flags = 0,
-            .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
-                               VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
-            .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
-                           VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT,
-            .pfnUserCallback = onMessage,
-            .pUserData = &log};
+    return {
+        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+        .pNext = nullptr,
+        .flags = 0,
+        .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+                           VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+        .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
+                       VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT,
+        .pfnUserCallback = onMessage,
+        .pUserData = &log};
 }
 
 bool hasLayer(const char* name) {
@@ -72,13 +72,14 @@ Instance::Instance(Validation validation)
         throw NoDevice("the Vulkan loader is older than 1.3");
     }
 
-    const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
-                                        .pNext = nullptr,
-                                        .pApplicationName = "hairbench",
-                                        .applicationVersion = 0,
-                                        .pEngineName = "hairbench",
-                                        .engineVersion = 0,
-                                        .apiVersion = VK_API_VERSION_1_3};
+    const VkApplicationInfo application{
+        .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+        .pNext = nullptr,
+        .pApplicationName = "hairbench",
+        .applicationVersion = 0,
+        .pEngineName = "hairbench",
+        .engineVersion = 0,
+        .apiVersion = VK_API_VERSION_1_3};
 
     std::vector<const char*> layers;
     std::vector<const char*> extensions;
@@ -119,8 +120,9 @@ Instance::Instance(Validation validation)
     }
     volkLoadInstance(instance_);
     if (validation == Validation::on) {
-        check(vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_),
-              "create the validation messenger");
+        check(
+            vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_),
+            "create the validation messenger");
     }
 }
 

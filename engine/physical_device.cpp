@@ -42,8 +42,9 @@ constexpr std::array kVulkan13Features{
 constexpr std::array kExtensions{VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
 
 template <class Struct, std::size_t Count>
-void appendMissing(const Struct& available, const std::array<Feature<Struct>, Count>& wanted,
-                   std::vector<std::string>& missing) {
+void appendMissing(
+    const Struct& available, const std::array<Feature<Struct>, Count>& wanted,
+    std::vector<std::string>& missing) {
     for (const auto& feature : wanted) {
         if (!(available.*feature.member)) missing.push_back("feature " + std::string(feature.name));
     }
@@ -56,11 +57,13 @@ void enable(Struct& features, const std::array<Feature<Struct>, Count>& wanted) 
 
 void appendMissingExtensions(VkPhysicalDevice device, std::vector<std::string>& missing) {
     std::uint32_t count = 0;
-    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr),
-          "list the device's extensions");
+    check(
+        vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr),
+        "list the device's extensions");
     std::vector<VkExtensionProperties> available(count);
-    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, available.data()),
-          "list the device's extensions");
+    check(
+        vkEnumerateDeviceExtensionProperties(device, nullptr, &count, available.data()),
+        "list the device's extensions");
     for (const char* wanted : kExtensions) {
         const bool found = std::ranges::any_of(available, [&](const auto& extension) {
             return std::strcmp(extension.extensionName, wanted) == 0;
@@ -71,11 +74,16 @@ void appendMissingExtensions(VkPhysicalDevice device, std::vector<std::string>& 
 
 std::string typeName(VkPhysicalDeviceType type) {
     switch (type) {
-        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return "discrete";
-        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return "integrated";
-        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return "virtual";
-        case VK_PHYSICAL_DEVICE_TYPE_CPU: return "cpu";
-        default: return "other";
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+        return "discrete";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+        return "integrated";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+        return "virtual";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+        return "cpu";
+    default:
+        return "other";
     }
 }
 
@@ -142,8 +150,8 @@ DeviceInfo inspect(VkPhysicalDevice device) {
 }
 
 std::string lowerCase(std::string text) {
-    std::ranges::transform(text, text.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::ranges::transform(
+        text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
 }
 
@@ -190,8 +198,9 @@ DeviceInfo chooseDevice(const Instance& instance, const std::string& wanted) {
     const std::string all = "; devices: " + describe(devices);
     if (!wanted.empty()) {
         for (std::size_t i = 0; i < devices.size(); ++i) {
-            const bool named = wanted == std::to_string(i) ||
-                               lowerCase(devices[i].name).find(lowerCase(wanted)) != std::string::npos;
+            const bool named =
+                wanted == std::to_string(i) ||
+                lowerCase(devices[i].name).find(lowerCase(wanted)) != std::string::npos;
             if (!named) continue;
             if (devices[i].missing.empty()) return devices[i];
             throw NoDevice("device '" + wanted + "' can't run hairbench" + all);

@@ -25,9 +25,9 @@ struct DeviceInfo {
 // All devices of the instance, as the driver orders them.
 std::vector<DeviceInfo> listDevices(const Instance& instance);
 
-// The device that `wanted` names by index or part of its name (any case); with an empty `wanted` the
-// first of the best suitable type (discrete, integrated, virtual, cpu).
-// Throws NoDevice with the reasons when there is none.
+// The device that `wanted` names by index or part of its name (any case); with an empty `wanted`
+// the first of the best suitable type (discrete, integrated, virtual, cpu). Throws NoDevice with
+// the reasons when there is none.
 DeviceInfo chooseDevice(const Instance& instance, const std::string& wanted);
 
 // The features every device must have, chained for vkCreateDevice.

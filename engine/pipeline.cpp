@@ -31,11 +31,12 @@ VkShaderStageFlagBits stageOf(const std::string& path) {
 
 ShaderModule loadModule(const Device& device, const std::string& path) {
     const std::span<const std::uint32_t> code = shaderCode(path);
-    const VkShaderModuleCreateInfo create{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                          .pNext = nullptr,
-                                          .flags = 0,
-                                          .codeSize = code.size_bytes(),
-                                          .pCode = code.data()};
+    const VkShaderModuleCreateInfo create{
+        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+        .pNext = nullptr,
+        .flags = 0,
+        .codeSize = code.size_bytes(),
+        .pCode = code.data()};
     VkShaderModule module{};
     check(vkCreateShaderModule(device.get(), &create, nullptr, &module), "create a shader module");
     return {device.get(), module};
@@ -45,29 +46,32 @@ ShaderModule loadModule(const Device& device, const std::string& path) {
 struct Specialization {
     explicit Specialization(const Constants& constants) : entries(constants.size()) {
         for (std::uint32_t i = 0; i < entries.size(); ++i) entries[i] = {i, 4 * i, 4};
-        info = {.mapEntryCount = static_cast<std::uint32_t>(entries.size()),
-                .pMapEntries = entries.data(),
-                .dataSize = 4 * constants.size(),
-                .pData = constants.data()};
+        info = {
+            .mapEntryCount = static_cast<std::uint32_t>(entries.size()),
+            .pMapEntries = entries.data(),
+            .dataSize = 4 * constants.size(),
+            .pData = constants.data()};
     }
 
     std::vector<VkSpecializationMapEntry> entries;
     VkSpecializationInfo info{};
 };
 
-VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, const ShaderModule& module,
-                                          const Specialization& specialization) {
-    return {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-            .pNext = nullptr,
-            .flags = 0,
-            .stage = stage,
-            .module = module.get(),
-            .pName = "main",
-            .pSpecializationInfo = &specialization.info};
+VkPipelineShaderStageCreateInfo stageInfo(
+    VkShaderStageFlagBits stage, const ShaderModule& module, const Specialization& specialization) {
+    return {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+        .pNext = nullptr,
+        .flags = 0,
+        .stage = stage,
+        .module = module.get(),
+        .pName = "main",
+        .pSpecializationInfo = &specialization.info};
 }
 
-PipelineLayout makeLayout(const Device& device, VkShaderStageFlags stages, std::uint32_t push_size,
-                          VkDescriptorSetLayout images) {
+PipelineLayout makeLayout(
+    const Device& device, VkShaderStageFlags stages, std::uint32_t push_size,
+    VkDescriptorSetLayout images) {
     const VkPushConstantRange range{.stageFlags = stages, .offset = 0, .size = push_size};
     const VkPipelineLayoutCreateInfo create{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
@@ -78,13 +82,14 @@ PipelineLayout makeLayout(const Device& device, VkShaderStageFlags stages, std::
         .pushConstantRangeCount = push_size ? 1u : 0u,
         .pPushConstantRanges = &range};
     VkPipelineLayout layout{};
-    check(vkCreatePipelineLayout(device.get(), &create, nullptr, &layout),
-          "create a pipeline layout");
+    check(
+        vkCreatePipelineLayout(device.get(), &create, nullptr, &layout),
+        "create a pipeline layout");
     return {device.get(), layout};
 }
 
-VkDescriptorSetLayout makeImageLayout(const Device& device, std::uint32_t sampled,
-                                      std::uint32_t storage) {
+VkDescriptorSetLayout
+makeImageLayout(const Device& device, std::uint32_t sampled, std::uint32_t storage) {
     std::vector<VkDescriptorSetLayoutBinding> bindings(sampled + storage);
     for (std::uint32_t i = 0; i < bindings.size(); ++i) {
         bindings[i].binding = i;
@@ -100,8 +105,9 @@ VkDescriptorSetLayout makeImageLayout(const Device& device, std::uint32_t sample
         .bindingCount = static_cast<std::uint32_t>(bindings.size()),
         .pBindings = bindings.data()};
     VkDescriptorSetLayout layout{};
-    check(vkCreateDescriptorSetLayout(device.get(), &create, nullptr, &layout),
-          "create a descriptor set layout");
+    check(
+        vkCreateDescriptorSetLayout(device.get(), &create, nullptr, &layout),
+        "create a descriptor set layout");
     return layout;
 }
 
@@ -109,8 +115,9 @@ VkDescriptorSetLayout makeImageLayout(const Device& device, std::uint32_t sample
 
 ComputePipeline::ComputePipeline(const Device& device, const ComputeDescription& description) {
     if (description.sampled_images + description.storage_images > 0) {
-        images_ = {device.get(), makeImageLayout(device, description.sampled_images,
-                                                 description.storage_images)};
+        images_ = {
+            device.get(),
+            makeImageLayout(device, description.sampled_images, description.storage_images)};
     }
     layout_ = makeLayout(device, VK_SHADER_STAGE_COMPUTE_BIT, description.push_size, images_.get());
 
@@ -121,12 +128,13 @@ ComputePipeline::ComputePipeline(const Device& device, const ComputeDescription&
     create.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module, specialization);
     create.layout = layout_.get();
     VkPipeline pipeline{};
-    check(vkCreateComputePipelines(device.get(), device.pipelineCache(), 1, &create, nullptr,
-                                   &pipeline),
-          description.shader.c_str());
+    check(
+        vkCreateComputePipelines(
+            device.get(), device.pipelineCache(), 1, &create, nullptr, &pipeline),
+        description.shader.c_str());
     pipeline_ = {device.get(), pipeline};
-    device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline),
-                   description.shader);
+    device.setName(
+        VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), description.shader);
 }
 
 GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsDescription& description)
@@ -200,12 +208,14 @@ GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsDescripti
     create.pDynamicState = &dynamic;
     create.layout = layout_.get();
     VkPipeline pipeline{};
-    check(vkCreateGraphicsPipelines(device.get(), device.pipelineCache(), 1, &create, nullptr,
-                                    &pipeline),
-          description.shaders.front().c_str());
+    check(
+        vkCreateGraphicsPipelines(
+            device.get(), device.pipelineCache(), 1, &create, nullptr, &pipeline),
+        description.shaders.front().c_str());
     pipeline_ = {device.get(), pipeline};
-    device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline),
-                   description.shaders.front());
+    device.setName(
+        VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline),
+        description.shaders.front());
 }
 
 }  // namespace engine

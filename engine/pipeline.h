@@ -34,8 +34,8 @@ private:
 
 struct GraphicsDescription {
     std::vector<std::string> shaders;  // one per stage, by extension: .vert .tesc .tese .geom .frag
-    Constants constants;               // the same for every stage
-    std::uint32_t push_size = 0;       // B
+    Constants constants;  // the same for every stage
+    std::uint32_t push_size = 0;  // B
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     std::uint32_t patch_control_points = 0;  // with PATCH_LIST
     VkFormat color_format = VK_FORMAT_UNDEFINED;

@@ -57,11 +57,12 @@ PipelineCache::PipelineCache(VkDevice device, const DeviceInfo& info) : device_(
     if (!file_.empty()) loaded_ = readFile(file_);
     if (!belongsTo(loaded_, properties)) loaded_.clear();
 
-    const VkPipelineCacheCreateInfo create{.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO,
-                                           .pNext = nullptr,
-                                           .flags = 0,
-                                           .initialDataSize = loaded_.size(),
-                                           .pInitialData = loaded_.data()};
+    const VkPipelineCacheCreateInfo create{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO,
+        .pNext = nullptr,
+        .flags = 0,
+        .initialDataSize = loaded_.size(),
+        .pInitialData = loaded_.data()};
     check(vkCreatePipelineCache(device_, &create, nullptr, &cache_), "create the pipeline cache");
 }
 

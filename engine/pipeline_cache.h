@@ -7,9 +7,9 @@
 
 namespace engine {
 
-// A VkPipelineCache kept on disk between runs, in a file of its own per device and driver build under
-// $XDG_CACHE_HOME/hairbench (or ~/.cache/hairbench). A file that is unreadable or of another driver is
-// ignored, one that can't be written is not an error: the cache only saves time.
+// A VkPipelineCache kept on disk between runs, in a file of its own per device and driver build
+// under $XDG_CACHE_HOME/hairbench (or ~/.cache/hairbench). A file that is unreadable or of another
+// driver is ignored, one that can't be written is not an error: the cache only saves time.
 class PipelineCache {
 public:
     PipelineCache(VkDevice device, const DeviceInfo& info);

@@ -3,8 +3,9 @@
 namespace engine {
 
 PipelineStatistics::PipelineStatistics(const Device& device) : device_(device.get()) {
-    static_assert(VK_QUERY_PIPELINE_STATISTIC_TESSELLATION_EVALUATION_SHADER_INVOCATIONS_BIT ==
-                  1 << (kStatisticNames.size() - 1));
+    static_assert(
+        VK_QUERY_PIPELINE_STATISTIC_TESSELLATION_EVALUATION_SHADER_INVOCATIONS_BIT ==
+        1 << (kStatisticNames.size() - 1));
     VkQueryPoolCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
     create.queryType = VK_QUERY_TYPE_PIPELINE_STATISTICS;
@@ -24,9 +25,11 @@ void PipelineStatistics::end(Commands& commands) { vkCmdEndQuery(commands.get(),
 
 StatisticCounts PipelineStatistics::read() const {
     StatisticCounts counts{};
-    check(vkGetQueryPoolResults(device_, pool_.get(), 0, 1, sizeof counts, counts.data(),
-                                sizeof counts, VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-          "read the pipeline statistics");
+    check(
+        vkGetQueryPoolResults(
+            device_, pool_.get(), 0, 1, sizeof counts, counts.data(), sizeof counts,
+            VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+        "read the pipeline statistics");
     return counts;
 }
 

@@ -9,8 +9,8 @@
 
 namespace engine {
 
-// The graphics counters of VkQueryPipelineStatisticFlagBits, in the order of the bits 0 to 9. The compute
-// counter is left out: lavapipe crashes on it when no compute pipeline is bound.
+// The graphics counters of VkQueryPipelineStatisticFlagBits, in the order of the bits 0 to 9. The
+// compute counter is left out: lavapipe crashes on it when no compute pipeline is bound.
 inline constexpr std::array<std::string_view, 10> kStatisticNames{
     "input_assembly_vertices",      "input_assembly_primitives",
     "vertex_invocations",           "geometry_invocations",

@@ -10,26 +10,30 @@ namespace {
 
 TargetDescription checked(const Device& device, const TargetDescription& description) {
     if (!device.supportsSamples(description.msaa)) {
-        throw Unsupported("the device has no " + std::to_string(description.msaa) + "-sample images");
+        throw Unsupported(
+            "the device has no " + std::to_string(description.msaa) + "-sample images");
     }
     const std::uint32_t limit = device.info().limits.maxImageDimension2D;
     const std::uint32_t largest =
         std::max(description.width, description.height) * description.ssaa;
     if (largest > limit) {
-        throw Unsupported("an image side of " + std::to_string(largest) +
-                          " px is over the device's " + std::to_string(limit));
+        throw Unsupported(
+            "an image side of " + std::to_string(largest) + " px is over the device's " +
+            std::to_string(limit));
     }
     return description;
 }
 
-ImageDescription rendered(const TargetDescription& description, VkFormat format,
-                          VkImageUsageFlags usage, const char* name) {
-    return {.format = format,
-            .width = description.width * description.ssaa,
-            .height = description.height * description.ssaa,
-            .samples = description.msaa,
-            .usage = usage,
-            .name = name};
+ImageDescription rendered(
+    const TargetDescription& description, VkFormat format, VkImageUsageFlags usage,
+    const char* name) {
+    return {
+        .format = format,
+        .width = description.width * description.ssaa,
+        .height = description.height * description.ssaa,
+        .samples = description.msaa,
+        .usage = usage,
+        .name = name};
 }
 
 VkRenderingAttachmentInfo attachment(const Image& image, Load load, VkImageLayout layout) {
@@ -46,29 +50,35 @@ VkRenderingAttachmentInfo attachment(const Image& image, Load load, VkImageLayou
 
 Target::Target(const Device& device, const TargetDescription& description)
     : description_(checked(device, description)),
-      color_(device, rendered(description, kColorFormat,
-                              VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-                                  VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                              "color")),
-      depth_(device, rendered(description, kDepthFormat,
-                              VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, "depth")),
-      output_(device, {.format = kColorFormat,
-                       .width = description.width,
-                       .height = description.height,
-                       .samples = 1,
-                       .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                                VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-                       .name = "output"}) {}
+      color_(
+          device, rendered(
+                      description, kColorFormat,
+                      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                          VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                      "color")),
+      depth_(
+          device,
+          rendered(
+              description, kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, "depth")),
+      output_(
+          device, {.format = kColorFormat,
+                   .width = description.width,
+                   .height = description.height,
+                   .samples = 1,
+                   .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                            VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                   .name = "output"}) {}
 
-void Target::beginRendering(Commands& commands, Load load,
-                            const std::array<float, 3>& background) const {
+void Target::beginRendering(
+    Commands& commands, Load load, const std::array<float, 3>& background) const {
     constexpr VkImageLayout kColor = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
     constexpr VkImageLayout kDepth = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
     if (load == Load::clear) {
-        commands.transition(color_, VK_IMAGE_LAYOUT_UNDEFINED, kColor, Access::anything,
-                            Access::attachment);  // after the last frame's resolve
-        commands.transition(depth_, VK_IMAGE_LAYOUT_UNDEFINED, kDepth, Access::attachment,
-                            Access::attachment);
+        commands.transition(
+            color_, VK_IMAGE_LAYOUT_UNDEFINED, kColor, Access::anything,
+            Access::attachment);  // after the last frame's resolve
+        commands.transition(
+            depth_, VK_IMAGE_LAYOUT_UNDEFINED, kDepth, Access::attachment, Access::attachment);
     } else {
         commands.barrier(Access::attachment, Access::attachment);
     }
@@ -88,7 +98,8 @@ void Target::beginRendering(Commands& commands, Load load,
     vkCmdBeginRendering(commands.get(), &info);
 
     const VkViewport viewport{
-        0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height), 0.0f, 1.0f};
+        0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
+        0.0f, 1.0f};
     const VkRect2D scissor{{0, 0}, extent};
     vkCmdSetViewport(commands.get(), 0, 1, &viewport);
     vkCmdSetScissor(commands.get(), 0, 1, &scissor);
@@ -97,35 +108,39 @@ void Target::beginRendering(Commands& commands, Load load,
 void Target::endRendering(Commands& commands) const { vkCmdEndRendering(commands.get()); }
 
 void Target::beginResolve(Commands& commands) const {
-    commands.transition(color_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, Access::attachment,
-                        Access::compute_read);
-    commands.transition(output_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL,
-                        Access::transfer_read, Access::compute_write);
+    commands.transition(
+        color_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+        Access::attachment, Access::compute_read);
+    commands.transition(
+        output_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, Access::transfer_read,
+        Access::compute_write);
 }
 
 void Target::endResolve(Commands& commands) const {
-    commands.transition(output_, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                        Access::compute_write, Access::transfer_read);
+    commands.transition(
+        output_, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+        Access::compute_write, Access::transfer_read);
 }
 
 void Target::copyToOutput(Commands& commands) const {
-    commands.transition(color_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, Access::attachment,
-                        Access::transfer_read);
-    commands.transition(output_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                        Access::transfer_read, Access::transfer_write);
+    commands.transition(
+        color_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+        Access::attachment, Access::transfer_read);
+    commands.transition(
+        output_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+        Access::transfer_read, Access::transfer_write);
     commands.copy(color_, output_);
-    commands.transition(output_, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, Access::transfer_write,
-                        Access::transfer_read);
+    commands.transition(
+        output_, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+        Access::transfer_write, Access::transfer_read);
 }
 
 std::vector<std::uint8_t> readOutput(const Device& device, const Target& target) {
     const VkExtent2D extent = target.output().extent();
-    const Buffer staging(device, {.size = std::size_t{4} * extent.width * extent.height,
-                                  .usage = Usage::readback,
-                                  .name = "picture"});
+    const Buffer staging(
+        device, {.size = std::size_t{4} * extent.width * extent.height,
+                 .usage = Usage::readback,
+                 .name = "picture"});
     device.runOnce([&](Commands& commands) {
         commands.barrier(Access::anything, Access::transfer_read);
         commands.copy(target.output(), staging);

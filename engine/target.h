@@ -15,8 +15,8 @@ struct TargetDescription {
 
 enum class Load { clear, keep };
 
-// The images of an offscreen picture: color and depth that passes render into, and the output picture
-// that the resolve pass writes (8-bit RGBA, display-referred).
+// The images of an offscreen picture: color and depth that passes render into, and the output
+// picture that the resolve pass writes (8-bit RGBA, display-referred).
 class Target {
 public:
     static constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_UNORM;
@@ -26,7 +26,8 @@ public:
     Target(const Device& device, const TargetDescription& description);
 
     // Renders between these two; `background` is used by Load::clear.
-    void beginRendering(Commands& commands, Load load, const std::array<float, 3>& background) const;
+    void
+    beginRendering(Commands& commands, Load load, const std::array<float, 3>& background) const;
     void endRendering(Commands& commands) const;
 
     // Bracket a compute pass that reads color() and writes output().

@@ -7,8 +7,7 @@ namespace engine {
 Timestamps::Timestamps(const Device& device, std::uint32_t capacity)
     : device_(device.get()),
       period_(static_cast<double>(device.info().limits.timestampPeriod) * 1e-6),
-      mask_(validMask(device.info().timestamp_valid_bits)),
-      capacity_(capacity) {
+      mask_(validMask(device.info().timestamp_valid_bits)), capacity_(capacity) {
     VkQueryPoolCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
     create.queryType = VK_QUERY_TYPE_TIMESTAMP;
@@ -37,10 +36,11 @@ std::vector<double> Timestamps::read() const {
     };
     std::vector<Stamp> stamps(count_);
     if (count_ == 0) return {};
-    check(vkGetQueryPoolResults(device_, pool_.get(), 0, count_, stamps.size() * sizeof(Stamp),
-                                stamps.data(), sizeof(Stamp),
-                                VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WITH_AVAILABILITY_BIT),
-          "read the timestamps");
+    check(
+        vkGetQueryPoolResults(
+            device_, pool_.get(), 0, count_, stamps.size() * sizeof(Stamp), stamps.data(),
+            sizeof(Stamp), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WITH_AVAILABILITY_BIT),
+        "read the timestamps");
     std::vector<double> times;
     for (const Stamp& stamp : stamps) {
         if (!stamp.available) throw Error("the device did not write a timestamp");

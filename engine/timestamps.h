@@ -12,7 +12,8 @@ class Timestamps {
 public:
     Timestamps(const Device& device, std::uint32_t capacity);
 
-    // Makes all stamps unavailable again. The device must be done with the last frame that wrote them.
+    // Makes all stamps unavailable again. The device must be done with the last frame that wrote
+    // them.
     void reset();
 
     // Records a stamp that is taken when all earlier commands are done; returns its index.

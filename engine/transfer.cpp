@@ -7,8 +7,8 @@
 namespace engine {
 
 void upload(const Device& device, std::span<const std::byte> bytes, const Buffer& destination) {
-    const Buffer staging(device,
-                         {.size = bytes.size(), .usage = Usage::upload, .name = "upload staging"});
+    const Buffer staging(
+        device, {.size = bytes.size(), .usage = Usage::upload, .name = "upload staging"});
     std::ranges::copy(bytes, staging.mapped().begin());
     device.runOnce([&](Commands& commands) {
         commands.copy(staging, destination, bytes.size());

@@ -16,12 +16,14 @@ void upload(const Device& device, std::span<const std::byte> bytes, const Buffer
 // Returns a copy of the buffer's bytes, after all work submitted so far.
 std::vector<std::byte> download(const Device& device, const Buffer& source);
 
-// A device-local buffer that holds `values`. At least one element is allocated, so it has an address.
+// A device-local buffer that holds `values`. At least one element is allocated, so it has an
+// address.
 template <class Value>
 Buffer makeBuffer(const Device& device, std::span<const Value> values, const std::string& name) {
-    Buffer buffer(device, {.size = std::max(values.size_bytes(), sizeof(Value)),
-                           .usage = Usage::storage,
-                           .name = name});
+    Buffer buffer(
+        device, {.size = std::max(values.size_bytes(), sizeof(Value)),
+                 .usage = Usage::storage,
+                 .name = name});
     if (!values.empty()) upload(device, std::as_bytes(values), buffer);
     return buffer;
 }

@@ -9,8 +9,9 @@
 
 #include <glm/vec3.hpp>
 
-// Descriptions of settings members. One row of a settings struct's `fields()` tuple gives JSON reading,
-// range check, JSON Schema, report echo and (later) the UI widget: see settings.h for the tables.
+// Descriptions of settings members. One row of a settings struct's `fields()` tuple gives JSON
+// reading, range check, JSON Schema, report echo and (later) the UI widget: see settings.h for the
+// tables.
 namespace hair {
 
 // A number, or a vector of three numbers with the same range per component.
@@ -84,8 +85,9 @@ struct List {
 // Calls `visit(row)` for every row of Settings' table, in the table's order.
 template <class Settings, class Visitor>
 void forEachField(Visitor&& visit) {
-    std::apply([&](const auto&... row) { (visit(row), ...); },
-               fields(static_cast<const Settings*>(nullptr)));
+    std::apply(
+        [&](const auto&... row) { (visit(row), ...); },
+        fields(static_cast<const Settings*>(nullptr)));
 }
 
 }  // namespace hair

@@ -7,11 +7,12 @@
 
 #include "hair/fields.h"
 
-// Every parameter of a case, with the thesis's values (section 6 there) as defaults. A new parameter is a
-// member and a row in the table below its struct; nothing else has to be edited.
+// Every parameter of a case, with the thesis's values (section 6 there) as defaults. A new
+// parameter is a member and a row in the table below its struct; nothing else has to be edited.
 namespace hair {
 
-// ---- Groom -------------------------------------------------------------------------------------------
+// ---- Groom
+// -------------------------------------------------------------------------------------------
 
 // Guides grown on the scalp of a mesh.
 struct GrowSettings {
@@ -25,14 +26,17 @@ struct GrowSettings {
 constexpr auto fields(const GrowSettings*) {
     using S = GrowSettings;
     return std::tuple{
-        Text<S>{"mesh", &S::mesh,
-                "mesh with a material named 'scalp'; the path is relative to the scene file"},
+        Text<S>{
+            "mesh", &S::mesh,
+            "mesh with a material named 'scalp'; the path is relative to the scene file"},
         Field{"vertices", &S::vertices, 2, 64, "count", "vertices per guide, root included"},
         Field{"length", &S::length, 0.001, 2, "m", "length of a guide"},
-        Field{"comb", &S::comb, -10, 10, "1",
-              "vector added to the unit surface normal before a guide's direction is normalised"},
-        Field{"droop", &S::droop, 0, 100, "1/m",
-              "how fast the direction turns toward gravity along the guide; 0 is straight"}};
+        Field{
+            "comb", &S::comb, -10, 10, "1",
+            "vector added to the unit surface normal before a guide's direction is normalised"},
+        Field{
+            "droop", &S::droop, 0, 100, "1/m",
+            "how fast the direction turns toward gravity along the guide; 0 is straight"}};
 }
 
 struct GroomSettings {
@@ -44,13 +48,15 @@ struct GroomSettings {
 constexpr auto fields(const GroomSettings*) {
     using S = GroomSettings;
     return std::tuple{
-        Text<S>{"file", &S::file,
-                "guide file (.hgl), relative to the scene file; empty: guides are grown"},
+        Text<S>{
+            "file", &S::file,
+            "guide file (.hgl), relative to the scene file; empty: guides are grown"},
         Field{"guides", &S::guides, 4, 200000, "count", "number of guides to grow"},
         Group<S, GrowSettings>{"grow", &S::grow, "guides grown on a scalp"}};
 }
 
-// ---- Simulation --------------------------------------------------------------------------------------
+// ---- Simulation
+// --------------------------------------------------------------------------------------
 
 // Thesis equation (10): X += k_G (X_rest - X).
 struct GlobalSettings {
@@ -59,11 +65,13 @@ struct GlobalSettings {
 
 constexpr auto fields(const GlobalSettings*) {
     using S = GlobalSettings;
-    return std::tuple{Field{"stiffness", &S::stiffness, 0, 1, "1",
-                            "fraction of the way to the rest position, per 1/60 s"}};
+    return std::tuple{Field{
+        "stiffness", &S::stiffness, 0, 1, "1",
+        "fraction of the way to the rest position, per 1/60 s"}};
 }
 
-// Thesis equation (11); Han and Harada 2012, Real-time hair simulation with efficient hair style preservation.
+// Thesis equation (11); Han and Harada 2012, Real-time hair simulation with efficient hair style
+// preservation.
 struct LocalSettings {
     float stiffness = 0.01f;
     std::uint32_t iterations = 10;
@@ -72,8 +80,10 @@ struct LocalSettings {
 constexpr auto fields(const LocalSettings*) {
     using S = LocalSettings;
     return std::tuple{
-        Field{"stiffness", &S::stiffness, 0, 1, "1",
-              "k_L per iteration at 10 iterations, 1/60 s and segments of 21.4285 mm; used up to 0.95"},
+        Field{
+            "stiffness", &S::stiffness, 0, 1, "1",
+            "k_L per iteration at 10 iterations, 1/60 s and segments of 21.4285 mm; used up to "
+            "0.95"},
         Field{"iterations", &S::iterations, 0, 64, "count", "iterations per step"}};
 }
 
@@ -99,12 +109,17 @@ struct WindSettings {
 constexpr auto fields(const WindSettings*) {
     using S = WindSettings;
     return std::tuple{
-        Field{"strength", &S::strength, 0, 1500, "m/s^2", "acceleration at magnitude 1; the thesis uses 0 to 15"},
-        Field{"direction", &S::direction, -1, 1, "1", "where the wind blows to; any length but zero"},
-        Field{"cone_angle", &S::cone_angle, 0, 89, "deg",
-              "half-angle of the cone of four wind vectors round the direction"},
-        Field{"gust_rate", &S::gust_rate, 0, 100, "rad/s",
-              "w in magnitude = sin^2(w t) + 0.5; the thesis's 0.05 per frame at 60 Hz is 3"}};
+        Field{
+            "strength", &S::strength, 0, 1500, "m/s^2",
+            "acceleration at magnitude 1; the thesis uses 0 to 15"},
+        Field{
+            "direction", &S::direction, -1, 1, "1", "where the wind blows to; any length but zero"},
+        Field{
+            "cone_angle", &S::cone_angle, 0, 89, "deg",
+            "half-angle of the cone of four wind vectors round the direction"},
+        Field{
+            "gust_rate", &S::gust_rate, 0, 100, "rad/s",
+            "w in magnitude = sin^2(w t) + 0.5; the thesis's 0.05 per frame at 60 Hz is 3"}};
 }
 
 // A capsule, or a sphere where a == b.
@@ -116,9 +131,10 @@ struct Collider {
 
 constexpr auto fields(const Collider*) {
     using S = Collider;
-    return std::tuple{Field{"a", &S::a, -100, 100, "m", "one end of the axis"},
-                      Field{"b", &S::b, -100, 100, "m", "other end of the axis"},
-                      Field{"radius", &S::radius, 0.0001, 10, "m", "radius"}};
+    return std::tuple{
+        Field{"a", &S::a, -100, 100, "m", "one end of the axis"},
+        Field{"b", &S::b, -100, 100, "m", "other end of the axis"},
+        Field{"radius", &S::radius, 0.0001, 10, "m", "radius"}};
 }
 
 struct CollisionSettings {
@@ -130,7 +146,9 @@ constexpr auto fields(const CollisionSettings*) {
     using S = CollisionSettings;
     return std::tuple{
         Field{"margin", &S::margin, 0, 1, "m", "distance that guides keep from colliders"},
-        Field{"friction", &S::friction, 0, 10, "1", "Coulomb's coefficient of friction on colliders"}};
+        Field{
+            "friction", &S::friction, 0, 10, "1",
+            "Coulomb's coefficient of friction on colliders"}};
 }
 
 enum class Solver { none, shape };
@@ -154,19 +172,23 @@ struct SimulationSettings {
 constexpr auto fields(const SimulationSettings*) {
     using S = SimulationSettings;
     return std::tuple{
-        Choice<S, Solver, 2>{"solver", &S::solver,
-                             {{{Solver::none, "none"}, {Solver::shape, "shape"}}},
-                             "none: frozen at rest; shape: the thesis's Verlet with shape constraints"},
+        Choice<S, Solver, 2>{
+            "solver",
+            &S::solver,
+            {{{Solver::none, "none"}, {Solver::shape, "shape"}}},
+            "none: frozen at rest; shape: the thesis's Verlet with shape constraints"},
         Field{"time_step", &S::time_step, 0.0005, 0.1, "s", "fixed step of simulated time"},
-        Field{"settle_steps", &S::settle_steps, 0, 100000, "count",
-              "steps simulated without wind before the first frame"},
+        Field{
+            "settle_steps", &S::settle_steps, 0, 100000, "count",
+            "steps simulated without wind before the first frame"},
         Field{"gravity", &S::gravity, -100, 100, "m/s^2", "acceleration of gravity"},
         Field{"friction", &S::friction, 0, 1, "1", "fraction of the velocity lost per 1/60 s"},
         Choice<S, StiffnessScaling, 2>{
             "stiffness_scaling",
             &S::stiffness_scaling,
             {{{StiffnessScaling::invariant, "invariant"}, {StiffnessScaling::thesis, "thesis"}}},
-            "invariant: stiffness means the same at any time step, iteration count and segment length; "
+            "invariant: stiffness means the same at any time step, iteration count and segment "
+            "length; "
             "thesis: the raw factor, applied once per iteration"},
         Group<S, GlobalSettings>{"global", &S::global, "pull toward the rest position"},
         Group<S, LocalSettings>{"local", &S::local, "pull toward the rest shape"},
@@ -176,7 +198,8 @@ constexpr auto fields(const SimulationSettings*) {
         List<S, Collider>{"colliders", &S::colliders, 64, "capsules that push guides out"}};
 }
 
-// ---- Strands -----------------------------------------------------------------------------------------
+// ---- Strands
+// -----------------------------------------------------------------------------------------
 
 enum class Backend { tessellation, pulling_geometry };
 enum class Curve { bspline, bspline_unpinned };
@@ -200,32 +223,37 @@ constexpr auto fields(const StrandSettings*) {
         Choice<S, Backend, 2>{
             "backend",
             &S::backend,
-            {{{Backend::tessellation, "tessellation"}, {Backend::pulling_geometry, "pulling_geometry"}}},
-            "tessellation: control, isolines, evaluation, geometry; pulling_geometry: points evaluated in "
+            {{{Backend::tessellation, "tessellation"},
+              {Backend::pulling_geometry, "pulling_geometry"}}},
+            "tessellation: control, isolines, evaluation, geometry; pulling_geometry: points "
+            "evaluated in "
             "the vertex stage, the same geometry stage"},
         Field{"density", &S::density, 1, 4096, "count", "strands per root triangle"},
         Field{"tessellation", &S::tessellation, 1, 64, "count", "drawn segments per guide segment"},
         Field{"root_width", &S::root_width, 0, 0.1, "m", "width at the root"},
         Field{"tip_width", &S::tip_width, 0, 0.1, "m", "width at the tip"},
-        Choice<S, Curve, 2>{"curve",
-                            &S::curve,
-                            {{{Curve::bspline, "bspline"}, {Curve::bspline_unpinned, "bspline_unpinned"}}},
-                            "bspline: uniform cubic B-spline through root and tip; bspline_unpinned: the "
-                            "thesis's, which floats off the scalp"},
-        Choice<S, Taper, 2>{"taper",
-                            &S::taper,
-                            {{{Taper::strand, "strand"}, {Taper::segment, "segment"}}},
-                            "strand: width falls along the whole strand; segment: the published program's, "
-                            "which restarts in every guide segment"},
+        Choice<S, Curve, 2>{
+            "curve",
+            &S::curve,
+            {{{Curve::bspline, "bspline"}, {Curve::bspline_unpinned, "bspline_unpinned"}}},
+            "bspline: uniform cubic B-spline through root and tip; bspline_unpinned: the "
+            "thesis's, which floats off the scalp"},
+        Choice<S, Taper, 2>{
+            "taper",
+            &S::taper,
+            {{{Taper::strand, "strand"}, {Taper::segment, "segment"}}},
+            "strand: width falls along the whole strand; segment: the published program's, "
+            "which restarts in every guide segment"},
         Choice<S, Submission, 2>{
             "submission",
             &S::submission,
             {{{Submission::instanced, "instanced"}, {Submission::batched, "batched"}}},
-            "instanced: a root triangle is an instance; batched: patches in draws that fit the device"}};
+            "instanced: a root triangle is an instance; batched: patches in draws that fit the "
+            "device"}};
 }
 
-// Level of detail: at level L density and tessellation are divided by 2^L and the width grows so that the
-// covered area is kept (thesis 2.3.8.1).
+// Level of detail: at level L density and tessellation are divided by 2^L and the width grows so
+// that the covered area is kept (thesis 2.3.8.1).
 enum class LodMode { forced, distance };
 
 struct LodSettings {
@@ -239,17 +267,23 @@ struct LodSettings {
 constexpr auto fields(const LodSettings*) {
     using S = LodSettings;
     return std::tuple{
-        Choice<S, LodMode, 2>{"mode",
-                              &S::mode,
-                              {{{LodMode::forced, "forced"}, {LodMode::distance, "distance"}}},
-                              "forced: `level` everywhere; distance: by distance from the camera"},
+        Choice<S, LodMode, 2>{
+            "mode",
+            &S::mode,
+            {{{LodMode::forced, "forced"}, {LodMode::distance, "distance"}}},
+            "forced: `level` everywhere; distance: by distance from the camera"},
         Field{"level", &S::level, 0, 8, "1", "forced level; may be fractional"},
-        Field{"near_distance", &S::near_distance, 0.001, 1000, "m", "distance up to which level 0 is drawn"},
-        Field{"far_distance", &S::far_distance, 0.001, 1000, "m", "distance at which maximum_level is reached"},
+        Field{
+            "near_distance", &S::near_distance, 0.001, 1000, "m",
+            "distance up to which level 0 is drawn"},
+        Field{
+            "far_distance", &S::far_distance, 0.001, 1000, "m",
+            "distance at which maximum_level is reached"},
         Field{"maximum_level", &S::maximum_level, 0, 8, "1", "level at far_distance and beyond"}};
 }
 
-// ---- Picture -----------------------------------------------------------------------------------------
+// ---- Picture
+// -----------------------------------------------------------------------------------------
 
 struct LightSettings {
     glm::vec3 position{5.0f, 5.0f, 5.0f};
@@ -258,8 +292,9 @@ struct LightSettings {
 
 constexpr auto fields(const LightSettings*) {
     using S = LightSettings;
-    return std::tuple{Field{"position", &S::position, -1000, 1000, "m", "position of the point light"},
-                      Field{"color", &S::color, 0, 100, "1", "intensity, display RGB"}};
+    return std::tuple{
+        Field{"position", &S::position, -1000, 1000, "m", "position of the point light"},
+        Field{"color", &S::color, 0, 100, "1", "intensity, display RGB"}};
 }
 
 enum class ShadingModel { phong };
@@ -299,12 +334,13 @@ struct CameraSettings {
 
 constexpr auto fields(const CameraSettings*) {
     using S = CameraSettings;
-    return std::tuple{Field{"position", &S::position, -1000, 1000, "m", "eye"},
-                      Field{"target", &S::target, -1000, 1000, "m", "point looked at"},
-                      Field{"up", &S::up, -1, 1, "1", "up direction"},
-                      Field{"field_of_view", &S::field_of_view, 1, 170, "deg", "vertical field of view"},
-                      Field{"near_plane", &S::near_plane, 0.0001, 100, "m", "near plane"},
-                      Field{"far_plane", &S::far_plane, 0.001, 10000, "m", "far plane"}};
+    return std::tuple{
+        Field{"position", &S::position, -1000, 1000, "m", "eye"},
+        Field{"target", &S::target, -1000, 1000, "m", "point looked at"},
+        Field{"up", &S::up, -1, 1, "1", "up direction"},
+        Field{"field_of_view", &S::field_of_view, 1, 170, "deg", "vertical field of view"},
+        Field{"near_plane", &S::near_plane, 0.0001, 100, "m", "near plane"},
+        Field{"far_plane", &S::far_plane, 0.001, 10000, "m", "far plane"}};
 }
 
 struct OverlaySettings {
@@ -314,8 +350,9 @@ struct OverlaySettings {
 
 constexpr auto fields(const OverlaySettings*) {
     using S = OverlaySettings;
-    return std::tuple{Toggle<S>{"guides", &S::guides, "draw the simulated guides over the hair"},
-                      Toggle<S>{"root_triangles", &S::root_triangles, "draw the root triangles"}};
+    return std::tuple{
+        Toggle<S>{"guides", &S::guides, "draw the simulated guides over the hair"},
+        Toggle<S>{"root_triangles", &S::root_triangles, "draw the root triangles"}};
 }
 
 struct RenderSettings {
@@ -333,14 +370,20 @@ constexpr auto fields(const RenderSettings*) {
     return std::tuple{
         Field{"width", &S::width, 1, 8192, "px", "width of the picture"},
         Field{"height", &S::height, 1, 8192, "px", "height of the picture"},
-        OneOf<S, 4>{"msaa", &S::msaa, {1, 2, 4, 8}, "samples", "multisampling; a count the device lacks is skipped"},
+        OneOf<S, 4>{
+            "msaa",
+            &S::msaa,
+            {1, 2, 4, 8},
+            "samples",
+            "multisampling; a count the device lacks is skipped"},
         OneOf<S, 2>{"ssaa", &S::ssaa, {1, 2}, "factor", "supersampling along each side"},
         Field{"background", &S::background, 0, 1, "1", "background colour, display RGB"},
         Toggle<S>{"head", &S::head, "draw the mesh that the hair grows on"},
         Group<S, OverlaySettings>{"overlays", &S::overlays, "what is drawn over the hair"}};
 }
 
-// ---- Run ---------------------------------------------------------------------------------------------
+// ---- Run
+// ---------------------------------------------------------------------------------------------
 
 struct RunSettings {
     std::uint32_t warmup = 3;
@@ -353,8 +396,9 @@ constexpr auto fields(const RunSettings*) {
     return std::tuple{
         Field{"warmup", &S::warmup, 2, 10000, "count", "frames drawn before measuring"},
         Field{"frames", &S::frames, 1, 1000000, "count", "frames measured in each mode"},
-        Field{"frame_time", &S::frame_time, 0, 1, "s",
-              "simulated time that a frame advances; 0 draws the same instant again"}};
+        Field{
+            "frame_time", &S::frame_time, 0, 1, "s",
+            "simulated time that a frame advances; 0 draws the same instant again"}};
 }
 
 // Everything a case needs: the members of a scene file but its sweep.

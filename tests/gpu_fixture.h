@@ -7,16 +7,16 @@
 
 #include "engine/device.h"
 
-// One validated device for all GPU tests of a program, made for the first and gone before main() returns:
-// later, the validation layer's own globals are gone.
+// One validated device for all GPU tests of a program, made for the first and gone before main()
+// returns: later, the validation layer's own globals are gone.
 class GpuEnvironment : public testing::Environment {
 public:
     // Null where there is no Vulkan device; missing() says why.
     static engine::Device* device() {
         if (!device_ && missing_.empty()) {
             try {
-                device_ = std::make_unique<engine::Device>(engine::DeviceOptions{
-                    .wanted = "", .validation = engine::Validation::on});
+                device_ = std::make_unique<engine::Device>(
+                    engine::DeviceOptions{.wanted = "", .validation = engine::Validation::on});
             } catch (const engine::NoDevice& error) {
                 missing_ = error.what();
             }
@@ -36,8 +36,8 @@ private:
 inline testing::Environment* const gpu_environment =
     testing::AddGlobalTestEnvironment(new GpuEnvironment);
 
-// A test is skipped only where there is no Vulkan device, and fails on any validation message that came
-// while it ran.
+// A test is skipped only where there is no Vulkan device, and fails on any validation message that
+// came while it ran.
 class GpuTest : public testing::Test {
 protected:
     void SetUp() override {

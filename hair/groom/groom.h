@@ -9,19 +9,20 @@
 
 namespace hair {
 
-// Guide hairs at rest with the triangles that span them: what import and growth make, and what simulation
-// and rendering read. Nothing changes it after it is built.
+// Guide hairs at rest with the triangles that span them: what import and growth make, and what
+// simulation and rendering read. Nothing changes it after it is built.
 struct Groom {
     std::uint32_t strand_count = 0;
     std::uint32_t vertices_per_strand = 0;  // V >= 2, the same for every strand
     std::vector<glm::vec3> points;          // [strand][vertex], m, root first
-    std::vector<glm::vec3> root_normals;    // [strand], of the scalp, unit length; empty: not known
-    std::vector<std::array<std::uint32_t, 3>> root_triangles;  // guide indices; strands grow between them
+    std::vector<glm::vec3> root_normals;  // [strand], of the scalp, unit length; empty: not known
+    std::vector<std::array<std::uint32_t, 3>>
+        root_triangles;  // guide indices; strands grow between them
 
     std::uint32_t segmentsPerStrand() const { return vertices_per_strand - 1; }
     std::span<const glm::vec3> strand(std::uint32_t index) const {
-        return std::span(points).subspan(std::size_t{index} * vertices_per_strand,
-                                         vertices_per_strand);
+        return std::span(points).subspan(
+            std::size_t{index} * vertices_per_strand, vertices_per_strand);
     }
 };
 

@@ -9,8 +9,8 @@ class TessellationBackend : public StrandBackend {
 public:
     explicit TessellationBackend(const BackendContext& context)
         : plan_(context.plan),
-          draws_(planDraws(context.plan, context.strands.submission,
-                           context.device.maxTessellatedVertices())),
+          draws_(planDraws(
+              context.plan, context.strands.submission, context.device.maxTessellatedVertices())),
           pipeline_(context.device, describe(context)) {}
 
     void draw(engine::Commands& commands, std::uint64_t picture) const override {
@@ -23,9 +23,9 @@ public:
 private:
     static engine::GraphicsDescription describe(const BackendContext& context) {
         engine::GraphicsDescription description = strandPipeline(context);
-        description.shaders = {"strands/tessellation.vert", "strands/tessellation.tesc",
-                               "strands/tessellation.tese", "strands/strand.geom",
-                               "strands/strand.frag"};
+        description.shaders = {
+            "strands/tessellation.vert", "strands/tessellation.tesc", "strands/tessellation.tese",
+            "strands/strand.geom", "strands/strand.frag"};
         description.topology = VK_PRIMITIVE_TOPOLOGY_PATCH_LIST;
         description.patch_control_points = 1;
         return description;

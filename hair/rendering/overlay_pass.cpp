@@ -12,26 +12,27 @@ constexpr glm::vec3 kGuideColor{0.05f, 0.2f, 0.9f};
 constexpr glm::vec3 kTriangleColor{0.85f, 0.1f, 0.1f};
 
 engine::GraphicsDescription lines(const char* vertex_shader, std::uint32_t samples) {
-    return {.shaders = {vertex_shader, "strands/strand.geom", "overlay/color.frag"},
-            .push_size = sizeof(gpu::OverlayPush),
-            .topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST,
-            .color_format = engine::Target::kColorFormat,
-            .depth_format = engine::Target::kDepthFormat,
-            .samples = samples};
+    return {
+        .shaders = {vertex_shader, "strands/strand.geom", "overlay/color.frag"},
+        .push_size = sizeof(gpu::OverlayPush),
+        .topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST,
+        .color_format = engine::Target::kColorFormat,
+        .depth_format = engine::Target::kDepthFormat,
+        .samples = samples};
 }
 
 }  // namespace
 
-OverlayPass::OverlayPass(const engine::Device& device, const OverlaySettings& overlays,
-                         std::uint32_t samples) {
+OverlayPass::OverlayPass(
+    const engine::Device& device, const OverlaySettings& overlays, std::uint32_t samples) {
     if (overlays.guides) guides_.emplace(device, lines("overlay/guides.vert", samples));
     if (overlays.root_triangles) {
         root_triangles_.emplace(device, lines("overlay/root_triangles.vert", samples));
     }
 }
 
-void OverlayPass::draw(engine::Commands& commands, std::uint64_t picture,
-                       const StrandView& view) const {
+void OverlayPass::draw(
+    engine::Commands& commands, std::uint64_t picture, const StrandView& view) const {
     if (root_triangles_) {
         commands.bind(*root_triangles_, gpu::OverlayPush{picture, kTriangleColor});
         commands.draw({.vertices = 2 * 3 * view.triangle_count});

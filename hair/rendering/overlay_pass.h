@@ -8,10 +8,12 @@
 
 namespace hair {
 
-// Ribbons over the finished hair: the simulated guides and the root triangles (thesis figures 4.2 and 4.6).
+// Ribbons over the finished hair: the simulated guides and the root triangles (thesis figures 4.2
+// and 4.6).
 class OverlayPass {
 public:
-    OverlayPass(const engine::Device& device, const OverlaySettings& overlays, std::uint32_t samples);
+    OverlayPass(
+        const engine::Device& device, const OverlaySettings& overlays, std::uint32_t samples);
 
     bool empty() const { return !guides_ && !root_triangles_; }
 

@@ -16,13 +16,15 @@
 
 namespace hair {
 
-// Draws pictures of a head of hair: the passes scene, strands, overlay (where asked for) and resolve.
+// Draws pictures of a head of hair: the passes scene, strands, overlay (where asked for) and
+// resolve.
 class Renderer {
 public:
     // `mesh` is drawn under the hair; null: none. `view` gives the counts, which stay as they are.
     // Throws engine::Unsupported for what the device can't do.
-    Renderer(const engine::Device& device, const Settings& settings, const StrandView& view,
-             const Mesh* mesh);
+    Renderer(
+        const engine::Device& device, const Settings& settings, const StrandView& view,
+        const Mesh* mesh);
 
     void record(engine::Passes& passes, const StrandView& view);
 

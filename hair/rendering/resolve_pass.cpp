@@ -12,12 +12,13 @@ constexpr std::uint32_t kGroupSide = 8;  // local size in post/resolve.glsl
 
 ResolvePass::ResolvePass(const engine::Device& device, const engine::TargetDescription& target) {
     if (target.msaa == 1 && target.ssaa == 1) return;
-    average_.emplace(device, engine::ComputeDescription{
-                                 .shader = target.msaa > 1 ? "post/resolve_multisample.comp"
-                                                           : "post/resolve.comp",
-                                 .constants = {target.msaa, target.ssaa},
-                                 .sampled_images = 1,
-                                 .storage_images = 1});
+    average_.emplace(
+        device,
+        engine::ComputeDescription{
+            .shader = target.msaa > 1 ? "post/resolve_multisample.comp" : "post/resolve.comp",
+            .constants = {target.msaa, target.ssaa},
+            .sampled_images = 1,
+            .storage_images = 1});
 }
 
 void ResolvePass::record(engine::Commands& commands, const engine::Target& target) const {
@@ -31,7 +32,8 @@ void ResolvePass::record(engine::Commands& commands, const engine::Target& targe
     commands.bind(*average_);
     commands.images(*average_, sampled, storage);
     const auto [width, height] = target.output().extent();
-    commands.dispatch((width + kGroupSide - 1) / kGroupSide, (height + kGroupSide - 1) / kGroupSide);
+    commands.dispatch(
+        (width + kGroupSide - 1) / kGroupSide, (height + kGroupSide - 1) / kGroupSide);
     target.endResolve(commands);
 }
 

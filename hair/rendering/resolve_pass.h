@@ -7,8 +7,8 @@
 
 namespace hair {
 
-// Rendered samples -> the picture: the mean over MSAA samples and SSAA pixels (thesis 2.3.7). One sample
-// a pixel is copied, which takes lavapipe a tenth of the time.
+// Rendered samples -> the picture: the mean over MSAA samples and SSAA pixels (thesis 2.3.7). One
+// sample a pixel is copied, which takes lavapipe a tenth of the time.
 class ResolvePass {
 public:
     ResolvePass(const engine::Device& device, const engine::TargetDescription& target);

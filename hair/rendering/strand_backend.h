@@ -12,8 +12,8 @@
 
 namespace hair {
 
-// Draws all strands of a picture into the target that is being rendered to. Every back end draws the same
-// strands; they differ in the pipeline stages that make them.
+// Draws all strands of a picture into the target that is being rendered to. Every back end draws
+// the same strands; they differ in the pipeline stages that make them.
 class StrandBackend {
 public:
     virtual ~StrandBackend() = default;

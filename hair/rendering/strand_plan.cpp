@@ -19,9 +19,9 @@ std::uint32_t countAtLevel(std::uint32_t count, float level) {
     return std::max(1u, static_cast<std::uint32_t>(scaled));
 }
 
-StrandPlan planStrands(std::uint32_t triangles, std::uint32_t segments,
-                       const StrandSettings& strands, const LodSettings& lod,
-                       std::uint32_t isoline_limit) {
+StrandPlan planStrands(
+    std::uint32_t triangles, std::uint32_t segments, const StrandSettings& strands,
+    const LodSettings& lod, std::uint32_t isoline_limit) {
     StrandPlan plan;
     plan.triangles = triangles;
     plan.segments = segments;
@@ -57,8 +57,8 @@ ExpectedCounts expectedCounts(const StrandPlan& plan) {
     return counts;
 }
 
-std::vector<engine::Draw> planDraws(const StrandPlan& plan, Submission submission,
-                                    std::uint32_t max_vertices) {
+std::vector<engine::Draw>
+planDraws(const StrandPlan& plan, Submission submission, std::uint32_t max_vertices) {
     const std::uint32_t patches_per_draw = max_vertices / plan.verticesPerPatch();
     assert(patches_per_draw > 0);
     const bool instanced = submission == Submission::instanced;
@@ -66,10 +66,12 @@ std::vector<engine::Draw> planDraws(const StrandPlan& plan, Submission submissio
     const std::uint32_t instances = instanced ? plan.triangles * plan.patches_per_triangle : 1;
     std::vector<engine::Draw> draws;
     for (std::uint32_t first = 0; first < patches; first += patches_per_draw) {
-        draws.push_back({.vertices = std::min(patches_per_draw, patches - first),
-                         .instances = instances,
-                         .first_vertex = first});
-        if (patches - first <= patches_per_draw) break;  // first may overflow on devices with no limit
+        draws.push_back(
+            {.vertices = std::min(patches_per_draw, patches - first),
+             .instances = instances,
+             .first_vertex = first});
+        if (patches - first <= patches_per_draw)
+            break;  // first may overflow on devices with no limit
     }
     return draws;
 }

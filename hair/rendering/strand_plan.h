@@ -33,9 +33,11 @@ struct StrandPlan {
 // A count at a level of detail: count / 2^level, rounded, at least 1.
 std::uint32_t countAtLevel(std::uint32_t count, float level);
 
-// `isoline_limit` is the device's maxTessellationGenerationLevel: a denser triangle takes several patches.
-StrandPlan planStrands(std::uint32_t triangles, std::uint32_t segments, const StrandSettings& strands,
-                       const LodSettings& lod, std::uint32_t isoline_limit);
+// `isoline_limit` is the device's maxTessellationGenerationLevel: a denser triangle takes several
+// patches.
+StrandPlan planStrands(
+    std::uint32_t triangles, std::uint32_t segments, const StrandSettings& strands,
+    const LodSettings& lod, std::uint32_t isoline_limit);
 
 // What the pipeline statistics must say of the strands' draws. Absent where only the device knows.
 struct ExpectedCounts {
@@ -48,7 +50,7 @@ ExpectedCounts expectedCounts(const StrandPlan& plan);
 
 // Draws of one vertex per patch such that no draw, counted per instance, tessellates to more than
 // `max_vertices`. Patch index = instance * segments + vertex in all of them.
-std::vector<engine::Draw> planDraws(const StrandPlan& plan, Submission submission,
-                                    std::uint32_t max_vertices);
+std::vector<engine::Draw>
+planDraws(const StrandPlan& plan, Submission submission, std::uint32_t max_vertices);
 
 }  // namespace hair

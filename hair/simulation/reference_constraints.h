@@ -50,10 +50,10 @@ void pullToShape(
 void projectLengths(Points positions, ConstPoints rest);
 
 // Moves every vertex but the root to the surface of each capsule it is inside of, in the list's
-// order and the margin away from it, the shortest way; from a point on the axis along the perpendicular
-// described above. Friction then takes back what the vertex moved along the surface since `before`, at
-// most the coefficient times the depth: Macklin et al. 2014, Unified particle physics for real-time
-// applications, eq. 24.
+// order and the margin away from it, the shortest way; from a point on the axis along the
+// perpendicular described above. Friction then takes back what the vertex moved along the surface
+// since `before`, at most the coefficient times the depth: Macklin et al. 2014, Unified particle
+// physics for real-time applications, eq. 24.
 void pushOut(
     Points positions, ConstPoints before, std::span<const Collider> colliders,
     const CollisionSettings& settings);

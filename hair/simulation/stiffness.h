@@ -17,14 +17,14 @@
 // Local: the torque at a joint of a beam is EI dtheta / l and moves a mass that is proportional to
 // l at arm l, so the rate at which an error dies is proportional to dt^2 / l^4. n0 iterations leave
 // (1 - k)^n0 of it; its power (dt / h0)^2 (l0 / l)^4 is what the n iterations of a step together
-// leave. A strand's sag then depends on the step by a few percent even at k = 0.2; segments so short
-// that the iterations can't carry a correction along the strand stay too soft.
+// leave. A strand's sag then depends on the step by a few percent even at k = 0.2; segments so
+// short that the iterations can't carry a correction along the strand stay too soft.
 //
 // Friction leaves a fraction of the velocity per reference step, hence its power dt / h0 per step.
 namespace hair {
 
-inline constexpr double kReferenceStep = 1.0 / 60.0;     // h0, s
-inline constexpr double kReferenceIterations = 10.0;     // n0
+inline constexpr double kReferenceStep = 1.0 / 60.0;  // h0, s
+inline constexpr double kReferenceIterations = 10.0;  // n0
 inline constexpr double kReferenceSegment = 0.15 / 7.0;  // l0, m
 // Per iteration, as in the thesis's program.
 inline constexpr double kGreatestLocalStiffness = 0.95;

@@ -31,7 +31,7 @@ struct PictureParameters {
     uint tessellation;          // segments per guide segment at level 0
     uint patches_per_triangle;  // per guide segment: density beyond the device's isolines is split
     uint strands_per_patch;
-    uint forced_density;       // the same at the forced level
+    uint forced_density;  // the same at the forced level
     uint forced_tessellation;
     uint seed;
 };
@@ -44,23 +44,24 @@ struct StrandPush {
 // A point of a strand, as strands/evaluate.comp writes it.
 struct StrandPointRecord {
     vec3 position;  // m
-    float width;    // m; negative: the level of detail does not draw this point
-    vec3 tangent;   // d position / d t, t in [0, 1] along the guide segment; m
-    float along;    // 0 at the root, 1 at the tip
+    float width;  // m; negative: the level of detail does not draw this point
+    vec3 tangent;  // d position / d t, t in [0, 1] along the guide segment; m
+    float along;  // 0 at the root, 1 at the tip
 };
 
 // Push constants of strands/evaluate.comp.
 struct StrandPointsPush {
     uint64_t picture;  // PictureParameters
-    uint64_t records;  // StrandPointRecord [triangle][strand][guide segment][0 .. tessellation], written
+    uint64_t
+        records;  // StrandPointRecord [triangle][strand][guide segment][0 .. tessellation], written
     uint count;
 };
 
 // Push constants of scene/mesh.
 struct MeshPush {
-    uint64_t picture;    // PictureParameters
+    uint64_t picture;  // PictureParameters
     uint64_t positions;  // vec3, m
-    uint64_t normals;    // vec3, unit length
+    uint64_t normals;  // vec3, unit length
     vec3 base_color;
 };
 

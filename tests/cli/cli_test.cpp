@@ -1,4 +1,5 @@
-// The program as a user meets it: its exit status, its one-line errors, the files it writes and leaves alone.
+// The program as a user meets it: its exit status, its one-line errors, the files it writes and
+// leaves alone.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -72,10 +73,12 @@ TEST(Cli, DryRunListsTheWholeSweep) {
     EXPECT_EQ(outcome.status, 0);
     // 3 guide counts x 3 densities x 3 tessellation factors x 3 sample counts x 3 levels.
     EXPECT_THAT(outcome.output, HasSubstr("243 cases"));
-    EXPECT_THAT(outcome.output, HasSubstr("thesis/guides:86/density:64/tessellation:4/msaa:1/level:0\n"));
+    EXPECT_THAT(
+        outcome.output, HasSubstr("thesis/guides:86/density:64/tessellation:4/msaa:1/level:0\n"));
 }
 
-// ---- What is refused: one line, status 2, nothing written ------------------------------------------------
+// ---- What is refused: one line, status 2, nothing written
+// ------------------------------------------------
 
 struct Refusal {
     const char* name;
@@ -109,8 +112,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"OutOfRange", R"({"strands": {"density": 0}})", "/strands/density: 0 is outside"},
         Refusal{"WrongType", R"({"render": {"width": "wide"}})", "/render/width: "},
         Refusal{"MissingMesh", R"({"groom": {"grow": {"mesh": "none.glb"}}})", "none.glb"},
-        Refusal{"MeshWithoutScalp", R"({"groom": {"grow": {"mesh": "bald.obj"}}})",
-                "no material named 'scalp'"},
+        Refusal{
+            "MeshWithoutScalp", R"({"groom": {"grow": {"mesh": "bald.obj"}}})",
+            "no material named 'scalp'"},
         Refusal{"GuideFileCutShort", R"({"groom": {"file": "short.hgl"}})", "short.hgl"},
         Refusal{"GuideFileWithFalseCount", R"({"groom": {"file": "lies.hgl"}})", "lies.hgl"}),
     [](const auto& each) { return each.param.name; });
@@ -126,7 +130,8 @@ TEST(Cli, RefusesWhatItDoesNotKnow) {
 TEST(Cli, ValidateNamesEveryBadScene) {
     const TemporaryFolder folder;
     const fs::path bad = folder.write("bad.json", "[]");
-    const Outcome outcome = hairbench("validate " + scene("smoke.json") + " '" + bad.string() + "'");
+    const Outcome outcome =
+        hairbench("validate " + scene("smoke.json") + " '" + bad.string() + "'");
     EXPECT_EQ(outcome.status, 2);
     EXPECT_THAT(outcome.output, HasSubstr("smoke.json: ok, "));
     EXPECT_THAT(outcome.output, HasSubstr("bad.json: "));
@@ -139,12 +144,14 @@ TEST(Cli, NothingMatchesTheFilter) {
 
 TEST(Cli, UnknownDeviceIsStatus77) {
     const TemporaryFolder folder;
-    const Outcome outcome = hairbench("run " + scene("smoke.json") + " --device 'no such' --out '" +
-                                      (folder.path() / "r.json").string() + "'");
+    const Outcome outcome = hairbench(
+        "run " + scene("smoke.json") + " --device 'no such' --out '" +
+        (folder.path() / "r.json").string() + "'");
     EXPECT_EQ(outcome.status, 77);
 }
 
-// ---- The main job ----------------------------------------------------------------------------------------
+// ---- The main job
+// ----------------------------------------------------------------------------------------
 
 class CliRun : public testing::Test {
 protected:
@@ -154,8 +161,8 @@ protected:
 
     nlohmann::json run(const std::string& name, const std::string& options) {
         const fs::path out = folder_.path() / (name + ".json");
-        const Outcome outcome =
-            hairbench("run " + scene("smoke.json") + " " + options + " --out '" + out.string() + "'");
+        const Outcome outcome = hairbench(
+            "run " + scene("smoke.json") + " " + options + " --out '" + out.string() + "'");
         EXPECT_EQ(outcome.status, 0) << outcome.output;
         EXPECT_THAT(outcome.output, HasSubstr("report: " + out.string()));
         return reportOf(out);
@@ -202,9 +209,10 @@ TEST_F(CliRun, GivesEqualHashesTwice) {
 }
 
 TEST_F(CliRun, SaysWhyACaseIsSkippedAndGoesOn) {
-    const nlohmann::json report = run("skipped", "-a /render/msaa=1 -a /render/width=64,8192 "
-                                                 "-a /render/height=64 -a /render/ssaa=1,2 "
-                                                 "--frames 1 --warmup 2");
+    const nlohmann::json report =
+        run("skipped", "-a /render/msaa=1 -a /render/width=64,8192 "
+                       "-a /render/height=64 -a /render/ssaa=1,2 "
+                       "--frames 1 --warmup 2");
     EXPECT_EQ(report["cases"].size(), 4u);
     EXPECT_EQ(report["cases"][0]["status"], "ok");
     for (const nlohmann::json& each : report["cases"]) {
@@ -217,8 +225,8 @@ TEST_F(CliRun, SaysWhyACaseIsSkippedAndGoesOn) {
 
 TEST_F(CliRun, RendersThePictureThatItMeasures) {
     const fs::path picture = folder_.path() / "picture.png";
-    const Outcome outcome = hairbench("render " + scene("smoke.json") + " --frame 3 -o '" +
-                                      picture.string() + "'");
+    const Outcome outcome =
+        hairbench("render " + scene("smoke.json") + " --frame 3 -o '" + picture.string() + "'");
     EXPECT_EQ(outcome.status, 0) << outcome.output;
     EXPECT_GT(fs::file_size(picture), 1000u);
 }

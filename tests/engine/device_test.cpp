@@ -45,22 +45,23 @@ TEST_F(DeviceTest, ThatDoesNotExistIsNamedWithThoseThatDo) {
 
 TEST_F(DeviceTest, RefusesASampleCountThatItLacks) {
     if (device().supportsSamples(64)) GTEST_SKIP() << "this device has 64 samples";
-    EXPECT_THAT(messageOf<Unsupported>([&] {
-                    Target(device(), {.width = 4, .height = 4, .msaa = 64, .ssaa = 1});
-                }),
-                HasSubstr("no 64-sample images"));
+    EXPECT_THAT(
+        messageOf<Unsupported>(
+            [&] { Target(device(), {.width = 4, .height = 4, .msaa = 64, .ssaa = 1}); }),
+        HasSubstr("no 64-sample images"));
 }
 
 TEST_F(DeviceTest, RefusesAPictureThatIsTooLarge) {
-    EXPECT_THAT(messageOf<Unsupported>([&] {
-                    Target(device(), {.width = 1u << 20, .height = 4, .msaa = 1, .ssaa = 1});
-                }),
-                HasSubstr("an image side of 1048576 px is over the device's"));
+    EXPECT_THAT(
+        messageOf<Unsupported>(
+            [&] { Target(device(), {.width = 1u << 20, .height = 4, .msaa = 1, .ssaa = 1}); }),
+        HasSubstr("an image side of 1048576 px is over the device's"));
 }
 
 TEST_F(DeviceTest, ListsTheShadersWhenOneIsUnknown) {
-    EXPECT_THAT(messageOf<Error>([] { shaderCode("strands/none.vert"); }),
-                HasSubstr("strands/tessellation.vert"));
+    EXPECT_THAT(
+        messageOf<Error>([] { shaderCode("strands/none.vert"); }),
+        HasSubstr("strands/tessellation.vert"));
 }
 
 }  // namespace

@@ -66,7 +66,8 @@ TEST_F(FrameLoopTest, SumsPassesOfOneNameInEveryTimedMode) {
 }
 
 TEST_F(FrameLoopTest, ChargesWorkToThePassThatDidIt) {
-    // 128 MiB against 1 KiB: whichever way the machine is disturbed, the order stays in the fastest frame.
+    // 128 MiB against 1 KiB: whichever way the machine is disturbed, the order stays in the fastest
+    // frame.
     for (const Timing timing : {Timing::isolated, Timing::wall_clock}) {
         double big = 1e9;
         double small = 1e9;

@@ -33,8 +33,8 @@ TEST_F(TransferTest, FillsABuffer) {
         commands.fill(buffer, 0xABCD1234u);
         commands.barrier(Access::transfer_write, Access::anything);
     });
-    EXPECT_EQ(downloadAs<std::uint32_t>(device(), buffer),
-              std::vector<std::uint32_t>(16, 0xABCD1234u));
+    EXPECT_EQ(
+        downloadAs<std::uint32_t>(device(), buffer), std::vector<std::uint32_t>(16, 0xABCD1234u));
 }
 
 TEST_F(TransferTest, CountsTheMemoryThatBuffersHold) {

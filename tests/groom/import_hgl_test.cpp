@@ -67,7 +67,8 @@ TEST(ExportHgl, RefusesGroomsThatTheFormatCannotHold) {
     groom.points.resize(std::size_t{3} * 257);
     EXPECT_THAT(errorText([&] { exportHgl(groom, path); }), HasSubstr("257"));
     const auto nowhere = folder.file("no/such/folder.hgl");
-    EXPECT_THAT(errorText([&] { exportHgl(smallGroom(), nowhere); }), HasSubstr("can't be written"));
+    EXPECT_THAT(
+        errorText([&] { exportHgl(smallGroom(), nowhere); }), HasSubstr("can't be written"));
 }
 
 TEST(ImportHgl, GivesBackEveryBit) {

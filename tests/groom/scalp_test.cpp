@@ -83,7 +83,8 @@ TEST(Scalp, NeedsItsMaterial) {
 TEST(Scalp, NeedsExactlyOneHairline) {
     const auto ring =
         makeGrid(3, 3, [](std::uint32_t x, std::uint32_t z) { return x == 1 && z == 1; });
-    EXPECT_EQ(errorText([&] { extractScalp(ring); }), "the scalp has 2 boundary loops, 1 is needed");
+    EXPECT_EQ(
+        errorText([&] { extractScalp(ring); }), "the scalp has 2 boundary loops, 1 is needed");
     const auto islands = makeGrid(3, 3, [](std::uint32_t x, std::uint32_t) { return x == 1; });
     EXPECT_EQ(
         errorText([&] { extractScalp(islands); }), "the scalp has 2 boundary loops, 1 is needed");

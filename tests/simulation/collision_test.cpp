@@ -63,8 +63,8 @@ TEST(Collision, KeepsTheMargin) {
     expectPoint(pushed({0.8, 1, 0}, {kCapsule}, {}, {.margin = 0.25f}), {0.8, 1, 0});
 }
 
-// 0.25 deep and 0.2 moved along the axis: a coefficient of 0.5 takes 0.125 of it back, one of 0.8 and
-// above all of it, and never more.
+// 0.25 deep and 0.2 moved along the axis: a coefficient of 0.5 takes 0.125 of it back, one of 0.8
+// and above all of it, and never more.
 TEST(Collision, TakesBackWhatFrictionHolds) {
     const glm::dvec3 before{0.25, 0.8, 0};
     expectPoint(pushed({0.25, 1, 0}, {kCapsule}, before, {.friction = 0.0f}), {0.5, 1, 0});

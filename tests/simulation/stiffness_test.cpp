@@ -66,7 +66,8 @@ TEST(Stiffness, ComposesToTheSameLocalFactorAtAnyIterationCount) {
     }
 }
 
-// Ten iterations at the reference leave one half; the exponent of what is left is proportional to dt^2 / l^4.
+// Ten iterations at the reference leave one half; the exponent of what is left is proportional to
+// dt^2 / l^4.
 TEST(Stiffness, ScalesTheLocalFactorWithStepAndSegmentLength) {
     SimulationSettings settings;
     settings.local.stiffness = static_cast<float>(1.0 - std::pow(0.5, 0.1));  // ten leave one half

@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+// Which folder includes what. CMake orders the libraries; it can't see an include that links by
+// chance.
+namespace {
+
+struct Rule {
+    std::string_view folder;     // "" is every folder
+    std::string_view forbidden;  // what includes start with
+    std::string_view except = "none";  // the file or folder that may
+};
+
+constexpr Rule kRules[] = {
+    // Downward only: tests -> benchmarks -> hair -> engine.
+    {"engine/", "hair/"},
+    {"engine/", "benchmarks/"},
+    {"engine/", "shaders/"},
+    {"hair/", "benchmarks/"},
+    {"", "tests/", "tests/"},
+
+    // Rendering knows of the simulation only the strand view that it is given.
+    {"hair/rendering/", "hair/simulation/"},
+    {"hair/simulation/", "hair/rendering/"},
+    {"hair/groom/", "hair/rendering/"},
+    {"hair/groom/", "hair/simulation/"},
+    {"", "shaders/", "hair/gpu_structs.h"},
+
+    // Each dependency has its place.
+    {"engine/", "nlohmann/"},
+    {"hair/", "nlohmann/", "hair/groom/import_gltf.cpp"},
+    {"", "CLI/", "benchmarks/main.cpp"},
+    {"", "assimp/", "hair/groom/import_assimp.cpp"},
+    {"", "tiny_gltf", "hair/groom/import_gltf.cpp"},
+    {"", "stb", "engine/image_file.cpp"},
+    {"", "volk", "engine/vulkan.h"},
+    {"", "vulkan/", "engine/vulkan.h"},
+    {"", "vk_mem_alloc", "engine/memory.h"},
+    {"", "valijson/", "tests/"},
+    {"", "gtest/", "tests/"},
+    {"", "gmock/", "tests/"},
+};
+
+constexpr std::string_view kFolders[] = {"engine", "hair", "benchmarks", "tests", "shaders"};
+
+bool breaks(const Rule& rule, std::string_view file, std::string_view include) {
+    return file.starts_with(rule.folder) && include.starts_with(rule.forbidden) &&
+           !file.starts_with(rule.except);
+}
+
+bool isSource(const std::filesystem::path& path) {
+    return path.extension() == ".h" || path.extension() == ".cpp";
+}
+
+// Relative to the repository, with '/' on every system.
+std::vector<std::string> sources(const std::filesystem::path& root, std::string_view folder) {
+    std::vector<std::string> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
+        if (entry.is_regular_file() && isSource(entry.path())) {
+            files.push_back(std::filesystem::relative(entry.path(), root).generic_string());
+        }
+    }
+    std::ranges::sort(files);
+    return files;
+}
+
+std::vector<std::string> includes(const std::filesystem::path& file) {
+    static const std::regex pattern(R"(^\s*#\s*include\s*["<]([^">]+)[">].*)");
+    std::vector<std::string> found;
+    std::ifstream stream(file);
+    std::smatch match;
+    for (std::string line; std::getline(stream, line);) {
+        if (line.find("include") != std::string::npos && std::regex_match(line, match, pattern)) {
+            found.push_back(match[1]);
+        }
+    }
+    return found;
+}
+
+TEST(IncludeDirection, HoldsInEverySource) {
+    const std::filesystem::path root = HAIRBENCH_SOURCE_DIR;
+    for (const std::string_view folder : kFolders) {
+        const std::vector<std::string> files = sources(root, folder);
+        EXPECT_FALSE(files.empty()) << folder;
+        for (const std::string& file : files) {
+            for (const std::string& include : includes(root / file)) {
+                for (const Rule& rule : kRules) {
+                    EXPECT_FALSE(breaks(rule, file, include)) << file << " includes " << include;
+                }
+            }
+        }
+    }
+}
+
+// Relative includes would escape the rules.
+TEST(IncludeDirection, NamesOurFilesFromTheRepository) {
+    const std::filesystem::path root = HAIRBENCH_SOURCE_DIR;
+    for (const std::string_view folder : kFolders) {
+        for (const std::string& file : sources(root, folder)) {
+            for (const std::string& include : includes(root / file)) {
+                EXPECT_FALSE(include.starts_with(".")) << file << " includes " << include;
+                const auto beside = (root / file).parent_path() / include;
+                EXPECT_FALSE(std::filesystem::exists(beside)) << file << " includes " << include;
+            }
+        }
+    }
+}
+
+// Each file of `except` and each forbidden folder has to be one that exists, or a rename would
+// switch the rule off.
+TEST(IncludeDirection, RulesNameWhatExists) {
+    const std::filesystem::path root = HAIRBENCH_SOURCE_DIR;
+    for (const Rule& rule : kRules) {
+        EXPECT_TRUE(std::filesystem::exists(root / rule.folder)) << rule.folder;
+        if (rule.except != "none") {
+            EXPECT_TRUE(std::filesystem::exists(root / rule.except)) << rule.except;
+        }
+    }
+}
+
+TEST(IncludeDirection, RuleCatchesABreachAndKnowsItsException) {
+    const Rule rule{"hair/", "nlohmann/", "hair/groom/import_gltf.cpp"};
+    EXPECT_TRUE(breaks(rule, "hair/settings.h", "nlohmann/json.hpp"));
+    EXPECT_FALSE(breaks(rule, "hair/groom/import_gltf.cpp", "nlohmann/json.hpp"));
+    EXPECT_FALSE(breaks(rule, "benchmarks/scene.cpp", "nlohmann/json.hpp"));
+    EXPECT_FALSE(breaks(rule, "hair/settings.h", "hair/fields.h"));
+}
+
+}  // namespace

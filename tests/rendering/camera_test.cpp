@@ -1,0 +1,81 @@
+#include "hair/rendering/camera.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+#include <gtest/gtest.h>
+
+namespace hair {
+namespace {
+
+// A float matrix product of numbers of size 1: some ten roundings of 6e-8, and as much again where
+// the division by w takes it up.
+constexpr float kRounding = 2e-6f;
+
+glm::vec3 onScreen(const glm::mat4& matrix, const glm::vec3& point) {
+    const glm::vec4 clip = matrix * glm::vec4(point, 1.0f);
+    return glm::vec3(clip) / clip.w;
+}
+
+// Half the height of the picture at distance 1.
+float tangentOfHalf(float degrees) {
+    return std::tan(0.5f * degrees * std::numbers::pi_v<float> / 180.0f);
+}
+
+// The thesis's camera: (0, 0, 0.5) looks at the origin with 100 degrees.
+TEST(Camera, TargetIsAtTheCentre) {
+    const glm::vec3 centre = onScreen(viewProjection({}, 16.0f / 9.0f), glm::vec3(0.0f));
+    EXPECT_NEAR(centre.x, 0.0f, kRounding);
+    EXPECT_NEAR(centre.y, 0.0f, kRounding);
+}
+
+TEST(Camera, FieldOfViewReachesTheTopEdgeAndYPointsDown) {
+    const glm::mat4 matrix = viewProjection({}, 16.0f / 9.0f);
+    const float top = 0.5f * tangentOfHalf(100.0f);  // 0.596 m
+    EXPECT_NEAR(onScreen(matrix, {0.0f, top, 0.0f}).y, -1.0f, kRounding);
+    EXPECT_NEAR(onScreen(matrix, {0.0f, -top, 0.0f}).y, 1.0f, kRounding);
+}
+
+TEST(Camera, AspectWidensThePictureAndXPointsRight) {
+    const glm::mat4 matrix = viewProjection({}, 2.0f);
+    const float right = 2.0f * 0.5f * tangentOfHalf(100.0f);
+    EXPECT_NEAR(onScreen(matrix, {right, 0.0f, 0.0f}).x, 1.0f, kRounding);
+    EXPECT_NEAR(onScreen(matrix, {-right, 0.0f, 0.0f}).x, -1.0f, kRounding);
+}
+
+// depth = far / (far - near) * (1 - near / distance)
+TEST(Camera, DepthRunsFromNearToFar) {
+    const CameraSettings camera{.near_plane = 0.25f, .far_plane = 4.0f};
+    const glm::mat4 matrix = viewProjection(camera, 1.0f);
+    const auto depth = [&](float distance) {
+        return onScreen(matrix, {0.0f, 0.0f, 0.5f - distance}).z;
+    };
+    EXPECT_NEAR(depth(0.25f), 0.0f, kRounding);
+    EXPECT_NEAR(depth(4.0f), 1.0f, kRounding);
+    EXPECT_NEAR(depth(1.0f), 0.8f, kRounding);  // 4 / 3.75 * 3 / 4
+}
+
+TEST(Camera, LooksFromAnywhereWithItsUpUpward) {
+    const CameraSettings camera{
+        .position = {1.0f, 2.0f, 3.0f},
+        .target = {-1.0f, 1.0f, 1.0f},  // 3 m away
+        .up = {0.0f, 0.5f, 0.0f},       // of any length
+        .field_of_view = 60.0f};
+    const glm::mat4 matrix = viewProjection(camera, 1.0f);
+    const glm::vec3 forward = glm::vec3(-2.0f, -1.0f, -2.0f) / 3.0f;
+    const glm::vec3 right = glm::normalize(glm::cross(forward, glm::vec3(0.0f, 1.0f, 0.0f)));
+    const glm::vec3 up = glm::cross(right, forward);
+    const float half = 3.0f * tangentOfHalf(60.0f);
+
+    const glm::vec3 centre = onScreen(matrix, camera.target);
+    EXPECT_NEAR(centre.x, 0.0f, kRounding);
+    EXPECT_NEAR(centre.y, 0.0f, kRounding);
+    const glm::vec3 corner = onScreen(matrix, camera.target + half * (right + up));
+    EXPECT_NEAR(corner.x, 1.0f, kRounding);
+    EXPECT_NEAR(corner.y, -1.0f, kRounding);
+}
+
+}  // namespace
+}  // namespace hair

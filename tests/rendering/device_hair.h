@@ -1,0 +1,108 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
+#include "engine/transfer.h"
+#include "hair/groom/groom.h"
+#include "hair/rendering/strand_view.h"
+
+namespace hair {
+
+// A groom on the device as rendering sees it, at rest.
+class DeviceHair {
+public:
+    DeviceHair(const engine::Device& device, const Groom& groom)
+        : guides_(make(device, withoutW(groom.points), "guides")),
+          triangles_(make(device, groom.root_triangles, "root triangles")),
+          normals_(make(device, groom.root_normals, "root normals")),
+          view_{
+              .guides = guides_.address(),
+              .root_triangles = triangles_.address(),
+              .root_normals = groom.root_normals.empty() ? 0 : normals_.address(),
+              .guide_count = groom.strand_count,
+              .vertices_per_guide = groom.vertices_per_strand,
+              .triangle_count = static_cast<std::uint32_t>(groom.root_triangles.size())} {}
+
+    const StrandView& view() const { return view_; }
+
+private:
+    template <class Value>
+    static engine::Buffer
+    make(const engine::Device& device, const std::vector<Value>& values, const char* name) {
+        return engine::makeBuffer(device, std::span<const Value>(values), name);
+    }
+
+    // w belongs to the simulation: a NaN there must not matter.
+    static std::vector<glm::vec4> withoutW(const std::vector<glm::vec3>& points) {
+        std::vector<glm::vec4> result;
+        for (const glm::vec3& point : points) {
+            result.emplace_back(point, std::numeric_limits<float>::quiet_NaN());
+        }
+        return result;
+    }
+
+    engine::Buffer guides_;
+    engine::Buffer triangles_;
+    engine::Buffer normals_;
+    StrandView view_;
+};
+
+// A groom of one root triangle whose guides have these points.
+inline Groom oneTriangle(const std::array<std::vector<glm::vec3>, 3>& guides) {
+    Groom groom{
+        .strand_count = 3,
+        .vertices_per_strand = static_cast<std::uint32_t>(guides[0].size()),
+        .root_triangles = {{0, 1, 2}}};
+    for (const std::vector<glm::vec3>& guide : guides) {
+        groom.points.insert(groom.points.end(), guide.begin(), guide.end());
+    }
+    return groom;
+}
+
+inline Groom oneTriangle(const std::vector<glm::vec3>& guide) {
+    return oneTriangle({guide, guide, guide});
+}
+
+// Three guides with their roots at the unit vectors, so that a strand's root is its barycentric
+// coordinates, under any number of root triangles.
+inline Groom unitTriangles(std::uint32_t triangles) {
+    const glm::vec3 up(1.0f, 1.0f, 1.0f);
+    const std::array<glm::vec3, 3> roots{glm::vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    Groom groom = oneTriangle(
+        {std::vector{roots[0], roots[0] + up}, std::vector{roots[1], roots[1] + up},
+         std::vector{roots[2], roots[2] + up}});
+    groom.root_triangles.assign(triangles, {0, 1, 2});
+    return groom;
+}
+
+// Curved guides with bulging roots, in no order: nothing about them is special. Sizes of about 0.5
+// m.
+inline Groom tangledGroom(std::uint32_t vertices) {
+    constexpr std::uint32_t kGuides = 6;
+    Groom groom{
+        .strand_count = kGuides,
+        .vertices_per_strand = vertices,
+        .root_triangles = {{0, 1, 2}, {2, 1, 3}, {5, 3, 4}, {4, 0, 5}}};
+    std::mt19937 random(11);
+    const auto number = [&] { return static_cast<float>(random() >> 8u) * 0x1p-23f - 1.0f; };
+    for (std::uint32_t guide = 0; guide < kGuides; ++guide) {
+        glm::vec3 point(0.2f * number(), 0.2f * number(), 0.2f * number());
+        const glm::vec3 normal(number(), 2.0f, number());
+        groom.root_normals.push_back(normal / std::sqrt(glm::dot(normal, normal)));
+        for (std::uint32_t v = 0; v < vertices; ++v) {
+            groom.points.push_back(point);
+            point += glm::vec3(0.03f * number(), 0.02f, 0.03f * number());
+        }
+    }
+    return groom;
+}
+
+}  // namespace hair

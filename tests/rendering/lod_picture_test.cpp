@@ -1,0 +1,80 @@
+#include <gtest/gtest.h>
+
+#include "tests/gpu_fixture.h"
+#include "tests/rendering/pictures.h"
+
+// Level of detail as it is seen: thesis 2.3.8.1.
+namespace hair {
+namespace {
+
+class LodPictureTest : public GpuTest {
+protected:
+    static Settings small() {
+        Settings settings = thesisAtRest();
+        settings.render.width = 320;
+        settings.render.height = 180;
+        return settings;
+    }
+
+    static Pixels draw(const Settings& settings) { return drawCase(device(), settings); }
+};
+
+// The scalp is within 0.15 m of the origin and the camera 0.5 m from it: the root triangles are
+// 0.35 to 0.65 m away.
+TEST_F(LodPictureTest, NearHairIsThatOfLevelZero) {
+    Settings settings = small();
+    const Pixels forced = draw(settings);
+    settings.lod = {
+        .mode = LodMode::distance,
+        .level = 3.0f,  // not read
+        .near_distance = 1.0f,
+        .far_distance = 2.0f};
+    EXPECT_EQ(differingPixels(draw(settings), forced), 0u);
+}
+
+TEST_F(LodPictureTest, FarHairIsThatOfTheMaximumLevel) {
+    Settings settings = small();
+    const Pixels full = draw(settings);
+    settings.lod.level = 2.0f;
+    const Pixels forced = draw(settings);
+    EXPECT_GT(differingPixels(full, forced), 0u);
+    settings.lod = {
+        .mode = LodMode::distance,
+        .near_distance = 0.05f,
+        .far_distance = 0.1f,
+        .maximum_level = 2.0f};
+    EXPECT_EQ(differingPixels(draw(settings), forced), 0u);
+}
+
+// Half as many strands of twice the width have the same total area, and thrown at random the same
+// chance to cover a pixel. What differs:
+//  - the outline moves out by half of what a strand grows. A strand is 1.25 mm wide on average,
+//    2.5 mm at level 1 and 5 mm at level 2; round a disc of radius 0.15 m an outline 0.6 or 1.9 mm
+//    farther out adds 0.8 or 2.5 % of area;
+//  - strands are chords of their curves, 2 and 1 a segment instead of 4: below 1 % at these bends;
+//  - chance: the 544 strands of level 2 cover each about 1/544 of the area, in sum they vary by
+//    1 / sqrt(544) = 4 %.
+// Together below 10 %. Strands that did not widen would lose far more than that.
+TEST_F(LodPictureTest, CoveredAreaIsKept) {
+    Settings settings = thesisAtRest();
+    settings.render.width = 480;
+    settings.render.height = 480;
+    settings.camera.position = {0.0f, 0.0f, 0.7f};
+    settings.camera.field_of_view = 50.0f;  // 0.65 m in 480 px
+    settings.strands.density = 16;
+    const Pixels bald = drawBald(device(), settings);
+    const auto area = [&] { return static_cast<double>(differingPixels(draw(settings), bald)); };
+
+    const double full = area();
+    EXPECT_GT(full, 0.1 * 480 * 480);
+    for (const float level : {1.0f, 2.0f}) {
+        settings.lod.level = level;
+        EXPECT_NEAR(area() / full, 1.0, 0.1) << "level " << level;
+    }
+    settings.strands.root_width /= 4.0f;  // level 2 still: as if the strands had kept their width
+    settings.strands.tip_width /= 4.0f;
+    EXPECT_LT(area() / full, 0.8);
+}
+
+}  // namespace
+}  // namespace hair

@@ -1,0 +1,110 @@
+#include <gtest/gtest.h>
+
+#include "tests/gpu_fixture.h"
+#include "tests/rendering/pictures.h"
+
+namespace hair {
+namespace {
+
+class PictureTest : public GpuTest {
+protected:
+    static Settings square(std::uint32_t pixels) {
+        Settings settings = thesisAtRest();
+        settings.render.width = pixels;
+        settings.render.height = pixels;
+        return settings;
+    }
+};
+
+TEST_F(PictureTest, StrandsWithoutWidthAreNotDrawn) {
+    Settings settings = square(200);
+    settings.strands.root_width = 0.0f;
+    settings.strands.tip_width = 0.0f;
+    settings.render.head = false;
+    const Pixels pixels = drawCase(device(), settings);
+    // The background, 0.25, 0.15 and 0.18 of 255.
+    for (std::size_t i = 0; i < pixels.size(); i += 4) {
+        ASSERT_EQ(pixels[i], 64);
+        ASSERT_EQ(pixels[i + 1], 38);
+        ASSERT_EQ(pixels[i + 2], 46);
+        ASSERT_EQ(pixels[i + 3], 255);
+    }
+}
+
+TEST_F(PictureTest, SampleCountsTheDeviceLacksAreUnsupported) {
+    if (device().supportsSamples(8)) GTEST_SKIP() << "the device has 8 samples";
+    Settings settings = square(16);
+    settings.render.msaa = 8;
+    EXPECT_THROW(drawCase(device(), settings), engine::Unsupported);
+}
+
+// A square of 0.4 m in the plane z = 0 that faces the camera.
+Mesh wall() {
+    return {
+        .positions =
+            {{-0.2f, -0.2f, 0.0f}, {0.2f, -0.2f, 0.0f}, {0.2f, 0.2f, 0.0f}, {-0.2f, 0.2f, 0.0f}},
+        .normals = std::vector<glm::vec3>(4, {0.0f, 0.0f, 1.0f}),
+        .triangles = {{0, 1, 2}, {0, 2, 3}},
+        .triangle_materials = {0, 0},
+        .materials = {{.name = "wall"}}};
+}
+
+// A tuft at this depth, small enough that the wall covers it from the camera at z = 0.5.
+Groom tuft(float z) {
+    const auto guide = [&](float x, float y) {
+        return std::vector<glm::vec3>{{x, y, z}, {x, y + 0.03f, z}, {x + 0.02f, y + 0.06f, z}};
+    };
+    return oneTriangle({guide(-0.05f, -0.05f), guide(0.05f, -0.05f), guide(0.0f, 0.05f)});
+}
+
+TEST_F(PictureTest, HairIsHiddenBehindAMeshAndSeenBeforeIt) {
+    Settings settings = square(200);
+    const Mesh mesh = wall();
+    Settings bald = settings;
+    bald.strands.root_width = 0.0f;
+    bald.strands.tip_width = 0.0f;
+    const Pixels wall_alone = drawGroom(device(), bald, tuft(0.1f), &mesh);
+    const Pixels empty = drawGroom(device(), bald, tuft(0.1f), nullptr);
+
+    EXPECT_EQ(differingPixels(drawGroom(device(), settings, tuft(-0.1f), &mesh), wall_alone), 0u);
+
+    // Before the wall, hair covers the same pixels with the same colours as without one.
+    const Pixels hair = drawGroom(device(), settings, tuft(0.1f), nullptr);
+    const Pixels both = drawGroom(device(), settings, tuft(0.1f), &mesh);
+    std::size_t covered = 0;
+    for (std::size_t i = 0; i < hair.size(); i += 4) {
+        const bool is_hair = !std::equal(&hair[i], &hair[i] + 4, &empty[i]);
+        covered += is_hair;
+        const Pixels& expected = is_hair ? hair : wall_alone;
+        ASSERT_TRUE(std::equal(&both[i], &both[i] + 4, &expected[i])) << "pixel " << i / 4;
+    }
+    // 64 strands about 0.06 m long and on average 1.25 mm wide, at 200 px / (0.8 m tan 50 degrees)
+    // = 210 px/m: 212 px where none overlap; a third of that says that hair was there.
+    EXPECT_GT(covered, 70u);
+}
+
+// Depth is decided pixel by pixel: of hair that passes through the wall, the half before it is
+// seen.
+TEST_F(PictureTest, HairThroughAMeshIsCutByIt) {
+    Groom groom = tuft(0.0f);
+    for (glm::vec3& point : groom.points) point.z = point.x;  // half before, half behind the wall
+    Settings settings = square(200);
+    Settings bald = settings;
+    bald.strands.root_width = 0.0f;
+    bald.strands.tip_width = 0.0f;
+    const Mesh mesh = wall();
+    const Pixels both = drawGroom(device(), settings, groom, &mesh);
+    const Pixels wall_alone = drawGroom(device(), bald, groom, &mesh);
+    std::size_t left = 0;
+    std::size_t right = 0;
+    for (std::size_t i = 0; i < both.size(); i += 4) {
+        if (std::equal(&both[i], &both[i] + 4, &wall_alone[i])) continue;
+        const std::size_t column = i / 4 % 200;
+        ++(column < 99 ? left : right);  // one column for the width of a strand on the border
+    }
+    EXPECT_EQ(left, 0u);
+    EXPECT_GT(right, 50u);
+}
+
+}  // namespace
+}  // namespace hair

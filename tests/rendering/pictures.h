@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "benchmarks/case.h"
+#include "engine/frame_loop.h"
+#include "hair/rendering/renderer.h"
+#include "tests/rendering/device_hair.h"
+
+namespace hair {
+
+using Pixels = std::vector<std::uint8_t>;  // [row][column] RGBA, top row first
+
+inline std::size_t differingPixels(const Pixels& a, const Pixels& b) {
+    if (a.size() != b.size()) return std::max(a.size(), b.size()) / 4;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.size(); i += 4) {
+        count += a[i] != b[i] || a[i + 1] != b[i + 1] || a[i + 2] != b[i + 2];
+    }
+    return count;
+}
+
+// The thesis's case at rest: 86 guides grown on the head, 64 strands a triangle, 4 pieces a
+// segment.
+inline Settings thesisAtRest() {
+    Settings settings;
+    settings.simulation.solver = Solver::none;
+    return settings;
+}
+
+// The first frame of a case.
+inline Pixels drawCase(const engine::Device& device, const Settings& settings) {
+    benchmarks::Case picture(device, settings, HAIRBENCH_SOURCE_DIR "/scenes");
+    engine::FrameLoop loop(device, engine::Timing::overlapped);
+    loop.frame([&](engine::Passes& passes) { picture.frame(passes); });
+    loop.finish();
+    return picture.picture();
+}
+
+// The same without its hair, for strands of no width cover nothing.
+inline Pixels drawBald(const engine::Device& device, Settings settings) {
+    settings.strands.root_width = 0.0f;
+    settings.strands.tip_width = 0.0f;
+    settings.strands.density = 1;
+    settings.strands.tessellation = 1;
+    return drawCase(device, settings);
+}
+
+// A groom and a mesh of the test's own making.
+inline Pixels drawGroom(
+    const engine::Device& device, const Settings& settings, const Groom& groom, const Mesh* mesh) {
+    const DeviceHair hair(device, groom);
+    Renderer renderer(device, settings, hair.view(), mesh);
+    engine::FrameLoop loop(device, engine::Timing::overlapped);
+    loop.frame([&](engine::Passes& passes) { renderer.record(passes, hair.view()); });
+    loop.finish();
+    return engine::readOutput(device, renderer.target());
+}
+
+}  // namespace hair
