@@ -11,8 +11,7 @@
 // parameter is a member and a row in the table below its struct; nothing else has to be edited.
 namespace hair {
 
-// ---- Groom
-// -------------------------------------------------------------------------------------------
+// ---- Groom --------------------------------------------------------------------------------------
 
 // Guides grown on the scalp of a mesh.
 struct GrowSettings {
@@ -55,8 +54,7 @@ constexpr auto fields(const GroomSettings*) {
         Group<S, GrowSettings>{"grow", &S::grow, "guides grown on a scalp"}};
 }
 
-// ---- Simulation
-// --------------------------------------------------------------------------------------
+// ---- Simulation ---------------------------------------------------------------------------------
 
 // Thesis equation (10): X += k_G (X_rest - X).
 struct GlobalSettings {
@@ -198,8 +196,7 @@ constexpr auto fields(const SimulationSettings*) {
         List<S, Collider>{"colliders", &S::colliders, 64, "capsules that push guides out"}};
 }
 
-// ---- Strands
-// -----------------------------------------------------------------------------------------
+// ---- Strands ------------------------------------------------------------------------------------
 
 enum class Backend { tessellation, pulling_geometry };
 enum class Curve { bspline, bspline_unpinned };
@@ -282,8 +279,7 @@ constexpr auto fields(const LodSettings*) {
         Field{"maximum_level", &S::maximum_level, 0, 8, "1", "level at far_distance and beyond"}};
 }
 
-// ---- Picture
-// -----------------------------------------------------------------------------------------
+// ---- Picture ------------------------------------------------------------------------------------
 
 struct LightSettings {
     glm::vec3 position{5.0f, 5.0f, 5.0f};
@@ -382,8 +378,7 @@ constexpr auto fields(const RenderSettings*) {
         Group<S, OverlaySettings>{"overlays", &S::overlays, "what is drawn over the hair"}};
 }
 
-// ---- Run
-// ---------------------------------------------------------------------------------------------
+// ---- Run ----------------------------------------------------------------------------------------
 
 struct RunSettings {
     std::uint32_t warmup = 3;

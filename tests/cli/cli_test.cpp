@@ -24,8 +24,8 @@ struct Outcome {
     std::string output;  // stdout and stderr
 };
 
-Outcome hairbench(const std::string& arguments) {
-    const std::string command = std::string("'") + HAIRBENCH_PROGRAM + "' " + arguments + " 2>&1";
+Outcome hairbench(const std::string& arguments, const std::string& environment = "") {
+    const std::string command = environment + "'" HAIRBENCH_PROGRAM "' " + arguments + " 2>&1";
     FILE* pipe = popen(command.c_str(), "r");
     if (!pipe) throw std::runtime_error("popen failed");
     Outcome outcome{};
@@ -77,8 +77,7 @@ TEST(Cli, DryRunListsTheWholeSweep) {
         outcome.output, HasSubstr("thesis/guides:86/density:64/tessellation:4/msaa:1/level:0\n"));
 }
 
-// ---- What is refused: one line, status 2, nothing written
-// ------------------------------------------------
+// ---- What is refused: one line, status 2, nothing written ---------------------------------------
 
 struct Refusal {
     const char* name;
@@ -150,8 +149,14 @@ TEST(Cli, UnknownDeviceIsStatus77) {
     EXPECT_EQ(outcome.status, 77);
 }
 
-// ---- The main job
-// ----------------------------------------------------------------------------------------
+TEST(Cli, NoDriverIsStatus77) {
+    const Outcome outcome = hairbench(
+        "devices", "VK_DRIVER_FILES=/nonexistent.json VK_ICD_FILENAMES=/nonexistent.json ");
+    EXPECT_EQ(outcome.status, 77);
+    EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
+}
+
+// ---- The main job -------------------------------------------------------------------------------
 
 class CliRun : public testing::Test {
 protected:
@@ -221,6 +226,24 @@ TEST_F(CliRun, SaysWhyACaseIsSkippedAndGoesOn) {
         EXPECT_THAT(each["reason"].get<std::string>(), HasSubstr("px"));
         EXPECT_FALSE(each.contains("metrics") && each["metrics"].contains("frame.time"));
     }
+}
+
+TEST_F(CliRun, SavesWhatWasDoneWhenItIsInterrupted) {
+    const fs::path out = folder_.path() / "interrupted.json";
+    const std::string log = (folder_.path() / "log").string();
+    // Job control, or the shell would have its children ignore the interrupt. Enough frames for
+    // minutes; the interrupt comes once the second case has begun, and after a minute in any case.
+    const fs::path script = folder_.write(
+        "interrupt.sh", "set -m\n'" HAIRBENCH_PROGRAM "' run " + scene("smoke.json") +
+                            " -a /render/msaa=1 -a /run/frames=1,1000000 --out '" + out.string() +
+                            "' >'" + log + "' 2>&1 &\nfor i in $(seq 600); do grep -qF '[2/2]' '" +
+                            log + "' && break; sleep 0.1; done\nkill -INT $!\nwait $!\n");
+    const int status = std::system(("bash '" + script.string() + "'").c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+    const nlohmann::json report = reportOf(out);
+    EXPECT_EQ(report["interrupted"], true);
+    ASSERT_EQ(report["cases"].size(), 1u);
+    EXPECT_EQ(report["cases"][0]["status"], "ok");
 }
 
 TEST_F(CliRun, RendersThePictureThatItMeasures) {
