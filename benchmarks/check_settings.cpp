@@ -51,6 +51,14 @@ Broken upStandsOut(const Settings& s) {
     return "is parallel to the view";
 }
 
+// A frame's passes are stamped one by one, and its stamps have room for so many steps.
+constexpr float kMostStepsPerFrame = 200.0f;
+
+Broken frameHasRoomForItsSteps(const Settings& s) {
+    if (s.run.frame_time <= kMostStepsPerFrame * s.simulation.time_step) return {};
+    return "is more than 200 of /simulation/time_step";
+}
+
 struct Rule {
     const char* pointer;
     Broken (*broken)(const Settings&);
@@ -62,7 +70,8 @@ constexpr Rule kRules[] = {
     {"/lod/near_distance", lodDistancesAscend},
     {"/camera/near_plane", planesAscend},
     {"/camera/target", cameraLooksSomewhere},
-    {"/camera/up", upStandsOut}};
+    {"/camera/up", upStandsOut},
+    {"/run/frame_time", frameHasRoomForItsSteps}};
 
 }  // namespace
 

@@ -62,13 +62,8 @@ std::vector<double> collect(const std::vector<FrameRecord>& frames, Get get) {
 
 void addPassTimes(
     const std::vector<FrameRecord>& frames, const std::string& mode, CaseResult& result) {
-    for (const engine::PassTime& pass : frames.front().passes) {
-        Metric metric{"pass." + pass.name + ".time", "ms", {}, mode};
-        for (const FrameRecord& frame : frames) {
-            const auto found = std::ranges::find(frame.passes, pass.name, &engine::PassTime::name);
-            if (found != frame.passes.end()) metric.samples.push_back(found->milliseconds);
-        }
-        result.metrics.push_back(std::move(metric));
+    for (const std::string& pass : passNames(frames)) {
+        result.metrics.push_back({"pass." + pass + ".time", "ms", passTimes(frames, pass), mode});
     }
 }
 

@@ -8,9 +8,18 @@
 
 namespace benchmarks {
 
-namespace {
+std::vector<std::string> passNames(std::span<const engine::FrameRecord> frames) {
+    std::vector<std::string> names;
+    for (const engine::FrameRecord& frame : frames) {
+        for (const engine::PassTime& pass : frame.passes) {
+            if (std::ranges::find(names, pass.name) == names.end()) names.push_back(pass.name);
+        }
+    }
+    return names;
+}
 
-std::vector<double> timesOf(std::span<const engine::FrameRecord> frames, const std::string& pass) {
+std::vector<double>
+passTimes(std::span<const engine::FrameRecord> frames, const std::string& pass) {
     std::vector<double> times;
     for (const engine::FrameRecord& frame : frames) {
         const auto found = std::ranges::find(frame.passes, pass, &engine::PassTime::name);
@@ -18,8 +27,6 @@ std::vector<double> timesOf(std::span<const engine::FrameRecord> frames, const s
     }
     return times;
 }
-
-}  // namespace
 
 double passSum(const engine::FrameRecord& frame) {
     double sum = 0.0;
@@ -37,9 +44,9 @@ std::vector<std::string> timestampFaults(
     std::span<const engine::FrameRecord> isolated,
     std::span<const engine::FrameRecord> wall_clock) {
     std::vector<std::string> faults;
-    for (const engine::PassTime& pass : isolated.front().passes) {
-        const std::vector<double> stamped_times = timesOf(isolated, pass.name);
-        const std::vector<double> clocked_times = timesOf(wall_clock, pass.name);
+    for (const std::string& pass : passNames(isolated)) {
+        const std::vector<double> stamped_times = passTimes(isolated, pass);
+        const std::vector<double> clocked_times = passTimes(wall_clock, pass);
         if (clocked_times.empty()) continue;
         // A busy machine only ever adds time, so the fastest frames are the ones to compare.
         const double stamped = std::ranges::min(stamped_times);
@@ -48,7 +55,7 @@ std::vector<std::string> timestampFaults(
         const bool too_short = stamped < clocked * (1.0 - kTrustTolerance) - kSubmissionCost;
         if (too_long || too_short) {
             faults.push_back(
-                "pass." + pass.name + ": timestamps say " + shortNumber(stamped) +
+                "pass." + pass + ": timestamps say " + shortNumber(stamped) +
                 " ms, the CPU's clock " + shortNumber(clocked) + " ms");
         }
     }

@@ -11,6 +11,12 @@ namespace benchmarks {
 // How far timings may be off and still be believed, as a ratio.
 inline constexpr double kTrustTolerance = 0.1;
 
+// The names of all passes, in the order of their first appearance: not every frame runs every pass.
+std::vector<std::string> passNames(std::span<const engine::FrameRecord> frames);
+
+// The times of one pass, of the frames that ran it, ms.
+std::vector<double> passTimes(std::span<const engine::FrameRecord> frames, const std::string& pass);
+
 // The sum of a frame's pass times, ms.
 double passSum(const engine::FrameRecord& frame);
 

@@ -1,6 +1,6 @@
 #include "engine/timestamps.h"
 
-#include <cassert>
+#include <string>
 
 namespace engine {
 
@@ -24,7 +24,9 @@ void Timestamps::reset() {
 }
 
 std::uint32_t Timestamps::write(Commands& commands) {
-    assert(count_ < capacity_);
+    if (count_ == capacity_) {
+        throw Error("a frame has more passes than " + std::to_string(capacity_) + " timestamps");
+    }
     vkCmdWriteTimestamp2(commands.get(), VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_.get(), count_);
     return count_++;
 }

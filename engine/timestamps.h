@@ -16,7 +16,8 @@ public:
     // them.
     void reset();
 
-    // Records a stamp that is taken when all earlier commands are done; returns its index.
+    // Records a stamp that is taken when all earlier commands are done; returns its index. Throws
+    // Error when all are taken.
     std::uint32_t write(Commands& commands);
 
     // ms since the first stamp, for each stamp written. The work must be complete; a stamp that the

@@ -28,6 +28,17 @@ TEST(CheckSettings, WantsPlanesInOrder) {
         "/lod/near_distance: is not below /lod/far_distance");
 }
 
+TEST(CheckSettings, WantsFramesWithRoomForTheirSteps) {
+    const auto steps = [](float count) {
+        return broken([count](hair::Settings& s) {
+            s.simulation.time_step = 0.001f;
+            s.run.frame_time = count * 0.001f;
+        });
+    };
+    EXPECT_EQ(steps(199.0f), "no error");
+    EXPECT_EQ(steps(201.0f), "/run/frame_time: is more than 200 of /simulation/time_step");
+}
+
 TEST(CheckSettings, WantsACameraThatLooksSomewhere) {
     EXPECT_EQ(
         broken([](hair::Settings& s) { s.camera.target = s.camera.position; }),

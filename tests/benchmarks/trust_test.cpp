@@ -18,6 +18,13 @@ engine::FrameRecord frame(double wall, double wind, double strands) {
 
 TEST(Trust, AddsUpThePasses) { EXPECT_DOUBLE_EQ(passSum(frame(0, 1.5, 20.25)), 21.75); }
 
+TEST(Trust, FindsPassesThatOnlySomeFramesRun) {
+    std::vector frames{frame(0, 1, 2), frame(0, 3, 4)};
+    frames[0].passes.erase(frames[0].passes.begin());
+    EXPECT_THAT(passNames(frames), ElementsAre("strands", "wind"));
+    EXPECT_THAT(passTimes(frames, "wind"), ElementsAre(3.0));
+}
+
 // Ratios 0.5, 1 and 0.75: the median is the middle one.
 TEST(Trust, TakesTheMedianOfSumOverWall) {
     const std::vector frames{frame(10, 1, 4), frame(10, 2, 8), frame(20, 5, 10)};

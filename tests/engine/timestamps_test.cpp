@@ -33,6 +33,15 @@ TEST_F(TimestampsTest, NeverRunBackwards) {
     for (std::size_t i = 1; i < times.size(); ++i) EXPECT_GE(times[i], times[i - 1]);
 }
 
+TEST_F(TimestampsTest, RefuseOneMoreThanThereIsRoomFor) {
+    Timestamps stamps(device(), 2);
+    device().runOnce([&](Commands& commands) {
+        stamps.write(commands);
+        stamps.write(commands);
+        EXPECT_THROW(stamps.write(commands), Error);
+    });
+}
+
 TEST_F(TimestampsTest, AreGoneAfterReset) {
     Timestamps stamps(device(), 2);
     device().runOnce([&](Commands& commands) { stamps.write(commands); });
