@@ -213,18 +213,16 @@ TEST_F(CliRun, GivesEqualHashesTwice) {
     }
 }
 
+// Every device has one sample a pixel; lavapipe, for one, has neither two nor eight.
 TEST_F(CliRun, SaysWhyACaseIsSkippedAndGoesOn) {
-    const nlohmann::json report =
-        run("skipped", "-a /render/msaa=1 -a /render/width=64,8192 "
-                       "-a /render/height=64 -a /render/ssaa=1,2 "
-                       "--frames 1 --warmup 2");
-    EXPECT_EQ(report["cases"].size(), 4u);
-    EXPECT_EQ(report["cases"][0]["status"], "ok");
+    const nlohmann::json report = run("skipped", "-a /render/msaa=2,8,1 --frames 1 --warmup 2");
+    ASSERT_EQ(report["cases"].size(), 3u);
+    EXPECT_EQ(report["cases"][2]["status"], "ok");
     for (const nlohmann::json& each : report["cases"]) {
         if (each["status"] == "ok") continue;
         EXPECT_EQ(each["status"], "skipped");
-        EXPECT_THAT(each["reason"].get<std::string>(), HasSubstr("px"));
-        EXPECT_FALSE(each.contains("metrics") && each["metrics"].contains("frame.time"));
+        EXPECT_THAT(each["reason"].get<std::string>(), HasSubstr("-sample images"));
+        EXPECT_FALSE(each.contains("metrics"));
     }
 }
 
