@@ -24,13 +24,18 @@ double passSum(const engine::FrameRecord& frame);
 // passes are all of the frame and the timestamps are right.
 double passSumOverWall(std::span<const engine::FrameRecord> isolated);
 
-// What is wrong with a device's timestamps: isolated frames by timestamps against frames whose
-// passes were submitted and waited for one by one, the fastest of each. A pass is named if it is
-// off by more than kTrustTolerance and kSubmissionCost together. Empty: the timestamps are right.
-std::vector<std::string> timestampFaults(
-    std::span<const engine::FrameRecord> isolated, std::span<const engine::FrameRecord> wall_clock);
-
 // What a submission and the wait for it may add to a pass by itself, ms.
 inline constexpr double kSubmissionCost = 0.5;
+
+// Share of the whole frame that a pass may be off by: less than that misleads nobody about where
+// the time goes.
+inline constexpr double kFrameShare = 0.02;
+
+// What is wrong with a device's timestamps: isolated frames by timestamps against frames whose
+// passes were submitted and waited for one by one, the fastest of each. A pass is named if it is
+// off by more than kTrustTolerance, kSubmissionCost and kFrameShare together. Empty: the timestamps
+// are right.
+std::vector<std::string> timestampFaults(
+    std::span<const engine::FrameRecord> isolated, std::span<const engine::FrameRecord> wall_clock);
 
 }  // namespace benchmarks

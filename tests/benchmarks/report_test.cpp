@@ -148,5 +148,18 @@ TEST(WriteReport, WritesIntoWhatIsNoFile) {
     EXPECT_NO_THROW(writeReport(sampleReport(), "/dev/null"));
 }
 
+TEST(Report, CommittedOnesFitTheSchema) {
+    const std::string schema = textOf(kReportSchemaFile);
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(kReportSchemaFile.parent_path())) {
+        if (entry.path().extension() != ".json" ||
+            entry.path().filename() == kReportSchemaFile.filename())
+            continue;
+        EXPECT_THAT(schemaErrors(schema, textOf(entry.path())), IsEmpty()) << entry.path();
+        ++count;
+    }
+    EXPECT_GT(count, 0u);
+}
+
 }  // namespace
 }  // namespace benchmarks

@@ -54,6 +54,14 @@ TEST(Trust, NamesThePassThatWasChargedTooLittleAndTheOneChargedTooMuch) {
             "pass.strands: timestamps say 80.0 ms, the CPU's clock 100 ms"));
 }
 
+// 2 % of the fastest frame, 102 ms, is 2.04 ms: beside 10 % and 0.5 ms, 4.7 ms for a pass of 2 ms
+// are believed and 4.8 ms are not.
+TEST(Trust, AllowsForAShareOfTheFrame) {
+    const std::vector clocked{frame(0, 2, 100), frame(0, 2, 300)};
+    EXPECT_THAT(timestampFaults(std::vector{frame(0, 4.7, 100)}, clocked), IsEmpty());
+    EXPECT_THAT(timestampFaults(std::vector{frame(0, 4.8, 100)}, clocked), testing::SizeIs(1));
+}
+
 // A submission of its own costs a small pass more than it does itself.
 TEST(Trust, AllowsForTheCostOfASubmission) {
     const std::vector stamped{frame(0, 0.01, 1.0)};
