@@ -24,8 +24,6 @@ constexpr VkAccessFlags2 kAttachmentAccess =
 
 Scope scope(Access access) {
     switch (access) {
-    case Access::nothing:
-        return {VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE};
     case Access::compute_read:
         return {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT};
     case Access::compute_write:

@@ -15,7 +15,6 @@ class GraphicsPipeline;
 
 // Who touched memory before a barrier and who will after it.
 enum class Access {
-    nothing,
     compute_read,
     compute_write,
     graphics_read,  // buffers read by any graphics stage

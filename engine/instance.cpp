@@ -63,8 +63,7 @@ std::vector<std::string> MessageLog::take() {
     return std::exchange(messages_, {});
 }
 
-Instance::Instance(Validation validation)
-    : validation_(validation), messages_(std::make_unique<MessageLog>()) {
+Instance::Instance(Validation validation) : messages_(std::make_unique<MessageLog>()) {
     if (volkInitialize() != VK_SUCCESS) {
         throw NoDevice("no Vulkan loader found (libvulkan.so.1): install libvulkan1 and a driver");
     }

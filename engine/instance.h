@@ -35,12 +35,10 @@ public:
     Instance& operator=(const Instance&) = delete;
 
     VkInstance get() const { return instance_; }
-    Validation validation() const { return validation_; }
     MessageLog& messages() const { return *messages_; }
     std::vector<VkPhysicalDevice> physicalDevices() const;
 
 private:
-    Validation validation_;
     std::unique_ptr<MessageLog> messages_;
     VkInstance instance_{};
     VkDebugUtilsMessengerEXT messenger_{};

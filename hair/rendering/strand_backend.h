@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "engine/commands.h"
@@ -31,14 +30,6 @@ struct BackendContext {
     const StrandSettings& strands;
     std::uint32_t samples;  // of the target
 };
-
-struct BackendRow {
-    Backend backend;
-    std::unique_ptr<StrandBackend> (*make)(const BackendContext&);
-};
-
-// All back ends, one row each.
-std::span<const BackendRow> backendTable();
 
 std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext& context);
 
