@@ -3,9 +3,11 @@
 #include <span>
 
 #include "benchmarks/hash.h"
+#include "engine/error.h"
 #include "engine/transfer.h"
 #include "hair/groom/build_groom.h"
 #include "hair/groom/import_mesh.h"
+#include "hair/simulation/closed_mesh.h"
 
 namespace benchmarks {
 
@@ -16,6 +18,22 @@ std::optional<hair::Mesh>
 loadMesh(const hair::Settings& settings, const std::filesystem::path& directory) {
     if (!settings.groom.file.empty()) return std::nullopt;
     return hair::importMesh(directory / settings.groom.grow.mesh);
+}
+
+// Of /simulation/distance_fields, in their order.
+std::vector<hair::Mesh> loadFieldMeshes(
+    const hair::Settings& settings, const hair::Mesh* grown_on,
+    const std::filesystem::path& directory) {
+    std::vector<hair::Mesh> meshes;
+    for (std::size_t i = 0; i < settings.simulation.distance_fields.size(); ++i) {
+        const std::string& file = settings.simulation.distance_fields[i].mesh;
+        if (file.empty() && !grown_on)
+            throw engine::Error(
+                "/simulation/distance_fields/" + std::to_string(i) + "/mesh",
+                "is empty, and hair from a file grows on no mesh");
+        meshes.push_back(file.empty() ? *grown_on : hair::importMesh(directory / file));
+    }
+    return meshes;
 }
 
 const hair::Mesh* pointerTo(const std::optional<hair::Mesh>& mesh) {
@@ -29,7 +47,9 @@ Case::Case(
     const std::filesystem::path& directory)
     : device_(device), settings_(settings), mesh_(loadMesh(settings, directory)),
       groom_(hair::buildGroom(settings.groom, pointerTo(mesh_), directory, settings.seed)),
-      simulation_(device, groom_, settings.simulation, settings.seed),
+      simulation_(
+          device, groom_, settings.simulation, settings.seed,
+          loadFieldMeshes(settings, pointerTo(mesh_), directory)),
       fixed_step_(double{settings.simulation.time_step}),
       root_triangles_(engine::makeBuffer(
           device, std::span<const std::array<std::uint32_t, 3>>(groom_.root_triangles),
@@ -40,13 +60,20 @@ Case::Case(
 
 void Case::frame(engine::Passes& passes) {
     using engine::PassKind;
-    const std::uint32_t steps = settings_.simulation.solver == hair::Solver::none
-                                    ? 0
-                                    : fixed_step_.stepsFor(double{settings_.run.frame_time});
+    const bool blows = settings_.simulation.solver != hair::Solver::none;
+    const std::uint32_t steps =
+        simulation_.moves() ? fixed_step_.stepsFor(double{settings_.run.frame_time}) : 0;
     for (std::uint32_t i = 0; i < steps; ++i) {
-        passes.pass("wind", PassKind::compute, [&](engine::Commands& commands) {
-            simulation_.recordWind(commands);
-        });
+        if (blows) {
+            passes.pass("wind", PassKind::compute, [&](engine::Commands& commands) {
+                simulation_.recordWind(commands);
+            });
+        }
+        if (simulation_.hasVolume()) {
+            passes.pass("volume", PassKind::compute, [&](engine::Commands& commands) {
+                simulation_.recordVolume(commands);
+            });
+        }
         passes.pass("simulate", PassKind::compute, [&](engine::Commands& commands) {
             simulation_.recordStep(commands);
         });
@@ -74,12 +101,15 @@ std::string Case::stateHash() const {
 }
 
 std::vector<std::pair<std::string, std::uint64_t>> Case::counts() const {
-    return {
+    std::vector<std::pair<std::string, std::uint64_t>> counts{
         {"guides", groom_.strand_count},
         {"vertices_per_guide", groom_.vertices_per_strand},
-        {"root_triangles", groom_.root_triangles.size()},
-        {"strands", plan().strands()},
-        {"segments", plan().drawnSegments()}};
+        {"root_triangles", groom_.root_triangles.size()}};
+    if (settings_.render.hair) {
+        counts.emplace_back("strands", plan().strands());
+        counts.emplace_back("segments", plan().drawnSegments());
+    }
+    return counts;
 }
 
 hair::StrandView Case::view() const {
@@ -88,6 +118,7 @@ hair::StrandView Case::view() const {
         .guides = guides.positions,
         .root_triangles = root_triangles_.address(),
         .root_normals = groom_.root_normals.empty() ? 0 : root_normals_.address(),
+        .head = hair::toMatrix(simulation_.pose()),
         .guide_count = guides.strand_count,
         .vertices_per_guide = guides.vertices_per_strand,
         .triangle_count = static_cast<std::uint32_t>(groom_.root_triangles.size())};
@@ -96,6 +127,14 @@ hair::StrandView Case::view() const {
 void checkAssets(const hair::Settings& settings, const std::filesystem::path& directory) {
     const std::optional<hair::Mesh> mesh = loadMesh(settings, directory);
     hair::buildGroom(settings.groom, pointerTo(mesh), directory, settings.seed);
+    const auto fields = loadFieldMeshes(settings, pointerTo(mesh), directory);
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        try {
+            hair::closeMesh(fields[i]);
+        } catch (const engine::Error& error) {
+            throw engine::Error("/simulation/distance_fields/" + std::to_string(i), error.what());
+        }
+    }
 }
 
 }  // namespace benchmarks

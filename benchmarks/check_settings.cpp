@@ -1,7 +1,10 @@
 #include "benchmarks/check_settings.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <optional>
+#include <string>
 
 #include <glm/geometric.hpp>
 
@@ -23,9 +26,39 @@ Broken hasGuides(const Settings& s) {
 }
 
 Broken windHasDirection(const Settings& s) {
-    if (s.simulation.wind.strength == 0.0f || glm::length(s.simulation.wind.direction) > 0.0f)
+    const hair::WindSettings& wind = s.simulation.wind;
+    if (glm::length(wind.direction) > 0.0f) return {};
+    if (wind.mode == hair::WindMode::thesis && wind.strength > 0.0f)
+        return "has no length while /simulation/wind/strength is above 0";
+    if (wind.mode == hair::WindMode::drag && wind.speed > 0.0f)
+        return "has no length while /simulation/wind/speed is above 0";
+    return {};
+}
+
+Broken keyframesAscend(const Settings& s) {
+    const auto& keys = s.simulation.motion.keyframes;
+    const auto late =
+        std::ranges::adjacent_find(keys, std::ranges::greater_equal{}, &hair::Keyframe::time);
+    if (late == keys.end()) return {};
+    const auto index = late - keys.begin();
+    return "entry " + std::to_string(index + 1) + " is not after entry " + std::to_string(index);
+}
+
+// Whether angles are whole turns apart, to a thousandth of a degree, which is what large ones are
+// rounded to.
+bool sameDirection(const glm::vec3& a, const glm::vec3& b) {
+    for (int i = 0; i < 3; ++i)
+        if (std::abs(std::remainder(double{a[i]} - double{b[i]}, 360.0)) > 1e-3) return false;
+    return true;
+}
+
+Broken repeatedMotionCloses(const Settings& s) {
+    const auto& keys = s.simulation.motion.keyframes;
+    if (!s.simulation.motion.repeat || keys.empty()) return {};
+    if (keys.front().translation == keys.back().translation &&
+        sameDirection(keys.front().rotation, keys.back().rotation))
         return {};
-    return "has no length while /simulation/wind/strength is above 0";
+    return "is set, but the last of the keyframes is not the pose of the first";
 }
 
 Broken lodDistancesAscend(const Settings& s) {
@@ -67,6 +100,8 @@ struct Rule {
 constexpr Rule kRules[] = {
     {"/groom/grow/mesh", hasGuides},
     {"/simulation/wind/direction", windHasDirection},
+    {"/simulation/motion/keyframes", keyframesAscend},
+    {"/simulation/motion/repeat", repeatedMotionCloses},
     {"/lod/near_distance", lodDistancesAscend},
     {"/camera/near_plane", planesAscend},
     {"/camera/target", cameraLooksSomewhere},

@@ -11,12 +11,16 @@
 namespace hair::gpu {
 
 using glm::mat4;
+using glm::uvec3;
 using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 using uint = std::uint32_t;
 
+#include "shaders/shared/distance_field_structs.h"
+#include "shaders/shared/rod_structs.h"
 #include "shaders/shared/simulation_structs.h"
 #include "shaders/shared/strand_structs.h"
+#include "shaders/shared/volume_structs.h"
 
 }  // namespace hair::gpu

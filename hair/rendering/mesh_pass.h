@@ -8,7 +8,7 @@
 
 namespace hair {
 
-// A mesh on the device, drawn material by material.
+// A mesh on the device that moves with the head, drawn material by material.
 class MeshPass {
 public:
     MeshPass(const engine::Device& device, const Mesh& mesh, std::uint32_t samples);

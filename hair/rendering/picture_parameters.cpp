@@ -7,8 +7,8 @@
 namespace hair {
 
 // Scalar layout aligns 64-bit members to 8, as C++ does.
-static_assert(offsetof(gpu::PictureParameters, guides) == 152);
-static_assert(sizeof(gpu::PictureParameters) == 208);
+static_assert(offsetof(gpu::PictureParameters, guides) == 216);
+static_assert(sizeof(gpu::PictureParameters) == 272);
 
 gpu::PictureParameters
 pictureParameters(const Settings& settings, const StrandPlan& plan, const StrandView& view) {
@@ -17,6 +17,7 @@ pictureParameters(const Settings& settings, const StrandPlan& plan, const Strand
     const float aspect = static_cast<float>(render.width) / static_cast<float>(render.height);
     return {
         .view_projection = viewProjection(settings.camera, aspect),
+        .head = view.head,
         .eye = settings.camera.position,
         .lod_near = settings.lod.near_distance,
         .light_position = shading.light.position,

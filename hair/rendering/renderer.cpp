@@ -53,9 +53,11 @@ void Renderer::record(engine::Passes& passes, const StrandView& view) {
     render("scene", engine::Load::clear, [&](engine::Commands& commands) {
         if (mesh_) mesh_->draw(commands, picture);
     });
-    render("strands", engine::Load::keep, [&](engine::Commands& commands) {
-        backend_->draw(commands, picture);
-    });
+    if (settings_.render.hair) {
+        render("strands", engine::Load::keep, [&](engine::Commands& commands) {
+            backend_->draw(commands, picture);
+        });
+    }
     if (!overlay_.empty()) {
         render("overlay", engine::Load::keep, [&](engine::Commands& commands) {
             overlay_.draw(commands, picture, view);

@@ -1,96 +1,94 @@
 #include "hair/simulation/reference.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
-
-#include <glm/geometric.hpp>
 
 #include "hair/simulation/reference_constraints.h"
+#include "hair/simulation/reference_contact.h"
+#include "hair/simulation/reference_volume.h"
+#include "hair/simulation/reference_wind.h"
+#include "hair/simulation/solver.h"
 
 namespace hair {
 
 Reference::Reference(const Groom& groom, const SimulationSettings& settings, std::uint32_t seed)
-    : settings_(settings), seed_(seed), vertices_(groom.vertices_per_strand),
-      rest_(groom.points.begin(), groom.points.end()), positions_(rest_), previous_(rest_) {}
+    : settings_(settings), seed_(seed), motion_(settings.motion),
+      vertices_(groom.vertices_per_strand), rest_(groom.points.begin(), groom.points.end()),
+      solver_(reference::makeSolver(groom, settingsOfSubstep(settings))) {
+    std::vector<glm::dvec3> start;
+    for (const glm::dvec3& point : rest_) start.push_back(motion_.at(0.0)(point));
+    setState(start, start);
+}
 
 void Reference::setState(
     std::span<const glm::dvec3> positions, std::span<const glm::dvec3> previous) {
     assert(positions.size() == rest_.size() && previous.size() == rest_.size());
     positions_.assign(positions.begin(), positions.end());
     previous_.assign(previous.begin(), previous.end());
+    if (!solver_) return;
+    for (std::size_t strand = 0; strand < rest_.size() / vertices_; ++strand)
+        solver_->adopt(
+            {.strand = strand,
+             .positions = ofStrand(positions_, strand),
+             .previous = ofStrand(previous_, strand),
+             .rest = ofStrand(rest_, strand),
+             .accelerations = {},
+             .frame = motion_.at(time()),
+             .push_out = {}});
 }
 
 void Reference::step() {
-    const double wave = std::sin(double{settings_.wind.gust_rate} * time());
-    std::vector<glm::dvec3> accelerations;
-    for (std::size_t first = 0; first < rest_.size(); first += vertices_) {
-        const auto weights =
-            reference::windWeights(seed_, static_cast<std::uint32_t>(first / vertices_));
-        const auto strand = reference::windAccelerations(
-            std::span(positions_).subspan(first, vertices_),
-            reference::strandWind(settings_.wind, weights), wave * wave + 0.5);
-        accelerations.insert(accelerations.end(), strand.begin(), strand.end());
-    }
-    advance(accelerations);
+    advance(airAccelerations(settings_), (steps_ + 1) * double{settings_.time_step});
     ++steps_;
 }
 
-void Reference::settle() { advance(std::vector(rest_.size(), glm::dvec3(0.0))); }
+void Reference::settle() {
+    SimulationSettings calm = settings_;
+    calm.wind.strength = 0.0f;
+    calm.wind.speed = 0.0f;
+    advance(airAccelerations(calm), time());
+}
 
-void Reference::advance(std::span<const glm::dvec3> wind_accelerations) {
-    if (settings_.solver == Solver::none) return;
-    for (std::size_t first = 0; first < rest_.size(); first += vertices_) {
-        const auto rest = std::span<const glm::dvec3>(rest_).subspan(first, vertices_);
-        const auto positions = std::span(positions_).subspan(first, vertices_);
-        const auto previous = std::span(previous_).subspan(first, vertices_);
-        std::vector<glm::dvec3> accelerations(vertices_);
-        double length = 0.0;
-        for (std::size_t i = 0; i < vertices_; ++i) {
-            accelerations[i] = glm::dvec3(settings_.gravity) + wind_accelerations[first + i];
-            if (i > 0) length += glm::distance(rest[i], rest[i - 1]);
-        }
-        const double local = localFactor(length / static_cast<double>(vertices_ - 1));
-
-        positions[0] = previous[0] = rest[0];
-        const std::vector<glm::dvec3> before(positions.begin(), positions.end());
-        reference::integrate(
-            positions, previous, accelerations, keptFactor(), double{settings_.time_step});
-        reference::pullToRest(positions, rest, globalFactor());
-        for (std::uint32_t i = 0; i < settings_.local.iterations; ++i)
-            reference::pullToShape(positions, rest, local);
-        for (std::uint32_t i = 0; i < settings_.length.iterations; ++i)
-            reference::projectLengths(positions, rest);
-        reference::pushOut(positions, before, settings_.colliders, settings_.collision);
+std::vector<glm::dvec3> Reference::airAccelerations(const SimulationSettings& settings) const {
+    const double substep = settingsOfSubstep(settings).time_step;
+    std::vector<glm::dvec3> accelerations;
+    for (std::size_t strand = 0; strand < rest_.size() / vertices_; ++strand) {
+        const auto of_strand = reference::airAccelerations(
+            ofStrand(positions_, strand), ofStrand(previous_, strand), settings, seed_,
+            static_cast<std::uint32_t>(strand), substep, time());
+        accelerations.insert(accelerations.end(), of_strand.begin(), of_strand.end());
     }
+    return accelerations;
 }
 
-// The scalings that stiffness.h describes, from its text: the step against 1/60 s, 10 iterations
-// and segments of 0.15/7 m.
-
-double Reference::keptFactor() const {
-    const double kept = 1.0 - double{settings_.friction};
-    if (settings_.stiffness_scaling == StiffnessScaling::thesis) return kept;
-    return std::pow(kept, double{settings_.time_step} * 60.0);
-}
-
-double Reference::globalFactor() const {
-    const double k = settings_.global.stiffness;
-    if (settings_.stiffness_scaling == StiffnessScaling::thesis || k == 1.0) return k;
-    const double steps = double{settings_.time_step} * 60.0;
-    const double c = k / (1.0 - k) * steps * steps;
-    return c / (1.0 + c);
-}
-
-double Reference::localFactor(double segment_length) const {
-    const double k = std::min(double{settings_.local.stiffness}, 0.95);
-    if (settings_.stiffness_scaling == StiffnessScaling::thesis || k == 0.0) return k;
-    if (segment_length == 0.0) return 0.95;
-    const double steps = double{settings_.time_step} * 60.0;
-    const double left = std::pow(1.0 - k, 10.0);  // of an error after a reference step
-    const double left_by_step =
-        std::pow(left, steps * steps * std::pow(0.15 / 7.0 / segment_length, 4.0));
-    return std::min(1.0 - std::pow(left_by_step, 1.0 / settings_.local.iterations), 0.95);
+void Reference::advance(std::span<const glm::dvec3> wind_accelerations, double then) {
+    if (!solver_) return;
+    std::vector<glm::dvec3> accelerations(wind_accelerations.begin(), wind_accelerations.end());
+    const std::vector<glm::dvec3> contact_accelerations = reference::volumeAccelerations(
+        settings_, {.vertices = vertices_,
+                    .rest = rest_,
+                    .positions = positions_,
+                    .previous = previous_,
+                    .substep = settingsOfSubstep(settings_).time_step,
+                    .frame = motion_.at(then)});
+    for (std::size_t i = 0; i < accelerations.size(); ++i)
+        accelerations[i] += glm::dvec3(settings_.gravity) + contact_accelerations[i];
+    const std::uint32_t substeps = substepsOf(settings_);
+    const auto frameAfter = [&](std::uint32_t substep) {
+        return motion_.at(time() + (then - time()) * substep / substeps);
+    };
+    for (std::uint32_t i = 0; i < substeps; ++i) {
+        const reference::Contact contact{
+            .settings = settings_, .frame = frameAfter(i + 1), .frame_before = frameAfter(i)};
+        for (std::size_t strand = 0; strand < rest_.size() / vertices_; ++strand)
+            solver_->step(
+                {.strand = strand,
+                 .positions = ofStrand(positions_, strand),
+                 .previous = ofStrand(previous_, strand),
+                 .rest = ofStrand(rest_, strand),
+                 .accelerations = ofStrand(accelerations, strand),
+                 .frame = contact.frame,
+                 .push_out = contact});
+    }
 }
 
 }  // namespace hair

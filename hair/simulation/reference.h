@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -8,22 +9,23 @@
 
 #include "hair/groom/groom.h"
 #include "hair/settings.h"
+#include "hair/simulation/head_motion.h"
+#include "hair/simulation/reference_solver.h"
 
 namespace hair {
 
-// The `shape` solver on the CPU in double: the functions of reference_constraints.h in the order of
-// thesis section 3.2, then collisions. Plain and slow; see simulation.h for the one that is
-// measured.
+// The simulation on the CPU in double, on a head that moves: reference_solver.h, substep by
+// substep. Plain and slow; see simulation.h for the one that is measured.
 class Reference {
 public:
     Reference(const Groom& groom, const SimulationSettings& settings, std::uint32_t seed);
 
-    // Positions and those one step earlier, [strand][vertex], m.
+    // Positions and those one substep earlier, [strand][vertex], m.
     void setState(std::span<const glm::dvec3> positions, std::span<const glm::dvec3> previous);
 
     // One time step under gravity and the wind of the current time.
     void step();
-    // One time step under gravity alone; time stands still.
+    // One time step under gravity and in still air; time stands still.
     void settle();
 
     double time() const { return steps_ * double{settings_.time_step}; }
@@ -31,18 +33,24 @@ public:
     std::span<const glm::dvec3> previous() const { return previous_; }
 
 private:
-    void advance(std::span<const glm::dvec3> wind_accelerations);
-    // Factors of strands with this mean segment length, m.
-    double localFactor(double segment_length) const;
-    double globalFactor() const;
-    double keptFactor() const;
+    // Of every vertex now, m/s^2.
+    std::vector<glm::dvec3> airAccelerations(const SimulationSettings& settings) const;
+    // One time step that takes the head from where it is now to where it is then.
+    void advance(std::span<const glm::dvec3> wind_accelerations, double then);
+
+    template <class Points>
+    auto ofStrand(Points& points, std::size_t strand) const {
+        return std::span(points).subspan(strand * vertices_, vertices_);
+    }
 
     SimulationSettings settings_;
     std::uint32_t seed_;
+    HeadMotion motion_;
     std::size_t vertices_;  // per strand
     std::vector<glm::dvec3> rest_;
     std::vector<glm::dvec3> positions_;
     std::vector<glm::dvec3> previous_;
+    std::unique_ptr<reference::Solver> solver_;  // null: nothing moves
     std::uint32_t steps_ = 0;
 };
 

@@ -48,12 +48,6 @@ void redBlack(std::size_t vertices, Correct correct) {
         for (std::size_t i = first; i < vertices; i += 2) correct(i);
 }
 
-std::uint32_t hash(std::uint32_t value) {
-    const std::uint32_t state = value * 747796405u + 2891336453u;
-    const std::uint32_t word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737u;
-    return (word >> 22) ^ word;
-}
-
 }  // namespace
 
 void integrate(
@@ -148,46 +142,6 @@ void pushOut(
                 positions[i] -= std::min(1.0, held / length) * slid;
         }
     }
-}
-
-std::array<double, 4> windWeights(std::uint32_t seed, std::uint32_t strand) {
-    constexpr std::uint32_t kPurpose = 0x57494e44;  // kWindWeightPurpose of the GPU
-    std::array<double, 4> weights{};
-    double sum = 0.0;
-    for (std::uint32_t i = 0; i < 4; ++i) {
-        const std::uint32_t bits = hash(kPurpose + i + hash(strand + hash(seed)));
-        weights[i] = static_cast<double>(bits >> 8) / 16777216.0;
-        sum += weights[i];
-    }
-    for (double& w : weights) w = sum > 0.0 ? w / sum : 0.25;
-    return weights;
-}
-
-glm::dvec3 strandWind(const WindSettings& settings, const std::array<double, 4>& weights) {
-    const glm::dvec3 direction = glm::normalize(glm::dvec3(settings.direction));
-    const glm::dvec3 u = sideways(direction);
-    const glm::dvec3 v = glm::cross(direction, u);
-    const double angle = double{settings.cone_angle} * std::acos(-1.0) / 180.0;
-    glm::dvec3 wind{0.0};
-    for (int i = 0; i < 4; ++i) {
-        const double turned = i * std::acos(0.0);
-        const glm::dvec3 radial = std::cos(turned) * u + std::sin(turned) * v;
-        wind += weights[static_cast<std::size_t>(i)] *
-                (std::cos(angle) * direction + std::sin(angle) * radial);
-    }
-    return double{settings.strength} * wind;
-}
-
-std::vector<glm::dvec3>
-windAccelerations(ConstPoints positions, const glm::dvec3& wind, double magnitude) {
-    std::vector<glm::dvec3> accelerations(positions.size(), glm::dvec3(0.0));
-    for (std::size_t i = 1; i < positions.size(); ++i) {
-        const glm::dvec3 edge = positions[i] - positions[i - 1];
-        if (glm::length(edge) < kShortest) continue;
-        const glm::dvec3 t = glm::normalize(edge);
-        accelerations[i] = magnitude * glm::cross(glm::cross(t, wind), t);
-    }
-    return accelerations;
 }
 
 }  // namespace hair::reference

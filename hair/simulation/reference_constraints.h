@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -57,15 +55,5 @@ void projectLengths(Points positions, ConstPoints rest);
 void pushOut(
     Points positions, ConstPoints before, std::span<const Collider> colliders,
     const CollisionSettings& settings);
-
-// Four random numbers of a strand that sum to 1.
-std::array<double, 4> windWeights(std::uint32_t seed, std::uint32_t strand);
-
-// Sum of the four vectors of the cone, weighed and times the strength, m/s^2.
-glm::dvec3 strandWind(const WindSettings& settings, const std::array<double, 4>& weights);
-
-// Thesis eq. 13 and 14 for every vertex of a strand, m/s^2; zero at the root.
-std::vector<glm::dvec3>
-windAccelerations(ConstPoints positions, const glm::dvec3& wind, double magnitude);
 
 }  // namespace hair::reference

@@ -1,147 +1,119 @@
 #include "hair/simulation/simulation.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstddef>
-#include <string>
+#include <iterator>
 
-#include "engine/error.h"
 #include "engine/transfer.h"
 #include "hair/gpu_structs.h"
-#include "hair/simulation/rest_shape.h"
 #include "hair/simulation/stiffness.h"
-#include "hair/simulation/wind.h"
 
 namespace hair {
 
 namespace {
 
 using engine::Access;
-using engine::Buffer;
 using engine::Commands;
-using engine::Device;
 
-static_assert(sizeof(gpu::Capsule) == 28 && offsetof(gpu::Capsule, b) == 16);
-static_assert(sizeof(gpu::WindParameters) == 80);
-static_assert(offsetof(gpu::WindParameters, directions) == 16);
-static_assert(offsetof(gpu::WindParameters, magnitude) == 64);
-static_assert(sizeof(gpu::SimulateParameters) == 104);
-static_assert(offsetof(gpu::SimulateParameters, gravity) == 56);
-static_assert(offsetof(gpu::SimulateParameters, local_iterations) == 80);
+static_assert(sizeof(gpu::Bodies) == 32);
+static_assert(sizeof(gpu::GuideParameters) == 88 && offsetof(gpu::GuideParameters, gravity) == 56);
+static_assert(sizeof(gpu::StepPush) == 88 && offsetof(gpu::StepPush, frame_before) == 52);
 
-constexpr std::uint32_t kWindGroup = 64;           // invocations, as in wind.comp
-constexpr std::uint32_t kSolverGroup = 64;         // invocations to fill with whole strands
-constexpr std::uint32_t kMostGroupsInRow = 65535;  // what every device has
-constexpr std::uint32_t kSettleBatch = 64;         // steps per submission
+constexpr std::uint32_t kSettleBatch = 64;  // substeps per submission
 
-// Where more groups are needed than fit in a row, the shaders count them row by row.
-void dispatch(Commands& commands, std::uint32_t groups) {
-    const std::uint32_t columns = std::min(groups, kMostGroupsInRow);
-    commands.dispatch(columns, (groups + columns - 1) / columns);
+engine::BufferDescription stateOf(const engine::Buffer& like, const char* name) {
+    return {.size = like.size(), .name = name};
 }
 
-// w: inverse mass.
-std::vector<glm::vec4>
-withMasses(std::span<const glm::vec3> positions, std::uint32_t vertices_per_strand) {
-    std::vector<glm::vec4> result;
-    result.reserve(positions.size());
-    for (std::size_t i = 0; i < positions.size(); ++i)
-        result.emplace_back(positions[i], i % vertices_per_strand == 0 ? 0.0f : 1.0f);
-    return result;
-}
-
-template <class Value>
-Buffer makeBuffer(const Device& device, const std::vector<Value>& values, const char* name) {
-    return engine::makeBuffer(device, std::span<const Value>(values), name);
-}
-
-std::vector<float> localStiffnesses(const Groom& groom, const SimulationSettings& settings) {
-    std::vector<float> factors;
-    for (const double length : meanSegmentLengths(groom))
-        factors.push_back(static_cast<float>(localStiffness(settings, length)));
-    return factors;
-}
-
-std::vector<gpu::Capsule> capsulesOf(const SimulationSettings& settings) {
-    std::vector<gpu::Capsule> capsules;
-    for (const Collider& collider : settings.colliders)
-        capsules.push_back({.a = collider.a, .radius = collider.radius, .b = collider.b});
-    return capsules;
-}
-
-std::uint32_t strandsPerGroup(const Device& device, const Groom& groom) {
-    assert(groom.strand_count > 0 && groom.vertices_per_strand > 1);
-    const std::uint32_t most = device.info().limits.maxComputeWorkGroupInvocations;
-    if (groom.vertices_per_strand > most)
-        throw engine::Unsupported(
-            "simulation", std::to_string(groom.vertices_per_strand) +
-                              " vertices per strand; this device runs at most " +
-                              std::to_string(most));
-    return std::max(1u, kSolverGroup / groom.vertices_per_strand);
+bool hairActsOnHair(const SimulationSettings& settings) {
+    const HairHairSettings& contact = settings.hair_hair;
+    return settings.solver != Solver::none && (contact.friction > 0.0f || contact.repulsion > 0.0f);
 }
 
 }  // namespace
 
 Simulation::Simulation(
-    const Device& device, const Groom& groom, const SimulationSettings& settings,
-    std::uint32_t seed)
-    : device_(&device), settings_(settings), seed_(seed), strand_count_(groom.strand_count),
-      vertices_per_strand_(groom.vertices_per_strand),
-      strands_per_group_(strandsPerGroup(device, groom)), wind_cone_(windCone(settings.wind)),
-      rest_positions_(makeBuffer(
-          device, withMasses(groom.points, groom.vertices_per_strand), "guide rest positions")),
-      rest_edges_(makeBuffer(device, transportedRestEdges(groom), "guide rest edges")),
-      local_stiffness_(
-          makeBuffer(device, localStiffnesses(groom, settings), "guide local stiffness")),
-      capsules_(makeBuffer(device, capsulesOf(settings), "capsules")),
-      positions_(device, {.size = rest_positions_.size(), .name = "guide positions"}),
-      previous_(device, {.size = rest_positions_.size(), .name = "guide previous positions"}),
-      settled_positions_(
-          device, {.size = rest_positions_.size(), .name = "guide settled positions"}),
-      settled_previous_(
-          device, {.size = rest_positions_.size(), .name = "guide settled previous positions"}),
-      accelerations_(device, {.size = rest_positions_.size(), .name = "guide accelerations"}),
-      wind_(device, {.shader = "simulation/wind.comp", .push_size = sizeof(gpu::WindParameters)}),
-      simulate_(
-          device, {.shader = "simulation/simulate.comp",
-                   .constants = {strands_per_group_ * vertices_per_strand_, vertices_per_strand_},
-                   .push_size = sizeof(gpu::SimulateParameters)}) {
+    const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
+    std::uint32_t seed, std::span<const Mesh> field_meshes)
+    : device_(&device), settings_(settings), substep_(settingsOfSubstep(settings)),
+      substeps_(substepsOf(settings)), strand_count_(groom.strand_count),
+      vertices_per_strand_(groom.vertices_per_strand), pinned_(groom.points.size()),
+      motion_(settings.motion), bodies_(device, settings, field_meshes),
+      rest_positions_(engine::makeBuffer(
+          device, std::span<const glm::vec4>(withMasses(groom.points)), "guide rest positions")),
+      positions_(device, stateOf(rest_positions_, "guide positions")),
+      previous_(device, stateOf(rest_positions_, "guide previous positions")),
+      accelerations_(device, stateOf(rest_positions_, "guide accelerations")),
+      parameters_(engine::makeBuffer(
+          device,
+          std::span<const gpu::GuideParameters>(std::array{gpu::GuideParameters{
+              .positions = positions_.address(),
+              .previous = previous_.address(),
+              .rest_positions = rest_positions_.address(),
+              .bodies = bodies_.parameters(),
+              .gravity = settings.gravity,
+              .time_step = substep_.time_step,
+              .velocity_kept = static_cast<float>(velocityKept(substep_)),
+              .strand_count = strand_count_,
+              .vertices_per_strand = vertices_per_strand_,
+              .seed = seed}}),
+          "guide parameters")),
+      wind_(device, groom, settings), solver_(makeSolver(device, groom, substep_)) {
+    assert(strand_count_ > 0 && vertices_per_strand_ > 1);
     assert(groom.points.size() == std::size_t{strand_count_} * vertices_per_strand_);
-    restore(rest_positions_, rest_positions_);
+    if (hairActsOnHair(settings))
+        hair_hair_.emplace(device, groom, settings, substeps_, parameters_.address());
+    std::vector<glm::vec3> start;
+    for (const glm::vec3& point : groom.points) start.emplace_back(pose()(point));
+    setState(start, start);
     settle(settings.settle_steps);
-    keepSettled();
+
+    for (const engine::Buffer* buffer : state())
+        settled_.emplace_back(device, stateOf(*buffer, "settled state"));
+    device.runOnce([&](Commands& commands) {
+        commands.barrier(Access::anything, Access::transfer_write);
+        for (std::size_t i = 0; i < settled_.size(); ++i)
+            commands.copy(*state()[i], settled_[i], settled_[i].size());
+        commands.fill(accelerations_, 0);
+        commands.barrier(Access::transfer_write, Access::anything);
+    });
 }
 
 void Simulation::recordWind(Commands& commands) const {
-    if (settings_.solver == Solver::none) return;
-    gpu::WindParameters params{
-        .positions = positions_.address(),
-        .accelerations = accelerations_.address(),
-        .directions = {},
-        .magnitude = static_cast<float>(windMagnitude(settings_.wind, time())),
-        .seed = seed_,
-        .strand_count = strand_count_,
-        .vertices_per_strand = vertices_per_strand_};
-    for (std::size_t i = 0; i < wind_cone_.size(); ++i)
-        params.directions[i] = glm::vec3(double{settings_.wind.strength} * wind_cone_[i]);
-
+    if (!solver_) return;
     commands.barrier(Access::compute_write, Access::compute_write);
-    commands.bind(wind_, params);
-    dispatch(commands, (strand_count_ * vertices_per_strand_ + kWindGroup - 1) / kWindGroup);
+    wind_.record(commands, parameters_.address(), accelerations_.address(), time());
+}
+
+void Simulation::recordVolume(Commands& commands) const {
+    if (!hair_hair_) return;
+    commands.barrier(Access::compute_write, Access::compute_write);
+    hair_hair_->record(
+        commands, accelerations_.address(), motion_.at(time() + double{settings_.time_step}));
 }
 
 void Simulation::recordStep(Commands& commands) {
-    if (settings_.solver == Solver::none) return;
-    recordSolver(commands, accelerations_.address());
+    if (!solver_) return;
+    const double start = time();
     ++steps_;
+    recordSubsteps(commands, start, time());
 }
 
 void Simulation::settle(std::uint32_t steps) {
-    if (settings_.solver == Solver::none) return;
+    if (!solver_) return;
+    const std::uint32_t most = std::max(1u, kSettleBatch / substeps_);
     while (steps > 0) {
-        const std::uint32_t batch = std::min(steps, kSettleBatch);
+        const std::uint32_t batch = std::min(steps, most);
         device_->runOnce([&](Commands& commands) {
-            for (std::uint32_t i = 0; i < batch; ++i) recordSolver(commands, 0);
+            for (std::uint32_t i = 0; i < batch; ++i) {
+                commands.barrier(Access::anything, Access::compute_write);
+                wind_.recordCalm(commands, parameters_.address(), accelerations_.address());
+                commands.barrier(Access::compute_write, Access::compute_write);
+                if (hair_hair_) hair_hair_->record(commands, accelerations_.address(), pose());
+                recordSubsteps(commands, time(), time());
+            }
         });
         steps -= batch;
     }
@@ -149,22 +121,53 @@ void Simulation::settle(std::uint32_t steps) {
 
 void Simulation::reset() {
     steps_ = 0;
-    restore(settled_positions_, settled_previous_);
+    device_->runOnce([&](Commands& commands) {
+        commands.barrier(Access::anything, Access::transfer_write);
+        for (std::size_t i = 0; i < settled_.size(); ++i)
+            commands.copy(settled_[i], *state()[i], settled_[i].size());
+        commands.fill(accelerations_, 0);
+        commands.barrier(Access::transfer_write, Access::anything);
+    });
 }
 
 void Simulation::setState(
     std::span<const glm::vec3> positions, std::span<const glm::vec3> previous) {
     assert(positions.size() == previous.size());
-    assert(positions.size() == std::size_t{strand_count_} * vertices_per_strand_);
-    const auto now = withMasses(positions, vertices_per_strand_);
-    const auto before = withMasses(previous, vertices_per_strand_);
+    const auto now = withMasses(positions);
+    std::vector<glm::vec4> before;
+    for (const glm::vec3& point : previous) before.emplace_back(point, 0.0f);
     engine::upload(*device_, std::as_bytes(std::span(now)), positions_);
     engine::upload(*device_, std::as_bytes(std::span(before)), previous_);
+    if (!solver_) return;
+    device_->runOnce([&](Commands& commands) {
+        const gpu::RigidFrame frame = toGpu(pose());
+        commands.barrier(Access::anything, Access::compute_write);
+        solver_->recordAdopt(
+            commands, {.guides = parameters_.address(), .frame = frame, .frame_before = frame});
+        commands.barrier(Access::compute_write, Access::anything);
+    });
+}
+
+void Simulation::pin(std::span<const std::uint32_t> vertices) {
+    for (const std::uint32_t vertex : vertices) pinned_[vertex] = true;
+    setState(readPositions(), readPrevious());
 }
 
 std::vector<glm::vec3> Simulation::readPositions() const {
     const auto points = engine::downloadAs<glm::vec4>(*device_, positions_);
     return {points.begin(), points.end()};
+}
+
+std::vector<glm::vec3> Simulation::readPrevious() const {
+    const auto points = engine::downloadAs<glm::vec4>(*device_, previous_);
+    return {points.begin(), points.end()};
+}
+
+std::vector<bool> Simulation::readContacts() const {
+    std::vector<bool> contacts;
+    for (const glm::vec4& point : engine::downloadAs<glm::vec4>(*device_, previous_))
+        contacts.push_back(point.w > 0.0f);
+    return contacts;
 }
 
 GuideView Simulation::guides() const {
@@ -174,51 +177,41 @@ GuideView Simulation::guides() const {
         .vertices_per_strand = vertices_per_strand_};
 }
 
-void Simulation::recordSolver(Commands& commands, std::uint64_t accelerations) const {
-    const gpu::SimulateParameters params{
-        .positions = positions_.address(),
-        .previous = previous_.address(),
-        .rest_positions = rest_positions_.address(),
-        .rest_edges = rest_edges_.address(),
-        .local_stiffness = local_stiffness_.address(),
-        .accelerations = accelerations,
-        .capsules = capsules_.address(),
-        .gravity = settings_.gravity,
-        .time_step_squared =
-            static_cast<float>(double{settings_.time_step} * double{settings_.time_step}),
-        .velocity_kept = static_cast<float>(velocityKept(settings_)),
-        .global_stiffness = static_cast<float>(globalStiffness(settings_)),
-        .local_iterations = settings_.local.iterations,
-        .length_iterations = settings_.length.iterations,
-        .capsule_count = static_cast<std::uint32_t>(settings_.colliders.size()),
-        .strand_count = strand_count_,
-        .collision_margin = settings_.collision.margin,
-        .friction = settings_.collision.friction};
-
-    // After the wind, an earlier step, and whoever still draws the positions that are overwritten.
+// The frames of the head divide the time evenly.
+void Simulation::recordSubsteps(Commands& commands, double from, double to) const {
+    const auto frameAfter = [&](std::uint32_t substep) {
+        const double part = static_cast<double>(substep) / substeps_;
+        return toGpu(motion_.at(from + part * (to - from)));
+    };
+    // After the forces, an earlier step, and whoever still draws what is overwritten.
     commands.barrier(Access::anything, Access::compute_write);
-    commands.bind(simulate_, params);
-    dispatch(commands, (strand_count_ + strands_per_group_ - 1) / strands_per_group_);
+    for (std::uint32_t i = 0; i < substeps_; ++i) {
+        if (i > 0) commands.barrier(Access::compute_write, Access::compute_write);
+        solver_->record(
+            commands, {.guides = parameters_.address(),
+                       .accelerations = accelerations_.address(),
+                       .frame = frameAfter(i + 1),
+                       .frame_before = frameAfter(i)});
+    }
     commands.barrier(Access::compute_write, Access::graphics_read);
 }
 
-void Simulation::restore(const engine::Buffer& positions, const engine::Buffer& previous) {
-    device_->runOnce([&](Commands& commands) {
-        commands.barrier(Access::anything, Access::transfer_write);
-        commands.copy(positions, positions_, positions_.size());
-        commands.copy(previous, previous_, previous_.size());
-        commands.fill(accelerations_, 0);
-        commands.barrier(Access::transfer_write, Access::anything);
-    });
+// w: inverse mass over that of a free vertex.
+std::vector<glm::vec4> Simulation::withMasses(std::span<const glm::vec3> positions) const {
+    assert(positions.size() == pinned_.size());
+    std::vector<glm::vec4> result;
+    result.reserve(positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const bool held = i % vertices_per_strand_ == 0 || pinned_[i];
+        result.emplace_back(positions[i], held ? 0.0f : 1.0f);
+    }
+    return result;
 }
 
-void Simulation::keepSettled() {
-    device_->runOnce([&](Commands& commands) {
-        commands.barrier(Access::anything, Access::transfer_write);
-        commands.copy(positions_, settled_positions_, positions_.size());
-        commands.copy(previous_, settled_previous_, previous_.size());
-        commands.barrier(Access::transfer_write, Access::anything);
-    });
+std::vector<const engine::Buffer*> Simulation::state() const {
+    std::vector<const engine::Buffer*> buffers{&positions_, &previous_};
+    if (solver_) std::ranges::copy(solver_->state(), std::back_inserter(buffers));
+    return buffers;
 }
 
 }  // namespace hair

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,33 +10,43 @@
 
 #include "engine/buffer.h"
 #include "engine/commands.h"
-#include "engine/pipeline.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/mesh.h"
 #include "hair/settings.h"
+#include "hair/simulation/bodies.h"
 #include "hair/simulation/guide_view.h"
+#include "hair/simulation/hair_hair.h"
+#include "hair/simulation/head_motion.h"
+#include "hair/simulation/solver.h"
+#include "hair/simulation/wind_pass.h"
 
 namespace hair {
 
-// The guides on the device and the two compute passes that move them. A step is recordWind, then
-// recordStep; the constraints and their order are those of thesis section 3.2, then collisions.
-// Simulated time is the number of recorded steps times the time step: nothing depends on frames or
-// clocks. Solver `none` keeps the guides at rest and records nothing. Between submissions the
-// device's work is ordered by the barriers that are recorded here. Borrows the device.
+// The guides on the device and the compute passes that move them. A time step is recordWind,
+// recordVolume where hasVolume, then recordStep. Simulated time is the number of recorded steps
+// times the time step: nothing depends on frames or clocks. Solver `none` keeps the guides at rest
+// on the head, and records nothing where that stands still. Between submissions the device's work
+// is ordered by the barriers that are recorded here. Borrows the device.
 class Simulation {
 public:
-    // The groom needs at least one strand and two vertices. Settles the guides (see settle) for
-    // settings.settle_steps. Throws Error for a wind direction without length, Unsupported if a
-    // strand has more vertices than the device has invocations in a workgroup.
+    // The groom needs at least one strand and two vertices; `field_meshes[i]` is the mesh of
+    // settings.distance_fields[i]. Settles the guides (see settle) for settings.settle_steps.
+    // Throws Error for settings that make no sense, Unsupported for what the device can't do.
     Simulation(
         const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
-        std::uint32_t seed);
+        std::uint32_t seed, std::span<const Mesh> field_meshes = {});
 
-    // The wind's acceleration of every vertex at the current time. Recorded at strength 0 too, so
-    // that frames with and without wind do the same work.
+    // The acceleration that air gives every vertex at the current time. Recorded without wind too,
+    // so that frames with and without do the same work.
     void recordWind(engine::Commands& commands) const;
 
-    // One time step under gravity and the wind recorded last. Positions are then visible to compute
-    // and to every graphics stage.
+    // Whether hair acts on hair.
+    bool hasVolume() const { return hair_hair_.has_value(); }
+    // Adds the accelerations that hair gives hair. After recordWind.
+    void recordVolume(engine::Commands& commands) const;
+
+    // One time step under gravity and the accelerations recorded last. Positions are then visible
+    // to compute and to every graphics stage.
     void recordStep(engine::Commands& commands);
 
     // Simulates steps without wind and waits for them; time stands still.
@@ -44,38 +55,49 @@ public:
     // Back to the state after construction, when the device is done with what was submitted before.
     void reset();
 
-    // Positions and those one step earlier, [strand][vertex], m.
+    // Positions and those one substep earlier, [strand][vertex], m.
     void setState(std::span<const glm::vec3> positions, std::span<const glm::vec3> previous);
+
+    // Holds vertices where they are from now on; numbers of [strand][vertex]. Roots are held anyway
+    // and move with the head.
+    void pin(std::span<const std::uint32_t> vertices);
 
     // Copied from the device after all that was submitted before, [strand][vertex], m.
     std::vector<glm::vec3> readPositions() const;
+    std::vector<glm::vec3> readPrevious() const;
+    // True at vertices in contact with a body and at all below them on the strand.
+    std::vector<bool> readContacts() const;
 
+    // Whether a step records anything: `none` does so only where the head moves.
+    bool moves() const { return solver_ != nullptr; }
     double time() const { return static_cast<double>(steps_) * double{settings_.time_step}; }
+    // Of the head, now.
+    RigidMotion pose() const { return motion_.at(time()); }
     GuideView guides() const;
 
 private:
-    void recordSolver(engine::Commands& commands, std::uint64_t accelerations) const;
-    void restore(const engine::Buffer& positions, const engine::Buffer& previous);
-    void keepSettled();
+    void recordSubsteps(engine::Commands& commands, double from, double to) const;
+    std::vector<glm::vec4> withMasses(std::span<const glm::vec3> positions) const;
+    std::vector<const engine::Buffer*> state() const;
 
     const engine::Device* device_;
     SimulationSettings settings_;
-    std::uint32_t seed_;
+    SimulationSettings substep_;
+    std::uint32_t substeps_;
     std::uint32_t strand_count_;
     std::uint32_t vertices_per_strand_;
-    std::uint32_t strands_per_group_;
-    std::array<glm::dvec3, 4> wind_cone_;
+    std::vector<bool> pinned_;  // [strand][vertex]
+    HeadMotion motion_;
+    Bodies bodies_;
     engine::Buffer rest_positions_;
-    engine::Buffer rest_edges_;
-    engine::Buffer local_stiffness_;
-    engine::Buffer capsules_;
     engine::Buffer positions_;
     engine::Buffer previous_;
-    engine::Buffer settled_positions_;  // the state after construction
-    engine::Buffer settled_previous_;
     engine::Buffer accelerations_;
-    engine::ComputePipeline wind_;
-    engine::ComputePipeline simulate_;
+    engine::Buffer parameters_;  // gpu::GuideParameters
+    WindPass wind_;
+    std::optional<HairHair> hair_hair_;
+    std::unique_ptr<GuideSolver> solver_;  // null: nothing moves
+    std::vector<engine::Buffer> settled_;  // state() after construction
     std::uint64_t steps_ = 0;
 };
 

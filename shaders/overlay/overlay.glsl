@@ -12,8 +12,8 @@ layout(location = 1) out vec4 tangent_and_along;
 const float kOverlayLift = 0.015;   // m
 const float kOverlayWidth = 0.0015;  // m
 
-// Overlays are drawn a little nearer to the eye, so that hair does not hide its own guides but the head
-// hides those behind it.
+// Overlays are drawn a little nearer to the eye, so that hair does not hide its own guides but the
+// head hides those behind it.
 void emitLineEnd(PictureParameters picture, vec3 position, vec3 tangent) {
     vec3 to_eye = picture.eye - position;
     vec3 lifted = position + to_eye * min(kOverlayLift / length(to_eye), 0.5);

@@ -1,5 +1,5 @@
-// Averages the rendered samples of each pixel of the picture. Colours are display-referred, and so is the
-// mean, as fixed-function resolve of such images does it.
+// Averages the rendered samples of each pixel of the picture. Colours are display-referred, and so
+// is the mean, as fixed-function resolve of such images does it.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const int kSamples = 1;  // per rendered pixel
 layout(constant_id = 1) const int kFactor = 1;   // rendered pixels per picture pixel, along each side

@@ -1,5 +1,5 @@
 #version 460
-// A triangle mesh, such as the head, pulled from its buffers by index.
+// A triangle mesh that moves with the head, pulled from its buffers by index.
 #extension GL_GOOGLE_include_directive : require
 #include "common/picture.glsl"
 
@@ -10,7 +10,8 @@ layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
 
 void main() {
-    position = Vectors(push.positions).values[gl_VertexIndex];
-    normal = Vectors(push.normals).values[gl_VertexIndex];
-    gl_Position = PictureReference(push.picture).parameters.view_projection * vec4(position, 1.0);
+    PictureParameters picture = PictureReference(push.picture).parameters;
+    position = (picture.head * vec4(Vectors(push.positions).values[gl_VertexIndex], 1.0)).xyz;
+    normal = mat3(picture.head) * Vectors(push.normals).values[gl_VertexIndex];
+    gl_Position = picture.view_projection * vec4(position, 1.0);
 }

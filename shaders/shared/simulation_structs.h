@@ -1,8 +1,9 @@
 #ifndef HAIRBENCH_SIMULATION_STRUCTS_H
 #define HAIRBENCH_SIMULATION_STRUCTS_H
 
-// What the simulation's host and compute code share. Scalar layout; addresses are device addresses.
-// Per-vertex arrays are vec4 [strand][vertex], root first; w is unused where nothing is said of it.
+// What the simulation's host and compute code share; distance_field_structs.h comes before it.
+// Scalar layout; addresses are device addresses. Per-vertex arrays are vec4 [strand][vertex], root
+// first; w is unused where nothing is said of it.
 
 // Shorter segments, at rest or now, have no direction of their own. m
 const float kShortestSegment = 1.0e-9f;
@@ -10,43 +11,105 @@ const float kShortestSegment = 1.0e-9f;
 // Purpose of the random numbers that a strand weighs the wind with; the next three are taken too.
 const uint kWindWeightPurpose = 0x57494e44u;
 
-// A sphere where a == b.
+// A rigid motion from where the groom was made to where it is now: x -> rotation x + translation.
+struct RigidFrame {
+    vec4 rotation;     // unit quaternion, w the scalar part
+    vec3 translation;  // m
+};
+
+// What a body moves with.
+const uint kFollowsHead = 0u;
+const uint kFollowsWorld = 1u;
+
+// A sphere where a == b. At the time when its frame is the identity.
 struct Capsule {
     vec3 a;  // one end of the axis, m
     float radius;  // m
     vec3 b;  // the other end, m
+    uint follows;
+};
+
+struct BodyField {
+    DistanceField field;
+    uint follows;
+    uint unused;
+};
+
+// The bodies that hair collides with.
+struct Bodies {
+    uint64_t capsules;  // Capsule [capsule_count]
+    uint64_t fields;    // BodyField [field_count]
+    uint capsule_count;
+    uint field_count;
+    float margin;    // m
+    float friction;  // Coulomb's coefficient
+};
+
+// Of a simulation for its whole life.
+struct GuideParameters {
+    uint64_t positions;  // m; w = inverse mass over a vertex's: 0 where pinned (the root), else 1
+    uint64_t previous;  // m, one substep earlier; w = 1 at vertices in contact with a body and all
+                        // vertices below them on the strand, else 0
+    uint64_t rest_positions;  // m
+    Bodies bodies;
+    vec3 gravity;  // m/s^2
+    float time_step;  // of a substep, s
+    float velocity_kept;  // fraction of the velocity that is left after a substep
+    uint strand_count;
+    uint vertices_per_strand;
+    uint seed;
+};
+
+// Push constants of a solver's substep.
+struct StepPush {
+    uint64_t guides;  // GuideParameters
+    uint64_t solver;  // the solver's own parameters
+    uint64_t accelerations;  // m/s^2, beside gravity; address 0: none
+    RigidFrame frame;  // of the head at the end of the substep
+    RigidFrame frame_before;  // and at its start
+    uint first_strand;  // of those that this dispatch moves
 };
 
 // Push constants of simulation/wind.comp.
-struct WindParameters {
-    uint64_t positions;  // m
+struct WindPush {
+    uint64_t guides;  // GuideParameters
     uint64_t accelerations;  // m/s^2, written
     vec3 directions[4];  // unit vectors round the wind's direction times its strength, m/s^2
     float magnitude;  // thesis eq. 13
-    uint seed;
-    uint strand_count;
-    uint vertices_per_strand;
 };
 
-// Push constants of simulation/simulate.comp.
-struct SimulateParameters {
-    uint64_t positions;  // m; w = inverse mass, 1/kg: 0 at the root, 1 elsewhere
-    uint64_t previous;  // m, one step earlier
-    uint64_t rest_positions;  // m
+// Purpose of the random numbers that are the seeds of the turbulence's octaves.
+const uint kTurbulencePurpose = 0x54555242u;
+
+// Push constants of simulation/wind_drag.comp.
+struct DragPush {
+    uint64_t guides;  // GuideParameters
+    uint64_t accelerations;  // m/s^2, written
+    vec3 mean_wind;  // m/s
+    float fluctuation;  // r.m.s. of each component, m/s
+    // The largest eddies' lattice moves with the mean wind; where the world's origin is in it now.
+    uvec3 cell;  // modulo 2^32
+    vec3 fraction;  // of the cell, [0, 1)
+    float cells_per_metre;
+    uint octaves;
+    float inertial_drag;  // 1/m, hair/simulation/wind.h
+    float viscous_drag;  // m^(-1/3) s^(-2/3)
+    float time_step;  // s, for which the accelerations are held
+};
+
+// Parameters of simulation/shape.comp.
+struct ShapeParameters {
     uint64_t rest_edges;  // hair/simulation/rest_shape.h
     uint64_t local_stiffness;  // float [strand]: factor per iteration
-    uint64_t accelerations;  // m/s^2, beside gravity; address 0: none
-    uint64_t capsules;  // Capsule [capsule_count]
-    vec3 gravity;  // m/s^2
-    float time_step_squared;  // s^2
-    float velocity_kept;  // fraction of the velocity that is left after a step
-    float global_stiffness;  // factor per step
+    float global_stiffness;  // factor per substep
     uint local_iterations;
     uint length_iterations;
-    uint capsule_count;
-    uint strand_count;
-    float collision_margin;  // m
-    float friction;  // Coulomb's coefficient
+};
+
+// Parameters of simulation/ftl.comp.
+struct FtlParameters {
+    float global_stiffness;  // factor per substep
+    float velocity_correction;  // s_damping of Mueller et al. 2012, eq. 9
 };
 
 #endif

@@ -9,6 +9,7 @@ const uint kRootPurpose = 0x524f4f54u;
 // Everything that a picture's draws read; one per frame in flight.
 struct PictureParameters {
     mat4 view_projection;  // world -> clip, y down, depth 0 near to 1 far
+    mat4 head;             // rigid motion: where mesh and root normals were made -> world
     vec3 eye;              // m
     float lod_near;        // m: level 0 up to here
     vec3 light_position;   // m
@@ -25,10 +26,11 @@ struct PictureParameters {
 
     uint64_t guides;          // vec4 [guide][vertex], m, root first; w is not read
     uint64_t root_triangles;  // uint [triangle][3], guide indices
-    uint64_t root_normals;    // vec3 [guide], unit length; 0: not known, root triangles are flat
+    uint64_t root_normals;  // vec3 [guide], unit length, before the head moved; 0: not known, root
+                            // triangles are flat
     uint vertices_per_guide;
-    uint density;               // strands per root triangle at level 0
-    uint tessellation;          // segments per guide segment at level 0
+    uint density;  // strands per root triangle at level 0
+    uint tessellation;  // segments per guide segment at level 0
     uint patches_per_triangle;  // per guide segment: density beyond the device's isolines is split
     uint strands_per_patch;
     uint forced_density;  // the same at the forced level
@@ -60,7 +62,7 @@ struct StrandPointsPush {
 // Push constants of scene/mesh.
 struct MeshPush {
     uint64_t picture;  // PictureParameters
-    uint64_t positions;  // vec3, m
+    uint64_t positions;  // vec3, m; moved by the picture's head, as the normals
     uint64_t normals;  // vec3, unit length
     vec3 base_color;
 };

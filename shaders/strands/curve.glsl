@@ -2,8 +2,8 @@
 #ifndef HAIRBENCH_CURVE_GLSL
 #define HAIRBENCH_CURVE_GLSL
 
-// Weights of the four control points r(i-1), r(i), r(i+1), r(i+2) at t in [0, 1]. At t = 1 they are the
-// weights at t = 0 of the next segment, shifted by one, to the last bit: joints have no seam.
+// Weights of the four control points r(i-1), r(i), r(i+1), r(i+2) at t in [0, 1]. At t = 1 they are
+// the weights at t = 0 of the next segment, shifted by one, to the last bit: joints have no seam.
 vec4 splineWeights(float t) {
     float s = 1.0 - t;
     return vec4(s * s * s, (3.0 * t - 6.0) * t * t + 4.0, (3.0 * s - 6.0) * s * s + 4.0, t * t * t) /

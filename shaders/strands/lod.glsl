@@ -1,6 +1,6 @@
-// Level of detail, thesis 2.3.8.1: both tessellation levels fall and the width rises, so that the covered
-// area is kept. A triangle's level is that of its roots, the same for all segments of a strand: strands
-// never break between patches, and lower levels keep the first strands of the list.
+// Level of detail, thesis 2.3.8.1: both tessellation levels fall and the width rises, so that the
+// covered area is kept. A triangle's level is that of its roots, the same for all segments of a
+// strand: strands never break between patches, and lower levels keep the first strands of the list.
 #ifndef HAIRBENCH_LOD_GLSL
 #define HAIRBENCH_LOD_GLSL
 
@@ -12,7 +12,8 @@ struct StrandLod {
     float width_scale;
 };
 
-// Level 0 up to lod_near, then growing with the logarithm of the distance to lod_maximum_level at lod_far.
+// Level 0 up to lod_near, then growing with the logarithm of the distance to lod_maximum_level at
+// lod_far.
 float lodLevel(PictureParameters picture, float distance_to_eye) {
     float octaves = log2(distance_to_eye / picture.lod_near);
     float fraction = octaves / log2(picture.lod_far / picture.lod_near);

@@ -45,9 +45,9 @@ vec3 guideVertex(PictureParameters picture, uint guide, uint vertex) {
     return GuidePoints(picture.guides).points[guide * picture.vertices_per_guide + vertex].xyz;
 }
 
-// Control point `index` of a guide, -1 and vertices_per_guide included. Reflecting the second point in the
-// end makes the curve start and end exactly at the root and the tip; the published program repeats the end,
-// and its hair floats off the scalp.
+// Control point `index` of a guide, -1 and vertices_per_guide included. Reflecting the second point
+// in the end makes the curve start and end exactly at the root and the tip; the published program
+// repeats the end, and its hair floats off the scalp.
 vec3 guideControlPoint(PictureParameters picture, uint guide, int index) {
     int last = int(picture.vertices_per_guide) - 1;
     int inside = clamp(index, 0, last);
@@ -84,8 +84,8 @@ uint strandsInPatch(PictureParameters picture, StrandPatch strand_patch) {
     return density > first ? min(density - first, picture.strands_per_patch) : 0u;
 }
 
-// Area-uniform barycentric coordinates of a strand in its triangle: a random pair, folded (thesis 2.3.2).
-// `key` differs between triangles; the published program has one pattern for all of them.
+// Area-uniform barycentric coordinates of a strand in its triangle: a random pair, folded (thesis
+// 2.3.2). `key` differs between triangles; the published program has one pattern for all of them.
 vec3 rootWeights(uint key, uint strand) {
     uint bits = pcg(key + strand);
     float u = unitFloat(bits);
@@ -98,9 +98,9 @@ vec3 rootWeights(uint key, uint strand) {
 }
 
 // The scalp bulges out of its flat root triangles. edges[i] times the product of its corners'
-// weights is the offset that the edge from corner i to corner i + 1 adds: half of the projection onto the corners' tangent
-// planes (Boubekeur and Alexa 2008, Phong tessellation, with alpha = 1/2, which is exact to second order on a
-// sphere).
+// weights is the offset that the edge from corner i to corner i + 1 adds: half of the projection
+// onto the corners' tangent planes (Boubekeur and Alexa 2008, Phong tessellation, with alpha = 1/2,
+// which is exact to second order on a sphere).
 struct RootLift {
     vec3 edges[3];
 };
@@ -114,12 +114,13 @@ RootLift rootLift(PictureParameters picture, uvec3 guides) {
     RootLift lift;
     for (int i = 0; i < 3; ++i) lift.edges[i] = vec3(0.0);
     if (picture.root_normals == 0) return lift;
-    RootNormals normals = RootNormals(picture.root_normals);
+    RootNormals root_normals = RootNormals(picture.root_normals);
+    vec3 normals[3];
+    for (int i = 0; i < 3; ++i) normals[i] = mat3(picture.head) * root_normals.normals[guides[i]];
     for (int i = 0; i < 3; ++i) {
-        uint from = guides[i];
-        uint to = guides[(i + 1) % 3];
-        lift.edges[i] = edgeLift(guideVertex(picture, from, 0), guideVertex(picture, to, 0),
-                                 normals.normals[from], normals.normals[to]);
+        int next = (i + 1) % 3;
+        lift.edges[i] = edgeLift(guideVertex(picture, guides[i], 0),
+                                 guideVertex(picture, guides[next], 0), normals[i], normals[next]);
     }
     return lift;
 }

@@ -58,6 +58,41 @@ TEST(CheckSettings, WantsWindToBlowSomewhere) {
     EXPECT_EQ(
         broken([&](hair::Settings& s) { calm(s), s.simulation.wind.strength = 3.0f; }),
         "/simulation/wind/direction: has no length while /simulation/wind/strength is above 0");
+    const auto blows = [&](hair::Settings& s) { calm(s), s.simulation.wind.speed = 3.0f; };
+    EXPECT_EQ(broken(blows), "no error");  // thesis mode has no speed
+    EXPECT_EQ(
+        broken([&](hair::Settings& s) { blows(s), s.simulation.wind.mode = hair::WindMode::drag; }),
+        "/simulation/wind/direction: has no length while /simulation/wind/speed is above 0");
+}
+
+TEST(CheckSettings, WantsKeyframesInOrder) {
+    const auto times = [](std::vector<float> all) {
+        return broken([&](hair::Settings& s) {
+            for (const float time : all) s.simulation.motion.keyframes.push_back({.time = time});
+        });
+    };
+    EXPECT_EQ(times({0.5f}), "no error");
+    EXPECT_EQ(times({0.0f, 1.0f, 1.5f}), "no error");
+    EXPECT_EQ(
+        times({0.0f, 1.0f, 1.0f}), "/simulation/motion/keyframes: entry 2 is not after entry 1");
+    EXPECT_EQ(
+        times({1.0f, 0.5f, 2.0f}), "/simulation/motion/keyframes: entry 1 is not after entry 0");
+}
+
+TEST(CheckSettings, WantsRepeatedMotionToClose) {
+    const auto ending = [](const hair::Keyframe& last) {
+        return broken([&](hair::Settings& s) {
+            s.simulation.motion = {
+                .keyframes = {{.time = 0.0f, .rotation = {0, -35, 0}}, last}, .repeat = true};
+        });
+    };
+    EXPECT_EQ(ending({.time = 1.0f, .rotation = {0, -35, 0}}), "no error");
+    EXPECT_EQ(ending({.time = 1.0f, .rotation = {360, 325, -720}}), "no error");
+    const std::string reason =
+        "/simulation/motion/repeat: is set, but the last of the keyframes is not the pose of the "
+        "first";
+    EXPECT_EQ(ending({.time = 1.0f, .rotation = {0, 35, 0}}), reason);
+    EXPECT_EQ(ending({.time = 1.0f, .rotation = {0, -35, 0}, .translation = {0, 0, 0.1f}}), reason);
 }
 
 TEST(CheckSettings, WantsOneSourceOfGuides) {

@@ -3,6 +3,7 @@
 #include "hair/simulation/reference.h"
 #include "tests/gpu_fixture.h"
 #include "tests/simulation/gpu_simulation.h"
+#include "tests/simulation/parallelisms.h"
 #include "tests/simulation/strands.h"
 
 // Each pass and constraint alone, one step on the device against the reference in double.
@@ -19,13 +20,15 @@ struct Shape {
     std::uint32_t vertices;
 };
 
-// Counts that fill a workgroup, that leave lanes over, and that leave a workgroup almost empty.
+// Counts that fill a workgroup, that leave lanes over, and that leave a workgroup almost empty;
+// strands of one chunk and of several, full and not.
 constexpr Shape kShapes[] = {{1, 2},  {33, 2}, {5, 3},  {86, 8}, {7, 9},
                              {5, 16}, {3, 33}, {3, 64}, {2, 256}};
 
-class GpuConstraints : public GpuTest {
+class GpuConstraints : public GpuTest, public testing::WithParamInterface<Parallelism> {
 protected:
-    static void expectReference(const SimulationSettings& settings) {
+    static void expectReference(SimulationSettings settings) {
+        settings.parallelism = GetParam();
         for (const Shape& shape : kShapes) {
             const Groom groom = wavyGroom(shape.strands, shape.vertices);
             const auto positions = disturbed(groom, 0.3 * kReferenceSegment, 11);
@@ -50,7 +53,7 @@ SimulationSettings atRest() {
     return settings;
 }
 
-TEST_F(GpuConstraints, IntegratesLikeTheReference) {
+TEST_P(GpuConstraints, IntegratesLikeTheReference) {
     SimulationSettings settings = nothingActs();
     settings.gravity = {1.0f, -9.8f, 3.0f};
     settings.friction = 0.05f;
@@ -59,14 +62,14 @@ TEST_F(GpuConstraints, IntegratesLikeTheReference) {
     expectReference(settings);
 }
 
-TEST_F(GpuConstraints, BlowsLikeTheReference) {
+TEST_P(GpuConstraints, BlowsLikeTheReference) {
     SimulationSettings settings = nothingActs();
     settings.time_step = 0.1f;
     settings.wind = {.strength = 15.0f, .direction = {0.3f, -1.0f, 0.5f}, .cone_angle = 35.0f};
     expectReference(settings);
 }
 
-TEST_F(GpuConstraints, PullsToRestLikeTheReference) {
+TEST_P(GpuConstraints, PullsToRestLikeTheReference) {
     SimulationSettings settings = atRest();
     for (const float stiffness : {0.002f, 0.5f, 1.0f}) {
         settings.global.stiffness = stiffness;
@@ -74,7 +77,7 @@ TEST_F(GpuConstraints, PullsToRestLikeTheReference) {
     }
 }
 
-TEST_F(GpuConstraints, PullsToShapeLikeTheReference) {
+TEST_P(GpuConstraints, PullsToShapeLikeTheReference) {
     SimulationSettings settings = atRest();
     for (const StiffnessScaling scaling : {StiffnessScaling::thesis, StiffnessScaling::invariant})
         for (const std::uint32_t iterations : {1u, 2u, 10u})
@@ -85,7 +88,7 @@ TEST_F(GpuConstraints, PullsToShapeLikeTheReference) {
             }
 }
 
-TEST_F(GpuConstraints, KeepsLengthsLikeTheReference) {
+TEST_P(GpuConstraints, KeepsLengthsLikeTheReference) {
     SimulationSettings settings = atRest();
     for (const std::uint32_t iterations : {1u, 5u, 100u}) {
         settings.length.iterations = iterations;
@@ -93,7 +96,7 @@ TEST_F(GpuConstraints, KeepsLengthsLikeTheReference) {
     }
 }
 
-TEST_F(GpuConstraints, CollidesLikeTheReference) {
+TEST_P(GpuConstraints, CollidesLikeTheReference) {
     SimulationSettings settings = atRest();
     settings.colliders = {
         {.a = {-0.1f, 0, 0}, .b = {0.1f, 0.05f, 0}, .radius = 0.08f},
@@ -102,6 +105,8 @@ TEST_F(GpuConstraints, CollidesLikeTheReference) {
     settings.collision = {.margin = 0.01f, .friction = 0.25f};
     expectReference(settings);
 }
+
+FOR_EVERY_PARALLELISM(GpuConstraints);
 
 }  // namespace
 }  // namespace hair

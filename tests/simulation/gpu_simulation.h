@@ -8,11 +8,12 @@
 
 namespace hair {
 
-// Runs wind and step `steps` times and waits.
+// Runs wind, hair against hair and step `steps` times and waits.
 inline void advance(const engine::Device& device, Simulation& simulation, int steps) {
     device.runOnce([&](engine::Commands& commands) {
         for (int i = 0; i < steps; ++i) {
             simulation.recordWind(commands);
+            if (simulation.hasVolume()) simulation.recordVolume(commands);
             simulation.recordStep(commands);
         }
     });

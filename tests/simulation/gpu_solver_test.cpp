@@ -7,6 +7,7 @@
 #include "hair/simulation/reference.h"
 #include "tests/gpu_fixture.h"
 #include "tests/simulation/gpu_simulation.h"
+#include "tests/simulation/parallelisms.h"
 #include "tests/simulation/strands.h"
 
 // The whole solver on the device.
@@ -26,6 +27,17 @@ SimulationSettings windy() {
 }
 
 using GpuSolver = GpuTest;
+
+class GpuShapeSolver : public GpuTest, public testing::WithParamInterface<Parallelism> {
+protected:
+    static SimulationSettings windy() {
+        SimulationSettings settings = hair::windy();
+        settings.parallelism = GetParam();
+        return settings;
+    }
+};
+
+FOR_EVERY_PARALLELISM(GpuShapeSolver);
 
 TEST_F(GpuSolver, FollowsVerletsDiscreteParabola) {
     const Groom groom = straightGroom(3, 4);
@@ -51,7 +63,7 @@ TEST_F(GpuSolver, FollowsVerletsDiscreteParabola) {
 // the distance between the two says how far the solver spreads one rounding a step. The device
 // rounds once per pull and sweep, independently, so its error is larger by the root of their
 // number; twice that, because it may divide and take roots to less than a float's precision.
-TEST_F(GpuSolver, StaysNearTheReferenceForAHundredSteps) {
+TEST_P(GpuShapeSolver, StaysNearTheReferenceForAHundredSteps) {
     for (const StiffnessScaling scaling : {StiffnessScaling::thesis, StiffnessScaling::invariant})
         for (const std::uint32_t vertices : {2u, 3u, 8u, 9u, 16u, 33u, 64u}) {
             const Groom groom = wavyGroom(5, vertices);
@@ -82,7 +94,7 @@ TEST_F(GpuSolver, StaysNearTheReferenceForAHundredSteps) {
         }
 }
 
-TEST_F(GpuSolver, GivesTheSameBitsEveryTime) {
+TEST_P(GpuShapeSolver, GivesTheSameBitsEveryTime) {
     const Groom groom = wavyGroom(37, 9);
     Simulation first(device(), groom, windy(), 3);
     Simulation second(device(), groom, windy(), 3);
@@ -100,7 +112,7 @@ TEST_F(GpuSolver, GivesTheSameBitsEveryTime) {
 }
 
 // A strand's motion depends on neither its neighbours nor its place in a workgroup.
-TEST_F(GpuSolver, MovesAStrandTheSameInAnyCompany) {
+TEST_P(GpuShapeSolver, MovesAStrandTheSameInAnyCompany) {
     const Groom many = wavyGroom(21, 9);
     Groom few = many;
     few.strand_count = 4;
@@ -123,7 +135,7 @@ TEST_F(GpuSolver, SeedChangesTheWind) {
     EXPECT_FALSE(sameBits(first.readPositions(), second.readPositions()));
 }
 
-TEST_F(GpuSolver, SettlesWithoutWindOrTime) {
+TEST_P(GpuShapeSolver, SettlesWithoutWindOrTime) {
     const Groom groom = wavyGroom(4, 8);
     SimulationSettings calm = windy();
     calm.wind.strength = 0.0f;
@@ -166,6 +178,7 @@ TEST_F(GpuSolver, MovesMoreStrandsThanARowOfWorkgroups) {
     for (std::uint32_t s = 0; s < groom.strand_count; ++s)
         groom.points.insert(groom.points.end(), one.points.begin(), one.points.end());
     SimulationSettings settings;  // no wind, so that all strands move alike
+    settings.parallelism = Parallelism::vertex;  // a workgroup for each
     settings.local.iterations = 1;
     settings.length.iterations = 1;
     Simulation simulation(device(), groom, settings, 3);

@@ -1,10 +1,12 @@
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "hair/simulation/reference.h"
 #include "tests/gpu_fixture.h"
 #include "tests/simulation/gpu_simulation.h"
+#include "tests/simulation/parallelisms.h"
 #include "tests/simulation/strands.h"
 
 // Never NaN and never infinite, on the device and in the reference, whatever the groom and the
@@ -32,11 +34,17 @@ Groom badGroom() {
 
 std::vector<SimulationSettings> extremes() {
     std::vector<SimulationSettings> all;
-    for (const StiffnessScaling scaling : {StiffnessScaling::thesis, StiffnessScaling::invariant})
+    for (const auto& [solver, scaling] :
+         {std::pair{Solver::shape, StiffnessScaling::thesis},
+          std::pair{Solver::shape, StiffnessScaling::invariant},
+          std::pair{Solver::ftl, StiffnessScaling::invariant},
+          std::pair{Solver::rod, StiffnessScaling::invariant}})
         for (const float stiffness : {0.0f, 1.0f})
             for (const float step : {0.0005f, 0.1f})
                 for (const float wind : {0.0f, 1500.0f}) {
                     SimulationSettings settings;
+                    settings.solver = solver;
+                    settings.ftl.velocity_correction = stiffness;
                     settings.stiffness_scaling = scaling;
                     settings.time_step = step;
                     settings.global.stiffness = stiffness;
@@ -60,12 +68,16 @@ TEST(ReferenceRobustness, StaysFinite) {
     }
 }
 
-using GpuRobustness = GpuTest;
+class GpuRobustness : public GpuTest, public testing::WithParamInterface<Parallelism> {};
 
-TEST_F(GpuRobustness, StaysFinite) {
+FOR_EVERY_PARALLELISM(GpuRobustness);
+
+TEST_P(GpuRobustness, StaysFinite) {
     const Groom groom = badGroom();
     const std::vector<glm::vec3> collapsed(groom.points.size(), glm::vec3(0.0f));
-    for (const SimulationSettings& settings : extremes()) {
+    for (SimulationSettings settings : extremes()) {
+        if (settings.solver != Solver::shape && GetParam() != Parallelism::serial) continue;
+        settings.parallelism = GetParam();
         Simulation simulation(device(), groom, settings, 1);
         advance(device(), simulation, 200);
         for (const glm::vec3& point : simulation.readPositions()) ASSERT_TRUE(finite(point));
@@ -76,10 +88,11 @@ TEST_F(GpuRobustness, StaysFinite) {
 }
 
 // The conventions for segments without a direction are the same on both sides.
-TEST_F(GpuRobustness, TakesBadSegmentsLikeTheReference) {
+TEST_P(GpuRobustness, TakesBadSegmentsLikeTheReference) {
     const Groom groom = badGroom();
     for (const float wind : {0.0f, 15.0f}) {
         SimulationSettings settings;
+        settings.parallelism = GetParam();
         settings.local.stiffness = 0.5f;
         settings.wind.strength = wind;
         Simulation simulation(device(), groom, settings, 1);

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/error.h"
-#include "hair/simulation/reference_constraints.h"
+#include "hair/simulation/reference_wind.h"
 
 namespace hair {
 namespace {

@@ -2,12 +2,12 @@
 #define HAIRBENCH_CONSTRAINT_COLLIDE_GLSL
 
 #include "common/quaternion.glsl"
+#include "shared/distance_field_structs.h"
 #include "shared/simulation_structs.h"
+#include "simulation/constraints/friction.glsl"
 
-// The nearest point that is the margin away from the capsule; from a point on its axis sideways, along
-// perpendicular(axis). Friction then takes back what the vertex moved along the surface since `before`, at
-// most the coefficient times the depth: Macklin et al. 2014, Unified particle physics for real-time
-// applications, eq. 24.
+// The nearest point that is the margin away from the capsule; from a point on its axis sideways,
+// along perpendicular(axis). Friction holds it where it was `before`.
 vec3 pushOut(vec3 position, vec3 before, Capsule capsule, float margin, float friction) {
     vec3 axis = capsule.b - capsule.a;
     float size = dot(axis, axis);
@@ -18,13 +18,7 @@ vec3 pushOut(vec3 position, vec3 before, Capsule capsule, float margin, float fr
     float radius = capsule.radius + margin;
     if (from_axis >= radius) return position;
     vec3 normal = from_axis < kShortestSegment ? perpendicular(axis) : outward / from_axis;
-    vec3 surface = nearest + radius * normal;
-
-    vec3 moved = surface - before;
-    vec3 slid = moved - dot(moved, normal) * normal;
-    float held = friction * (radius - from_axis);
-    float slid_length = length(slid);
-    return slid_length > held ? surface - held / slid_length * slid : surface - slid;
+    return slideBack(nearest + radius * normal, before, normal, radius - from_axis, friction);
 }
 
 #endif

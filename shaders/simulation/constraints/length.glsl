@@ -1,6 +1,7 @@
 #ifndef HAIRBENCH_CONSTRAINT_LENGTH_GLSL
 #define HAIRBENCH_CONSTRAINT_LENGTH_GLSL
 
+#include "shared/distance_field_structs.h"
 #include "shared/simulation_structs.h"
 
 // Distance projection, thesis eq. 12; Müller et al. 2007, Position Based Dynamics.

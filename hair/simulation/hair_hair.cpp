@@ -1,0 +1,204 @@
+#include "hair/simulation/hair_hair.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <span>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/transfer.h"
+#include "hair/gpu_structs.h"
+#include "hair/simulation/dispatch_groups.h"
+#include "hair/simulation/stiffness.h"
+
+namespace hair {
+
+namespace {
+
+using engine::Access;
+
+static_assert(sizeof(gpu::VolumeSample) == 32);
+static_assert(sizeof(gpu::VolumeParameters) == 80 && offsetof(gpu::VolumeParameters, origin) == 40);
+static_assert(sizeof(gpu::VolumePush) == 48);
+
+constexpr std::uint32_t kGroup = 64;  // invocations, as in volume_*.comp
+
+// Of the strands' length: the thesis's length constraint lets them stretch.
+constexpr double kReach = 1.1;
+// Cells that repulsion may move a vertex by in a time step.
+constexpr double kGreatestPush = 1.0;
+// Of (cell / time step)^2, the greatest repulsion that is used.
+constexpr double kGreatestRepulsion = 0.5;
+
+double strandLength(std::span<const glm::vec3> strand) {
+    double length = 0.0;
+    for (std::size_t i = 1; i < strand.size(); ++i)
+        length += glm::distance(glm::dvec3(strand[i]), glm::dvec3(strand[i - 1]));
+    return length;
+}
+
+// Of a point in three cells in a row, the middle one around it.
+std::array<double, 3> weightsAlong(double point) {
+    const double offset = point - std::floor(point) - 0.5;
+    return {
+        0.5 * (0.5 - offset) * (0.5 - offset), 0.75 - offset * offset,
+        0.5 * (0.5 + offset) * (0.5 + offset)};
+}
+
+template <class Visit>  // (index of a cell of all grids, weight)
+void visitCells(const VolumeGrid& first_grid, const glm::dvec3& position, Visit visit) {
+    const std::size_t side = first_grid.resolution;
+    for (std::size_t grid = 0; grid < gpu::kVolumeGrids; ++grid) {
+        const glm::dvec3 point = (position - first_grid.origin) / first_grid.cell +
+                                 glm::dvec3(0.5 * static_cast<double>(grid));
+        const auto x = weightsAlong(point.x);
+        const auto y = weightsAlong(point.y);
+        const auto z = weightsAlong(point.z);
+        const auto lowest = [](double along) { return static_cast<std::size_t>(along) - 1; };
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t j = 0; j < 3; ++j)
+                for (std::size_t i = 0; i < 3; ++i)
+                    visit(
+                        ((grid * side + lowest(point.z) + k) * side + lowest(point.y) + j) * side +
+                            lowest(point.x) + i,
+                        x[i] * y[j] * z[k]);
+    }
+}
+
+std::vector<float> toFloat(std::span<const double> values) {
+    return {values.begin(), values.end()};
+}
+
+// Without the addresses.
+gpu::VolumeParameters
+parametersOf(const Groom& groom, const SimulationSettings& settings, std::uint32_t substeps) {
+    const HairHairSettings& contact = settings.hair_hair;
+    const VolumeGrid grid = volumeGrid(groom, contact.resolution);
+    const double step = settings.time_step;
+    const double friction = 1.0 - std::pow(1.0 - double{contact.friction}, step / kReferenceStep);
+    const double fastest = grid.cell / step;  // m/s, that stays within a cell
+    const double repulsion =
+        std::min(double{contact.repulsion}, kGreatestRepulsion * fastest * fastest);
+    return {
+        .guides = 0,
+        .shares = 0,
+        .samples = 0,
+        .sums = 0,
+        .fastest = 0,
+        .origin = grid.origin,
+        .cell = static_cast<float>(grid.cell),
+        .resolution = grid.resolution,
+        .prediction = static_cast<float>(substeps),
+        .crowded = static_cast<float>(double{contact.crowding} * meanRestDensity(groom, grid)),
+        .friction = static_cast<float>(friction / step),
+        .repulsion = static_cast<float>(repulsion / grid.cell),
+        .greatest_repulsion = static_cast<float>(kGreatestPush * fastest / step)};
+}
+
+std::size_t cellCount(const SimulationSettings& settings) {
+    const std::size_t side = settings.hair_hair.resolution;
+    return gpu::kVolumeGrids * side * side * side;
+}
+
+engine::ComputePipeline pipeline(const engine::Device& device, const char* shader) {
+    return {device, {.shader = shader, .push_size = sizeof(gpu::VolumePush)}};
+}
+
+}  // namespace
+
+VolumeGrid volumeGrid(const Groom& groom, std::uint32_t resolution) {
+    glm::dvec3 low(groom.points[0]);
+    glm::dvec3 high = low;
+    double longest = 0.0;
+    for (std::uint32_t s = 0; s < groom.strand_count; ++s) {
+        const auto strand = groom.strand(s);
+        low = glm::min(low, glm::dvec3(strand[0]));
+        high = glm::max(high, glm::dvec3(strand[0]));
+        longest = std::max(longest, strandLength(strand));
+    }
+    const glm::dvec3 size = high - low;
+    // Hair without any size gets a grid all the same.
+    const double side = std::max({size.x, size.y, size.z}) + 2.0 * std::max(kReach * longest, 1e-3);
+    const double cell = side / (resolution - 2 * gpu::kVolumeMargin);
+    return {
+        .origin = 0.5 * (low + high) - glm::dvec3(0.5 * cell * resolution),
+        .cell = cell,
+        .resolution = resolution};
+}
+
+std::vector<double> lengthShares(const Groom& groom) {
+    std::vector<double> shares(groom.points.size());
+    for (std::size_t i = 1; i < shares.size(); ++i) {
+        if (i % groom.vertices_per_strand == 0) continue;
+        const double half =
+            0.5 * glm::distance(glm::dvec3(groom.points[i]), glm::dvec3(groom.points[i - 1]));
+        shares[i - 1] += half;
+        shares[i] += half;
+    }
+    const double whole = std::accumulate(shares.begin(), shares.end(), 0.0);
+    for (double& share : shares)
+        share = whole > 0.0 ? share / whole : 1.0 / static_cast<double>(shares.size());
+    return shares;
+}
+
+double meanRestDensity(const Groom& groom, const VolumeGrid& grid) {
+    const std::size_t side = grid.resolution;
+    const std::vector<double> shares = lengthShares(groom);
+    std::vector<double> density(gpu::kVolumeGrids * side * side * side);
+    for (std::size_t i = 0; i < shares.size(); ++i)
+        visitCells(grid, groom.points[i], [&](std::size_t cell, double weight) {
+            density[cell] += weight * shares[i];
+        });
+    double sum = 0.0;
+    for (std::size_t i = 0; i < shares.size(); ++i)
+        visitCells(grid, groom.points[i], [&](std::size_t cell, double weight) {
+            sum += shares[i] * weight * density[cell];
+        });
+    return sum / gpu::kVolumeGrids;
+}
+
+HairHair::HairHair(
+    const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
+    std::uint32_t substeps, std::uint64_t guides)
+    : vertex_count_(static_cast<std::uint32_t>(groom.points.size())),
+      shares_(engine::makeBuffer(
+          device, std::span<const float>(toFloat(lengthShares(groom))), "volume shares")),
+      samples_(
+          device, {.size = vertex_count_ * sizeof(gpu::VolumeSample), .name = "volume samples"}),
+      sums_(
+          device, {.size = cellCount(settings) * 4 * sizeof(std::int32_t), .name = "volume sums"}),
+      fastest_(device, {.size = sizeof(float), .name = "volume fastest"}),
+      parameters_(device, {.size = sizeof(gpu::VolumeParameters), .name = "volume parameters"}),
+      sample_(pipeline(device, "simulation/volume_sample.comp")),
+      splat_(pipeline(device, "simulation/volume_splat.comp")),
+      force_(pipeline(device, "simulation/volume_force.comp")) {
+    gpu::VolumeParameters parameters = parametersOf(groom, settings, substeps);
+    parameters.guides = guides;
+    parameters.shares = shares_.address();
+    parameters.samples = samples_.address();
+    parameters.sums = sums_.address();
+    parameters.fastest = fastest_.address();
+    engine::upload(device, std::as_bytes(std::span(&parameters, 1)), parameters_);
+}
+
+void HairHair::record(
+    engine::Commands& commands, std::uint64_t accelerations, const RigidMotion& later) const {
+    const gpu::VolumePush push{
+        .volume = parameters_.address(), .accelerations = accelerations, .frame = toGpu(later)};
+    // The grids may still be read by the step before.
+    commands.barrier(Access::compute_write, Access::transfer_write);
+    commands.fill(sums_, 0);
+    commands.fill(fastest_, 0);
+    commands.barrier(Access::transfer_write, Access::compute_write);
+    for (const engine::ComputePipeline* pass : {&sample_, &splat_, &force_}) {
+        if (pass != &sample_) commands.barrier(Access::compute_write, Access::compute_write);
+        commands.bind(*pass, push);
+        dispatchInvocations(commands, vertex_count_, kGroup);
+    }
+}
+
+}  // namespace hair

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "engine/buffer.h"
+#include "engine/commands.h"
+#include "engine/pipeline.h"
+#include "hair/groom/groom.h"
+#include "hair/settings.h"
+#include "hair/simulation/rigid_motion.h"
+
+namespace hair {
+
+// A cubic grid on the head, round the roots and 1.1 of the longest strand's length on every side.
+// All that lies at least kVolumeMargin cells within. A second grid begins half a cell before it.
+struct VolumeGrid {
+    glm::dvec3 origin{0.0};  // corner, m, where the groom was made
+    double cell = 1.0;       // m
+    std::uint32_t resolution = 0;  // cells a side
+};
+
+VolumeGrid volumeGrid(const Groom& groom, std::uint32_t resolution);
+
+// The part of the groom's length that each vertex stands for: half of its segments. Parts of a
+// groom without length are equal. [strand][vertex], sums to 1.
+std::vector<double> lengthShares(const Groom& groom);
+
+// Mean over the groom's length and both grids of the density at rest, shares per cell.
+double meanRestDensity(const Groom& groom, const VolumeGrid& grid);
+
+// Contact of hair with hair as between parts of a fluid, on grids that move with the head
+// (Petrovic, Henne and Anderson 2005, Volumetric methods for simulation and rendering of hair).
+//
+// Vertex p has the share m_p of the groom's length, the velocity v_p and the weight w_pi in cell i
+// (quadratic B-spline). Cell i sums up m_i = sum_p w_pi m_p and the momentum m_i v_i.
+//
+// Friction: a_p = s / dt sum_i w_pi (v_i - v_p), with s the setting per 1/60 s taken to dt, and
+// pairs of vertices on one strand left out. Forces of a pair are opposite, so momentum is kept; and
+// as v_i is a mean, friction can't gain energy at any s <= 1.
+//
+// Repulsion: the pressure k (m_i - crowded), where it is positive, of a gas with the speed of sound
+// sqrt(k). Its energy E(m_i) has the slope E' = k ln(m_i / crowded); what each strand would have
+// alone is taken from it:
+//     a_p = -sum_i (E'(m_i) - E'(m_i of p's own strand)) grad w_pi.
+// So a strand feels others only, whatever the resolution. The force has a potential, and hair comes
+// to rest: with central differences of the pressure instead, which keep momentum exactly, hair was
+// seen to run in circles for ever. k is used up to 1/2 (cell / dt)^2, which keeps an explicit step
+// stable, and in a step repulsion moves no vertex by more than a cell.
+//
+// Everything is the mean of two grids half a cell apart. The sum of repulsion's forces is zero but
+// for the sampling of E at cells: on one grid it can be a tenth of their size, but errors of the
+// two are opposite, and one to two hundredths are left (interlacing; Hockney and Eastwood 1988,
+// Computer simulation using particles).
+//
+// A vertex counts where it will be at the end of the time step by its velocity: this takes energy
+// from pressure waves instead of adding some. All of it is continuous in the vertices' places.
+//
+// Sums are integers (kVolumeOne is all of the groom, and all of it at the speed of the fastest
+// vertex), so they don't depend on the order of additions and can't overflow. A vertex's part in a
+// cell is rounded to 2^-30 of the groom.
+class HairHair {
+public:
+    // `settings` are of the time step; `substeps` of it make one. `guides` is the address of
+    // gpu::GuideParameters.
+    HairHair(
+        const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
+        std::uint32_t substeps, std::uint64_t guides);
+
+    // Adds to the accelerations, vec4 [strand][vertex], m/s^2, what acts over the next time step;
+    // `later` is the head's place at its end. The caller orders the work before and after.
+    void
+    record(engine::Commands& commands, std::uint64_t accelerations, const RigidMotion& later) const;
+
+    // int [grid][z][y][x][4]: momentum over fastest() and share, times kVolumeOne.
+    const engine::Buffer& sums() const { return sums_; }
+    // The greatest component of a velocity, float, m/s.
+    const engine::Buffer& fastest() const { return fastest_; }
+
+private:
+    std::uint32_t vertex_count_;
+    engine::Buffer shares_;
+    engine::Buffer samples_;
+    engine::Buffer sums_;
+    engine::Buffer fastest_;
+    engine::Buffer parameters_;  // gpu::VolumeParameters
+    engine::ComputePipeline sample_;
+    engine::ComputePipeline splat_;
+    engine::ComputePipeline force_;
+};
+
+}  // namespace hair

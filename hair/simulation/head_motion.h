@@ -1,0 +1,29 @@
+#pragma once
+
+#include "hair/settings.h"
+#include "hair/simulation/rigid_motion.h"
+
+namespace hair {
+
+// The head's pose over simulated time. Every angle and every coordinate of the keyframes is a curve
+// of its own, as in animation programs: a cubic Hermite spline with the slopes of Fritsch and
+// Butland 1984, A method for constructing local monotone piecewise cubic interpolants: the harmonic
+// mean of those to its neighbours, weighed by the spans. Velocities never jump, and between two
+// keyframes the head never leaves their range, so between equal ones it holds still. Before the
+// first keyframe and after the last it rests, and it starts and ends gently. Motion that repeats
+// goes on without a halt where the last pose is the first one, or whole turns from it; its very
+// first start is gentle where the first keyframe is a turning point. Without keyframes the head
+// never moves.
+class HeadMotion {
+public:
+    // Throws Error (/simulation/motion/keyframes/N/time) for times that don't ascend.
+    explicit HeadMotion(const MotionSettings& settings);
+
+    // `time` in s.
+    RigidMotion at(double time) const;
+
+private:
+    MotionSettings settings_;
+};
+
+}  // namespace hair

@@ -1,0 +1,312 @@
+#include "hair/simulation/reference_rod.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "hair/simulation/reference_constraints.h"
+#include "hair/simulation/reference_rod_joint.h"
+
+namespace hair::reference {
+
+namespace {
+
+constexpr double kShortest = 1e-9;  // m
+constexpr double kPi = 3.14159265358979323846;
+// Of mean length and of mean mass: what a segment turns as if it had, and a vertex weighs at least.
+// Only coincident points fall below, and what they would divide by is then not 0.
+constexpr double kLeastLength = 0.1;
+constexpr double kLeastMass = 0.01;
+// In one iteration: a Newton step from far away can overshoot. rad
+constexpr double kMostTurn = 1.0;
+
+const glm::dmat3 kIdentity(1.0);
+
+// crossMatrix(a) b = a x b.
+glm::dmat3 crossMatrix(const glm::dvec3& a) {
+    return {{0.0, a.z, -a.y}, {-a.z, 0.0, a.x}, {a.y, -a.x, 0.0}};
+}
+
+glm::dvec3 axisOf(const glm::dquat& orientation) { return orientation * glm::dvec3(0.0, 0.0, 1.0); }
+
+// Turned by a rotation vector, to second order; by less than half a turn however long it is.
+glm::dquat turned(const glm::dquat& orientation, const glm::dvec3& rotation) {
+    return glm::normalize(glm::dquat(1.0, 0.5 * rotation) * orientation);
+}
+
+Joint jointAt(const RodState& state, const RodRest& rest, std::size_t i) {
+    return bendAndTwist(
+        state.orientations[i - 1] * rest.half_rotations[i],
+        state.orientations[i] * glm::conjugate(rest.half_rotations[i]), rest.bend_stiffness[i],
+        rest.twist_stiffness[i], i == 1 ? Clamp::yes : Clamp::no);
+}
+
+// A step's unknowns are rotations of the segments; the vertices follow, so that lengths never
+// change. The step minimises
+//   sum over i of  m_i / (2 h^2) |displacement_i|^2 + j_i / (2 h^2) |rotation_i|^2 + U_i,
+// both from the prediction, U_i the energy of joint i. All of this in N m.
+struct Step {
+    RodState& state;
+    const RodRest& rest;
+    double time_step;
+    std::vector<glm::dvec3> displacements;  // of vertices, m
+    std::vector<glm::dvec3> rotations;  // of segments, rad
+
+    std::size_t size() const { return rest.lengths.size(); }
+    double massOf(std::size_t i) const {
+        if (!state.pins.contains(i)) return rest.masses[i];
+        return kPinMass * std::accumulate(rest.masses.begin(), rest.masses.end(), 0.0);
+    }
+
+    void predict(std::span<const glm::dvec3> accelerations, const RodRoot& root, double kept);
+    void iterate();
+    // Turns segments by `turns` and moves the vertices along.
+    void turn(std::span<const glm::dvec3> turns);
+    void finish();
+};
+
+void Step::predict(
+    std::span<const glm::dvec3> accelerations, const RodRoot& root, double velocity_kept) {
+    const glm::dvec3 root_now = root.rotation * rest.points[0] + root.translation;
+    state.velocities[0] = (root_now - state.root) / time_step;
+    state.root = root_now;
+    state.orientations[0] = root.rotation * rest.orientations[0];
+    // The prediction itself stretches segments: it is what displacements are against.
+    glm::dvec3 stretched{0.0};  // what collisions did, from the root down
+    glm::dvec3 position = state.root;
+    std::vector<glm::dvec3> turns{glm::dvec3(0.0)};
+    for (std::size_t i = 1; i < size(); ++i) {
+        state.velocities[i] = velocity_kept * state.velocities[i] + time_step * accelerations[i];
+        state.angular_velocities[i] *= velocity_kept;
+        const glm::dvec3 edge = rest.lengths[i] * axisOf(state.orientations[i]);
+        stretched += state.edges[i] - edge;
+        displacements[i] = time_step * (state.velocities[0] - state.velocities[i]) - stretched;
+        state.edges[i] = edge;
+        position += edge;
+        if (const auto pin = state.pins.find(i); pin != state.pins.end()) {
+            state.velocities[i] = glm::dvec3(0.0);
+            displacements[i] = position - pin->second;
+        }
+        turns.push_back(time_step * state.angular_velocities[i]);
+    }
+    turn(turns);
+}
+
+void Step::turn(std::span<const glm::dvec3> turns) {
+    glm::dvec3 moved{0.0};
+    for (std::size_t i = 1; i < size(); ++i) {
+        state.orientations[i] = turned(state.orientations[i], turns[i]);
+        const glm::dvec3 edge = rest.lengths[i] * axisOf(state.orientations[i]);
+        moved += edge - state.edges[i];
+        state.edges[i] = edge;
+        displacements[i] += moved;
+    }
+}
+
+// One Newton step. `Below` is the least energy of all below a vertex as a quadratic function of how
+// the vertex moves (x) and the segment that ends there turns (t): x A x / 2 + x B t + t C t / 2 +
+// a x + b t; going up, the turn of each segment is eliminated.
+void Step::iterate() {
+    struct Below {
+        glm::dmat3 A{0.0}, B{0.0}, C{0.0};
+        glm::dvec3 a{0.0}, b{0.0};
+    };
+    struct Turn {  // of a segment, from the vertex and the segment above
+        glm::dmat3 by_move, by_turn;
+        glm::dvec3 by_itself;
+    };
+    std::vector<Turn> answers(size());
+    const double per_square = 1.0 / (time_step * time_step);
+    glm::dvec3 force{0.0};  // through the segment on the vertex where it ends
+    Below below;
+    for (std::size_t i = size() - 1; i > 0; --i) {
+        const double mass = massOf(i) * per_square;
+        const double inertia = rest.inertias[i] * per_square;
+        const glm::dvec3 axis = axisOf(state.orientations[i]);
+        const Joint joint = jointAt(state, rest, i);
+
+        // Geometric stiffness: tension straightens. Pressure would bend, which is left out lest the
+        // minimum be a saddle.
+        force += mass * displacements[i];
+        const double tension = -glm::dot(force, axis);
+        below.A += mass * kIdentity;
+        below.a += mass * displacements[i];
+        below.C += inertia * kIdentity + std::max(tension, 0.0) * rest.lengths[i] *
+                                             (kIdentity - glm::outerProduct(axis, axis));
+        below.b += inertia * rotations[i];
+
+        // From the vertex at the end of the segment to that at its start: x + lever t.
+        const glm::dmat3 lever = -rest.lengths[i] * crossMatrix(axis);
+        const glm::dmat3 from_lever = glm::transpose(lever) * below.B;
+        below.C +=
+            glm::transpose(lever) * below.A * lever + from_lever + glm::transpose(from_lever);
+        below.B += below.A * lever;
+        below.b += glm::transpose(lever) * below.a;
+
+        const glm::dmat3 yields = glm::inverse(below.C + joint.stiffness);
+        Turn& answer = answers[i];
+        answer.by_move = -yields * glm::transpose(below.B);
+        answer.by_turn = yields * joint.stiffness;
+        answer.by_itself = yields * (joint.torque - below.b);
+
+        Below above;
+        above.A = below.A + below.B * answer.by_move;
+        above.B = below.B * answer.by_turn;
+        above.C = below.C * answer.by_turn;
+        above.a = below.a + below.B * answer.by_itself;
+        above.b = joint.stiffness * (yields * below.b) + below.C * (yields * joint.torque);
+        below = above;
+    }
+
+    std::vector<glm::dvec3> turns{glm::dvec3(0.0)};
+    glm::dvec3 moved{0.0};
+    for (std::size_t i = 1; i < size(); ++i) {
+        const Turn& answer = answers[i];
+        glm::dvec3 turn = answer.by_move * moved + answer.by_turn * turns.back() + answer.by_itself;
+        turn *= kMostTurn / std::max(glm::length(turn), kMostTurn);
+        moved += glm::cross(turn, state.edges[i]);
+        turns.push_back(turn);
+        rotations[i] += turn;
+    }
+    turn(turns);
+}
+
+void Step::finish() {
+    for (std::size_t i = 1; i < size(); ++i) {
+        if (!state.pins.contains(i)) state.velocities[i] += displacements[i] / time_step;
+        state.angular_velocities[i] += rotations[i] / time_step;
+    }
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> RodState::positions() const {
+    std::vector<glm::dvec3> points{root};
+    for (std::size_t i = 1; i < edges.size(); ++i) points.push_back(points.back() + edges[i]);
+    return points;
+}
+
+RodRest makeRodRest(std::span<const glm::dvec3> points, const RodMaterial& material) {
+    const std::size_t size = points.size();
+    const double area = kPi * material.radius * material.radius;
+    const double line_density = material.density * area;
+    const double second_moment = area * material.radius * material.radius / 4.0;
+
+    RodRest rest{.points = {points.begin(), points.end()}};
+    rest.lengths.assign(size, 0.0);
+    double total = 0.0;
+    for (std::size_t i = 1; i < size; ++i)
+        total += rest.lengths[i] = glm::distance(points[i], points[i - 1]);
+    const double mean = std::max(total / static_cast<double>(size - 1), 1e-6);
+
+    glm::dvec3 tangent{0.0, 1.0, 0.0};
+    if (rest.lengths[1] >= kShortest) tangent = (points[1] - points[0]) / rest.lengths[1];
+    rest.orientations.push_back(rotationBetween({0.0, 0.0, 1.0}, tangent));
+    for (std::size_t i = 1; i < size; ++i) {
+        glm::dvec3 next = tangent;
+        if (rest.lengths[i] >= kShortest) next = (points[i] - points[i - 1]) / rest.lengths[i];
+        rest.orientations.push_back(
+            glm::normalize(rotationBetween(tangent, next) * rest.orientations.back()));
+        tangent = next;
+    }
+    rest.half_rotations.assign(size, glm::dquat(1.0, 0.0, 0.0, 0.0));
+    for (std::size_t i = 1; i < size; ++i)
+        rest.half_rotations[i] =
+            halfOf(glm::conjugate(rest.orientations[i - 1]) * rest.orientations[i]);
+
+    for (std::size_t i = 0; i < size; ++i) {
+        const double below = i + 1 < size ? rest.lengths[i + 1] : 0.0;
+        const double turning = std::max(rest.lengths[i], kLeastLength * mean);
+        // The first joint is half of one between the segment and its mirror image in the follicle.
+        const double joint =
+            i == 1 ? rest.lengths[1] / 2.0 : (rest.lengths[i] + rest.lengths[i - (i > 0)]) / 2.0;
+        const double short_joint = std::max(joint, kShortest);
+        rest.masses.push_back(
+            line_density * std::max((rest.lengths[i] + below) / 2.0, kLeastMass * mean));
+        rest.inertias.push_back(line_density * turning * turning * turning / 12.0);
+        rest.bend_stiffness.push_back(material.youngs_modulus * second_moment / short_joint);
+        rest.twist_stiffness.push_back(material.shear_modulus * 2.0 * second_moment / short_joint);
+    }
+    return rest;
+}
+
+RodState rodAtRest(const RodRest& rest, const RodRoot& root) {
+    RodState state{.root = root.rotation * rest.points[0] + root.translation};
+    for (std::size_t i = 0; i < rest.lengths.size(); ++i) {
+        state.orientations.push_back(root.rotation * rest.orientations[i]);
+        state.edges.push_back(rest.lengths[i] * axisOf(state.orientations[i]));
+    }
+    state.velocities.assign(rest.lengths.size(), glm::dvec3(0.0));
+    state.angular_velocities = state.velocities;
+    return state;
+}
+
+RodState rodFrom(
+    const RodRest& rest, std::span<const glm::dvec3> positions,
+    std::span<const glm::dvec3> previous, double time_step, const RodRoot& root) {
+    RodState state = rodAtRest(rest, root);
+    state.root = positions[0];
+    const std::vector<glm::dmat3> frames =
+        segmentFrames(positions, rest.points, glm::mat3_cast(root.rotation));
+    for (std::size_t i = 1; i < positions.size(); ++i) {
+        state.edges[i] = positions[i] - positions[i - 1];
+        state.velocities[i] = (positions[i] - previous[i]) / time_step;
+        state.orientations[i] = glm::normalize(glm::quat_cast(frames[i]) * rest.orientations[i]);
+        const glm::dvec3 edge_before = previous[i] - previous[i - 1];
+        if (glm::length(edge_before) < kShortest || glm::length(state.edges[i]) < kShortest)
+            continue;
+        const glm::dquat turn =
+            rotationBetween(glm::normalize(edge_before), glm::normalize(state.edges[i]));
+        state.angular_velocities[i] =
+            2.0 / time_step * glm::dvec3(turn.x, turn.y, turn.z);  // bounded by the sine
+    }
+    return state;
+}
+
+void stepRod(
+    RodState& state, const RodRest& rest, std::span<const glm::dvec3> accelerations,
+    const RodRoot& root, double time_step, double velocity_kept, std::uint32_t iterations) {
+    assert(accelerations.size() == rest.lengths.size());
+    Step step{
+        .state = state,
+        .rest = rest,
+        .time_step = time_step,
+        .displacements = std::vector(rest.lengths.size(), glm::dvec3(0.0)),
+        .rotations = std::vector(rest.lengths.size(), glm::dvec3(0.0))};
+    step.predict(accelerations, root, velocity_kept);
+    for (std::uint32_t i = 0; i < iterations; ++i) step.iterate();
+    step.finish();
+}
+
+void pushRod(
+    RodState& state, const RodRest& rest, std::span<const glm::dvec3> positions, double time_step) {
+    const std::vector<glm::dvec3> before = state.positions();
+    for (std::size_t i = 1; i < before.size(); ++i) {
+        state.velocities[i] += (positions[i] - before[i]) / time_step;
+        const glm::dvec3 edge = positions[i] - positions[i - 1];
+        state.edges[i] = edge;
+        if (rest.lengths[i] < kShortest || glm::length(edge) < kShortest) continue;
+        const glm::dquat turn =
+            rotationBetween(axisOf(state.orientations[i]), glm::normalize(edge));
+        state.orientations[i] = glm::normalize(turn * state.orientations[i]);
+        state.angular_velocities[i] += 2.0 / time_step * glm::dvec3(turn.x, turn.y, turn.z);
+    }
+}
+
+double rodEnergy(const RodState& state, const RodRest& rest) {
+    double energy = 0.0;
+    for (std::size_t i = 1; i < rest.lengths.size(); ++i) {
+        energy += rest.masses[i] * glm::dot(state.velocities[i], state.velocities[i]) / 2.0 +
+                  rest.inertias[i] *
+                      glm::dot(state.angular_velocities[i], state.angular_velocities[i]) / 2.0 +
+                  jointAt(state, rest, i).energy;
+    }
+    return energy;
+}
+
+}  // namespace hair::reference

@@ -1,0 +1,35 @@
+#include "hair/simulation/solver_ftl.h"
+
+#include <array>
+#include <span>
+
+#include "engine/transfer.h"
+#include "hair/simulation/dispatch_groups.h"
+#include "hair/simulation/stiffness.h"
+
+namespace hair {
+
+namespace {
+
+constexpr std::uint32_t kGroup = 64;  // invocations, as in ftl.comp
+
+}  // namespace
+
+FtlSolver::FtlSolver(
+    const engine::Device& device, const Groom& groom, const SimulationSettings& settings)
+    : strand_count_(groom.strand_count),
+      parameters_(engine::makeBuffer(
+          device,
+          std::span<const gpu::FtlParameters>(std::array{gpu::FtlParameters{
+              .global_stiffness = static_cast<float>(globalStiffness(settings)),
+              .velocity_correction = settings.ftl.velocity_correction}}),
+          "ftl parameters")),
+      pipeline_(device, {.shader = "simulation/ftl.comp", .push_size = sizeof(gpu::StepPush)}) {}
+
+void FtlSolver::record(engine::Commands& commands, gpu::StepPush push) const {
+    push.solver = parameters_.address();
+    commands.bind(pipeline_, push);
+    dispatchInvocations(commands, strand_count_, kGroup);
+}
+
+}  // namespace hair

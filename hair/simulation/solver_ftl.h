@@ -1,0 +1,26 @@
+#pragma once
+
+#include "engine/pipeline.h"
+#include "hair/simulation/solver.h"
+
+namespace hair {
+
+// Follow the leader: Verlet, the pull toward the rest position, then every segment is brought to
+// its length by moving its lower end alone, from the root down, and the upper end's velocity is
+// corrected for it. Mueller, Kim and Chentanez 2012, Fast simulation of inextensible hair and fur.
+// Exactly inextensible in one pass; resists no bending. A pinned vertex below the root stays, and
+// the segment that ends in it may then change its length. The corrections are part of the previous
+// positions.
+class FtlSolver : public GuideSolver {
+public:
+    FtlSolver(const engine::Device& device, const Groom& groom, const SimulationSettings& settings);
+
+    void record(engine::Commands& commands, gpu::StepPush push) const override;
+
+private:
+    std::uint32_t strand_count_;
+    engine::Buffer parameters_;
+    engine::ComputePipeline pipeline_;
+};
+
+}  // namespace hair

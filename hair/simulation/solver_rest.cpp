@@ -1,0 +1,22 @@
+#include "hair/simulation/solver_rest.h"
+
+#include "hair/simulation/dispatch_groups.h"
+
+namespace hair {
+
+namespace {
+
+constexpr std::uint32_t kGroup = 64;  // invocations, as in rest.comp
+
+}  // namespace
+
+RestSolver::RestSolver(const engine::Device& device, const Groom& groom)
+    : vertex_count_(groom.strand_count * groom.vertices_per_strand),
+      pipeline_(device, {.shader = "simulation/rest.comp", .push_size = sizeof(gpu::StepPush)}) {}
+
+void RestSolver::record(engine::Commands& commands, gpu::StepPush push) const {
+    commands.bind(pipeline_, push);
+    dispatchInvocations(commands, vertex_count_, kGroup);
+}
+
+}  // namespace hair

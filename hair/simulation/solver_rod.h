@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/pipeline.h"
+#include "hair/simulation/rod_rest.h"
+#include "hair/simulation/solver.h"
+
+namespace hair {
+
+// Elastic rods of /simulation/material, which neither stretch nor shear: see reference_rod.h.
+// Positions are output alone; the state is in orientations and velocities. Strands work in units of
+// their own and positions are sums of edges, so that 32 bits are enough. The first segment leaves
+// the follicle as it does at rest, turned with the head.
+class RodSolver : public GuideSolver {
+public:
+    RodSolver(const engine::Device& device, const Groom& groom, const SimulationSettings& settings);
+
+    void record(engine::Commands& commands, gpu::StepPush push) const override;
+    void recordAdopt(engine::Commands& commands, gpu::StepPush push) const override;
+    std::vector<const engine::Buffer*> state() const override { return {&motion_}; }
+
+private:
+    RodSolver(
+        const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
+        const RodRest& rest);
+
+    std::uint32_t strand_count_;
+    std::uint32_t most_strands_;  // in a dispatch
+    engine::Buffer segments_;
+    engine::Buffer units_;
+    engine::Buffer motion_;
+    engine::Buffer scratch_;
+    engine::Buffer parameters_;
+    engine::ComputePipeline step_;
+    engine::ComputePipeline adopt_;
+};
+
+}  // namespace hair

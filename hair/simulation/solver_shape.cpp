@@ -1,0 +1,56 @@
+#include "hair/simulation/solver_shape.h"
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "engine/transfer.h"
+#include "hair/simulation/dispatch_groups.h"
+#include "hair/simulation/rest_shape.h"
+#include "hair/simulation/stiffness.h"
+
+namespace hair {
+
+namespace {
+
+static_assert(offsetof(gpu::ShapeParameters, length_iterations) == 24);
+
+std::vector<float> localStiffnesses(const Groom& groom, const SimulationSettings& settings) {
+    std::vector<float> factors;
+    for (const double length : meanSegmentLengths(groom))
+        factors.push_back(static_cast<float>(localStiffness(settings, length)));
+    return factors;
+}
+
+}  // namespace
+
+ShapeSolver::ShapeSolver(
+    const engine::Device& device, const Groom& groom, const SimulationSettings& settings)
+    : strand_count_(groom.strand_count),
+      plan_(planShape(device.info(), settings, groom.strand_count, groom.vertices_per_strand)),
+      rest_edges_(engine::makeBuffer(
+          device, std::span<const glm::vec4>(transportedRestEdges(groom)), "guide rest edges")),
+      local_stiffness_(engine::makeBuffer(
+          device, std::span<const float>(localStiffnesses(groom, settings)),
+          "guide local stiffness")),
+      parameters_(engine::makeBuffer(
+          device,
+          std::span<const gpu::ShapeParameters>(std::array{gpu::ShapeParameters{
+              .rest_edges = rest_edges_.address(),
+              .local_stiffness = local_stiffness_.address(),
+              .global_stiffness = static_cast<float>(globalStiffness(settings)),
+              .local_iterations = settings.local.iterations,
+              .length_iterations = settings.length.iterations}}),
+          "shape parameters")),
+      pipeline_(
+          device, {.shader = plan_.shader,
+                   .constants = plan_.constants,
+                   .push_size = sizeof(gpu::StepPush)}) {}
+
+void ShapeSolver::record(engine::Commands& commands, gpu::StepPush push) const {
+    push.solver = parameters_.address();
+    commands.bind(pipeline_, push);
+    dispatchInvocations(commands, strand_count_, plan_.strands_per_group);
+}
+
+}  // namespace hair

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+
+#include "engine/commands.h"
+#include "engine/pipeline.h"
+#include "hair/groom/groom.h"
+#include "hair/settings.h"
+
+namespace hair {
+
+// The acceleration that air gives every guide vertex, into a buffer of vec4 [strand][vertex],
+// m/s^2. It is for a whole time step.
+class WindPass {
+public:
+    // Throws Error for wind in a direction without length.
+    WindPass(const engine::Device& device, const Groom& groom, const SimulationSettings& settings);
+
+    // `guides` is the address of gpu::GuideParameters.
+    void record(
+        engine::Commands& commands, std::uint64_t guides, std::uint64_t accelerations,
+        double time) const;
+
+    // Of air that stands still: in thesis mode none, in drag mode it brakes.
+    void
+    recordCalm(engine::Commands& commands, std::uint64_t guides, std::uint64_t accelerations) const;
+
+private:
+    void recordThesis(
+        engine::Commands& commands, std::uint64_t guides, std::uint64_t accelerations,
+        double magnitude) const;
+    void recordDrag(
+        engine::Commands& commands, std::uint64_t guides, std::uint64_t accelerations, double speed,
+        double time) const;
+
+    WindSettings settings_;
+    MaterialSettings material_;
+    float time_step_;
+    std::uint32_t vertex_count_;
+    engine::ComputePipeline pipeline_;
+};
+
+}  // namespace hair

@@ -1,0 +1,71 @@
+#ifndef HAIRBENCH_DISTANCE_FIELD_STRUCTS_H
+#define HAIRBENCH_DISTANCE_FIELD_STRUCTS_H
+
+// What the host and the shaders share about distance fields. Scalar layout; addresses are device
+// addresses.
+
+// Nodes from the root of a triangle tree to a leaf, at most.
+const uint kTreeDepth = 32u;
+
+// Grid points along each side of the blocks that they are baked in.
+const uint kBakeBlock = 4u;
+
+// Signed distances to a closed surface at the points of a grid with cubic cells.
+struct DistanceField {
+    uint64_t distances;  // float [z][y][x], m; negative inside
+    vec3 origin;  // where point (0, 0, 0) is, m
+    float cell;  // m
+    uvec3 points;  // along each axis, at least 2
+    float cells_per_metre;  // 1 / cell
+};
+
+// A node of a triangle tree; the root is node 0.
+struct TreeNode {
+    vec3 lower;  // of the box round all triangles below, m
+    uint first;  // a leaf's first triangle; else the first of two children that lie side by side
+    vec3 upper;
+    uint count;  // of a leaf's triangles; 0: not a leaf
+};
+
+struct TreeTriangle {
+    vec3 corners[3];  // m, counter-clockwise seen from outside
+    vec3 normal;  // unit length
+};
+
+// Pseudonormals, pointing out; only their directions matter. (hair/simulation/closed_mesh.h)
+struct TriangleNormals {
+    vec3 face;
+    vec3 edges[3];  // from corner i to the next
+    vec3 corners[3];
+};
+
+// Push constants of simulation/bake_distance.comp.
+struct BakeDistancePush {
+    DistanceField field;  // its distances are written
+    uint64_t nodes;  // TreeNode
+    uint64_t triangles;  // TreeTriangle, in the order of the leaves
+    uint64_t normals;  // TriangleNormals, in the same order
+    uvec3 blocks;  // along each axis
+    uint first_block;
+    uint block_count;  // of this dispatch
+};
+
+// Where simulation/probe_distance.comp asks, and what it gets.
+struct DistanceProbe {
+    vec3 position;  // m
+    vec3 before;  // m: where friction holds it
+    float distance;  // m, written, as the next two
+    vec3 gradient;
+    vec3 pushed;  // m
+};
+
+// Push constants of simulation/probe_distance.comp.
+struct ProbeDistancePush {
+    DistanceField field;
+    uint64_t probes;  // DistanceProbe
+    uint count;
+    float margin;  // m
+    float friction;  // Coulomb's coefficient
+};
+
+#endif

@@ -1,0 +1,50 @@
+#ifndef HAIRBENCH_VOLUME_STRUCTS_H
+#define HAIRBENCH_VOLUME_STRUCTS_H
+
+// What the host and the compute code of the contact of hair with hair share (hair_hair.h). Scalar
+// layout; addresses are device addresses.
+
+// The share 1, all of the groom's length, in the grid's fixed point: half the range of int. The
+// rest is for roundings.
+const uint kVolumeOne = 0x40000000u;
+
+// Grids, half a cell apart along each axis.
+const uint kVolumeGrids = 2u;
+
+// Cells between the points that hair may be in and the grid's faces: a point's 3 x 3 x 3 cells and
+// their neighbours then lie in the grid.
+const uint kVolumeMargin = 2u;
+
+// A guide vertex as the grid sees it.
+struct VolumeSample {
+    vec3 point;     // where it is at the end of the time step if it keeps its velocity, cells
+    float share;    // of the groom's length; the mass that weighs it here
+    vec3 velocity;  // m/s, axes of the world
+    float unused;
+};
+
+// For a simulation's whole life.
+struct VolumeParameters {
+    uint64_t guides;   // GuideParameters
+    uint64_t shares;   // float [strand][vertex]
+    uint64_t samples;  // VolumeSample [strand][vertex]
+    uint64_t sums;     // int [grid][z][y][x][4], fixed point: momentum over the fastest, share
+    uint64_t fastest;  // uint: bits of the greatest component of a velocity, m/s
+    vec3 origin;       // corner of the first grid on the head, m
+    float cell;        // m
+    uint resolution;   // cells a side
+    float prediction;  // substeps in a time step
+    float crowded;     // share per cell from which hair repels hair
+    float friction;    // 1/s
+    float repulsion;   // m/s^2
+    float greatest_repulsion;  // m/s^2
+};
+
+// Push constants of every pass of the grid.
+struct VolumePush {
+    uint64_t volume;         // VolumeParameters
+    uint64_t accelerations;  // m/s^2, added to
+    RigidFrame frame;        // of the head at the end of the time step
+};
+
+#endif

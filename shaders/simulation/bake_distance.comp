@@ -1,0 +1,96 @@
+#version 460
+// Signed distances to a closed surface; one invocation per grid point, a workgroup per block of
+// them. The nearest triangle is found by depth-first search of a tree of boxes, the nearer child
+// first; the sign is that of the pseudonormal of the nearest feature: Baerentzen and Aanaes 2005,
+// Signed distance computation using the angle weighted pseudonormal.
+#extension GL_GOOGLE_include_directive : require
+
+#include "common/extensions.glsl"
+#include "common/nearest_on_triangle.glsl"
+#include "shared/distance_field_structs.h"
+
+layout(local_size_x = kBakeBlock * kBakeBlock * kBakeBlock) in;
+
+layout(push_constant, scalar) uniform Push { BakeDistancePush push; };
+
+layout(buffer_reference, scalar) readonly buffer Nodes { TreeNode at[]; };
+layout(buffer_reference, scalar) readonly buffer Triangles { TreeTriangle at[]; };
+layout(buffer_reference, scalar) readonly buffer Normals { TriangleNormals at[]; };
+layout(buffer_reference, scalar) writeonly buffer Distances { float at[]; };
+
+// To the box, squared; 0 inside.
+float boxDistance(vec3 p, vec3 lower, vec3 upper) {
+    vec3 apart = max(max(lower - p, p - upper), vec3(0.0));
+    return dot(apart, apart);
+}
+
+vec3 pseudonormal(TriangleNormals normals, uint feature) {
+    if (feature == kFaceFeature) return normals.face;
+    return feature < kCornerFeatures ? normals.edges[feature - kEdgeFeatures]
+                                     : normals.corners[feature - kCornerFeatures];
+}
+
+float signedDistance(vec3 p) {
+    Nodes nodes = Nodes(push.nodes);
+    Triangles triangles = Triangles(push.triangles);
+    Nearest nearest = Nearest(vec3(0.0), 3.0e38, kFaceFeature);
+    uint found = 0u;
+
+    uint waiting[kTreeDepth];
+    float waiting_distance[kTreeDepth];
+    uint depth = 0u;
+    uint node = 0u;
+    float node_distance = 0.0;
+    while (true) {
+        if (node_distance < nearest.size) {
+            uint first = nodes.at[node].first;
+            uint count = nodes.at[node].count;
+            if (count == 0u) {
+                float left = boxDistance(p, nodes.at[first].lower, nodes.at[first].upper);
+                float right =
+                    boxDistance(p, nodes.at[first + 1u].lower, nodes.at[first + 1u].upper);
+                bool left_first = left <= right;
+                waiting[depth] = left_first ? first + 1u : first;
+                waiting_distance[depth] = max(left, right);
+                ++depth;
+                node = left_first ? first : first + 1u;
+                node_distance = min(left, right);
+                continue;
+            }
+            for (uint i = first; i < first + count; ++i) {
+                float before = nearest.size;
+                compareTriangle(p, triangles.at[i].corners, triangles.at[i].normal, nearest);
+                if (nearest.size < before) found = i;
+            }
+        }
+        if (depth == 0u) break;
+        --depth;
+        node = waiting[depth];
+        node_distance = waiting_distance[depth];
+    }
+
+    vec3 normal = pseudonormal(Normals(push.normals).at[found], nearest.feature);
+    return dot(nearest.outward, normal) < 0.0 ? -sqrt(nearest.size) : sqrt(nearest.size);
+}
+
+// In Morton order: eight invocations in a row are a cube of points, so that those that run together
+// search nearly the same way.
+uvec3 pointInBlock(uint lane) {
+    uvec3 low = uvec3(lane, lane >> 1, lane >> 2) & 1u;
+    uvec3 high = uvec3(lane >> 3, lane >> 4, lane >> 5) & 1u;
+    return low + 2u * high;
+}
+
+void main() {
+    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint block = push.first_block + group;
+    uvec3 block_at = uvec3(block, block / push.blocks.x, block / push.blocks.x / push.blocks.y) %
+                     push.blocks;
+    uvec3 point = kBakeBlock * block_at + pointInBlock(gl_LocalInvocationID.x);
+    if (group >= push.block_count || any(greaterThanEqual(point, push.field.points)))
+        return;  // no barrier follows
+
+    vec3 p = push.field.origin + push.field.cell * vec3(point);
+    uint index = point.x + push.field.points.x * (point.y + push.field.points.y * point.z);
+    Distances(push.field.distances).at[index] = signedDistance(p);
+}

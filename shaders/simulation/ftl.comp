@@ -1,0 +1,63 @@
+#version 460
+// One substep of the `ftl` solver: Mueller, Kim and Chentanez 2012, Fast simulation of inextensible
+// hair and fur. One invocation per strand: a vertex needs the final place of the one before it.
+#extension GL_GOOGLE_include_directive : require
+
+#include "common/rigid_frame.glsl"
+#include "simulation/constraints/bodies.glsl"
+#include "simulation/constraints/follow_leader.glsl"
+#include "simulation/constraints/global.glsl"
+#include "simulation/guides.glsl"
+#include "simulation/integrate.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(push_constant, scalar) uniform Push { StepPush push; };
+
+layout(buffer_reference, scalar) readonly buffer FtlReference { FtlParameters parameters; };
+
+void main() {
+    GuideParameters guides = GuideReference(push.guides).parameters;
+    FtlParameters params = FtlReference(push.solver).parameters;
+    uint strand = workgroupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (strand >= guides.strand_count) return;  // no barrier follows
+
+    State positions = State(guides.positions);
+    State previous = State(guides.previous);
+    Vectors rest = Vectors(guides.rest_positions);
+    uint root = strand * guides.vertices_per_strand;
+    float contact = 0.0;  // 1 from the first vertex that touches a body
+    vec3 leader_before = positions.at[root].xyz;  // at the start of the substep
+    vec3 leader = toWorld(push.frame, rest.at[root].xyz);
+    positions.at[root].xyz = leader;
+    for (uint i = root + 1; i < root + guides.vertices_per_strand; ++i) {
+        vec4 point = positions.at[i];
+        vec3 before = point.xyz;
+        vec3 correction = vec3(0.0);
+        if (point.w > 0.0) {
+            vec3 acceleration = guides.gravity;
+            if (push.accelerations != 0) acceleration += Vectors(push.accelerations).at[i].xyz;
+            vec3 predicted = integrate(
+                before, previous.at[i].xyz, acceleration, guides.velocity_kept,
+                guides.time_step * guides.time_step);
+            predicted = pullToRest(
+                predicted, toWorld(push.frame, rest.at[i].xyz), params.global_stiffness);
+            float rest_length = distance(rest.at[i].xyz, rest.at[i - 1].xyz);
+            point.xyz = followLeader(leader, predicted, rest_length);
+            correction = point.xyz - predicted;
+            bool touched = false;
+            point.xyz = pushOutOfBodies(
+                point.xyz, before, guides.bodies, push.frame, push.frame_before, touched);
+            if (touched) contact = 1.0;
+            positions.at[i] = point;
+        }
+        // The leader's velocity is what it moved, less a part of how its follower was corrected
+        // (eq. 9); the position before the substep is moved by as much, since velocities are
+        // differences of positions.
+        vec3 corrected = i > root + 1 ? params.velocity_correction * correction : vec3(0.0);
+        previous.at[i - 1].xyz = leader_before + corrected;
+        previous.at[i] = vec4(before, contact);
+        leader_before = before;
+        leader = point.xyz;
+    }
+}

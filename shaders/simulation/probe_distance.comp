@@ -1,0 +1,24 @@
+#version 460
+// What the constraint makes of a field, at points of the host's choice; one invocation per point.
+#extension GL_GOOGLE_include_directive : require
+
+#include "common/extensions.glsl"
+#include "shared/distance_field_structs.h"
+#include "simulation/constraints/distance_field.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(push_constant, scalar) uniform Push { ProbeDistancePush push; };
+
+layout(buffer_reference, scalar) buffer Probes { DistanceProbe at[]; };
+
+void main() {
+    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint index = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (index >= push.count) return;  // no barrier follows
+
+    DistanceProbe probe = Probes(push.probes).at[index];
+    probe.distance = sampleDistance(push.field, probe.position, probe.gradient);
+    probe.pushed = pushOut(probe.position, probe.before, push.field, push.margin, push.friction);
+    Probes(push.probes).at[index] = probe;
+}

@@ -1,0 +1,24 @@
+#version 460
+// One substep of hair that is frozen at rest: the head carries every vertex. One invocation per
+// vertex.
+#extension GL_GOOGLE_include_directive : require
+
+#include "common/rigid_frame.glsl"
+#include "simulation/guides.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(push_constant, scalar) uniform Push { StepPush push; };
+
+void main() {
+    GuideParameters guides = GuideReference(push.guides).parameters;
+    uint index = workgroupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (index >= guides.strand_count * guides.vertices_per_strand) return;  // no barrier follows
+
+    vec4 point = State(guides.positions).at[index];
+    State(guides.previous).at[index] = vec4(point.xyz, 0.0);
+    bool pinned = index % guides.vertices_per_strand != 0u && point.w == 0.0;
+    if (pinned) return;
+    vec3 rest = Vectors(guides.rest_positions).at[index].xyz;
+    State(guides.positions).at[index] = vec4(toWorld(push.frame, rest), point.w);
+}

@@ -1,0 +1,242 @@
+#version 460
+// One substep of the `rod` solver, one invocation per strand: implicit Euler for an elastic rod
+// that neither stretches nor shears. The unknowns are rotations of the segments; the vertices
+// follow. Each iteration is a Newton step, which eliminates one segment after the other from the
+// tip up: Featherstone 1983, The calculation of robot dynamics using articulated-body inertias. See
+// reference_rod.h for the rod and for where it comes from, rod_structs.h for the units.
+#extension GL_GOOGLE_include_directive : require
+
+#include "common/rigid_frame.glsl"
+#include "simulation/constraints/bodies.glsl"
+#include "simulation/rod/joint.glsl"
+#include "simulation/rod/state.glsl"
+#include "simulation/rod/symmetric.glsl"
+
+layout(local_size_x = 32) in;
+
+layout(push_constant, scalar) uniform Push { StepPush push; };
+
+const float kMostTurn = 1.0;  // rad in an iteration; a Newton step from far away can overshoot
+const float kPinMass = 100.0;  // of a pinned vertex, over the strand's: a stiff spring to its place
+const float kLeastLength = 0.1;  // that a segment turns as if it had
+
+GuideParameters guides;
+RodParameters rod;
+uint strand;
+uint root;    // of the strand's vertices
+float unit;   // m
+vec3 root_now;
+
+uint segmentIndex(uint i) { return i * guides.strand_count + strand; }
+
+// Rows of the scratch memory: 0 to 2 the columns of `by_move` with `by_itself` as the last row, 3
+// to 5 those of `by_turn`, 6 the vertex's displacement and 7 the segment's rotation, both since the
+// prediction.
+uint scratchIndex(uint i, uint row) {
+    return (i * kRodScratchRows + row) * rod.most_strands + strand - push.first_strand;
+}
+
+// Mesa 22's llvmpipe reads x where the last component alone is read: hence the whole vector.
+bool isPinned(uint i) {
+    vec4 point = State(guides.positions).at[root + i];
+    return point.w == 0.0;
+}
+
+vec4 orientationAt(uint i) {
+    if (i > 0) return RodMotions(rod.motion).at[segmentIndex(i)].orientation;
+    return multiply(
+        push.frame.rotation, RodSegments(rod.segments).at[segmentIndex(0)].half_rotation);
+}
+
+// Velocities with the forces of the substep, and where they would take the strand.
+void predict() {
+    RodMotions motions = RodMotions(rod.motion);
+    State scratch = State(rod.scratch);
+    State positions = State(guides.positions);
+    root_now = toWorld(push.frame, Vectors(guides.rest_positions).at[root].xyz);
+    vec3 root_moved = (root_now - positions.at[root].xyz) / unit;
+    positions.at[root].xyz = root_now;
+    float scale = guides.time_step * guides.time_step / unit;
+    vec3 edges = vec3(0.0);    // from the root to here
+    vec3 misfits = vec3(0.0);  // likewise
+    vec3 moved = vec3(0.0);    // by segments that turn
+    for (uint i = 1; i < guides.vertices_per_strand; ++i) {
+        RodMotion motion = motions.at[segmentIndex(i)];
+        float len = RodSegments(rod.segments).at[segmentIndex(i)].rest_length;
+        vec3 acceleration = guides.gravity;
+        if (push.accelerations != 0) acceleration += Vectors(push.accelerations).at[root + i].xyz;
+        motion.velocity = guides.velocity_kept * motion.velocity + scale * acceleration;
+        motion.angular_velocity *= guides.velocity_kept;
+        moved += gainOf(len * axisOf(motion.orientation), motion.angular_velocity);
+        motion.orientation = turned(motion.orientation, motion.angular_velocity);
+        misfits += motion.misfit;
+        edges += len * axisOf(motion.orientation);
+        vec3 displacement = root_moved - misfits + moved - motion.velocity;
+        if (isPinned(i)) {
+            motion.velocity = vec3(0.0);
+            displacement = (root_now - positions.at[root + i].xyz) / unit + edges;
+        }
+        motions.at[segmentIndex(i)] = motion;
+        scratch.at[scratchIndex(i, 6)] = vec4(displacement, 0.0);
+        scratch.at[scratchIndex(i, 7)] = vec4(0.0);
+    }
+}
+
+// From the tip up. The least energy of all below a vertex is, of the vertex's further move x and
+// the further turn t of the segment that ends there, x A x / 2 + x B t + t C t / 2 + a x + b t. All
+// in the segment's own axes: under a great tension its bending and twisting differ by more than 32
+// bits hold side by side.
+void eliminate() {
+    State scratch = State(rod.scratch);
+    mat3 A = mat3(0.0);
+    mat3 B = mat3(0.0);
+    mat3 C = mat3(0.0);
+    vec3 a = vec3(0.0);
+    vec3 b = vec3(0.0);
+    vec3 force = vec3(0.0);  // through the segment on the vertex where it ends
+    vec4 orientation = orientationAt(guides.vertices_per_strand - 1);
+    for (uint i = guides.vertices_per_strand - 1; i > 0; --i) {
+        RodSegment segment = RodSegments(rod.segments).at[segmentIndex(i)];
+        vec4 above = orientationAt(i - 1);
+        mat3 from_space = transpose(matrixOf(orientation));
+        vec3 displacement = from_space * scratch.at[scratchIndex(i, 6)].xyz;
+        vec3 rotation = from_space * scratch.at[scratchIndex(i, 7)].xyz;
+        float mass = isPinned(i) ? kPinMass * float(guides.vertices_per_strand - 1) : segment.mass;
+        float turning_length = max(segment.rest_length, kLeastLength);
+        float inertia = turning_length * turning_length * turning_length / 12.0;
+
+        // Tension straightens: Tournier et al. 2015, Stable constrained dynamics.
+        force += mass * displacement;
+        float straightening = segment.rest_length * max(-force.z, 0.0);
+        A += mat3(mass);
+        a += mass * displacement;
+        C += mat3(inertia);
+        C[0][0] += straightening;
+        C[1][1] += straightening;
+        b += inertia * rotation;
+
+        // From the vertex at the segment's end to the one at its start, which is x + lever t away.
+        mat3 lever = -segment.rest_length * crossMatrix(vec3(0.0, 0.0, 1.0));
+        mat3 raised = transpose(lever) * B;
+        C = symmetric(C + transpose(lever) * A * lever + raised + transpose(raised));
+        B += A * lever;
+        b += transpose(lever) * a;
+
+        RodJoint joint = bendAndTwist(
+            multiply(above, segment.half_rotation),
+            multiply(orientation, conjugate(segment.half_rotation)), segment.bend_stiffness,
+            segment.twist_stiffness, i == 1);
+        vec3 torque = from_space * joint.torque;
+        mat3 stiffness = symmetric(from_space * joint.stiffness * transpose(from_space));
+
+        mat3 yields = inverseOfSymmetric(C + stiffness);
+        mat3 by_move = -yields * transpose(B);
+        mat3 by_turn = yields * stiffness;
+        vec3 by_itself = yields * (torque - b);
+        for (int k = 0; k < 3; ++k) {
+            scratch.at[scratchIndex(i, k)] = vec4(by_move[k], by_itself[k]);
+            scratch.at[scratchIndex(i, 3 + k)] = vec4(by_turn[k], 0.0);
+        }
+
+        mat3 to_above = transpose(matrixOf(above)) * transpose(from_space);
+        a = to_above * (a + B * by_itself);
+        b = to_above * (stiffness * (yields * b) + C * (yields * torque));
+        A = symmetric(to_above * (A + B * by_move) * transpose(to_above));
+        B = to_above * (B * by_turn) * transpose(to_above);
+        C = symmetric(to_above * (C * by_turn) * transpose(to_above));
+        force = to_above * force;
+        orientation = above;
+    }
+}
+
+// From the root down: every segment's turn, and where it takes the vertices.
+void turnSegments() {
+    RodMotions motions = RodMotions(rod.motion);
+    State scratch = State(rod.scratch);
+    vec3 turn = vec3(0.0);
+    vec3 linear = vec3(0.0);  // how far small turns would take the vertex above
+    vec3 moved = vec3(0.0);   // and how far they do
+    for (uint i = 1; i < guides.vertices_per_strand; ++i) {
+        mat3 by_move;
+        mat3 by_turn;
+        vec3 by_itself;
+        for (int k = 0; k < 3; ++k) {
+            vec4 row = scratch.at[scratchIndex(i, k)];
+            by_move[k] = row.xyz;
+            by_itself[k] = row.w;
+            by_turn[k] = scratch.at[scratchIndex(i, 3 + k)].xyz;
+        }
+        vec4 orientation = motions.at[segmentIndex(i)].orientation;
+        mat3 to_space = matrixOf(orientation);
+        vec3 edge = RodSegments(rod.segments).at[segmentIndex(i)].rest_length * to_space[2];
+        vec3 own = by_move * (linear * to_space) + by_turn * (turn * to_space) + by_itself;
+        turn = to_space * own * (kMostTurn / max(length(own), kMostTurn));
+        linear += cross(turn, edge);
+        moved += gainOf(edge, turn);
+        motions.at[segmentIndex(i)].orientation = turned(orientation, turn);
+        scratch.at[scratchIndex(i, 6)].xyz += moved;
+        scratch.at[scratchIndex(i, 7)].xyz += turn;
+    }
+}
+
+// Velocities and positions, and collisions: what they move turns segments and leaves misfits.
+void finish() {
+    RodMotions motions = RodMotions(rod.motion);
+    State scratch = State(rod.scratch);
+    State positions = State(guides.positions);
+    vec3 edges = vec3(0.0);  // from the root to here, without collisions
+    vec3 pushed_above = vec3(0.0);
+    float contact = 0.0;  // 1 from the first vertex that touches a body
+    for (uint i = 1; i < guides.vertices_per_strand; ++i) {
+        RodMotion motion = motions.at[segmentIndex(i)];
+        float len = RodSegments(rod.segments).at[segmentIndex(i)].rest_length;
+        vec3 axis = axisOf(motion.orientation);
+        vec3 before = positions.at[root + i].xyz;
+        edges += len * axis;
+        motion.angular_velocity += scratch.at[scratchIndex(i, 7)].xyz;
+        vec3 pushed = vec3(0.0);
+        if (!isPinned(i)) {
+            vec3 free = root_now + unit * edges;
+            bool touched = false;
+            vec3 held = pushOutOfBodies(
+                free, before, guides.bodies, push.frame, push.frame_before, touched);
+            if (touched) {
+                contact = 1.0;
+                pushed = (held - free) / unit;
+            }
+            motion.velocity += scratch.at[scratchIndex(i, 6)].xyz + pushed;
+            positions.at[root + i].xyz = held;
+        }
+        motion.misfit = vec3(0.0);
+        if (pushed != pushed_above) {
+            vec3 edge = len * axis + pushed - pushed_above;
+            if (unit * min(len, length(edge)) >= kShortestSegment) {
+                vec4 turn = rotationBetween(axis, normalize(edge));
+                motion.orientation = normalize(multiply(turn, motion.orientation));
+                motion.angular_velocity += 2.0 * turn.xyz;
+            }
+            motion.misfit = edge - len * axisOf(motion.orientation);
+        }
+        motions.at[segmentIndex(i)] = motion;
+        State(guides.previous).at[root + i] = vec4(before, contact);
+        pushed_above = pushed;
+    }
+}
+
+void main() {
+    guides = GuideReference(push.guides).parameters;
+    rod = RodReference(push.solver).parameters;
+    uint lane = workgroupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    strand = push.first_strand + lane;
+    if (lane >= rod.most_strands || strand >= guides.strand_count) return;  // no barrier follows
+
+    root = strand * guides.vertices_per_strand;
+    unit = Factors(rod.units).at[strand];
+    State(guides.previous).at[root] = vec4(State(guides.positions).at[root].xyz, 0.0);
+    predict();
+    for (uint i = 0; i < rod.iterations; ++i) {
+        eliminate();
+        turnSegments();
+    }
+    finish();
+}

@@ -1,0 +1,79 @@
+#ifndef HAIRBENCH_SIMULATION_ROD_JOINT_GLSL
+#define HAIRBENCH_SIMULATION_ROD_JOINT_GLSL
+
+#include "common/quaternion.glsl"
+
+// What bends and twists a rod, between two frames that coincide at rest: the discrete elastica of
+// Bobenko and Suris 1999, Discrete time Lagrangian mechanics on Lie groups, with the energy
+//     -(4 / n^2) K ln cos(n b / 2) + fade K' t^2 / 2
+// for a bend by b between the third axes and a twist by t round the axis between them. n is 1, and
+// 2 at the follicle, where half of a joint and its mirror image bend twice as much. Where n b is
+// beyond 120 degrees the torque of the bend goes on as a straight line; where b is, the twist
+// fades. No trigonometry where it counts: Vulkan only asks 11 bits of it.
+struct RodJoint {
+    vec3 torque;     // on the second frame, axes of space; the first gets its opposite
+    mat3 stiffness;  // torque per small rotation of the second frame
+};
+
+// 2 atan2(z, w) from the tangent of an eighth of it; c = length of (z, w), w >= 0. The series is
+// off by less than 1e-5 at half a turn and by rounding at small angles.
+float twistAngle(float z, float w, float c) {
+    float quarter = z / (c + w);
+    float t = quarter / (1.0 + sqrt(1.0 + quarter * quarter));
+    float s = t * t;
+    float series =
+        1.0 - s * (1.0 / 3.0 - s * (1.0 / 5.0 - s * (1.0 / 7.0 - s * (1.0 / 9.0 - s / 11.0))));
+    return 8.0 * t * series;
+}
+
+RodJoint bendAndTwist(
+    vec4 first, vec4 second, float bend_stiffness, float twist_stiffness, bool at_follicle) {
+    vec4 r = multiply(conjugate(first), second);
+    if (r.w < 0.0) r = -r;
+    float cosine2 = r.w * r.w + r.z * r.z;  // of half the bend, squared
+    if (cosine2 < 1.0e-12) {  // opposite axes: any twist will do
+        r.zw = vec2(0.0, 1.0e-6);
+        cosine2 = 1.0e-12;
+    }
+    float sine2 = r.x * r.x + r.y * r.y;
+    // The axis that the bend grows round and the one beside it, both of length sine * cosine.
+    vec3 across = vec3(r.w * r.x - r.z * r.y, r.w * r.y + r.z * r.x, 0.0);
+    vec3 beside = vec3(across.y, -across.x, 0.0);
+
+    float torque;  // over K times `across`
+    float more;    // what the stiffness round `across` exceeds K by, over K and the square of it
+    float cosine = cosine2 - sine2;  // of the bend
+    bool along_line = at_follicle ? cosine < 0.5 : cosine2 < 0.25;
+    if (along_line) {
+        float n = at_follicle ? 2.0 : 1.0;
+        float product = sqrt(sine2 * cosine2);
+        float beyond = 2.0 * atan(sqrt(sine2), sqrt(cosine2)) - 2.0943951 / n;
+        torque = (3.4641016 / n + 4.0 * beyond) / product;
+        more = 3.0 / (product * product);
+    } else if (at_follicle) {
+        torque = 2.0 / cosine;
+        more = 4.0 / (cosine * cosine);
+    } else {
+        torque = 2.0 / cosine2;
+        more = 1.0 / (cosine2 * cosine2);
+    }
+
+    float twist = twistAngle(r.z, r.w, sqrt(cosine2));
+    bool fades = cosine2 < 0.25;
+    float fade = fades ? 16.0 * cosine2 * cosine2 : 1.0;
+    float fade_slope = fades ? 32.0 * cosine2 : 0.0;
+    vec3 axis = vec3(0.0, 0.0, 1.0);
+    vec3 gradient = bend_stiffness * torque * across +
+                    twist_stiffness * (twist * fade * (axis + beside / cosine2) -
+                                       0.5 * twist * twist * fade_slope * across);
+
+    axis = rotate(first, axis);
+    across = rotate(first, across);
+    mat3 along = outerProduct(axis, axis);
+    return RodJoint(
+        -rotate(first, gradient),
+        bend_stiffness * (mat3(1.0) - along + more * outerProduct(across, across)) +
+            twist_stiffness * along);
+}
+
+#endif

@@ -1,0 +1,48 @@
+#version 460
+// The `rod` solver's state for positions and previous positions that someone else wrote, one
+// invocation per strand. Frames go along the strand by parallel transport, as they do at rest.
+#extension GL_GOOGLE_include_directive : require
+
+#include "common/rigid_frame.glsl"
+#include "simulation/rod/state.glsl"
+
+layout(local_size_x = 32) in;
+
+layout(push_constant, scalar) uniform Push { StepPush push; };
+
+void main() {
+    GuideParameters guides = GuideReference(push.guides).parameters;
+    RodParameters rod = RodReference(push.solver).parameters;
+    uint strand = workgroupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (strand >= guides.strand_count) return;  // no barrier follows
+
+    State positions = State(guides.positions);
+    State previous = State(guides.previous);
+    RodSegments segments = RodSegments(rod.segments);
+    float unit = Factors(rod.units).at[strand];
+    uint root = strand * guides.vertices_per_strand;
+    vec4 orientation = multiply(push.frame.rotation, segments.at[strand].half_rotation);
+    for (uint i = 1; i < guides.vertices_per_strand; ++i) {
+        uint own = i * guides.strand_count + strand;
+        vec3 here = positions.at[root + i].xyz;
+        vec3 before = previous.at[root + i].xyz;
+        vec3 edge = here - positions.at[root + i - 1].xyz;
+        vec3 edge_before = before - previous.at[root + i - 1].xyz;
+        float rest_length = unit * segments.at[own].rest_length;
+
+        RodMotion motion;
+        motion.velocity = (here - before) / unit;
+        motion.angular_velocity = vec3(0.0);
+        if (rest_length >= kShortestSegment && length(edge) >= kShortestSegment) {
+            vec3 tangent = normalize(edge);
+            orientation = normalize(
+                multiply(rotationBetween(axisOf(orientation), tangent), orientation));
+            if (length(edge_before) >= kShortestSegment)
+                motion.angular_velocity =
+                    2.0 * rotationBetween(normalize(edge_before), tangent).xyz;
+        }
+        motion.orientation = orientation;
+        motion.misfit = edge / unit - segments.at[own].rest_length * axisOf(orientation);
+        RodMotions(rod.motion).at[own] = motion;
+    }
+}

@@ -1,0 +1,91 @@
+#version 460
+// A substep of the `shape` solver as shape.comp has it, for comparison: one invocation per strand,
+// as there is one busy lane per strand in the thesis's local constraint, with the strands packed.
+// It walks along the strand with the state in the device's buffers.
+#extension GL_GOOGLE_include_directive : require
+
+#include "common/rigid_frame.glsl"
+#include "simulation/constraints/global.glsl"
+#include "simulation/constraints/length.glsl"
+#include "simulation/constraints/local.glsl"
+#include "simulation/constraints/transport.glsl"
+#include "simulation/contacts.glsl"
+#include "simulation/guides.glsl"
+#include "simulation/integrate.glsl"
+
+layout(local_size_x_id = 0) in;
+layout(constant_id = 1) const uint kVerticesPerStrand = 8;
+layout(constant_id = 2) const bool kCollides = true;
+
+layout(push_constant, scalar) uniform Push { StepPush push; };
+
+layout(buffer_reference, scalar) readonly buffer ShapeReference { ShapeParameters parameters; };
+
+void main() {
+    GuideParameters guides = GuideReference(push.guides).parameters;
+    ShapeParameters params = ShapeReference(push.solver).parameters;
+    uint strand = workgroupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (strand >= guides.strand_count) return;  // no barrier follows
+    uint root = strand * kVerticesPerStrand;
+    State positions = State(guides.positions);
+    State previous = State(guides.previous);
+    Vectors rest_edges = Vectors(params.rest_edges);
+
+    for (uint v = 0; v < kVerticesPerStrand; ++v) {
+        vec4 point = positions.at[root + v];
+        vec3 before = point.xyz;
+        vec3 rest = toWorld(push.frame, Vectors(guides.rest_positions).at[root + v].xyz);
+        if (v == 0) {
+            point.xyz = rest;
+        } else if (point.w > 0.0) {
+            vec3 acceleration = guides.gravity;
+            if (push.accelerations != 0)
+                acceleration += Vectors(push.accelerations).at[root + v].xyz;
+            point.xyz = integrate(
+                before, previous.at[root + v].xyz, acceleration, guides.velocity_kept,
+                guides.time_step * guides.time_step);
+            point.xyz = pullToRest(point.xyz, rest, params.global_stiffness);
+        }
+        positions.at[root + v] = point;
+        previous.at[root + v] = vec4(before, 0.0);
+    }
+
+    float stiffness = Factors(params.local_stiffness).at[strand];
+    Transport start =
+        Transport(firstTangent(push.frame, rest_edges.at[root + 1]), push.frame.rotation);
+    vec3 goal_edges[kVerticesPerStrand];
+    for (uint iteration = 0; iteration < params.local_iterations; ++iteration) {
+        Transport frame = start;
+        vec3 upper = positions.at[root].xyz;
+        for (uint v = 1; v < kVerticesPerStrand; ++v) {
+            vec4 rest_edge = rest_edges.at[root + v];
+            vec3 lower = positions.at[root + v].xyz;
+            goal_edges[v] = rotate(frame.rotation, rest_edge.xyz);
+            frame = transport(frame, lower - upper, rest_edge.w);
+            upper = lower;
+        }
+        for (uint first = 1; first <= 2; ++first) {
+            for (uint v = first; v < kVerticesPerStrand; v += 2) {
+                vec4 a = positions.at[root + v - 1];
+                vec4 b = positions.at[root + v];
+                pullToShape(a, b, goal_edges[v], stiffness);
+                positions.at[root + v - 1].xyz = a.xyz;
+                positions.at[root + v].xyz = b.xyz;
+            }
+        }
+    }
+    for (uint iteration = 0; iteration < params.length_iterations; ++iteration) {
+        for (uint first = 1; first <= 2; ++first) {
+            for (uint v = first; v < kVerticesPerStrand; v += 2) {
+                vec4 a = positions.at[root + v - 1];
+                vec4 b = positions.at[root + v];
+                projectLength(a, b, rest_edges.at[root + v].w);
+                positions.at[root + v - 1].xyz = a.xyz;
+                positions.at[root + v].xyz = b.xyz;
+            }
+        }
+    }
+
+    if (kCollides)
+        collide(guides, push.frame, push.frame_before, root, root + kVerticesPerStrand);
+}

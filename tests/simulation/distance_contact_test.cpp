@@ -1,0 +1,215 @@
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "tests/gpu_fixture.h"
+#include "tests/simulation/closed_meshes.h"
+#include "tests/simulation/distance_probe.h"
+#include "tests/simulation/strands.h"
+
+// What shaders make of a distance field: shaders/simulation/constraints/distance_field.glsl.
+namespace hair {
+namespace {
+
+const glm::dvec3 kCentre{0.02, -0.01, 0.03};
+constexpr double kRadius = 0.1;
+
+// A mesh of 20 * 4^5 triangles lies in the sphere by up to edge^2 / (6 r), which makes distances
+// larger; no edge is more than 1.2 times the mean one, the icosahedron's 1.107 rad over 2^5.
+constexpr double kEdge = 1.2 * 1.107 / 32 * kRadius;
+constexpr double kChord = kEdge * kEdge / (6 * kRadius);
+
+// Some ten roundings of numbers up to 1 m and up to 32 cells.
+constexpr double kRounding = 10 * 0x1p-24;
+
+class DistanceContactTest : public GpuTest {
+protected:
+    static DistanceField sphere(std::uint32_t resolution, float padding) {
+        return {device(), makeSphere(kCentre, kRadius, 5), resolution, padding};
+    }
+
+    // From -1 to 1 and 1/4 beyond, with cells of 1/4: faces lie on grid points.
+    static DistanceField box() { return {device(), makeBox({-1, -1, -1}, {1, 1, 1}), 8, 0.25f}; }
+
+    static glm::dvec3 pushed(
+        const DistanceField& field, const glm::vec3& position, const glm::vec3& before = {},
+        const Contact& contact = {}) {
+        return probe(device(), field, position, before, contact).pushed;
+    }
+
+    // `count` positions in the grid grown by `beyond` times its size on all sides.
+    static std::vector<gpu::DistanceProbe>
+    randomProbes(const DistanceField& field, int count, double beyond) {
+        const gpu::DistanceField& grid = field.parameters();
+        const glm::dvec3 size = double{grid.cell} * glm::dvec3(grid.points - 1u);
+        std::mt19937 random(3);
+        std::vector<gpu::DistanceProbe> probes(static_cast<std::size_t>(count));
+        for (gpu::DistanceProbe& probe : probes) {
+            const glm::dvec3 where = 0.5 + (0.5 + beyond) * randomVector(random);
+            probe.position = glm::vec3(glm::dvec3(grid.origin) + where * size);
+        }
+        return probes;
+    }
+};
+
+void expectPoint(const glm::dvec3& point, const glm::dvec3& expected) {
+    EXPECT_LT(glm::distance(point, expected), kRounding)
+        << point.x << " " << point.y << " " << point.z;
+}
+
+// The interpolant of f along one axis is at most h^2 / 8 max |f''| off, and interpolating along the
+// next ones makes no error larger: h^2 / 8 per axis in all. Along any axis the distance to the
+// centre, r, has second derivatives between 0 and 1 / r; so the interpolant is never below it.
+TEST_F(DistanceContactTest, SampledSphereIsOffByTheCurvatureAtMost) {
+    for (const std::uint32_t resolution : {8u, 16u, 32u}) {
+        const DistanceField field = sphere(resolution, 0.02f);
+        const double cell = double{field.parameters().cell};
+        double largest = 0.0;
+        for (const auto& probe : probe(device(), field, randomProbes(field, 20000, 0.0))) {
+            const double from_centre = glm::distance(glm::dvec3(probe.position), kCentre);
+            const double nearest = from_centre - std::sqrt(3.0) * cell;  // of the cell, or nearer
+            if (nearest <= 0.0) continue;
+            const double error = double{probe.distance} - (from_centre - kRadius);
+            ASSERT_GT(error, -kRounding);
+            ASSERT_LT(error, 3 * cell * cell / 8 / nearest + kChord + kRounding);
+            if (from_centre > 0.9 * kRadius) largest = std::max(largest, error);
+        }
+        // The bound is not idle: at the middle of a cell two axes see 1 / r.
+        EXPECT_GT(largest, cell * cell / 8 / kRadius);
+    }
+}
+
+// The same interpolant in double, one dimension after the other.
+double interpolate(
+    const gpu::DistanceField& grid, const std::vector<float>& distances, const glm::dvec3& p) {
+    const glm::dvec3 scaled = (p - glm::dvec3(grid.origin)) / double{grid.cell};
+    const glm::dvec3 inside = glm::clamp(scaled, glm::dvec3(0), glm::dvec3(grid.points - 1u));
+    double sum = 0.0;
+    for (unsigned z = 0; z < grid.points.z; ++z) {
+        for (unsigned y = 0; y < grid.points.y; ++y) {
+            for (unsigned x = 0; x < grid.points.x; ++x) {
+                const glm::dvec3 weights =
+                    glm::max(1.0 - glm::abs(inside - glm::dvec3(x, y, z)), 0.0);
+                const double weight = weights.x * weights.y * weights.z;
+                if (weight > 0.0)
+                    sum += weight * double{distances[x + grid.points.x * (y + grid.points.y * z)]};
+            }
+        }
+    }
+    return sum + glm::distance(scaled, inside) * double{grid.cell};
+}
+
+// In a cell the interpolant is linear along each axis, so differences are exact but for rounding.
+// Beyond the grid their error is step^2 / 6 times the third derivative of the distance to it, at
+// most 1 / gap^2. Near the grid's planes, where the gradient jumps, no differences are taken.
+TEST_F(DistanceContactTest, ValueAndGradientAreThoseOfTheInterpolant) {
+    const DistanceField field = sphere(10, 0.03f);
+    const auto distances = field.distances(device());
+    const gpu::DistanceField& grid = field.parameters();
+    constexpr double kStep = 1e-5;
+    // The position in the cell is known to some roundings of 0.2 m; the slopes change by up to
+    // sqrt(2) / cell per metre in each direction.
+    const double slope_rounding = 4 * 0x1p-24 * 0.2 * 4 / double{grid.cell} + 1e-6;
+    int beyond = 0;
+    for (const auto& probe : probe(device(), field, randomProbes(field, 1500, 0.2))) {
+        const glm::dvec3 p(probe.position);
+        ASSERT_NEAR(probe.distance, interpolate(grid, distances, p), kRounding);
+        const glm::dvec3 scaled = (p - glm::dvec3(grid.origin)) / double{grid.cell};
+        const glm::dvec3 from_plane = glm::abs(scaled - glm::round(scaled)) * double{grid.cell};
+        if (std::min({from_plane.x, from_plane.y, from_plane.z}) < 2 * kStep) continue;
+        const glm::dvec3 last(grid.points - 1u);
+        const double gap =
+            glm::distance(scaled, glm::clamp(scaled, glm::dvec3(0), last)) * double{grid.cell};
+        const double curvature = gap > 0.0 ? kStep * kStep / (gap * gap) : 0.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::dvec3 step(0.0);
+            step[axis] = kStep;
+            const double slope =
+                (interpolate(grid, distances, p + step) - interpolate(grid, distances, p - step)) /
+                (2 * kStep);
+            ASSERT_NEAR(probe.gradient[axis], slope, slope_rounding + curvature) << gap;
+        }
+        beyond += gap > 0.0;
+    }
+    EXPECT_GT(beyond, 300);
+}
+
+// No point of the padding's outer side is nearer than the padding, and none beyond it.
+TEST_F(DistanceContactTest, NothingBeyondTheGridTouches) {
+    const DistanceField field = sphere(16, 0.02f);
+    const gpu::DistanceField& grid = field.parameters();
+    const glm::vec3 upper = grid.origin + grid.cell * glm::vec3(grid.points - 1u);
+    for (const auto& probe :
+         probe(device(), field, randomProbes(field, 5000, 3.0), {.margin = 0.0199f})) {
+        const glm::vec3 p = probe.position;
+        if (glm::all(glm::greaterThan(p, grid.origin)) && glm::all(glm::lessThan(p, upper)))
+            continue;
+        ASSERT_GT(probe.distance, 0.02 - kRounding);
+        ASSERT_EQ(probe.pushed, p);
+    }
+    // Far away it is the distance to the sphere but for the size of the grid.
+    const auto far = probe(device(), field, {1000.0f, 0.0f, 0.0f});
+    EXPECT_NEAR(far.distance, 1000.0f, 0.4f);
+    EXPECT_NEAR(far.gradient.x, 1.0f, 1e-3f);
+}
+
+// The top face of a box, in a cell whose nearest face it is.
+TEST_F(DistanceContactTest, PushesOutToTheMarginAlongTheGradient) {
+    const DistanceField field = box();
+    expectPoint(pushed(field, {0.125f, 0.875f, 0.25f}), {0.125, 1, 0.25});
+    expectPoint(pushed(field, {0.125f, 0.875f, 0.25f}, {}, {.margin = 0.1f}), {0.125, 1.1, 0.25});
+    expectPoint(pushed(field, {0.125f, 1.0625f, 0.25f}, {}, {.margin = 0.1f}), {0.125, 1.1, 0.25});
+    const glm::vec3 outside{0.125f, 1.125f, 0.25f};
+    EXPECT_EQ(pushed(field, outside, {}, {.margin = 0.1f}), glm::dvec3(outside));
+}
+
+// 0.25 deep and 0.2 moved along the face: a coefficient of 0.5 takes 0.125 of it back, one of 0.8
+// and above all of it, and never more.
+TEST_F(DistanceContactTest, TakesBackWhatFrictionHolds) {
+    const DistanceField field = box();
+    const glm::vec3 inside{0.125f, 0.75f, 0.25f};
+    const glm::vec3 before{0.125f, 1.0f, 0.05f};
+    expectPoint(pushed(field, inside, before, {.friction = 0.0f}), {0.125, 1, 0.25});
+    expectPoint(pushed(field, inside, before, {.friction = 0.5f}), {0.125, 1, 0.125});
+    expectPoint(pushed(field, inside, before, {.friction = 1.0f}), {0.125, 1, 0.05});
+    expectPoint(pushed(field, inside, before, {.friction = 9.0f}), {0.125, 1, 0.05});
+}
+
+// Five cells: the middle of the box is the middle of a cell whose corners are all 0.8 deep.
+TEST_F(DistanceContactTest, LeavesThroughTheTopWhereNoWayIsShortest) {
+    const DistanceField field(device(), makeBox({-1, -1, -1}, {1, 1, 1}), 5, 0.0f);
+    const auto middle = probe(device(), field, {0, 0, 0}, {}, {.margin = 0.1f});
+    EXPECT_NEAR(middle.distance, -0.8, kRounding);
+    expectPoint(middle.pushed, {0, 0.9, 0});
+}
+
+// The sampled distance is too large by the interpolation error. Along each axis the sampled slope
+// is one between two grid points, half a cell from here: it is off by cell / 2 times the second
+// derivatives, at most 1 / r each and 2 / r together, so the gradient is tilted by less than
+// t = cell / r. Moving by d with that tilt ends d t^2 / 2 too low and (d t)^2 / (2 r) too high.
+TEST_F(DistanceContactTest, OnePushBringsAPointOfASphereToTheMargin) {
+    constexpr double kMargin = 0.005;
+    const DistanceField field = sphere(32, 0.02f);
+    const double cell = double{field.parameters().cell};
+    int inside = 0;
+    for (const auto& probe : probe(
+             device(), field, randomProbes(field, 5000, 0.0),
+             {.margin = static_cast<float>(kMargin)})) {
+        const double from_centre = glm::distance(glm::dvec3(probe.position), kCentre);
+        if (from_centre < 0.5 * kRadius || from_centre > kRadius) continue;
+        const double nearest = from_centre - std::sqrt(3.0) * cell;  // of the cell
+        const double interpolation = 3 * cell * cell / 8 / nearest + kChord;
+        const double depth = kRadius + kMargin - from_centre;
+        const double tilt = cell / nearest;
+        const double outside = glm::distance(glm::dvec3(probe.pushed), kCentre) - kRadius;
+        EXPECT_GT(outside, kMargin - interpolation - depth * tilt * tilt / 2 - kRounding);
+        EXPECT_LT(outside, kMargin + depth * depth * tilt * tilt / (2 * nearest) + kRounding);
+        ++inside;
+    }
+    EXPECT_GT(inside, 1000);
+}
+
+}  // namespace
+}  // namespace hair

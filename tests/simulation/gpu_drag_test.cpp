@@ -1,0 +1,196 @@
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "engine/transfer.h"
+#include "hair/gpu_structs.h"
+#include "hair/simulation/reference.h"
+#include "hair/simulation/reference_wind.h"
+#include "hair/simulation/wind_pass.h"
+#include "tests/gpu_fixture.h"
+#include "tests/simulation/drag.h"
+#include "tests/simulation/gpu_simulation.h"
+
+// Air on the device against the reference in double.
+namespace hair {
+namespace {
+
+constexpr std::uint32_t kSeed = 5;
+
+SimulationSettings turbulent(float speed) {
+    SimulationSettings settings = fallingThroughAir(1.0f / 60.0f);
+    settings.wind.direction = {0.3f, -1.0f, 0.5f};
+    settings.wind.speed = speed;
+    settings.wind.turbulence = 0.7f;
+    settings.wind.turbulence_octaves = 4;
+    return settings;
+}
+
+class GpuDrag : public GpuTest {
+protected:
+    // What the pass alone gives at `time`, m/s^2.
+    static std::vector<glm::vec4> accelerations(
+        const Groom& groom, const SimulationSettings& settings,
+        const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& previous,
+        double time) {
+        const auto buffer = [](const std::vector<glm::vec3>& points, const char* name) {
+            std::vector<glm::vec4> padded;
+            for (const glm::vec3& point : points) padded.emplace_back(point, 0.0f);
+            return engine::makeBuffer(device(), std::span<const glm::vec4>(padded), name);
+        };
+        const engine::Buffer now = buffer(positions, "positions");
+        const engine::Buffer before = buffer(previous, "previous");
+        const engine::Buffer result = buffer(positions, "accelerations");
+        const std::array guides{gpu::GuideParameters{
+            .positions = now.address(),
+            .previous = before.address(),
+            .gravity = settings.gravity,
+            .time_step = settings.time_step,
+            .strand_count = groom.strand_count,
+            .vertices_per_strand = groom.vertices_per_strand,
+            .seed = kSeed}};
+        const engine::Buffer parameters = engine::makeBuffer(
+            device(), std::span<const gpu::GuideParameters>(guides), "parameters");
+        const WindPass pass(device(), groom, settings);
+        device().runOnce([&](engine::Commands& commands) {
+            commands.barrier(engine::Access::anything, engine::Access::compute_write);
+            pass.record(commands, parameters.address(), result.address(), time);
+            commands.barrier(engine::Access::compute_write, engine::Access::anything);
+        });
+        return engine::downloadAs<glm::vec4>(device(), result);
+    }
+};
+
+// Also when the wind has blown for so long that it has carried more than 2^32 cells past. A float
+// position in cells of 0.1 m and less is off by 1e-6 of a cell at 1 m; velocities from positions
+// that a thousandth of a second has moved are exact. The derivative of the noise is some tens in
+// its smallest cells.
+TEST_F(GpuDrag, BlowsLikeTheReferenceAtAnyTime) {
+    const Groom groom = wavyGroom(40, 8);
+    for (const float scale : {10.0f, 0.5f, 0.1f})
+        for (const double time : {0.0, 0.77, 1e4, 1e7}) {
+            SimulationSettings settings = turbulent(50.0f);
+            settings.wind.turbulence_scale = scale;
+            const auto positions = disturbed(groom, 0.005, 11);
+            const auto previous = disturbed(groom, 0.005, 12);
+            const auto result = accelerations(groom, settings, positions, previous, time);
+            const auto now = toDouble(positions);
+            const auto before = toDouble(previous);
+            double largest = 0.0;
+            double error = 0.0;
+            for (std::size_t first = 0; first < now.size(); first += 8) {
+                const auto expected = reference::dragAccelerations(
+                    std::span(now).subspan(first, 8), std::span(before).subspan(first, 8), settings,
+                    kSeed, double{settings.time_step}, time);
+                for (std::size_t i = 0; i < 8; ++i) {
+                    largest = std::max(largest, glm::length(expected[i]));
+                    error =
+                        std::max(error, glm::distance(glm::dvec3(result[first + i]), expected[i]));
+                }
+            }
+            EXPECT_LT(error, 1e-5 * largest) << scale << " m at " << time << " s";
+        }
+}
+
+TEST_F(GpuDrag, StepsLikeTheReference) {
+    for (const std::uint32_t substeps : {1u, 4u})
+        for (const WindMode mode : {WindMode::thesis, WindMode::drag}) {
+            const Groom groom = wavyGroom(33, 9);
+            SimulationSettings settings = turbulent(3.0f);
+            settings.substeps = substeps;
+            settings.wind.mode = mode;
+            settings.wind.strength = 15.0f;
+            const auto positions = disturbed(groom, 0.005, 11);
+            const auto previous = disturbed(groom, 0.005, 12);
+            Simulation simulation(device(), groom, settings, kSeed);
+            Reference solver(groom, settings, kSeed);
+            simulation.setState(positions, previous);
+            solver.setState(toDouble(positions), toDouble(previous));
+            advance(device(), simulation, 1);
+            solver.step();
+            // A float position near 1 m is stored to 6e-8 m.
+            EXPECT_LT(
+                largestDistance(simulation.readPositions(), solver.positions()),
+                1e-5 * longestStrand(groom));
+
+            simulation.setState(positions, previous);
+            solver.setState(toDouble(positions), toDouble(previous));
+            simulation.settle(1);
+            solver.settle();
+            EXPECT_LT(
+                largestDistance(simulation.readPositions(), solver.positions()),
+                1e-5 * longestStrand(groom));
+        }
+}
+
+TEST_F(GpuDrag, LetsHairFallAtTheSpeedWhereItBearsTheWeight) {
+    for (const float step : {1.0f / 120.0f, 1.0f / 60.0f, 0.1f}) {
+        const SimulationSettings settings = fallingThroughAir(step);
+        Simulation simulation(device(), levelHair(), settings, kSeed);
+        advance(device(), simulation, kFreeSteps);
+        const double moved =
+            simulation.readPositions().back().y - double{simulation.readPrevious().back().y};
+        const double speed = fallingSpeed(settings);
+        // 5e-6 as on the CPU, and both positions' rounding at what they have fallen.
+        const double fallen = speed * kFreeSteps * double{step};
+        EXPECT_NEAR(
+            -moved / double{step}, speed, 5e-6 * speed + 2.0 * 0x1p-24 * fallen / double{step})
+            << step;
+    }
+}
+
+TEST_F(GpuDrag, StaysFiniteInAStorm) {
+    const Groom groom = wavyGroom(40, 8);
+    for (const float step : {0.0005f, 0.1f})
+        for (const float radius : {1e-6f, 37e-6f})
+            for (const float density : {0.0f, 1.2f, 1000.0f}) {
+                SimulationSettings settings;
+                settings.time_step = step;
+                settings.material.radius = radius;
+                settings.wind = {
+                    .mode = WindMode::drag,
+                    .speed = 100.0f,
+                    .turbulence = 2.0f,
+                    .turbulence_scale = 0.01f,
+                    .turbulence_octaves = 8,
+                    .air_density = density};
+                Simulation simulation(device(), groom, settings, kSeed);
+                advance(device(), simulation, 100);
+                for (const glm::vec3& point : simulation.readPositions())
+                    ASSERT_TRUE(std::isfinite(point.x + point.y + point.z)) << step;
+            }
+}
+
+TEST_F(GpuDrag, StandsHairWithoutDirections) {
+    Groom groom{.strand_count = 1, .vertices_per_strand = 5};
+    groom.points = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0.1f, 0}, {0, 0, 0}};
+    SimulationSettings settings = turbulent(5.0f);
+    const auto result = accelerations(groom, settings, groom.points, groom.points, 0.0);
+    const auto points = toDouble(groom.points);
+    const auto expected = reference::dragAccelerations(
+        points, points, settings, kSeed, double{settings.time_step}, 0.0);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        EXPECT_LT(
+            glm::distance(glm::dvec3(result[i]), expected[i]),
+            1e-5 * glm::length(expected[i]) + 1e-12)
+            << i;
+}
+
+TEST_F(GpuDrag, NeedsNoDirectionWithoutWind) {
+    for (const WindMode mode : {WindMode::thesis, WindMode::drag}) {
+        SimulationSettings settings = inAir(1.0f / 60.0f);
+        settings.wind.mode = mode;
+        settings.wind.direction = glm::vec3(0.0f);
+        const Groom groom = wavyGroom(3, 4);
+        Simulation simulation(device(), groom, settings, kSeed);
+        advance(device(), simulation, 3);
+        for (const glm::vec3& point : simulation.readPositions())
+            EXPECT_TRUE(std::isfinite(point.x + point.y + point.z));
+        settings.wind.speed = settings.wind.strength = 1.0f;
+        EXPECT_THROW(Simulation(device(), groom, settings, kSeed), engine::Error);
+    }
+}
+
+}  // namespace
+}  // namespace hair

@@ -1,0 +1,97 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "benchmarks/scene.h"
+#include "hair/groom/build_groom.h"
+#include "hair/groom/import_mesh.h"
+#include "hair/simulation/hair_hair.h"
+#include "tests/gpu_fixture.h"
+#include "tests/simulation/gpu_simulation.h"
+#include "tests/simulation/strands.h"
+
+// Hair that is left alone comes to rest with hair on hair switched on, and stays there.
+namespace hair {
+namespace {
+
+constexpr int kWindow = 5 * 60;   // steps
+constexpr int kSteps = 60 * 60;   // steps
+constexpr int kLast = 10 * 60;    // steps in which nothing may move any more
+
+struct RestCase {
+    std::string name;
+    Solver solver;
+    HairHairSettings hair_hair;
+};
+
+void PrintTo(const RestCase& rest_case, std::ostream* out) { *out << rest_case.name; }
+
+class HairOnHairRest : public GpuTest, public testing::WithParamInterface<RestCase> {};
+
+// The thesis's head and hair, which falls from where it was combed onto ten capsules with friction.
+TEST_P(HairOnHairRest, EndsInRest) {
+    const std::string scenes = HAIRBENCH_SCENES_DIR;
+    Settings settings = benchmarks::loadScene(scenes + "/thesis.json").settings;
+    const Mesh head = importMesh(scenes + "/" + settings.groom.grow.mesh);
+    const Groom groom = buildGroom(settings.groom, &head, scenes, settings.seed);
+    ASSERT_EQ(groom.strand_count, 86u);
+    settings.simulation.settle_steps = 0;
+    settings.simulation.solver = GetParam().solver;
+    settings.simulation.hair_hair = GetParam().hair_hair;
+    ASSERT_FALSE(settings.simulation.colliders.empty());
+
+    Simulation simulation(device(), groom, settings.simulation, settings.seed);
+    const auto shares = lengthShares(groom);
+    std::vector<double> energies;  // the greatest of each window, m^2/s^2
+    auto before = simulation.readPositions();
+    std::vector<glm::vec3> low;
+    std::vector<glm::vec3> high;
+    for (int step = 0; step < kSteps; ++step) {
+        advance(device(), simulation, 1);
+        const auto now = simulation.readPositions();
+        double energy = 0.0;
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            const glm::dvec3 velocity = 60.0 * (glm::dvec3(now[i]) - glm::dvec3(before[i]));
+            energy += 0.5 * shares[i] * glm::dot(velocity, velocity);
+        }
+        if (step % kWindow == 0) energies.push_back(0.0);
+        energies.back() = std::max(energies.back(), energy);
+        if (step == kSteps - kLast) low = high = now;
+        for (std::size_t i = 0; i < low.size(); ++i) {
+            low[i] = glm::min(low[i], now[i]);
+            high[i] = glm::max(high[i], now[i]);
+        }
+        before = now;
+    }
+
+    // Positions of 0.25 m are rounded to 1.5e-8 m, some ten times in a step: 3e-6 m/s at 60 Hz;
+    // what the solver spreads that by may be three times as much.
+    constexpr double kFloor = 0.5 * 1e-5 * 1e-5;
+    EXPECT_GT(energies[0], 1e-2);  // it did fall
+    for (std::size_t i = 1; i < energies.size(); ++i)
+        EXPECT_TRUE(energies[i] < energies[i - 1] || energies[i] < kFloor)
+            << energies[i - 1] << " then " << energies[i] << " in window " << i;
+    EXPECT_LT(energies.back(), kFloor);
+    EXPECT_LT(largestDistance(low, high), 1e-4 * longestStrand(groom));
+}
+
+// Loose hair, hair that moves as one, and pressure all over with almost no friction: with a force
+// that has no potential (hair_hair.h) the last ran in circles.
+constexpr HairHairSettings kLoose{.friction = 0.3f, .repulsion = 0.3f, .crowding = 1.0f};
+constexpr HairHairSettings kTight{.friction = 1.0f, .repulsion = 1.5f, .crowding = 1.0f};
+constexpr HairHairSettings kCrowded{.friction = 0.05f, .repulsion = 0.6f, .crowding = 0.7f};
+
+INSTANTIATE_TEST_SUITE_P(
+    , HairOnHairRest,
+    testing::Values(
+        RestCase{"loose", Solver::shape, kLoose}, RestCase{"tight", Solver::shape, kTight},
+        RestCase{"crowded", Solver::shape, kCrowded}, RestCase{"ftl", Solver::ftl, kLoose},
+        RestCase{"rod", Solver::rod, kLoose}),
+    [](const auto& rest_case) { return rest_case.param.name; });
+
+}  // namespace
+}  // namespace hair

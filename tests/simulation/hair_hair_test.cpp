@@ -1,0 +1,336 @@
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "hair/simulation/reference.h"
+#include "tests/gpu_fixture.h"
+#include "tests/simulation/gpu_simulation.h"
+#include "tests/simulation/volume_rig.h"
+
+// Friction and repulsion of hair on hair.
+namespace hair {
+namespace {
+
+SimulationSettings contact(float friction, float repulsion, float crowding = 1.0f) {
+    SimulationSettings settings;
+    settings.hair_hair = {
+        .friction = friction, .repulsion = repulsion, .crowding = crowding, .resolution = 32};
+    return settings;
+}
+
+// Sum of share times vector, and the same of the vectors' lengths.
+struct Balance {
+    glm::dvec3 sum{0.0};
+    double size = 0.0;
+};
+
+template <class Vectors>
+Balance balance(const Groom& groom, const Vectors& vectors) {
+    const auto shares = lengthShares(groom);
+    Balance result;
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        result.sum += shares[i] * glm::dvec3(vectors[i]);
+        result.size += shares[i] * glm::length(glm::dvec3(vectors[i]));
+    }
+    return result;
+}
+
+double greatestLength(const std::vector<glm::vec3>& vectors) {
+    double greatest = 0.0;
+    for (const glm::vec3& v : vectors) greatest = std::max(greatest, double(glm::length(v)));
+    return greatest;
+}
+
+std::vector<glm::vec3> moved(std::vector<glm::vec3> points, const glm::vec3& by) {
+    for (glm::vec3& point : points) point += by;
+    return points;
+}
+
+// Straight strands through a box of `width`, with gaps of random size.
+Groom bundle(std::uint32_t strands, double width, const glm::dvec3& along) {
+    Groom groom{.strand_count = strands, .vertices_per_strand = 8};
+    std::mt19937 random(3);
+    for (std::uint32_t s = 0; s < strands; ++s) {
+        const glm::dvec3 middle = 0.5 * width * randomVector(random);
+        for (int v = 0; v < 8; ++v)
+            groom.points.emplace_back(middle + (v - 3.5) * kReferenceSegment * along);
+    }
+    return groom;
+}
+
+Groom both(Groom a, const Groom& b) {
+    a.strand_count += b.strand_count;
+    a.points.insert(a.points.end(), b.points.begin(), b.points.end());
+    return a;
+}
+
+using HairOnHair = GpuTest;
+
+// Forces of vertices on each other, both ways: a pair's are opposite, so what is left is rounding.
+// A vertex's part of a cell is rounded to 2^-30 of the whole, 1e-6 of its share of 1e-3.
+constexpr double kPairRounding = 1e-5;
+
+TEST_F(HairOnHair, LeavesALoneStrandAlone) {
+    const Groom groom = wavyGroom(1, 16, 0.005);
+    const VolumeRig rig(device(), groom, contact(1.0f, 1.0f, 0.1f));
+    const auto accelerations =
+        rig.accelerations(disturbed(groom, 0.002, 1), disturbed(groom, 0.002, 2));
+    // Nothing but what the device may round differently in two shaders: 1e-6 of 0.002 m / (1/60
+    // s)^2 and of 1 m^2/s^2 / 10 mm.
+    EXPECT_LT(greatestLength(accelerations), 1e-4);
+}
+
+TEST_F(HairOnHair, HasNoFrictionWhereAllMoveAlike) {
+    const Groom groom = wavyGroom(60, 9);
+    const VolumeRig rig(device(), groom, contact(1.0f, 0.0f));
+    const glm::vec3 way(0.02f, -0.01f, 0.005f);  // in a step: 1.4 m/s
+    const auto accelerations = rig.accelerations(moved(groom.points, way), groom.points);
+    // Floats of up to 0.4 m store the way to 3e-8 m, 2e-6 of it; so much of the velocity is lost.
+    EXPECT_LT(greatestLength(accelerations), 60.0 * 60.0 * 1e-7);
+}
+
+// Strands on top of each other share every cell equally, so each sees their mean velocity, here 0:
+// of v it loses the setting's part in 1/60 s, whatever the step.
+TEST_F(HairOnHair, LosesThePartOfTheDifferenceThatItIsSetTo) {
+    const Groom one = straightGroom(1, 6);
+    const Groom groom = both(one, one);
+    for (const float part : {0.05f, 0.5f, 1.0f})
+        for (const float steps : {0.25f, 1.0f, 3.0f}) {
+            SimulationSettings settings = contact(part, 0.0f);
+            settings.time_step = steps / 60.0f;
+            // Without prediction, which is not what is tested, strands stay on top of each other.
+            const glm::vec3 way(1e-5f, 0.0f, 0.0f);
+            auto previous = moved(one.points, -way);
+            const auto other = moved(one.points, way);
+            previous.insert(previous.end(), other.begin(), other.end());
+            const VolumeRig rig(device(), groom, settings);
+            const auto accelerations = rig.accelerations(groom.points, previous);
+            const double velocity = 1e-5 / settings.time_step;
+            const double lost = velocity * (1.0 - std::pow(1.0 - double{part}, double{steps}));
+            // 1e-5 m of a float of up to 0.1 m, which is rounded to 4e-9 m, and cells of about 9 mm
+            // that the two have moved apart in by 2e-5 m.
+            for (std::size_t i = 0; i < accelerations.size(); ++i)
+                EXPECT_NEAR(
+                    accelerations[i].x * settings.time_step, i < 6 ? -lost : lost, 0.005 * lost);
+        }
+}
+
+// Two bundles that cross at right angles and move through each other.
+TEST_F(HairOnHair, DragsCrossingBundlesTogether) {
+    const Groom groom = both(bundle(40, 0.03, {1, 0, 0}), bundle(40, 0.03, {0, 1, 0}));
+    const std::size_t half = groom.points.size() / 2;
+    const VolumeRig rig(device(), groom, contact(0.5f, 0.0f));
+    const glm::vec3 way(0.0f, 0.0f, 1.0f / 60.0f / 60.0f);  // 1/60 m/s
+    auto previous = groom.points;
+    for (std::size_t i = 0; i < half; ++i) previous[i] -= way;
+    const auto accelerations = rig.accelerations(groom.points, previous);
+
+    const Balance all = balance(groom, accelerations);
+    EXPECT_LT(glm::length(all.sum), kPairRounding * all.size);
+    double first = 0.0;
+    double second = 0.0;
+    const auto shares = lengthShares(groom);
+    for (std::size_t i = 0; i < half; ++i) {
+        first += shares[i] * accelerations[i].z;
+        second += shares[half + i] * accelerations[half + i].z;
+        EXPECT_LE(accelerations[i].z, 1e-5);
+        EXPECT_GE(accelerations[half + i].z, -1e-5);
+    }
+    EXPECT_LT(first, 0.0);
+    EXPECT_GT(second, 0.0);
+}
+
+// Any velocities: friction at its most takes energy and never turns the whole around.
+TEST_F(HairOnHair, FrictionOnlyTakesEnergy) {
+    const Groom groom = wavyGroom(80, 9);
+    const auto shares = lengthShares(groom);
+    for (const float part : {0.3f, 1.0f}) {
+        const VolumeRig rig(device(), groom, contact(part, 0.0f));
+        const auto positions = disturbed(groom, 0.01, 1);
+        const auto previous = disturbed(groom, 0.01, 2);
+        const auto accelerations = rig.accelerations(positions, previous);
+        const double step = contact(part, 0.0f).time_step;
+        double before = 0.0;
+        double after = 0.0;
+        for (std::size_t i = 0; i < shares.size(); ++i) {
+            const glm::dvec3 velocity = (glm::dvec3(positions[i]) - glm::dvec3(previous[i])) / step;
+            const glm::dvec3 then = velocity + step * glm::dvec3(accelerations[i]);
+            before += shares[i] * glm::dot(velocity, velocity);
+            after += shares[i] * glm::dot(then, then);
+        }
+        EXPECT_LT(after, before);
+        const Balance all = balance(groom, accelerations);
+        EXPECT_LT(glm::length(all.sum), kPairRounding * all.size);
+    }
+}
+
+TEST_F(HairOnHair, ExpandsACompressedBundle) {
+    const Groom groom = bundle(60, 0.08, {0, 1, 0});
+    const VolumeRig rig(device(), groom, contact(0.0f, 0.3f));
+    auto compressed = groom.points;
+    for (glm::vec3& point : compressed) point *= glm::vec3(0.3f, 1.0f, 0.3f);
+    const auto accelerations = rig.accelerations(compressed, compressed);
+
+    const Balance all = balance(groom, accelerations);
+    EXPECT_GT(all.size, 0.1);
+    // Newton's third law but for the sampling in cells, about 1% (hair_hair.h).
+    EXPECT_LT(glm::length(all.sum), 0.02 * all.size);
+    const auto shares = lengthShares(groom);
+    double outward = 0.0;  // the virial: positive where forces push apart
+    for (std::size_t i = 0; i < shares.size(); ++i)
+        outward += shares[i] *
+                   (compressed[i].x * accelerations[i].x + compressed[i].z * accelerations[i].z);
+    EXPECT_GT(outward, 0.0);
+}
+
+TEST_F(HairOnHair, DoesNotRepelWhereThereIsRoom) {
+    const Groom groom = bundle(60, 0.08, {0, 1, 0});
+    const VolumeRig rig(device(), groom, contact(0.0f, 1.0f, 100.0f));
+    EXPECT_EQ(greatestLength(rig.accelerations(groom.points, groom.points)), 0.0);
+}
+
+// Short strands on a lattice of two a cell, longer and longer along x, against a gas with the speed
+// of sound sqrt(k): a = -dP/dx / density = -k d(ln density)/dx.
+TEST_F(HairOnHair, PushesLikeTheGasItStandsFor) {
+    constexpr int kSide = 29;  // 14 cells
+    constexpr double kGap = 0.1;
+    Groom groom{.strand_count = kSide * kSide * kSide, .vertices_per_strand = 2};
+    const double half = 0.5 * (kSide - 1) * kGap;
+    for (int i = 0; i < kSide * kSide * kSide; ++i) {
+        const glm::dvec3 root =
+            kGap * glm::dvec3(i % kSide, i / kSide % kSide, i / kSide / kSide) - half;
+        const double length = 1e-3 * (1.0 + 0.5 * root.x / half);
+        groom.points.emplace_back(root);
+        groom.points.emplace_back(root + glm::dvec3(0.0, length, 0.0));
+    }
+    SimulationSettings settings = contact(0.0f, 0.2f, 0.1f);
+    settings.hair_hair.resolution = 18;
+    const VolumeRig rig(device(), groom, settings);
+    const auto accelerations = rig.accelerations(groom.points, groom.points);
+    for (std::size_t i = 0; i < groom.points.size(); i += 2) {
+        const glm::dvec3 place = glm::dvec3(groom.points[i]) / half;
+        // A vertex feels 3 cells away, 3/7 of the half, where the edges must not be.
+        if (std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)}) > 0.5) continue;
+        const glm::dvec3 expected(-0.2 * 0.5 / half / (1.0 + 0.5 * place.x), 0.0, 0.0);
+        // Per cell density changes by 1/14, up to a tenth of what it is; its logarithm bends by the
+        // square of that. The spline over it has a variance of a quarter of a cell, twice. Lengths
+        // are rounded to 1e-4.
+        EXPECT_LT(
+            glm::distance(glm::dvec3(accelerations[i]), expected), 0.01 * glm::length(expected));
+    }
+}
+
+TEST_F(HairOnHair, IsLikeTheReference) {
+    for (const std::uint32_t vertices : {2u, 9u, 33u})
+        for (const SimulationSettings& settings :
+             {contact(0.3f, 0.0f), contact(0.0f, 0.3f, 0.5f), contact(1.0f, 1000.0f, 0.2f)}) {
+            const Groom groom = wavyGroom(67, vertices, 0.15 / vertices);
+            const VolumeRig rig(device(), groom, settings);
+            const auto positions = disturbed(groom, 0.003, 1);
+            const auto previous = disturbed(groom, 0.003, 2);
+            const RigidMotion frame{
+                .rotation = glm::angleAxis(0.1, glm::dvec3(0.0, 1.0, 0.0)),
+                .translation = {0.01, -0.02, 0.0}};
+            const auto accelerations = rig.accelerations(positions, previous, frame);
+            const double greatest = greatestLength(accelerations);
+            ASSERT_GT(greatest, 0.1);
+            // Places in cells are floats up to 32, rounded to 2e-6, and a velocity's difference of
+            // some 1e-3 m is one of floats of 0.2 m, rounded to 1e-8: both are 1e-5.
+            EXPECT_LT(
+                largestDistance(accelerations, rig.expected(positions, previous, frame)),
+                1e-4 * greatest);
+        }
+}
+
+// Positions after a step of everything.
+TEST_F(HairOnHair, StepsLikeTheReference) {
+    const Groom groom = wavyGroom(67, 9);
+    const SimulationSettings settings = contact(0.3f, 0.3f, 0.5f);
+    Simulation simulation(device(), groom, settings, 5);
+    Reference solver(groom, settings, 5);
+    const auto positions = disturbed(groom, 0.003, 11);
+    const auto previous = disturbed(groom, 0.003, 12);
+    simulation.setState(positions, previous);
+    solver.setState(toDouble(positions), toDouble(previous));
+    EXPECT_TRUE(simulation.hasVolume());
+    advance(device(), simulation, 1);
+    solver.step();
+    // As for every constraint alone (gpu_constraints_test.cpp).
+    EXPECT_LT(
+        largestDistance(simulation.readPositions(), solver.positions()),
+        1e-5 * longestStrand(groom));
+
+    SimulationSettings without = settings;
+    without.hair_hair = {};
+    Reference alone(groom, without, 5);
+    alone.setState(toDouble(positions), toDouble(previous));
+    alone.step();
+    EXPECT_GT(largestDistance(alone.positions(), solver.positions()), 1e-3 * longestStrand(groom));
+}
+
+TEST_F(HairOnHair, SettlesLikeSteps) {
+    const Groom groom = wavyGroom(67, 9);
+    SimulationSettings settings = contact(0.3f, 0.3f, 0.5f);
+    Simulation expected(device(), groom, settings, 5);
+    advance(device(), expected, 70);
+    settings.settle_steps = 70;
+    Simulation settled(device(), groom, settings, 5);
+    const auto points = settled.readPositions();
+    EXPECT_EQ(points, expected.readPositions());
+}
+
+TEST_F(HairOnHair, IsOffUnlessAsked) {
+    const Groom groom = wavyGroom(3, 9);
+    EXPECT_FALSE(Simulation(device(), groom, SimulationSettings{}, 1).hasVolume());
+    EXPECT_TRUE(Simulation(device(), groom, contact(0.1f, 0.0f), 1).hasVolume());
+    EXPECT_TRUE(Simulation(device(), groom, contact(0.0f, 0.1f), 1).hasVolume());
+    SimulationSettings frozen = contact(0.1f, 0.1f);
+    frozen.solver = Solver::none;
+    EXPECT_FALSE(Simulation(device(), groom, frozen, 1).hasVolume());
+}
+
+TEST_F(HairOnHair, GivesTheSameBitsEveryTime) {
+    const Groom groom = wavyGroom(200, 9);
+    SimulationSettings settings = contact(0.5f, 0.5f, 0.5f);
+    settings.wind.strength = 10.0f;
+    Simulation first(device(), groom, settings, 5);
+    Simulation second(device(), groom, settings, 5);
+    advance(device(), first, 30);
+    for (int i = 0; i < 30; ++i) advance(device(), second, 1);
+    const auto points = first.readPositions();
+    EXPECT_EQ(points, second.readPositions());
+    first.reset();
+    advance(device(), first, 30);
+    EXPECT_EQ(points, first.readPositions());
+}
+
+TEST_F(HairOnHair, StaysFiniteAtExtremes) {
+    Groom groom = wavyGroom(20, 5);
+    groom.points[7] = groom.points[6];
+    Groom point = groom;
+    point.points.assign(groom.points.size(), glm::vec3(0.5f));
+    for (const Groom& some : {groom, point})
+        for (const std::uint32_t resolution : {8u, 128u})
+            for (const float step : {0.0005f, 0.1f})
+                for (const float crowding : {0.1f, 100.0f}) {
+                    SimulationSettings settings = contact(1.0f, 1000.0f, crowding);
+                    settings.hair_hair.resolution = resolution;
+                    settings.time_step = step;
+                    settings.wind.strength = 1500.0f;
+                    Simulation simulation(device(), some, settings, 1);
+                    advance(device(), simulation, 20);
+                    const std::vector<glm::vec3> collapsed(some.points.size(), glm::vec3(0.1f));
+                    simulation.setState(collapsed, collapsed);
+                    advance(device(), simulation, 20);
+                    const std::vector<glm::vec3> far(some.points.size(), glm::vec3(1e6f));
+                    simulation.setState(far, collapsed);
+                    advance(device(), simulation, 20);
+                    for (const glm::vec3& p : simulation.readPositions())
+                        ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+                }
+}
+
+}  // namespace
+}  // namespace hair

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "hair/settings.h"
+
+namespace hair {
+
+inline std::string nameOf(const testing::TestParamInfo<Parallelism>& info) {
+    switch (info.param) {
+    case Parallelism::vertex:
+        return "Vertex";
+    case Parallelism::strand:
+        return "Strand";
+    case Parallelism::serial:
+        return "Serial";
+    case Parallelism::automatic:
+        return "Automatic";
+    }
+    return "";
+}
+
+// Runs a suite of TEST_P for every way that the `shape` solver is spread over the device.
+#define FOR_EVERY_PARALLELISM(SUITE)                                                               \
+    INSTANTIATE_TEST_SUITE_P(                                                                      \
+        , SUITE, testing::Values(Parallelism::vertex, Parallelism::strand, Parallelism::serial),   \
+        nameOf)
+
+}  // namespace hair

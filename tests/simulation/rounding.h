@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "hair/simulation/reference.h"
+#include "tests/simulation/strands.h"
+
+namespace hair {
+
+// How far the device may be from the reference after some steps. The bound comes from the problem
+// and not from the device: a second reference is disturbed by the rounding of a float in every
+// vertex after every step, and the distance between the two says how far the solver spreads one
+// rounding a step.
+struct Rounding {
+    double spread;     // m
+    double roundings;  // of a vertex in a step
+
+    // The device rounds once per pull and sweep, independently, so its error is larger by the root
+    // of their number; twice that, because it may divide and take roots to less than a float's
+    // precision.
+    double bound() const { return 2.0 * std::sqrt(roundings) * spread; }
+};
+
+inline Rounding roundingAfter(
+    int steps, const Groom& groom, const SimulationSettings& settings, std::uint32_t seed) {
+    Reference solver(groom, settings, seed);
+    Reference rounded(groom, settings, seed);
+    std::mt19937 random(1);
+    for (int i = 0; i < steps; ++i) {
+        solver.step();
+        rounded.step();
+        auto positions = std::vector(rounded.positions().begin(), rounded.positions().end());
+        for (std::size_t v = 0; v < positions.size(); ++v)
+            positions[v] *= glm::dvec3(1.0) + 0x1p-24 * randomVector(random);
+        rounded.setState(
+            positions, std::vector(rounded.previous().begin(), rounded.previous().end()));
+    }
+    const double pulls = settings.solver == Solver::ftl
+                             ? groom.vertices_per_strand
+                             : settings.local.iterations + settings.length.iterations;
+    return {largestDistance(rounded.positions(), solver.positions()), 2.0 + 2.0 * pulls};
+}
+
+}  // namespace hair

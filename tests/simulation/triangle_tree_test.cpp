@@ -1,0 +1,71 @@
+#include "hair/simulation/triangle_tree.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "tests/simulation/closed_meshes.h"
+
+namespace hair {
+namespace {
+
+struct Walk {
+    const ClosedMesh& mesh;
+    const TriangleTree& tree;
+    std::vector<int> visits;  // [triangle]
+    std::uint32_t depth = 0;
+    std::size_t nodes = 0;
+
+    void visit(std::uint32_t index, std::uint32_t level, glm::vec3 lower, glm::vec3 upper) {
+        ASSERT_LT(index, tree.nodes.size());
+        const gpu::TreeNode& node = tree.nodes[index];
+        ++nodes;
+        depth = std::max(depth, level);
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_GE(node.lower[axis], lower[axis]);
+            EXPECT_LE(node.upper[axis], upper[axis]);
+        }
+        if (node.count == 0) {
+            visit(node.first, level + 1, node.lower, node.upper);
+            visit(node.first + 1, level + 1, node.lower, node.upper);
+            return;
+        }
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            ++visits[tree.order[i]];
+            for (const std::uint32_t corner : mesh.triangles[tree.order[i]]) {
+                for (int axis = 0; axis < 3; ++axis) {
+                    EXPECT_GE(mesh.positions[corner][axis], node.lower[axis]);
+                    EXPECT_LE(mesh.positions[corner][axis], node.upper[axis]);
+                }
+            }
+        }
+    }
+};
+
+Walk walk(const ClosedMesh& mesh, const TriangleTree& tree) {
+    Walk result{mesh, tree, std::vector<int>(mesh.triangles.size())};
+    result.visit(0, 1, glm::vec3(-1e30f), glm::vec3(1e30f));
+    return result;
+}
+
+TEST(TriangleTree, HoldsEveryTriangleOnceInItsBoxes) {
+    for (const Mesh& mesh :
+         {makeBox({0, 0, 0}, {1, 2, 3}), makeTorus(1.0, 0.3, 40, 20), makeStar()}) {
+        const ClosedMesh closed = closeMesh(mesh);
+        const TriangleTree tree = buildTriangleTree(closed);
+        const Walk seen = walk(closed, tree);
+        EXPECT_EQ(seen.visits, std::vector<int>(closed.triangles.size(), 1));
+        EXPECT_EQ(seen.nodes, tree.nodes.size());
+        EXPECT_EQ(tree.order.size(), closed.triangles.size());
+    }
+}
+
+// Halves of 20 * 4^4 triangles: 10 are left on level 10, a leaf.
+TEST(TriangleTree, IsAsShallowAsHalvingMakesIt) {
+    const ClosedMesh closed = closeMesh(makeSphere({0, 0, 0}, 1.0, 4));
+    const TriangleTree tree = buildTriangleTree(closed);
+    EXPECT_EQ(walk(closed, tree).depth, 10u);
+}
+
+}  // namespace
+}  // namespace hair

@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include <gtest/gtest.h>
+
+#include "tests/gpu_fixture.h"
+#include "tests/simulation/gpu_simulation.h"
+#include "tests/simulation/motions.h"
+#include "tests/simulation/strands.h"
+
+// A head that is thrown about: 720 degrees/s and 5 m/s, reached and given up within 0.05 s.
+namespace hair {
+namespace {
+
+constexpr double kMoving = 1.0;  // s
+
+MotionSettings violent() {
+    return {
+        .keyframes =
+            {{.time = 0.0f},
+             {.time = 0.05f, .rotation = {0, 36, 0}, .translation = {0.25f, 0, 0}},
+             {.time = 0.45f, .rotation = {0, 324, 0}, .translation = {2.25f, 0, 0}},
+             {.time = 0.5f, .rotation = {0, 360, 0}, .translation = {2.5f, 0, 0}},
+             {.time = 0.55f, .rotation = {36, 360, 0}, .translation = {2.25f, 0, 0}},
+             {.time = 0.95f, .rotation = {324, 360, 0}, .translation = {0.25f, 0, 0}},
+             {.time = 1.0f, .rotation = {360, 360, 0}, .translation = {0, 0, 0}}},
+        .pivot = kNeck};
+}
+
+bool finite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+double lengthOf(std::span<const glm::vec3> strand) {
+    double length = 0.0;
+    for (std::size_t i = 1; i < strand.size(); ++i)
+        length += double{glm::distance(strand[i], strand[i - 1])};
+    return length;
+}
+
+// By which a strand is longer than at rest, at most, m.
+double greatestStretch(const Groom& groom, std::span<const glm::vec3> points) {
+    double greatest = 0.0;
+    for (std::uint32_t s = 0; s < groom.strand_count; ++s) {
+        const std::size_t vertices = groom.vertices_per_strand;
+        greatest = std::max(
+            greatest, lengthOf(points.subspan(s * vertices, vertices)) - lengthOf(groom.strand(s)));
+    }
+    return greatest;
+}
+
+// How far the violent motion takes a root in a step, at most, m.
+double longestWay(const Groom& groom, double time_step) {
+    const HeadMotion motion(violent());
+    double longest = 0.0;
+    for (double time = 0.0; time < kMoving; time += time_step)
+        for (std::uint32_t s = 0; s < groom.strand_count; ++s) {
+            const glm::dvec3 root = groom.strand(s)[0];
+            longest = std::max(
+                longest, glm::distance(motion.at(time)(root), motion.at(time + time_step)(root)));
+        }
+    return longest;
+}
+
+// By how much a strand of the `shape` solver may be longer than at rest where its root moves `way`
+// in a step. Red-black sweeps over n segments in a row, held at one end, leave cos^2(pi / (2 n)) of
+// the slowest error each: the theory of Gauss-Seidel (Young 1971) for the tridiagonal system of a
+// chain. What the root moves every step then adds up to q / (1 - q) of it, where the sweeps of a
+// step leave q. Twice that, for a jump at the root is more than the slowest error, and corrections
+// are speed for the next step.
+double shapeStretch(const Groom& groom, const SimulationSettings& settings, double way) {
+    const double cosine = std::cos(0.5 * std::numbers::pi / groom.segmentsPerStrand());
+    const double left = std::pow(cosine, 2.0 * settings.length.iterations);
+    return 2.0 * left / (1.0 - left) * way;
+}
+
+// `ftl` and `rod` keep every length.
+double noStretch(const Groom&, const SimulationSettings&, double) { return 0.0; }
+
+struct Row {
+    Solver solver;
+    double (*stretch)(const Groom&, const SimulationSettings&, double way);  // at most, m
+};
+constexpr Row kRows[] = {
+    {Solver::shape, shapeStretch}, {Solver::ftl, noStretch}, {Solver::rod, noStretch}};
+
+// Seven segments, each between two points within 3 m that are rounded.
+constexpr double kRounding = 7 * 2 * 3.0 * 0x1p-24;
+
+using ViolentMotion = GpuTest;
+
+// Strands shorter and longer than what the head moves in a step: 23 cm at 30 steps/s.
+TEST_F(ViolentMotion, LeavesHairWholeAndComesToRest) {
+    for (const Row& row : kRows)
+        for (const double rate : {30.0, 60.0, 144.0})
+            for (const double length : {0.02, 0.15, 0.6}) {
+                SCOPED_TRACE(
+                    testing::Message() << "solver " << static_cast<int>(row.solver) << ", " << rate
+                                       << " steps/s, " << length << " m");
+                const Groom groom = wavyGroom(9, 8, length / 7.0);
+                SimulationSettings settings;
+                settings.solver = row.solver;
+                settings.time_step = static_cast<float>(1.0 / rate);
+                settings.settle_steps = static_cast<std::uint32_t>(12.0 * rate);
+                const Simulation still(device(), groom, settings, 1);
+                const auto rest = still.readPositions();
+                settings.motion = violent();
+                Simulation simulation(device(), groom, settings, 1);
+                double stretch = 0.0;
+                double lag = 0.0;
+                for (int i = 0; i < 1.2 * kMoving * rate; ++i) {
+                    advance(device(), simulation, 1);
+                    const auto points = simulation.readPositions();
+                    for (const glm::vec3& point : points) ASSERT_TRUE(finite(point));
+                    lag = std::max(lag, largestDistance(points, carried(simulation.pose(), rest)));
+                    stretch = std::max(stretch, greatestStretch(groom, points));
+                }
+                EXPECT_LT(
+                    stretch,
+                    row.stretch(groom, settings, longestWay(groom, 1.0 / rate)) + kRounding);
+
+                // Friction halves a swing every 0.45 s: 12 s leave 1e-8 of it.
+                EXPECT_GT(lag, 0.1 * length);
+                simulation.settle(static_cast<std::uint32_t>(12.0 * rate));
+                EXPECT_LT(largestDistance(simulation.readPositions(), rest), 1e-4 * length);
+            }
+}
+
+// What it takes to keep lengths in such a motion: sweeps.
+TEST_F(ViolentMotion, SweepsKeepLengths) {
+    const Groom groom = wavyGroom(9, 8);
+    SimulationSettings settings;
+    settings.motion = violent();
+    const double way = longestWay(groom, double{settings.time_step});
+    for (const std::uint32_t iterations : {5u, 20u, 50u, 100u, 200u}) {
+        settings.length.iterations = iterations;
+        Simulation simulation(device(), groom, settings, 1);
+        double stretch = 0.0;
+        for (int i = 0; i < 60; ++i) {
+            advance(device(), simulation, 1);
+            stretch = std::max(stretch, greatestStretch(groom, simulation.readPositions()));
+        }
+        EXPECT_LT(stretch, shapeStretch(groom, settings, way) + kRounding) << iterations;
+    }
+}
+
+}  // namespace
+}  // namespace hair

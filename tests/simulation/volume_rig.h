@@ -1,0 +1,112 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "engine/transfer.h"
+#include "hair/simulation/hair_hair.h"
+#include "hair/simulation/reference_volume.h"
+#include "hair/simulation/solver.h"
+#include "tests/simulation/strands.h"
+
+namespace hair {
+
+// What hair gives hair, without a solver: given positions to accelerations.
+class VolumeRig {
+public:
+    struct Sum {
+        glm::dvec3 momentum;  // m/s
+        double share;
+    };
+
+    VolumeRig(const engine::Device& device, const Groom& groom, const SimulationSettings& settings)
+        : device_(device), groom_(groom), settings_(settings),
+          positions_(device, vectors("positions")), previous_(device, vectors("previous")),
+          accelerations_(device, vectors("accelerations")),
+          parameters_(engine::makeBuffer(
+              device,
+              std::span<const gpu::GuideParameters>(std::array{gpu::GuideParameters{
+                  .positions = positions_.address(),
+                  .previous = previous_.address(),
+                  .rest_positions = 0,
+                  .bodies = {},
+                  .gravity = {},
+                  .time_step = settingsOfSubstep(settings).time_step,
+                  .velocity_kept = 1.0f,
+                  .strand_count = groom.strand_count,
+                  .vertices_per_strand = groom.vertices_per_strand,
+                  .seed = 0}}),
+              "guide parameters")),
+          hair_hair_(device, groom, settings, substepsOf(settings), parameters_.address()) {}
+
+    // m/s^2. `previous` is a substep earlier.
+    std::vector<glm::vec3> accelerations(
+        std::span<const glm::vec3> positions, std::span<const glm::vec3> previous,
+        const RigidMotion& frame = {}) const {
+        upload(positions, positions_);
+        upload(previous, previous_);
+        device_.runOnce([&](engine::Commands& commands) {
+            commands.fill(accelerations_, 0);
+            commands.barrier(engine::Access::anything, engine::Access::compute_write);
+            hair_hair_.record(commands, accelerations_.address(), frame);
+        });
+        const auto result = engine::downloadAs<glm::vec4>(device_, accelerations_);
+        return {result.begin(), result.end()};
+    }
+
+    // The same by the reference.
+    std::vector<glm::dvec3> expected(
+        std::span<const glm::vec3> positions, std::span<const glm::vec3> previous,
+        const RigidMotion& frame = {}) const {
+        const auto rest = toDouble(groom_.points);
+        const auto now = toDouble(positions);
+        const auto before = toDouble(previous);
+        return reference::volumeAccelerations(
+            settings_, {.vertices = groom_.vertices_per_strand,
+                        .rest = rest,
+                        .positions = now,
+                        .previous = before,
+                        .substep = settingsOfSubstep(settings_).time_step,
+                        .frame = frame});
+    }
+
+    // The grids of the last accelerations(), [grid][z][y][x].
+    std::vector<Sum> sums() const {
+        const auto fixed = engine::downloadAs<std::int32_t>(device_, hair_hair_.sums());
+        const double fastest = engine::downloadAs<float>(device_, hair_hair_.fastest())[0];
+        std::vector<Sum> result;
+        for (std::size_t i = 0; i < fixed.size(); i += 4) {
+            const glm::dvec3 momentum(fixed[i], fixed[i + 1], fixed[i + 2]);
+            result.push_back(
+                {fastest / gpu::kVolumeOne * momentum, double(fixed[i + 3]) / gpu::kVolumeOne});
+        }
+        return result;
+    }
+
+    VolumeGrid grid() const { return volumeGrid(groom_, settings_.hair_hair.resolution); }
+
+private:
+    engine::BufferDescription vectors(const char* name) const {
+        return {.size = groom_.points.size() * sizeof(glm::vec4), .name = name};
+    }
+
+    void upload(std::span<const glm::vec3> points, const engine::Buffer& buffer) const {
+        std::vector<glm::vec4> vectors;
+        for (const glm::vec3& point : points) vectors.emplace_back(point, 1.0f);
+        engine::upload(device_, std::as_bytes(std::span(vectors)), buffer);
+    }
+
+    const engine::Device& device_;
+    Groom groom_;
+    SimulationSettings settings_;
+    engine::Buffer positions_;
+    engine::Buffer previous_;
+    engine::Buffer accelerations_;
+    engine::Buffer parameters_;
+    HairHair hair_hair_;
+};
+
+}  // namespace hair
