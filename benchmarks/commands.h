@@ -43,6 +43,15 @@ struct RenderOptions {
 };
 int renderScene(const RenderOptions& options);
 
+struct PhysicsOptions {
+    std::vector<std::string> solvers;  // empty: all but none
+    std::string check;                 // regex of check names
+    std::filesystem::path out;         // empty: results/local/physics.json
+    engine::DeviceOptions device;
+    std::vector<std::string> command;  // as the report quotes it
+};
+int checkPhysics(const PhysicsOptions& options);
+
 int validateScenes(const std::vector<std::filesystem::path>& scenes);
 int printSchema();
 int printDevices();

@@ -16,8 +16,9 @@ constexpr const char* kExamples = R"(Examples:
   hairbench run scenes/thesis.json --filter 'guides:86/.*msaa:1' --out results/mine.json
   hairbench render scenes/strong_wind.json -o wind.png --frame 60
   hairbench validate scenes/*.json
-Exit status: 0 ok, 1 internal error, 2 usage or invalid scene, 14 nothing ran,
-77 no suitable device, 130 interrupted (what was done is saved).)";
+  hairbench physics --solver rod --check 'cantilever|catenary'
+Exit status: 0 ok, 1 internal error, 2 usage or invalid scene, 3 a check of the physics
+failed, 14 nothing ran, 77 no suitable device, 130 interrupted (what was done is saved).)";
 
 void addDeviceOptions(CLI::App& command, engine::DeviceOptions& options) {
     command.add_option(
@@ -62,6 +63,22 @@ CLI::App* addRender(CLI::App& app, RenderOptions& options) {
     return command;
 }
 
+CLI::App* addPhysics(CLI::App& app, PhysicsOptions& options) {
+    CLI::App* command =
+        app.add_subcommand("physics", "holds the solvers against theory and writes a report");
+    command->add_option("--solver", options.solvers, "solver to check; repeatable (default all)")
+        ->type_name("NAME")
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false);
+    command->add_option("--check", options.check, "run the checks whose name matches")
+        ->type_name("REGEX");
+    command->add_option("--out", options.out, "report file (default results/local/physics.json)")
+        ->type_name("FILE");
+    addDeviceOptions(*command, options.device);
+    return command;
+}
+
 int dispatch(int argc, char** argv) {
     CLI::App app("hairbench: measures simulated and rendered hair on Vulkan devices", "hairbench");
     app.set_version_flag("--version", versionText());
@@ -71,9 +88,12 @@ int dispatch(int argc, char** argv) {
     RunOptions run;
     run.command.assign(argv, argv + argc);
     RenderOptions render;
+    PhysicsOptions physics;
+    physics.command = run.command;
     std::vector<std::filesystem::path> scenes;
     const CLI::App* run_command = addRun(app, run);
     const CLI::App* render_command = addRender(app, render);
+    const CLI::App* physics_command = addPhysics(app, physics);
     CLI::App* validate_command =
         app.add_subcommand("validate", "checks scene files and their assets");
     validate_command->add_option("scenes", scenes, "scene files")->required()->type_name("FILE...");
@@ -88,6 +108,7 @@ int dispatch(int argc, char** argv) {
     }
     if (run_command->parsed()) return runScene(run);
     if (render_command->parsed()) return renderScene(render);
+    if (physics_command->parsed()) return checkPhysics(physics);
     if (validate_command->parsed()) return validateScenes(scenes);
     if (schema_command->parsed()) return printSchema();
     return printDevices();

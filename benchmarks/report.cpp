@@ -60,17 +60,6 @@ Json toJson(const BuildRecord& build) {
     return object;
 }
 
-Json toJson(const Environment& environment) {
-    Json object = Json::object();
-    object["device"] = toJson(environment.device);
-    object["host"] = toJson(environment.host);
-    object["build"] = toJson(environment.build);
-    object["command"] = environment.command;
-    put(object, "started", environment.started);
-    object["seed"] = environment.seed;
-    return object;
-}
-
 Json toJson(const SceneRecord& scene) {
     return {{"path", scene.path}, {"hash", scene.hash}, {"document", Json::parse(scene.document)}};
 }
@@ -150,10 +139,21 @@ const char* statusName(Status status) {
     return "failed";
 }
 
+Json environmentJson(const Environment& environment) {
+    Json object = Json::object();
+    object["device"] = toJson(environment.device);
+    object["host"] = toJson(environment.host);
+    object["build"] = toJson(environment.build);
+    object["command"] = environment.command;
+    put(object, "started", environment.started);
+    object["seed"] = environment.seed;
+    return object;
+}
+
 std::string reportText(const Report& report) {
     Json object = Json::object();
     object["schema"] = kReportSchema;
-    object["environment"] = toJson(report.environment);
+    object["environment"] = environmentJson(report.environment);
     object["scene"] = toJson(report.scene);
     object["interrupted"] = report.interrupted;
     Json& cases = object["cases"] = Json::array();

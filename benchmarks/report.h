@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "benchmarks/axis.h"
+#include "benchmarks/json_fwd.h"
 
 // What a run found out, as plain values, and its JSON: the contract with everyone who reads
 // reports, described by results/report.schema.json. What is not known is absent there, never 0 or
@@ -47,6 +48,9 @@ struct Environment {
     std::string started;  // UTC, ISO 8601
     std::uint64_t seed = 1;
 };
+
+// As reports of any kind write it.
+Json environmentJson(const Environment& environment);
 
 struct SceneRecord {
     std::string path;

@@ -1,9 +1,5 @@
 #include <algorithm>
-#include <chrono>
-#include <cstdio>
 #include <iostream>
-
-#include <unistd.h>
 
 #include "benchmarks/case.h"
 #include "benchmarks/commands.h"
@@ -12,6 +8,7 @@
 #include "benchmarks/hash.h"
 #include "benchmarks/interrupt.h"
 #include "benchmarks/measure.h"
+#include "benchmarks/progress.h"
 #include "benchmarks/report.h"
 #include "benchmarks/write_file.h"
 #include "benchmarks/table.h"
@@ -19,49 +16,6 @@
 namespace benchmarks {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-// "[3/12] 0:41 left ~1:50  thesis/density:16" on stderr: one line that is rewritten on a terminal,
-// a line per case elsewhere.
-class Progress {
-public:
-    explicit Progress(std::size_t total) : total_(total), start_(Clock::now()) {}
-
-    void begin(const std::string& name) {
-        const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-        std::string line = "[" + std::to_string(done_ + 1) + "/" + std::to_string(total_) + "] " +
-                           minutes(elapsed);
-        if (done_ > 0) {
-            const double each = elapsed / static_cast<double>(done_);
-            line += ", about " + minutes(each * static_cast<double>(total_ - done_)) + " left";
-        }
-        line += "  " + name;
-        ++done_;
-        if (terminal_) {
-            std::cerr << "\r\033[K" << line << std::flush;
-        } else {
-            std::cerr << line << '\n';
-        }
-    }
-
-    void clear() const {
-        if (terminal_) std::cerr << "\r\033[K" << std::flush;
-    }
-
-private:
-    static std::string minutes(double seconds) {
-        char text[32];
-        const int whole = static_cast<int>(seconds + 0.5);
-        std::snprintf(text, sizeof text, "%d:%02d", whole / 60, whole % 60);
-        return text;
-    }
-
-    std::size_t total_;
-    std::size_t done_ = 0;
-    Clock::time_point start_;
-    bool terminal_ = isatty(STDERR_FILENO) != 0;
-};
 
 // A case that can't run here is part of the result, and the sweep goes on.
 CaseResult runCase(

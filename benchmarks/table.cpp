@@ -7,18 +7,13 @@
 #include <set>
 #include <string_view>
 
+#include "benchmarks/columns.h"
 #include "benchmarks/statistics.h"
 
 namespace benchmarks {
 namespace {
 
 constexpr std::size_t kLongestReason = 45;
-
-struct Column {
-    std::string title;
-    bool numeric = true;  // aligned right
-    std::vector<std::string> cells{};
-};
 
 // ---- What a case says -----------------------------------------------------------------------
 
@@ -133,23 +128,6 @@ std::vector<Column> columns(const std::vector<CaseResult>& cases) {
 
 // ---- Text -----------------------------------------------------------------------------------
 
-std::string padded(const std::string& text, std::size_t width, bool right) {
-    const std::string space(width - std::min(width, text.size()), ' ');
-    return right ? space + text : text + space;
-}
-
-std::string line(const std::vector<Column>& all, std::size_t row) {
-    std::string text;
-    for (const Column& column : all) {
-        std::size_t width = column.title.size();
-        for (const std::string& cell : column.cells) width = std::max(width, cell.size());
-        const std::string& cell = row == 0 ? column.title : column.cells[row - 1];
-        text += (text.empty() ? "" : "  ") + padded(cell, width, column.numeric);
-    }
-    text.erase(text.find_last_not_of(' ') + 1);
-    return text + '\n';
-}
-
 std::string header(const Report& report) {
     const DeviceRecord& device = report.environment.device;
     std::string text = device.name.empty() ? "unknown device" : device.name;
@@ -176,7 +154,7 @@ std::string shortNumber(double number) {
 std::string table(const Report& report) {
     std::string text = header(report);
     const std::vector<Column> all = columns(report.cases);
-    for (std::size_t row = 0; row <= report.cases.size(); ++row) text += line(all, row);
+    for (std::size_t row = 0; row <= report.cases.size(); ++row) text += columnsLine(all, row);
     return text;
 }
 

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <span>
+
+#include "benchmarks/physics/findings.h"
+#include "engine/device.h"
+#include "hair/settings.h"
+
+// The validation suite: docs/physics.md says what each check does and where its theory is from.
+// Each plays one solver on the device, and throws Interrupted (measure.h) when the user asks to
+// stop.
+namespace benchmarks::physics {
+
+struct Check {
+    const char* name;
+    void (*run)(const engine::Device& device, hair::Solver solver, Findings& findings);
+};
+
+std::span<const Check> allChecks();
+
+// ---- Against theory -----------------------------------------------------------------------------
+
+// A free vertex against Verlet's exact parabola.
+void checkProjectile(const engine::Device&, hair::Solver, Findings&);
+// Hair on a head that falls freely is not deformed.
+void checkFreeFall(const engine::Device&, hair::Solver, Findings&);
+// Frequencies of all modes of pendulums with so many equal masses.
+void checkPendulum(
+    const engine::Device&, hair::Solver, std::span<const unsigned> masses, Findings&);
+// First period of a hanging chain.
+void checkHangingChain(const engine::Device&, hair::Solver, Findings&);
+// Rest shape of a chain between two pins.
+void checkCatenary(const engine::Device&, hair::Solver, Findings&);
+// Sag of a clamped hair under its weight, for these ratios of weight to stiffness.
+void checkCantilever(
+    const engine::Device&, hair::Solver, std::span<const double> gammas, Findings&);
+// Its error, from coarse to fine.
+void checkConvergence(const engine::Device&, hair::Solver, Findings&);
+// First frequency of a clamped hair without weight.
+void checkBendingFrequency(const engine::Device&, hair::Solver, Findings&);
+// A curl follows its root's turn about its own axis.
+void checkClampTwist(const engine::Device&, hair::Solver, Findings&);
+// How far a hanging curl leaves its plane.
+void checkBendTwist(const engine::Device&, hair::Solver, Findings&);
+
+// ---- Against itself -----------------------------------------------------------------------------
+
+void checkLength(const engine::Device&, hair::Solver, Findings&);
+void checkEnergy(const engine::Device&, hair::Solver, Findings&);
+void checkStepInvariance(const engine::Device&, hair::Solver, Findings&);
+void checkSegmentInvariance(const engine::Device&, hair::Solver, Findings&);
+void checkIterationInvariance(const engine::Device&, hair::Solver, Findings&);
+// The same run twice ends in the same bits.
+void checkStateHash(const engine::Device&, hair::Solver, Findings&);
+
+}  // namespace benchmarks::physics

@@ -1,0 +1,126 @@
+#include <cmath>
+#include <numeric>
+
+#include <gmock/gmock.h>
+
+#include "benchmarks/physics/catenary.h"
+#include "benchmarks/physics/free_flight.h"
+#include "benchmarks/physics/oscillation.h"
+#include "benchmarks/physics/theory.h"
+#include "benchmarks/physics/vibration.h"
+
+namespace benchmarks::physics {
+namespace {
+
+using testing::DoubleNear;
+using testing::ElementsAre;
+using testing::Pointwise;
+
+// Abramowitz and Stegun 1964, Handbook of mathematical functions, table 25.9: 12 digits.
+TEST(PhysicsTheory, FindsTheTabulatedRootsOfLaguerre) {
+    const std::pair<unsigned, std::vector<double>> tables[] = {
+        {2, {0.585786437627, 3.414213562373}},
+        {3, {0.415774556783, 2.294280360279, 6.289945082937}},
+        {5, {0.263560319718, 1.413403059107, 3.596425771041, 7.085810005859, 12.640800844276}}};
+    for (const auto& [n, roots] : tables)
+        EXPECT_THAT(laguerreRoots(n), Pointwise(DoubleNear(1e-12), roots));
+}
+
+// One mass: sqrt(g / l). Two: w^2 = (2 -+ sqrt 2) g / l with amplitudes 1 : 1 +- sqrt 2.
+TEST(PhysicsTheory, KnowsSimpleAndDoublePendulums) {
+    const double base = std::sqrt(9.81 / 0.2) / (2.0 * kPi);
+    EXPECT_NEAR(pendulumModes(1, 0.2, 9.81)[0].frequency, base, 1e-12);
+    const auto modes = pendulumModes(2, 0.2, 9.81);
+    EXPECT_NEAR(modes[0].frequency, base * std::sqrt(2.0 - std::sqrt(2.0)), 1e-12);
+    EXPECT_NEAR(modes[1].frequency, base * std::sqrt(2.0 + std::sqrt(2.0)), 1e-12);
+    EXPECT_THAT(
+        modes[0].shape,
+        ElementsAre(DoubleNear(std::sqrt(2.0) - 1.0, 1e-12), DoubleNear(1.0, 1e-12)));
+    EXPECT_THAT(
+        modes[1].shape,
+        ElementsAre(DoubleNear(-1.0, 1e-12), DoubleNear(std::sqrt(2.0) - 1.0, 1e-12)));
+}
+
+// Modes of a symmetric problem with equal masses are orthogonal.
+TEST(PhysicsTheory, GivesOrthogonalModes) {
+    const auto modes = pendulumModes(5, 0.1, 9.81);
+    for (std::size_t a = 0; a < 5; ++a)
+        for (std::size_t b = 0; b < a; ++b)
+            EXPECT_NEAR(
+                std::inner_product(
+                    modes[a].shape.begin(), modes[a].shape.end(), modes[b].shape.begin(), 0.0),
+                0.0, 1e-12);
+}
+
+// 5.2255 sqrt(L / g); a chain of 100 masses is slower by 1 / (4 n), to first order in 1 / n.
+TEST(PhysicsTheory, KnowsTheHangingChain) {
+    EXPECT_NEAR(hangingChainPeriod(1.0, 1.0), 5.2255, 5e-5);
+    const double many = 1.0 / pendulumModes(100, 0.01, 1.0)[0].frequency;
+    EXPECT_NEAR(many / hangingChainPeriod(1.0, 1.0) - 1.0, 0.25 / 100.0, 1e-4);
+}
+
+// f1 = 3.5160 / (2 pi) sqrt(EI / (lambda L^4)), as in every book on vibrations; the mode is clamped
+// at 0, and free at 1: neither torque nor force.
+TEST(PhysicsTheory, KnowsTheClampedBeam) {
+    EXPECT_NEAR(cantileverFrequency(4.0, 1.0, 1.0), 2.0 * 3.5160 / (2.0 * kPi), 1e-5);
+    EXPECT_NEAR(cantileverFrequency(1.0, 4.0, 2.0), 3.5160 / (2.0 * kPi) / 8.0, 1e-5);
+    EXPECT_EQ(cantileverShape(0.0), 0.0);
+    EXPECT_EQ(cantileverShape(1.0), 1.0);
+    // Blevins 1979, Formulas for natural frequency and mode shape: 0.3395 at the middle.
+    EXPECT_NEAR(cantileverShape(0.5), 0.3395, 5e-5);
+    const double h = 1e-3;
+    EXPECT_NEAR(cantileverShape(h) / h, 0.0, 2e-3);
+    const auto shape = [&](int i) { return cantileverShape(1.0 + i * h); };
+    EXPECT_NEAR((shape(1) - 2.0 * shape(0) + shape(-1)) / (h * h), 0.0, 1e-4);
+    EXPECT_NEAR(
+        (shape(2) - 2.0 * shape(1) + 2.0 * shape(-1) - shape(-2)) / (2.0 * h * h * h), 0.0, 1e-3);
+}
+
+// With a = 1 and a span of 2: length 2 sinh 1, sag cosh 1 - 1.
+TEST(PhysicsTheory, HangsACatenary) {
+    const Catenary catenary(2.0, 2.0 * std::sinh(1.0));
+    EXPECT_NEAR(catenary.parameter(), 1.0, 1e-12);
+    EXPECT_NEAR(catenary.at(0.0).x, 0.0, 1e-12);
+    EXPECT_NEAR(catenary.at(0.0).y, 0.0, 1e-12);
+    const glm::dvec2 lowest = catenary.at(std::sinh(1.0));
+    EXPECT_NEAR(lowest.x, 1.0, 1e-12);
+    EXPECT_NEAR(lowest.y, 1.0 - std::cosh(1.0), 1e-12);
+    const glm::dvec2 half = catenary.at(std::sinh(1.0) - std::sinh(0.5));  // where x - 1 = -1/2
+    EXPECT_NEAR(half.x, 0.5, 1e-12);
+    EXPECT_NEAR(half.y, std::cosh(0.5) - std::cosh(1.0), 1e-12);
+}
+
+// Romero et al. 2021; the values by finite-difference Newton and Richardson extrapolation.
+TEST(PhysicsTheory, HangsAnElastica) {
+    const std::pair<double, double> table[] = {{0.1, 0.01250},  {1.0, 0.12456}, {5.0, 0.58572},
+                                               {10.0, 1.06680}, {50.0, 3.7056}, {100.0, 5.8881},
+                                               {1000.0, 21.335}};
+    for (const auto& [gamma, ratio] : table)
+        EXPECT_NEAR(cantileverRatio(gamma) / ratio, 1.0, 5e-4) << gamma;
+    EXPECT_NEAR(cantileverRatio(1e-3) / (1e-3 / 8.0), 1.0, 1e-4);
+}
+
+// Two steps by hand: x1 = v h + a h^2, x2 = 2 x1 - x0 + a h^2.
+TEST(PhysicsTheory, FliesLikeVerlet) {
+    const glm::dvec3 v{1.0, 2.0, 0.0};
+    const glm::dvec3 a{0.0, -8.0, 4.0};
+    const double h = 0.5;
+    const glm::dvec3 first = v * h + a * h * h;
+    EXPECT_EQ(verletFlight(1, v, a, h), first);
+    EXPECT_EQ(verletFlight(2, v, a, h), 2.0 * first + a * h * h);
+}
+
+TEST(PhysicsTheory, MeasuresTheFrequencyOfADampedCosine) {
+    std::vector<double> samples;
+    for (int i = 0; i < 200; ++i) {
+        const double t = 0.01 * i;
+        samples.push_back(std::exp(-0.5 * t) * std::cos(2.0 * kPi * 3.0 * t));
+    }
+    // Straight lines between 33 samples a period; damping bends them by rate * interval.
+    EXPECT_NEAR(*frequencyOf(samples, 0.01), 3.0, 3e-3);
+    const std::vector<double> still(10, 1.0);
+    EXPECT_FALSE(frequencyOf(still, 0.01));
+}
+
+}  // namespace
+}  // namespace benchmarks::physics

@@ -1,0 +1,89 @@
+// The quick part of `hairbench physics`: what solvers promise, on every build.
+#include <algorithm>
+
+#include "benchmarks/physics/checks.h"
+#include "tests/gpu_fixture.h"
+
+namespace benchmarks::physics {
+namespace {
+
+using hair::Solver;
+
+// Every gate passes, and there was one.
+void expectPass(const Findings& findings) {
+    int gates = 0;
+    for (const Outcome& each : findings.outcomes()) {
+        EXPECT_NE(each.verdict, Verdict::skipped) << each.reason;
+        if (each.tolerance) ++gates;
+        std::string with;
+        for (const Parameter& parameter : each.quantity.parameters)
+            with += ' ' + parameter.name + ' ' + std::to_string(parameter.value);
+        EXPECT_NE(each.verdict, Verdict::fail)
+            << each.quantity.name << with << ": measured " << each.measured << ", expected "
+            << each.expected.value_or(0.0) << ", tolerance " << each.tolerance.value_or(0.0) << ' '
+            << each.reason;
+    }
+    EXPECT_GT(gates, 0);
+}
+
+using Physics = GpuTest;
+
+class EverySolver : public GpuTest, public testing::WithParamInterface<hair::Named<Solver>> {
+protected:
+    Solver solver() const { return GetParam().value; }
+};
+
+INSTANTIATE_TEST_SUITE_P(, EverySolver, testing::ValuesIn(checkedSolvers()), [](const auto& each) {
+    return std::string(each.param.name);
+});
+
+TEST_F(Physics, ShapeFliesLikeVerlet) {
+    Findings findings("projectile", Solver::shape);
+    checkProjectile(device(), Solver::shape, findings);
+    expectPass(findings);
+}
+
+TEST_P(EverySolver, KeepsItsShapeInFreeFall) {
+    Findings findings("free_fall", solver());
+    checkFreeFall(device(), solver(), findings);
+    expectPass(findings);
+}
+
+TEST_F(Physics, ShapeSwingsLikeADoublePendulum) {
+    Findings findings("pendulum", Solver::shape);
+    checkPendulum(device(), Solver::shape, std::array{2u}, findings);
+    expectPass(findings);
+}
+
+TEST_F(Physics, ShapeHangsInACatenary) {
+    Findings findings("catenary", Solver::shape);
+    checkCatenary(device(), Solver::shape, findings);
+    expectPass(findings);
+}
+
+TEST_F(Physics, RodSagsLikeAnElastica) {
+    Findings findings("cantilever", Solver::rod);
+    checkCantilever(device(), Solver::rod, std::array{1.0, 10.0, 100.0}, findings);
+    expectPass(findings);
+}
+
+TEST_F(Physics, RodSwingsAtTheFirstBendingFrequency) {
+    Findings findings("bending_frequency", Solver::rod);
+    checkBendingFrequency(device(), Solver::rod, findings);
+    expectPass(findings);
+}
+
+TEST_P(EverySolver, LosesEnergyToFriction) {
+    Findings findings("energy", solver());
+    checkEnergy(device(), solver(), findings);
+    expectPass(findings);
+}
+
+TEST_P(EverySolver, EndsInTheSameBitsTwice) {
+    Findings findings("state_hash", solver());
+    checkStateHash(device(), solver(), findings);
+    expectPass(findings);
+}
+
+}  // namespace
+}  // namespace benchmarks::physics
