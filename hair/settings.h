@@ -108,8 +108,7 @@ constexpr auto fields(const FtlSettings*) {
         "part of the projection of the vertex below that a velocity gets back"}};
 }
 
-// Kugelstadt and Schoemer 2016, Position and orientation based Cosserat rods; Deul et al. 2018,
-// Direct position-based solver for stiff rods.
+// Inextensible elastic rods, a direct solve per strand: hair/simulation/reference_rod.h.
 struct RodSettings {
     std::uint32_t iterations = 2;
 };
@@ -135,7 +134,7 @@ constexpr auto fields(const MaterialSettings*) {
         Field{
             "radius", &S::radius, 1e-6, 0.01, "m",
             "radius of the round cross-section; stiffness of `rod`, drag of the wind"},
-        Field{"youngs_modulus", &S::youngs_modulus, 1, 1e12, "Pa", "E: resists bending, stretch"},
+        Field{"youngs_modulus", &S::youngs_modulus, 1, 1e12, "Pa", "E: resists bending"},
         Field{"shear_modulus", &S::shear_modulus, 1, 1e12, "Pa", "G: resists twist"}};
 }
 
@@ -372,7 +371,7 @@ constexpr auto fields(const SimulationSettings*) {
         Field{"time_step", &S::time_step, 0.0005, 0.1, "s", "fixed step of simulated time"},
         Field{
             "substeps", &S::substeps, 0, 64, "count",
-            "solver steps per time step; 0: the solver's own number (shape 1, ftl 1, rod 8)"},
+            "solver steps per time step; 0: one, for rod as many as keep a substep to 1/480 s"},
         Field{
             "settle_steps", &S::settle_steps, 0, 100000, "count",
             "steps simulated without wind before the first frame"},

@@ -52,6 +52,19 @@ void checkStepInvariance(const engine::Device& device, hair::Solver solver, Find
         differenceOf(runs[1], runs[4]), tolerance);
 }
 
+// What the length of a substep does by itself: numerical damping.
+void checkSubstepInvariance(const engine::Device& device, hair::Solver solver, Findings& findings) {
+    std::vector<double> counts;
+    std::vector<Trajectory> runs;
+    for (const std::uint32_t substeps : {1u, 2u, 4u, 8u, 16u, 32u, 64u}) {
+        hair::SimulationSettings settings = defaultHair(solver);
+        settings.substeps = substeps;
+        counts.push_back(substeps);
+        runs.push_back(playRelease(device, settings, kSegments));
+    }
+    reportDifferences(findings, {.name = "substeps", .unit = "count"}, counts, runs);
+}
+
 void checkSegmentInvariance(const engine::Device& device, hair::Solver solver, Findings& findings) {
     std::vector<double> counts;
     std::vector<Trajectory> runs;

@@ -27,6 +27,7 @@ constexpr Check kChecks[] = {
     {"length", checkLength},
     {"energy", checkEnergy},
     {"step_invariance", checkStepInvariance},
+    {"substep_invariance", checkSubstepInvariance},
     {"segment_invariance", checkSegmentInvariance},
     {"iteration_invariance", checkIterationInvariance},
     {"state_hash", checkStateHash},

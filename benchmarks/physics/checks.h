@@ -48,6 +48,7 @@ void checkBendTwist(const engine::Device&, hair::Solver, Findings&);
 void checkLength(const engine::Device&, hair::Solver, Findings&);
 void checkEnergy(const engine::Device&, hair::Solver, Findings&);
 void checkStepInvariance(const engine::Device&, hair::Solver, Findings&);
+void checkSubstepInvariance(const engine::Device&, hair::Solver, Findings&);
 void checkSegmentInvariance(const engine::Device&, hair::Solver, Findings&);
 void checkIterationInvariance(const engine::Device&, hair::Solver, Findings&);
 // The same run twice ends in the same bits.

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "hair/simulation/solver.h"
 #include "hair/simulation/solver_ftl.h"
@@ -14,7 +16,7 @@ namespace {
 
 struct Row {
     Solver solver;
-    std::uint32_t substeps;  // of its own choice
+    double longest_substep;  // of its own choice, s
     std::unique_ptr<GuideSolver> (*make)(
         const engine::Device&, const Groom&, const SimulationSettings&);
 };
@@ -31,11 +33,13 @@ makeNone(const engine::Device& device, const Groom& groom, const SimulationSetti
     return std::make_unique<RestSolver>(device, groom);
 }
 
+constexpr double kTimeStep = std::numeric_limits<double>::infinity();  // however long
+
 constexpr Row kSolvers[] = {
-    {Solver::none, 1, makeNone},
-    {Solver::shape, 1, make<ShapeSolver>},
-    {Solver::ftl, 1, make<FtlSolver>},
-    {Solver::rod, 8, make<RodSolver>},
+    {Solver::none, kTimeStep, makeNone},
+    {Solver::shape, kTimeStep, make<ShapeSolver>},
+    {Solver::ftl, kTimeStep, make<FtlSolver>},
+    {Solver::rod, 1.0 / 480.0, make<RodSolver>},
 };
 
 const Row& rowOf(Solver solver) {
@@ -52,7 +56,10 @@ makeSolver(const engine::Device& device, const Groom& groom, const SimulationSet
 }
 
 std::uint32_t substepsOf(const SimulationSettings& settings) {
-    return settings.substeps > 0 ? settings.substeps : rowOf(settings.solver).substeps;
+    if (settings.substeps > 0) return settings.substeps;
+    const double substeps = double{settings.time_step} / rowOf(settings.solver).longest_substep;
+    // Time steps are rounded to a float: 8.0000001 is 8.
+    return static_cast<std::uint32_t>(std::max(1.0, std::ceil(substeps - 1e-4)));
 }
 
 SimulationSettings settingsOfSubstep(SimulationSettings settings) {

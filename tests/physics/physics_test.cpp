@@ -61,6 +61,18 @@ TEST_F(Physics, ShapeHangsInACatenary) {
     expectPass(findings);
 }
 
+TEST_F(Physics, RodHangsInACatenary) {
+    Findings findings("catenary", Solver::rod);
+    checkCatenary(device(), Solver::rod, findings);
+    expectPass(findings);
+}
+
+TEST_F(Physics, RodMovesTheSameAtAnyTimeStep) {
+    Findings findings("step_invariance", Solver::rod);
+    checkStepInvariance(device(), Solver::rod, findings);
+    expectPass(findings);
+}
+
 TEST_F(Physics, RodSagsLikeAnElastica) {
     Findings findings("cantilever", Solver::rod);
     checkCantilever(device(), Solver::rod, std::array{1.0, 10.0, 100.0}, findings);
