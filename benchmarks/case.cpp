@@ -2,39 +2,14 @@
 
 #include <span>
 
+#include "benchmarks/assets.h"
 #include "benchmarks/hash.h"
-#include "engine/error.h"
 #include "engine/transfer.h"
 #include "hair/groom/build_groom.h"
-#include "hair/groom/import_mesh.h"
-#include "hair/simulation/closed_mesh.h"
 
 namespace benchmarks {
 
 namespace {
-
-// The mesh that the hair grows on and that is drawn under it. Hair from a file grows on none.
-std::optional<hair::Mesh>
-loadMesh(const hair::Settings& settings, const std::filesystem::path& directory) {
-    if (!settings.groom.file.empty()) return std::nullopt;
-    return hair::importMesh(directory / settings.groom.grow.mesh);
-}
-
-// Of /simulation/distance_fields, in their order.
-std::vector<hair::Mesh> loadFieldMeshes(
-    const hair::Settings& settings, const hair::Mesh* grown_on,
-    const std::filesystem::path& directory) {
-    std::vector<hair::Mesh> meshes;
-    for (std::size_t i = 0; i < settings.simulation.distance_fields.size(); ++i) {
-        const std::string& file = settings.simulation.distance_fields[i].mesh;
-        if (file.empty() && !grown_on)
-            throw engine::Error(
-                "/simulation/distance_fields/" + std::to_string(i) + "/mesh",
-                "is empty, and hair from a file grows on no mesh");
-        meshes.push_back(file.empty() ? *grown_on : hair::importMesh(directory / file));
-    }
-    return meshes;
-}
 
 const hair::Mesh* pointerTo(const std::optional<hair::Mesh>& mesh) {
     return mesh ? &*mesh : nullptr;
@@ -49,7 +24,7 @@ Case::Case(
       groom_(hair::buildGroom(settings.groom, pointerTo(mesh_), directory, settings.seed)),
       simulation_(
           device, groom_, settings.simulation, settings.seed,
-          loadFieldMeshes(settings, pointerTo(mesh_), directory)),
+          loadFieldMeshes(settings, mesh_, directory)),
       fixed_step_(double{settings.simulation.time_step}),
       root_triangles_(engine::makeBuffer(
           device, std::span<const std::array<std::uint32_t, 3>>(groom_.root_triangles),
@@ -122,19 +97,6 @@ hair::StrandView Case::view() const {
         .guide_count = guides.strand_count,
         .vertices_per_guide = guides.vertices_per_strand,
         .triangle_count = static_cast<std::uint32_t>(groom_.root_triangles.size())};
-}
-
-void checkAssets(const hair::Settings& settings, const std::filesystem::path& directory) {
-    const std::optional<hair::Mesh> mesh = loadMesh(settings, directory);
-    hair::buildGroom(settings.groom, pointerTo(mesh), directory, settings.seed);
-    const auto fields = loadFieldMeshes(settings, pointerTo(mesh), directory);
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-        try {
-            hair::closeMesh(fields[i]);
-        } catch (const engine::Error& error) {
-            throw engine::Error("/simulation/distance_fields/" + std::to_string(i), error.what());
-        }
-    }
 }
 
 }  // namespace benchmarks

@@ -57,8 +57,4 @@ private:
     hair::Renderer renderer_;
 };
 
-// Reads and checks what a case needs from files, without a device: the errors of a bad asset before
-// anything runs.
-void checkAssets(const hair::Settings& settings, const std::filesystem::path& directory);
-
 }  // namespace benchmarks

@@ -1,6 +1,6 @@
 #include <set>
 
-#include "benchmarks/case.h"
+#include "benchmarks/assets.h"
 #include "benchmarks/commands.h"
 
 namespace benchmarks {
@@ -15,8 +15,10 @@ std::vector<CaseSpec> selectCases(Scene& scene, const SceneOptions& options) {
     std::set<std::string> checked;
     for (const CaseSpec& each : cases) {
         const hair::GroomSettings& groom = each.settings.groom;
-        const std::string files = groom.file + '\n' + groom.grow.mesh;
-        if (checked.insert(files).second) checkAssets(each.settings, scene.directory);
+        std::string files = groom.file + '\n' + groom.grow.mesh;
+        for (const auto& field : each.settings.simulation.distance_fields)
+            files += '\n' + field.mesh;
+        if (checked.insert(files).second) checkAssets(each.settings, scene.path);
     }
     return cases;
 }

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "hair/groom/mesh.h"
+#include "hair/settings.h"
+
+// What a case reads from files. `directory` is what file names in the settings are relative to;
+// errors begin with the path of the file.
+namespace benchmarks {
+
+// The mesh that the hair grows on and that is drawn under it. Hair from a file grows on none.
+std::optional<hair::Mesh>
+loadMesh(const hair::Settings& settings, const std::filesystem::path& directory);
+
+// Of /simulation/distance_fields, in their order. `grown_on` is what loadMesh gave.
+std::vector<hair::Mesh> loadFieldMeshes(
+    const hair::Settings& settings, const std::optional<hair::Mesh>& grown_on,
+    const std::filesystem::path& directory);
+
+// Reads and checks all that a case of this scene needs, without a device: the errors of a bad asset
+// before anything runs. Where the fault is in how the scene uses a file, the error is
+// "<scene>: <JSON pointer>: <reason>".
+void checkAssets(const hair::Settings& settings, const std::filesystem::path& scene);
+
+}  // namespace benchmarks
