@@ -3,30 +3,13 @@
 #include <cmath>
 
 #include <glm/ext/quaternion_common.hpp>
-#include <glm/ext/quaternion_double.hpp>
 #include <glm/ext/quaternion_geometric.hpp>
 #include <glm/geometric.hpp>
 
 #include "hair/gpu_structs.h"
-#include "hair/simulation/perpendicular.h"
+#include "hair/simulation/rotation_between.h"
 
 namespace hair {
-
-namespace {
-
-// The smallest rotation from one unit vector to another.
-glm::dquat rotationBetween(const glm::dvec3& from, const glm::dvec3& to) {
-    const glm::dvec3 sum = from + to;
-    if (glm::dot(sum, sum) < 1e-12) {
-        const glm::dvec3 normal = perpendicular(from);
-        return {0.0, normal.x, normal.y, normal.z};
-    }
-    const glm::dvec3 halfway = glm::normalize(sum);
-    const glm::dvec3 normal = glm::cross(from, halfway);
-    return {glm::dot(from, halfway), normal.x, normal.y, normal.z};
-}
-
-}  // namespace
 
 std::vector<glm::vec4> transportedRestEdges(const Groom& groom) {
     std::vector<glm::vec4> edges;

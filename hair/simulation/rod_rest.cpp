@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "hair/simulation/perpendicular.h"
+#include "hair/simulation/rotation_between.h"
 
 namespace hair {
 
@@ -22,14 +22,6 @@ constexpr double kMostStiffness = 1e15;  // rigid beside any inertia; its square
 // Of bending over twisting and the other way round, far beyond any material: where they differ by
 // 10^7, 32 bits lose the lesser one.
 constexpr double kMostAnisotropy = 1e3;
-
-// The smallest rotation between unit vectors.
-glm::dquat rotationBetween(const glm::dvec3& from, const glm::dvec3& to) {
-    const glm::dvec3 sum = from + to;
-    if (glm::length(sum) < 1e-6) return {0.0, perpendicular(from)};
-    const glm::dvec3 halfway = glm::normalize(sum);
-    return {glm::dot(from, halfway), glm::cross(from, halfway)};
-}
 
 glm::dquat halfOf(glm::dquat rotation) {
     if (rotation.w < 0.0) rotation = -rotation;
