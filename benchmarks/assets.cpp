@@ -4,8 +4,11 @@
 
 #include "engine/error.h"
 #include "hair/groom/build_groom.h"
-#include "hair/groom/import_mesh.h"
-#include "hair/simulation/closed_mesh.h"
+#include "hair/groom/importers.h"
+#include "hair/groom/mesh/import_mesh.h"
+#include "hair/groom/mesh/closed_mesh.h"
+#include "hair/rendering/groom_buffers.h"
+#include "hair/rendering/strand_offsets.h"
 
 namespace benchmarks {
 
@@ -21,7 +24,7 @@ void checkFields(
     const auto& fields = settings.simulation.distance_fields;
     for (std::size_t i = 0; i < fields.size(); ++i)
         if (fields[i].mesh.empty() && !grown_on)
-            refuse(i, "names no mesh, and hair from a file grows on none");
+            refuse(i, "names no mesh, and neither does /groom/mesh");
     const auto meshes = loadFieldMeshes(settings, grown_on, scene.parent_path());
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         try {
@@ -36,8 +39,10 @@ void checkFields(
 
 std::optional<hair::Mesh>
 loadMesh(const hair::Settings& settings, const std::filesystem::path& directory) {
-    if (!settings.groom.file.empty()) return std::nullopt;
-    return hair::importMesh(directory / settings.groom.grow.mesh);
+    const hair::GroomSettings& groom = settings.groom;
+    const std::string& file = groom.file.empty() ? groom.grow.mesh : groom.mesh;
+    if (file.empty()) return std::nullopt;
+    return hair::importMesh(directory / file);
 }
 
 std::vector<hair::Mesh> loadFieldMeshes(
@@ -50,10 +55,27 @@ std::vector<hair::Mesh> loadFieldMeshes(
     return meshes;
 }
 
+std::optional<hair::StrandSet>
+loadOffsets(const hair::Settings& settings, const std::filesystem::path& directory) {
+    if (settings.strands.offsets.empty()) return std::nullopt;
+    return hair::importStrands(directory / settings.strands.offsets);
+}
+
 void checkAssets(const hair::Settings& settings, const std::filesystem::path& scene) {
-    const std::optional<hair::Mesh> mesh = loadMesh(settings, scene.parent_path());
-    hair::buildGroom(settings.groom, mesh ? &*mesh : nullptr, scene.parent_path(), settings.seed);
+    const std::filesystem::path directory = scene.parent_path();
+    const std::optional<hair::Mesh> mesh = loadMesh(settings, directory);
+    const hair::Groom groom =
+        hair::buildGroom(settings.groom, mesh ? &*mesh : nullptr, directory, settings.seed);
     checkFields(settings, mesh, scene);
+    const std::optional<hair::StrandSet> offsets = loadOffsets(settings, directory);
+    try {
+        hair::checkStrands(settings.strands, groom);
+        if (hair::hasOffsets(settings.strands))
+            hair::makeStrandOffsets(
+                settings.strands, groom, offsets ? &*offsets : nullptr, settings.seed);
+    } catch (const engine::Error& error) {
+        throw engine::Error(scene.string(), error.what());
+    }
 }
 
 }  // namespace benchmarks

@@ -4,14 +4,16 @@
 #include <optional>
 #include <vector>
 
-#include "hair/groom/mesh.h"
+#include "hair/groom/mesh/mesh.h"
+#include "hair/groom/strand_set.h"
 #include "hair/settings.h"
 
 // What a case reads from files. `directory` is what file names in the settings are relative to;
 // errors begin with the path of the file.
 namespace benchmarks {
 
-// The mesh that the hair grows on and that is drawn under it. Hair from a file grows on none.
+// The mesh that the hair grows on and that is drawn under it. Absent where hair comes from a file
+// and nobody says what it grows on.
 std::optional<hair::Mesh>
 loadMesh(const hair::Settings& settings, const std::filesystem::path& directory);
 
@@ -19,6 +21,10 @@ loadMesh(const hair::Settings& settings, const std::filesystem::path& directory)
 std::vector<hair::Mesh> loadFieldMeshes(
     const hair::Settings& settings, const std::optional<hair::Mesh>& grown_on,
     const std::filesystem::path& directory);
+
+// The strands of /strands/offsets; absent where it is empty.
+std::optional<hair::StrandSet>
+loadOffsets(const hair::Settings& settings, const std::filesystem::path& directory);
 
 // Reads and checks all that a case of this scene needs, without a device: the errors of a bad asset
 // before anything runs. Where the fault is in how the scene uses a file, the error is

@@ -11,8 +11,9 @@ namespace benchmarks {
 
 namespace {
 
-const hair::Mesh* pointerTo(const std::optional<hair::Mesh>& mesh) {
-    return mesh ? &*mesh : nullptr;
+template <class Asset>
+const Asset* pointerTo(const std::optional<Asset>& asset) {
+    return asset ? &*asset : nullptr;
 }
 
 }  // namespace
@@ -26,14 +27,10 @@ Case::Case(
           device, groom_, settings.simulation, settings.seed,
           loadFieldMeshes(settings, mesh_, directory)),
       fixed_step_(double{settings.simulation.time_step}),
-      root_triangles_(engine::makeBuffer(
-          device, std::span<const std::array<std::uint32_t, 3>>(groom_.root_triangles),
-          "root triangles")),
-      root_normals_(engine::makeBuffer(
-          device, std::span<const glm::vec3>(groom_.root_normals), "root normals")),
+      groom_buffers_(device, groom_, settings, pointerTo(loadOffsets(settings, directory))),
       renderer_(device, settings, view(), pointerTo(mesh_)) {}
 
-void Case::frame(engine::Passes& passes) {
+void Case::simulate(engine::Passes& passes) {
     using engine::PassKind;
     const bool blows = settings_.simulation.solver != hair::Solver::none;
     const std::uint32_t steps =
@@ -53,6 +50,10 @@ void Case::frame(engine::Passes& passes) {
             simulation_.recordStep(commands);
         });
     }
+}
+
+void Case::frame(engine::Passes& passes) {
+    simulate(passes);
     renderer_.record(passes, view());
 }
 
@@ -75,12 +76,18 @@ std::string Case::stateHash() const {
     return hashBytes(std::as_bytes(std::span(positions)));
 }
 
+hair::StrandPoints Case::strands() const {
+    return hair::evaluateStrandPoints(device_, settings_, view());
+}
+
 std::vector<std::pair<std::string, std::uint64_t>> Case::counts() const {
     std::vector<std::pair<std::string, std::uint64_t>> counts{
         {"guides", groom_.strand_count},
         {"vertices_per_guide", groom_.vertices_per_strand},
         {"root_triangles", groom_.root_triangles.size()}};
     if (settings_.render.hair) {
+        if (settings_.strands.source == hair::StrandSource::groom)
+            counts.emplace_back("groom_strands", groom_.bindings.size());
         counts.emplace_back("strands", plan().strands());
         counts.emplace_back("segments", plan().drawnSegments());
     }
@@ -88,15 +95,10 @@ std::vector<std::pair<std::string, std::uint64_t>> Case::counts() const {
 }
 
 hair::StrandView Case::view() const {
-    const hair::GuideView guides = simulation_.guides();
-    return {
-        .guides = guides.positions,
-        .root_triangles = root_triangles_.address(),
-        .root_normals = groom_.root_normals.empty() ? 0 : root_normals_.address(),
-        .head = hair::toMatrix(simulation_.pose()),
-        .guide_count = guides.strand_count,
-        .vertices_per_guide = guides.vertices_per_strand,
-        .triangle_count = static_cast<std::uint32_t>(groom_.root_triangles.size())};
+    hair::StrandView view = groom_buffers_.view();
+    view.guides = simulation_.guides().positions;
+    view.head = hair::toMatrix(simulation_.pose());
+    return view;
 }
 
 }  // namespace benchmarks

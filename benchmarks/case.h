@@ -9,8 +9,10 @@
 
 #include "engine/frame_loop.h"
 #include "hair/groom/groom.h"
-#include "hair/groom/mesh.h"
+#include "hair/groom/mesh/mesh.h"
+#include "hair/rendering/groom_buffers.h"
 #include "hair/rendering/renderer.h"
+#include "hair/rendering/strand_points.h"
 #include "hair/settings.h"
 #include "hair/simulation/fixed_step.h"
 #include "hair/simulation/simulation.h"
@@ -30,6 +32,9 @@ public:
     // Records the next frame: simulated time advances by /run/frame_time, then a picture is drawn.
     void frame(engine::Passes& passes);
 
+    // Records the simulation of the next frame and no picture: what frame() does first.
+    void simulate(engine::Passes& passes);
+
     // Back to the first frame. The device must be done with what was submitted.
     void reset();
 
@@ -38,6 +43,12 @@ public:
     std::string pictureHash() const;
     // Of the guides' positions.
     std::string stateHash() const;
+
+    // The strands of the last frame as they are drawn. Waits for the device.
+    hair::StrandPoints strands() const;
+    // The guides of the last frame, [guide][vertex], m. Waits for the device.
+    std::vector<glm::vec3> guides() const { return simulation_.readPositions(); }
+    const hair::Groom& groom() const { return groom_; }
 
     const hair::StrandPlan& plan() const { return renderer_.plan(); }
     std::optional<hair::ExpectedCounts> expected() const { return renderer_.expected(); }
@@ -52,8 +63,7 @@ private:
     hair::Groom groom_;
     hair::Simulation simulation_;
     hair::FixedStep fixed_step_;
-    engine::Buffer root_triangles_;
-    engine::Buffer root_normals_;
+    hair::GroomBuffers groom_buffers_;
     hair::Renderer renderer_;
 };
 

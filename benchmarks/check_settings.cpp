@@ -25,6 +25,22 @@ Broken hasGuides(const Settings& s) {
     return "is empty, and /groom/file too: there is nothing to take guides from";
 }
 
+Broken strandsHaveTwoEnds(const Settings& s) {
+    if (s.groom.vertices != 1) return {};
+    return "1 is neither 0 nor at least 2";
+}
+
+Broken groomHasStrandsOfItsOwn(const Settings& s) {
+    if (s.strands.source != hair::StrandSource::groom || !s.groom.file.empty()) return {};
+    return "is groom, but there is no /groom/file";
+}
+
+Broken partingHasLength(const Settings& s) {
+    const hair::PartingSettings& parting = s.groom.grow.parting;
+    if (parting.strength == 0.0f || parting.from != parting.to) return {};
+    return "is where /groom/grow/parting/from is";
+}
+
 Broken windHasDirection(const Settings& s) {
     const hair::WindSettings& wind = s.simulation.wind;
     if (glm::length(wind.direction) > 0.0f) return {};
@@ -99,6 +115,9 @@ struct Rule {
 
 constexpr Rule kRules[] = {
     {"/groom/grow/mesh", hasGuides},
+    {"/groom/vertices", strandsHaveTwoEnds},
+    {"/groom/grow/parting/to", partingHasLength},
+    {"/strands/source", groomHasStrandsOfItsOwn},
     {"/simulation/wind/direction", windHasDirection},
     {"/simulation/motion/keyframes", keyframesAscend},
     {"/simulation/motion/repeat", repeatedMotionCloses},
@@ -110,12 +129,9 @@ constexpr Rule kRules[] = {
 
 }  // namespace
 
-void checkSettings(const Settings& settings, GuideCount guide_count) {
+void checkSettings(const Settings& settings) {
     for (const Rule& rule : kRules)
         if (const Broken reason = rule.broken(settings)) throw engine::Error(rule.pointer, *reason);
-    if (guide_count == GuideCount::written && !settings.groom.file.empty())
-        throw engine::Error(
-            "/groom/guides", "a guide file has its own count; leave out this or /groom/file");
 }
 
 }  // namespace benchmarks

@@ -52,6 +52,36 @@ struct PhysicsOptions {
 };
 int checkPhysics(const PhysicsOptions& options);
 
+struct GroomInfoOptions {
+    std::filesystem::path file;
+    std::filesystem::path mesh;   // that the hair grows on; empty: none
+    std::optional<double> scale;  // metres in the file's unit
+    bool json = false;
+};
+int inspectGroom(const GroomInfoOptions& options);
+
+struct GroomConvertOptions {
+    std::filesystem::path in;
+    std::filesystem::path out;
+    std::filesystem::path mesh;             // for root triangles; empty: from the roots alone
+    std::optional<double> scale;            // metres in IN's unit; OUT is then in metres
+    std::uint32_t followers = 0;            // for each strand
+    double follower_radius = 0.0;           // of the disc that they are in, in IN's unit
+    double tip_separation = 1.0;            // factor of their displacement at the tip
+    std::optional<std::uint32_t> vertices;  // of a strand
+    std::optional<std::uint32_t> guides;    // to keep; all strands
+    std::uint32_t seed = 1;
+};
+int convertGroom(const GroomConvertOptions& options);
+
+struct SimulateOptions {
+    SceneOptions scene;
+    std::filesystem::path out;
+    std::uint32_t frames = 60;
+    bool guides = false;  // the simulated guides instead of the strands that are drawn
+};
+int simulateScene(const SimulateOptions& options);
+
 int validateScenes(const std::vector<std::filesystem::path>& scenes);
 int printSchema();
 int printDevices();

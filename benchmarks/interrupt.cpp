@@ -18,8 +18,14 @@ extern "C" void onInterrupt(int signal) {
 void catchInterrupts() {
     std::signal(SIGINT, onInterrupt);
     std::signal(SIGTERM, onInterrupt);
+    std::signal(SIGHUP, onInterrupt);
+    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool interrupted() { return interrupt_count != 0; }
+
+void checkInterrupted() {
+    if (interrupted()) throw Interrupted();
+}
 
 }  // namespace benchmarks

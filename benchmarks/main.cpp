@@ -16,9 +16,17 @@ constexpr const char* kExamples = R"(Examples:
   hairbench run scenes/thesis.json --filter 'guides:86/.*msaa:1' --out results/mine.json
   hairbench render scenes/strong_wind.json -o wind.png --frame 60
   hairbench validate scenes/*.json
+  hairbench groom info hair.hair --mesh head.glb
+  hairbench groom convert hair.hair guides.hgl --guides 200 --vertices 16 --scale 0.01
+  hairbench simulate scenes/nod.json --frames 60 --export nod.usda
   hairbench physics --solver rod --check 'cantilever|catenary'
 Exit status: 0 ok, 1 internal error, 2 usage or invalid scene, 3 a check of the physics
 failed, 14 nothing ran, 77 no suitable device, 130 interrupted (what was done is saved).)";
+
+constexpr const char* kConvertNotes = R"(Done in this order: scale, followers, vertices, guides.
+Without --scale lengths stay as they are, but that .hgl is always in metres: what IN states of its
+unit is applied. .hgl gets root triangles if IN has none. What a format can't hold is said on
+stderr. OUT may be IN; it is replaced when all is written, and an interrupt leaves it alone.)";
 
 void addDeviceOptions(CLI::App& command, engine::DeviceOptions& options) {
     command.add_option(
@@ -63,6 +71,79 @@ CLI::App* addRender(CLI::App& app, RenderOptions& options) {
     return command;
 }
 
+CLI::App* addSimulate(CLI::App& app, SimulateOptions& options) {
+    CLI::App* command =
+        app.add_subcommand("simulate", "plays a scene and writes its strands, without a picture");
+    addSceneOptions(*command, options.scene);
+    command->add_option("--frames", options.frames, "frames to play (default 60)")
+        ->check(CLI::PositiveNumber);
+    command
+        ->add_option(
+            "--export", options.out,
+            "file; .usda holds every frame, other formats (see 'groom convert') the last")
+        ->required()
+        ->type_name("FILE");
+    command->add_flag("--guides", options.guides, "the guides instead of the drawn strands");
+    return command;
+}
+
+struct GroomCommands {
+    CLI::App* info;
+    CLI::App* convert;
+};
+
+GroomCommands addGroom(CLI::App& app, GroomInfoOptions& info, GroomConvertOptions& convert) {
+    CLI::App* groom = app.add_subcommand("groom", "inspects and converts files of hair");
+    groom->require_subcommand(1);
+
+    CLI::App* info_command =
+        groom->add_subcommand("info", "says what is in a file of hair and what is odd about it");
+    info_command->add_option("file", info.file, "file of hair")->required()->type_name("FILE");
+    info_command->add_option("--mesh", info.mesh, "what the hair grows on: are the roots on it?")
+        ->type_name("FILE");
+    info_command
+        ->add_option("--scale", info.scale, "metres in the file's unit (default stated or guessed)")
+        ->check(CLI::PositiveNumber);
+    info_command->add_flag("--json", info.json, "as JSON");
+
+    CLI::App* convert_command = groom->add_subcommand(
+        "convert", "rewrites a file of hair: .hair .hgl .tfx .obj .ply .gltf .glb .usda");
+    convert_command->add_option("in", convert.in, "file of hair")->required()->type_name("IN");
+    convert_command->add_option("out", convert.out, "file to write")->required()->type_name("OUT");
+    convert_command
+        ->add_option(
+            "--scale", convert.scale, "metres in IN's unit (0.01: centimetres); OUT is in metres")
+        ->check(CLI::PositiveNumber);
+    convert_command->add_option(
+        "--followers", convert.followers,
+        "so many copies round each strand, as TressFX makes them");
+    convert_command
+        ->add_option(
+            "--follower-radius", convert.follower_radius,
+            "radius of the disc that they are in, in IN's unit")
+        ->check(CLI::NonNegativeNumber);
+    convert_command
+        ->add_option(
+            "--tip-separation", convert.tip_separation,
+            "factor of their displacement at the tip (default 1)")
+        ->check(CLI::NonNegativeNumber);
+    convert_command->add_option(
+        "--vertices", convert.vertices, "points per strand, even by arc length (2 to 65536)");
+    convert_command
+        ->add_option(
+            "--guides", convert.guides, "keep so many strands, spread over roots and shapes")
+        ->check(CLI::PositiveNumber);
+    convert_command
+        ->add_option(
+            "--mesh", convert.mesh,
+            "what the hair grows on, in metres: for the root triangles of OUT.hgl")
+        ->type_name("FILE");
+    convert_command->add_option(
+        "--seed", convert.seed, "of followers and of the choice of guides (default 1)");
+    convert_command->footer(kConvertNotes);
+    return {info_command, convert_command};
+}
+
 CLI::App* addPhysics(CLI::App& app, PhysicsOptions& options) {
     CLI::App* command =
         app.add_subcommand("physics", "holds the solvers against theory and writes a report");
@@ -89,11 +170,16 @@ int dispatch(int argc, char** argv) {
     run.command.assign(argv, argv + argc);
     RenderOptions render;
     PhysicsOptions physics;
+    SimulateOptions simulate;
+    GroomInfoOptions groom_info;
+    GroomConvertOptions groom_convert;
     physics.command = run.command;
     std::vector<std::filesystem::path> scenes;
     const CLI::App* run_command = addRun(app, run);
     const CLI::App* render_command = addRender(app, render);
     const CLI::App* physics_command = addPhysics(app, physics);
+    const CLI::App* simulate_command = addSimulate(app, simulate);
+    const GroomCommands groom = addGroom(app, groom_info, groom_convert);
     CLI::App* validate_command =
         app.add_subcommand("validate", "checks scene files and their assets");
     validate_command->add_option("scenes", scenes, "scene files")->required()->type_name("FILE...");
@@ -109,6 +195,9 @@ int dispatch(int argc, char** argv) {
     if (run_command->parsed()) return runScene(run);
     if (render_command->parsed()) return renderScene(render);
     if (physics_command->parsed()) return checkPhysics(physics);
+    if (simulate_command->parsed()) return simulateScene(simulate);
+    if (groom.info->parsed()) return inspectGroom(groom_info);
+    if (groom.convert->parsed()) return convertGroom(groom_convert);
     if (validate_command->parsed()) return validateScenes(scenes);
     if (schema_command->parsed()) return printSchema();
     return printDevices();

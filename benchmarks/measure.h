@@ -3,14 +3,13 @@
 #include <functional>
 
 #include "benchmarks/case.h"
+#include "benchmarks/interrupt.h"
 #include "benchmarks/report.h"
 
 namespace benchmarks {
 
 // Asked between frames; true ends the measurement with Interrupted.
 using StopRequest = std::function<bool()>;
-
-class Interrupted {};
 
 // Plays the case from its first frame once overlapped and once isolated, each with /run/warmup
 // frames of warm-up and /run/frames measured ones, checks that both made the same picture and

@@ -11,7 +11,7 @@
 #include "benchmarks/physics/checks.h"
 #include "benchmarks/physics/report.h"
 #include "benchmarks/progress.h"
-#include "benchmarks/write_file.h"
+#include "engine/write_file.h"
 #include "engine/error.h"
 
 namespace benchmarks {
@@ -93,7 +93,7 @@ int checkPhysics(const PhysicsOptions& options) {
     }
     const std::filesystem::path out =
         options.out.empty() ? std::filesystem::path("results/local/physics.json") : options.out;
-    checkWritable(out);
+    engine::checkWritable(out);
 
     catchInterrupts();
     const engine::Device device(options.device);
@@ -111,7 +111,7 @@ int checkPhysics(const PhysicsOptions& options) {
             runCheck(device, check, solver, report);
         }
     progress.clear();
-    writeFileAtomically(out, physicsReportText(report));
+    engine::writeFileAtomically(out, physicsReportText(report));
     std::cout << physicsTable(report) << "report: " << out.string() << '\n';
     if (report.interrupted) std::cerr << "interrupted\n";
     return statusOf(report);

@@ -4,7 +4,7 @@
 #include "benchmarks/commands.h"
 #include "benchmarks/exit_codes.h"
 #include "benchmarks/report.h"
-#include "benchmarks/write_file.h"
+#include "engine/write_file.h"
 #include "engine/image_file.h"
 
 namespace benchmarks {
@@ -13,7 +13,7 @@ int renderScene(const RenderOptions& options) {
     Scene scene = loadScene(options.scene.scene);
     scene.axes.clear();  // the scene's own settings, with what the command line changes
     const std::vector<CaseSpec> cases = selectCases(scene, options.scene);
-    checkWritable(options.out);
+    engine::checkWritable(options.out);
     const hair::Settings& settings = cases.front().settings;
 
     const engine::Device device(options.scene.device);

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/statistics.h"
-#include "benchmarks/write_file.h"
+#include "engine/write_file.h"
 
 namespace benchmarks {
 namespace {
@@ -163,7 +163,7 @@ std::string reportText(const Report& report) {
 }
 
 void writeReport(const Report& report, const std::filesystem::path& path) {
-    writeFileAtomically(path, reportText(report));
+    engine::writeFileAtomically(path, reportText(report));
 }
 
 }  // namespace benchmarks

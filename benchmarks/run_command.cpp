@@ -10,7 +10,7 @@
 #include "benchmarks/measure.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/report.h"
-#include "benchmarks/write_file.h"
+#include "engine/write_file.h"
 #include "benchmarks/table.h"
 
 namespace benchmarks {
@@ -59,7 +59,7 @@ int runScene(const RunOptions& options) {
     const std::filesystem::path out =
         options.out.empty() ? std::filesystem::path("results/local") / (scene.name + ".json")
                             : options.out;
-    checkWritable(out);
+    engine::checkWritable(out);
 
     catchInterrupts();
     const engine::Device device(options.scene.device);

@@ -19,9 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using engine::Error;
 
-// Fields that are file names.
-constexpr const char* kFileFields[] = {"/groom/file", "/groom/grow/mesh"};
-
 std::string readFile(const fs::path& path) {
     std::error_code error;
     if (!fs::exists(path, error)) throw Error(path.string(), "no such file");
@@ -87,16 +84,44 @@ Scene makeScene(const fs::path& path, Json document) {
     return scene;
 }
 
+template <class Settings>
+void moveFileNames(Json& object, const fs::path& folder, const Settings& settings);
+
+template <class Owner, class Row>
+void moveFileName(Json&, const fs::path&, const Row&, const Owner&) {}
+
+template <class Owner>
+void moveFileName(
+    Json& object, const fs::path& folder, const hair::FileName<Owner>& row, const Owner& owner) {
+    const fs::path file = owner.*row.member;
+    if (!file.empty() && file.is_relative())
+        object[row.name] = (folder / file).lexically_normal().string();
+}
+
+template <class Owner, class Settings>
+void moveFileName(
+    Json& object, const fs::path& folder, const hair::Group<Owner, Settings>& row,
+    const Owner& owner) {
+    Json member = object.contains(row.name) ? object[row.name] : Json::object();
+    moveFileNames(member, folder, owner.*row.member);
+    if (!member.empty()) object[row.name] = std::move(member);
+}
+
+template <class Owner, class Element>
+void moveFileName(
+    Json& object, const fs::path& folder, const hair::List<Owner, Element>& row,
+    const Owner& owner) {
+    const auto& list = owner.*row.member;
+    for (std::size_t i = 0; i < list.size(); ++i)
+        moveFileNames(object[row.name][i], folder, list[i]);
+}
+
 // File names are relative to the scene that is opened, so a base in another folder has its own
-// rewritten.
-void moveFileNames(Json& base, const fs::path& folder) {
-    if (folder.empty()) return;
-    Json resolved = writeSettings(readSettings(base));
-    for (const char* pointer : kFileFields) {
-        const fs::path file = valueAt(resolved, pointer).get<std::string>();
-        if (!file.empty() && file.is_relative())
-            base[Json::json_pointer(pointer)] = (folder / file).lexically_normal().string();
-    }
+// rewritten, those that it takes from the defaults too.
+template <class Settings>
+void moveFileNames(Json& object, const fs::path& folder, const Settings& settings) {
+    hair::forEachField<Settings>(
+        [&](const auto& row) { moveFileName(object, folder, row, settings); });
 }
 
 Json everyMember() {
@@ -123,7 +148,8 @@ Json loadDocument(const fs::path& path, std::vector<fs::path> opened) {
             } catch (const Error& error) {
                 throw Error("/base", error.what());
             }
-            moveFileNames(merged, fs::path(*base).parent_path());
+            if (const fs::path folder = fs::path(*base).parent_path(); !folder.empty())
+                moveFileNames(merged, folder, readSettings(merged));
             document.erase("base");
             mergePatch(merged, document, everyMember());
             document = std::move(merged);

@@ -15,7 +15,11 @@ std::vector<CaseSpec> selectCases(Scene& scene, const SceneOptions& options) {
     std::set<std::string> checked;
     for (const CaseSpec& each : cases) {
         const hair::GroomSettings& groom = each.settings.groom;
-        std::string files = groom.file + '\n' + groom.grow.mesh;
+        std::string files;
+        for (const std::string& file :
+             {groom.file, groom.mesh, groom.grow.mesh, groom.grow.scalp, groom.grow.mask,
+              groom.grow.length_map, each.settings.strands.offsets})
+            files += file + '\n';
         for (const auto& field : each.settings.simulation.distance_fields)
             files += '\n' + field.mesh;
         if (checked.insert(files).second) checkAssets(each.settings, scene.path);

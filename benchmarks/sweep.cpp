@@ -72,13 +72,6 @@ std::string caseName(
     return name;
 }
 
-GuideCount guideCount(const Scene& scene, const std::vector<Axis>& axes) {
-    const bool written =
-        Json::parse(scene.document).contains(Json::json_pointer("/groom/guides")) ||
-        std::ranges::find(axes, "/groom/guides", &Axis::pointer) != axes.end();
-    return written ? GuideCount::written : GuideCount::by_default;
-}
-
 }  // namespace
 
 std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides) {
@@ -87,7 +80,6 @@ std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides
     std::vector<std::string> pointers;
     for (const Axis& axis : axes) pointers.push_back(axis.pointer);
     const std::vector<std::string> labels = axisLabels(pointers);
-    const GuideCount guide_count = guideCount(scene, axes);
     std::vector<CaseSpec> cases;
     std::unordered_set<std::string> names;
     std::string context = scene.path.string();
@@ -104,7 +96,7 @@ std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides
                 patch(document, axis.pointer, Json::parse(axis.value));
             spec.settings = readSettings(document);
             spec.document = document.dump();
-            checkSettings(spec.settings, guide_count);
+            checkSettings(spec.settings);
             if (!names.insert(spec.name).second) throw Error("two cases have this name");
             cases.push_back(std::move(spec));
         }

@@ -33,6 +33,10 @@ struct Text {
     const char* help;
 };
 
+// The path of a file, relative to the scene file; empty where there is none.
+template <class Owner>
+struct FileName : Text<Owner> {};
+
 template <class Owner>
 struct Toggle {
     const char* name;

@@ -28,6 +28,18 @@ namespace purpose {
 inline constexpr std::uint32_t root_triangle = 1;
 inline constexpr std::uint32_t root_u = 2;
 inline constexpr std::uint32_t root_v = 3;
+inline constexpr std::uint32_t root_mask = 4;
+inline constexpr std::uint32_t guide_length = 5;
+inline constexpr std::uint32_t guide_choice = 6;
+inline constexpr std::uint32_t clump_centre = 7;
+inline constexpr std::uint32_t wave_phase = 8;
+inline constexpr std::uint32_t curl_phase = 9;
+inline constexpr std::uint32_t frizz_x = 10;  // and the two after it, one for each component
+inline constexpr std::uint32_t follower_angle = 13;
+inline constexpr std::uint32_t follower_radius = 14;
+inline constexpr std::uint32_t offset_phase = 15;
+inline constexpr std::uint32_t offset_frequency = 16;
+inline constexpr std::uint32_t offset_noise_x = 17;  // and the two after it
 }  // namespace purpose
 
 }  // namespace hair

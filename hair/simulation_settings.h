@@ -181,9 +181,9 @@ struct DistanceFieldSettings {
 constexpr auto fields(const DistanceFieldSettings*) {
     using S = DistanceFieldSettings;
     return std::tuple{
-        Text<S>{
-            "mesh", &S::mesh,
-            "closed mesh, relative to the scene file; empty: the mesh that the hair grows on"},
+        FileName<S>{
+            {"mesh", &S::mesh,
+             "closed mesh, relative to the scene file; empty: the mesh that the hair grows on"}},
         Field{
             "resolution", &S::resolution, 8, 256, "count",
             "cells along the longest side of the mesh"},

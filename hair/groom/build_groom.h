@@ -2,28 +2,17 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
-#include <string_view>
 
 #include "hair/groom/groom.h"
-#include "hair/groom/mesh.h"
+#include "hair/groom/mesh/mesh.h"
 #include "hair/settings.h"
 
 namespace hair {
 
-// A reader of guide files; its errors begin with the path.
-struct GroomImporter {
-    std::string_view extension;  // lower case, with the dot
-    Groom (*import)(const std::filesystem::path& path);
-};
-
-// A new format is a row here.
-std::span<const GroomImporter> groomImporters();
-
-// The guides that a scene asks for: read from settings.file, relative to `directory` (the scene's
-// folder), or, if that is empty, grown on `mesh`, which is then needed: it is what
-// settings.grow.mesh names. Throws engine::Error "path: reason" with the path of the guide file or
-// of the mesh.
+// The guides that a scene asks for, styled: from the strands of settings.file or, if that is empty,
+// grown. File names are relative to `directory`, the scene's folder. `mesh` is what the hair grows
+// on: of settings.mesh for a file, where null is nothing, and of settings.grow.mesh for growth,
+// which needs it. Throws engine::Error "path: reason" with the path of the file or of the mesh.
 Groom buildGroom(
     const GroomSettings& settings, const Mesh* mesh, const std::filesystem::path& directory,
     std::uint32_t seed);

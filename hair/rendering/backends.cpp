@@ -6,6 +6,7 @@
 
 #include "engine/target.h"
 #include "hair/gpu_structs.h"
+#include "hair/rendering/strand_offsets.h"
 
 namespace hair {
 
@@ -31,9 +32,9 @@ std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext
 }
 
 engine::Constants strandConstants(const StrandSettings& strands, LodMode lod_mode) {
-    return {
-        static_cast<std::uint32_t>(strands.curve), static_cast<std::uint32_t>(strands.taper),
-        static_cast<std::uint32_t>(lod_mode)};
+    return {static_cast<std::uint32_t>(strands.curve), static_cast<std::uint32_t>(strands.taper),
+            static_cast<std::uint32_t>(lod_mode),      static_cast<std::uint32_t>(strands.source),
+            static_cast<std::uint32_t>(strands.width), hasOffsets(strands) ? 1u : 0u};
 }
 
 engine::GraphicsDescription strandPipeline(const BackendContext& context) {

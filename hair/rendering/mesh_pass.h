@@ -4,7 +4,7 @@
 
 #include "engine/pipeline.h"
 #include "engine/transfer.h"
-#include "hair/groom/mesh.h"
+#include "hair/groom/mesh/mesh.h"
 
 namespace hair {
 

@@ -8,10 +8,11 @@ namespace hair {
 
 // Scalar layout aligns 64-bit members to 8, as C++ does.
 static_assert(offsetof(gpu::PictureParameters, guides) == 216);
-static_assert(sizeof(gpu::PictureParameters) == 272);
+static_assert(sizeof(gpu::PictureParameters) == 312);
 
-gpu::PictureParameters
-pictureParameters(const Settings& settings, const StrandPlan& plan, const StrandView& view) {
+gpu::PictureParameters pictureParameters(
+    const Settings& settings, const StrandPlan& plan, const StrandView& view,
+    std::uint64_t guide_normals) {
     const RenderSettings& render = settings.render;
     const ShadingSettings& shading = settings.shading;
     const float aspect = static_cast<float>(render.width) / static_cast<float>(render.height);
@@ -34,6 +35,12 @@ pictureParameters(const Settings& settings, const StrandPlan& plan, const Strand
         .guides = view.guides,
         .root_triangles = view.root_triangles,
         .root_normals = view.root_normals,
+        .guide_widths = view.guide_widths,
+        .bound_strands = view.bound_strands,
+        .guide_normals = guide_normals,
+        .offsets = view.offsets,
+        .offset_profiles = view.offset_profiles,
+        .offset_samples = view.offset_samples,
         .vertices_per_guide = view.vertices_per_guide,
         .density = plan.density,
         .tessellation = plan.tessellation,

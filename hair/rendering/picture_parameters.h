@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "hair/gpu_structs.h"
 #include "hair/rendering/strand_plan.h"
 #include "hair/rendering/strand_view.h"
@@ -7,8 +9,10 @@
 
 namespace hair {
 
-// What every shader of a picture reads. `plan` is the one that planStrands makes of the settings.
-gpu::PictureParameters
-pictureParameters(const Settings& settings, const StrandPlan& plan, const StrandView& view);
+// What every shader of a picture reads. `plan` is the one that planStrands makes of the settings;
+// `guide_normals` is the address of FramesPass::normals(), or 0 where strands are not offset.
+gpu::PictureParameters pictureParameters(
+    const Settings& settings, const StrandPlan& plan, const StrandView& view,
+    std::uint64_t guide_normals);
 
 }  // namespace hair

@@ -6,7 +6,8 @@
 
 #include "engine/frame_loop.h"
 #include "engine/target.h"
-#include "hair/groom/mesh.h"
+#include "hair/groom/mesh/mesh.h"
+#include "hair/rendering/frames_pass.h"
 #include "hair/rendering/mesh_pass.h"
 #include "hair/rendering/overlay_pass.h"
 #include "hair/rendering/resolve_pass.h"
@@ -16,8 +17,8 @@
 
 namespace hair {
 
-// Draws pictures of a head of hair: the passes scene, strands, overlay (where asked for) and
-// resolve.
+// Draws pictures of a head of hair: the passes frames (where strands are offset), scene, strands,
+// overlay (where asked for) and resolve.
 class Renderer {
 public:
     // `mesh` is drawn under the hair; null: none. `view` gives the counts, which stay as they are.
@@ -37,6 +38,7 @@ private:
     StrandPlan plan_;
     engine::Target target_;
     std::array<engine::Buffer, engine::FrameLoop::kMaxSlots> parameters_;  // gpu::PictureParameters
+    std::optional<FramesPass> frames_;
     std::optional<MeshPass> mesh_;
     std::unique_ptr<StrandBackend> backend_;
     OverlayPass overlay_;

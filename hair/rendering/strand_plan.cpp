@@ -37,6 +37,17 @@ StrandPlan planStrands(
     return plan;
 }
 
+StrandPlan
+planStrands(const StrandView& view, const Settings& settings, std::uint32_t isoline_limit) {
+    const std::uint32_t segments = view.vertices_per_guide - 1;
+    if (settings.strands.source == StrandSource::root_triangles)
+        return planStrands(
+            view.triangle_count, segments, settings.strands, settings.lod, isoline_limit);
+    StrandSettings strands = settings.strands;
+    strands.density = view.bound_strand_count;
+    return planStrands(1, segments, strands, settings.lod, 1);
+}
+
 std::uint32_t StrandPlan::verticesPerPatch() const {
     return strands_per_patch * (forced_tessellation + 1);
 }

@@ -5,11 +5,13 @@
 #include <vector>
 
 #include "engine/commands.h"
+#include "hair/rendering/strand_view.h"
 #include "hair/settings.h"
 
 namespace hair {
 
-// How many strands, patches and vertices a picture draws, and by which draws: thesis 2.3.5.
+// How many strands, patches and vertices a picture draws, and by which draws: thesis 2.3.5. The
+// strands of a groom are those of one triangle, each a patch of its own in every guide segment.
 struct StrandPlan {
     std::uint32_t triangles = 0;
     std::uint32_t segments = 0;       // guide segments per guide
@@ -38,6 +40,10 @@ std::uint32_t countAtLevel(std::uint32_t count, float level);
 StrandPlan planStrands(
     std::uint32_t triangles, std::uint32_t segments, const StrandSettings& strands,
     const LodSettings& lod, std::uint32_t isoline_limit);
+
+// Of the strands that the settings ask for.
+StrandPlan
+planStrands(const StrandView& view, const Settings& settings, std::uint32_t isoline_limit);
 
 // What the pipeline statistics must say of the strands' draws. Absent where only the device knows.
 struct ExpectedCounts {

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "engine/error.h"
 #include "engine/pipeline.h"
 #include "engine/transfer.h"
 #include "hair/rendering/backends.h"
+#include "hair/rendering/frames_pass.h"
 #include "hair/rendering/picture_parameters.h"
+#include "hair/rendering/strand_offsets.h"
 
 namespace hair {
 
@@ -48,9 +51,7 @@ const Record& StrandPoints::at(
 StrandPoints evaluateStrandPoints(
     const engine::Device& device, const Settings& settings, const StrandView& view) {
     StrandPoints result{
-        .plan = planStrands(
-            view.triangle_count, view.vertices_per_guide - 1, settings.strands, settings.lod,
-            device.info().limits.maxTessellationGenerationLevel)};
+        .plan = planStrands(view, settings, device.info().limits.maxTessellationGenerationLevel)};
     const std::uint32_t count = pointCount(device, result.plan);
     if (count == 0) return result;
 
@@ -63,8 +64,12 @@ StrandPoints evaluateStrandPoints(
                  .usage = engine::Usage::upload,
                  .name = "picture parameters"});
     const engine::Buffer records(device, {.size = count * sizeof(Record), .name = "strand points"});
-    parameters.write(pictureParameters(settings, result.plan, view));
+    std::optional<FramesPass> frames;
+    if (hasOffsets(settings.strands)) frames.emplace(device, view);
+    parameters.write(
+        pictureParameters(settings, result.plan, view, frames ? frames->normals().address() : 0));
     device.runOnce([&](engine::Commands& commands) {
+        if (frames) frames->record(commands, view);
         commands.bind(
             pipeline,
             gpu::StrandPointsPush{

@@ -6,16 +6,25 @@
 
 namespace hair {
 
-// What rendering knows of the hair: where the guides are now, and the triangles between them. The
-// simulation fills it in; the renderer never includes the simulation.
+// What rendering knows of the hair: where the guides are now, and what is between them. The
+// simulation and GroomBuffers fill it in; the renderer never includes the simulation. Addresses are
+// device addresses.
 struct StrandView {
-    std::uint64_t guides = 0;          // device address, vec4 [guide][vertex], m, root first
-    std::uint64_t root_triangles = 0;  // device address, uint [triangle][3], guide indices
-    std::uint64_t root_normals = 0;    // device address, vec3 [guide], unit length; 0: not known
+    std::uint64_t guides = 0;  // vec4 [guide][vertex], m, root first
+    std::uint64_t root_triangles = 0;  // uint [triangle][3], guide indices
+    std::uint64_t root_normals = 0;  // vec3 [guide], unit length; 0: not known
+    std::uint64_t guide_widths = 0;  // float [guide][vertex], m; 0: not known
+    std::uint64_t bound_strands = 0;  // gpu::BoundStrand [strand], in the order in which levels of
+                                      // detail keep them; 0: not drawn
+    std::uint64_t root_frames = 0;  // gpu::RootFrame [guide]; 0: strands are not offset
+    std::uint64_t offsets = 0;  // StrandOffsets::values
     glm::mat4 head{1.0f};  // rigid motion of the root normals and of the mesh under the hair
     std::uint32_t guide_count = 0;
     std::uint32_t vertices_per_guide = 0;
     std::uint32_t triangle_count = 0;
+    std::uint32_t bound_strand_count = 0;
+    std::uint32_t offset_profiles = 0;
+    std::uint32_t offset_samples = 0;
 };
 
 }  // namespace hair

@@ -5,7 +5,7 @@
 
 #include "engine/buffer.h"
 #include "hair/gpu_structs.h"
-#include "hair/groom/mesh.h"
+#include "hair/groom/mesh/mesh.h"
 #include "hair/settings.h"
 #include "hair/simulation/distance_field.h"
 

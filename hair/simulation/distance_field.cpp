@@ -12,7 +12,7 @@
 #include "engine/error.h"
 #include "engine/pipeline.h"
 #include "engine/transfer.h"
-#include "hair/simulation/closed_mesh.h"
+#include "hair/groom/mesh/closed_mesh.h"
 #include "hair/simulation/dispatch_groups.h"
 #include "hair/simulation/triangle_tree.h"
 

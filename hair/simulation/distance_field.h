@@ -6,7 +6,7 @@
 
 #include "engine/buffer.h"
 #include "hair/gpu_structs.h"
-#include "hair/groom/mesh.h"
+#include "hair/groom/mesh/mesh.h"
 
 namespace hair {
 

@@ -11,7 +11,7 @@
 #include "engine/buffer.h"
 #include "engine/commands.h"
 #include "hair/groom/groom.h"
-#include "hair/groom/mesh.h"
+#include "hair/groom/mesh/mesh.h"
 #include "hair/settings.h"
 #include "hair/simulation/bodies.h"
 #include "hair/simulation/guide_view.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "hair/gpu_structs.h"
-#include "hair/simulation/closed_mesh.h"
+#include "hair/groom/mesh/closed_mesh.h"
 
 namespace hair {
 

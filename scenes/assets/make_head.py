@@ -7,7 +7,8 @@ Run (Python 3.9+, needs numpy, scipy and scikit-image):
 It writes two files next to this script (or into ``output_directory``):
 
 * ``head.glb``             binary glTF, one mesh with two primitives whose
-                           materials are named ``skin`` and ``scalp``
+                           materials are named ``skin`` and ``scalp``, with
+                           texture coordinates (see texture_coordinates())
 * ``head_colliders.json``  capsules that approximate the head for simulation
 
 Conventions: metres, +y up, the face looks toward +z, mirror symmetric about
@@ -425,9 +426,45 @@ def check(points, skin, scalp):
     assert scalp_euler == 1 and boundary_loops(scalp) == 1, "not a disc"
     facing = (unit(cross) * unit(centre - STAR)).sum(axis=1)[len(skin):].min()
     assert facing > 0, "scalp is not star-shaped"
+    uv = texture_coordinates(points)[scalp]
+    turn = np.linalg.det(np.stack([uv[:, 1] - uv[:, 0],
+                                   uv[:, 2] - uv[:, 0]], axis=1))
+    assert (turn < 0).all(), "texture folds on the scalp"  # v points down
     print(f"{len(points)} vertices, {len(skin)} skin + {len(scalp)} scalp "
           f"triangles, height / longest edge >= {thin:.3f}, "
           f"facing cosine on the scalp >= {facing:.2f}")
+
+
+# Direction from STAR that has the middle of the texture: the scalp's middle,
+# halfway from the front hairline over the top to the nape.
+TEXTURE_POLE = np.array([0.0, np.sin(np.radians(53)), -np.cos(np.radians(53))])
+TEXTURE_DOWN = np.array([0.0, np.cos(np.radians(53)), np.sin(np.radians(53))])
+
+
+def texture_coordinates(points):
+    """Azimuthal equidistant projection of the direction from STAR.
+
+    The picture shows the scalp from outside with the face down: its middle is
+    TEXTURE_POLE, u grows toward +x and v toward the face.  A distance of 1/360
+    from the middle is 1 degree.  Only around the throat, opposite the pole, do
+    neighbours get coordinates far apart.
+    """
+    direction = unit(points - STAR)
+    across = np.stack([direction[:, 0], direction @ TEXTURE_DOWN], axis=1)
+    sine = np.linalg.norm(across, axis=1)
+    angle = np.arctan2(sine, direction @ TEXTURE_POLE)
+    scale = angle / (2.0 * np.pi) / np.maximum(sine, 1e-12)
+    return 0.5 + across * scale[:, None]
+
+
+def texture_directions(coordinates):
+    """The inverse of texture_coordinates(): unit vectors from STAR."""
+    across = coordinates - 0.5
+    radius = np.maximum(np.linalg.norm(across, axis=1), 1e-12)[:, None]
+    angle = 2.0 * np.pi * radius
+    x, down = (across / radius * np.sin(angle)).T
+    return (np.cos(angle) * TEXTURE_POLE + down[:, None] * TEXTURE_DOWN
+            + x[:, None] * np.array([1.0, 0.0, 0.0]))
 
 
 def linear(value):
@@ -454,11 +491,13 @@ def write_glb(path, points, normals, parts):
     for material, faces in enumerate(parts.values()):
         used, local = np.unique(faces, return_inverse=True)
         xyz, n = points[used].astype("<f4"), normals[used].astype("<f4")
+        uv = texture_coordinates(points[used]).astype("<f4")
         primitives.append({"attributes": {
             "POSITION": accessor(xyz, 5126, "VEC3", 34962,
                                  min=xyz.min(axis=0).tolist(),
                                  max=xyz.max(axis=0).tolist()),
-            "NORMAL": accessor(n, 5126, "VEC3", 34962)},
+            "NORMAL": accessor(n, 5126, "VEC3", 34962),
+            "TEXCOORD_0": accessor(uv, 5126, "VEC2", 34962)},
             "indices": accessor(local.astype("<u2").ravel(), 5123, "SCALAR",
                                 34963), "material": material})
     text = json.dumps({

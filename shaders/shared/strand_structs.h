@@ -5,6 +5,10 @@
 
 // Purpose of the random numbers that place strands in their root triangle.
 const uint kRootPurpose = 0x524f4f54u;
+// Of those that order the strands of a groom.
+const uint kOrderPurpose = 0x4f524452u;
+// Of those that choose a strand's offsets.
+const uint kOffsetPurpose = 0x4f464653u;
 
 // Everything that a picture's draws read; one per frame in flight.
 struct PictureParameters {
@@ -28,14 +32,43 @@ struct PictureParameters {
     uint64_t root_triangles;  // uint [triangle][3], guide indices
     uint64_t root_normals;  // vec3 [guide], unit length, before the head moved; 0: not known, root
                             // triangles are flat
+    uint64_t guide_widths;  // float [guide][vertex], m; read where the groom's widths are drawn
+    uint64_t bound_strands;  // BoundStrand [strand]; read where the groom's strands are drawn
+    uint64_t guide_normals;  // vec3 [guide][vertex], across the guide; read where offsets are drawn
+    uint64_t offsets;  // vec3 [profile][1 + sample + 1], m: see hair/rendering/strand_offsets.h
+    uint offset_profiles;
+    uint offset_samples;  // along a strand, from root to tip
     uint vertices_per_guide;
-    uint density;  // strands per root triangle at level 0
+    uint density;  // strands per root triangle at level 0; of the groom: all its strands
     uint tessellation;  // segments per guide segment at level 0
     uint patches_per_triangle;  // per guide segment: density beyond the device's isolines is split
     uint strands_per_patch;
     uint forced_density;  // the same at the forced level
     uint forced_tessellation;
     uint seed;
+};
+
+// A strand of the groom: the weighted mean of its guides plus `offset`.
+struct BoundStrand {
+    uvec3 guides;
+    vec3 weights;  // sum 1
+    vec3 offset;   // m, before the head moved
+};
+
+// The start of a guide's frames, before the head moved: unit vectors along and across it.
+struct RootFrame {
+    vec3 tangent;
+    vec3 normal;
+};
+
+// Push constants of strands/frames.comp.
+struct FramesPush {
+    mat4 head;  // PictureParameters::head
+    uint64_t guides;  // vec4 [guide][vertex], m, root first
+    uint64_t root_frames;  // RootFrame [guide]
+    uint64_t normals;  // vec3 [guide][vertex], unit length, across the guide; written
+    uint guide_count;
+    uint vertices_per_guide;
 };
 
 // Push constants of everything that draws strands.

@@ -1,4 +1,4 @@
-// Uniform cubic B-spline, thesis equation (4).
+// Cubic curves: the uniform B-spline of thesis equation (4), and one that goes through its points.
 #ifndef HAIRBENCH_CURVE_GLSL
 #define HAIRBENCH_CURVE_GLSL
 
@@ -14,6 +14,23 @@ vec4 splineWeights(float t) {
 vec4 splineSlopes(float t) {
     float s = 1.0 - t;
     return vec4(-s * s, (3.0 * t - 4.0) * t, (4.0 - 3.0 * s) * s, t * t) / 2.0;
+}
+
+// Weights of four samples, one apart, for the curve through them: Catmull and Rom 1974. t in [0, 1]
+// is the place between the second, where it is exact, and the third.
+vec4 interpolationWeights(float t) {
+    float s = 1.0 - t;
+    return vec4(-t * s * s, (3.0 * t - 5.0) * t * t + 2.0, (3.0 * s - 5.0) * s * s + 2.0,
+                -s * t * t) /
+           2.0;
+}
+
+// Derivatives of these weights by t.
+vec4 interpolationSlopes(float t) {
+    float s = 1.0 - t;
+    return vec4((3.0 * t - 1.0) * s, (9.0 * t - 10.0) * t, (10.0 - 9.0 * s) * s,
+                (1.0 - 3.0 * s) * t) /
+           2.0;
 }
 
 vec3 blend(vec4 weights, vec3 a, vec3 b, vec3 c, vec3 d) {

@@ -28,23 +28,14 @@ void main() {
     uint part = triangle * picture.patches_per_triangle + strand / picture.strands_per_patch;
 
     StrandPatch strand_patch = strandPatch(picture, part * segments + segment);
-    uvec3 guides = rootTriangle(picture, strand_patch.triangle);
-    strand_patch.lod = triangleLod(picture, guides);
+    uvec3 guides = patchGuides(picture, strand_patch);
+    strand_patch.lod = patchLod(picture, strand_patch, guides);
     uint isoline = strand - strand_patch.first_strand;
     bool drawn = isoline < strandsInPatch(picture, strand_patch) &&
                  point_index <= strand_patch.lod.tessellation;
 
     float t = float(point_index) / float(strand_patch.lod.tessellation);
-    vec3 weights = rootWeights(strand_patch.key, strand);
-    vec3 r[4];
-    for (int k = 0; k < 4; ++k) {
-        int control = int(segment) + k - 1;
-        r[k] = mixGuides(weights, guideControlPoint(picture, guides.x, control),
-                         guideControlPoint(picture, guides.y, control),
-                         guideControlPoint(picture, guides.z, control));
-    }
-    StrandPoint point = pointOnStrand(picture, segment, strand_patch.lod.width_scale, r, t);
-    point.position += strandLift(rootLift(picture, guides), weights);
+    StrandPoint point = pointFromGuides(picture, strand_patch, guides, strand, t);
 
     StrandPointRecord record;
     record.position = point.position;

@@ -20,23 +20,14 @@ void main() {
     uint patch_index = line / tessellation / picture.strands_per_patch;
 
     StrandPatch strand_patch = strandPatch(picture, patch_index);
-    uvec3 guides = rootTriangle(picture, strand_patch.triangle);
-    strand_patch.lod = triangleLod(picture, guides);
+    uvec3 guides = patchGuides(picture, strand_patch);
+    strand_patch.lod = patchLod(picture, strand_patch, guides);
     bool drawn = isoline < strandsInPatch(picture, strand_patch) &&
                  piece < strand_patch.lod.tessellation;
 
     float t = float(piece + end) / float(strand_patch.lod.tessellation);
-    vec3 weights = rootWeights(strand_patch.key, strand_patch.first_strand + isoline);
-    vec3 r[4];
-    for (int k = 0; k < 4; ++k) {
-        int index = int(strand_patch.segment) + k - 1;
-        r[k] = mixGuides(weights, guideControlPoint(picture, guides.x, index),
-                         guideControlPoint(picture, guides.y, index),
-                         guideControlPoint(picture, guides.z, index));
-    }
     StrandPoint point =
-        pointOnStrand(picture, strand_patch.segment, strand_patch.lod.width_scale, r, t);
-    point.position += strandLift(rootLift(picture, guides), weights);
+        pointFromGuides(picture, strand_patch, guides, strand_patch.first_strand + isoline, t);
     position_and_width = vec4(point.position, drawn ? point.width : -1.0);
     tangent_and_along = vec4(point.tangent, point.along);
 }

@@ -12,12 +12,13 @@ layout(location = 0) patch out uvec4 patch_ids;  // key, segment, first strand, 
 layout(location = 1) patch out vec2 patch_lod;   // tessellation, width scale
 layout(location = 2) patch out vec3 control_points[12];  // [guide of the triangle][r(i-1) … r(i+2)]
 layout(location = 14) patch out vec3 root_lift[3];
+layout(location = 17) patch out uvec3 patch_guides;
 
 void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;
     StrandPatch strand_patch = strandPatch(picture, patch_index[0]);
-    uvec3 guides = rootTriangle(picture, strand_patch.triangle);
-    strand_patch.lod = triangleLod(picture, guides);
+    uvec3 guides = patchGuides(picture, strand_patch);
+    strand_patch.lod = patchLod(picture, strand_patch, guides);
     uint isolines = strandsInPatch(picture, strand_patch);
 
     patch_ids = uvec4(strand_patch.key, strand_patch.segment, strand_patch.first_strand, isolines);
@@ -28,8 +29,8 @@ void main() {
                 guideControlPoint(picture, guides[corner], int(strand_patch.segment) + k - 1);
         }
     }
-
-    root_lift = rootLift(picture, guides).edges;
+    patch_guides = guides;
+    root_lift = rootLift(picture, strand_patch, guides).edges;
 
     gl_TessLevelOuter[0] = float(isolines);  // 0 drops the patch
     gl_TessLevelOuter[1] = float(strand_patch.lod.tessellation);

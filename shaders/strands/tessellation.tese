@@ -10,6 +10,7 @@ layout(location = 0) patch in uvec4 patch_ids;
 layout(location = 1) patch in vec2 patch_lod;
 layout(location = 2) patch in vec3 control_points[12];
 layout(location = 14) patch in vec3 root_lift[3];
+layout(location = 17) patch in uvec3 patch_guides;
 layout(location = 0) out vec4 position_and_width;
 layout(location = 1) out vec4 tangent_and_along;
 
@@ -19,13 +20,22 @@ void main() {
     uint isoline = uint(gl_TessCoord.y * float(patch_ids.w) + 0.5);
     float t = floor(gl_TessCoord.x * patch_lod.x + 0.5) / patch_lod.x;
 
-    vec3 weights = rootWeights(patch_ids.x, patch_ids.z + isoline);
-    vec3 r[4];
+    StrandPatch strand_patch;
+    strand_patch.key = patch_ids.x;
+    strand_patch.segment = patch_ids.y;
+    strand_patch.first_strand = patch_ids.z;
+    strand_patch.lod.width_scale = patch_lod.y;
+
+    PatchStrand strand;
+    strand.index = patch_ids.z + isoline;
+    strand.guides = patch_guides;
+    strand.weights = strandWeights(picture, strand_patch.key, strand.index);
+    strand.lift = strandLift(RootLift(root_lift), strand.weights);
     for (int k = 0; k < 4; ++k) {
-        r[k] = mixGuides(weights, control_points[k], control_points[4 + k], control_points[8 + k]);
+        strand.r[k] = mixGuides(strand.weights, control_points[k], control_points[4 + k],
+                                control_points[8 + k]);
     }
-    StrandPoint point = pointOnStrand(picture, patch_ids.y, patch_lod.y, r, t);
-    point.position += strandLift(RootLift(root_lift), weights);
+    StrandPoint point = pointOnStrand(picture, strand_patch, strand, t);
     position_and_width = vec4(point.position, point.width);
     tangent_and_along = vec4(point.tangent, point.along);
 }

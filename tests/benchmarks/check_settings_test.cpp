@@ -8,15 +8,14 @@ namespace benchmarks {
 namespace {
 
 template <class Change>
-std::string broken(Change&& change, GuideCount guide_count = GuideCount::by_default) {
+std::string broken(Change&& change) {
     hair::Settings settings;
     change(settings);
-    return errorText([&] { checkSettings(settings, guide_count); });
+    return errorText([&] { checkSettings(settings); });
 }
 
 TEST(CheckSettings, AcceptsTheDefaults) {
     EXPECT_EQ(broken([](hair::Settings&) {}), "no error");
-    EXPECT_EQ(broken([](hair::Settings&) {}, GuideCount::written), "no error");
 }
 
 TEST(CheckSettings, WantsPlanesInOrder) {
@@ -95,15 +94,40 @@ TEST(CheckSettings, WantsRepeatedMotionToClose) {
     EXPECT_EQ(ending({.time = 1.0f, .rotation = {0, -35, 0}, .translation = {0, 0, 0.1f}}), reason);
 }
 
-TEST(CheckSettings, WantsOneSourceOfGuides) {
-    const auto from_file = [](hair::Settings& s) { s.groom.file = "a.hgl"; };
-    EXPECT_EQ(broken(from_file), "no error");
-    EXPECT_EQ(
-        broken(from_file, GuideCount::written),
-        "/groom/guides: a guide file has its own count; leave out this or /groom/file");
+TEST(CheckSettings, WantsASourceOfGuides) {
+    EXPECT_EQ(broken([](hair::Settings& s) { s.groom.file = "a.hgl"; }), "no error");
     EXPECT_EQ(
         broken([](hair::Settings& s) { s.groom.grow.mesh = ""; }),
         "/groom/grow/mesh: is empty, and /groom/file too: there is nothing to take guides from");
+}
+
+TEST(CheckSettings, WantsStrandsOfTwoVerticesAtLeast) {
+    EXPECT_EQ(
+        broken([](hair::Settings& s) { s.groom.vertices = 1; }),
+        "/groom/vertices: 1 is neither 0 nor at least 2");
+    EXPECT_EQ(broken([](hair::Settings& s) { s.groom.vertices = 2; }), "no error");
+}
+
+TEST(CheckSettings, WantsAPartingWithLength) {
+    const auto closed = [](float strength) {
+        return broken([&](hair::Settings& s) {
+            s.groom.grow.parting.strength = strength;
+            s.groom.grow.parting.to = s.groom.grow.parting.from;
+        });
+    };
+    EXPECT_EQ(closed(1.0f), "/groom/grow/parting/to: is where /groom/grow/parting/from is");
+    EXPECT_EQ(closed(0.0f), "no error");
+}
+
+TEST(CheckSettings, DrawsStrandsOfAFileOnlyWhereThereIsOne) {
+    const auto own = [](const char* file) {
+        return broken([&](hair::Settings& s) {
+            s.strands.source = hair::StrandSource::groom;
+            s.groom.file = file;
+        });
+    };
+    EXPECT_EQ(own(""), "/strands/source: is groom, but there is no /groom/file");
+    EXPECT_EQ(own("a.hair"), "no error");
 }
 
 }  // namespace

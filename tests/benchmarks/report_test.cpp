@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/write_file.h"
+#include "engine/write_file.h"
 #include "tests/error_text.h"
 #include "tests/benchmarks/sample_report.h"
 #include "tests/benchmarks/schema_errors.h"
@@ -134,13 +134,13 @@ TEST(WriteReport, SaysWhyItCannot) {
     for (const auto& [name, error] : errors) {
         const auto path = folder.path() / name;
         EXPECT_EQ(folder.relative(errorText([&] { writeReport(sampleReport(), path); })), error);
-        EXPECT_EQ(folder.relative(errorText([&] { checkWritable(path); })), error);
+        EXPECT_EQ(folder.relative(errorText([&] { engine::checkWritable(path); })), error);
     }
 }
 
 TEST(CheckWritable, MakesTheFolderButNotTheFile) {
     const TemporaryFolder folder;
-    checkWritable(folder.path() / "a/r.json");
+    engine::checkWritable(folder.path() / "a/r.json");
     EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "a"));
 }
 

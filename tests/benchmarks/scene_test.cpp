@@ -29,7 +29,7 @@ TEST(Scene, SeparatesSettingsFromTheReadersMembers) {
         "s.json",
         R"({"$schema": "x", "seed": 7, "sweep": {"/strands/density": [64.0, 16], "/render/msaa": [1]}})"));
     EXPECT_EQ(scene.document, R"({"seed":7})");
-    EXPECT_THAT(scene.resolved, HasSubstr(R"("seed":7,"groom":{"file":"","guides":86,)"));
+    EXPECT_THAT(scene.resolved, HasSubstr(R"("seed":7,"groom":{"file":"","mesh":"",)"));
     EXPECT_THAT(scene.resolved, Not(HasSubstr("sweep")));
     EXPECT_EQ(scene.settings.seed, 7u);
     ASSERT_EQ(scene.axes.size(), 2u);
@@ -62,6 +62,9 @@ TEST(Scene, FindsTheFilesOfABaseInAnotherFolder) {
     folder.write("lib/base.json", R"({"groom": {"grow": {"mesh": "../m/head.glb"}}})");
     folder.write("lib/file.json", R"({"groom": {"file": "a.hgl", "grow": {"mesh": "/head.glb"}}})");
     folder.write("lib/silent.json", "{}");
+    folder.write(
+        "lib/bodies.json",
+        R"({"simulation": {"distance_fields": [{"mesh": ""}, {"mesh": "body.obj"}]}})");
     const auto load = [&](const char* text) {
         return loadScene(folder.write("s.json", text)).settings.groom;
     };
@@ -69,6 +72,9 @@ TEST(Scene, FindsTheFilesOfABaseInAnotherFolder) {
     EXPECT_EQ(load(R"({"base": "lib/file.json"})").file, "lib/a.hgl");
     EXPECT_EQ(load(R"({"base": "lib/file.json"})").grow.mesh, "/head.glb");
     EXPECT_EQ(load(R"({"base": "lib/silent.json"})").grow.mesh, "lib/assets/head.glb");
+    const Scene bodies = loadScene(folder.write("b.json", R"({"base": "lib/bodies.json"})"));
+    EXPECT_EQ(bodies.settings.simulation.distance_fields[0].mesh, "");
+    EXPECT_EQ(bodies.settings.simulation.distance_fields[1].mesh, "lib/body.obj");
 }
 
 TEST(SetField, IsAsIfTheFileHadIt) {
@@ -122,8 +128,9 @@ INSTANTIATE_TEST_SUITE_P(Json, SceneError, testing::ValuesIn(kBadJson));
 const BadScene kBadFields[] = {
     {R"({"strands": {"tessalation": 1}})",
      ": /strands/tessalation: unknown key (did you mean \"tessellation\"?); known: backend, "
-     "density, "
-     "tessellation, root_width, tip_width, curve, taper, submission"},
+     "source, density, tessellation, width, root_width, tip_width, curl, variation, offsets, "
+     "curve, "
+     "taper, submission"},
     {R"({"sweeep": {}})", ": /sweeep: unknown key (did you mean \"sweep\"?); known: description, "
                           "seed, groom, simulation, strands, "
                           "lod, shading, camera, render, run, $schema, base, sweep"},
@@ -140,7 +147,7 @@ const BadScene kBadFields[] = {
     {R"({"render": {"msaa": "x"}})", ": /render/msaa: expected an integer, found the string \"x\""},
     {R"({"strands": {"density": 0}})", ": /strands/density: 0 is outside [1, 4096] count"},
     {R"({"strands": {"density": -1}})", ": /strands/density: -1 is outside [1, 4096] count"},
-    {R"({"groom": {"guides": 300000}})", ": /groom/guides: 300000 is outside [4, 200000] count"},
+    {R"({"groom": {"guides": 300000}})", ": /groom/guides: 300000 is outside [0, 200000] count"},
     {R"({"seed": 4294967296})", ": /seed: 4294967296 is outside [0, 4294967295]"},
     {R"({"simulation": {"friction": 1.5}})", ": /simulation/friction: 1.5 is outside [0, 1]"},
     {R"({"simulation": {"time_step": 1e-9}})",

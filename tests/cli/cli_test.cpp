@@ -1,16 +1,14 @@
 // The program as a user meets it: its exit status, its one-line errors, the files it writes and
 // leaves alone.
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
 
+#include "tests/cli/run_hairbench.h"
 #include "tests/temporary_folder.h"
 
 namespace {
@@ -18,24 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
-
-struct Outcome {
-    int status;
-    std::string output;  // stdout and stderr
-};
-
-Outcome hairbench(const std::string& arguments, const std::string& environment = "") {
-    const std::string command = environment + "'" HAIRBENCH_PROGRAM "' " + arguments + " 2>&1";
-    FILE* pipe = popen(command.c_str(), "r");
-    if (!pipe) throw std::runtime_error("popen failed");
-    Outcome outcome{};
-    std::array<char, 4096> part{};
-    while (std::size_t count = fread(part.data(), 1, part.size(), pipe)) {
-        outcome.output.append(part.data(), count);
-    }
-    outcome.status = WEXITSTATUS(pclose(pipe));
-    return outcome;
-}
 
 std::string scene(const std::string& name) {
     return std::string("'") + HAIRBENCH_SCENES_DIR + "/" + name + "'";
@@ -113,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"MissingMesh", R"({"groom": {"grow": {"mesh": "none.glb"}}})", "none.glb"},
         Refusal{
             "MeshWithoutScalp", R"({"groom": {"grow": {"mesh": "bald.obj"}}})",
-            "no material named 'scalp'"},
+            "nothing in the mesh is named 'scalp'"},
         Refusal{"GuideFileCutShort", R"({"groom": {"file": "short.hgl"}})", "short.hgl"},
         Refusal{"GuideFileWithFalseCount", R"({"groom": {"file": "lies.hgl"}})", "lies.hgl"}),
     [](const auto& each) { return each.param.name; });

@@ -1,4 +1,4 @@
-#include "hair/groom/flatten.h"
+#include "hair/groom/growth/flatten.h"
 
 #include <cmath>
 

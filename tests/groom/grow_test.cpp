@@ -1,4 +1,4 @@
-#include "hair/groom/grow.h"
+#include "hair/groom/growth/grow.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +9,13 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-#include "hair/groom/import_mesh.h"
-#include "hair/groom/roots.h"
+#include "engine/image_file.h"
+#include "hair/groom/growth/disc_roots.h"
+#include "hair/groom/mesh/import_mesh.h"
 #include "tests/error_text.h"
-#include "tests/temporary_folder.h"
+#include "tests/groom/surface_meshes.h"
 #include "tests/groom/test_meshes.h"
+#include "tests/temporary_folder.h"
 
 namespace hair {
 namespace {
@@ -22,6 +24,11 @@ using testing::HasSubstr;
 
 // A float near 0.3 m is stored to 1.5e-8; a difference of two along three axes to about 5e-8.
 constexpr float kRounding = 1e-7f;
+
+Groom grow(
+    const Mesh& mesh, const GrowSettings& settings, std::uint32_t guides, std::uint32_t seed) {
+    return hair::grow(mesh, settings, {}, guides, seed);
+}
 
 Mesh headMesh() { return importMesh(std::string(HAIRBENCH_SCENES_DIR) + "/assets/head.glb"); }
 
@@ -300,13 +307,115 @@ TEST(Grow, DroopsByItsDifferentialEquation) {
     }
 }
 
+// A sheet whose picture, 4 by 1 pixels over its x, is 0, 1/5, 3/5 and 1 of the brightness.
+class GrowWithPictures : public testing::Test {
+protected:
+    GrowWithPictures() {
+        for (const glm::vec3& position : sheet_.positions)
+            sheet_.texture_coordinates.emplace_back(position.x / 4.0f, position.z / 4.0f);
+        std::vector<std::uint8_t> pixels;
+        for (const std::uint8_t grey : {0, 51, 153, 255})
+            pixels.insert(pixels.end(), {grey, grey, grey, 255});
+        engine::writePng(folder_.file("maps/steps.png"), 4, 1, pixels);
+    }
+    Groom grow(const GrowSettings& settings, std::uint32_t guides) const {
+        return hair::grow(sheet_, settings, folder_.path(), guides, 1);
+    }
+
+    TemporaryFolder folder_;
+    Mesh sheet_ = makeGrid(4, 4, [](std::uint32_t, std::uint32_t) { return false; });
+};
+
+double lengthOf(std::span<const glm::vec3> strand) {
+    double length = 0.0;
+    for (std::size_t i = 1; i < strand.size(); ++i)
+        length += double{glm::distance(strand[i - 1], strand[i])};
+    return length;
+}
+
+TEST_F(GrowWithPictures, MultipliesLengthsByTheMap) {
+    const Groom groom = grow({.vertices = 5, .length = 2.0f, .length_map = "maps/steps.png"}, 300);
+    const std::array<double, 6> values{0.0, 0.0, 0.2, 0.6, 1.0, 1.0};  // at x = -0.5, 0.5, ...
+    for (std::uint32_t i = 0; i < 300; ++i) {
+        const double x = double{groom.strand(i)[0].x} + 0.5;
+        const auto step = std::min(static_cast<std::size_t>(x), std::size_t{4});
+        const double part = x - static_cast<double>(step);
+        const double map = (1.0 - part) * values[step] + part * values[step + 1];
+        // Points up to 4 are stored to 2.4e-7, and there are four segments.
+        EXPECT_NEAR(lengthOf(groom.strand(i)), std::max(2.0 * map, 0.001), 2e-6);
+    }
+}
+
+TEST_F(GrowWithPictures, KeepsRootsUnderTheMask) {
+    const Groom groom = grow({.mask = "maps/steps.png"}, 400);
+    EXPECT_EQ(groom.strand_count, 400u);
+    for (std::uint32_t i = 0; i < 400; ++i) EXPECT_GT(groom.strand(i)[0].x, 0.5f);
+}
+
+TEST_F(GrowWithPictures, SaysWhatIsWrongWithAPicture) {
+    EXPECT_EQ(
+        errorText([&] { grow({.mask = "maps/gone.png"}, 10); }),
+        folder_.file("maps/gone.png").string() + ": no such file");
+    sheet_.texture_coordinates.clear();
+    for (const GrowSettings& settings :
+         {GrowSettings{.mask = "maps/steps.png"}, GrowSettings{.length_map = "maps/steps.png"}}) {
+        EXPECT_THAT(errorText([&] { grow(settings, 10); }), HasSubstr("no texture coordinates"));
+    }
+}
+
+// Uniform from 0.4 to 1 of the length: the mean of n has the standard deviation 0.6 / sqrt(12 n),
+// and five of them are allowed.
+TEST(Grow, VariesLengths) {
+    const Groom groom =
+        grow(makeCap(), {.length = 1.0f, .length_variation = 0.6f, .droop = 2.0f}, 1000, 1);
+    double sum = 0.0;
+    double least = 1.0;
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        const auto strand = groom.strand(i);
+        const double length = lengthOf(strand);
+        EXPECT_LE(length, 1.0 + 1e-5);
+        EXPECT_GE(length, 0.4 - 1e-5);
+        for (std::size_t v = 1; v < strand.size(); ++v)
+            EXPECT_NEAR(double{glm::distance(strand[v - 1], strand[v])}, length / 7.0, 1e-6);
+        sum += length;
+        least = std::min(least, length);
+    }
+    EXPECT_NEAR(sum / 1000.0, 0.7, 5.0 * 0.6 / std::sqrt(12000.0));
+    EXPECT_LT(least, 0.41);
+}
+
+// Everything, on a mesh without any name.
+TEST(Grow, TakesAWholeMesh) {
+    Mesh sphere = makeSphere(0.1, 24, 12);
+    sphere.materials[0].name = "";
+    for (const std::uint32_t guides : {1u, 2u, 3u, 50u, 1000u}) {
+        const Groom groom = grow(sphere, {.scalp = "*"}, guides, 1);
+        EXPECT_EQ(groom.strand_count, guides);
+        EXPECT_EQ(groom.root_normals.size(), guides);
+        EXPECT_FALSE(groom.root_triangles.empty());
+    }
+}
+
+TEST(Grow, CombsAwayFromAParting) {
+    GrowSettings settings;
+    settings.parting = {.from = {0.0f, 0.05f, 0.2f}, .to = {0.0f, 0.12f, -0.03f}, .strength = 2.0f};
+    const Groom groom = grow(makeCap(), settings, 500, 1);
+    for (std::uint32_t i = 0; i < 500; ++i) {
+        const glm::vec3 root = groom.strand(i)[0];
+        if (root.z < -0.02f || std::abs(root.x) < 0.0003f) continue;
+        const glm::vec3 along = groom.strand(i)[1] - root;
+        // More than the normal alone does.
+        EXPECT_GT(along.x / root.x, glm::length(along) / 0.1f);
+    }
+}
+
 TEST(Grow, RefusesMeshesWithoutAScalp) {
     Mesh mesh = makeCap();
     mesh.materials[1].name = "felt";
     EXPECT_EQ(
         errorText([&] { grow(mesh, {}, 86, 1); }),
-        "the mesh has no material named 'scalp'; it has: 'skin', 'felt'");
-    EXPECT_THAT(errorText([&] { grow(makeCap(), {}, 2, 1); }), HasSubstr("at least 3"));
+        "nothing in the mesh is named 'scalp'; materials: 'skin', 'felt'; parts: none; vertex "
+        "groups: none");
 }
 
 }  // namespace

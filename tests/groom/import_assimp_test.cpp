@@ -1,8 +1,10 @@
+#include <map>
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-#include "hair/groom/import_mesh.h"
+#include "hair/groom/mesh/import_mesh.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
@@ -101,6 +103,142 @@ TEST(ImportAssimp, TurnsTheUnitOfTheFileIntoMetres) {
     glm::vec3 high(0.0f);
     for (const glm::vec3& position : mesh.positions) high = glm::max(high, position);
     EXPECT_LT(glm::distance(high, glm::vec3(1.0f, 0.0f, 0.5f)), 1e-6f);
+}
+
+// OBJ has v up, glTF and we have it down.
+TEST(ImportAssimp, ReadsTextureCoordinates) {
+    const TemporaryFolder folder;
+    const Mesh mesh = importMesh(folder.write("a.obj", R"(
+v 0 0 0
+v 0 0 1
+v 1 0 0
+v 1 0 1
+vt 0.25 1
+vt 0.5 0.25
+vt 1 0
+o mapped
+f 1/1 2/2 3/3
+o plain
+f 2 4 3
+)"));
+    ASSERT_EQ(mesh.texture_coordinates.size(), mesh.positions.size());
+    std::map<std::pair<float, float>, glm::vec2> at;  // of x and z
+    for (const std::uint32_t vertex : mesh.triangles[0]) {
+        const glm::vec3& p = mesh.positions[vertex];
+        at[{p.x, p.z}] = mesh.texture_coordinates[vertex];
+    }
+    EXPECT_EQ((at[{0.0f, 0.0f}]), glm::vec2(0.25f, 0.0f));
+    EXPECT_EQ((at[{0.0f, 1.0f}]), glm::vec2(0.5f, 0.75f));
+    EXPECT_EQ((at[{1.0f, 0.0f}]), glm::vec2(1.0f, 1.0f));
+    for (const std::uint32_t vertex : mesh.triangles[1])
+        EXPECT_EQ(mesh.texture_coordinates[vertex], glm::vec2(0.0f));
+    const Mesh plain = importMesh(folder.write("roof.obj", kObj));
+    EXPECT_TRUE(plain.texture_coordinates.empty());
+}
+
+// A seam: the same place, another texture coordinate.
+TEST(ImportAssimp, KeepsVerticesApartThatDifferInTextureCoordinates) {
+    const TemporaryFolder folder;
+    const Mesh mesh = importMesh(folder.write(
+        "a.obj", "v 0 0 0\nv 0 0 1\nv 1 0 0\nv 1 0 1\nvt 0 0\nvt 0 1\nvt 1 0\nvt 1 1\n"
+                 "f 1/1 2/2 3/3\nf 2/4 4/4 3/3\n"));
+    EXPECT_EQ(mesh.positions.size(), 5u);
+}
+
+TEST(ImportAssimp, ReadsObjectsAndGroupsAsParts) {
+    const TemporaryFolder folder;
+    const Mesh mesh = importMesh(folder.write("a.obj", R"(
+v 0 0 0
+v 0 0 1
+v 1 0 0
+v 1 0 1
+o bust
+f 1 2 3
+g scalp
+f 2 4 3
+f 1 2 4
+)"));
+    ASSERT_EQ(mesh.triangle_parts.size(), 3u);
+    std::vector<std::string> names;
+    for (const std::uint32_t part : mesh.triangle_parts) names.push_back(mesh.parts.at(part));
+    EXPECT_THAT(names, testing::ElementsAre("bust", "scalp", "scalp"));
+}
+
+// Two nodes with one geometry, the second one moved and mirrored, so that its triangle has to turn
+// round to face the same way.
+TEST(ImportAssimp, PlacesEveryNode) {
+    const TemporaryFolder folder;
+    const Mesh mesh = importMesh(folder.write("a.dae", R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit name="meter" meter="1"/><up_axis>Y_UP</up_axis></asset>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="9">0 0 0 0 0 1 1 0 0</float_array><technique_common>
+<accessor source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s">
+<node id="one" name="one"><instance_geometry url="#g"/></node>
+<node id="two" name="two"><translate>5 0 0</translate><scale>-1 1 1</scale>
+<instance_geometry url="#g"/></node>
+</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)"));
+    ASSERT_EQ(mesh.triangles.size(), 2u);
+    EXPECT_THAT(mesh.parts, testing::ElementsAre("one", "two"));
+    glm::vec3 high(0.0f);
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const glm::vec3 edge = mesh.positions[b] - mesh.positions[a];
+        EXPECT_EQ(glm::cross(edge, mesh.positions[c] - mesh.positions[a]), glm::vec3(0, 1, 0));
+    }
+    for (const glm::vec3& position : mesh.positions) high = glm::max(high, position);
+    EXPECT_EQ(high, glm::vec3(5.0f, 0.0f, 1.0f));
+}
+
+// A skin: the joint "crown" has the weights 1, 0.75 and 0 of the three vertices.
+TEST(ImportAssimp, ReadsBonesAsVertexGroups) {
+    const TemporaryFolder folder;
+    const Mesh mesh = importMesh(folder.write("a.dae", R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit name="meter" meter="1"/><up_axis>Y_UP</up_axis></asset>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="9">0 0 0 0 0 1 1 0 0</float_array><technique_common>
+<accessor source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+</mesh></geometry></library_geometries>
+<library_controllers><controller id="c"><skin source="#g">
+<bind_shape_matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</bind_shape_matrix>
+<source id="j"><Name_array id="ja" count="2">crown nape</Name_array><technique_common>
+<accessor source="#ja" count="2" stride="1"><param name="JOINT" type="name"/></accessor>
+</technique_common></source>
+<source id="m"><float_array id="ma" count="32">1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1
+1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</float_array><technique_common>
+<accessor source="#ma" count="2" stride="16"><param name="TRANSFORM" type="float4x4"/></accessor>
+</technique_common></source>
+<source id="w"><float_array id="wa" count="3">1 0.75 0.25</float_array><technique_common>
+<accessor source="#wa" count="3" stride="1"><param name="WEIGHT" type="float"/></accessor>
+</technique_common></source>
+<joints><input semantic="JOINT" source="#j"/><input semantic="INV_BIND_MATRIX" source="#m"/></joints>
+<vertex_weights count="3"><input semantic="JOINT" source="#j" offset="0"/>
+<input semantic="WEIGHT" source="#w" offset="1"/><vcount>1 2 1</vcount>
+<v>0 0 0 1 1 2 1 0</v></vertex_weights>
+</skin></controller></library_controllers>
+<library_visual_scenes><visual_scene id="s">
+<node id="crown" sid="crown" name="crown" type="JOINT"/>
+<node id="nape" sid="nape" name="nape" type="JOINT"/>
+<node id="n" name="n"><instance_controller url="#c"><skeleton>#crown</skeleton></instance_controller>
+</node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>)"));
+    ASSERT_EQ(mesh.positions.size(), 3u);
+    ASSERT_EQ(mesh.vertex_groups.size(), 2u);
+    EXPECT_EQ(mesh.vertex_groups[0].name, "crown");
+    std::map<std::pair<float, float>, float> weights;  // of x and z
+    for (std::size_t i = 0; i < 3; ++i)
+        weights[{mesh.positions[i].x, mesh.positions[i].z}] = mesh.vertex_groups[0].weights.at(i);
+    EXPECT_EQ((weights[{0.0f, 0.0f}]), 1.0f);
+    EXPECT_EQ((weights[{0.0f, 1.0f}]), 0.75f);
+    EXPECT_EQ((weights[{1.0f, 0.0f}]), 0.0f);
 }
 
 TEST(ImportAssimp, RefusesBrokenFiles) {

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-#include "hair/groom/import_mesh.h"
+#include "hair/groom/mesh/import_mesh.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
@@ -13,6 +13,7 @@ namespace hair {
 namespace {
 
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -43,7 +44,9 @@ struct Document {
     std::string primitive = R"("indices":2,"material":1)";
     std::string position = R"("componentType":5126,"count":3,"type":"VEC3")";
     std::string indices = R"("componentType":5123,"count":3,"type":"SCALAR")";
+    std::string more_accessors = "";
     std::string extra = "";
+    int view_size = 6;  // of indices, bytes
     std::string data = triangleData();
 };
 
@@ -58,10 +61,10 @@ std::string glb(const Document& document) {
         R"({"bufferView":0,)" +
         document.position +
         R"(},{"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"},{"bufferView":2,)" +
-        document.indices +
-        R"(}],"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36},)"
-        R"({"buffer":0,"byteOffset":36,"byteLength":36},{"buffer":0,"byteOffset":72,"byteLength":6}],)"
-        R"("buffers":[{"byteLength":)" +
+        document.indices + "}" + document.more_accessors +
+        R"(],"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36},)"
+        R"({"buffer":0,"byteOffset":36,"byteLength":36},{"buffer":0,"byteOffset":72,"byteLength":)" +
+        std::to_string(document.view_size) + R"(}],"buffers":[{"byteLength":)" +
         std::to_string(document.data.size()) + "}]" + document.extra + "}";
     while (json.size() % 4 != 0) json += ' ';
     std::string bytes = "glTF";
@@ -167,6 +170,71 @@ TEST(ImportGltf, ReadsTheHead) {
     EXPECT_EQ(mesh.normals.size(), mesh.positions.size());
 }
 
+// The same vertices as texture coordinates, the first two of each three, and as weights.
+TEST(ImportGltf, ReadsTextureCoordinates) {
+    EXPECT_TRUE(import({}).texture_coordinates.empty());
+    const Mesh mesh = import(
+        {.attributes = R"("POSITION":0,"TEXCOORD_0":3)",
+         .more_accessors = R"(,{"bufferView":0,"componentType":5126,"count":3,"type":"VEC2"})"});
+    EXPECT_THAT(
+        mesh.texture_coordinates, ElementsAre(glm::vec2(0, 0), glm::vec2(0, 0), glm::vec2(0, 1)));
+    // Indices 0 1, 2 0 as shares of the greatest number.
+    const Mesh shares = import(
+        {.attributes = R"("POSITION":0,"TEXCOORD_0":3)",
+         .more_accessors = R"(,{"bufferView":2,"componentType":5121,"normalized":true,)"
+                           R"("count":3,"type":"VEC2"})"});
+    EXPECT_THAT(
+        shares.texture_coordinates,
+        ElementsAre(glm::vec2(0, 0), glm::vec2(1.0f / 255.0f, 0), glm::vec2(2.0f / 255.0f, 0)));
+    EXPECT_THAT(
+        importError({.attributes = R"("POSITION":0,"TEXCOORD_0":0)"}),
+        HasSubstr("accessor 0: is not VEC2 of float"));
+}
+
+TEST(ImportGltf, ReadsItsOwnScalarsAsVertexGroups) {
+    const Mesh mesh = import(
+        {.attributes = R"("POSITION":0,"_SCALP":3,"_BEYOND":4,"_NORMAL":1)",
+         .more_accessors = R"(,{"bufferView":1,"componentType":5126,"count":3,"type":"SCALAR"})"
+                           R"(,{"bufferView":0,"byteOffset":20,"componentType":5126,"count":3,)"
+                           R"("type":"SCALAR"})"});
+    ASSERT_EQ(mesh.vertex_groups.size(), 1u);  // the values of the other ones aren't 0 to 1
+    EXPECT_EQ(mesh.vertex_groups[0].name, "scalp");
+    EXPECT_THAT(mesh.vertex_groups[0].weights, ElementsAre(0, 1, 0));
+    EXPECT_THAT(
+        importError(
+            {.attributes = R"("POSITION":0,"_SCALP":3)",
+             .more_accessors =
+                 R"(,{"bufferView":1,"componentType":5126,"count":2,"type":"SCALAR"})"}),
+        HasSubstr("_SCALP and POSITION differ in count"));
+}
+
+TEST(ImportGltf, NamesParts) {
+    EXPECT_THAT(import({}).parts, ElementsAre(""));
+    const Mesh mesh = import(
+        {.node = R"("mesh":0,"name":"head","children":[1])",
+         .more_nodes = R"(,{"mesh":0,"name":"bust"})"});
+    EXPECT_THAT(mesh.parts, ElementsAre("head", "bust"));
+    EXPECT_THAT(mesh.triangle_parts, ElementsAre(0, 1));
+}
+
+TEST(ImportGltf, ReadsStripsAndFans) {
+    // The vertices 0 1 2, and 0 again.
+    const std::string four = R"("componentType":5123,"count":4,"type":"SCALAR")";
+    Document document{.primitive = R"("mode":5,"indices":2)", .indices = four};
+    document.view_size = 8;
+    using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+    EXPECT_EQ(import(document).triangles, (Triangles{{0, 1, 2}, {1, 0, 2}}));
+    document.primitive = R"("mode":6,"indices":2)";
+    EXPECT_EQ(import(document).triangles, (Triangles{{1, 2, 0}, {2, 0, 0}}));
+}
+
+TEST(ImportGltf, SkipsHairBesideTheHead) {
+    const Mesh mesh =
+        import({.primitive = R"("indices":2},{"attributes":{"POSITION":0},"mode":3)"});
+    EXPECT_EQ(mesh.positions.size(), 3u);
+    EXPECT_EQ(mesh.triangles.size(), 1u);
+}
+
 TEST(ImportGltf, RefusesWrongIndicesAndPositions) {
     Document document;
     document.data[72] = 3;
@@ -202,7 +270,7 @@ TEST(ImportGltf, RefusesAccessorsOutsideTheirBuffer) {
 }
 
 TEST(ImportGltf, RefusesWhatItDoesNotRead) {
-    EXPECT_THAT(importError({.primitive = R"("mode":5)"}), HasSubstr("only triangles"));
+    EXPECT_THAT(importError({.primitive = R"("mode":1)"}), HasSubstr("the mesh has no triangles"));
     EXPECT_THAT(importError({.attributes = R"("NORMAL":1)"}), HasSubstr("no POSITION"));
     EXPECT_THAT(
         importError({.position = R"("componentType":5126,"count":3,"type":"VEC2")"}),

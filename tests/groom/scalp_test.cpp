@@ -1,4 +1,4 @@
-#include "hair/groom/scalp.h"
+#include "hair/groom/growth/scalp.h"
 
 #include <cmath>
 #include <numbers>
@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
+#include "hair/groom/growth/hairline.h"
 #include "hair/random.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
@@ -24,7 +25,7 @@ TEST(Scalp, TakesOnlyItsMaterial) {
     // Rings of 0.15 rad: five of them are scalp, the first 12 triangles, the others 24.
     EXPECT_EQ(scalp.triangles.size(), 12u + 4u * 24u);
     EXPECT_EQ(scalp.positions.size(), 1u + 5u * 12u);
-    EXPECT_EQ(scalp.boundary.size(), 12u);
+    EXPECT_EQ(traceHairline(scalp).vertices.size(), 12u);
 }
 
 // A fine mesh of a spherical cap has nearly its area, 2 pi r^2 (1 - cos t): chords shorten by t^2 /
@@ -56,38 +57,30 @@ TEST(Scalp, WeldsVerticesAtTheSamePlace) {
 
 // Seen from above (+y), with +x right and -z up, counter-clockwise; an edge has the scalp on its
 // left.
-TEST(Scalp, WalksTheHairlineCounterClockwise) {
+TEST(Hairline, IsWalkedCounterClockwise) {
     const Scalp scalp = extractScalp(makeGrid(3, 2, kNoHole));
-    ASSERT_EQ(scalp.boundary.size(), 10u);
+    const std::vector<std::uint32_t> hairline = traceHairline(scalp).vertices;
+    ASSERT_EQ(hairline.size(), 10u);
     double twice_area = 0.0;
     for (std::size_t i = 0; i < 10; ++i) {
-        const glm::vec3& a = scalp.positions[scalp.boundary[i]];
-        const glm::vec3& b = scalp.positions[scalp.boundary[(i + 1) % 10]];
+        const glm::vec3& a = scalp.positions[hairline[i]];
+        const glm::vec3& b = scalp.positions[hairline[(i + 1) % 10]];
         EXPECT_EQ(glm::distance(a, b), 1.0f);
         twice_area += glm::cross(glm::dvec3(a), glm::dvec3(b)).y;
     }
     EXPECT_EQ(twice_area, 12.0);
 }
 
-TEST(Scalp, NeedsItsMaterial) {
-    Mesh mesh = makeCap();
-    mesh.materials[1].name = "hat";
-    EXPECT_EQ(
-        errorText([&] { extractScalp(mesh); }),
-        "the mesh has no material named 'scalp'; it has: 'skin', 'hat'");
-    mesh.materials.push_back({.name = "scalp"});
-    EXPECT_EQ(errorText([&] { extractScalp(mesh); }), "no triangle has the material 'scalp'");
-    EXPECT_THAT(errorText([&] { extractScalp(Mesh{}); }), HasSubstr("it has: none"));
-}
-
-TEST(Scalp, NeedsExactlyOneHairline) {
+TEST(Hairline, IsOneLoop) {
     const auto ring =
         makeGrid(3, 3, [](std::uint32_t x, std::uint32_t z) { return x == 1 && z == 1; });
     EXPECT_EQ(
-        errorText([&] { extractScalp(ring); }), "the scalp has 2 boundary loops, 1 is needed");
+        errorText([&] { traceHairline(extractScalp(ring)); }),
+        "the scalp has 2 boundary loops, 1 is needed");
     const auto islands = makeGrid(3, 3, [](std::uint32_t x, std::uint32_t) { return x == 1; });
     EXPECT_EQ(
-        errorText([&] { extractScalp(islands); }), "the scalp has 2 boundary loops, 1 is needed");
+        errorText([&] { traceHairline(extractScalp(islands)); }),
+        "the scalp has 2 boundary loops, 1 is needed");
     Mesh closed;  // a tetrahedron
     closed.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     closed.normals.resize(4, glm::vec3(0, 1, 0));
@@ -95,24 +88,25 @@ TEST(Scalp, NeedsExactlyOneHairline) {
     closed.triangle_materials.resize(4, 0);
     closed.materials = {{.name = "scalp"}};
     EXPECT_EQ(
-        errorText([&] { extractScalp(closed); }), "the scalp has 0 boundary loops, 1 is needed");
+        errorText([&] { traceHairline(extractScalp(closed)); }),
+        "the scalp has 0 boundary loops, 1 is needed");
 }
 
-TEST(Scalp, RefusesWhatIsNoSurface) {
+TEST(Hairline, NeedsASurface) {
     const auto corner = makeGrid(2, 2, [](std::uint32_t x, std::uint32_t z) { return x != z; });
     EXPECT_EQ(
-        errorText([&] { extractScalp(corner); }),
+        errorText([&] { traceHairline(extractScalp(corner)); }),
         "the scalp's boundary touches itself at (1.000000, 0.000000, 1.000000)");
     Mesh fin = makeGrid(1, 1, kNoHole);
     fin.positions.emplace_back(0.5f, 1.0f, 0.5f);
     fin.normals.emplace_back(0.0f, 1.0f, 0.0f);
     fin.triangles.push_back({0, 3, 4});
     fin.triangle_materials.push_back(0);
-    EXPECT_THAT(errorText([&] { extractScalp(fin); }), HasSubstr("not a surface"));
+    EXPECT_THAT(errorText([&] { traceHairline(extractScalp(fin)); }), HasSubstr("not a surface"));
 }
 
 // A closed piece beside a disc adds no boundary loop.
-TEST(Scalp, RefusesASecondPiece) {
+TEST(Hairline, RefusesASecondPiece) {
     Mesh mesh = makeGrid(1, 1, kNoHole);
     for (const glm::vec3 corner :
          {glm::vec3(5, 0, 0), glm::vec3(6, 0, 0), glm::vec3(5, 1, 0), glm::vec3(5, 0, 1)}) {
@@ -125,7 +119,7 @@ TEST(Scalp, RefusesASecondPiece) {
         mesh.triangle_materials.push_back(0);
     }
     EXPECT_EQ(
-        errorText([&] { extractScalp(mesh); }),
+        errorText([&] { traceHairline(extractScalp(mesh)); }),
         "the scalp is not a disc: it has 2 pieces and the Euler characteristic 3");
 }
 
@@ -171,28 +165,49 @@ TEST(SampleSurface, InterpolatesNormals) {
     }
 }
 
-TEST(SampleBoundary, SpacesPointsEvenlyByArcLength) {
-    const Scalp scalp = extractScalp(makeGrid(3, 2, kNoHole));  // perimeter 10
-    const std::vector<SurfacePoint> points = sampleBoundary(scalp, 20);
-    ASSERT_EQ(points.size(), 20u);
+std::vector<SurfacePoint> evenly(const Scalp& scalp, std::uint32_t count) {
+    const Hairline hairline = traceHairline(scalp);
+    std::vector<SurfacePoint> points;
+    for (std::uint32_t i = 0; i < count; ++i)
+        points.push_back(hairlinePoint(scalp, hairline, hairline.length() * i / count));
+    return points;
+}
+
+TEST(Hairline, IsMeasuredByArcLength) {
+    const Scalp scalp = extractScalp(makeGrid(3, 2, kNoHole));
+    const Hairline hairline = traceHairline(scalp);
+    EXPECT_DOUBLE_EQ(hairline.length(), 10.0);
+    const std::vector<SurfacePoint> points = evenly(scalp, 20);
     for (std::size_t i = 0; i < 20; ++i) {
         EXPECT_NEAR(glm::distance(points[i].position, points[(i + 1) % 20].position), 0.5f, 1e-6f);
     }
-    EXPECT_EQ(points[0].position, scalp.positions[scalp.boundary[0]]);
+    EXPECT_EQ(points[0].position, scalp.positions[hairline.vertices[0]]);
     for (std::size_t i = 0; i < 20; i += 2) {
-        EXPECT_EQ(points[i].position, scalp.positions[scalp.boundary[i / 2]]);
+        EXPECT_EQ(points[i].position, scalp.positions[hairline.vertices[i / 2]]);
     }
+    EXPECT_EQ(hairlinePoint(scalp, hairline, 10.5).position, points[1].position);
 }
 
 // Fewer points than edges, and not a divisor of them: on a circle the chords are still equal, but
 // for the sagitta of the mesh's own 48 edges.
-TEST(SampleBoundary, SpacesPointsEvenlyOnACircle) {
+TEST(Hairline, IsEvenOnACircle) {
     const Scalp scalp = extractScalp(makeCap());
-    const std::vector<SurfacePoint> points = sampleBoundary(scalp, 7);
+    const std::vector<SurfacePoint> points = evenly(scalp, 7);
     const float chord = glm::distance(points[0].position, points[1].position);
     for (std::size_t i = 0; i < 7; ++i) {
         EXPECT_NEAR(
             glm::distance(points[i].position, points[(i + 1) % 7].position), chord, 0.005f * chord);
+    }
+}
+
+TEST(Hairline, FindsTheLengthNearestToAPoint) {
+    const Scalp scalp = extractScalp(makeGrid(3, 2, kNoHole));
+    const Hairline hairline = traceHairline(scalp);
+    for (const double length : {0.0, 0.3, 1.0, 4.7, 9.9}) {
+        const glm::dvec3 point(hairlinePoint(scalp, hairline, length).position);
+        const glm::dvec3 above = point + glm::dvec3(0.0, 0.2, 0.0);
+        // Positions are stored to 1.2e-7 near 3.
+        EXPECT_NEAR(nearestLength(scalp, hairline, above), length, 5e-7);
     }
 }
 

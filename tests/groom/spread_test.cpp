@@ -1,4 +1,4 @@
-#include "hair/groom/spread.h"
+#include "hair/groom/growth/spread.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "hair/groom/mesh.h"
+#include "hair/groom/mesh/mesh.h"
 
 namespace hair {
 

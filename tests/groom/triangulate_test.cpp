@@ -1,4 +1,4 @@
-#include "hair/groom/triangulate.h"
+#include "hair/groom/growth/triangulate.h"
 
 #include <algorithm>
 #include <chrono>
@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-#include "hair/groom/ear_clipping.h"
+#include "hair/groom/growth/ear_clipping.h"
 #include "hair/random.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"

@@ -12,34 +12,27 @@
 
 #include "engine/transfer.h"
 #include "hair/groom/groom.h"
-#include "hair/rendering/strand_view.h"
+#include "hair/rendering/groom_buffers.h"
 
 namespace hair {
 
 // A groom on the device as rendering sees it, at rest.
 class DeviceHair {
 public:
-    DeviceHair(const engine::Device& device, const Groom& groom)
-        : guides_(make(device, withoutW(groom.points), "guides")),
-          triangles_(make(device, groom.root_triangles, "root triangles")),
-          normals_(make(device, groom.root_normals, "root normals")),
-          view_{
-              .guides = guides_.address(),
-              .root_triangles = triangles_.address(),
-              .root_normals = groom.root_normals.empty() ? 0 : normals_.address(),
-              .guide_count = groom.strand_count,
-              .vertices_per_guide = groom.vertices_per_strand,
-              .triangle_count = static_cast<std::uint32_t>(groom.root_triangles.size())} {}
+    DeviceHair(
+        const engine::Device& device, const Groom& groom, const Settings& settings = {},
+        const StrandSet* offsets = nullptr)
+        : buffers_(device, groom, settings, offsets),
+          guides_(engine::makeBuffer(
+              device, std::span<const glm::vec4>(withoutW(groom.points)), "guides")) {}
 
-    const StrandView& view() const { return view_; }
-
-private:
-    template <class Value>
-    static engine::Buffer
-    make(const engine::Device& device, const std::vector<Value>& values, const char* name) {
-        return engine::makeBuffer(device, std::span<const Value>(values), name);
+    StrandView view() const {
+        StrandView view = buffers_.view();
+        view.guides = guides_.address();
+        return view;
     }
 
+private:
     // w belongs to the simulation: a NaN there must not matter.
     static std::vector<glm::vec4> withoutW(const std::vector<glm::vec3>& points) {
         std::vector<glm::vec4> result;
@@ -49,10 +42,8 @@ private:
         return result;
     }
 
+    GroomBuffers buffers_;
     engine::Buffer guides_;
-    engine::Buffer triangles_;
-    engine::Buffer normals_;
-    StrandView view_;
 };
 
 // A groom of one root triangle whose guides have these points.

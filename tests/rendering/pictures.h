@@ -49,8 +49,9 @@ inline Pixels drawBald(const engine::Device& device, Settings settings) {
 
 // A groom and a mesh of the test's own making.
 inline Pixels drawGroom(
-    const engine::Device& device, const Settings& settings, const Groom& groom, const Mesh* mesh) {
-    const DeviceHair hair(device, groom);
+    const engine::Device& device, const Settings& settings, const Groom& groom, const Mesh* mesh,
+    const StrandSet* offsets = nullptr) {
+    const DeviceHair hair(device, groom, settings, offsets);
     Renderer renderer(device, settings, hair.view(), mesh);
     engine::FrameLoop loop(device, engine::Timing::overlapped);
     loop.frame([&](engine::Passes& passes) { renderer.record(passes, hair.view()); });

@@ -12,7 +12,7 @@ namespace {
 class StrandPointsTest : public GpuTest {
 protected:
     static StrandPoints evaluate(const Groom& groom, const Settings& settings) {
-        const DeviceHair hair(device(), groom);
+        const DeviceHair hair(device(), groom, settings);
         return evaluateStrandPoints(device(), settings, hair.view());
     }
 

@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "hair/groom/mesh.h"
+#include "hair/groom/mesh/mesh.h"
 
 namespace hair {
 

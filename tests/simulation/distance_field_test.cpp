@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "hair/groom/import_mesh.h"
+#include "hair/groom/mesh/import_mesh.h"
 #include "tests/error_text.h"
 #include "tests/gpu_fixture.h"
 #include "tests/simulation/closed_meshes.h"

@@ -8,7 +8,7 @@
 
 #include "benchmarks/scene.h"
 #include "hair/groom/build_groom.h"
-#include "hair/groom/import_mesh.h"
+#include "hair/groom/mesh/import_mesh.h"
 #include "hair/simulation/hair_hair.h"
 #include "tests/gpu_fixture.h"
 #include "tests/simulation/gpu_simulation.h"

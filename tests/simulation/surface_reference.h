@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "hair/groom/mesh.h"
+#include "hair/groom/mesh/mesh.h"
 
 // What is true of a triangle mesh, in double and by going through all of its triangles.
 namespace hair::reference {

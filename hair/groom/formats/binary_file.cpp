@@ -1,0 +1,43 @@
+#include "hair/groom/formats/binary_file.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hair {
+namespace {
+
+constexpr std::size_t kBlock = 4096;
+
+// Without a branch, so that the compiler makes vector instructions of it: only infinities and
+// what is not a number have all bits of the exponent set.
+bool allFinite(std::span<const float> numbers) {
+    constexpr std::uint32_t kExponent = 0x7f800000;
+    std::uint32_t wrong = 0;
+    for (const float number : numbers)
+        wrong |= (std::bit_cast<std::uint32_t>(number) & kExponent) == kExponent ? 1u : 0u;
+    return wrong == 0;
+}
+
+}  // namespace
+
+std::optional<std::size_t> firstNotFinite(std::span<const float> numbers) {
+    for (std::size_t start = 0; start < numbers.size(); start += kBlock) {
+        const auto block = numbers.subspan(start, std::min(kBlock, numbers.size() - start));
+        if (allFinite(block)) continue;
+        const auto at = std::ranges::find_if_not(block, [](float x) { return std::isfinite(x); });
+        return start + static_cast<std::size_t>(at - block.begin());
+    }
+    return {};
+}
+
+void requireNotNegative(
+    const std::vector<float>& widths, std::uint64_t offset, std::string_view name) {
+    const auto at = std::ranges::find_if(widths, [](float width) { return width < 0.0f; });
+    if (at == widths.end()) return;
+    const auto index = static_cast<std::size_t>(at - widths.begin());
+    failAt(
+        offset + index * sizeof(float),
+        std::string(name) + ' ' + std::to_string(index) + " is negative: " + std::to_string(*at));
+}
+
+}  // namespace hair

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <bit>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <ostream>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "engine/error.h"
+
+// Numbers and arrays of little-endian files in memory. Who reads has checked that they are there.
+namespace hair {
+
+static_assert(std::endian::native == std::endian::little, "files are read as they lie in memory");
+
+[[noreturn]] inline void failAt(std::uint64_t byte, const std::string& reason) {
+    throw engine::Error("byte " + std::to_string(byte), reason);
+}
+
+template <class Value>
+Value valueAt(std::span<const std::byte> bytes, std::uint64_t offset) {
+    static_assert(std::is_trivially_copyable_v<Value>);
+    assert(offset + sizeof(Value) <= bytes.size());
+    Value value;
+    std::memcpy(&value, bytes.data() + offset, sizeof value);
+    return value;
+}
+
+template <class Element>
+std::vector<Element>
+arrayAt(std::span<const std::byte> bytes, std::uint64_t offset, std::uint64_t count) {
+    static_assert(std::is_trivially_copyable_v<Element>);
+    assert(offset + count * sizeof(Element) <= bytes.size());
+    std::vector<Element> elements(count);
+    if (count > 0) std::memcpy(elements.data(), bytes.data() + offset, count * sizeof(Element));
+    return elements;
+}
+
+template <class Element>
+void writeArray(std::ostream& out, const std::vector<Element>& elements) {
+    static_assert(std::is_trivially_copyable_v<Element>);
+    out.write(
+        reinterpret_cast<const char*>(elements.data()),
+        static_cast<std::streamsize>(elements.size() * sizeof(Element)));
+}
+
+template <class Value>
+void writeValue(std::ostream& out, const Value& value) {
+    static_assert(std::is_trivially_copyable_v<Value>);
+    out.write(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+// The first that is infinite or not a number. Tens of gigabytes a second where it finds none.
+std::optional<std::size_t> firstNotFinite(std::span<const float> numbers);
+
+// Elements of floats, which lie at `offset` in the file: throws where one is not finite.
+// `name` is what one of them is, for the message.
+template <class Element>
+void requireFinite(
+    const std::vector<Element>& elements, std::uint64_t offset, std::string_view name) {
+    constexpr std::size_t kFloats = sizeof(Element) / sizeof(float);
+    const auto wrong = firstNotFinite(
+        {reinterpret_cast<const float*>(elements.data()), elements.size() * kFloats});
+    if (!wrong) return;
+    failAt(
+        offset + *wrong * sizeof(float),
+        std::string(name) + ' ' + std::to_string(*wrong / kFloats) + " is not finite");
+}
+
+// Throws for a diameter that is negative.
+void requireNotNegative(
+    const std::vector<float>& widths, std::uint64_t offset, std::string_view name);
+
+}  // namespace hair

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "hair/groom/importers.h"
+
+namespace hair {
+
+// Strands of a glTF 2.0 file, .glb or .gltf: its line primitives, LINES chained as chain_edges.h
+// says (without indices, where one begins at the point at which the last one ended), LINE_STRIP
+// root first. Points are POSITION under the node's transform, in metres; widths are
+// `_WIDTH`, scaled by the cube root of the transform's change of volume; COLOR_0 gives colours, and
+// transparencies where `_TRANSPARENCY` doesn't. Other primitives are skipped with a warning.
+// Errors begin with the mesh and primitive, the accessor, or the byte where JSON ends.
+StrandSet importGltfStrands(const StrandFile& file);
+
+}  // namespace hair

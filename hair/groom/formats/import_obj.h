@@ -1,0 +1,13 @@
+#pragma once
+
+#include "hair/groom/importers.h"
+
+namespace hair {
+
+// Strands of a Wavefront OBJ file: its line elements, `l`, of vertices, `v x y z [r g b]`, root
+// first. Elements of two points that continue each other, as programs write that know only
+// segments, are one strand. The comment that the file begins with is kept; what is neither vertex
+// nor line is skipped, faces with a warning.
+StrandSet importObj(const StrandFile& file);
+
+}  // namespace hair

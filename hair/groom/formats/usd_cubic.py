@@ -1,0 +1,85 @@
+"""Points on the cubic curves of UsdGeomBasisCurves, as its documentation defines them."""
+
+import numpy as np
+
+# Coefficients of t^3, t^2, t and 1 (rows) of the weights of four control vertices (columns).
+BASES = {
+    "bezier": np.array([[-1, 3, -3, 1], [3, -6, 3, 0], [-3, 3, 0, 0], [1, 0, 0, 0]]),
+    "bspline": np.array([[-1, 3, -3, 1], [3, -6, 3, 0], [-3, 0, 3, 0], [1, 4, 1, 0]]) / 6,
+    "catmullRom": np.array([[-1, 3, -3, 1], [2, -5, 4, -1], [-1, 0, 1, 0], [0, 2, 0, 0]]) / 2,
+}
+
+
+def starts(sizes):
+    """Index of the first element of each of some groups that lie one after another."""
+    return np.cumsum(sizes) - sizes
+
+
+class CubicCurves:
+    """Curves of one basis. Each becomes the ends of its segments and `between` points evenly in t
+    between two of them: at first the fewest that give no curve fewer points than it has control
+    vertices, so that shapes are kept about as well as they were drawn."""
+
+    def __init__(self, basis, wrap, sizes):
+        """`sizes`: control vertices of each curve. Raises ValueError for what is no curve."""
+        if basis not in BASES:
+            raise ValueError(f"the basis '{basis}' is not known: {', '.join(BASES)}")
+        self.basis = BASES[basis]
+        self.step = 3 if basis == "bezier" else 1
+        # A pinned Bézier curve is on its ends anyway; the others get a vertex before and after.
+        self.pinned = wrap == "pinned" and basis != "bezier"
+        self.sizes = np.asarray(sizes, np.int64)
+        padded = self.sizes + 2 if self.pinned else self.sizes
+        wrong = np.flatnonzero((padded < 4) | ((padded - 4) % self.step != 0))
+        if wrong.size:
+            raise ValueError(
+                f"curve {wrong[0]} has {self.sizes[wrong[0]]} vertices, which are no {wrap} {basis}"
+            )
+        self.segments = (padded - 4) // self.step + 1
+        self.first_control = self._per_segment(starts(padded), self.step)
+        self.between = 0
+        if self.sizes.size:
+            self.between = int(np.max(-(-(self.sizes - 1) // self.segments))) - 1
+
+    def point_counts(self):
+        return self.segments * (self.between + 1) + 1
+
+    def vertex(self, values):
+        """Points from one value (row) for each control vertex."""
+        controls = self._with_phantoms(values) if self.pinned else values
+        corners = controls[self.first_control[:, None] + np.arange(4)]
+        return self._place(lambda t: t ** np.arange(3, -1, -1) @ self.basis, corners)
+
+    def varying(self, values):
+        """Points from one value for each end of a segment, linear between them."""
+        first = self._per_segment(starts(self.segments + 1), 1)
+        ends = values[first[:, None] + np.arange(2)]
+        return self._place(lambda t: np.array([1 - t, t]), ends)
+
+    def _per_segment(self, first, step):
+        """first[curve] + step * (number of the segment in the curve), for all segments."""
+        number = np.arange(self.segments.sum()) - np.repeat(starts(self.segments), self.segments)
+        return np.repeat(first, self.segments) + step * number
+
+    def _with_phantoms(self, values):
+        """With 2 P0 - P1 before the first vertex of each curve, and its like after the last."""
+        first = starts(self.sizes)
+        last = first + self.sizes - 1
+        padded_first = starts(self.sizes + 2)
+        padded = np.empty((values.shape[0] + 2 * self.sizes.size, values.shape[1]))
+        inner = np.arange(values.shape[0]) - np.repeat(first, self.sizes)
+        padded[np.repeat(padded_first + 1, self.sizes) + inner] = values
+        padded[padded_first] = 2 * values[first] - values[first + 1]
+        padded[padded_first + self.sizes + 1] = 2 * values[last] - values[last - 1]
+        return padded
+
+    def _place(self, weights, corners):
+        """corners: [segment][corner][component]; weights of the corners: a function of t."""
+        counts = self.point_counts()
+        points = np.empty((counts.sum(), corners.shape[2]))
+        first = self._per_segment(starts(counts), self.between + 1)
+        for i in range(self.between + 1):
+            points[first + i] = np.einsum("c,sck->sk", weights(i / (self.between + 1)), corners)
+        last_segments = np.cumsum(self.segments) - 1
+        points[np.cumsum(counts) - 1] = np.einsum("c,sck->sk", weights(1.0), corners[last_segments])
+        return points

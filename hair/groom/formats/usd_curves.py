@@ -1,0 +1,145 @@
+"""Writes the curves of a stage of Universal Scene Description to stdout, as usd_stream.h says.
+
+Every BasisCurves prim is read, in the stage's order, instances too, in world space, +Y up, in the
+stage's unit. Linear curves are their points; cubic ones are sampled (usd_cubic.py). Animated ones
+are taken at the default time, or else at their points' first sample. What can't be read ends the
+program with one line on stderr.
+"""
+
+import argparse
+import os
+import struct
+import sys
+
+try:
+    import numpy as np
+    from pxr import Tf, Usd, UsdGeom
+
+    from usd_prim import Prim, Refused
+except ImportError as error:
+    sys.exit(f"{error}: run scripts/setup --python")
+
+
+class Xforms:
+    """Transforms by time."""
+
+    def __init__(self):
+        self.caches = {}
+
+    def at(self, time):
+        # What has no default value is then at its first sample.
+        time = Usd.TimeCode.EarliestTime() if time.IsDefault() else time
+        return self.caches.setdefault(time.GetValue(), UsdGeom.XformCache(time))
+
+
+class Reader:
+    """Reads a stage: `prims`, `metres_per_unit`, `comment`, `warnings`."""
+
+    def __init__(self, path):
+        self.stage = Usd.Stage.Open(path)
+        errors = self.stage.GetCompositionErrors()
+        self.warnings = [" ".join(str(error).split()) for error in errors]
+        self.comment = self.stage.GetRootLayer().documentation
+        self.prims = []
+        xforms = Xforms()
+        left_out = set()
+        walk = iter(Usd.PrimRange.Stage(self.stage, Usd.TraverseInstanceProxies()))
+        for prim in walk:
+            if prim.IsA(UsdGeom.PointInstancer):
+                self.warnings.append(f"{prim.GetPath()}: instances on points are left out")
+                walk.PruneChildren()
+            elif prim.IsA(UsdGeom.BasisCurves):
+                self.prims.append(Prim(prim, xforms))
+                left_out |= self.prims[-1].left_out()
+                self._warn_of_samples(prim)
+            elif prim.IsA(UsdGeom.Curves):
+                self.warnings.append(f"{prim.GetPath()}: its {prim.GetTypeName()} are left out")
+        if not any(prim.sizes.size for prim in self.prims):
+            raise Refused("the stage has no BasisCurves with points")
+        if left_out:
+            self.warnings.append(f"{', '.join(sorted(left_out))}: left out")
+        if not UsdGeom.StageHasAuthoredMetersPerUnit(self.stage):
+            self.warnings.append("the stage states no unit: taken as cm, as USD says")
+        self.metres_per_unit = UsdGeom.GetStageMetersPerUnit(self.stage)
+
+    def _warn_of_samples(self, prim):
+        count = UsdGeom.BasisCurves(prim).GetPointsAttr().GetNumTimeSamples()
+        if count > 1:
+            self.warnings.append(f"{prim.GetPath()}: one of its {count} time samples is read")
+
+    def points(self):
+        points = [prim.points for prim in self.prims]
+        if UsdGeom.GetStageUpAxis(self.stage) == UsdGeom.Tokens.z:
+            points = [p[:, [0, 2, 1]] * np.array([1, 1, -1], p.dtype) for p in points]
+        return points
+
+    def part(self, name):
+        """Of all prims together, or nothing unless all have it."""
+        parts = [prim.parts[name] for prim in self.prims]
+        if any(part is None for part in parts):
+            if any(part is not None for part in parts):
+                self.warnings.append(f"{name}: left out, since some of the curves have none")
+            return []
+        if name == "root_triangles":
+            first = np.cumsum([0] + [prim.sizes.size for prim in self.prims])
+            return [part + offset for part, offset in zip(parts, first)]
+        if name == "root_uvs" or all(np.array_equal(part, parts[0][:1]) for part in parts):
+            return parts if name == "root_uvs" else parts[:1]
+        return [
+            np.repeat(part, prim.sizes.sum(), axis=0) if len(part) == 1 else part
+            for part, prim in zip(parts, self.prims)
+        ]
+
+
+def read(path):
+    """A Reader. Raises Refused for all that is wrong with the file."""
+    try:
+        return Reader(path)
+    except (Tf.ErrorException, UnicodeDecodeError) as error:
+        raise Refused(words_of(error, path)) from None
+
+
+def words_of(error, path):
+    try:
+        words = " ".join(error.args[0].commentary.split())
+    except (AttributeError, UnicodeDecodeError):  # USD's words quote the file
+        return "its texts are not UTF-8"
+    return words.replace(os.path.realpath(path) + ":", "line ")
+
+
+def joined(arrays, dtype):
+    with np.errstate(over="ignore"):  # what is no float32 is infinite, and refused by the reader
+        arrays = [np.ascontiguousarray(array, dtype) for array in arrays]
+    return np.concatenate(arrays) if arrays else np.empty(0, dtype)
+
+
+def main():
+    # Whatever libraries print must not get into the stream.
+    stream = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
+    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("stage", help=".usd, .usda, .usdc, .usdz")
+    reader = read(parser.parse_args().stage)
+    arrays = [
+        joined([prim.sizes for prim in reader.prims], "<u4"),
+        joined(reader.points(), "<f4"),
+        joined(reader.part("widths"), "<f4"),
+        joined(reader.part("transparencies"), "<f4"),
+        joined(reader.part("colors"), "<f4"),
+        joined(reader.part("root_uvs"), "<f4"),
+        joined(reader.part("root_triangles"), "<u4"),
+    ]
+    texts = [reader.comment, "\n".join(reader.warnings)]
+    texts = [np.frombuffer(text.encode(), np.uint8) for text in texts]
+    sizes = [len(array) for array in arrays + texts]
+    stream.write(struct.pack("<8sd9Q", b"HBCURVES", reader.metres_per_unit, *sizes))
+    for array in arrays + texts:
+        stream.write(memoryview(array).cast("B") if array.size else b"")
+    stream.close()
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except Refused as refused:
+        sys.exit(str(refused))

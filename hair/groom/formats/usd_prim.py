@@ -1,0 +1,177 @@
+"""The curves of one UsdGeomBasisCurves, as points of strands."""
+
+import numpy as np
+from pxr import Usd, UsdGeom
+
+from usd_cubic import CubicCurves
+
+
+class Refused(Exception):
+    """What the file has that can't be read."""
+
+
+class LinearCurves:
+    """Curves that are their vertices; has what CubicCurves has."""
+
+    def __init__(self, sizes):
+        self.sizes = sizes
+        self.segments = sizes - 1
+
+    def point_counts(self):
+        return self.sizes
+
+    def vertex(self, values):
+        return values
+
+    varying = vertex
+
+
+def rows(values, dtype, components):
+    """One row for each value. `components`: how many there are, if there is no value to tell."""
+    values = np.asarray(values, dtype)
+    return values.reshape(len(values), -1 if len(values) else components)
+
+
+class Prim:
+    """One prim's curves: `sizes` (points of each), `points`, and `parts` by name, each with one
+    row, or one for each point; root_uvs: for each curve; root_triangles: any number."""
+
+    def __init__(self, prim, xforms):
+        self.path = prim.GetPath()
+        self.curves = UsdGeom.BasisCurves(prim)
+        self.time = Usd.TimeCode.Default()
+        points = self.curves.GetPointsAttr()
+        if points.Get(self.time) is None and points.GetNumTimeSamples():
+            self.time = Usd.TimeCode(points.GetTimeSamples()[0])
+        self.topology = self._topology()
+        self.sizes = self.topology.point_counts()
+        world = np.array(xforms.at(self.time).GetLocalToWorldTransform(prim))
+        self.points = self._points(world)
+        # A length's factor: of a scale that differs by direction, the geometric mean.
+        scale = np.cbrt(abs(np.linalg.det(world[:3, :3])))
+        self.parts = {
+            "widths": self._widths(1.0 if abs(scale - 1) < 1e-9 else scale),
+            "colors": self._per_point("displayColor", 3),
+            "transparencies": self._transparencies(),
+            "root_uvs": self._root_uvs(),
+            "root_triangles": self._root_triangles(),
+        }
+
+    def refuse(self, reason):
+        raise Refused(f"{self.path}: {reason}")
+
+    def _value(self, attribute):
+        value = attribute.Get(self.time)
+        return attribute.Get(Usd.TimeCode.EarliestTime()) if value is None else value
+
+    def _topology(self):
+        sizes = self._value(self.curves.GetCurveVertexCountsAttr())
+        sizes = np.array([] if sizes is None else sizes, np.int64)
+        if (sizes < 1).any():
+            self.refuse(f"curve {np.argmax(sizes < 1)} has {sizes[sizes < 1][0]} vertices")
+        wrap = self._value(self.curves.GetWrapAttr())
+        if wrap not in ("nonperiodic", "pinned"):
+            self.refuse(f"its curves are {wrap}: only curves with two ends are strands")
+        kind = self._value(self.curves.GetTypeAttr())
+        if kind == "linear":
+            return LinearCurves(sizes)
+        if kind != "cubic":
+            self.refuse(f"the type '{kind}' is not known: linear, cubic")
+        try:
+            return CubicCurves(self._value(self.curves.GetBasisAttr()), wrap, sizes)
+        except ValueError as error:
+            self.refuse(error)
+
+    def _checked(self, name, values, count, components):
+        values = rows(values, np.float32, components)
+        if values.shape != (count, components):
+            found = " x ".join(map(str, values.shape))
+            self.refuse(f"{name}: {found} numbers, {count} x {components} are needed")
+        wrong = np.flatnonzero(~np.isfinite(values).all(1))
+        if wrong.size:
+            self.refuse(f"{name}: value {wrong[0]} is not finite")
+        return values
+
+    def _points(self, world):
+        points = self._value(self.curves.GetPointsAttr())
+        points = self._checked(
+            "points", [] if points is None else points, self.topology.sizes.sum(), 3
+        )
+        points = self.topology.vertex(points)
+        if (world != np.eye(4)).any():
+            points = points.astype(np.float64) @ world[:3, :3] + world[3, :3]
+        if (np.abs(points) > np.finfo(np.float32).max).any():
+            self.refuse("in world space a point is over what floats hold")
+        return points
+
+    def _per_point(self, name, components):
+        primvar = UsdGeom.PrimvarsAPI(self.curves).FindPrimvarWithInheritance(name)
+        interpolation = primvar.GetInterpolation() if primvar else ""
+        values = primvar.ComputeFlattened(self.time) if primvar else None
+        if values is None and primvar:
+            values = primvar.ComputeFlattened(Usd.TimeCode.EarliestTime())
+        if values is None and name == "widths":
+            interpolation = self.curves.GetWidthsInterpolation()
+            values = self._value(self.curves.GetWidthsAttr())
+        if values is None:
+            return None
+        topology = self.topology
+        name += f" ({interpolation})"
+        if interpolation == "constant":
+            return self._checked(name, values, 1, components)
+        if interpolation == "uniform":
+            values = self._checked(name, values, topology.sizes.size, components)
+            return np.repeat(values, self.sizes, axis=0)
+        if interpolation == "vertex":
+            return topology.vertex(self._checked(name, values, topology.sizes.sum(), components))
+        ends = (topology.segments + 1).sum()
+        return topology.varying(self._checked(name, values, ends, components))
+
+    def _widths(self, scale):
+        widths = self._per_point("widths", 1)
+        if widths is None:
+            return None
+        # Between control vertices a curve may be under the least of them.
+        if isinstance(self.topology, CubicCurves):
+            widths = np.maximum(widths, 0)
+        if (widths < 0).any():
+            self.refuse(f"a width is negative: {widths.min()}")
+        return widths if scale == 1 else (widths * scale).astype(np.float32)
+
+    def _transparencies(self):
+        opacities = self._per_point("displayOpacity", 1)
+        if opacities is None:
+            return None
+        return np.float32(1) - np.clip(opacities, 0, 1).astype(np.float32)
+
+    def _root_uvs(self):
+        primvar = UsdGeom.PrimvarsAPI(self.curves).GetPrimvar("st")
+        values = primvar.ComputeFlattened(self.time) if primvar else None
+        if values is None or primvar.GetInterpolation() != "uniform":
+            return None
+        return self._checked("primvars:st", values, self.sizes.size, 2)
+
+    def _root_triangles(self):
+        attribute = self.curves.GetPrim().GetAttribute("hairbench:rootTriangles")
+        values = self._value(attribute) if attribute else None
+        if values is None:
+            return None
+        values = rows(values, np.int64, 3)
+        if values.shape[1] != 3 or (values < 0).any() or (values >= self.sizes.size).any():
+            self.refuse("hairbench:rootTriangles: three strands of its own are needed for each")
+        return values
+
+    def left_out(self):
+        """Names of what the prim has beside."""
+        known = {"displayColor", "displayOpacity", "widths"}
+        if self.parts["root_uvs"] is not None:
+            known.add("st")
+        names = {"primvars:" + name for name in self._primvar_names() - known}
+        for name in ("normals", "velocities", "accelerations"):
+            if self.curves.GetPrim().GetAttribute(name).HasAuthoredValue():
+                names.add(name)
+        return names
+
+    def _primvar_names(self):
+        primvars = UsdGeom.PrimvarsAPI(self.curves).GetPrimvarsWithAuthoredValues()
+        return {primvar.GetPrimvarName() for primvar in primvars}

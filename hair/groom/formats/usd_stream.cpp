@@ -1,0 +1,158 @@
+#include "hair/groom/formats/usd_stream.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include "hair/groom/formats/binary_file.h"
+
+namespace hair {
+namespace {
+
+struct Section {
+    std::uint64_t UsdStreamHeader::* count;
+    std::uint64_t size;  // bytes of an element
+};
+
+constexpr Section kSections[] = {
+    {&UsdStreamHeader::strands, sizeof(std::uint32_t)},
+    {&UsdStreamHeader::points, sizeof(glm::vec3)},
+    {&UsdStreamHeader::widths, sizeof(float)},
+    {&UsdStreamHeader::transparencies, sizeof(float)},
+    {&UsdStreamHeader::colors, sizeof(glm::vec3)},
+    {&UsdStreamHeader::root_uvs, sizeof(glm::vec2)},
+    {&UsdStreamHeader::root_triangles, sizeof(std::array<std::uint32_t, 3>)},
+    {&UsdStreamHeader::comment, 1},
+    {&UsdStreamHeader::warnings, 1},
+};
+
+UsdStreamHeader readHeader(std::span<const std::byte> bytes) {
+    if (bytes.size() < sizeof(UsdStreamHeader)) {
+        failAt(bytes.size(), "truncated: the header is 88 bytes");
+    }
+    const auto header = valueAt<UsdStreamHeader>(bytes, 0);
+    if (header.magic != UsdStreamHeader::kMagic) failAt(0, "no \"HBCURVES\"");
+    if (!std::isfinite(header.metres_per_unit) || header.metres_per_unit <= 0.0) {
+        failAt(8, "the unit is " + std::to_string(header.metres_per_unit) + " m");
+    }
+    std::uint64_t size = sizeof header;
+    for (std::size_t i = 0; i < std::size(kSections); ++i) {
+        const std::uint64_t count = header.*kSections[i].count;
+        // Each below the size, so that their sum doesn't overflow.
+        if (count <= bytes.size()) size += count * kSections[i].size;
+        if (count > bytes.size() || size > bytes.size()) {
+            failAt(
+                16 + 8 * i, "a count of " + std::to_string(count) + " in " +
+                                std::to_string(bytes.size()) + " bytes");
+        }
+    }
+    if (size != bytes.size()) failAt(size, "trailing bytes");
+    if (header.points > std::numeric_limits<std::uint32_t>::max()) failAt(24, "too many points");
+    return header;
+}
+
+// Takes sections off in their order.
+class Sections {
+public:
+    Sections(std::span<const std::byte> bytes, const UsdStreamHeader& header)
+        : bytes_(bytes), header_(header) {}
+
+    template <class Element>
+    std::vector<Element> take() {
+        const Section& section = kSections[next_++];
+        start_ = end_;
+        const std::uint64_t count = header_.*section.count;
+        end_ += count * section.size;
+        return arrayAt<Element>(bytes_, start_, count);
+    }
+    // Of floats.
+    template <class Element>
+    std::vector<Element> takeFinite(std::string_view name) {
+        auto elements = take<Element>();
+        requireFinite(elements, start_, name);
+        return elements;
+    }
+    template <class Value>
+    PointAttribute<Value> takeAttribute(std::string_view name) {
+        const std::uint64_t byte = 16 + 8 * next_;
+        auto values = takeFinite<Value>(name);
+        if (values.size() == 1) return {.everywhere = values.front(), .values = {}};
+        if (!values.empty() && values.size() != header_.points) {
+            failAt(byte, "a value for some of the points");
+        }
+        return {.everywhere = {}, .values = std::move(values)};
+    }
+    std::string takeText() {
+        const auto bytes = take<char>();
+        return {bytes.begin(), bytes.end()};
+    }
+    std::uint64_t start() const { return start_; }  // of what was taken last
+
+private:
+    std::span<const std::byte> bytes_;
+    const UsdStreamHeader& header_;
+    std::size_t next_ = 0;
+    std::uint64_t start_ = 0;
+    std::uint64_t end_ = sizeof(UsdStreamHeader);
+};
+
+std::vector<std::uint32_t> endsOf(std::vector<std::uint32_t> sizes, std::uint64_t points) {
+    std::uint64_t end = 0;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        end += sizes[i];
+        if (sizes[i] == 0 || end > points) {
+            failAt(sizeof(UsdStreamHeader) + 4 * i, std::to_string(sizes[i]) + " points");
+        }
+        sizes[i] = static_cast<std::uint32_t>(end);
+    }
+    if (end != points) failAt(24, "more points than the strands have");
+    return sizes;
+}
+
+void requireStrands(
+    const std::vector<std::array<std::uint32_t, 3>>& triangles, std::uint64_t strands,
+    std::uint64_t offset) {
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        for (const std::uint32_t strand : triangles[i])
+            if (strand >= strands) failAt(offset + 12 * i, "strand " + std::to_string(strand));
+    }
+}
+
+std::vector<std::string> linesOf(const std::string& text) {
+    std::vector<std::string> lines;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        lines.push_back(text.substr(at, end - at));
+        at = end + 1;
+    }
+    return lines;
+}
+
+}  // namespace
+
+StrandSet readUsdStream(std::span<const std::byte> bytes) {
+    const UsdStreamHeader header = readHeader(bytes);
+    Sections sections(bytes, header);
+    StrandSet set;
+    set.metres_per_unit = header.metres_per_unit;
+    set.ends = endsOf(sections.take<std::uint32_t>(), header.points);
+    set.points = sections.takeFinite<glm::vec3>("point");
+    set.widths = sections.takeAttribute<float>("width");
+    requireNotNegative(set.widths.values, sections.start(), "width");
+    if (set.widths.everywhere)
+        requireNotNegative({*set.widths.everywhere}, sections.start(), "width");
+    set.transparencies = sections.takeAttribute<float>("transparency");
+    set.colors = sections.takeAttribute<glm::vec3>("color");
+    set.root_uvs = sections.takeFinite<glm::vec2>("root uv");
+    if (!set.root_uvs.empty() && set.root_uvs.size() != set.ends.size()) {
+        failAt(56, "root uvs for some of the strands");
+    }
+    set.root_triangles = sections.take<std::array<std::uint32_t, 3>>();
+    requireStrands(set.root_triangles, header.strands, sections.start());
+    set.comment = sections.takeText();
+    set.warnings = linesOf(sections.takeText());
+    return set;
+}
+
+}  // namespace hair

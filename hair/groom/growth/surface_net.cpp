@@ -1,0 +1,253 @@
+#include "hair/groom/growth/surface_net.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <set>
+#include <unordered_set>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "hair/groom/growth/cut_at_roots.h"
+
+namespace hair {
+namespace {
+
+constexpr auto kNone = TriangleNet::kNone;
+constexpr auto after = TriangleNet::after;
+constexpr auto before = TriangleNet::before;
+
+// How far beyond straight the way past a vertex may bend for the edge there to count as inside,
+// rad.
+constexpr double kStraight = 0.02;
+
+// The largest angle of a triangle that is left on the boundary, cos 120 degrees.
+constexpr double kFlattest = -0.5;
+
+double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+}  // namespace
+
+SurfaceNet::SurfaceNet(const Scalp& scalp, std::span<const SurfacePoint> roots)
+    : root_count_(static_cast<std::uint32_t>(roots.size())), net_(cutAtRoots(scalp, roots)) {
+    for (const SurfacePoint& root : roots) positions_.emplace_back(root.position);
+    for (const glm::vec3& position : scalp.positions) positions_.emplace_back(position);
+    corners_.resize(positions_.size(), kNone);
+    sources_.resize(positions_.size());
+    std::iota(sources_.begin(), sources_.end(), 0u);
+    std::vector<std::uint32_t> corners(net_.cornerCount());
+    std::iota(corners.begin(), corners.end(), 0u);
+    separateFans(corners);
+}
+
+// Of these corners, which are all that their vertices have: a vertex where several sheets meet
+// becomes one for each.
+void SurfaceNet::separateFans(std::span<const std::uint32_t> corners) {
+    std::unordered_set<std::uint32_t> seen;
+    for (const std::uint32_t corner : corners) {
+        if (!net_.exists(corner / 3) || seen.contains(corner)) continue;
+        std::uint32_t vertex = net_.vertex(corner);
+        if (corners_[vertex] != kNone) {
+            positions_.push_back(glm::dvec3(positions_[vertex]));
+            sources_.push_back(std::uint32_t{sources_[vertex]});
+            vertex = static_cast<std::uint32_t>(corners_.size());
+            corners_.push_back(kNone);
+        }
+        corners_[vertex] = corner;
+        for (const std::uint32_t member : net_.fan(corner).corners) {
+            seen.insert(member);
+            net_.renameVertex(member, vertex);
+        }
+    }
+}
+
+void SurfaceNet::anchor(std::uint32_t cell) {
+    for (std::uint32_t corner = 3 * cell; corner < 3 * cell + 3; ++corner)
+        corners_[net_.vertex(corner)] = corner;
+}
+
+// Whether an edge leads from the corner's vertex to the other one.
+bool SurfaceNet::areJoined(std::uint32_t corner, std::uint32_t vertex) const {
+    return std::ranges::any_of(net_.fan(corner).corners, [&](std::uint32_t member) {
+        return net_.vertex(after(member)) == vertex || net_.vertex(before(member)) == vertex;
+    });
+}
+
+// Both new triangles face the way of the old ones.
+bool SurfaceNet::staysUnfolded(std::uint32_t corner) const {
+    const glm::dvec3 a = position(corner);
+    const glm::dvec3 b = position(after(corner));
+    const glm::dvec3 c = position(before(corner));
+    const glm::dvec3 d = position(net_.twin(corner));
+    const glm::dvec3 normal = glm::cross(b - a, c - a) + glm::cross(c - d, b - d);
+    return glm::dot(glm::cross(b - a, d - a), normal) > 0.0 &&
+           glm::dot(glm::cross(d - a, c - a), normal) > 0.0;
+}
+
+bool SurfaceNet::shouldFlip(std::uint32_t corner) const {
+    const std::uint32_t other = net_.twin(corner);
+    const glm::dvec3 a = position(corner);
+    const glm::dvec3 b = position(after(corner));
+    const glm::dvec3 c = position(before(corner));
+    const glm::dvec3 d = position(other);
+    const double sine_a = glm::length(glm::cross(b - a, c - a));
+    const double sine_d = glm::length(glm::cross(b - d, c - d));
+    const double cosine_a = glm::dot(b - a, c - a);
+    const double cosine_d = glm::dot(b - d, c - d);
+    // sin(a + d) times the four lengths; rounding must not make an edge flip for ever.
+    const double rounding = 1e-9 * std::sqrt(
+                                       glm::dot(b - a, b - a) * glm::dot(c - a, c - a) *
+                                       glm::dot(b - d, b - d) * glm::dot(c - d, c - d));
+    return sine_a * cosine_d + cosine_a * sine_d < -rounding && staysUnfolded(corner) &&
+           net_.vertex(corner) != net_.vertex(other) && !areJoined(corner, net_.vertex(other));
+}
+
+void SurfaceNet::flipSuspects() {
+    flipEdges(
+        net_, suspects_, std::size_t{20} * net_.cornerCount(),
+        [&](std::uint32_t corner) { return net_.exists(corner / 3) && shouldFlip(corner); },
+        [&](std::uint32_t corner) {
+            anchor(corner / 3);
+            anchor(net_.twin(3 * (corner / 3) + 1) / 3);
+        });
+}
+
+void SurfaceNet::makeDelaunay() {
+    for (std::uint32_t corner = 0; corner < net_.cornerCount(); ++corner) {
+        if (net_.exists(corner / 3) && corner < net_.twin(corner)) suspects_.push_back(corner);
+    }
+    flipSuspects();
+}
+
+// Flips one edge of the fan's vertex so that its two neighbours there are joined past it: in the
+// plane that the fan unrolls to, where the vertex is the origin, the shortest such new edge.
+// Returns false if there is none.
+bool SurfaceNet::flipAway(const TriangleNet::Fan& fan) {
+    const auto count = fan.corners.size();
+    const glm::dvec3 centre = position(fan.corners[0]);
+    std::vector<double> angles{0.0};  // [neighbour], one more than corners: the first again, or
+    std::vector<glm::dvec3> neighbours;  // the boundary's other one
+    for (const std::uint32_t corner : fan.corners) {
+        const glm::dvec3 from = position(after(corner)) - centre;
+        const glm::dvec3 to = position(before(corner)) - centre;
+        neighbours.push_back(from);
+        angles.push_back(angles.back() + angleBetween(from, to));
+    }
+    neighbours.push_back(position(before(fan.corners[count - 1])) - centre);
+    const double scale = fan.closed ? 2.0 * std::numbers::pi / angles.back() : 1.0;
+
+    std::uint32_t best = kNone;
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = fan.closed ? 0 : 1; i < count; ++i) {
+        const std::size_t last = i == 0 ? count - 1 : i - 1;
+        const double turn_in =
+            scale * (i == 0 ? angles[count] - angles[count - 1] : angles[i] - angles[last]);
+        const double turn_out = scale * (angles[i + 1] - angles[i]);
+        const double length = glm::distance(neighbours[last], neighbours[i + 1]);
+        if (turn_in + turn_out >= std::numbers::pi + kStraight || length >= shortest) continue;
+        // Neighbour i lies beyond the new edge.
+        const double r0 = glm::length(neighbours[last]);
+        const double r1 = glm::length(neighbours[i]);
+        const double r2 = glm::length(neighbours[i + 1]);
+        const double ear = r0 * r1 * std::sin(turn_in) + r1 * r2 * std::sin(turn_out) -
+                           r0 * r2 * std::sin(turn_in + turn_out);
+        const std::uint32_t edge = before(fan.corners[i]);
+        const std::uint32_t other = net_.twin(edge);
+        if (!(ear > 0.0) || net_.vertex(edge) == net_.vertex(other) ||
+            areJoined(edge, net_.vertex(other)))
+            continue;
+        best = edge;
+        shortest = length;
+    }
+    if (best == kNone) return false;
+    for (const std::uint32_t side : net_.flip(best)) suspects_.push_back(side);
+    anchor(best / 3);
+    anchor(net_.twin(3 * (best / 3) + 1) / 3);
+    return true;
+}
+
+// Drops the triangles round a vertex.
+void SurfaceNet::erase(const TriangleNet::Fan& fan) {
+    std::vector<std::uint32_t> left;  // corners that their vertices keep
+    for (const std::uint32_t corner : fan.corners) {
+        for (const std::uint32_t neighbour : {after(corner), before(corner)}) {
+            if (corners_[net_.vertex(neighbour)] == kNone) continue;
+            for (const std::uint32_t member : net_.fan(neighbour).corners) left.push_back(member);
+            corners_[net_.vertex(neighbour)] = kNone;
+        }
+    }
+    corners_[net_.vertex(fan.corners[0])] = kNone;
+    for (const std::uint32_t corner : fan.corners) net_.erase(corner / 3);
+    separateFans(left);
+}
+
+void SurfaceNet::remove(std::uint32_t vertex, Stuck stuck) {
+    TriangleNet::Fan fan = net_.fan(corners_[vertex]);
+    const auto isThree = [&] { return fan.closed && fan.corners.size() == 3; };
+    while (!isThree() && flipAway(fan)) fan = net_.fan(corners_[vertex]);
+    if (isThree()) {
+        corners_[vertex] = kNone;
+        const std::uint32_t cell = net_.join({fan.corners[0], fan.corners[1], fan.corners[2]});
+        anchor(cell);
+        for (const std::uint32_t corner : {3 * cell, 3 * cell + 1, 3 * cell + 2})
+            suspects_.push_back(corner);
+    } else if (!fan.closed || stuck == Stuck::erase) {
+        erase(fan);
+    }
+    flipSuspects();
+}
+
+// From inside to the boundary, so that as little as possible is dropped with it.
+void SurfaceNet::removeScalpVertices() {
+    const auto isLeft = [&](std::uint32_t vertex) {
+        return sources_[vertex] >= root_count_ && corners_[vertex] != kNone;
+    };
+    for (std::uint32_t vertex = root_count_; vertex < corners_.size(); ++vertex) {
+        if (isLeft(vertex) && net_.fan(corners_[vertex]).closed) remove(vertex, Stuck::keep);
+    }
+    for (const Stuck stuck : {Stuck::keep, Stuck::erase}) {
+        for (std::uint32_t vertex = root_count_; vertex < corners_.size(); ++vertex) {
+            if (isLeft(vertex)) remove(vertex, stuck);
+        }
+    }
+}
+
+void SurfaceNet::peel() {
+    std::vector<std::uint32_t> open;
+    for (std::uint32_t corner = 0; corner < net_.cornerCount(); ++corner) open.push_back(corner);
+    while (!open.empty()) {
+        const std::uint32_t corner = open.back();
+        open.pop_back();
+        if (!net_.exists(corner / 3) || net_.twin(corner) != kNone) continue;
+        const glm::dvec3 from = glm::normalize(position(after(corner)) - position(corner));
+        const glm::dvec3 to = glm::normalize(position(before(corner)) - position(corner));
+        if (glm::dot(from, to) > kFlattest || !net_.fan(corner).closed) continue;
+        const std::uint32_t behind_to = net_.twin(after(corner));
+        const std::uint32_t behind_from = net_.twin(before(corner));
+        net_.erase(corner / 3);
+        open.push_back(behind_to);
+        open.push_back(behind_from);
+    }
+}
+
+// A root in several fans has one number, and an edge no third triangle.
+std::vector<std::array<std::uint32_t, 3>> SurfaceNet::triangles() const {
+    std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (const auto& [i, j, k] : net_.triangles()) {
+        const std::uint32_t a = sources_[i];
+        const std::uint32_t b = sources_[j];
+        const std::uint32_t c = sources_[k];
+        if (edges.contains({a, b}) || edges.contains({b, c}) || edges.contains({c, a})) continue;
+        edges.insert({{a, b}, {b, c}, {c, a}});
+        triangles.push_back({a, b, c});
+    }
+    return triangles;
+}
+
+}  // namespace hair

@@ -1,0 +1,118 @@
+#include "hair/groom/importers.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <memory>
+#include <string>
+
+#include "engine/error.h"
+#include "hair/groom/file_extension.h"
+#include "hair/groom/formats/import_gltf_strands.h"
+#include "hair/groom/formats/import_hair.h"
+#include "hair/groom/formats/import_hgl.h"
+#include "hair/groom/formats/import_obj.h"
+#include "hair/groom/formats/import_ply.h"
+#include "hair/groom/formats/import_tfx.h"
+#include "hair/groom/formats/import_usd.h"
+
+namespace hair {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::string_view_literals;
+
+constexpr std::array kHair{".hair"sv};
+constexpr std::array kTfx{".tfx"sv};
+constexpr std::array kHgl{".hgl"sv};
+constexpr std::array kPly{".ply"sv};
+constexpr std::array kObj{".obj"sv};
+constexpr std::array kGlb{".glb"sv};
+constexpr std::array kGltf{".gltf"sv};
+constexpr std::array kUsd{".usd"sv, ".usda"sv, ".usdc"sv, ".usdz"sv};
+
+constexpr auto kTfxVersion = "\0\0\x80\x40"sv;  // 4.0f
+
+constexpr StrandImporter kImporters[] = {
+    {"Cem Yuksel's HAIR", kHair, "HAIR", importHair},
+    {"TressFX", kTfx, kTfxVersion, importTfx},
+    {"thesis guides", kHgl, "", importHgl},
+    {"PLY", kPly, "ply", importPly},
+    {"OBJ", kObj, "", importObj},
+    {"binary glTF", kGlb, "glTF", importGltfStrands},
+    {"glTF", kGltf, "", importGltfStrands},
+    // Has three magics, but its library goes by the extension.
+    {"USD", kUsd, "", importUsd},
+};
+
+// A file that is there and can be read.
+class OpenFile {
+public:
+    explicit OpenFile(const fs::path& path) {
+        std::error_code error;
+        if (!fs::exists(path, error)) throw engine::Error("no such file");
+        if (!fs::is_regular_file(path, error)) throw engine::Error("not a file");
+        size_ = fs::file_size(path, error);
+        file_.open(path, std::ios::binary);
+        if (error || !file_) throw engine::Error("can't be read");
+    }
+
+    std::uintmax_t size() const { return size_; }
+
+    // The first of its bytes.
+    void read(char* bytes, std::uintmax_t count) {
+        file_.seekg(0);
+        file_.read(bytes, static_cast<std::streamsize>(count));
+        if (!file_) throw engine::Error("can't be read");
+    }
+
+private:
+    std::ifstream file_;
+    std::uintmax_t size_ = 0;
+};
+
+const StrandImporter& importerOf(const fs::path& path, OpenFile& file) {
+    std::array<char, 8> bytes{};  // longer than every magic
+    file.read(bytes.data(), std::min<std::uintmax_t>(file.size(), bytes.size()));
+    const std::string_view head(bytes.data(), bytes.size());
+    const std::string extension = lowerCaseExtension(path);
+    for (const StrandImporter& importer : kImporters)
+        if (!importer.magic.empty() && head.starts_with(importer.magic)) return importer;
+    std::string known;
+    for (const StrandImporter& importer : kImporters) {
+        if (std::ranges::find(importer.extensions, extension) != importer.extensions.end())
+            return importer;
+        for (const std::string_view name : importer.extensions)
+            known.append(known.empty() ? "" : ", ").append(name);
+    }
+    throw engine::Error("unknown format of strands \"" + extension + "\"; known are " + known);
+}
+
+}  // namespace
+
+std::span<const StrandImporter> strandImporters() { return kImporters; }
+
+const StrandImporter& strandImporterOf(const fs::path& path) {
+    try {
+        OpenFile file(path);
+        return importerOf(path, file);
+    } catch (const engine::Error& error) {
+        throw engine::Error(path.string(), error.what());
+    }
+}
+
+StrandSet importStrands(const fs::path& path) {
+    try {
+        OpenFile file(path);
+        const StrandImporter& importer = importerOf(path, file);
+        // Not filled with zeros first: grooms have hundreds of megabytes.
+        const auto bytes = std::make_unique_for_overwrite<char[]>(file.size());
+        file.read(bytes.get(), file.size());
+        return importer.read(
+            {.bytes = std::as_bytes(std::span(bytes.get(), file.size())), .path = path});
+    } catch (const engine::Error& error) {
+        throw engine::Error(path.string(), error.what());
+    }
+}
+
+}  // namespace hair

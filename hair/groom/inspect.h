@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "hair/groom/mesh/mesh.h"
+#include "hair/groom/strand_set.h"
+
+namespace hair {
+
+// Least, quartiles and greatest of many numbers.
+struct Spread {
+    double minimum = 0.0;
+    double quartile1 = 0.0;
+    double median = 0.0;
+    double quartile3 = 0.0;
+    double maximum = 0.0;
+    double mean = 0.0;
+};
+
+// Against the mesh that the strands grow on; distances in metres.
+struct MeshFindings {
+    Spread root_distances;                // of roots from the surface, unsigned
+    std::uint32_t roots_off_surface = 0;  // further than `tolerance`
+    double tolerance = 0.0;               // m
+    // Absent where the mesh is not closed: then nothing is inside it.
+    std::optional<std::uint32_t> strands_inside;  // with a vertex deeper than `tolerance`
+    std::optional<std::size_t> points_inside;     // deeper than `tolerance`
+    std::optional<double> deepest;                // m
+    std::string not_closed;                       // why the three are absent
+};
+
+// What is in a groom and what is odd about it. Lengths are in the file's unit.
+struct StrandFindings {
+    std::uint32_t strands = 0;
+    std::size_t points = 0;
+    Spread points_per_strand;
+    Spread lengths;
+    Spread segment_lengths;
+    glm::vec3 minimum{0.0f};  // bounding box
+    glm::vec3 maximum{0.0f};
+    Spread widths;  // all 0 where not known
+
+    std::uint32_t single_point_strands = 0;
+    std::size_t zero_length_segments = 0;
+    std::uint32_t zero_length_strands = 0;  // of two points or more
+    std::uint32_t duplicate_strands = 0;    // equal to one before them, point for point
+    std::uint32_t duplicate_roots = 0;      // at the root of one before them
+
+    std::string unit;  // "m", "cm", "mm" or "inch", or a stated one of another length: "0.5 m"
+    bool unit_stated = false;
+    double metres_per_unit = 1.0;
+    std::string unit_reason;  // a sentence: the file states it, or what the guess rests on
+    std::optional<MeshFindings> mesh;
+};
+
+// `mesh` may be null; it is in metres, and the strands are scaled to metres by `metres_per_unit`,
+// or, where that is absent, by what the findings say.
+StrandFindings
+inspect(const StrandSet& strands, const Mesh* mesh, std::optional<double> metres_per_unit);
+
+}  // namespace hair

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+#include "hair/groom/mesh/mesh.h"
+
+namespace hair {
+
+// A reader of mesh files. It gives triangles whose indices are in range, members of the sizes that
+// mesh.h says, and a name and colour per material; normals may be missing or zero. Its errors don't
+// name the file.
+struct MeshImporter {
+    std::span<const std::string_view> extensions;  // lower case, with the dot
+    Mesh (*import)(const std::filesystem::path& path);
+};
+
+// A new format is a row here.
+std::span<const MeshImporter> meshImporters();
+
+// Reads a mesh by its extension, in any case. The mesh has at least one triangle, finite positions
+// and texture coordinates, weights from 0 to 1, and unit normals. Lengths are the file's; formats
+// that state their unit (glTF, FBX, COLLADA) come out in metres. Throws engine::Error "path:
+// reason".
+Mesh importMesh(const std::filesystem::path& path);
+
+}  // namespace hair

@@ -1,0 +1,91 @@
+#include "hair/rendering/groom_buffers.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "engine/error.h"
+#include "engine/transfer.h"
+#include "hair/gpu_structs.h"
+#include "hair/groom/style/strand_frames.h"
+#include "hair/random.h"
+#include "hair/rendering/strand_offsets.h"
+
+namespace hair {
+namespace {
+
+static_assert(sizeof(gpu::BoundStrand) == 36 && offsetof(gpu::BoundStrand, offset) == 24);
+static_assert(sizeof(gpu::RootFrame) == 24);
+
+// Levels of detail keep the first ones: so they have to come in random order.
+std::vector<gpu::BoundStrand>
+inRandomOrder(const std::vector<StrandBinding>& bindings, std::uint32_t seed) {
+    std::vector<std::uint32_t> order(bindings.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::stable_sort(
+        order, {}, [&](std::uint32_t i) { return hash(seed, i, gpu::kOrderPurpose); });
+    std::vector<gpu::BoundStrand> strands;
+    strands.reserve(order.size());
+    for (const std::uint32_t i : order) {
+        const auto& [guides, weights, offset] = bindings[i];
+        strands.push_back({{guides[0], guides[1], guides[2]}, weights, offset});
+    }
+    return strands;
+}
+
+std::vector<gpu::RootFrame> rootFrames(const Groom& groom) {
+    std::vector<gpu::RootFrame> frames;
+    frames.reserve(groom.strand_count);
+    for (std::uint32_t i = 0; i < groom.strand_count; ++i) {
+        const glm::dvec3 direction = rootDirection(groom.strand(i));
+        frames.push_back({glm::vec3(direction), glm::vec3(across(direction))});
+    }
+    return frames;
+}
+
+}  // namespace
+
+GroomBuffers::GroomBuffers(
+    const engine::Device& device, const Groom& groom, const Settings& settings,
+    const StrandSet* model)
+    : view_{
+          .guide_count = groom.strand_count,
+          .vertices_per_guide = groom.vertices_per_strand,
+          .triangle_count = static_cast<std::uint32_t>(groom.root_triangles.size())} {
+    checkStrands(settings.strands, groom);
+    const auto upload = [&]<class Value>(
+                            engine::Buffer& buffer, const std::vector<Value>& values,
+                            const char* name) {
+        buffer = engine::makeBuffer(device, std::span<const Value>(values), name);
+        return buffer.address();
+    };
+    view_.root_triangles = upload(root_triangles_, groom.root_triangles, "root triangles");
+    if (!groom.root_normals.empty())
+        view_.root_normals = upload(root_normals_, groom.root_normals, "root normals");
+    if (settings.strands.width == WidthSource::groom)
+        view_.guide_widths = upload(widths_, groom.widths, "guide widths");
+    if (settings.strands.source == StrandSource::groom) {
+        view_.bound_strands =
+            upload(bound_strands_, inRandomOrder(groom.bindings, settings.seed), "bound strands");
+        view_.bound_strand_count = static_cast<std::uint32_t>(groom.bindings.size());
+    }
+    if (hasOffsets(settings.strands)) {
+        const StrandOffsets offsets =
+            makeStrandOffsets(settings.strands, groom, model, settings.seed);
+        view_.offsets = upload(offsets_, offsets.values, "strand offsets");
+        view_.offset_profiles = offsets.profiles;
+        view_.offset_samples = offsets.samples;
+        view_.root_frames = upload(root_frames_, rootFrames(groom), "root frames");
+    }
+}
+
+void checkStrands(const StrandSettings& settings, const Groom& groom) {
+    if (settings.width == WidthSource::groom && groom.widths.empty())
+        throw engine::Error("/strands/width", "is groom, but the groom has no widths");
+    if (settings.source == StrandSource::groom && groom.bindings.empty())
+        throw engine::Error("/strands/source", "is groom, but the groom has no bindings");
+}
+
+}  // namespace hair

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "hair/groom/groom.h"
+#include "hair/groom/strand_set.h"
+#include "hair/settings.h"
+
+namespace hair {
+
+// Offsets of drawn strands from their smooth shape: thesis 2.3.8.2 and 2.3.8.3. Computed once; a
+// strand takes one of the profiles by a hash, the same at every level of detail. A vector is along
+// the normal, the binormal and the tangent of a frame that does not turn about the strand. The
+// first sample, at the root, is 0.
+struct StrandOffsets {
+    static constexpr std::uint32_t kProfiles = 64;        // without a model
+    static constexpr std::uint32_t kMostProfiles = 1024;  // with one
+    static constexpr std::uint32_t kMostSamples = 16384;  // then fewer profiles: a table has about
+                                                          // 2^22 vectors at most, 50 MB
+
+    std::uint32_t profiles = 0;
+    std::uint32_t samples = 0;  // from root to tip, evenly spaced; at least 2
+    std::vector<glm::vec3> values;  // [profile][1 + sample + 1], m; one more step at both ends, for
+                                    // the curve through the samples
+
+    std::span<const glm::vec3> profile(std::uint32_t index) const {
+        const std::size_t stride = samples + std::size_t{2};
+        return std::span(values).subspan(index * stride + 1, samples);
+    }
+};
+
+// Whether strands are drawn off their smooth shape at all.
+bool hasOffsets(const StrandSettings& settings);
+
+// Curls, variation and the offsets of `model`, added up. Frequencies are per metre of the guides'
+// mean length at rest, which stands for the length of every strand, and the model's offsets grow
+// with it. `model` is what settings.offsets names, null if that is empty; up to kMostProfiles of
+// its strands, spread over the file, become profiles, each turned about itself at random.
+// Throws engine::Error, beginning with the JSON pointer, for what a table can't hold: more than
+// 1,024 turns or 2,048 changes of direction on a strand.
+StrandOffsets makeStrandOffsets(
+    const StrandSettings& settings, const Groom& groom, const StrandSet* model, std::uint32_t seed);
+
+}  // namespace hair

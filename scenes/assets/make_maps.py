@@ -1,0 +1,104 @@
+"""Draw the pictures over head.glb's texture coordinates.
+
+Run (needs what make_head.py needs): python3 make_maps.py [output_directory]
+
+* ``hairline_mask.png``  density of roots: a natural hairline
+* ``taper_lengths.png``  lengths: a short cut, tapered at the sides and nape
+
+Both are grey, 8 bits.  See make_head.texture_coordinates() for what is where.
+"""
+import pathlib
+import struct
+import sys
+import zlib
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+import make_head
+
+SCALP_RADIUS = 0.095  # of the scalp round STAR, on average: angles to metres
+
+
+def directions(size):
+    """[row * size + column], of the pixels' centres."""
+    centre = (np.arange(size) + 0.5) / size
+    v, u = np.meshgrid(centre, centre, indexing="ij")
+    return make_head.texture_directions(np.stack([u.ravel(), v.ravel()], 1))
+
+
+def elevation(direction):
+    return np.degrees(np.arcsin(np.clip(direction[:, 1], -1.0, 1.0)))
+
+
+def distance_to_hairline(direction):
+    """Metres along the scalp, positive on its inside."""
+    azimuth = np.linspace(-np.pi, np.pi, 20000, endpoint=False)
+    limit = make_head.LIMIT(np.abs(azimuth))
+    line = np.stack([np.cos(limit) * np.sin(azimuth), np.sin(limit),
+                     np.cos(limit) * np.cos(azimuth)], axis=1)
+    chord = cKDTree(line).query(direction)[0]
+    angle = 2.0 * np.arcsin(np.minimum(0.5 * chord, 1.0))
+    side = np.sign(make_head.hair_side(make_head.STAR + direction))
+    return SCALP_RADIUS * angle * side
+
+
+def noise(direction, per_radian, seed):
+    """Smooth, in [0, 1], the same on both sides of the head."""
+    p = np.abs(direction * [1, 0, 0]) + direction * [0, 1, 1] + 2.0
+    cell = np.floor(p * per_radian).astype(int)
+    t = p * per_radian - cell
+    t = t * t * (3.0 - 2.0 * t)
+    table = np.random.default_rng(seed).random((64, 64, 64))
+    total = np.zeros(len(p))
+    for corner in np.ndindex(2, 2, 2):
+        weight = np.prod(np.where(corner, t, 1.0 - t), axis=1)
+        total += weight * table[tuple(((cell + corner) % 64).T)]
+    return total
+
+
+def smoothstep(low, high, x):
+    t = np.clip((x - low) / (high - low), 0.0, 1.0)
+    return t * t * (3.0 - 2.0 * t)
+
+
+def hairline_mask(size):
+    """From a quarter on the hairline to 1 after 4 to 6 mm; 0 outside."""
+    direction = directions(size)
+    distance = distance_to_hairline(direction)
+    wander = 0.002 * noise(direction, 14.0, 1)
+    return np.where(distance > 0.0,
+                    smoothstep(-0.002, 0.004, distance - wander), 0.0)
+
+
+def taper_lengths(size):
+    """1 on top, a tenth at the ears and the nape."""
+    height = elevation(directions(size))
+    return 0.1 + 0.9 * smoothstep(-32.0, 38.0, height)
+
+
+def write_png(path, grey):
+    """8-bit grey; PNG specification, 2nd edition, sections 5 and 11."""
+    def chunk(kind, data):
+        return (struct.pack(">I", len(data)) + kind + data
+                + struct.pack(">I", zlib.crc32(kind + data)))
+
+    size = int(np.sqrt(len(grey)))
+    rows = np.round(255.0 * grey).astype(np.uint8).reshape(size, size)
+    filtered = np.concatenate([np.zeros((size, 1), np.uint8), rows], axis=1)
+    path.write_bytes(
+        b"\x89PNG\r\n\x1a\n"
+        + chunk(b"IHDR", struct.pack(">IIBBBBB", size, size, 8, 0, 0, 0, 0))
+        + chunk(b"IDAT", zlib.compress(filtered.tobytes(), 9))
+        + chunk(b"IEND", b""))
+
+
+def main():
+    default = pathlib.Path(__file__).resolve().parent
+    out = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else default
+    write_png(out / "hairline_mask.png", hairline_mask(1024))
+    write_png(out / "taper_lengths.png", taper_lengths(256))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,63 @@
+// Offsets of strands from their smooth shape: curls and disorder, thesis 2.3.8.2 and 2.3.8.3. They
+// come from a table (hair/rendering/strand_offsets.h) and are along the normal, the binormal and
+// the tangent of a frame that turns with a guide (strands/frames.comp) but not about it.
+#ifndef HAIRBENCH_STRAND_OFFSETS_GLSL
+#define HAIRBENCH_STRAND_OFFSETS_GLSL
+
+#include "common/picture.glsl"
+#include "common/random.glsl"
+#include "strands/curve.glsl"
+
+layout(buffer_reference, scalar) readonly buffer GuideNormals { vec3 normals[]; };
+layout(buffer_reference, scalar) readonly buffer OffsetTable { vec3 offsets[]; };
+
+// An offset and its derivative by the place along the strand, 0 to 1.
+struct StrandOffset {
+    vec3 value;
+    vec3 slope;
+};
+
+StrandOffset strandOffset(PictureParameters picture, uint profile, float along) {
+    OffsetTable table = OffsetTable(picture.offsets);
+    float intervals = float(picture.offset_samples - 1u);
+    float place = along * intervals;
+    uint interval = min(uint(place), picture.offset_samples - 2u);
+    vec4 weights = interpolationWeights(place - float(interval));
+    vec4 slopes = interpolationSlopes(place - float(interval));
+    // The sample before an interval's start is at its index: the table begins with one outside.
+    uint first = profile * (picture.offset_samples + 2u) + interval;
+    vec3 a = table.offsets[first];
+    vec3 b = table.offsets[first + 1u];
+    vec3 c = table.offsets[first + 2u];
+    vec3 d = table.offsets[first + 3u];
+    return StrandOffset(blend(weights, a, b, c, d), intervals * blend(slopes, a, b, c, d));
+}
+
+// The guide that a strand takes its frame from: the one that counts most.
+uint frameGuide(uvec3 guides, vec3 weights) {
+    if (weights.x >= weights.y && weights.x >= weights.z) return guides.x;
+    return weights.y >= weights.z ? guides.y : guides.z;
+}
+
+vec3 guideNormal(PictureParameters picture, uint guide, int index) {
+    int inside = clamp(index, 0, int(picture.vertices_per_guide) - 1);
+    uint first = guide * picture.vertices_per_guide;
+    return GuideNormals(picture.guide_normals).normals[first + uint(inside)];
+}
+
+vec3 unitOrZero(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-30)); }
+
+// Normal, binormal and unit tangent at t of a segment. The guide's normals are blended as its
+// points are, so that the frame is as smooth as the curve, joints included.
+mat3 strandFrame(PictureParameters picture, uint guide, uint segment, float t, vec3 tangent) {
+    int first = int(segment) - 1;
+    vec3 blended = blend(splineWeights(t), guideNormal(picture, guide, first),
+                         guideNormal(picture, guide, first + 1),
+                         guideNormal(picture, guide, first + 2),
+                         guideNormal(picture, guide, first + 3));
+    vec3 along = unitOrZero(tangent);
+    vec3 normal = unitOrZero(blended - dot(blended, along) * along);
+    return mat3(normal, cross(along, normal), along);
+}
+
+#endif

@@ -1,0 +1,77 @@
+// Patches: which guides and strands they have.
+#ifndef HAIRBENCH_STRAND_PATCH_GLSL
+#define HAIRBENCH_STRAND_PATCH_GLSL
+
+#include "common/picture.glsl"
+#include "common/random.glsl"
+#include "strands/lod.glsl"
+#include "strands/options.glsl"
+
+layout(buffer_reference, scalar) readonly buffer BoundStrands { BoundStrand strands[]; };
+
+// One (root triangle, guide segment) pair, or a part of its strands. The strands of a groom count
+// as those of one triangle, the first of which a level of detail keeps; each is a patch.
+struct StrandPatch {
+    uint triangle;
+    uint key;           // random, of the triangle
+    uint segment;
+    uint first_strand;  // of the triangle
+    StrandLod lod;
+};
+
+BoundStrand boundStrand(PictureParameters picture, uint strand) {
+    return BoundStrands(picture.bound_strands).strands[strand];
+}
+
+vec3 guideVertex(PictureParameters picture, uint guide, uint vertex) {
+    return GuidePoints(picture.guides).points[guide * picture.vertices_per_guide + vertex].xyz;
+}
+
+// Patches are numbered [triangle][part][segment].
+StrandPatch strandPatch(PictureParameters picture, uint patch_index) {
+    uint segments = picture.vertices_per_guide - 1;
+    uint part = patch_index / segments;
+    StrandPatch result;
+    result.segment = patch_index % segments;
+    result.triangle = part / picture.patches_per_triangle;
+    result.key = hash(picture.seed, result.triangle, kRootPurpose);
+    result.first_strand = part % picture.patches_per_triangle * picture.strands_per_patch;
+    return result;
+}
+
+// The three guides of all its strands.
+uvec3 patchGuides(PictureParameters picture, StrandPatch strand_patch) {
+    if (kSource == kSourceGroom) return boundStrand(picture, strand_patch.first_strand).guides;
+    RootTriangles triangles = RootTriangles(picture.root_triangles);
+    uint first = 3 * strand_patch.triangle;
+    return uvec3(triangles.guides[first], triangles.guides[first + 1],
+                 triangles.guides[first + 2]);
+}
+
+// The place that a patch's level of detail is that of.
+vec3 lodCentre(PictureParameters picture, StrandPatch strand_patch, uvec3 guides) {
+    vec3 a = guideVertex(picture, guides.x, 0);
+    vec3 b = guideVertex(picture, guides.y, 0);
+    vec3 c = guideVertex(picture, guides.z, 0);
+    if (kSource == kSourceGroom) {
+        BoundStrand strand = boundStrand(picture, strand_patch.first_strand);
+        return strand.weights.x * a + strand.weights.y * b + strand.weights.z * c +
+               mat3(picture.head) * strand.offset;
+    }
+    return (a + b + c) / 3.0;
+}
+
+StrandLod patchLod(PictureParameters picture, StrandPatch strand_patch, uvec3 guides) {
+    if (kLodMode == kLodForced) return forcedLod(picture);
+    vec3 centre = lodCentre(picture, strand_patch, guides);
+    return lodAtDistance(picture, distance(centre, picture.eye));
+}
+
+// Strands of the patch that its level of detail draws; may be 0.
+uint strandsInPatch(PictureParameters picture, StrandPatch strand_patch) {
+    uint density = strand_patch.lod.density;
+    uint first = strand_patch.first_strand;
+    return density > first ? min(density - first, picture.strands_per_patch) : 0u;
+}
+
+#endif

@@ -1,0 +1,66 @@
+// Where strands have their roots between three guides.
+#ifndef HAIRBENCH_STRAND_ROOTS_GLSL
+#define HAIRBENCH_STRAND_ROOTS_GLSL
+
+#include "strands/patch.glsl"
+
+// Area-uniform barycentric coordinates of a strand in its triangle: a random pair, folded (thesis
+// 2.3.2). `key` differs between triangles; the published program has one pattern for all of them.
+vec3 rootWeights(uint key, uint strand) {
+    uint bits = pcg(key + strand);
+    float u = unitFloat(bits);
+    float v = unitFloat(pcg(bits));
+    if (u > 1.0 - v) {  // the difference is exact, the sum u + v is not
+        u = 1.0 - u;
+        v = 1.0 - v;
+    }
+    return vec3(u, v, 1.0 - u - v);
+}
+
+vec3 strandWeights(PictureParameters picture, uint key, uint strand) {
+    if (kSource == kSourceGroom) return boundStrand(picture, strand).weights;
+    return rootWeights(key, strand);
+}
+
+// The scalp bulges out of its flat root triangles. edges[i] times the product of its corners'
+// weights is the offset that the edge from corner i to corner i + 1 adds: half of the projection
+// onto the corners' tangent planes (Boubekeur and Alexa 2008, Phong tessellation, with alpha = 1/2,
+// which is exact to second order on a sphere). A strand of the groom knows its root: edges[0] is
+// its offset, the others are 0.
+struct RootLift {
+    vec3 edges[3];
+};
+
+vec3 edgeLift(vec3 from, vec3 to, vec3 normal_from, vec3 normal_to) {
+    vec3 edge = from - to;
+    return 0.5 * (dot(edge, normal_from) * normal_from - dot(edge, normal_to) * normal_to);
+}
+
+RootLift rootLift(PictureParameters picture, StrandPatch strand_patch, uvec3 guides) {
+    RootLift lift;
+    for (int i = 0; i < 3; ++i) lift.edges[i] = vec3(0.0);
+    if (kSource == kSourceGroom) {
+        lift.edges[0] =
+            mat3(picture.head) * boundStrand(picture, strand_patch.first_strand).offset;
+        return lift;
+    }
+    if (picture.root_normals == 0) return lift;
+    RootNormals root_normals = RootNormals(picture.root_normals);
+    vec3 normals[3];
+    for (int i = 0; i < 3; ++i) normals[i] = mat3(picture.head) * root_normals.normals[guides[i]];
+    for (int i = 0; i < 3; ++i) {
+        int next = (i + 1) % 3;
+        lift.edges[i] = edgeLift(guideVertex(picture, guides[i], 0),
+                                 guideVertex(picture, guides[next], 0), normals[i], normals[next]);
+    }
+    return lift;
+}
+
+// What a whole strand is moved by, so that its root is on the scalp.
+vec3 strandLift(RootLift lift, vec3 weights) {
+    if (kSource == kSourceGroom) return lift.edges[0];
+    return weights.x * weights.y * lift.edges[0] + weights.y * weights.z * lift.edges[1] +
+           weights.z * weights.x * lift.edges[2];
+}
+
+#endif

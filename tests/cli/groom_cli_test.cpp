@@ -1,0 +1,240 @@
+// `hairbench groom convert` as a user meets it.
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/groom_files.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+
+// Points survive every format to the bit; a strand's own number of points does where it may.
+TEST_F(GroomCli, ConvertsThereAndBack) {
+    folder_.write("four.hair", fourStrands().text());
+    for (const std::string extension : {".ply", ".obj", ".gltf", ".glb", ".usda"}) {
+        const Outcome there = convert("four.hair", "other" + extension);
+        EXPECT_EQ(there.status, 0) << there.output;
+        const Outcome back = convert("other" + extension, "back.hair");
+        EXPECT_EQ(back.status, 0) << back.output;
+        EXPECT_TRUE(dataOf("four.hair").starts_with(dataOf("back.hair").substr(0, 8 + 13 * 12)))
+            << extension;
+    }
+    folder_.write("lawn.hair", lawn(20).text());
+    for (const std::string extension : {".hgl", ".tfx"}) {
+        EXPECT_EQ(convert("lawn.hair", "other" + extension).status, 0);
+        EXPECT_EQ(convert("other" + extension, "back.hair").status, 0);
+        EXPECT_TRUE(dataOf("back.hair").ends_with(dataOf("lawn.hair").substr(20 * 2))) << extension;
+    }
+}
+
+TEST_F(GroomCli, ConvertSaysWhatItReadAndWroteAndWhatIsLost) {
+    folder_.write("four.hair", fourStrands().text());
+    const Outcome outcome = convert("four.hair", "four.obj");
+    EXPECT_THAT(outcome.output, ContainsRegex("read: .*four.hair, .*4 strands, 13 points\n"));
+    EXPECT_THAT(
+        outcome.output, ContainsRegex("wrote: .*four.obj, 4 strands, 13 points, .* bytes\n"));
+    EXPECT_THAT(outcome.output, ContainsRegex("hairbench: .*four.obj: the widths are left out\n"));
+    const std::string errors =
+        hairbenchErrors("groom convert " + quoted("four.hair") + " " + quoted("four.obj")).output;
+    EXPECT_FALSE(errors.empty());
+    for (std::size_t at = 0; at < errors.size(); at = errors.find('\n', at) + 1)
+        EXPECT_EQ(errors.find("hairbench: ", at), at) << errors;
+}
+
+TEST_F(GroomCli, ConvertMakesAFileOfGuidesWithTriangles) {
+    folder_.write("four.hair", fourStrands().text());
+    const Outcome outcome = convert("four.hair", "guides.hgl", "--scale 0.01 --vertices 5");
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_THAT(
+        outcome.output, HasSubstr("joined: the roots by 2 triangles, from the roots alone"));
+    const nlohmann::json found = json("guides.hgl");
+    EXPECT_EQ(found["has"]["root_triangles"], 2);  // of a square
+    EXPECT_EQ(found["points"], 20);
+    EXPECT_EQ(found["unit"]["stated"], true);
+    EXPECT_NEAR(found["lengths"]["maximum"], 0.3, 1e-6);
+}
+
+// Equal straight strands are their guides' mean but for the rounding of floats.
+TEST_F(GroomCli, ConvertChoosesGuidesAndSaysHowGoodTheyAre) {
+    folder_.write("lawn.hair", lawn(400).text());
+    const Outcome outcome =
+        convert("lawn.hair", "guides.hgl", "--scale 0.01 --guides 20 --vertices 8");
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_THAT(
+        outcome.output,
+        ContainsRegex(
+            "chose: 20 guides of 400 strands\nerror: .* nm in the mean .* % of the mean length"));
+    EXPECT_EQ(json("guides.hgl")["strands"], 20);
+}
+
+TEST_F(GroomCli, ConvertAddsFollowersInTheFilesUnit) {
+    folder_.write("four.hair", fourStrands().text());
+    const std::string followers = "--followers 3 --follower-radius 0.5 --scale 0.01";
+    const Outcome outcome = convert("four.hair", "more.hair", followers);
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    const nlohmann::json found = json("more.hair", "--scale 1");
+    EXPECT_EQ(found["strands"], 16);
+    EXPECT_GE(found["bounding_box"]["minimum"][0], -0.005 - 1e-9);
+    EXPECT_LT(found["bounding_box"]["minimum"][0], 0.0);
+}
+
+// .hgl is in metres, whatever IN is in; the radius is in IN's unit.
+TEST_F(GroomCli, ConvertTakesAStatedUnitToMetresForGuides) {
+    folder_.write(
+        "cm.usda", "#usda 1.0\n(\n    metersPerUnit = 0.01\n)\ndef BasisCurves \"hair\"\n{\n"
+                   "    uniform token type = \"linear\"\n    int[] curveVertexCounts = [2]\n"
+                   "    point3f[] points = [(0, 0, 0), (0, 20, 0)]\n}\n");
+    const Outcome outcome =
+        convert("cm.usda", "m.hgl", "--followers 2 --follower-radius 1 --tip-separation 0");
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("scaled: by 0.01, to metres\n"));
+    const nlohmann::json found = json("m.hgl");
+    EXPECT_NEAR(found["bounding_box"]["maximum"][1], 0.2, 1e-8);
+    EXPECT_LE(found["bounding_box"]["maximum"][0], 0.01);
+    EXPECT_GE(found["bounding_box"]["minimum"][0], -0.01);
+}
+
+TEST_F(GroomCli, ConvertMayReplaceItsOwnFile) {
+    folder_.write("four.hair", fourStrands().text());
+    EXPECT_EQ(convert("four.hair", "four.hair", "--scale 2").status, 0);
+    EXPECT_NEAR(json("four.hair", "--scale 1")["lengths"]["maximum"], 60.0, 1e-5);
+}
+
+struct Refusal {
+    const char* name;
+    const char* in;
+    const char* out;
+    const char* options;
+    const char* reason;
+};
+
+class GroomRefusal : public testing::TestWithParam<Refusal> {};
+
+TEST_P(GroomRefusal, IsOneLineWithStatus2AndWritesNothing) {
+    const TemporaryFolder folder;
+    folder.write("four.hair", fourStrands().text());
+    folder.write("broken.hair", fourStrands().text().substr(0, 150));
+    const auto path = [&](const char* name) { return "'" + folder.file(name).string() + "'"; };
+    const Outcome outcome = hairbenchErrors(
+        "groom convert " + path(GetParam().in) + " " + path(GetParam().out) + " " +
+        GetParam().options);
+    EXPECT_EQ(outcome.status, 2) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(GetParam().reason));
+    EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
+    EXPECT_FALSE(fs::exists(folder.file(GetParam().out)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , GroomRefusal,
+    testing::Values(
+        // Before anything is read: there is no such file either.
+        Refusal{
+            "UnknownExtension", "none.hair", "out.foo", "",
+            "can't be written as \".foo\"; known are .hair"},
+        Refusal{"NoExtension", "four.hair", "out", "", "can't be written as \"\""},
+        Refusal{"OneVertex", "none.hair", "out.hair", "--vertices 1", "1 is outside [2, 65536]"},
+        Refusal{
+            "TooManyVertices", "none.hair", "out.hair", "--vertices 65537",
+            "65537 is outside [2, 65536]"},
+        Refusal{
+            "TooManyGuideVertices", "none.hair", "out.hgl", "--vertices 257",
+            "257 is outside [2, 256]"},
+        Refusal{"MeshForNothing", "none.hair", "out.ply", "--mesh m.obj", "root triangles"},
+        Refusal{
+            "FollowersInOnePlace", "none.hair", "out.ply", "--followers 2", "--follower-radius"},
+        Refusal{
+            "RadiusWithoutFollowers", "none.hair", "out.ply", "--follower-radius 2",
+            "without --followers"},
+        Refusal{"MissingMesh", "four.hair", "out.hgl", "--mesh none.obj", "none.obj: "},
+        Refusal{"MissingFile", "none.hair", "out.hair", "", "none.hair: "},
+        Refusal{"BrokenFile", "broken.hair", "out.hair", "", "broken.hair: byte"},
+        Refusal{
+            "TooManyGuides", "four.hair", "out.hair", "--guides 5",
+            "5 are more than the 4 strands there are"}),
+    [](const auto& each) { return each.param.name; });
+
+TEST_F(GroomCli, RefusesOptionsThatMakeNoSense) {
+    folder_.write("four.hair", fourStrands().text());
+    for (const char* options : {"--scale 0", "--scale -1", "--guides 0", "--vertices x"})
+        EXPECT_EQ(convert("four.hair", "out.hair", options).status, 2) << options;
+    EXPECT_EQ(hairbench("groom").status, 2);
+    EXPECT_EQ(hairbench("groom convert " + quoted("four.hair")).status, 2);
+}
+
+// ---- Nothing half done --------------------------------------------------------------------------
+
+std::vector<std::string> namesIn(const fs::path& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder))
+        names.push_back(entry.path().filename().string());
+    std::ranges::sort(names);
+    return names;
+}
+
+class GroomInterrupt : public testing::TestWithParam<const char*> {};
+
+// The signal comes as soon as the temporary file is there, a long time before a million points are
+// written as text.
+TEST_P(GroomInterrupt, LeavesTheOldFileAndNoPart) {
+    const TemporaryFolder folder;
+    folder.write("in/lawn.hair", lawn(65536).text());
+    const fs::path out = folder.write("out/lawn.obj", "old");
+    const fs::path log = folder.file("log");
+    // Job control, or the shell would have its children ignore the interrupt.
+    const fs::path script = folder.write(
+        "interrupt.sh", "set -m\n'" HAIRBENCH_PROGRAM "' groom convert '" +
+                            folder.file("in/lawn.hair").string() + "' '" + out.string() + "' >'" +
+                            log.string() + "' 2>&1 &\nwhile [ ! -e '" + out.string() +
+                            ".partial' ] && kill -0 $! 2>/dev/null; do :; done\nkill -" +
+                            GetParam() + " $!\nwait $!\n");
+    const int status = std::system(("bash '" + script.string() + "'").c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+    EXPECT_EQ(textOf(out), "old");
+    EXPECT_THAT(namesIn(out.parent_path()), testing::ElementsAre("lawn.obj"));
+    EXPECT_THAT(
+        textOf(log), AllOf(
+                         HasSubstr("hairbench: interrupted, " + out.string() + " is not written\n"),
+                         Not(HasSubstr("wrote"))));
+}
+
+INSTANTIATE_TEST_SUITE_P(, GroomInterrupt, testing::Values("INT", "TERM"), [](const auto& each) {
+    return std::string(each.param);
+});
+
+TEST_F(GroomCli, SaysWhereItCannotWrite) {
+    folder_.write("four.hair", fourStrands().text());
+    fs::create_directory(folder_.file("folder.hair"));
+    const Outcome folder = convert("four.hair", "folder.hair");
+    EXPECT_EQ(folder.status, 2);
+    EXPECT_THAT(folder.output, HasSubstr("folder.hair: is a folder"));
+    fs::create_symlink("/dev/full", folder_.file("full.hair"));
+    const Outcome full = convert("four.hair", "full.hair");
+    EXPECT_EQ(full.status, 2);
+    EXPECT_THAT(full.output, HasSubstr("full.hair: cannot be written: No space left on device\n"));
+}
+
+// `ulimit -f` counts half or whole kilobytes; the file would have three megabytes.
+TEST_F(GroomCli, LeavesNothingWhereThereIsNoRoom) {
+    folder_.write("in/lawn.hair", lawn(4096).text());
+    folder_.write("out/lawn.hair", "old");
+    const Outcome outcome = hairbenchErrors(
+        "groom convert " + quoted("in/lawn.hair") + " " + quoted("out/lawn.hair"),
+        "ulimit -f 100; ");
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(
+        outcome.output, "hairbench: " + folder_.file("out/lawn.hair").string() +
+                            ": cannot be written: File too large\n");
+    EXPECT_EQ(textOf(folder_.file("out/lawn.hair")), "old");
+    EXPECT_THAT(namesIn(folder_.file("out")), testing::ElementsAre("lawn.hair"));
+}
+
+}  // namespace

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+
+#include <sys/wait.h>
+
+// The program as a user runs it.
+struct Outcome {
+    int status;
+    std::string output;
+};
+
+inline Outcome runInShell(const std::string& command) {
+    FILE* pipe = popen(command.c_str(), "r");
+    if (!pipe) throw std::runtime_error("popen failed");
+    Outcome outcome{};
+    std::array<char, 4096> part{};
+    while (std::size_t count = fread(part.data(), 1, part.size(), pipe)) {
+        outcome.output.append(part.data(), count);
+    }
+    outcome.status = WEXITSTATUS(pclose(pipe));
+    return outcome;
+}
+
+// What it says on stdout and stderr. `before` goes before the program's name.
+inline Outcome hairbench(const std::string& arguments, const std::string& before = "") {
+    return runInShell(before + "'" HAIRBENCH_PROGRAM "' " + arguments + " 2>&1");
+}
+
+// What it says on stderr.
+inline Outcome hairbenchErrors(const std::string& arguments, const std::string& before = "") {
+    return runInShell(before + "'" HAIRBENCH_PROGRAM "' " + arguments + " 2>&1 >/dev/null");
+}

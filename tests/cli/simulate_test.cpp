@@ -1,0 +1,95 @@
+// `hairbench simulate` as a user meets it.
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/run_hairbench.h"
+#include "tests/python.h"
+#include "tests/temporary_folder.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class SimulateCli : public testing::Test {
+protected:
+    void SetUp() override {
+        if (hairbench("devices").status != 0) GTEST_SKIP() << "no Vulkan device";
+    }
+
+    std::string quoted(std::string_view name) const {
+        return "'" + folder_.file(name).string() + "'";
+    }
+    Outcome simulate(std::string_view out, const std::string& options = "") const {
+        return hairbench(
+            "simulate '" HAIRBENCH_SCENES_DIR "/smoke.json' " + options + " --export " +
+            quoted(out));
+    }
+
+    TemporaryFolder folder_;
+};
+
+// 136 root triangles of 16 strands, and 7 segments of 2 pieces.
+TEST_F(SimulateCli, WritesTheSameStrandsInEveryFormat) {
+    const Outcome moving = simulate("hair.usda", "--frames 3");
+    EXPECT_EQ(moving.status, 0) << moving.output;
+    EXPECT_THAT(moving.output, HasSubstr("2176 strands, 32640 points, frames 0 to 2 of smoke"));
+    for (const char* name : {"hair.hair", "hair.obj"}) {
+        const Outcome last = simulate(name, "--frames 3");
+        EXPECT_EQ(last.status, 0) << last.output;
+        EXPECT_THAT(last.output, HasSubstr("32640 points, frame 2, the last, of smoke"));
+    }
+    if (pythonInterpreter().empty()) GTEST_SKIP() << kNoPython;
+    const Outcome compared = runPython(
+        "tests/cli/compare_frames.py",
+        "3 " + quoted("hair.usda") + ' ' + quoted("hair.hair") + ' ' + quoted("hair.obj"));
+    EXPECT_EQ(compared.output, "2176 strands, 32640 points are equal\n");
+}
+
+TEST_F(SimulateCli, WritesTheGuides) {
+    const Outcome outcome = simulate("guides.usda", "--frames 1 --guides -a /groom/guides=86");
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("86 strands, 688 points, frames 0 to 0"));
+    const std::string text = textOf(folder_.file("guides.usda"));
+    EXPECT_THAT(text, HasSubstr("hairbench:rootTriangles"));
+    EXPECT_THAT(text, testing::Not(HasSubstr("widths")));
+}
+
+TEST_F(SimulateCli, RefusesAFormatThatItDoesNotKnowBeforeItBegins) {
+    const Outcome outcome = simulate("hair.fbx", "--frames 1000000");
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_THAT(outcome.output, HasSubstr("hair.fbx: "));
+    EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
+    EXPECT_TRUE(fs::is_empty(folder_.path()));
+}
+
+// A head that nods towards a camera with level of detail by distance: other strands are drawn.
+TEST_F(SimulateCli, RefusesStrandsThatComeAndGo) {
+    const Outcome outcome = hairbench(
+        "simulate '" HAIRBENCH_SCENES_DIR "/nod.json' --frames 20 -a '/lod/mode=\"distance\"'"
+        " -a /lod/near_distance=0.3 -a /lod/far_distance=0.7 --export " +
+        quoted("hair.usda"));
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_THAT(outcome.output, HasSubstr("/lod/mode: "));
+    EXPECT_TRUE(fs::is_empty(folder_.path()));
+}
+
+// Job control, or the shell would have its children ignore the interrupt.
+TEST_F(SimulateCli, LeavesNoHalfFileWhenItIsInterrupted) {
+    const std::string log = quoted("log");
+    const fs::path script = folder_.write(
+        "interrupt.sh", "set -m\n'" HAIRBENCH_PROGRAM "' simulate '" HAIRBENCH_SCENES_DIR
+                        "/smoke.json' --frames 1000000 --export " +
+                            quoted("out/hair.usda") + " >" + log +
+                            " 2>&1 &\nfor i in $(seq 600); do grep -qF 'frame 2' " + log +
+                            " && break; sleep 0.1; done\nkill -INT $!\nwait $!\n");
+    EXPECT_EQ(runInShell("bash '" + script.string() + "'").status, 130);
+    EXPECT_THAT(textOf(folder_.file("log")), HasSubstr("interrupted: nothing is written\n"));
+    EXPECT_TRUE(fs::is_empty(folder_.file("out")));
+}
+
+}  // namespace

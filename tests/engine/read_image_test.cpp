@@ -1,0 +1,80 @@
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "engine/image_file.h"
+#include "tests/error_text.h"
+#include "tests/temporary_folder.h"
+
+namespace engine {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST(ReadImage, GivesWhatWasWritten) {
+    const TemporaryFolder folder;
+    std::vector<std::uint8_t> rgba;
+    for (std::uint32_t i = 0; i < 4 * 5 * 3; ++i) rgba.push_back(static_cast<std::uint8_t>(i * 4));
+    writePng(folder.file("a.png"), 5, 3, rgba);
+    const Pixels pixels = readImage(folder.file("a.png"));
+    EXPECT_EQ(pixels.width, 5u);
+    EXPECT_EQ(pixels.height, 3u);
+    EXPECT_EQ(pixels.rgba, rgba);
+}
+
+// Truevision TGA 2.0: 18 bytes, type 3 is uncompressed grey; bit 5 of the last byte: top row first.
+TEST(ReadImage, MakesGreyRedGreenAndBlue) {
+    const TemporaryFolder folder;
+    std::string tga(18, '\0');
+    tga[2] = 3;
+    tga[12] = 2;
+    tga[14] = 1;
+    tga[16] = 8;
+    tga[17] = 0x20;
+    const Pixels pixels = readImage(folder.write("a.tga", tga + "\x10\x80"));
+    EXPECT_EQ(pixels.width, 2u);
+    EXPECT_EQ(pixels.height, 1u);
+    EXPECT_EQ(pixels.rgba, (std::vector<std::uint8_t>{16, 16, 16, 255, 128, 128, 128, 255}));
+}
+
+TEST(ReadImage, NamesTheFileThatItCannotRead) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(errorText([] { readImage("no.png"); }), "no.png: no such file");
+    EXPECT_THAT(errorText([&] { readImage(folder.path()); }), HasSubstr("not a file"));
+    for (const std::string_view content : {"", "hello, this is text", "\x89PNG\r\n\x1a\n"}) {
+        const auto path = folder.write("bad.png", content);
+        EXPECT_THAT(
+            errorText([&] { readImage(path); }),
+            AllOf(StartsWith(path.string() + ": "), HasSubstr("not a PNG")));
+    }
+}
+
+TEST(ReadImage, RefusesAPictureThatEnds) {
+    const TemporaryFolder folder;
+    const std::vector<std::uint8_t> rgba(4 * 64 * 64, 77);
+    writePng(folder.file("a.png"), 64, 64, rgba);
+    const std::string bytes = textOf(folder.file("a.png"));
+    for (std::size_t size = 0; size < bytes.size() - 12; size += 7) {  // the last chunk is empty
+        const auto path = folder.write("cut.png", bytes.substr(0, size));
+        EXPECT_THAT(errorText([&] { readImage(path); }), StartsWith(path.string() + ": "));
+    }
+}
+
+// A Truevision TGA header alone, of 65,535 by 65,535 grey pixels: whoever believes it allocates
+// 4 to 16 GiB.
+TEST(ReadImage, ChecksTheSizeBeforeItDecodes) {
+    const TemporaryFolder folder;
+    std::string tga(18, '\0');
+    tga[2] = 3;
+    tga[12] = tga[13] = tga[14] = tga[15] = '\xff';
+    tga[16] = 8;
+    const auto path = folder.write("huge.tga", tga);
+    EXPECT_EQ(
+        errorText([&] { readImage(path); }),
+        path.string() + ": 65535 by 65535 pixels are outside [1, 2^26] in all");
+}
+
+}  // namespace
+}  // namespace engine

@@ -1,0 +1,152 @@
+#include "engine/write_file.h"
+
+#include <csignal>
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "tests/error_text.h"
+#include "tests/temporary_folder.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<std::string> namesIn(const fs::path& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder))
+        names.push_back(entry.path().filename().string());
+    std::ranges::sort(names);
+    return names;
+}
+
+// Until the poll or the disk stops it: 64 MiB, in single bytes where `by_byte`.
+enum class Writes { blocks, numbers };
+
+void writeMuch(std::ostream& out, Writes how) {
+    const std::string block(1 << 20, 'x');
+    for (int i = 0; i < 64; ++i) {
+        if (how == Writes::blocks)
+            out.write(block.data(), static_cast<std::streamsize>(1 << 20));
+        else
+            for (int k = 0; k < (1 << 17); ++k) out << 1000000 + k << '\n';
+    }
+}
+
+class WriteMuch : public testing::TestWithParam<Writes> {
+protected:
+    TemporaryFolder folder_;
+};
+
+TEST(WriteFile, WritesAFileAndItsFolder) {
+    const TemporaryFolder folder;
+    const fs::path path = folder.file("a/b/new.txt");
+    engine::writeFileAtomically(path, "text");
+    EXPECT_EQ(textOf(path), "text");
+    EXPECT_THAT(namesIn(path.parent_path()), ElementsAre("new.txt"));
+}
+
+TEST(WriteFile, ReplacesAFileAndKeepsItsPermissions) {
+    const TemporaryFolder folder;
+    const fs::path path = folder.write("old.txt", "old and longer");
+    fs::permissions(path, fs::perms::owner_read | fs::perms::owner_write);
+    engine::writeFileAtomically(path, "new");
+    EXPECT_EQ(textOf(path), "new");
+    EXPECT_EQ(fs::status(path).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST(WriteFile, FollowsALink) {
+    const TemporaryFolder folder;
+    const fs::path path = folder.write("real.txt", "old");
+    const fs::path link = folder.file("link.txt");
+    fs::create_symlink("real.txt", link);
+    engine::writeFileAtomically(link, "new");
+    EXPECT_TRUE(fs::is_symlink(link));
+    EXPECT_EQ(textOf(path), "new");
+}
+
+TEST(WriteFile, LeavesTheOldFileWhereTheWriterFails) {
+    const TemporaryFolder folder;
+    const fs::path path = folder.write("file.txt", "old");
+    const std::string error = errorText([&] {
+        engine::writeFileAtomically(path, [](std::ostream& out) {
+            out << "half";
+            throw engine::Error("no more");
+        });
+    });
+    EXPECT_EQ(error, "no more");
+    EXPECT_EQ(textOf(path), "old");
+    EXPECT_THAT(namesIn(folder.path()), ElementsAre("file.txt"));
+}
+
+TEST_P(WriteMuch, StopsWithinAMegabyteWhereThePollThrows) {
+    struct Stop {};
+    const fs::path path = folder_.write("file.txt", "old");
+    const fs::path partial = folder_.file("file.txt.partial");
+    std::uintmax_t seen = 0;
+    const auto poll = [&] {
+        seen = fs::file_size(partial);
+        if (seen > 3'000'000) throw Stop();
+    };
+    EXPECT_THROW(
+        engine::writeFileAtomically(
+            path, [](std::ostream& out) { writeMuch(out, GetParam()); }, poll),
+        Stop);
+    // One piece of at most 2^20 bytes and what the stream's own buffer holds, less than that.
+    EXPECT_LT(seen, 3'000'000u + 2u * (1u << 20));
+    EXPECT_EQ(textOf(path), "old");
+    EXPECT_THAT(namesIn(folder_.path()), ElementsAre("file.txt"));
+}
+
+TEST_P(WriteMuch, SaysThatTheDiskIsFull) {
+    const std::string error = errorText([] {
+        engine::writeFileAtomically(
+            "/dev/full", [](std::ostream& out) { writeMuch(out, GetParam()); });
+    });
+    EXPECT_EQ(error, "/dev/full: cannot be written: No space left on device");
+}
+
+// A limit on a file's size stands for a disk that fills up in the middle.
+TEST_P(WriteMuch, LeavesNothingWhereThereIsNoRoomForAll) {
+    const auto ignored = std::signal(SIGXFSZ, SIG_IGN);
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+    const rlimit low{.rlim_cur = 5'000'000, .rlim_max = before.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &low), 0);
+    const fs::path path = folder_.write("file.txt", "old");
+    const std::string error = errorText([&] {
+        engine::writeFileAtomically(path, [](std::ostream& out) { writeMuch(out, GetParam()); });
+    });
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, ignored);
+    EXPECT_EQ(error, path.string() + ": cannot be written: File too large");
+    EXPECT_EQ(textOf(path), "old");
+    EXPECT_THAT(namesIn(folder_.path()), ElementsAre("file.txt"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , WriteMuch, testing::Values(Writes::blocks, Writes::numbers),
+    [](const auto& each) { return each.param == Writes::blocks ? "Blocks" : "Numbers"; });
+
+TEST(WriteFile, RefusesAFolder) {
+    const TemporaryFolder folder;
+    const auto write = [&] { engine::writeFileAtomically(folder.path(), "text"); };
+    EXPECT_THAT(errorText(write), HasSubstr("is a folder"));
+    const auto check = [&] { engine::checkWritable(folder.path()); };
+    EXPECT_THAT(errorText(check), HasSubstr("is a folder"));
+}
+
+TEST(WriteFile, RefusesAFolderThatIsAFile) {
+    const TemporaryFolder folder;
+    folder.write("file", "");
+    const auto check = [&] { engine::checkWritable(folder.file("file/in.txt")); };
+    EXPECT_THAT(errorText(check), HasSubstr("file: cannot be made"));
+}
+
+}  // namespace

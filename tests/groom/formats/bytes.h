@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <string_view>
+
+// Writes little-endian files as format descriptions have them, value after value, whatever this
+// machine's order of bytes.
+class Bytes {
+public:
+    Bytes& text(std::string_view text) {
+        bytes_ += text;
+        return *this;
+    }
+    Bytes& zeros(std::size_t count) {
+        bytes_.append(count, '\0');
+        return *this;
+    }
+    Bytes& u16(std::uint32_t value) { return unsignedOf(value, 2); }
+    Bytes& u32(std::uint32_t value) { return unsignedOf(value, 4); }
+    template <class... Floats>
+    Bytes& f32(Floats... values) {
+        (one(static_cast<float>(values)), ...);
+        return *this;
+    }
+    const std::string& str() const { return bytes_; }
+
+private:
+    Bytes& unsignedOf(std::uint32_t value, int size) {
+        for (int i = 0; i < size; ++i) bytes_ += static_cast<char>(value >> (8 * i) & 0xff);
+        return *this;
+    }
+    void one(float value) {
+        std::uint32_t bits = 0;
+        std::memcpy(&bits, &value, 4);
+        u32(bits);
+    }
+
+    std::string bytes_;
+};
+
+template <class Value>
+std::string patched(std::string bytes, std::size_t offset, Value value) {
+    std::memcpy(bytes.data() + offset, &value, sizeof value);
+    return bytes;
+}
+
+constexpr float kNotFinite[] = {
+    std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::signaling_NaN(),
+    std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
+
+// What counts and offsets must not be taken for: nothing, one, the greatest, negative ones.
+constexpr std::uint32_t kWrongCounts[] = {0, 1, 0x7fffffff, 0x80000000, 0xfffffffe, 0xffffffff};

@@ -1,0 +1,77 @@
+#include <map>
+
+#include <gmock/gmock.h>
+
+#include "tests/groom/formats/broken_promise.h"
+#include "tests/groom/formats/strand_files.h"
+#include "tests/python.h"
+
+// tests/corpus/README.md says where its files come from.
+namespace hair {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Every valid file of the corpus and how many strands it has.
+const std::map<std::string, std::uint32_t> kStrands{
+    {"gltf/lines.gltf", 3},
+    {"gltf/strips.gltf", 3},
+    {"gltf/trimesh_head_and_lines.glb", 3},
+    {"gltf/trimesh_lines.glb", 3},
+    {"hair/all_arrays.hair", 3},
+    {"hair/points_only.hair", 2},
+    {"hair/segments_and_colors.hair", 3},
+    {"hair/single_points.hair", 9},
+    {"hgl/no_triangles.hgl", 2},
+    {"hgl/one_guide.hgl", 1},
+    {"hgl/three_guides.hgl", 3},
+    {"obj/segments.obj", 3},
+    {"obj/vtk_lines.obj", 3},
+    {"ply/plyfile_edges_ascii.ply", 3},
+    {"ply/plyfile_edges_big.ply", 3},
+    {"ply/plyfile_edges_little.ply", 3},
+    {"ply/plyfile_strands_ascii.ply", 3},
+    {"ply/plyfile_strands_big.ply", 3},
+    {"ply/plyfile_strands_little.ply", 3},
+    {"tfx/all_arrays.tfx", 2},
+    {"tfx/positions_only.tfx", 2},
+    {"usd/bezier.usda", 2},
+    {"usd/linear.usda", 3},
+};
+
+// Files in the folders of formats, relative to `folder`; not what lies in it itself.
+std::vector<std::string> filesIn(const fs::path& folder) {
+    std::vector<std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        const fs::path name = entry.path().lexically_relative(folder);
+        const bool is_in_format = name.has_parent_path() && *name.begin() != "findings";
+        if (entry.is_regular_file() && is_in_format) files.push_back(name.generic_string());
+    }
+    return files;
+}
+
+TEST(Corpus, ValidFilesHaveTheirStrands) {
+    std::vector<std::string> expected;
+    for (const auto& [name, strands] : kStrands) {
+        expected.push_back(name);
+        if (name.starts_with("usd/") && pythonInterpreter().empty()) continue;
+        SCOPED_TRACE(name);
+        const StrandSet set = importStrands(corpus(name));
+        EXPECT_EQ(set.strandCount(), strands);
+        EXPECT_EQ(brokenPromise(set), "");
+    }
+    EXPECT_THAT(filesIn(corpus("")), testing::UnorderedElementsAreArray(expected));
+}
+
+TEST(Corpus, FindingsAreErrorsOrSets) {
+    for (const std::string& name : filesIn(corpus("findings"))) {
+        SCOPED_TRACE(name);
+        try {
+            EXPECT_EQ(brokenPromise(importStrands(corpus("findings/" + name))), "");
+        } catch (const engine::Error&) {
+        }
+    }
+}
+
+}  // namespace
+}  // namespace hair

@@ -1,0 +1,52 @@
+#include "hair/groom/formats/run_tool.h"
+
+#include <string>
+#include <system_error>
+
+#include <gtest/gtest.h>
+
+#include "tests/error_text.h"
+
+namespace hair {
+namespace {
+
+std::vector<std::byte> shell(const std::string& script) { return runTool({"sh", "-c", script}); }
+
+std::string failure(const std::string& script) {
+    return errorText([&] { shell(script); });
+}
+
+TEST(RunTool, ReturnsWhatTheProgramWrites) {
+    const auto bytes = shell("printf 'a\\000b'; echo ignored >&2");
+    EXPECT_EQ(
+        std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
+        std::string("a\0b", 3));
+}
+
+// More than a pipe holds (64 KiB on Linux) on both of its outputs.
+TEST(RunTool, TakesMuchOnBothOutputs) {
+    const auto bytes = shell("head -c 1000000 /dev/zero >&2; head -c 2000000 /dev/zero");
+    EXPECT_EQ(bytes.size(), 2000000u);
+}
+
+TEST(RunTool, GivesTheProgramNothingToRead) { EXPECT_TRUE(shell("cat").empty()); }
+
+TEST(RunTool, PassesArgumentsAsTheyAre) {
+    const auto bytes = runTool({"printf", "%s", "$(rm -rf x) 'a' \"b\"\n"});
+    EXPECT_EQ(
+        std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
+        "$(rm -rf x) 'a' \"b\"\n");
+}
+
+TEST(RunTool, FailsWithTheLastLine) {
+    EXPECT_EQ(failure("echo first >&2; echo 'the reason' >&2; echo; exit 3"), "the reason");
+    EXPECT_EQ(failure("exit 3"), "sh ended with status 3");
+    EXPECT_EQ(failure("echo words >&2; kill -SEGV $$"), "sh ended by signal 11");
+}
+
+TEST(RunTool, SaysThatThereIsNoSuchProgram) {
+    EXPECT_THROW(runTool({"/no/such/program"}), std::system_error);
+}
+
+}  // namespace
+}  // namespace hair

@@ -1,0 +1,103 @@
+#include <gmock/gmock.h>
+
+#include "tests/groom/formats/bytes.h"
+#include "tests/groom/formats/strand_files.h"
+
+// importStrands and exportStrands: which row takes a file, and what they say when none can.
+namespace hair {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+const StrandSet kStrands{.ends = {2, 4}, .points = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}}};
+
+std::string fileError(const std::filesystem::path& path) {
+    return errorText([&] { importStrands(path); });
+}
+
+TEST(ImportStrands, GoesByTheExtensionInAnyCase) {
+    const TemporaryFolder folder;
+    for (const StrandExporter& exporter : strandExporters()) {
+        if (exporter.extension.starts_with(".usd")) continue;  // another program reads it
+        std::string name = "a" + std::string(exporter.extension);
+        exportStrands(kStrands, folder.file(name));
+        for (char& c : name) c = static_cast<char>(std::toupper(c));
+        std::filesystem::rename(
+            folder.file("a" + std::string(exporter.extension)), folder.file(name));
+        EXPECT_EQ(importStrands(folder.file(name)).points, kStrands.points) << name;
+    }
+}
+
+TEST(ImportStrands, GoesByTheFirstBytesWhereTheyAreAnotherFormats) {
+    const TemporaryFolder folder;
+    for (const std::string written : {".hair", ".tfx", ".ply", ".glb"}) {
+        exportStrands(kStrands, folder.file("a" + written));
+        for (const std::string name : {"b.hair", "b.hgl", "b.obj", "b.gltf", "b.txt", "b"}) {
+            std::filesystem::rename(folder.file("a" + written), folder.file(name));
+            EXPECT_EQ(importStrands(folder.file(name)).points, kStrands.points) << written << name;
+            std::filesystem::rename(folder.file(name), folder.file("a" + written));
+        }
+    }
+}
+
+TEST(ImportStrands, NamesTheFileOnce) {
+    const TemporaryFolder folder;
+    const std::string bytes = writeText(strandExporters()[0].write, kStrands).bytes;
+    const auto path = folder.write("cut.hair", bytes.substr(0, 100));
+    EXPECT_EQ(
+        fileError(path), path.string() + ": byte 100: truncated: the header alone is 128 bytes");
+    EXPECT_EQ(
+        fileError(folder.file("missing.hair")),
+        folder.file("missing.hair").string() + ": no such file");
+    std::filesystem::create_directory(folder.file("folder.hair"));
+    EXPECT_EQ(
+        fileError(folder.file("folder.hair")),
+        folder.file("folder.hair").string() + ": not a file");
+    EXPECT_THAT(fileError(folder.write("empty.hair", "")), HasSubstr("byte 0: truncated"));
+}
+
+TEST(ImportStrands, ListsWhatItKnows) {
+    const TemporaryFolder folder;
+    const auto path = folder.write("hair.abc", "unknown");
+    EXPECT_EQ(
+        fileError(path), path.string() +
+                             ": unknown format of strands \".abc\"; known are .hair, .tfx, .hgl, "
+                             ".ply, .obj, .glb, .gltf, .usd, .usda, .usdc, .usdz");
+}
+
+TEST(ExportStrands, WritesWholeFilesOrNone) {
+    const TemporaryFolder folder;
+    for (const StrandExporter& exporter : strandExporters()) {
+        const auto path = folder.file("none" + std::string(exporter.extension));
+        const std::string error = errorText([&] { exportStrands({}, path); });
+        if (error != "no error") {
+            EXPECT_THAT(error, StartsWith(path.string() + ": "));
+            EXPECT_THAT(error.substr(path.string().size()), Not(HasSubstr(path.string())));
+        }
+        std::filesystem::remove(path);
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(ExportStrands, ListsWhatItKnows) {
+    EXPECT_EQ(
+        errorText([] { exportStrands(kStrands, "a.usdc"); }),
+        "a.usdc: strands can't be written as \".usdc\"; known are .hair, .hgl, .tfx, .obj, .ply, "
+        ".gltf, .glb, .usda");
+}
+
+TEST(ExportStrands, ReturnsTheWarnings) {
+    const TemporaryFolder folder;
+    StrandSet strands = kStrands;
+    strands.widths.everywhere = 0.5f;
+    EXPECT_THAT(
+        exportStrands(strands, folder.file("a.hgl")), testing::ElementsAre(HasSubstr("widths")));
+    EXPECT_THAT(exportStrands(strands, folder.file("a.HAIR")), IsEmpty());
+}
+
+}  // namespace
+}  // namespace hair

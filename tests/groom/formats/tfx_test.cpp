@@ -1,0 +1,213 @@
+#include <gmock/gmock.h>
+
+#include "hair/groom/formats/export_tfx.h"
+#include "hair/groom/formats/import_tfx.h"
+#include "tests/groom/formats/bytes.h"
+#include "tests/groom/formats/strand_files.h"
+
+namespace hair {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+// Where a file of three strands of four vertices has its arrays: in the header's order, each
+// directly after the one before it, as a plain writer puts them.
+constexpr std::uint32_t kPositions = 160;
+constexpr std::uint32_t kStrandUvs = kPositions + 12 * 16;
+constexpr std::uint32_t kVertexUvs = kStrandUvs + 3 * 8;
+constexpr std::uint32_t kThickness = kVertexUvs + 12 * 8;
+constexpr std::uint32_t kColors = kThickness + 3 * 4;
+constexpr std::uint32_t kEnd = kColors + 12 * 16;
+
+std::string fullFile() {
+    Bytes bytes;
+    bytes.f32(4.0).u32(3).u32(4);
+    bytes.u32(kPositions).u32(kStrandUvs).u32(kVertexUvs).u32(kThickness).u32(kColors).zeros(128);
+    for (int i = 0; i < 12; ++i) bytes.f32(i, 0.1 * i, -i, i % 4 < 2 ? 0 : 1);
+    for (int i = 0; i < 3; ++i) bytes.f32(0.3 * i, 1 - 0.3 * i);
+    for (int i = 0; i < 12; ++i) bytes.f32(0.05 * i, 0.5);
+    for (int i = 0; i < 3; ++i) bytes.f32(0.001 * (i + 1));
+    for (int i = 0; i < 12; ++i) bytes.f32(0.05 * i, 0.5, 0.25, 1 - 0.0625 * i);
+    return bytes.str();
+}
+
+// As AMD's exporters write it: positions only.
+std::string plainFile() {
+    std::string bytes = fullFile().substr(0, kStrandUvs);
+    for (std::size_t offset = 16; offset < 32; offset += 4) bytes = patched(bytes, offset, 0);
+    return bytes;
+}
+
+StrandSet read(const std::string& bytes) { return readText(importTfx, bytes); }
+std::string error(const std::string& bytes) { return readError(importTfx, bytes); }
+
+TEST(ImportTfx, ReadsPositions) {
+    const StrandSet strands = read(plainFile());
+    EXPECT_THAT(strands.ends, ElementsAre(4, 8, 12));
+    ASSERT_EQ(strands.points.size(), 12u);
+    for (int i = 0; i < 12; ++i)
+        EXPECT_EQ(strands.points[i], glm::vec3(i, static_cast<float>(0.1 * i), -i));
+    EXPECT_FALSE(strands.widths.known());
+    EXPECT_FALSE(strands.transparencies.known());
+    EXPECT_FALSE(strands.colors.known());
+    EXPECT_THAT(strands.root_uvs, IsEmpty());
+    EXPECT_FALSE(strands.metres_per_unit);
+    EXPECT_THAT(strands.warnings, IsEmpty());
+}
+
+TEST(ImportTfx, ReadsEveryArray) {
+    const std::string bytes = fullFile();
+    ASSERT_EQ(bytes.size(), kEnd);
+    const StrandSet strands = read(bytes);
+    EXPECT_THAT(
+        strands.root_uvs,
+        ElementsAre(glm::vec2(0, 1), glm::vec2(0.3f, 0.7f), glm::vec2(0.6f, 0.4f)));
+    EXPECT_THAT(
+        strands.widths.values, ElementsAre(
+                                   0.001f, 0.001f, 0.001f, 0.001f, 0.002f, 0.002f, 0.002f, 0.002f,
+                                   0.003f, 0.003f, 0.003f, 0.003f));
+    ASSERT_EQ(strands.colors.values.size(), 12u);
+    EXPECT_EQ(strands.colors.values[4], glm::vec3(0.2f, 0.5f, 0.25f));
+    ASSERT_EQ(strands.transparencies.values.size(), 12u);
+    EXPECT_EQ(strands.transparencies.values[4], 0.25f);  // 1 - alpha
+    EXPECT_THAT(strands.warnings, ElementsAre(HasSubstr("texture coordinates of vertices")));
+}
+
+TEST(ImportTfx, ReadsArraysInAnyOrderWithGaps) {
+    Bytes bytes;
+    bytes.f32(4.0).u32(1).u32(2).u32(200).u32(0).u32(0).u32(164).u32(0).zeros(128);
+    bytes.zeros(4).f32(0.5).zeros(200 - 168);
+    bytes.f32(1, 2, 3, 0, 4, 5, 6, 1).zeros(5);
+    const StrandSet strands = read(bytes.str());
+    EXPECT_THAT(strands.points, ElementsAre(glm::vec3(1, 2, 3), glm::vec3(4, 5, 6)));
+    EXPECT_EQ(strands.widths.everywhere, 0.5f);
+}
+
+TEST(ImportTfx, TellsOfFixedVerticesBeyondTheSecond) {
+    EXPECT_THAT(
+        read(patched(plainFile(), kPositions + 3 * 16 + 12, 0.0f)).warnings,
+        ElementsAre(StartsWith("1 vertices beyond the first two")));
+}
+
+TEST(ImportTfx, RefusesEveryTruncation) {
+    for (const std::string& bytes : {plainFile(), fullFile()}) {
+        for (std::size_t size = 0; size < bytes.size(); ++size) {
+            EXPECT_THAT(
+                error(bytes.substr(0, size)), AllOf(StartsWith("byte "), HasSubstr("truncated")))
+                << size;
+        }
+    }
+    EXPECT_EQ(error(""), "byte 0: truncated: the header alone is 160 bytes");
+    EXPECT_EQ(
+        error(fullFile().substr(0, 500)),
+        "byte 500: vertex colours at byte 484: truncated, they end at byte 676, the file at 500");
+}
+
+TEST(ImportTfx, RefusesWrongHeaders) {
+    const std::string bytes = fullFile();
+    for (const float version : {0.0f, 3.0f, 4.5f, -4.0f, kNotFinite[0]})
+        EXPECT_THAT(error(patched(bytes, 0, version)), StartsWith("byte 0: version ")) << version;
+    for (const std::size_t count : {4u, 8u}) {
+        for (const std::uint32_t wrong : kWrongCounts) {
+            if (count == 4 && wrong == 1) continue;  // fits, with gaps
+            EXPECT_THAT(error(patched(bytes, count, wrong)), StartsWith("byte ")) << wrong;
+        }
+    }
+    EXPECT_EQ(error(patched(bytes, 4, 0)), "byte 4: 0 strands, at least 1 is needed");
+    EXPECT_EQ(error(patched(bytes, 8, 1)), "byte 8: 1 vertices per strand, at least 2 are needed");
+    EXPECT_EQ(error(patched(bytes, 12, 0)), "byte 12: there are no positions");
+    EXPECT_THAT(
+        error(patched(patched(bytes, 4, -1), 8, -1)),
+        StartsWith("byte 4: 18446744065119617025 vertices"));
+}
+
+TEST(ImportTfx, RefusesArraysThatDoNotFit) {
+    const std::string bytes = fullFile();
+    for (const std::size_t offset : {12u, 16u, 20u, 24u, 28u}) {
+        const std::string at = "byte " + std::to_string(offset) + ": ";
+        EXPECT_THAT(error(patched(bytes, offset, 156)), StartsWith(at)) << "in the header";
+        EXPECT_THAT(error(patched(bytes, offset, 1)), StartsWith(at)) << "in the header";
+        for (const std::uint32_t wrong : {0x7fffffffu, 0x80000000u, 0xffffffffu, 0xfffffffcu})
+            EXPECT_THAT(error(patched(bytes, offset, wrong)), StartsWith("byte ")) << wrong;
+    }
+    EXPECT_EQ(
+        error(patched(bytes, 16, kPositions + 16)),
+        "byte 16: strand UVs at byte 176 lie on the positions, which end at byte 352");
+    EXPECT_EQ(
+        error(patched(bytes, 16, kPositions)),
+        "byte 16: strand UVs at byte 160 lie on the positions, which end at byte 352");
+    EXPECT_EQ(
+        error(patched(bytes, 28, kColors + 2)),
+        "byte 28: vertex colours at byte 486: not a multiple of 4");
+}
+
+TEST(ImportTfx, RefusesNumbersThatAreNotFinite) {
+    const std::string bytes = fullFile();
+    for (const float wrong : kNotFinite) {
+        for (std::size_t at = kPositions; at < bytes.size(); at += 4) {
+            const bool unread = at >= kVertexUvs && at < kThickness;
+            EXPECT_THAT(
+                error(patched(bytes, at, wrong)),
+                StartsWith(unread ? "no error" : "byte " + std::to_string(at) + ": "));
+        }
+    }
+    EXPECT_EQ(
+        error(patched(bytes, kPositions + 2 * 16 + 8, kNotFinite[0])),
+        "byte 200: position 2 is not finite");
+    EXPECT_THAT(
+        error(patched(bytes, kThickness + 8, -1.0f)),
+        StartsWith("byte 480: thickness 2 is negative"));
+}
+
+TEST(ExportTfx, WritesTheDescribedBytes) {
+    EXPECT_EQ(writeText(exportTfx, read(plainFile())).bytes, plainFile());
+    StrandSet strands = read(fullFile());
+    const auto [bytes, warnings] = writeText(exportTfx, strands);
+    EXPECT_THAT(warnings, IsEmpty());
+    // Without UVs of vertices; colours move to the next multiple of 8.
+    const std::string full = fullFile();
+    Bytes expected;
+    expected.text(full.substr(0, 20)).u32(0).u32(376).u32(392).zeros(128);
+    expected.text(full.substr(kPositions, kVertexUvs - kPositions));
+    expected.text(full.substr(kThickness, 12)).zeros(4).text(full.substr(kColors));
+    EXPECT_EQ(bytes, expected.str());
+}
+
+TEST(ExportTfx, ResamplesWhatIsNotUniform) {
+    StrandSet strands{
+        .ends = {2, 7},
+        .points = {{0, 0, 0}, {3, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}, {3, 1, 0}, {4, 1, 0}}};
+    const auto [bytes, warnings] = writeText(exportTfx, strands);
+    EXPECT_THAT(warnings, ElementsAre(HasSubstr("resampled to 8")));
+    const StrandSet back = read(bytes);
+    EXPECT_THAT(back.ends, ElementsAre(8, 16));
+    EXPECT_EQ(back.points[7], strands.points[1]);
+    EXPECT_EQ(back.points[15], strands.points[6]);
+}
+
+TEST(ExportTfx, SaysWhatItLeavesOut) {
+    StrandSet strands{.ends = {3}, .points = {{0, 0, 0}, {0, 1, 0}, {0, 2, 0}}};
+    strands.widths.values = {0.2f, 0.1f, 0.0f};
+    strands.transparencies.values = {0.0f, 0.1f, 0.75f};  // 1 - (1 - 0.1f) is not 0.1f
+    strands.root_triangles = {{0, 0, 0}};
+    strands.metres_per_unit = 1.0;
+    strands.comment = "a";
+    const auto [bytes, warnings] = writeText(exportTfx, strands);
+    EXPECT_THAT(
+        warnings,
+        ElementsAre(
+            HasSubstr("root triangles"), HasSubstr("unit"), HasSubstr("comment"),
+            HasSubstr("3 vertices per strand"), HasSubstr("varies along 1 strands"),
+            HasSubstr("colours are not known"), HasSubstr("1 transparencies are rounded")));
+    const StrandSet back = read(bytes);
+    EXPECT_EQ(back.widths.everywhere, 0.2f);
+    EXPECT_EQ(back.colors.everywhere, glm::vec3(1.0f));
+    EXPECT_EQ(back.transparencies.values.back(), 0.75f);
+    EXPECT_EQ(errorText([] { writeText(exportTfx, {}); }), "there are no strands");
+}
+
+}  // namespace
+}  // namespace hair

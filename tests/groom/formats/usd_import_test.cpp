@@ -1,0 +1,165 @@
+// Files written by usd-core itself.
+#include <algorithm>
+#include <cmath>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/error_text.h"
+#include "tests/groom/formats/usd_files.h"
+
+namespace hair {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+using UsdImportTest = UsdFiles;
+
+class UsdImportFormatTest : public UsdImportTest,
+                            public testing::WithParamInterface<const char*> {};
+
+TEST_P(UsdImportFormatTest, ReadsAllThatStrandsHaveToTheLastBit) {
+    const StrandSet set = read(std::string("everything.") + GetParam());
+    EXPECT_THAT(set.ends, ElementsAre(3u, 4u, 8u));
+    ASSERT_EQ(set.points.size(), 8u);
+    for (int k = 0; k < 7; ++k) EXPECT_EQ(set.points[k], glm::vec3(madePoint(k))) << k;
+    EXPECT_EQ(set.points[7], glm::vec3(-0.0f, 1e-40f, 3e38f));
+    EXPECT_TRUE(std::signbit(set.points[7].x));
+    ASSERT_EQ(set.widths.values.size(), 8u);
+    for (int k = 0; k < 8; ++k) EXPECT_EQ(set.widths.at(k), static_cast<float>((k + 1) / 30.0));
+    ASSERT_EQ(set.colors.values.size(), 8u);
+    EXPECT_EQ(set.colors.at(2), glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(set.colors.at(3), glm::vec3(0.4f, 0.5f, 0.6f));
+    EXPECT_EQ(set.colors.at(4), glm::vec3(1.0f, 0.0f, 0.7f));
+    EXPECT_EQ(set.transparencies.everywhere, 0.25f);
+    EXPECT_THAT(
+        set.root_uvs,
+        ElementsAre(glm::vec2(0.1f, 0.9f), glm::vec2(0.2f, 0.8f), glm::vec2(0.3f, 0.7f)));
+    EXPECT_TRUE(set.root_triangles.empty());
+    EXPECT_EQ(set.metres_per_unit, 0.01);
+    EXPECT_EQ(set.comment, "made by \"usd-core\": \u00e4\nsecond line");
+    EXPECT_THAT(set.warnings, ElementsAre("normals, primvars:id: left out"));
+}
+
+INSTANTIATE_TEST_SUITE_P(, UsdImportFormatTest, testing::Values("usda", "usdc", "usd", "usdz"));
+
+// p * scale 2, turned by 90 degrees about z, moved by (1, 2, 3); then z up becomes y up. cos(90)
+// is 6e-17 in double, so that sums round to the whole numbers that they should be.
+TEST_F(UsdImportTest, AppliesTransformsOfParentsAndInstances) {
+    const StrandSet set = read("transforms.usda");
+    const auto expected = [](glm::vec3 p) {
+        const glm::vec3 turned(-2 * p.y + 1, 2 * p.x + 2, 2 * p.z + 3);
+        return glm::vec3(turned.x, turned.z, -turned.y);
+    };
+    EXPECT_THAT(set.ends, ElementsAre(2u, 4u, 6u));
+    ASSERT_EQ(set.points.size(), 6u);
+    EXPECT_EQ(set.points[0], expected({1, 2, 3}));
+    EXPECT_EQ(set.points[1], expected({4, 5, 6}));
+    EXPECT_EQ(set.points[2], glm::vec3(10, 0, 0));
+    EXPECT_EQ(set.points[3], glm::vec3(10, 1, 0));
+    EXPECT_EQ(set.points[4], glm::vec3(20, 0, 0));
+    EXPECT_EQ(set.points[5], glm::vec3(20, 1, 0));
+    EXPECT_EQ(set.widths.everywhere, 1.0f);  // 0.5 scaled by 2, and the instances' own
+    EXPECT_EQ(set.metres_per_unit, 1.0);
+    EXPECT_THAT(set.warnings, ElementsAre("/scattered: instances on points are left out"));
+}
+
+TEST_F(UsdImportTest, TurnsZUpWithoutRounding) {
+    const StrandSet set = read("z_up.usdc");
+    ASSERT_EQ(set.points.size(), 3u);
+    for (int k = 0; k < 3; ++k) {
+        const glm::vec3 p(madePoint(k));
+        EXPECT_EQ(set.points[k], glm::vec3(p.x, p.z, -p.y));
+    }
+    EXPECT_FALSE(set.widths.known());
+    EXPECT_FALSE(set.colors.known());
+    EXPECT_FALSE(set.transparencies.known());
+}
+
+TEST_F(UsdImportTest, ReadsTheFirstSampleOfWhatMoves) {
+    const StrandSet set = read("animated.usd");
+    EXPECT_THAT(set.points, ElementsAre(glm::vec3(5, 0, 100), glm::vec3(0, 5, 100)));
+    EXPECT_EQ(set.widths.everywhere, 0.25f);
+    EXPECT_EQ(set.metres_per_unit, 0.01);
+    EXPECT_THAT(
+        set.warnings, ElementsAre(
+                          "/hair: one of its 3 time samples is read",
+                          "the stage states no unit: taken as cm, as USD says"));
+}
+
+TEST_F(UsdImportTest, SaysWhatItLeavesOut) {
+    const StrandSet set = read("mixed.usdc");
+    EXPECT_THAT(set.ends, ElementsAre(2u, 4u));
+    EXPECT_THAT(set.widths.values, ElementsAre(0.25f, 0.5f, 2.0f, 2.0f));
+    EXPECT_FALSE(set.colors.known());
+    EXPECT_THAT(
+        set.warnings, ElementsAre(
+                          HasSubstr("missing.usda"), "/third: its NurbsCurves are left out",
+                          "colors: left out, since some of the curves have none"));
+}
+
+// All in one process, for one takes half a second to begin.
+TEST_F(UsdImportTest, RefusesNamingThePrim) {
+    const std::string refusals =
+        runPython("tests/groom/formats/usd_refusals.py", "'" + folder().string() + "'").output;
+    const std::pair<const char*, const char*> kRefused[] = {
+        {"periodic.usda",
+         "/wig/hair: its curves are periodic: only curves with two ends are strands"},
+        {"negative_count.usda", "/wig/hair: curve 0 has -4 vertices"},
+        {"huge_count.usda", "/wig/hair: points: 4 x 3 numbers, 2147483647 x 3 are needed"},
+        {"too_few_points.usda", "/wig/hair: points: 4 x 3 numbers, 5 x 3 are needed"},
+        {"no_points.usda", "/wig/hair: points: 0 x 3 numbers, 4 x 3 are needed"},
+        {"nan.usda", "/wig/hair: points: value 2 is not finite"},
+        {"infinite.usda", "/wig/hair: points: value 3 is not finite"},
+        {"overflow.usda", "/wig/hair: in world space a point is over what floats hold"},
+        {"no_bezier.usda", "/wig/hair: curve 0 has 5 vertices, which are no nonperiodic bezier"},
+        {"short_bspline.usda",
+         "/wig/hair: curve 1 has 3 vertices, which are no nonperiodic bspline"},
+        {"basis.usda", "/wig/hair: the basis 'hermite' is not known: bezier, bspline, catmullRom"},
+        {"kind.usda", "/wig/hair: the type 'quintic' is not known: linear, cubic"},
+        {"few_widths.usda", "/wig/hair: widths (vertex): 2 x 1 numbers, 4 x 1 are needed"},
+        {"two_constants.usda", "/wig/hair: widths (constant): 2 x 1 numbers, 1 x 1 are needed"},
+        {"negative_width.usda", "/wig/hair: a width is negative: -3.0"},
+        {"nan_width.usda", "/wig/hair: widths (constant): value 0 is not finite"},
+        {"triangles.usda",
+         "/wig/hair: hairbench:rootTriangles: three strands of its own are needed"},
+        {"syntax.usda", "line 2:13: Expected }"},
+        {"words.usda", ""},
+        {"short.usdc", ""},
+        {"short.usdz", ""},
+        {"empty.usd", ""},
+        {"bald.usda", "the stage has no BasisCurves with points"},
+    };
+    for (const auto& [name, reason] : kRefused) {
+        const std::string line = "refused " + std::string(name) + ": " + reason;
+        EXPECT_THAT(refusals, HasSubstr(line));
+    }
+    const std::regex line("(^|\n)refused ");
+    EXPECT_EQ(
+        std::distance(std::sregex_iterator(refusals.begin(), refusals.end(), line), {}),
+        std::ssize(kRefused))
+        << refusals;
+}
+
+TEST_F(UsdImportTest, FailsWithTheToolsWords) {
+    EXPECT_EQ(errorText([] { read("nan.usda"); }), "/wig/hair: points: value 2 is not finite");
+}
+
+TEST(UsdImport, SaysWhatItNeeds) {
+    EXPECT_EQ(
+        errorText([] { importUsd({}); }), "USD can be read from a file alone, not from memory");
+    const char* before = std::getenv("HAIRBENCH_PYTHON");
+    const std::string saved = before ? before : "";
+    setenv("HAIRBENCH_PYTHON", "/no/such/python", 1);
+    EXPECT_THAT(
+        errorText([] { importUsd({.bytes = {}, .path = "a.usda"}); }),
+        HasSubstr("needs the project's Python environment: run scripts/setup --python"));
+    before ? setenv("HAIRBENCH_PYTHON", saved.c_str(), 1) : unsetenv("HAIRBENCH_PYTHON");
+}
+
+}  // namespace
+}  // namespace hair

@@ -1,0 +1,126 @@
+#include "hair/groom/formats/usd_stream.h"
+
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/error_text.h"
+
+namespace hair {
+namespace {
+
+using testing::ElementsAre;
+using testing::StartsWith;
+
+template <class Value>
+void put(std::vector<std::byte>& bytes, const Value& value) {
+    const auto* first = reinterpret_cast<const std::byte*>(&value);
+    bytes.insert(bytes.end(), first, first + sizeof value);
+}
+
+constexpr UsdStreamHeader kHeader{
+    .magic = UsdStreamHeader::kMagic,
+    .metres_per_unit = 0.01,
+    .strands = 2,
+    .points = 3,
+    .widths = 3,
+    .transparencies = 1,
+    .colors = 3,
+    .root_uvs = 2,
+    .root_triangles = 1,
+    .comment = 4,
+    .warnings = 7};
+
+// Where the arrays begin.
+constexpr std::size_t kSizes = 88;
+constexpr std::size_t kPoints = kSizes + 8;
+constexpr std::size_t kWidths = kPoints + 36;
+constexpr std::size_t kTriangles = kWidths + 12 + 4 + 36 + 16;
+
+std::vector<std::byte> stream() {
+    std::vector<std::byte> bytes;
+    put(bytes, kHeader);
+    put(bytes, std::array{1u, 2u});
+    for (int k = 0; k < 9; ++k) put(bytes, static_cast<float>(k));
+    put(bytes, std::array{0.5f, 0.25f, 0.125f});
+    put(bytes, 0.75f);
+    for (int k = 0; k < 9; ++k) put(bytes, static_cast<float>(-k));
+    put(bytes, std::array{0.1f, 0.2f, 0.3f, 0.4f});
+    put(bytes, std::array{0u, 1u, 0u});
+    for (const char c : std::string("hairone\ntwo")) put(bytes, c);
+    return bytes;
+}
+
+template <class Value>
+std::vector<std::byte> with(std::size_t offset, const Value& value) {
+    std::vector<std::byte> bytes = stream();
+    std::memcpy(bytes.data() + offset, &value, sizeof value);
+    return bytes;
+}
+
+std::string refusal(const std::vector<std::byte>& bytes) {
+    return errorText([&] { readUsdStream(bytes); });
+}
+
+TEST(UsdStream, HoldsAllThatStrandsHave) {
+    const StrandSet set = readUsdStream(stream());
+    EXPECT_THAT(set.ends, ElementsAre(1u, 3u));
+    EXPECT_THAT(
+        set.points, ElementsAre(glm::vec3(0, 1, 2), glm::vec3(3, 4, 5), glm::vec3(6, 7, 8)));
+    EXPECT_THAT(set.widths.values, ElementsAre(0.5f, 0.25f, 0.125f));
+    EXPECT_EQ(set.transparencies.everywhere, 0.75f);
+    EXPECT_TRUE(set.transparencies.values.empty());
+    EXPECT_EQ(set.colors.at(2), glm::vec3(-6, -7, -8));
+    EXPECT_THAT(set.root_uvs, ElementsAre(glm::vec2(0.1f, 0.2f), glm::vec2(0.3f, 0.4f)));
+    EXPECT_THAT(set.root_triangles, ElementsAre(std::array{0u, 1u, 0u}));
+    EXPECT_EQ(set.metres_per_unit, 0.01);
+    EXPECT_EQ(set.comment, "hair");
+    EXPECT_THAT(set.warnings, ElementsAre("one", "two"));
+}
+
+TEST(UsdStream, RefusesEveryTruncationAndTrailingBytes) {
+    const std::vector<std::byte> whole = stream();
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+        EXPECT_THAT(refusal({whole.begin(), whole.begin() + size}), StartsWith("byte ")) << size;
+    }
+    std::vector<std::byte> longer = whole;
+    longer.push_back({});
+    EXPECT_THAT(refusal(longer), StartsWith("byte " + std::to_string(whole.size())));
+}
+
+TEST(UsdStream, RefusesEveryOtherCount) {
+    for (std::size_t i = 0; i < 9; ++i) {
+        std::uint64_t count = 0;
+        std::memcpy(&count, stream().data() + 16 + 8 * i, sizeof count);
+        for (const std::uint64_t wrong :
+             {count + 1, count - 1, std::uint64_t{0}, std::uint64_t{1} << 32,
+              std::uint64_t{1} << 62, ~std::uint64_t{0}}) {
+            if (wrong == count) continue;
+            EXPECT_THAT(refusal(with(16 + 8 * i, wrong)), StartsWith("byte ")) << i << ' ' << wrong;
+        }
+    }
+}
+
+TEST(UsdStream, RefusesNumbersThatMakeNoSense) {
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    EXPECT_THAT(refusal(with(0, 'h')), StartsWith("byte 0: "));
+    EXPECT_THAT(refusal(with(8, 0.0)), StartsWith("byte 8: "));
+    EXPECT_THAT(refusal(with(8, -1.0)), StartsWith("byte 8: "));
+    EXPECT_THAT(refusal(with(8, std::numeric_limits<double>::infinity())), StartsWith("byte 8: "));
+    EXPECT_THAT(refusal(with(kSizes, std::array{0u, 3u})), StartsWith("byte 88: "));
+    EXPECT_THAT(refusal(with(kSizes, std::array{1u, 3u})), StartsWith("byte 92: "));
+    EXPECT_THAT(refusal(with(kSizes, std::array{2u, ~0u})), StartsWith("byte 92: "));
+    EXPECT_THAT(refusal(with(kSizes, std::array{1u, 1u})), StartsWith("byte 24: "));
+    EXPECT_THAT(refusal(with(kPoints + 16, kNan)), StartsWith("byte 112: point 1 is not finite"));
+    EXPECT_THAT(refusal(with(kWidths + 8, kInfinity)), StartsWith("byte 140: width 2"));
+    EXPECT_THAT(refusal(with(kWidths, -1.0f)), StartsWith("byte 132: width 0 is negative"));
+    EXPECT_THAT(refusal(with(kTriangles + 4, 2u)), StartsWith("byte 200: strand 2"));
+}
+
+}  // namespace
+}  // namespace hair

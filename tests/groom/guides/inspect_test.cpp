@@ -1,0 +1,185 @@
+#include "hair/groom/inspect.h"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <gmock/gmock.h>
+
+#include "hair/groom/inspect/spread_of.h"
+#include "hair/groom/resample.h"
+#include "tests/groom/style/sample_strand_set.h"
+#include "tests/groom/style/sample_strands.h"
+#include "tests/groom/test_meshes.h"
+#include "tests/simulation/closed_meshes.h"
+
+namespace hair {
+namespace {
+
+using testing::HasSubstr;
+
+void expectSpread(const Spread& spread, const std::array<double, 6>& expected) {
+    EXPECT_DOUBLE_EQ(spread.minimum, expected[0]);
+    EXPECT_DOUBLE_EQ(spread.quartile1, expected[1]);
+    EXPECT_DOUBLE_EQ(spread.median, expected[2]);
+    EXPECT_DOUBLE_EQ(spread.quartile3, expected[3]);
+    EXPECT_DOUBLE_EQ(spread.maximum, expected[4]);
+    EXPECT_DOUBLE_EQ(spread.mean, expected[5]);
+}
+
+TEST(SpreadOf, InterpolatesBetweenRanks) {
+    const auto of = [](std::vector<float> numbers) { return spreadOf(numbers); };
+    expectSpread(of({7, 1, 4, 3, 9}), {1, 3, 4, 7, 9, 4.8});
+    expectSpread(of({4, 1, 3, 2}), {1, 1.75, 2.5, 3.25, 4, 2.5});
+    expectSpread(of({5}), {5, 5, 5, 5, 5, 5});
+    expectSpread(of({}), {0, 0, 0, 0, 0, 0});
+}
+
+TEST(Inspect, CountsAndMeasures) {
+    const StrandFindings found = inspect(sampleStrandSet(), nullptr, {});
+    EXPECT_EQ(found.strands, 3u);
+    EXPECT_EQ(found.points, 6u);
+    expectSpread(found.points_per_strand, {1, 1.5, 2, 2.5, 3, 2});
+    expectSpread(found.lengths, {0, 0.5, 1, 2, 3, 4.0 / 3.0});
+    expectSpread(found.segment_lengths, {1, 1, 1, 1.5, 2, 4.0 / 3.0});
+    expectSpread(found.widths, {1, 2.25, 3.5, 4.75, 6, 3.5});
+    EXPECT_EQ(found.minimum, glm::vec3(0, 0, 0));
+    EXPECT_EQ(found.maximum, glm::vec3(5, 5, 5));
+    EXPECT_EQ(found.single_point_strands, 1u);
+    EXPECT_EQ(found.zero_length_segments, 0u);
+    EXPECT_EQ(found.zero_length_strands, 0u);
+    EXPECT_EQ(found.duplicate_strands, 0u);
+    EXPECT_EQ(found.duplicate_roots, 0u);
+    EXPECT_FALSE(found.mesh.has_value());
+}
+
+TEST(Inspect, CountsWhatHasNoLength) {
+    StrandSet strands;
+    strands.points = {{1, 1, 1}, {0, 0, 0}, {0, 0, 0}, {2, 0, 0}, {2, 0, 0}, {3, 0, 0}};
+    strands.ends = {1, 3, 6};
+    strands.widths.everywhere = 0.5f;
+    const StrandFindings found = inspect(strands, nullptr, {});
+    EXPECT_EQ(found.single_point_strands, 1u);
+    EXPECT_EQ(found.zero_length_strands, 1u);
+    EXPECT_EQ(found.zero_length_segments, 2u);
+    expectSpread(found.widths, {0.5, 0.5, 0.5, 0.5, 0.5, 0.5});
+}
+
+TEST(Inspect, CountsStrandsAndRootsThatWereThereBefore) {
+    StrandSet strands;
+    const auto add = [&strands](std::initializer_list<glm::vec3> points) {
+        strands.points.insert(strands.points.end(), points);
+        strands.ends.push_back(static_cast<std::uint32_t>(strands.points.size()));
+    };
+    add({{0, 0, 0}, {0, 1, 0}});
+    add({{0, 0, 0}, {0, 2, 0}});              // its root alone
+    add({{-0.0f, 0, 0}, {0, 1, 0}});          // -0 is 0
+    add({{0, 0, 0}, {0, 1, 0}, {0, 1, 0}});   // a point more
+    add({{1, 0, 0}, {0, 1, 0}});
+    add({{0, 0, 0}, {0, 1, 0}});
+    add({{0, 0, 0}});
+    const StrandFindings found = inspect(strands, nullptr, {});
+    EXPECT_EQ(found.duplicate_strands, 2u);
+    EXPECT_EQ(found.duplicate_roots, 5u);
+}
+
+TEST(Inspect, TakesNoStrands) {
+    const StrandFindings found = inspect({}, nullptr, {});
+    EXPECT_EQ(found.strands, 0u);
+    EXPECT_EQ(found.unit, "m");
+    EXPECT_THAT(found.unit_reason, HasSubstr("nothing"));
+    const Mesh mesh = makeCap();
+    EXPECT_EQ(inspect({}, &mesh, {}).mesh->roots_off_surface, 0u);
+}
+
+// Hair of a head: 0.2 m across, 0.02 m to 0.8 m long.
+TEST(Inspect, GuessesTheUnit) {
+    for (const double length : {0.02, 0.25, 0.8}) {
+        StrandSet strands = toStrandSet(sampleGroom(50, 4, [=](std::uint32_t strand, double t) {
+            const double turn = 0.7 * strand;
+            return glm::dvec3(0.1 * std::cos(turn), 1.6 - length * t, 0.09 * std::sin(turn));
+        }));
+        strands.metres_per_unit.reset();
+        const std::pair<const char*, double> units[] = {
+            {"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"inch", 0.0254}};
+        for (const auto& [name, metres] : units) {
+            StrandSet scaled = strands;
+            for (glm::vec3& point : scaled.points) point /= static_cast<float>(metres);
+            const StrandFindings found = inspect(scaled, nullptr, {});
+            EXPECT_EQ(found.unit, name);
+            EXPECT_EQ(found.metres_per_unit, metres);
+            EXPECT_FALSE(found.unit_stated);
+            EXPECT_THAT(
+                found.unit_reason, HasSubstr("in " + std::string(name) + " the roots span"));
+        }
+    }
+}
+
+TEST(Inspect, GuessesFromOneStrand) {
+    StrandSet strands;
+    strands.points = {{0, 0, 0}, {0, 150, 0}};
+    strands.ends = {2};
+    EXPECT_EQ(inspect(strands, nullptr, {}).unit, "mm");
+}
+
+TEST(Inspect, BelievesAStatedUnit) {
+    StrandSet strands = sampleStrandSet();
+    EXPECT_EQ(inspect(strands, nullptr, {}).unit, "cm");
+    EXPECT_TRUE(inspect(strands, nullptr, {}).unit_stated);
+    EXPECT_THAT(inspect(strands, nullptr, {}).unit_reason, HasSubstr("states"));
+    strands.metres_per_unit = 0.5;
+    EXPECT_EQ(inspect(strands, nullptr, {}).unit, "0.5 m");
+    EXPECT_EQ(inspect(strands, nullptr, {}).metres_per_unit, 0.5);
+}
+
+// In a box from 0 to 1 m: how far points are from its sides is known.
+TEST(Inspect, MeasuresAgainstAClosedMesh) {
+    StrandSet strands;
+    strands.points = {{50, 100, 50},     {50, 150, 50},  // on the top, and up
+                      {50, 100.25f, 50}, {75, 60, 50},
+                      {50, 99.95f, 50},  // 2.5 mm off, then inside twice
+                      {50, 99.5f, 20},   {50, 99.5f, 21},  // 5 mm deep
+                      {-200, 300, 500}};
+    strands.ends = {2, 5, 7, 8};
+    strands.metres_per_unit = 0.01;
+    const Mesh box = makeBox({0, 0, 0}, {1, 1, 1});
+    const MeshFindings found = *inspect(strands, &box, {}).mesh;
+    EXPECT_EQ(found.tolerance, 0.001);
+    EXPECT_EQ(found.roots_off_surface, 3u);
+    EXPECT_NEAR(found.root_distances.minimum, 0.0, 1e-7);
+    EXPECT_NEAR(found.root_distances.maximum, std::sqrt(4.0 + 4.0 + 16.0), 1e-6);
+    EXPECT_NEAR(found.root_distances.median, 0.5 * (0.0025 + 0.005), 1e-7);
+    EXPECT_EQ(found.strands_inside, 2u);
+    EXPECT_EQ(found.points_inside, 3u);  // the one at 0.5 mm counts as on the surface
+    EXPECT_NEAR(found.deepest.value(), 0.25, 1e-7);
+    EXPECT_TRUE(found.not_closed.empty());
+    // Ten times as large, the others are outside too.
+    EXPECT_EQ(inspect(strands, &box, 0.1).mesh->points_inside, 0u);
+}
+
+// Points at known radii about a sphere: its triangles are at most 0.06 mm inside it.
+TEST(Inspect, FindsTheDepthsInASphere) {
+    const Mesh sphere = makeSphere({0, 1, 0}, 0.1, 4);
+    const Groom groom = sampleGroom(400, 12, [](std::uint32_t strand, double t) {
+        const double y = 1.0 - 2.0 * (strand + 0.5) / 400.0;
+        const double r = std::sqrt(1.0 - y * y);
+        const glm::dvec3 out(r * std::cos(2.4 * strand), y, r * std::sin(2.4 * strand));
+        return glm::dvec3(0, 1, 0) + (0.05 + 0.11 * t) * out;  // 5 of 12 inside by 10 mm or more
+    });
+    const MeshFindings found = *inspect(toStrandSet(groom), &sphere, {}).mesh;
+    EXPECT_EQ(found.strands_inside, 400u);
+    EXPECT_EQ(found.points_inside, 5u * 400u);
+    EXPECT_NEAR(found.deepest.value(), 0.05, 1e-4);
+    EXPECT_EQ(found.roots_off_surface, 400u);
+}
+
+TEST(Inspect, SaysWhyNothingIsInsideAnOpenMesh) {
+    const Mesh cap = makeCap();
+    const MeshFindings found = *inspect(sampleStrandSet(), &cap, {}).mesh;
+    EXPECT_FALSE(found.strands_inside.has_value());
+    EXPECT_FALSE(found.points_inside.has_value());
+    EXPECT_FALSE(found.deepest.has_value());
+    EXPECT_THAT(found.not_closed, HasSubstr("not closed"));
+}
+
+}  // namespace
+}  // namespace hair

@@ -1,0 +1,72 @@
+#include "hair/groom/style/style.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/groom/style/sample_strands.h"
+
+namespace hair {
+namespace {
+
+TEST(Cut, LeavesSoMuchLengthEvenly) {
+    const Groom after = cut(verticalStrands(1, 8, 0.3, 0.0), {.length = 0.21f});
+    for (std::size_t i = 0; i < 8; ++i)
+        EXPECT_NEAR(after.points[i].y, 0.21 * static_cast<double>(i) / 7.0, kRounding) << i;
+}
+
+TEST(Cut, LeavesShorterStrandsToTheBit) {
+    const Groom before = verticalStrands(1, 8, 0.3, 0.0);
+    EXPECT_EQ(cut(before, {.length = 0.31f}).points, before.points);
+    const CutSettings above{.point = {0.0f, 0.4f, 0.0f}, .normal = {0.0f, 1.0f, 0.0f}};
+    EXPECT_EQ(cut(before, above).points, before.points);
+}
+
+// Right-angled: 0.1 m up, 0.1 m to the right, cut at 0.15 m. The new points are on the old lines.
+TEST(Cut, KeepsToTheOldLine) {
+    Groom before{.strand_count = 1, .vertices_per_strand = 3};
+    before.points = {{0, 0, 0}, {0, 0.1f, 0}, {0.1f, 0.1f, 0}};
+    before.widths = {4.0f, 3.0f, 1.0f};
+    const Groom after = cut(before, {.length = 0.15f});
+    EXPECT_NEAR(glm::distance(after.points[1], glm::vec3(0.0f, 0.075f, 0.0f)), 0.0, kRounding);
+    EXPECT_NEAR(glm::distance(after.points[2], glm::vec3(0.05f, 0.1f, 0.0f)), 0.0, kRounding);
+    EXPECT_NEAR(after.widths[1], 3.25, 1e-6);
+    EXPECT_NEAR(after.widths[2], 2.0, 1e-6);
+}
+
+// The plane goes through (0, 0.1, 0) at 45 degrees; a strand at x ends at y = 0.1 - x. The length
+// of the normal counts for nothing.
+TEST(Cut, EndsAtThePlane) {
+    const CutSettings settings{.point = {0.0f, 0.1f, 0.0f}, .normal = {0.5f, 0.5f, 0.0f}};
+    const Groom after = cut(verticalStrands(4, 8, 0.3, 0.02), settings);
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        EXPECT_NEAR(after.strand(i)[7].y, 0.1 - 0.02 * i, kRounding);
+        EXPECT_NEAR(after.strand(i)[1].y, (0.1 - 0.02 * i) / 7.0, kRounding);
+    }
+}
+
+// Up through the plane and down again: only the first part is left.
+TEST(Cut, EndsWhereAStrandFirstPassesThePlane) {
+    Groom before{.strand_count = 1, .vertices_per_strand = 4};
+    before.points = {{0, 0, 0}, {0, 0.2f, 0}, {0.1f, 0.2f, 0}, {0.1f, 0, 0}};
+    const CutSettings settings{.point = {0.0f, 0.15f, 0.0f}, .normal = {0.0f, 1.0f, 0.0f}};
+    const Groom after = cut(before, settings);
+    EXPECT_NEAR(glm::distance(after.points[3], glm::vec3(0.0f, 0.15f, 0.0f)), 0.0, kRounding);
+}
+
+TEST(Cut, TakesTheShorterOfLengthAndPlane) {
+    CutSettings settings{
+        .length = 0.05f, .point = {0.0f, 0.1f, 0.0f}, .normal = {0.0f, 1.0f, 0.0f}};
+    const Groom before = verticalStrands(1, 8, 0.3, 0.0);
+    EXPECT_NEAR(cut(before, settings).points[7].y, 0.05, kRounding);
+    settings.length = 0.2f;
+    EXPECT_NEAR(cut(before, settings).points[7].y, 0.1, kRounding);
+}
+
+TEST(Cut, LeavesAThousandthOfAStrandWhoseRootIsBeyondThePlane) {
+    const CutSettings settings{.point = {0.0f, -0.1f, 0.0f}, .normal = {0.0f, 1.0f, 0.0f}};
+    EXPECT_NEAR(cut(verticalStrands(1, 8, 0.3, 0.0), settings).points[7].y, 0.0003, 1e-9);
+    EXPECT_NEAR(cut(verticalStrands(1, 8, 0.3, 0.0), {.length = 1e-6f}).points[7].y, 0.0003, 1e-9);
+}
+
+}  // namespace
+}  // namespace hair

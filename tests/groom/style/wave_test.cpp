@@ -1,0 +1,63 @@
+#include "hair/groom/style/style.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "tests/groom/style/sample_strands.h"
+
+namespace hair {
+namespace {
+
+using std::numbers::pi;
+
+// 0.2 m with 20 waves a metre: four waves, zero at every eighth of the strand, greatest between.
+TEST(Wave, CrossesZeroTwiceAWaveAndReachesItsAmplitude) {
+    const WaveSettings settings{.amplitude = 0.005f, .frequency = 20.0f, .start = 0.0f};
+    const Groom before = withNormals(verticalStrands(1, 17, 0.2, 0.0), {0.0f, 0.5f, 1.0f});
+    const Groom after = wave(before, settings, 1);
+    for (std::size_t i = 0; i < 17; ++i) {
+        const double swing = i % 2 == 0 ? 0.0 : i % 4 == 1 ? 0.005 : -0.005;
+        EXPECT_NEAR(after.points[i].z, swing, kRounding) << i;
+        EXPECT_EQ(after.points[i].x, 0.0f);
+        EXPECT_EQ(after.points[i].y, before.points[i].y);
+    }
+}
+
+// A strand that bends in the plane of its root's normal stays in that plane.
+TEST(Wave, StaysInThePlaneOfTheNormal) {
+    const Groom before = withNormals(
+        sampleGroom(
+            1, 50,
+            [](std::uint32_t, double t) {
+                return glm::dvec3(0.0, 0.1 * std::sin(2.0 * t), 0.1 * (1.0 - std::cos(2.0 * t)));
+            }),
+        {0.0f, 1.0f, 0.0f});
+    const Groom after = wave(before, {.amplitude = 0.01f, .frequency = 30.0f}, 1);
+    for (const glm::vec3& point : after.points) EXPECT_NEAR(point.x, 0.0, kRounding);
+    EXPECT_NE(after.points, before.points);
+}
+
+TEST(Wave, TakesTheStrandsOwnPlaneWithoutANormal) {
+    const Groom before = sampleGroom(1, 50, [](std::uint32_t, double t) {
+        return glm::dvec3(0.1 * (1.0 - std::cos(t)), 0.1 * std::sin(t), 0.0);
+    });
+    const Groom after = wave(before, {.amplitude = 0.01f, .frequency = 30.0f}, 1);
+    for (const glm::vec3& point : after.points) EXPECT_NEAR(point.z, 0.0, kRounding);
+    EXPECT_NE(after.points, before.points);
+}
+
+TEST(Wave, MovesNeighboursAlikeUnlessPhasesVary) {
+    WaveSettings settings{.amplitude = 0.005f, .frequency = 20.0f};
+    const Groom before = withNormals(verticalStrands(2, 17, 0.2, 0.0), {1.0f, 0.0f, 0.0f});
+    const Groom alike = wave(before, settings, 1);
+    EXPECT_TRUE(std::ranges::equal(alike.strand(0), alike.strand(1)));
+    settings.phase_variation = 1.0f;
+    const Groom unlike = wave(before, settings, 1);
+    EXPECT_FALSE(std::ranges::equal(unlike.strand(0), unlike.strand(1)));
+}
+
+}  // namespace
+}  // namespace hair

@@ -1,0 +1,152 @@
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "tests/gpu_fixture.h"
+#include "tests/rendering/pictures.h"
+
+// What strands may have beside the thesis's: every back end draws it alike, and counts it right.
+namespace hair {
+namespace {
+
+struct Feature {
+    const char* name;
+    StrandSettings strands;
+};
+
+const StrandCurlSettings kCurl{.radius = 0.01f, .frequency = 40.0f};
+const StrandVariationSettings kVariation{.amplitude = 0.01f};
+
+const Feature kFeatures[] = {
+    {"curl", {.curl = kCurl}},
+    {"variation", {.variation = kVariation}},
+    {"offsets", {.offsets = "a model"}},
+    {"widths", {.width = WidthSource::groom}},
+    {"groom", {.source = StrandSource::groom}},
+    {"all",
+     {.source = StrandSource::groom,
+      .width = WidthSource::groom,
+      .curl = kCurl,
+      .variation = kVariation,
+      .offsets = "a model"}},
+};
+
+Groom groomWithAll() {
+    Groom groom = tangledGroom(8);
+    for (std::size_t i = 0; i < groom.points.size(); ++i)
+        groom.widths.push_back(1e-3f * static_cast<float>(1 + i * 7 % 5));
+    for (std::uint32_t i = 0; i < 200; ++i) {
+        const float weight = static_cast<float>(i) / 400.0f;
+        groom.bindings.push_back(
+            {.guides = {i % 6, (i + 1) % 6, (i + 2) % 6},
+             .weights = {weight, 0.5f, 0.5f - weight},
+             .offset = {0.01f * weight, -0.02f, 0.03f * weight}});
+    }
+    return groom;
+}
+
+StrandSet zigzag() {
+    StrandSet set{.ends = {20, 40}};
+    for (int i = 0; i < 40; ++i)
+        set.points.emplace_back(i % 2 == 0 ? 0.05f : 0.0f, 0.1f * static_cast<float>(i % 20), 0.0f);
+    return set;
+}
+
+class StrandFeaturePictureTest : public GpuTest {
+protected:
+    static Settings small(StrandSettings strands) {
+        strands.density = 30;
+        strands.tessellation = 5;
+        return {
+            .strands = strands,
+            .camera = {.position = {0.0f, 0.05f, 0.6f}, .field_of_view = 60.0f},
+            .render = {.width = 160, .height = 120}};
+    }
+
+    static Pixels draw(const Settings& settings) {
+        const StrandSet model = zigzag();
+        return drawGroom(
+            device(), settings, groomWithAll(), nullptr,
+            settings.strands.offsets.empty() ? nullptr : &model);
+    }
+
+    static void expectEqualPictures(const Pixels& tessellated, Settings settings) {
+        settings.strands.submission = Submission::batched;
+        EXPECT_EQ(differingPixels(tessellated, draw(settings)), 0u);
+        settings.strands.backend = Backend::pulling_geometry;
+        EXPECT_EQ(differingPixels(tessellated, draw(settings)), 0u);
+    }
+
+    static std::vector<engine::FrameRecord> record(
+        const Settings& settings, engine::Timing timing, std::optional<ExpectedCounts>& expected) {
+        const StrandSet model = zigzag();
+        const DeviceHair hair(device(), groomWithAll(), settings, &model);
+        Renderer renderer(device(), settings, hair.view(), nullptr);
+        engine::FrameLoop loop(device(), timing);
+        loop.frame([&](engine::Passes& passes) { renderer.record(passes, hair.view()); });
+        expected = renderer.expected();
+        return loop.finish();
+    }
+};
+
+TEST_F(StrandFeaturePictureTest, BackEndsDrawTheSame) {
+    const Pixels plain = draw(small({}));
+    for (const Feature& feature : kFeatures) {
+        SCOPED_TRACE(feature.name);
+        const Settings settings = small(feature.strands);
+        const Pixels picture = draw(settings);
+        EXPECT_GT(differingPixels(picture, plain), 100u);  // there is something of it to see
+        expectEqualPictures(picture, settings);
+    }
+}
+
+TEST_F(StrandFeaturePictureTest, BackEndsDrawTheSameAtAnyLevelOfDetail) {
+    for (const Feature& feature : kFeatures) {
+        SCOPED_TRACE(feature.name);
+        Settings settings = small(feature.strands);
+        settings.lod.level = 1.0f;
+        expectEqualPictures(draw(settings), settings);
+        settings.lod = {.mode = LodMode::distance, .near_distance = 0.4f, .far_distance = 0.8f};
+        expectEqualPictures(draw(settings), settings);
+    }
+}
+
+TEST_F(StrandFeaturePictureTest, CountsAreThoseOfThePlan) {
+    if (!device().hasPipelineStatistics()) GTEST_SKIP() << "no pipeline statistics";
+    for (const auto& [level, strands, pieces] : {std::tuple{0.0f, 200u, 5u}, {1.0f, 100u, 3u}}) {
+        Settings settings = small({.source = StrandSource::groom});
+        settings.lod.level = level;
+        std::optional<ExpectedCounts> expected;
+        const auto records = record(settings, engine::Timing::statistics, expected);
+        const auto pass = std::ranges::find(
+            records.at(0).statistics, std::string("strands"), &engine::PassStatistics::name);
+        ASSERT_NE(pass, records.at(0).statistics.end());
+        const auto count = [&](std::string_view name) -> std::uint64_t {
+            const auto at = std::ranges::find(engine::kStatisticNames, name);
+            return pass->counts[static_cast<std::size_t>(at - engine::kStatisticNames.begin())];
+        };
+        const std::uint64_t patches = strands * 7u;
+        EXPECT_EQ(count("tessellation_control_patches"), patches);
+        EXPECT_EQ(count("tessellation_evaluation_invocations"), patches * (pieces + 1));
+        EXPECT_EQ(count("geometry_invocations"), patches * pieces);
+        EXPECT_EQ(expected->tessellation_control_patches, patches);
+        EXPECT_EQ(expected->tessellation_evaluation_invocations, patches * (pieces + 1));
+        EXPECT_EQ(expected->geometry_primitives, 2 * patches * pieces);
+    }
+}
+
+TEST_F(StrandFeaturePictureTest, FramesAreAPassWhereStrandsAreOffsetOnly) {
+    for (const Feature& feature : kFeatures) {
+        std::optional<ExpectedCounts> expected;
+        const auto records = record(small(feature.strands), engine::Timing::isolated, expected);
+        const auto& passes = records.at(0).passes;
+        const bool there =
+            std::ranges::find(passes, std::string("frames"), &engine::PassTime::name) !=
+            passes.end();
+        const std::string_view name = feature.name;
+        EXPECT_EQ(there, name != "widths" && name != "groom") << name;
+    }
+}
+
+}  // namespace
+}  // namespace hair
