@@ -52,7 +52,7 @@ struct PictureParameters {
 struct BoundStrand {
     uvec3 guides;
     vec3 weights;  // sum 1
-    vec3 offset;   // m, before the head moved
+    vec3 offset;  // m, before the head moved
 };
 
 // The start of a guide's frames, before the head moved: unit vectors along and across it.
