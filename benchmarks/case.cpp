@@ -96,7 +96,9 @@ std::vector<std::pair<std::string, std::uint64_t>> Case::counts() const {
 
 hair::StrandView Case::view() const {
     hair::StrandView view = groom_buffers_.view();
-    view.guides = simulation_.guides().positions;
+    const hair::GuideView guides = simulation_.guides();
+    view.guides = guides.positions;
+    view.contacts = guides.contacts;
     view.head = hair::toMatrix(simulation_.pose());
     return view;
 }

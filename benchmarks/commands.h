@@ -82,6 +82,29 @@ struct SimulateOptions {
 };
 int simulateScene(const SimulateOptions& options);
 
+struct ExportOptions {
+    SceneOptions scene;
+    std::filesystem::path mitsuba;  // folder
+    std::uint32_t frame = 0;
+};
+int exportScene(const ExportOptions& options);
+
+struct ReferenceOptions {
+    SceneOptions scene;
+    std::filesystem::path out;
+    std::uint32_t samples = 64;  // of a pixel
+    std::uint32_t frame = 0;
+};
+int renderReference(const ReferenceOptions& options);
+
+struct DiffOptions {
+    std::filesystem::path reference;
+    std::filesystem::path picture;
+    std::filesystem::path out;  // FLIP's error map; empty: none
+    bool json = false;
+};
+int diffPictures(const DiffOptions& options);
+
 int validateScenes(const std::vector<std::filesystem::path>& scenes);
 int printSchema();
 int printDevices();

@@ -19,6 +19,8 @@ constexpr const char* kExamples = R"(Examples:
   hairbench groom info hair.hair --mesh head.glb
   hairbench groom convert hair.hair guides.hgl --guides 200 --vertices 16 --scale 0.01
   hairbench simulate scenes/nod.json --frames 60 --export nod.usda
+  hairbench reference scenes/strong_wind.json -o truth.exr --samples 256
+  hairbench diff truth.exr picture.png -o difference.png
   hairbench physics --solver rod --check 'cantilever|catenary'
 Exit status: 0 ok, 1 internal error, 2 usage or invalid scene, 3 a check of the physics
 failed, 14 nothing ran, 77 no suitable device, 130 interrupted (what was done is saved).)";
@@ -84,6 +86,44 @@ CLI::App* addSimulate(CLI::App& app, SimulateOptions& options) {
         ->required()
         ->type_name("FILE");
     command->add_flag("--guides", options.guides, "the guides instead of the drawn strands");
+    return command;
+}
+
+CLI::App* addExport(CLI::App& app, ExportOptions& options) {
+    CLI::App* command =
+        app.add_subcommand("export", "writes one frame as a scene of another renderer");
+    addSceneOptions(*command, options.scene);
+    command->add_option("--mitsuba", options.mitsuba, "folder for a Mitsuba 3 scene (scene.xml)")
+        ->required()
+        ->type_name("DIR");
+    command->add_option("--frame", options.frame, "frame to write, from 0 (default 0)");
+    return command;
+}
+
+CLI::App* addReference(CLI::App& app, ReferenceOptions& options) {
+    CLI::App* command = app.add_subcommand(
+        "reference", "path-traces one frame with Mitsuba 3 (scripts/setup --reference)");
+    addSceneOptions(*command, options.scene);
+    command->add_option("-o,--out", options.out, "picture (.exr linear, .png sRGB)")
+        ->required()
+        ->type_name("FILE");
+    command->add_option("--samples", options.samples, "samples per pixel (default 64)")
+        ->check(CLI::Range(1, 1'000'000));
+    command->add_option("--frame", options.frame, "frame to draw, from 0 (default 0)");
+    return command;
+}
+
+CLI::App* addDiff(CLI::App& app, DiffOptions& options) {
+    CLI::App* command = app.add_subcommand(
+        "diff", "compares pictures: RMSE, PSNR, SSIM, FLIP (scripts/setup --reference)");
+    command->add_option("a", options.reference, "reference (.png .exr)")
+        ->required()
+        ->type_name("A");
+    command->add_option("b", options.picture, "picture of the same size (.png .exr)")
+        ->required()
+        ->type_name("B");
+    command->add_option("-o,--out", options.out, "FLIP's error map (.png)")->type_name("FILE");
+    command->add_flag("--json", options.json, "as JSON");
     return command;
 }
 
@@ -171,6 +211,9 @@ int dispatch(int argc, char** argv) {
     RenderOptions render;
     PhysicsOptions physics;
     SimulateOptions simulate;
+    ExportOptions exported;
+    ReferenceOptions reference;
+    DiffOptions diff;
     GroomInfoOptions groom_info;
     GroomConvertOptions groom_convert;
     physics.command = run.command;
@@ -179,6 +222,9 @@ int dispatch(int argc, char** argv) {
     const CLI::App* render_command = addRender(app, render);
     const CLI::App* physics_command = addPhysics(app, physics);
     const CLI::App* simulate_command = addSimulate(app, simulate);
+    const CLI::App* export_command = addExport(app, exported);
+    const CLI::App* reference_command = addReference(app, reference);
+    const CLI::App* diff_command = addDiff(app, diff);
     const GroomCommands groom = addGroom(app, groom_info, groom_convert);
     CLI::App* validate_command =
         app.add_subcommand("validate", "checks scene files and their assets");
@@ -196,6 +242,9 @@ int dispatch(int argc, char** argv) {
     if (render_command->parsed()) return renderScene(render);
     if (physics_command->parsed()) return checkPhysics(physics);
     if (simulate_command->parsed()) return simulateScene(simulate);
+    if (export_command->parsed()) return exportScene(exported);
+    if (reference_command->parsed()) return renderReference(reference);
+    if (diff_command->parsed()) return diffPictures(diff);
     if (groom.info->parsed()) return inspectGroom(groom_info);
     if (groom.convert->parsed()) return convertGroom(groom_convert);
     if (validate_command->parsed()) return validateScenes(scenes);

@@ -32,9 +32,16 @@ std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext
 }
 
 engine::Constants strandConstants(const StrandSettings& strands, LodMode lod_mode) {
-    return {static_cast<std::uint32_t>(strands.curve), static_cast<std::uint32_t>(strands.taper),
-            static_cast<std::uint32_t>(lod_mode),      static_cast<std::uint32_t>(strands.source),
-            static_cast<std::uint32_t>(strands.width), hasOffsets(strands) ? 1u : 0u};
+    return {
+        static_cast<std::uint32_t>(strands.curve),
+        static_cast<std::uint32_t>(strands.taper),
+        static_cast<std::uint32_t>(lod_mode),
+        static_cast<std::uint32_t>(strands.source),
+        static_cast<std::uint32_t>(strands.width),
+        hasOffsets(strands) ? 1u : 0u,
+        static_cast<std::uint32_t>(strands.interpolation),
+        strands.collision_rule ? 1u : 0u,
+        static_cast<std::uint32_t>(strands.randomness)};
 }
 
 engine::GraphicsDescription strandPipeline(const BackendContext& context) {

@@ -11,6 +11,7 @@
 #include "hair/gpu_structs.h"
 #include "hair/groom/style/strand_frames.h"
 #include "hair/random.h"
+#include "hair/rendering/root_pattern.h"
 #include "hair/rendering/strand_offsets.h"
 
 namespace hair {
@@ -70,6 +71,10 @@ GroomBuffers::GroomBuffers(
         view_.bound_strands =
             upload(bound_strands_, inRandomOrder(groom.bindings, settings.seed), "bound strands");
         view_.bound_strand_count = static_cast<std::uint32_t>(groom.bindings.size());
+    }
+    if (settings.strands.randomness == Randomness::thesis) {
+        view_.root_pattern =
+            upload(root_pattern_, thesisRootPattern(settings.strands.density), "root pattern");
     }
     if (hasOffsets(settings.strands)) {
         const StrandOffsets offsets =

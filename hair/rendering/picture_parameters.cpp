@@ -8,7 +8,7 @@ namespace hair {
 
 // Scalar layout aligns 64-bit members to 8, as C++ does.
 static_assert(offsetof(gpu::PictureParameters, guides) == 216);
-static_assert(sizeof(gpu::PictureParameters) == 312);
+static_assert(sizeof(gpu::PictureParameters) == 336);
 
 gpu::PictureParameters pictureParameters(
     const Settings& settings, const StrandPlan& plan, const StrandView& view,
@@ -32,12 +32,15 @@ gpu::PictureParameters pictureParameters(
         .exponent = shading.exponent,
         .root_width = settings.strands.root_width,
         .tip_width = settings.strands.tip_width,
+        .taper_start = settings.strands.taper_start,
         .guides = view.guides,
         .root_triangles = view.root_triangles,
         .root_normals = view.root_normals,
         .guide_widths = view.guide_widths,
         .bound_strands = view.bound_strands,
         .guide_normals = guide_normals,
+        .contacts = view.contacts,
+        .root_pattern = view.root_pattern,
         .offsets = view.offsets,
         .offset_profiles = view.offset_profiles,
         .offset_samples = view.offset_samples,
@@ -48,7 +51,8 @@ gpu::PictureParameters pictureParameters(
         .strands_per_patch = plan.strands_per_patch,
         .forced_density = plan.forced_density,
         .forced_tessellation = plan.forced_tessellation,
-        .seed = settings.seed};
+        .seed = settings.seed,
+        .blend = settings.strands.blend};
 }
 
 }  // namespace hair

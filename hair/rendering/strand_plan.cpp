@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/error.h"
+
 namespace hair {
 
 namespace {
@@ -39,6 +41,9 @@ StrandPlan planStrands(
 
 StrandPlan
 planStrands(const StrandView& view, const Settings& settings, std::uint32_t isoline_limit) {
+    if (settings.strands.collision_rule && view.contacts == 0)
+        throw engine::Error(
+            "/strands/collision_rule", "is set, but it is not known where guides touch bodies");
     const std::uint32_t segments = view.vertices_per_guide - 1;
     if (settings.strands.source == StrandSource::root_triangles)
         return planStrands(

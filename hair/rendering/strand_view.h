@@ -16,6 +16,9 @@ struct StrandView {
     std::uint64_t guide_widths = 0;  // float [guide][vertex], m; 0: not known
     std::uint64_t bound_strands = 0;  // gpu::BoundStrand [strand], in the order in which levels of
                                       // detail keep them; 0: not drawn
+    std::uint64_t contacts = 0;  // vec4 [guide][vertex]: w > 0 where in contact with a body and
+                                 // at all vertices below; 0: not known
+    std::uint64_t root_pattern = 0;  // vec2 [strand]; 0: root triangles have patterns of their own
     std::uint64_t root_frames = 0;  // gpu::RootFrame [guide]; 0: strands are not offset
     std::uint64_t offsets = 0;  // StrandOffsets::values
     glm::mat4 head{1.0f};  // rigid motion of the root normals and of the mesh under the hair

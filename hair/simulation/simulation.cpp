@@ -173,6 +173,7 @@ std::vector<bool> Simulation::readContacts() const {
 GuideView Simulation::guides() const {
     return {
         .positions = positions_.address(),
+        .contacts = previous_.address(),
         .strand_count = strand_count_,
         .vertices_per_strand = vertices_per_strand_};
 }

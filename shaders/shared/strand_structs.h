@@ -27,6 +27,7 @@ struct PictureParameters {
     float exponent;
     float root_width;  // m
     float tip_width;   // m
+    float taper_start;  // part of the taper with root_width, 0 to 1
 
     uint64_t guides;          // vec4 [guide][vertex], m, root first; w is not read
     uint64_t root_triangles;  // uint [triangle][3], guide indices
@@ -35,6 +36,9 @@ struct PictureParameters {
     uint64_t guide_widths;  // float [guide][vertex], m; read where the groom's widths are drawn
     uint64_t bound_strands;  // BoundStrand [strand]; read where the groom's strands are drawn
     uint64_t guide_normals;  // vec3 [guide][vertex], across the guide; read where offsets are drawn
+    uint64_t contacts;  // vec4 [guide][vertex]: w > 0 where a guide touches a body and below; read
+                        // where the collision rule holds
+    uint64_t root_pattern;  // vec2 [strand], in [0, 1): read where it is that of every triangle
     uint64_t offsets;  // vec3 [profile][1 + sample + 1], m: see hair/rendering/strand_offsets.h
     uint offset_profiles;
     uint offset_samples;  // along a strand, from root to tip
@@ -46,6 +50,7 @@ struct PictureParameters {
     uint forced_density;  // the same at the forced level
     uint forced_tessellation;
     uint seed;
+    float blend;  // 0: mixed strands follow one guide; 1: all three
 };
 
 // A strand of the groom: the weighted mean of its guides plus `offset`.

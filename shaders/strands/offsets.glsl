@@ -33,12 +33,6 @@ StrandOffset strandOffset(PictureParameters picture, uint profile, float along) 
     return StrandOffset(blend(weights, a, b, c, d), intervals * blend(slopes, a, b, c, d));
 }
 
-// The guide that a strand takes its frame from: the one that counts most.
-uint frameGuide(uvec3 guides, vec3 weights) {
-    if (weights.x >= weights.y && weights.x >= weights.z) return guides.x;
-    return weights.y >= weights.z ? guides.y : guides.z;
-}
-
 vec3 guideNormal(PictureParameters picture, uint guide, int index) {
     int inside = clamp(index, 0, int(picture.vertices_per_guide) - 1);
     uint first = guide * picture.vertices_per_guide;

@@ -4,12 +4,24 @@
 
 #include "strands/patch.glsl"
 
-// Area-uniform barycentric coordinates of a strand in its triangle: a random pair, folded (thesis
-// 2.3.2). `key` differs between triangles; the published program has one pattern for all of them.
-vec3 rootWeights(uint key, uint strand) {
+layout(buffer_reference, scalar) readonly buffer RootPattern { vec2 pairs[]; };
+
+// A random pair in [0, 1), multiples of 2^-24. `key` differs between triangles; the published
+// program has one pattern for all of them.
+vec2 rootPair(PictureParameters picture, uint key, uint strand) {
+    if (kRandomness == kRandomnessThesis) {
+        uint drawn = min(strand, picture.density - 1u);  // a patch may have places to spare
+        return RootPattern(picture.root_pattern).pairs[drawn];
+    }
     uint bits = pcg(key + strand);
-    float u = unitFloat(bits);
-    float v = unitFloat(pcg(bits));
+    return vec2(unitFloat(bits), unitFloat(pcg(bits)));
+}
+
+// Area-uniform barycentric coordinates of a strand in its triangle: a random pair, folded (thesis
+// 2.3.2).
+vec3 rootWeights(vec2 pair) {
+    float u = pair.x;
+    float v = pair.y;
     if (u > 1.0 - v) {  // the difference is exact, the sum u + v is not
         u = 1.0 - u;
         v = 1.0 - v;
@@ -19,7 +31,14 @@ vec3 rootWeights(uint key, uint strand) {
 
 vec3 strandWeights(PictureParameters picture, uint key, uint strand) {
     if (kSource == kSourceGroom) return boundStrand(picture, strand).weights;
-    return rootWeights(key, strand);
+    return rootWeights(rootPair(picture, key, strand));
+}
+
+// The corner whose guide counts most. In a triangle that is the one whose third, cut out by the
+// medians, the strand's root is in.
+uint heaviestCorner(vec3 weights) {
+    if (weights.x >= weights.y && weights.x >= weights.z) return 0u;
+    return weights.y >= weights.z ? 1u : 2u;
 }
 
 // The scalp bulges out of its flat root triangles. edges[i] times the product of its corners'

@@ -1,10 +1,10 @@
 // Guides -> a point on a strand: the one function that every strand back end draws from.
-// Interpolation between the three guides of a root triangle: thesis 2.3.2, equations (1) to (3).
 #ifndef HAIRBENCH_STRAND_GLSL
 #define HAIRBENCH_STRAND_GLSL
 
 #include "common/picture.glsl"
 #include "strands/curve.glsl"
+#include "strands/interpolation.glsl"
 #include "strands/offsets.glsl"
 #include "strands/patch.glsl"
 #include "strands/roots.glsl"
@@ -28,23 +28,6 @@ struct StrandPoint {
     float along;    // 0 at the root, 1 at the tip
 };
 
-// Control point `index` of a guide, -1 and vertices_per_guide included. Reflecting the second point
-// in the end makes the curve start and end exactly at the root and the tip; the published program
-// repeats the end, and its hair floats off the scalp.
-vec3 guideControlPoint(PictureParameters picture, uint guide, int index) {
-    int last = int(picture.vertices_per_guide) - 1;
-    int inside = clamp(index, 0, last);
-    vec3 point = guideVertex(picture, guide, uint(inside));
-    if (kCurve == kCurveBsplineUnpinned || inside == index) return point;
-    int neighbour = index < 0 ? 1 : last - 1;
-    return 2.0 * point - guideVertex(picture, guide, uint(neighbour));
-}
-
-// Control point k of the strand from control point k of its three guides.
-vec3 mixGuides(vec3 weights, vec3 a, vec3 b, vec3 c) {
-    return weights.x * a + weights.y * b + weights.z * c;
-}
-
 float guideWidth(PictureParameters picture, PatchStrand strand, uint vertex) {
     GuideWidths guides = GuideWidths(picture.guide_widths);
     uvec3 at = strand.guides * picture.vertices_per_guide + vertex;
@@ -60,6 +43,7 @@ float strandWidth(PictureParameters picture, PatchStrand strand, uint segment, f
                t * guideWidth(picture, strand, segment + 1u);
     }
     float taper = kTaper == kTaperSegment ? t : along;
+    taper = max(taper - picture.taper_start, 0.0) / max(1.0 - picture.taper_start, 1e-6);
     return mix(picture.root_width, picture.tip_width, taper);
 }
 
@@ -70,10 +54,18 @@ void offsetPoint(PictureParameters picture, StrandPatch strand_patch, PatchStran
     uint profile =
         hash(strand_patch.key, strand.index, kOffsetPurpose) % picture.offset_profiles;
     StrandOffset offset = strandOffset(picture, profile, point.along);
-    uint guide = frameGuide(strand.guides, strand.weights);
+    uint guide = strand.guides[heaviestCorner(strand.weights)];
     mat3 frame = strandFrame(picture, guide, strand_patch.segment, t, point.tangent);
     point.position += frame * offset.value;
     point.tangent += frame * (offset.slope / float(picture.vertices_per_guide - 1));
+}
+
+vec4 curveWeights(float t) {
+    return kCurve == kCurveCatmullRom ? interpolationWeights(t) : splineWeights(t);
+}
+
+vec4 curveSlopes(float t) {
+    return kCurve == kCurveCatmullRom ? interpolationSlopes(t) : splineSlopes(t);
 }
 
 // The point at t in [0, 1] of a patch's segment.
@@ -81,8 +73,8 @@ StrandPoint pointOnStrand(PictureParameters picture, StrandPatch strand_patch, P
                           float t) {
     StrandPoint point;
     vec3 r[4] = strand.r;
-    point.position = blend(splineWeights(t), r[0], r[1], r[2], r[3]);
-    point.tangent = blend(splineSlopes(t), r[0], r[1], r[2], r[3]);
+    point.position = blend(curveWeights(t), r[0], r[1], r[2], r[3]);
+    point.tangent = blend(curveSlopes(t), r[0], r[1], r[2], r[3]);
     point.along =
         (float(strand_patch.segment) + t) / float(picture.vertices_per_guide - 1);
     point.width = strandWidth(picture, strand, strand_patch.segment, t, point.along) *
@@ -100,12 +92,16 @@ StrandPoint pointFromGuides(PictureParameters picture, StrandPatch strand_patch,
     strand.guides = guides;
     strand.weights = strandWeights(picture, strand_patch.key, index);
     strand.lift = strandLift(rootLift(picture, strand_patch, guides), strand.weights);
-    for (int k = 0; k < 4; ++k) {
-        int control = int(strand_patch.segment) + k - 1;
-        strand.r[k] = mixGuides(strand.weights, guideControlPoint(picture, guides.x, control),
-                                guideControlPoint(picture, guides.y, control),
-                                guideControlPoint(picture, guides.z, control));
+    uint segment = strand_patch.segment;
+    vec3 points[12];
+    for (int corner = 0; corner < 3; ++corner) {
+        for (int k = 0; k < 4; ++k) {
+            points[4 * corner + k] =
+                guideControlPoint(picture, guides[corner], int(segment) + k - 1);
+        }
     }
+    strandControlPoints(picture, guides, segment, strand.weights, points,
+                        singleShares(picture, guides, segment), strand.r);
     return pointOnStrand(picture, strand_patch, strand, t);
 }
 

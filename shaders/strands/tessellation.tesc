@@ -13,6 +13,7 @@ layout(location = 1) patch out vec2 patch_lod;   // tessellation, width scale
 layout(location = 2) patch out vec3 control_points[12];  // [guide of the triangle][r(i-1) … r(i+2)]
 layout(location = 14) patch out vec3 root_lift[3];
 layout(location = 17) patch out uvec3 patch_guides;
+layout(location = 18) patch out vec4 single_shares;  // of the control points
 
 void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;
@@ -30,6 +31,7 @@ void main() {
         }
     }
     patch_guides = guides;
+    single_shares = singleShares(picture, guides, strand_patch.segment);
     root_lift = rootLift(picture, strand_patch, guides).edges;
 
     gl_TessLevelOuter[0] = float(isolines);  // 0 drops the patch

@@ -11,6 +11,7 @@ layout(location = 1) patch in vec2 patch_lod;
 layout(location = 2) patch in vec3 control_points[12];
 layout(location = 14) patch in vec3 root_lift[3];
 layout(location = 17) patch in uvec3 patch_guides;
+layout(location = 18) patch in vec4 single_shares;
 layout(location = 0) out vec4 position_and_width;
 layout(location = 1) out vec4 tangent_and_along;
 
@@ -31,10 +32,8 @@ void main() {
     strand.guides = patch_guides;
     strand.weights = strandWeights(picture, strand_patch.key, strand.index);
     strand.lift = strandLift(RootLift(root_lift), strand.weights);
-    for (int k = 0; k < 4; ++k) {
-        strand.r[k] = mixGuides(strand.weights, control_points[k], control_points[4 + k],
-                                control_points[8 + k]);
-    }
+    strandControlPoints(picture, patch_guides, strand_patch.segment, strand.weights,
+                        control_points, single_shares, strand.r);
     StrandPoint point = pointOnStrand(picture, strand_patch, strand, t);
     position_and_width = vec4(point.position, point.width);
     tangent_and_along = vec4(point.tangent, point.along);

@@ -128,9 +128,8 @@ INSTANTIATE_TEST_SUITE_P(Json, SceneError, testing::ValuesIn(kBadJson));
 const BadScene kBadFields[] = {
     {R"({"strands": {"tessalation": 1}})",
      ": /strands/tessalation: unknown key (did you mean \"tessellation\"?); known: backend, "
-     "source, density, tessellation, width, root_width, tip_width, curl, variation, offsets, "
-     "curve, "
-     "taper, submission"},
+     "source, interpolation, blend, collision_rule, randomness, density, tessellation, width, "
+     "root_width, tip_width, curl, variation, offsets, curve, taper, taper_start, submission"},
     {R"({"sweeep": {}})", ": /sweeep: unknown key (did you mean \"sweep\"?); known: description, "
                           "seed, groom, simulation, strands, "
                           "lod, shading, camera, render, run, $schema, base, sweep"},
@@ -156,7 +155,7 @@ const BadScene kBadFields[] = {
     {R"({"render": {"msaa": 3}})", ": /render/msaa: 3 is not one of 1, 2, 4, 8 samples"},
     {R"({"strands": {"curve": "bsplin"}})",
      ": /strands/curve: unknown name \"bsplin\" (did you mean \"bspline\"?); known: bspline, "
-     "bspline_unpinned"},
+     "bspline_unpinned, catmull_rom"},
     {R"({"camera": {"position": [0, 1]}})",
      ": /camera/position: expected an array of 3 numbers, found an array of 2"},
     {R"({"camera": {"position": 1}})",

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "hair/rendering/strand_points.h"
@@ -126,10 +128,23 @@ TEST_F(CurveTest, UnpinnedFloatsOffTheScalp) {
     expectNear(points.at(0, 0, 2, 3).position, (5.0f * kBent[3] + kBent[2]) / 6.0f, kBentTolerance);
 }
 
+TEST_F(CurveTest, CatmullRomGoesThroughEveryVertex) {
+    const StrandPoints points = evaluate(
+        oneTriangle(kBent), {.density = 2, .tessellation = 3, .curve = Curve::catmull_rom});
+    for (std::uint32_t vertex = 0; vertex < 3; ++vertex) {
+        expectNear(points.at(0, 1, vertex, 0).position, kBent[vertex], kBentTolerance);
+        expectNear(points.at(0, 1, vertex, 3).position, kBent[vertex + 1], kBentTolerance);
+    }
+    // Half of the way between the neighbours; beside the ends is the end's reflection.
+    expectNear(points.at(0, 1, 1, 0).tangent, 0.5f * (kBent[2] - kBent[0]), kBentTolerance);
+    expectNear(points.at(0, 1, 0, 0).tangent, kBent[1] - kBent[0], kBentTolerance);
+    expectNear(points.at(0, 1, 2, 3).tangent, kBent[3] - kBent[2], kBentTolerance);
+}
+
 // Two patches meet in the same point, with the same tangent and width: there is no seam to see.
 TEST_F(CurveTest, JointsAreEqualToTheLastBit) {
     const Groom groom = tangledGroom(8);
-    for (const Curve curve : {Curve::bspline, Curve::bspline_unpinned}) {
+    for (const Curve curve : {Curve::bspline, Curve::bspline_unpinned, Curve::catmull_rom}) {
         for (const std::uint32_t tessellation : {1u, 3u, 4u, 7u, 8u}) {
             const StrandPoints points =
                 evaluate(groom, {.density = 20, .tessellation = tessellation, .curve = curve});
@@ -157,6 +172,29 @@ TEST_F(CurveTest, WidthFallsAlongTheWholeStrand) {
                 points.at(3, 0, segment, point).width, 2.0f - 1.5f * pieces / 28.0f, 4 * 2 * kUlp);
         }
     }
+}
+
+// 28 pieces, 7 of which have the root's width; then it falls over 21.
+TEST_F(CurveTest, WidthFallsFromWhereTheTaperStarts) {
+    const StrandPoints points = evaluate(
+        tangledGroom(8), {.density = 1,
+                          .tessellation = 4,
+                          .root_width = 2.0f,
+                          .tip_width = 0.5f,
+                          .taper_start = 0.25f});
+    for (std::uint32_t piece = 0; piece < 28; ++piece) {
+        const float fallen = std::max(0.0f, static_cast<float>(piece) - 7.0f) / 21.0f;
+        EXPECT_NEAR(
+            points.at(3, 0, piece / 4, piece % 4).width, 2.0f - 1.5f * fallen, 8 * 2 * kUlp);
+    }
+    EXPECT_EQ(points.at(3, 0, 6, 4).width, 0.5f);
+}
+
+TEST_F(CurveTest, TaperThatStartsAtTheTipIsNone) {
+    const StrandPoints points = evaluate(
+        tangledGroom(3),
+        {.density = 1, .tessellation = 4, .root_width = 2.0f, .tip_width = 0.5f, .taper_start = 1});
+    for (const auto& record : points.records) EXPECT_EQ(record.width, 2.0f);
 }
 
 TEST_F(CurveTest, SegmentTaperRestarts) {

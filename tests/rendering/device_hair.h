@@ -16,7 +16,20 @@
 
 namespace hair {
 
-// A groom on the device as rendering sees it, at rest.
+// Contacts as a simulation could mark them, [guide][vertex]: two guides of three touch a body, each
+// somewhere else, and what is below is marked too.
+inline std::vector<bool> madeUpContacts(const Groom& groom) {
+    std::vector<bool> contacts;
+    for (std::uint32_t guide = 0; guide < groom.strand_count; ++guide) {
+        const std::uint32_t first = guide % 3 == 0 ? groom.vertices_per_strand
+                                                   : 1 + guide % (groom.vertices_per_strand - 1);
+        for (std::uint32_t v = 0; v < groom.vertices_per_strand; ++v)
+            contacts.push_back(v >= first);
+    }
+    return contacts;
+}
+
+// A groom on the device as rendering sees it, at rest and with made-up contacts.
 class DeviceHair {
 public:
     DeviceHair(
@@ -24,11 +37,14 @@ public:
         const StrandSet* offsets = nullptr)
         : buffers_(device, groom, settings, offsets),
           guides_(engine::makeBuffer(
-              device, std::span<const glm::vec4>(withoutW(groom.points)), "guides")) {}
+              device, std::span<const glm::vec4>(withoutW(groom.points)), "guides")),
+          contacts_(engine::makeBuffer(
+              device, std::span<const glm::vec4>(onlyW(madeUpContacts(groom))), "contacts")) {}
 
     StrandView view() const {
         StrandView view = buffers_.view();
         view.guides = guides_.address();
+        view.contacts = contacts_.address();
         return view;
     }
 
@@ -42,8 +58,18 @@ private:
         return result;
     }
 
+    static std::vector<glm::vec4> onlyW(const std::vector<bool>& contacts) {
+        std::vector<glm::vec4> result;
+        for (const bool contact : contacts) {
+            result.emplace_back(
+                glm::vec3(std::numeric_limits<float>::quiet_NaN()), contact ? 1.0f : 0.0f);
+        }
+        return result;
+    }
+
     GroomBuffers buffers_;
     engine::Buffer guides_;
+    engine::Buffer contacts_;
 };
 
 // A groom of one root triangle whose guides have these points.

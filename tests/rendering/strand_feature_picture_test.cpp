@@ -23,12 +23,21 @@ const Feature kFeatures[] = {
     {"offsets", {.offsets = "a model"}},
     {"widths", {.width = WidthSource::groom}},
     {"groom", {.source = StrandSource::groom}},
+    {"single", {.interpolation = Interpolation::single}},
+    {"mixed", {.interpolation = Interpolation::mixed}},
+    {"collision_rule", {.collision_rule = true}},
+    {"thesis_randomness", {.randomness = Randomness::thesis}},
+    {"catmull_rom", {.curve = Curve::catmull_rom}},
+    {"taper_start", {.taper_start = 0.5f}},
     {"all",
      {.source = StrandSource::groom,
+      .interpolation = Interpolation::mixed,
+      .collision_rule = true,
       .width = WidthSource::groom,
       .curl = kCurl,
       .variation = kVariation,
-      .offsets = "a model"}},
+      .offsets = "a model",
+      .curve = Curve::catmull_rom}},
 };
 
 Groom groomWithAll() {
@@ -143,8 +152,9 @@ TEST_F(StrandFeaturePictureTest, FramesAreAPassWhereStrandsAreOffsetOnly) {
         const bool there =
             std::ranges::find(passes, std::string("frames"), &engine::PassTime::name) !=
             passes.end();
-        const std::string_view name = feature.name;
-        EXPECT_EQ(there, name != "widths" && name != "groom") << name;
+        constexpr std::string_view kOffset[] = {"curl", "variation", "offsets", "all"};
+        const bool offset = std::ranges::find(kOffset, feature.name) != std::end(kOffset);
+        EXPECT_EQ(there, offset) << feature.name;
     }
 }
 

@@ -4,7 +4,7 @@
 
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/device_hair.h"
-#include "tests/rendering/strand_reference.h"
+#include "tests/rendering/expect_near_reference.h"
 
 namespace hair {
 namespace {
@@ -16,37 +16,8 @@ protected:
         return evaluateStrandPoints(device(), settings, hair.view());
     }
 
-    // Against the reference: guides within 0.5 m have control points within 1.5 m, the sums of
-    // weights and of slopes are below 2, and a point takes about 20 roundings of 2^-24 of that.
     static void expectReference(const Groom& groom, const Settings& settings) {
-        constexpr double kTolerance = 20 * 0x1p-24 * 1.5 * 2.0;
-        const StrandPoints points = evaluate(groom, settings);
-        const StrandPlan& plan = points.plan;
-        ASSERT_EQ(plan.triangles, groom.root_triangles.size());
-        ASSERT_EQ(
-            points.records.size(), plan.strands() * plan.segments * (plan.forced_tessellation + 1));
-        std::size_t index = 0;
-        for (std::uint32_t triangle = 0; triangle < plan.triangles; ++triangle) {
-            for (std::uint32_t strand = 0; strand < plan.forced_density; ++strand) {
-                for (std::uint32_t segment = 0; segment < plan.segments; ++segment) {
-                    for (std::uint32_t i = 0; i <= plan.forced_tessellation; ++i) {
-                        SCOPED_TRACE(index);
-                        const auto& record = points.records[index++];
-                        const reference::Point expected = reference::pointOnStrand(
-                            groom, settings, triangle, strand, segment,
-                            static_cast<double>(i) / plan.forced_tessellation);
-                        ASSERT_LT(
-                            glm::distance(glm::dvec3(record.position), expected.position),
-                            kTolerance);
-                        ASSERT_LT(
-                            glm::distance(glm::dvec3(record.tangent), expected.tangent),
-                            kTolerance);
-                        ASSERT_NEAR(record.width, expected.width, 1e-6 * expected.width);
-                        ASSERT_NEAR(record.along, expected.along, 1e-6);
-                    }
-                }
-            }
-        }
+        expectNearReference(evaluate(groom, settings), groom, settings);
     }
 };
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -96,24 +97,30 @@ private:
     pid_t id_ = 0;
 };
 
+using Take = std::function<void(std::span<const char>)>;
+using Poll = std::function<void()>;
+
+constexpr int kPollInterval = 100;  // ms
+
 // Reads both until the child has closed them.
-void drain(File& output, std::vector<std::byte>& bytes, File& errors, std::string& text) {
+void drain(File& output, const Take& take, File& errors, std::string& text, const Poll& idle) {
     std::vector<char> part(1 << 16);
     while (output.get() >= 0 || errors.get() >= 0) {
         std::array<pollfd, 2> ready{
             pollfd{output.get(), POLLIN, 0}, pollfd{errors.get(), POLLIN, 0}};
-        if (poll(ready.data(), ready.size(), -1) < 0) continue;
+        const int count = poll(ready.data(), ready.size(), idle ? kPollInterval : -1);
+        if (count == 0 && idle) idle();
+        if (count <= 0) continue;
         for (std::size_t i = 0; i < ready.size(); ++i) {
             if (ready[i].revents == 0) continue;
-            const ssize_t count = read(ready[i].fd, part.data(), part.size());
-            if (count < 0 && errno == EINTR) continue;
-            if (count <= 0) {
+            const ssize_t size = read(ready[i].fd, part.data(), part.size());
+            if (size < 0 && errno == EINTR) continue;
+            if (size <= 0) {
                 (i == 0 ? output : errors).close();
             } else if (i == 0) {
-                const auto* first = reinterpret_cast<const std::byte*>(part.data());
-                bytes.insert(bytes.end(), first, first + count);
+                take(std::span(part).first(static_cast<std::size_t>(size)));
             } else {
-                text.append(part.data(), static_cast<std::size_t>(count));
+                text.append(part.data(), static_cast<std::size_t>(size));
             }
         }
     }
@@ -129,21 +136,48 @@ std::string describe(int status) {
     return "ended with status " + std::to_string(WEXITSTATUS(status));
 }
 
-}  // namespace
-
-std::vector<std::byte> runTool(const std::vector<std::string>& arguments) {
+void run(const std::vector<std::string>& arguments, const Take& take, const Poll& idle = {}) {
     Pipe output;
     Pipe errors;
     Child child(arguments, output.write, errors.write);
     output.write.close();
     errors.write.close();
-    std::vector<std::byte> bytes;
     std::string text;
-    drain(output.read, bytes, errors.read, text);
+    drain(output.read, take, errors.read, text, idle);
     const int status = child.wait();
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return bytes;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
     const std::string line = WIFEXITED(status) ? lastLine(text) : "";
     throw engine::Error(line.empty() ? arguments.front() + ' ' + describe(status) : line);
+}
+
+}  // namespace
+
+std::vector<std::byte> runTool(const std::vector<std::string>& arguments) {
+    std::vector<std::byte> bytes;
+    run(arguments, [&](std::span<const char> part) {
+        const auto read = std::as_bytes(part);
+        bytes.insert(bytes.end(), read.begin(), read.end());
+    });
+    return bytes;
+}
+
+void runTool(
+    const std::vector<std::string>& arguments,
+    const std::function<void(std::string_view line)>& each_line,
+    const std::function<void()>& poll) {
+    std::string rest;
+    run(
+        arguments,
+        [&](std::span<const char> part) {
+            rest.append(part.data(), part.size());
+            std::size_t begin = 0;
+            for (std::size_t end; (end = rest.find('\n', begin)) != std::string::npos;
+                 begin = end + 1)
+                each_line(std::string_view(rest).substr(begin, end - begin));
+            rest.erase(0, begin);
+        },
+        poll);
+    if (!rest.empty()) each_line(rest);
 }
 
 }  // namespace hair

@@ -29,6 +29,35 @@ TEST(RunTool, TakesMuchOnBothOutputs) {
     EXPECT_EQ(bytes.size(), 2000000u);
 }
 
+TEST(RunTool, HandsOverLines) {
+    std::vector<std::string> lines;
+    runTool(
+        {"sh", "-c", "printf 'a\\nb'; sleep 0.05; printf 'c\\n\\nend'"},
+        [&](std::string_view l) { lines.emplace_back(l); });
+    EXPECT_EQ(lines, (std::vector<std::string>{"a", "bc", "", "end"}));
+}
+
+// Or this would take a minute.
+TEST(RunTool, EndsTheProgramWhereALineIsRefused) {
+    EXPECT_EQ(
+        errorText([] {
+            runTool({"sh", "-c", "echo no; exec sleep 60"}, [](std::string_view line) {
+                throw engine::Error(std::string(line));
+            });
+        }),
+        "no");
+}
+
+// The same for one that says nothing.
+TEST(RunTool, EndsTheProgramWhereAPollThrows) {
+    EXPECT_EQ(
+        errorText([] {
+            runTool(
+                {"sleep", "60"}, [](std::string_view) {}, [] { throw engine::Error("enough"); });
+        }),
+        "enough");
+}
+
 TEST(RunTool, GivesTheProgramNothingToRead) { EXPECT_TRUE(shell("cat").empty()); }
 
 TEST(RunTool, PassesArgumentsAsTheyAre) {

@@ -1,0 +1,102 @@
+// The curves that Mitsuba is given: through the strands' points, from root to tip.
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "benchmarks/curve_control_points.h"
+#include "benchmarks/mitsuba_shapes.h"
+
+namespace benchmarks {
+namespace {
+
+// Cox and de Boor's recursion: the basis function of knots i to i + degree + 1, all integers.
+double basis(int i, int degree, double at) {
+    if (degree == 0) return i <= at && at < i + 1 ? 1.0 : 0.0;
+    return (at - i) / degree * basis(i, degree - 1, at) +
+           (i + degree + 1 - at) / degree * basis(i + 1, degree - 1, at);
+}
+
+// Control point i has the knots i - 3 to i + 1, so that the curve is defined from 0 on.
+glm::dvec4 curveAt(const std::vector<glm::dvec4>& control, double at) {
+    glm::dvec4 sum(0.0);
+    for (std::size_t i = 0; i < control.size(); ++i)
+        sum += basis(static_cast<int>(i) - 3, 3, at) * control[i];
+    return sum;
+}
+
+std::vector<glm::dvec4> somePoints(std::size_t count) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
+    std::vector<glm::dvec4> points;
+    for (std::size_t i = 0; i < count; ++i)
+        points.emplace_back(
+            coordinate(random), coordinate(random), coordinate(random), coordinate(random));
+    return points;
+}
+
+// Rounding of coordinates near 1: the system's condition number is below 3.
+constexpr double kRounding = 1e-14;
+
+TEST(CurveControlPoints, GoThroughEveryPointAtItsKnot) {
+    for (const std::size_t count : {2u, 3u, 4u, 5u, 17u, 77u}) {
+        const auto points = somePoints(count);
+        const auto control = interpolatingControlPoints(points);
+        ASSERT_EQ(control.size(), count + 2);
+        for (std::size_t i = 0; i < count; ++i)
+            EXPECT_LT(glm::distance(curveAt(control, double(i)), points[i]), kRounding) << i;
+    }
+}
+
+TEST(CurveControlPoints, KeepAStraightEvenLineEven) {
+    const glm::dvec4 root(0.1, 1.0, -2.0, 0.003);
+    const glm::dvec4 step(0.01, -0.02, 0.005, -0.0001);
+    std::vector<glm::dvec4> points;
+    for (int i = 0; i < 9; ++i) points.push_back(root + double(i) * step);
+    const auto control = interpolatingControlPoints(points);
+    for (std::size_t i = 0; i < control.size(); ++i)
+        EXPECT_LT(glm::distance(control[i], root + (double(i) - 1.0) * step), kRounding);
+    EXPECT_LT(glm::distance(curveAt(control, 3.25), root + 3.25 * step), kRounding);
+}
+
+std::vector<std::vector<glm::dvec4>> written(const hair::StrandSet& strands) {
+    std::stringstream file;
+    writeMitsubaCurves(file, strands);
+    std::vector<std::vector<glm::dvec4>> curves(1);
+    for (std::string line; std::getline(file, line);) {
+        if (line.empty()) {
+            curves.emplace_back();
+            continue;
+        }
+        std::istringstream numbers(line);
+        glm::dvec4& point = curves.back().emplace_back();
+        numbers >> point.x >> point.y >> point.z >> point.w;
+        EXPECT_FALSE(numbers.fail()) << line;
+    }
+    curves.pop_back();  // each ends with an empty line
+    return curves;
+}
+
+TEST(MitsubaCurves, HaveRootAndTipAndRadiiOfTheStrands) {
+    hair::StrandSet strands;
+    strands.points = {{0, 0, 0}, {0, 1, 0}, {0.5f, 2, 0}, {9, 9, 9}, {1, 0, 0}, {2, 0, 0}};
+    strands.widths.values = {0.4f, 0.3f, 0.2f, 1.0f, 0.2f, 0.0f};
+    strands.ends = {3, 4, 6};  // that of one point has no curve
+    const auto curves = written(strands);
+    ASSERT_EQ(curves.size(), 2u);
+    // What floats hold of coordinates up to 2.
+    constexpr double kFloat = 5e-7;
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec4 expected(glm::dvec3(strands.points[i]), strands.widths.values[i] / 2.0);
+        EXPECT_LT(glm::distance(curveAt(curves[0], i), expected), kFloat) << i;
+    }
+    // The second narrows to nothing at its tip: no radius is negative.
+    for (const glm::dvec4& control : curves[1]) EXPECT_GE(control.w, 0.0);
+    EXPECT_NEAR(curveAt(curves[1], 0.0).w, 0.1, kFloat);
+}
+
+}  // namespace
+}  // namespace benchmarks
