@@ -60,7 +60,9 @@ TEST_F(GroomCli, InfoListsWhatIsOddAndWhatToDo) {
         ContainsRegex(
             "\nodd:\n.*1 strand without length.*\n +leave.*\n.*1 strand equal to another.*"
             "\n +leave.*\n.*widths of 10.0 mm"));
-    for (const nlohmann::json& each : json("odd.hair", "--scale 0.01")["odd"]) {
+    const nlohmann::json findings = json("odd.hair", "--scale 0.01");
+    ASSERT_FALSE(findings["odd"].empty());
+    for (const nlohmann::json& each : findings["odd"]) {
         EXPECT_GT(each["count"], 0);
         EXPECT_FALSE(each["advice"].get<std::string>().empty());
     }
