@@ -61,6 +61,17 @@ loadOffsets(const hair::Settings& settings, const std::filesystem::path& directo
     return hair::importStrands(directory / settings.strands.offsets);
 }
 
+hair::RenderAssets loadRenderAssets(
+    const hair::Settings& settings, const hair::Mesh* head,
+    const std::filesystem::path& directory) {
+    hair::RenderAssets assets{.head = head};
+    for (const hair::MeshSettings& mesh : settings.render.meshes)
+        assets.meshes.push_back(hair::importMesh(directory / mesh.file));
+    if (!settings.strands.texture.empty())
+        assets.strand_texture = engine::readImage(directory / settings.strands.texture);
+    return assets;
+}
+
 void checkAssets(const hair::Settings& settings, const std::filesystem::path& scene) {
     const std::filesystem::path directory = scene.parent_path();
     const std::optional<hair::Mesh> mesh = loadMesh(settings, directory);

@@ -6,6 +6,7 @@
 
 #include "hair/groom/mesh/mesh.h"
 #include "hair/groom/strand_set.h"
+#include "hair/rendering/render_assets.h"
 #include "hair/settings.h"
 
 // What a case reads from files. `directory` is what file names in the settings are relative to;
@@ -25,6 +26,10 @@ std::vector<hair::Mesh> loadFieldMeshes(
 // The strands of /strands/offsets; absent where it is empty.
 std::optional<hair::StrandSet>
 loadOffsets(const hair::Settings& settings, const std::filesystem::path& directory);
+
+// What pictures show beside the hair. `head` is what loadMesh gave, or null.
+hair::RenderAssets loadRenderAssets(
+    const hair::Settings& settings, const hair::Mesh* head, const std::filesystem::path& directory);
 
 // Reads and checks all that a case of this scene needs, without a device: the errors of a bad asset
 // before anything runs. Where the fault is in how the scene uses a file, the error is

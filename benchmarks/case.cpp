@@ -28,7 +28,7 @@ Case::Case(
           loadFieldMeshes(settings, mesh_, directory)),
       fixed_step_(double{settings.simulation.time_step}),
       groom_buffers_(device, groom_, settings, pointerTo(loadOffsets(settings, directory))),
-      renderer_(device, settings, view(), pointerTo(mesh_)) {}
+      renderer_(device, settings, view(), loadRenderAssets(settings, pointerTo(mesh_), directory)) {}
 
 void Case::simulate(engine::Passes& passes) {
     using engine::PassKind;

@@ -59,10 +59,10 @@ void writeLights(std::ostream& out, const hair::Settings& settings) {
         out << "<emitter type=\"constant\">\n    "
             << rgb("radiance", toLinear(settings.render.background)) << "</emitter>\n";
     }
-    const hair::LightSettings& light = settings.shading.light;
-    out << "<emitter type=\"point\">\n    <point name=\"position\" value=\""
-        << decimalTexts(light.position, ", ") << "\"/>\n    "
-        << rgb("intensity", lightIntensity(light, settings.camera.target)) << "</emitter>\n";
+    for (const hair::LightSettings& light : settings.shading.lights)
+        out << "<emitter type=\"point\">\n    <point name=\"position\" value=\""
+            << decimalTexts(light.position, ", ") << "\"/>\n    "
+            << rgb("intensity", lightIntensity(light, settings.camera.target)) << "</emitter>\n";
 }
 
 void writeHair(std::ostream& out, const hair::Settings& settings, const std::string& file) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/pipeline.h"
+#include "engine/sampler.h"
 
 namespace engine {
 
@@ -34,6 +35,10 @@ Scope scope(Access access) {
         return {
             VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT,
             VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT};
+    case Access::fragment_write:
+        return {
+            VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+            VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT};
     case Access::attachment:
         return {kAttachmentStages, kAttachmentAccess};
     case Access::transfer_read:
@@ -160,6 +165,26 @@ void Commands::images(
     }
     vkCmdPushDescriptorSetKHR(
         buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout(), 0,
+        static_cast<std::uint32_t>(writes.size()), writes.data());
+}
+
+void Commands::images(const GraphicsPipeline& pipeline, std::span<const SampledImage> sampled) {
+    if (sampled.empty()) return;
+    std::vector<VkDescriptorImageInfo> infos;
+    for (const SampledImage& entry : sampled) {
+        infos.push_back(
+            {entry.sampler->get(), entry.image->view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
+    }
+    std::vector<VkWriteDescriptorSet> writes(infos.size());
+    for (std::uint32_t i = 0; i < writes.size(); ++i) {
+        writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        writes[i].dstBinding = i;
+        writes[i].descriptorCount = 1;
+        writes[i].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        writes[i].pImageInfo = &infos[i];
+    }
+    vkCmdPushDescriptorSetKHR(
+        buffer_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout(), 0,
         static_cast<std::uint32_t>(writes.size()), writes.data());
 }
 

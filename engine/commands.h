@@ -12,12 +12,14 @@ namespace engine {
 
 class ComputePipeline;
 class GraphicsPipeline;
+class Sampler;
 
 // Who touched memory before a barrier and who will after it.
 enum class Access {
     compute_read,
     compute_write,
-    graphics_read,  // buffers read by any graphics stage
+    graphics_read,  // buffers and images read by any graphics stage
+    fragment_write,  // buffers read and written by the fragment stage
     attachment,     // color and depth attachments, read and written
     transfer_read,
     transfer_write,
@@ -30,6 +32,12 @@ struct Draw {
     std::uint32_t instances = 1;
     std::uint32_t first_vertex = 0;
     std::uint32_t first_instance = 0;
+};
+
+// An image in SHADER_READ_ONLY_OPTIMAL, and how it is sampled.
+struct SampledImage {
+    const Image* image;
+    const Sampler* sampler;
 };
 
 // A command buffer being recorded. Borrows the buffer; records nothing that it is not told to.
@@ -73,6 +81,9 @@ public:
     void images(
         const ComputePipeline& pipeline, std::span<const Image* const> sampled,
         std::span<const Image* const> storage);
+
+    // Gives the bound graphics pipeline its images, at bindings 0 ...
+    void images(const GraphicsPipeline& pipeline, std::span<const SampledImage> sampled);
 
     void dispatch(std::uint32_t groups_x, std::uint32_t groups_y = 1);
     void draw(const Draw& draw);

@@ -14,6 +14,13 @@ struct Pixels {
     std::vector<std::uint8_t> rgba;  // [row][column][channel], top row first
 };
 
+// One of light: linear RGB without bounds.
+struct FloatPixels {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<float> rgb;  // [row][column][channel], top row first
+};
+
 // Reads a PNG, JPEG, TGA or BMP of at most 2^26 pixels; what has no alpha gets 255, and 16 bits
 // become 8. Throws Error that names the file.
 Pixels readImage(const std::filesystem::path& path);

@@ -88,15 +88,15 @@ PipelineLayout makeLayout(
     return {device.get(), layout};
 }
 
-VkDescriptorSetLayout
-makeImageLayout(const Device& device, std::uint32_t sampled, std::uint32_t storage) {
-    std::vector<VkDescriptorSetLayoutBinding> bindings(sampled + storage);
+// One image at each binding, of these types.
+VkDescriptorSetLayout makeImageLayout(
+    const Device& device, std::span<const VkDescriptorType> types, VkShaderStageFlags stages) {
+    std::vector<VkDescriptorSetLayoutBinding> bindings(types.size());
     for (std::uint32_t i = 0; i < bindings.size(); ++i) {
         bindings[i].binding = i;
-        bindings[i].descriptorType =
-            i < sampled ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+        bindings[i].descriptorType = types[i];
         bindings[i].descriptorCount = 1;
-        bindings[i].stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
+        bindings[i].stageFlags = stages;
     }
     const VkDescriptorSetLayoutCreateInfo create{
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
@@ -114,11 +114,11 @@ makeImageLayout(const Device& device, std::uint32_t sampled, std::uint32_t stora
 }  // namespace
 
 ComputePipeline::ComputePipeline(const Device& device, const ComputeDescription& description) {
-    if (description.sampled_images + description.storage_images > 0) {
-        images_ = {
-            device.get(),
-            makeImageLayout(device, description.sampled_images, description.storage_images)};
-    }
+    std::vector<VkDescriptorType> types(
+        description.sampled_images, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE);
+    types.resize(types.size() + description.storage_images, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
+    if (!types.empty())
+        images_ = {device.get(), makeImageLayout(device, types, VK_SHADER_STAGE_COMPUTE_BIT)};
     layout_ = makeLayout(device, VK_SHADER_STAGE_COMPUTE_BIT, description.push_size, images_.get());
 
     const ShaderModule module = loadModule(device, description.shader);
@@ -137,8 +137,44 @@ ComputePipeline::ComputePipeline(const Device& device, const ComputeDescription&
         VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), description.shader);
 }
 
-GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsDescription& description)
-    : layout_(makeLayout(device, VK_SHADER_STAGE_ALL_GRAPHICS, description.push_size, {})) {
+namespace {
+
+VkPipelineColorBlendAttachmentState blendState(Blend blend) {
+    VkPipelineColorBlendAttachmentState state{};
+    state.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
+                           VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+    const auto factors = [&](VkBlendFactor source, VkBlendFactor destination) {
+        state.blendEnable = VK_TRUE;
+        state.srcColorBlendFactor = state.srcAlphaBlendFactor = source;
+        state.dstColorBlendFactor = state.dstAlphaBlendFactor = destination;
+    };
+    switch (blend) {
+    case Blend::replace:
+        break;
+    case Blend::add:
+        factors(VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE);
+        break;
+    case Blend::over:
+        factors(VK_BLEND_FACTOR_SRC_ALPHA, VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA);
+        state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+        break;
+    case Blend::attenuate:
+        factors(VK_BLEND_FACTOR_ZERO, VK_BLEND_FACTOR_ONE_MINUS_SRC_COLOR);
+        break;
+    }
+    return state;
+}
+
+}  // namespace
+
+GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsDescription& description) {
+    if (description.sampled_images > 0) {
+        const std::vector<VkDescriptorType> types(
+            description.sampled_images, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+        images_ = {device.get(), makeImageLayout(device, types, VK_SHADER_STAGE_FRAGMENT_BIT)};
+    }
+    layout_ = makeLayout(
+        device, VK_SHADER_STAGE_ALL_GRAPHICS, description.push_size, images_.get());
     const Specialization specialization(description.constants);
     std::vector<ShaderModule> modules;
     std::vector<VkPipelineShaderStageCreateInfo> stages;
@@ -168,18 +204,22 @@ GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsDescripti
     VkPipelineMultisampleStateCreateInfo multisample{};
     multisample.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
     multisample.rasterizationSamples = static_cast<VkSampleCountFlagBits>(description.samples);
+    multisample.alphaToCoverageEnable = description.alpha_to_coverage ? VK_TRUE : VK_FALSE;
     VkPipelineDepthStencilStateCreateInfo depth{};
     depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
     depth.depthTestEnable = VK_TRUE;
-    depth.depthWriteEnable = VK_TRUE;
+    depth.depthWriteEnable = description.depth_write ? VK_TRUE : VK_FALSE;
     depth.depthCompareOp = description.depth_compare;
-    VkPipelineColorBlendAttachmentState attachment{};
-    attachment.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
-                                VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+    std::vector<VkFormat> formats;
+    std::vector<VkPipelineColorBlendAttachmentState> blends;
+    for (const ColorTarget& color : description.colors) {
+        formats.push_back(color.format);
+        blends.push_back(blendState(color.blend));
+    }
     VkPipelineColorBlendStateCreateInfo blend{};
     blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
-    blend.attachmentCount = 1;
-    blend.pAttachments = &attachment;
+    blend.attachmentCount = static_cast<std::uint32_t>(blends.size());
+    blend.pAttachments = blends.data();
     constexpr std::array dynamic_states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
     VkPipelineDynamicStateCreateInfo dynamic{};
     dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
@@ -188,8 +228,8 @@ GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsDescripti
 
     VkPipelineRenderingCreateInfo rendering{};
     rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
-    rendering.colorAttachmentCount = 1;
-    rendering.pColorAttachmentFormats = &description.color_format;
+    rendering.colorAttachmentCount = static_cast<std::uint32_t>(formats.size());
+    rendering.pColorAttachmentFormats = formats.data();
     rendering.depthAttachmentFormat = description.depth_format;
 
     VkGraphicsPipelineCreateInfo create{};

@@ -32,17 +32,33 @@ private:
     Handle<VkPipeline, &vkDestroyPipeline> pipeline_;
 };
 
+// What becomes of a fragment's color and that of the attachment.
+enum class Blend {
+    replace,
+    add,        // all channels
+    over,       // color: by the fragment's alpha; alpha: what is covered
+    attenuate,  // attachment x (1 - fragment), channel by channel
+};
+
+struct ColorTarget {
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    Blend blend = Blend::replace;
+};
+
 struct GraphicsDescription {
     std::vector<std::string> shaders;  // one per stage, by extension: .vert .tesc .tese .geom .frag
     Constants constants;  // the same for every stage
     std::uint32_t push_size = 0;  // B
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     std::uint32_t patch_control_points = 0;  // with PATCH_LIST
-    VkFormat color_format = VK_FORMAT_UNDEFINED;
+    std::vector<ColorTarget> colors;         // blends that differ need independentBlend
     VkFormat depth_format = VK_FORMAT_UNDEFINED;
     std::uint32_t samples = 1;
     VkCullModeFlags cull = VK_CULL_MODE_NONE;
     VkCompareOp depth_compare = VK_COMPARE_OP_LESS;
+    bool depth_write = true;
+    bool alpha_to_coverage = false;
+    std::uint32_t sampled_images = 0;  // with their samplers, at bindings 0 .. of the fragment stage
 };
 
 // Viewport and scissor are dynamic; the rest of the state is in the description.
@@ -54,6 +70,7 @@ public:
     VkPipelineLayout layout() const { return layout_.get(); }
 
 private:
+    Handle<VkDescriptorSetLayout, &vkDestroyDescriptorSetLayout> images_;
     Handle<VkPipelineLayout, &vkDestroyPipelineLayout> layout_;
     Handle<VkPipeline, &vkDestroyPipeline> pipeline_;
 };

@@ -36,23 +36,13 @@ ImageDescription rendered(
         .name = name};
 }
 
-VkRenderingAttachmentInfo attachment(const Image& image, Load load, VkImageLayout layout) {
-    VkRenderingAttachmentInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
-    info.imageView = image.view();
-    info.imageLayout = layout;
-    info.loadOp = load == Load::clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
-    info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    return info;
-}
-
 }  // namespace
 
 Target::Target(const Device& device, const TargetDescription& description)
     : description_(checked(device, description)),
       color_(
           device, rendered(
-                      description, kColorFormat,
+                      description, description.color_format,
                       VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                           VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                       "color")),
@@ -61,7 +51,7 @@ Target::Target(const Device& device, const TargetDescription& description)
           rendered(
               description, kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, "depth")),
       output_(
-          device, {.format = kColorFormat,
+          device, {.format = kOutputFormat,
                    .width = description.width,
                    .height = description.height,
                    .samples = 1,
@@ -83,29 +73,15 @@ void Target::beginRendering(
         commands.barrier(Access::attachment, Access::attachment);
     }
 
-    VkRenderingAttachmentInfo color = attachment(color_, load, kColor);
-    color.clearValue.color = {{background[0], background[1], background[2], 1.0f}};
-    VkRenderingAttachmentInfo depth = attachment(depth_, load, kDepth);
-    depth.clearValue.depthStencil = {1.0f, 0};
-    const VkExtent2D extent = color_.extent();
-    VkRenderingInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
-    info.renderArea = {{0, 0}, extent};
-    info.layerCount = 1;
-    info.colorAttachmentCount = 1;
-    info.pColorAttachments = &color;
-    info.pDepthAttachment = &depth;
-    vkCmdBeginRendering(commands.get(), &info);
-
-    const VkViewport viewport{
-        0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
-        0.0f, 1.0f};
-    const VkRect2D scissor{{0, 0}, extent};
-    vkCmdSetViewport(commands.get(), 0, 1, &viewport);
-    vkCmdSetScissor(commands.get(), 0, 1, &scissor);
+    const Attachment color{
+        .image = &color_,
+        .load = load,
+        .clear = {background[0], background[1], background[2], 1.0f}};
+    engine::beginRendering(
+        commands, std::span(&color, 1), Attachment{.image = &depth_, .load = load, .clear = {1}});
 }
 
-void Target::endRendering(Commands& commands) const { vkCmdEndRendering(commands.get()); }
+void Target::endRendering(Commands& commands) const { engine::endRendering(commands); }
 
 void Target::beginResolve(Commands& commands) const {
     commands.transition(

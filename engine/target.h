@@ -3,6 +3,7 @@
 #include <array>
 
 #include "engine/commands.h"
+#include "engine/rendering.h"
 
 namespace engine {
 
@@ -11,15 +12,14 @@ struct TargetDescription {
     std::uint32_t height = 1;  // of the picture, px
     std::uint32_t msaa = 1;    // samples per rendered pixel
     std::uint32_t ssaa = 1;    // rendered pixels per picture pixel, along each side
+    VkFormat color_format = VK_FORMAT_R8G8B8A8_UNORM;  // of what is rendered
 };
-
-enum class Load { clear, keep };
 
 // The images of an offscreen picture: color and depth that passes render into, and the output
 // picture that the resolve pass writes (8-bit RGBA, display-referred).
 class Target {
 public:
-    static constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_UNORM;
+    static constexpr VkFormat kOutputFormat = VK_FORMAT_R8G8B8A8_UNORM;
     static constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 
     // Throws Unsupported where the device lacks the sample count or the size.
@@ -39,6 +39,7 @@ public:
 
     const TargetDescription& description() const { return description_; }
     const Image& color() const { return color_; }
+    const Image& depth() const { return depth_; }
     const Image& output() const { return output_; }  // TRANSFER_SRC_OPTIMAL once resolved
 
 private:

@@ -18,7 +18,12 @@ using glm::vec4;
 using uint = std::uint32_t;
 
 #include "shaders/shared/distance_field_structs.h"
+#include "shaders/shared/environment_structs.h"
+#include "shaders/shared/fragment_structs.h"
+#include "shaders/shared/light_structs.h"
+#include "shaders/shared/optics_structs.h"
 #include "shaders/shared/rod_structs.h"
+#include "shaders/shared/shadow_structs.h"
 #include "shaders/shared/simulation_structs.h"
 #include "shaders/shared/strand_structs.h"
 #include "shaders/shared/volume_structs.h"

@@ -7,11 +7,12 @@
 
 #include "hair/fields.h"
 #include "hair/groom_settings.h"
+#include "hair/shading_settings.h"
 #include "hair/simulation_settings.h"
 #include "hair/strand_settings.h"
 
-// Every parameter of a case (those of guides, simulation and strands are in groom_settings.h,
-// simulation_settings.h and strand_settings.h), with the thesis's values (section 6 there) as
+// Every parameter of a case (those of guides, simulation, strands and light are in
+// groom_settings.h, simulation_settings.h, strand_settings.h and shading_settings.h), with the thesis's values (section 6 there) as
 // defaults. A new parameter is a member and a row in the table below its struct; nothing else has
 // to be edited.
 namespace hair {
@@ -50,43 +51,6 @@ constexpr auto fields(const LodSettings*) {
 
 // ---- Picture ------------------------------------------------------------------------------------
 
-struct LightSettings {
-    glm::vec3 position{5.0f, 5.0f, 5.0f};
-    glm::vec3 color{1.0f, 1.0f, 1.0f};
-};
-
-constexpr auto fields(const LightSettings*) {
-    using S = LightSettings;
-    return std::tuple{
-        Field{"position", &S::position, -1000, 1000, "m", "position of the point light"},
-        Field{"color", &S::color, 0, 100, "1", "intensity, display RGB"}};
-}
-
-enum class ShadingModel { phong };
-
-// Thesis equations (5) and (6), colours in display RGB as there.
-struct ShadingSettings {
-    ShadingModel model = ShadingModel::phong;
-    glm::vec3 color{0.95f, 0.9f, 0.625f};
-    float ambient = 0.5f;
-    float diffuse = 0.5f;
-    float specular = 0.5f;
-    float exponent = 50.0f;
-    LightSettings light;
-};
-
-constexpr auto fields(const ShadingSettings*) {
-    using S = ShadingSettings;
-    return std::tuple{
-        Choice<S, ShadingModel, 1>{
-            "model", &S::model, {{{ShadingModel::phong, "phong"}}}, "how a strand is lit"},
-        Field{"color", &S::color, 0, 1, "1", "hair colour, display RGB"},
-        Field{"ambient", &S::ambient, 0, 10, "1", "ambient factor"},
-        Field{"diffuse", &S::diffuse, 0, 10, "1", "k_d"},
-        Field{"specular", &S::specular, 0, 10, "1", "k_s"},
-        Field{"exponent", &S::exponent, 1, 10000, "1", "n of the specular term"},
-        Group<S, LightSettings>{"light", &S::light, "the light"}};
-}
 
 struct CameraSettings {
     glm::vec3 position{0.0f, 0.0f, 0.5f};
@@ -111,23 +75,59 @@ constexpr auto fields(const CameraSettings*) {
 struct OverlaySettings {
     bool guides = false;
     bool root_triangles = false;
+    bool bodies = false;
 };
 
 constexpr auto fields(const OverlaySettings*) {
     using S = OverlaySettings;
     return std::tuple{
         Toggle<S>{"guides", &S::guides, "draw the simulated guides over the hair"},
-        Toggle<S>{"root_triangles", &S::root_triangles, "draw the root triangles"}};
+        Toggle<S>{"root_triangles", &S::root_triangles, "draw the root triangles"},
+        Toggle<S>{"bodies", &S::bodies, "draw the bodies that hair collides with"}};
 }
+
+// A mesh beside the head; it does not move.
+struct MeshSettings {
+    std::string file;
+    glm::vec3 translation{0.0f};
+    glm::vec3 rotation{0.0f};
+    float scale = 1.0f;
+};
+
+constexpr auto fields(const MeshSettings*) {
+    using S = MeshSettings;
+    return std::tuple{
+        FileName<S>{{"file", &S::file, "mesh (.gltf, .glb, .obj, ...), relative to the scene"}},
+        Field{"translation", &S::translation, -1000, 1000, "m", "where its origin is"},
+        Field{
+            "rotation", &S::rotation, -360, 360, "deg",
+            "about x, then y, then z; before it is moved"},
+        Field{"scale", &S::scale, 0.0001, 10000, "1", "size; before it is turned"}};
+}
+
+enum class Coverage { sampled, analytic };
+enum class Transparency { none, alpha_to_coverage, weighted_blended, fragment_list };
+enum class ToneMap { none, srgb, aces, agx };
+enum class Show { shading, tangents, normals, lod, strands };
 
 struct RenderSettings {
     std::uint32_t width = 1280;
     std::uint32_t height = 720;
     std::uint32_t msaa = 1;
     std::uint32_t ssaa = 1;
+    Coverage coverage = Coverage::sampled;
+    Transparency transparency = Transparency::none;
+    std::uint32_t list_length = 16;
+    ToneMap tone_map = ToneMap::none;
+    float exposure = 0.0f;
     glm::vec3 background{0.25f, 0.15f, 0.18f};
+    std::string environment;
+    float environment_strength = 1.0f;
+    float environment_turn = 0.0f;
     bool head = true;
+    std::vector<MeshSettings> meshes;
     bool hair = true;
+    Show show = Show::shading;
     OverlaySettings overlays;
 };
 
@@ -142,10 +142,60 @@ constexpr auto fields(const RenderSettings*) {
             {1, 2, 4, 8},
             "samples",
             "multisampling; a count the device lacks is skipped"},
-        OneOf<S, 2>{"ssaa", &S::ssaa, {1, 2}, "factor", "supersampling along each side"},
+        OneOf<S, 3>{"ssaa", &S::ssaa, {1, 2, 4}, "factor", "supersampling along each side"},
+        Choice<S, Coverage, 2>{
+            "coverage",
+            &S::coverage,
+            {{{Coverage::sampled, "sampled"}, {Coverage::analytic, "analytic"}}},
+            "sampled: a strand is where samples hit it; analytic: a strand thinner than a pixel is "
+            "as wide as one and as much fainter, which needs a transparency"},
+        Choice<S, Transparency, 4>{
+            "transparency",
+            &S::transparency,
+            {{{Transparency::none, "none"},
+              {Transparency::alpha_to_coverage, "alpha_to_coverage"},
+              {Transparency::weighted_blended, "weighted_blended"},
+              {Transparency::fragment_list, "fragment_list"}}},
+            "what opacity does; none: nothing; alpha_to_coverage: it covers as many samples, which "
+            "needs msaa; weighted_blended: McGuire and Bavoil 2013; fragment_list: fragments sorted "
+            "per pixel"},
+        Field{
+            "list_length", &S::list_length, 1, 256, "count",
+            "of fragment_list: fragments that there is room for, per rendered pixel in the mean"},
+        Choice<S, ToneMap, 4>{
+            "tone_map",
+            &S::tone_map,
+            {{{ToneMap::none, "none"},
+              {ToneMap::srgb, "srgb"},
+              {ToneMap::aces, "aces"},
+              {ToneMap::agx, "agx"}}},
+            "none: light is added up in display RGB, as in the thesis; the others add up linear "
+            "light; srgb: clipped; aces, agx: film-like"},
+        Field{"exposure", &S::exposure, -20, 20, "stops", "of linear light, before the tone map"},
         Field{"background", &S::background, 0, 1, "1", "background colour, display RGB"},
+        FileName<S>{
+            {"environment", &S::environment,
+             "light from all around and background: latitude-longitude picture (.exr, .hdr), "
+             "relative to the scene file; empty: none"}},
+        Field{
+            "environment_strength", &S::environment_strength, 0, 1000, "1",
+            "factor of the environment's light"},
+        Field{
+            "environment_turn", &S::environment_turn, -360, 360, "deg",
+            "of the environment about +y"},
         Toggle<S>{"head", &S::head, "draw the mesh that the hair grows on"},
+        List<S, MeshSettings>{"meshes", &S::meshes, 16, "other meshes"},
         Toggle<S>{"hair", &S::hair, "draw the strands; without them a frame is its simulation"},
+        Choice<S, Show, 5>{
+            "show",
+            &S::show,
+            {{{Show::shading, "shading"},
+              {Show::tangents, "tangents"},
+              {Show::normals, "normals"},
+              {Show::lod, "lod"},
+              {Show::strands, "strands"}}},
+            "what colours strands: light; directions along and across them as RGB; the level of "
+            "detail from blue to red; or a colour of each strand's own"},
         Group<S, OverlaySettings>{"overlays", &S::overlays, "what is drawn over the hair"}};
 }
 
@@ -155,6 +205,7 @@ struct RunSettings {
     std::uint32_t warmup = 3;
     std::uint32_t frames = 10;
     float frame_time = 1.0f / 60.0f;
+    std::string reference;
 };
 
 constexpr auto fields(const RunSettings*) {
@@ -164,7 +215,11 @@ constexpr auto fields(const RunSettings*) {
         Field{"frames", &S::frames, 1, 1000000, "count", "frames measured in each mode"},
         Field{
             "frame_time", &S::frame_time, 0, 1, "s",
-            "simulated time that a frame advances; 0 draws the same instant again"}};
+            "simulated time that a frame advances; 0 draws the same instant again"},
+        FileName<S>{
+            {"reference", &S::reference,
+             "picture (.exr, .png) that the last frame is compared with, relative to the scene "
+             "file; empty: none"}}};
 }
 
 // Everything a case needs: the members of a scene file but its sweep.

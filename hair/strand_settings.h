@@ -74,6 +74,8 @@ struct StrandSettings {
     StrandCurlSettings curl;
     StrandVariationSettings variation;
     std::string offsets;
+    float opacity = 1.0f;
+    std::string texture;
     Curve curve = Curve::bspline;
     Taper taper = Taper::strand;
     float taper_start = 0.0f;
@@ -133,6 +135,12 @@ constexpr auto fields(const StrandSettings*) {
             {"offsets", &S::offsets,
              "strands whose offsets from their own smooth shape are added to drawn ones, relative "
              "to the scene file; empty: none"}},
+        Field{"opacity", &S::opacity, 0, 1, "1", "of a strand; /render/transparency makes use of it"},
+        FileName<S>{
+            {"texture", &S::texture,
+             "picture (.png, ...) on strands: across them and, downward, from root to tip; its "
+             "colour is a factor, its alpha one of the opacity; relative to the scene file; empty: "
+             "none"}},
         Choice<S, Curve, 3>{
             "curve",
             &S::curve,

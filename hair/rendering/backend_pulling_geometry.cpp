@@ -13,8 +13,11 @@ public:
     explicit PullingGeometryBackend(const BackendContext& context)
         : vertices_(vertexCount(context.plan)), pipeline_(context.device, describe(context)) {}
 
-    void draw(engine::Commands& commands, std::uint64_t picture) const override {
+    void draw(
+        engine::Commands& commands, std::uint64_t picture,
+        std::span<const engine::SampledImage> images) const override {
         commands.bind(pipeline_, gpu::StrandPush{.picture = picture});
+        commands.images(pipeline_, images);
         commands.draw({.vertices = vertices_});
     }
 
@@ -34,7 +37,7 @@ private:
     static engine::GraphicsDescription describe(const BackendContext& context) {
         engine::GraphicsDescription description = strandPipeline(context);
         description.shaders = {
-            "strands/pulling.vert", "strands/strand.geom", "strands/strand.frag"};
+            "strands/pulling.vert", context.output.geometry, context.output.fragment};
         description.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
         return description;
     }

@@ -13,8 +13,11 @@ public:
               context.plan, context.strands.submission, context.device.maxTessellatedVertices())),
           pipeline_(context.device, describe(context)) {}
 
-    void draw(engine::Commands& commands, std::uint64_t picture) const override {
+    void draw(
+        engine::Commands& commands, std::uint64_t picture,
+        std::span<const engine::SampledImage> images) const override {
         commands.bind(pipeline_, gpu::StrandPush{.picture = picture});
+        commands.images(pipeline_, images);
         for (const engine::Draw& draw : draws_) commands.draw(draw);
     }
 
@@ -25,7 +28,7 @@ private:
         engine::GraphicsDescription description = strandPipeline(context);
         description.shaders = {
             "strands/tessellation.vert", "strands/tessellation.tesc", "strands/tessellation.tese",
-            "strands/strand.geom", "strands/strand.frag"};
+            context.output.geometry, context.output.fragment};
         description.topology = VK_PRIMITIVE_TOPOLOGY_PATCH_LIST;
         description.patch_control_points = 1;
         return description;

@@ -23,6 +23,8 @@ constexpr std::array kBackends{
     BackendRow{Backend::pulling_geometry, makePullingGeometryBackend},
 };
 
+constexpr std::size_t kFirstShadingConstant = 16;  // in shading/options.glsl
+
 }  // namespace
 
 std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext& context) {
@@ -45,12 +47,20 @@ engine::Constants strandConstants(const StrandSettings& strands, LodMode lod_mod
 }
 
 engine::GraphicsDescription strandPipeline(const BackendContext& context) {
+    const StrandOutput& output = context.output;
+    engine::Constants constants = strandConstants(context.strands, context.plan.lod_mode);
+    assert(constants.size() <= kFirstShadingConstant);
+    constants.resize(kFirstShadingConstant);
+    constants.insert(constants.end(), output.shading.begin(), output.shading.end());
     return {
-        .constants = strandConstants(context.strands, context.plan.lod_mode),
+        .constants = constants,
         .push_size = sizeof(gpu::StrandPush),
-        .color_format = engine::Target::kColorFormat,
-        .depth_format = engine::Target::kDepthFormat,
-        .samples = context.samples};
+        .colors = output.colors,
+        .depth_format = output.depth_format,
+        .samples = output.samples,
+        .depth_write = output.depth_write,
+        .alpha_to_coverage = output.alpha_to_coverage,
+        .sampled_images = output.sampled_images};
 }
 
 }  // namespace hair

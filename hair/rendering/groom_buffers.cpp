@@ -12,6 +12,7 @@
 #include "hair/groom/style/strand_frames.h"
 #include "hair/random.h"
 #include "hair/rendering/root_pattern.h"
+#include "hair/rendering/strand_bounds.h"
 #include "hair/rendering/strand_offsets.h"
 
 namespace hair {
@@ -56,6 +57,9 @@ GroomBuffers::GroomBuffers(
           .vertices_per_guide = groom.vertices_per_strand,
           .triangle_count = static_cast<std::uint32_t>(groom.root_triangles.size())} {
     checkStrands(settings.strands, groom);
+    const Sphere bounds = strandBounds(groom, settings.strands);
+    view_.centre = bounds.centre;
+    view_.radius = bounds.radius;
     const auto upload = [&]<class Value>(
                             engine::Buffer& buffer, const std::vector<Value>& values,
                             const char* name) {

@@ -3,6 +3,7 @@
 #include "engine/commands.h"
 #include "engine/target.h"
 #include "hair/gpu_structs.h"
+#include "hair/rendering/target_description.h"
 
 namespace hair {
 
@@ -11,24 +12,24 @@ namespace {
 constexpr glm::vec3 kGuideColor{0.05f, 0.2f, 0.9f};
 constexpr glm::vec3 kTriangleColor{0.85f, 0.1f, 0.1f};
 
-engine::GraphicsDescription lines(const char* vertex_shader, std::uint32_t samples) {
+engine::GraphicsDescription lines(const char* vertex_shader, const RenderSettings& render) {
     return {
         .shaders = {vertex_shader, "strands/strand.geom", "overlay/color.frag"},
         .push_size = sizeof(gpu::OverlayPush),
         .topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST,
-        .color_format = engine::Target::kColorFormat,
+        .colors = {{colorFormat(render)}},
         .depth_format = engine::Target::kDepthFormat,
-        .samples = samples};
+        .samples = render.msaa};
 }
 
 }  // namespace
 
 OverlayPass::OverlayPass(
-    const engine::Device& device, const OverlaySettings& overlays, std::uint32_t samples) {
-    if (overlays.guides) guides_.emplace(device, lines("overlay/guides.vert", samples));
-    if (overlays.root_triangles) {
-        root_triangles_.emplace(device, lines("overlay/root_triangles.vert", samples));
-    }
+    const engine::Device& device, const Settings& settings) {
+    const RenderSettings& render = settings.render;
+    if (render.overlays.guides) guides_.emplace(device, lines("overlay/guides.vert", render));
+    if (render.overlays.root_triangles)
+        root_triangles_.emplace(device, lines("overlay/root_triangles.vert", render));
 }
 
 void OverlayPass::draw(

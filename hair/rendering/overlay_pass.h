@@ -12,8 +12,7 @@ namespace hair {
 // and 4.6).
 class OverlayPass {
 public:
-    OverlayPass(
-        const engine::Device& device, const OverlaySettings& overlays, std::uint32_t samples);
+    OverlayPass(const engine::Device& device, const Settings& settings);
 
     bool empty() const { return !guides_ && !root_triangles_; }
 

@@ -1,31 +1,36 @@
 #include "hair/rendering/picture_parameters.h"
 
+#include <cmath>
 #include <cstddef>
 
+#include <glm/trigonometric.hpp>
+
 #include "hair/rendering/camera.h"
+#include "hair/rendering/working_color.h"
 
 namespace hair {
 
 // Scalar layout aligns 64-bit members to 8, as C++ does.
-static_assert(offsetof(gpu::PictureParameters, guides) == 216);
-static_assert(sizeof(gpu::PictureParameters) == 336);
+static_assert(offsetof(gpu::PictureParameters, lights) == 208);
+static_assert(sizeof(gpu::PictureParameters) == 368);
 
 gpu::PictureParameters pictureParameters(
     const Settings& settings, const StrandPlan& plan, const StrandView& view,
-    std::uint64_t guide_normals) {
+    const PictureBuffers& buffers) {
     const RenderSettings& render = settings.render;
     const ShadingSettings& shading = settings.shading;
     const float aspect = static_cast<float>(render.width) / static_cast<float>(render.height);
+    const float view_height = 2.0f * std::tan(glm::radians(settings.camera.field_of_view) / 2.0f);
     return {
         .view_projection = viewProjection(settings.camera, aspect),
         .head = view.head,
         .eye = settings.camera.position,
         .lod_near = settings.lod.near_distance,
-        .light_position = shading.light.position,
         .lod_far = settings.lod.far_distance,
-        .light_color = shading.light.color,
         .lod_maximum_level = settings.lod.maximum_level,
-        .hair_color = shading.color,
+        .pixel_near = 0.0f,
+        .pixel_slope = view_height / static_cast<float>(render.height * render.ssaa),
+        .hair_color = workingColor(render, shading.color),
         .ambient = shading.ambient,
         .diffuse = shading.diffuse,
         .specular = shading.specular,
@@ -33,12 +38,19 @@ gpu::PictureParameters pictureParameters(
         .root_width = settings.strands.root_width,
         .tip_width = settings.strands.tip_width,
         .taper_start = settings.strands.taper_start,
+        .opacity = settings.strands.opacity,
+        .light_count = static_cast<std::uint32_t>(shading.lights.size()),
+        .lights = buffers.lights,
+        .optics = buffers.optics,
+        .shadows = buffers.shadows,
+        .environment = buffers.environment,
+        .fragments = buffers.fragments,
         .guides = view.guides,
         .root_triangles = view.root_triangles,
         .root_normals = view.root_normals,
         .guide_widths = view.guide_widths,
         .bound_strands = view.bound_strands,
-        .guide_normals = guide_normals,
+        .guide_normals = buffers.guide_normals,
         .contacts = view.contacts,
         .root_pattern = view.root_pattern,
         .offsets = view.offsets,

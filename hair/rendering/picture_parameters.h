@@ -9,10 +9,19 @@
 
 namespace hair {
 
-// What every shader of a picture reads. `plan` is the one that planStrands makes of the settings;
-// `guide_normals` is the address of FramesPass::normals(), or 0 where strands are not offset.
+// Addresses of what else shaders read; 0 where they don't.
+struct PictureBuffers {
+    std::uint64_t guide_normals = 0;  // FramesPass::normals()
+    std::uint64_t lights = 0;
+    std::uint64_t optics = 0;
+    std::uint64_t shadows = 0;
+    std::uint64_t environment = 0;
+    std::uint64_t fragments = 0;
+};
+
+// What every shader of a picture reads. `plan` is the one that planStrands makes of the settings.
 gpu::PictureParameters pictureParameters(
     const Settings& settings, const StrandPlan& plan, const StrandView& view,
-    std::uint64_t guide_normals);
+    const PictureBuffers& buffers);
 
 }  // namespace hair

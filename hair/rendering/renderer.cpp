@@ -1,17 +1,19 @@
 #include "hair/rendering/renderer.h"
 
+#include <span>
+
+#include "engine/transfer.h"
 #include "hair/gpu_structs.h"
+#include "hair/rendering/lights.h"
 #include "hair/rendering/picture_parameters.h"
+#include "hair/rendering/shading_constants.h"
 #include "hair/rendering/strand_offsets.h"
+#include "hair/rendering/target_description.h"
+#include "hair/rendering/working_color.h"
 
 namespace hair {
 
 namespace {
-
-engine::TargetDescription targetDescription(const RenderSettings& render) {
-    return {
-        .width = render.width, .height = render.height, .msaa = render.msaa, .ssaa = render.ssaa};
-}
 
 engine::Buffer parameterBuffer(const engine::Device& device) {
     return {
@@ -21,53 +23,68 @@ engine::Buffer parameterBuffer(const engine::Device& device) {
          .name = "picture parameters"}};
 }
 
+std::vector<engine::SampledImage> strandImages(
+    const Settings& settings, const StrandTexture& texture, const ShadowPass& shadows) {
+    if (!strandsSampleImages(settings)) return {};
+    std::vector<engine::SampledImage> images{texture.image()};
+    images.insert(images.end(), shadows.images().begin(), shadows.images().end());
+    return images;
+}
+
 }  // namespace
 
 Renderer::Renderer(
     const engine::Device& device, const Settings& settings, const StrandView& view,
-    const Mesh* mesh)
+    const RenderAssets& assets)
     : settings_(settings),
       plan_(planStrands(view, settings, device.info().limits.maxTessellationGenerationLevel)),
       target_(device, targetDescription(settings.render)),
       parameters_{parameterBuffer(device), parameterBuffer(device)},
-      backend_(makeBackend(
-          settings.strands.backend, {device, plan_, settings_.strands, settings_.render.msaa})),
-      overlay_(device, settings.render.overlays, settings.render.msaa),
-      resolve_(device, target_.description()) {
+      lights_(engine::makeBuffer(
+          device, std::span<const gpu::Light>(makeLights(settings)), "lights")),
+      optics_(device, settings), shadows_(device, settings, plan_),
+      environment_(device, settings, assets), meshes_(device, settings, assets),
+      texture_(device, assets.strand_texture),
+      strand_images_(strandImages(settings, texture_, shadows_)),
+      strands_(device, settings, plan_, target_), overlay_(device, settings),
+      resolve_(device, settings.render, target_.description()) {
     if (settings.render.hair && hasOffsets(settings.strands)) frames_.emplace(device, view);
-    if (mesh && settings.render.head) mesh_.emplace(device, *mesh, settings.render.msaa);
 }
 
 void Renderer::record(engine::Passes& passes, const StrandView& view) {
+    const gpu::PictureParameters picture_parameters = pictureParameters(
+        settings_, plan_, view,
+        {.guide_normals = frames_ ? frames_->normals().address() : 0,
+         .lights = lights_.address(),
+         .optics = optics_.address(),
+         .shadows = shadows_.address(passes.slot()),
+         .environment = environment_.address(),
+         .fragments = strands_.fragments()});
     const engine::Buffer& parameters = parameters_[passes.slot()];
-    parameters.write(
-        pictureParameters(settings_, plan_, view, frames_ ? frames_->normals().address() : 0));
+    parameters.write(picture_parameters);
     const std::uint64_t picture = parameters.address();
-    const glm::vec3 background = settings_.render.background;
+    const glm::vec3 background =
+        workingColor(settings_.render, settings_.render.background);
 
     if (frames_) {
         passes.pass("frames", engine::PassKind::compute, [&](engine::Commands& commands) {
             frames_->record(commands, view);
         });
     }
-    const auto render = [&](const char* name, engine::Load load, const auto& draw) {
-        passes.pass(name, engine::PassKind::graphics, [&](engine::Commands& commands) {
-            target_.beginRendering(commands, load, {background.r, background.g, background.b});
-            draw(commands);
-            target_.endRendering(commands);
-        });
-    };
-    render("scene", engine::Load::clear, [&](engine::Commands& commands) {
-        if (mesh_) mesh_->draw(commands, picture);
+    shadows_.record(passes, meshes_, view, picture_parameters);
+    passes.pass("scene", engine::PassKind::graphics, [&](engine::Commands& commands) {
+        target_.beginRendering(
+            commands, engine::Load::clear, {background.r, background.g, background.b});
+        meshes_.draw(commands, picture, shadows_.images());
+        environment_.draw(commands, picture);
+        target_.endRendering(commands);
     });
-    if (settings_.render.hair) {
-        render("strands", engine::Load::keep, [&](engine::Commands& commands) {
-            backend_->draw(commands, picture);
-        });
-    }
+    if (settings_.render.hair) strands_.record(passes, target_, picture, strand_images_);
     if (!overlay_.empty()) {
-        render("overlay", engine::Load::keep, [&](engine::Commands& commands) {
+        passes.pass("overlay", engine::PassKind::graphics, [&](engine::Commands& commands) {
+            target_.beginRendering(commands, engine::Load::keep, {});
             overlay_.draw(commands, picture, view);
+            target_.endRendering(commands);
         });
     }
     passes.pass("resolve", engine::PassKind::compute, [&](engine::Commands& commands) {

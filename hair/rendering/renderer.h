@@ -6,41 +6,52 @@
 
 #include "engine/frame_loop.h"
 #include "engine/target.h"
-#include "hair/groom/mesh/mesh.h"
+#include "hair/rendering/environment_pass.h"
 #include "hair/rendering/frames_pass.h"
-#include "hair/rendering/mesh_pass.h"
+#include "hair/rendering/hair_optics.h"
 #include "hair/rendering/overlay_pass.h"
+#include "hair/rendering/render_assets.h"
 #include "hair/rendering/resolve_pass.h"
-#include "hair/rendering/strand_backend.h"
+#include "hair/rendering/scene_meshes.h"
+#include "hair/rendering/shadow_pass.h"
+#include "hair/rendering/strand_images.h"
+#include "hair/rendering/strand_pass.h"
 #include "hair/rendering/strand_view.h"
 #include "hair/settings.h"
 
 namespace hair {
 
-// Draws pictures of a head of hair: the passes frames (where strands are offset), scene, strands,
-// overlay (where asked for) and resolve.
+// Draws pictures of a head of hair: the passes frames (where strands are offset), mesh_shadow and
+// hair_shadow (where asked for), scene, strands, composite (where fragments are blended at the
+// end), overlay (where asked for) and resolve.
 class Renderer {
 public:
-    // `mesh` is drawn under the hair; null: none. `view` gives the counts, which stay as they are.
-    // Throws engine::Unsupported for what the device can't do.
+    // `view` gives the counts, which stay as they are. Throws engine::Unsupported for what the
+    // device can't do.
     Renderer(
         const engine::Device& device, const Settings& settings, const StrandView& view,
-        const Mesh* mesh);
+        const RenderAssets& assets);
 
     void record(engine::Passes& passes, const StrandView& view);
 
     const engine::Target& target() const { return target_; }
     const StrandPlan& plan() const { return plan_; }
-    std::optional<ExpectedCounts> expected() const { return backend_->expected(); }
+    std::optional<ExpectedCounts> expected() const { return strands_.expected(); }
 
 private:
     Settings settings_;
     StrandPlan plan_;
     engine::Target target_;
     std::array<engine::Buffer, engine::FrameLoop::kMaxSlots> parameters_;  // gpu::PictureParameters
+    engine::Buffer lights_;  // gpu::Light
+    HairOpticsBuffers optics_;
     std::optional<FramesPass> frames_;
-    std::optional<MeshPass> mesh_;
-    std::unique_ptr<StrandBackend> backend_;
+    ShadowPass shadows_;
+    EnvironmentPass environment_;
+    SceneMeshes meshes_;
+    StrandTexture texture_;
+    std::vector<engine::SampledImage> strand_images_;
+    StrandPass strands_;
     OverlayPass overlay_;
     ResolvePass resolve_;
 };

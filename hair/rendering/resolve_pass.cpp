@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "hair/rendering/working_color.h"
+
 namespace hair {
 
 namespace {
@@ -10,8 +12,10 @@ constexpr std::uint32_t kGroupSide = 8;  // local size in post/resolve.glsl
 
 }  // namespace
 
-ResolvePass::ResolvePass(const engine::Device& device, const engine::TargetDescription& target) {
-    if (target.msaa == 1 && target.ssaa == 1) return;
+ResolvePass::ResolvePass(
+    const engine::Device& device, const RenderSettings& render,
+    const engine::TargetDescription& target) {
+    if (!hasLinearLight(render) && target.msaa == 1 && target.ssaa == 1) return;
     average_.emplace(
         device,
         engine::ComputeDescription{

@@ -4,6 +4,7 @@
 
 #include "engine/pipeline.h"
 #include "engine/target.h"
+#include "hair/settings.h"
 
 namespace hair {
 
@@ -11,7 +12,9 @@ namespace hair {
 // sample a pixel is copied, which takes lavapipe 0.5 ms instead of 11.
 class ResolvePass {
 public:
-    ResolvePass(const engine::Device& device, const engine::TargetDescription& target);
+    ResolvePass(
+        const engine::Device& device, const RenderSettings& render,
+        const engine::TargetDescription& target);
 
     void record(engine::Commands& commands, const engine::Target& target) const;
 

@@ -67,7 +67,9 @@ StrandPoints evaluateStrandPoints(
     std::optional<FramesPass> frames;
     if (hasOffsets(settings.strands)) frames.emplace(device, view);
     parameters.write(
-        pictureParameters(settings, result.plan, view, frames ? frames->normals().address() : 0));
+        pictureParameters(
+            settings, result.plan, view,
+            {.guide_normals = frames ? frames->normals().address() : 0}));
     device.runOnce([&](engine::Commands& commands) {
         if (frames) frames->record(commands, view);
         commands.bind(

@@ -21,6 +21,8 @@ struct StrandView {
     std::uint64_t root_pattern = 0;  // vec2 [strand]; 0: root triangles have patterns of their own
     std::uint64_t root_frames = 0;  // gpu::RootFrame [guide]; 0: strands are not offset
     std::uint64_t offsets = 0;  // StrandOffsets::values
+    glm::vec3 centre{0.0f};  // of a sphere that the strands can't leave, m, before the head moved
+    float radius = 0.0f;  // of it
     glm::mat4 head{1.0f};  // rigid motion of the root normals and of the mesh under the hair
     std::uint32_t guide_count = 0;
     std::uint32_t vertices_per_guide = 0;

@@ -8,6 +8,11 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_GOOGLE_include_directive : require
 
+#include "shared/environment_structs.h"
+#include "shared/fragment_structs.h"
+#include "shared/light_structs.h"
+#include "shared/optics_structs.h"
+#include "shared/shadow_structs.h"
 #include "shared/strand_structs.h"
 
 layout(buffer_reference, scalar) readonly buffer PictureReference { PictureParameters parameters; };

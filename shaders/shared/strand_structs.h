@@ -16,11 +16,11 @@ struct PictureParameters {
     mat4 head;             // rigid motion: where mesh and root normals were made -> world
     vec3 eye;              // m
     float lod_near;        // m: level 0 up to here
-    vec3 light_position;   // m
     float lod_far;         // m: maximum level from here on
-    vec3 light_color;
     float lod_maximum_level;
-    vec3 hair_color;
+    float pixel_near;  // m: a rendered pixel's side at the eye; above 0 in parallel projections
+    float pixel_slope;  // and what it grows by per metre of distance
+    vec3 hair_color;  // in working colours: display RGB, or linear where there is a tone map
     float ambient;
     float diffuse;
     float specular;
@@ -28,7 +28,14 @@ struct PictureParameters {
     float root_width;  // m
     float tip_width;   // m
     float taper_start;  // part of the taper with root_width, 0 to 1
+    float opacity;  // of strands, 0 to 1
+    uint light_count;
 
+    uint64_t lights;  // Light [light]
+    uint64_t optics;  // HairOptics; read by marschner and dual_scattering
+    uint64_t shadows;  // ShadowParameters; read where there are shadows
+    uint64_t environment;  // EnvironmentParameters; read where there is an environment
+    uint64_t fragments;  // FragmentLists; read where fragments are listed
     uint64_t guides;          // vec4 [guide][vertex], m, root first; w is not read
     uint64_t root_triangles;  // uint [triangle][3], guide indices
     uint64_t root_normals;  // vec3 [guide], unit length, before the head moved; 0: not known, root

@@ -54,8 +54,8 @@ TEST(MitsubaScene, HasTheSettings) {
     settings.render.width = 320;
     settings.render.height = 240;
     settings.render.background = {1.0f, 0.0f, 1.0f};
-    settings.shading.light.position = {0, -0.07f, 2};  // 2 m from the target
-    settings.shading.light.color = {1, 1, 0};
+    settings.shading.lights[0].position = {0, -0.07f, 2};  // 2 m from the target
+    settings.shading.lights[0].color = {1, 1, 0};
     const std::string text =
         sceneOf(settings, {.hair_file = "hair.txt", .meshes = {{"head_0.ply", {1, 0, 0}}}});
     EXPECT_TRUE(isWellFormed(text)) << text;

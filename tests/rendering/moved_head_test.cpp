@@ -66,7 +66,7 @@ TEST_F(MovedHeadTest, PictureIsTheSameWhereEverythingMoves) {
     const auto moved = [](const glm::vec3& p) { return glm::vec3(p.z, p.y + 1.0f, -p.x); };
     settings.camera.position = moved(settings.camera.position);
     settings.camera.target = moved(settings.camera.target);
-    settings.shading.light.position = moved(settings.shading.light.position);
+    settings.shading.lights[0].position = moved(settings.shading.lights[0].position);
     const Pixels followed = drawCase(device(), settings);
 
     EXPECT_GT(differingPixels(still, left_behind), 2000u);

@@ -52,7 +52,7 @@ inline Pixels drawGroom(
     const engine::Device& device, const Settings& settings, const Groom& groom, const Mesh* mesh,
     const StrandSet* offsets = nullptr) {
     const DeviceHair hair(device, groom, settings, offsets);
-    Renderer renderer(device, settings, hair.view(), mesh);
+    Renderer renderer(device, settings, hair.view(), {.head = mesh});
     engine::FrameLoop loop(device, engine::Timing::overlapped);
     loop.frame([&](engine::Passes& passes) { renderer.record(passes, hair.view()); });
     loop.finish();

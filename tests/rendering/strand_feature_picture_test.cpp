@@ -90,7 +90,7 @@ protected:
         const Settings& settings, engine::Timing timing, std::optional<ExpectedCounts>& expected) {
         const StrandSet model = zigzag();
         const DeviceHair hair(device(), groomWithAll(), settings, &model);
-        Renderer renderer(device(), settings, hair.view(), nullptr);
+        Renderer renderer(device(), settings, hair.view(), RenderAssets{});
         engine::FrameLoop loop(device(), timing);
         loop.frame([&](engine::Passes& passes) { renderer.record(passes, hair.view()); });
         expected = renderer.expected();

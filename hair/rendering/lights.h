@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "hair/gpu_structs.h"
+#include "hair/settings.h"
+
+namespace hair {
+
+// The lights as shaders read them, in the settings' order.
+std::vector<gpu::Light> makeLights(const Settings& settings);
+
+}  // namespace hair

@@ -1,0 +1,27 @@
+#include "hair/rendering/shading_constants.h"
+
+#include "hair/rendering/working_color.h"
+
+namespace hair {
+
+engine::Constants shadingConstants(const Settings& settings) {
+    const ShadingSettings& shading = settings.shading;
+    const RenderSettings& render = settings.render;
+    return {
+        static_cast<std::uint32_t>(shading.model),
+        static_cast<std::uint32_t>(shading.lights.size()),
+        shading.shadows.meshes ? 1u : 0u,
+        shading.shadows.hair != HairShadows::none ? 1u : 0u,
+        !render.environment.empty() ? 1u : 0u,
+        hasLinearLight(render) ? 1u : 0u,
+        render.coverage == Coverage::analytic ? 1u : 0u,
+        !settings.strands.texture.empty() ? 1u : 0u,
+        static_cast<std::uint32_t>(render.show)};
+}
+
+bool strandsSampleImages(const Settings& settings) {
+    return settings.shading.shadows.meshes || settings.shading.shadows.hair != HairShadows::none ||
+           !settings.strands.texture.empty();
+}
+
+}  // namespace hair
