@@ -111,6 +111,7 @@ template <class Owner, class Element>
 void moveFileName(
     Json& object, const fs::path& folder, const hair::List<Owner, Element>& row,
     const Owner& owner) {
+    if (!object.contains(row.name)) return;  // defaults of lists name no files
     const auto& list = owner.*row.member;
     for (std::size_t i = 0; i < list.size(); ++i)
         moveFileNames(object[row.name][i], folder, list[i]);

@@ -6,7 +6,6 @@
 #include "hair/gpu_structs.h"
 #include "hair/rendering/lights.h"
 #include "hair/rendering/picture_parameters.h"
-#include "hair/rendering/shading_constants.h"
 #include "hair/rendering/strand_offsets.h"
 #include "hair/rendering/target_description.h"
 #include "hair/rendering/working_color.h"
@@ -23,9 +22,8 @@ engine::Buffer parameterBuffer(const engine::Device& device) {
          .name = "picture parameters"}};
 }
 
-std::vector<engine::SampledImage> strandImages(
-    const Settings& settings, const StrandTexture& texture, const ShadowPass& shadows) {
-    if (!strandsSampleImages(settings)) return {};
+std::vector<engine::SampledImage>
+strandImages(const StrandTexture& texture, const ShadowPass& shadows) {
     std::vector<engine::SampledImage> images{texture.image()};
     images.insert(images.end(), shadows.images().begin(), shadows.images().end());
     return images;
@@ -45,7 +43,7 @@ Renderer::Renderer(
       optics_(device, settings), shadows_(device, settings, plan_),
       environment_(device, settings, assets), meshes_(device, settings, assets),
       texture_(device, assets.strand_texture),
-      strand_images_(strandImages(settings, texture_, shadows_)),
+      strand_images_(strandImages(texture_, shadows_)),
       strands_(device, settings, plan_, target_), overlay_(device, settings),
       resolve_(device, settings.render, target_.description()) {
     if (settings.render.hair && hasOffsets(settings.strands)) frames_.emplace(device, view);

@@ -19,9 +19,4 @@ engine::Constants shadingConstants(const Settings& settings) {
         static_cast<std::uint32_t>(render.show)};
 }
 
-bool strandsSampleImages(const Settings& settings) {
-    return settings.shading.shadows.meshes || settings.shading.shadows.hair != HairShadows::none ||
-           !settings.strands.texture.empty();
-}
-
 }  // namespace hair

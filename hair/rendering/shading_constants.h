@@ -8,7 +8,4 @@ namespace hair {
 // The specialization constants of shaders/shading/options.glsl, from its first id on.
 engine::Constants shadingConstants(const Settings& settings);
 
-// Whether strands' fragment shaders sample images: strand_images.h.
-bool strandsSampleImages(const Settings& settings);
-
 }  // namespace hair

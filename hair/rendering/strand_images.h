@@ -12,8 +12,8 @@
 
 namespace hair {
 
-// What fragment shaders of strands sample where they sample anything, at these bindings: the
-// strands' texture, then ShadowPass::images().
+// What fragment shaders of strands sample, at these bindings: the strands' texture, then
+// ShadowPass::images().
 inline constexpr std::uint32_t kStrandImages = 4;
 
 // The picture on strands, on the device; one white pixel where there is none.

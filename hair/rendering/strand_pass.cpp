@@ -19,7 +19,7 @@ StrandPass::StrandPass(
                .colors = {{colorFormat(settings.render)}},
                .samples = settings.render.msaa,
                .shading = shadingConstants(settings),
-               .sampled_images = strandsSampleImages(settings) ? kStrandImages : 0}})) {}
+               .sampled_images = kStrandImages}})) {}
 
 void StrandPass::record(
     engine::Passes& passes, const engine::Target& target, std::uint64_t picture,

@@ -21,7 +21,7 @@ public:
         const engine::Device& device, const Settings& settings, const StrandPlan& plan,
         const engine::Target& target);
 
-    // `images` are what strands/fragment.glsl samples, or none.
+    // `images` are the kStrandImages that strands/fragment.glsl samples.
     void record(
         engine::Passes& passes, const engine::Target& target, std::uint64_t picture,
         std::span<const engine::SampledImage> images) const;

@@ -5,6 +5,11 @@
 #include "common/picture.glsl"
 #include "shading/options.glsl"
 
+// ShadowPass::images() are at this binding and the next two.
+#ifndef HAIRBENCH_SHADOW_BINDING
+#define HAIRBENCH_SHADOW_BINDING 1
+#endif
+
 struct LightPath {
     float meshes;  // part of the light that meshes let through, 0 to 1
     float strands;  // mean number of strands that it meets
