@@ -1,9 +1,11 @@
 #include "benchmarks/axis.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/axis_range.h"
 #include "benchmarks/pointer.h"
 #include "benchmarks/read_settings.h"
 #include "benchmarks/write_settings.h"
@@ -31,6 +33,15 @@ std::vector<std::string> splitAtTopLevelCommas(std::string_view text) {
     return parts;
 }
 
+std::optional<std::vector<std::string>>
+rangeOf(std::string_view argument, const std::string& text) {
+    try {
+        return rangeValues(text);
+    } catch (const engine::Error& error) {
+        throw engine::Error("-a " + std::string(argument), error.what());
+    }
+}
+
 bool isIndex(std::string_view token) {
     return !token.empty() && token.find_first_not_of("0123456789") == std::string_view::npos;
 }
@@ -49,9 +60,13 @@ Axis parseAxis(std::string_view argument) {
     if (equals == std::string_view::npos || equals == 0)
         throw engine::Error(
             "-a " + std::string(argument), "expected POINTER=V1,V2, as in /strands/density=16,64");
-    Axis axis{.pointer = std::string(argument.substr(0, equals)), .values = {}};
+    Axis axis{.pointer = std::string(argument.substr(0, equals)), .values = {}, .tied = {}};
     for (const std::string& text : splitAtTopLevelCommas(argument.substr(equals + 1))) {
         if (text.empty()) throw engine::Error("-a " + std::string(argument), "a value is empty");
+        if (const auto values = rangeOf(argument, text)) {
+            axis.values.insert(axis.values.end(), values->begin(), values->end());
+            continue;
+        }
         const Json value = Json::parse(text, nullptr, false);
         axis.values.push_back((value.is_discarded() ? Json(text) : value)
                                   .dump(-1, ' ', false, Json::error_handler_t::replace));
@@ -59,20 +74,25 @@ Axis parseAxis(std::string_view argument) {
     return axis;
 }
 
-Axis checkedAxis(const Axis& axis, const Json& resolved) {
+Axis echoedAxis(const Axis& axis, const Json& resolved) {
     if (axis.values.empty()) throw engine::Error(axis.pointer, "an axis needs at least one value");
-    Axis checked{.pointer = axis.pointer, .values = {}};
+    Axis echoed{.pointer = axis.pointer, .values = {}, .tied = {}};
     for (const std::string& text : axis.values) {
         Json document = resolved;
         const Json value = Json::parse(text);
         patch(document, axis.pointer, value);
         Json echo = writeSettings(readSettings(document));
-        const std::string normal = value.is_object() ? text : valueAt(echo, axis.pointer).dump();
-        if (std::ranges::find(checked.values, normal) != checked.values.end())
-            throw engine::Error(axis.pointer, valueLabel(normal) + " is there twice");
-        checked.values.push_back(normal);
+        echoed.values.push_back(value.is_object() ? text : valueAt(echo, axis.pointer).dump());
     }
-    return checked;
+    return echoed;
+}
+
+Axis checkedAxis(const Axis& axis, const Json& resolved) {
+    const Axis echoed = echoedAxis(axis, resolved);
+    for (auto value = echoed.values.begin(); value != echoed.values.end(); ++value)
+        if (std::find(echoed.values.begin(), value, *value) != value)
+            throw engine::Error(axis.pointer, valueLabel(*value) + " is there twice");
+    return echoed;
 }
 
 std::vector<std::string> axisLabels(const std::vector<std::string>& pointers) {

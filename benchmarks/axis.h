@@ -8,10 +8,12 @@
 
 namespace benchmarks {
 
-// A field that a sweep varies. Values are compact JSON texts: 64, "lines", [0,0,1].
+// A field that a sweep varies, with those that change with it. Values are compact JSON texts: 64,
+// "lines", [0,0,1].
 struct Axis {
     std::string pointer;  // JSON pointer of a field, such as /strands/density
     std::vector<std::string> values;
+    std::vector<Axis> tied{};  // as many values each; the i-th ones go together
 };
 
 // The value of one axis in one case.
@@ -22,7 +24,7 @@ struct AxisValue {
 
 // "POINTER=V1,V2" of the command line. A value is JSON if it reads as such, otherwise a string;
 // commas inside brackets and quotes belong to the value: /camera/position=[0,0,1],[0,0,2] has two.
-// Throws engine::Error.
+// Ranges (axis_range.h) stand for their values: /groom/guides=pow2:6:12,86. Throws engine::Error.
 Axis parseAxis(std::string_view argument);
 
 // The axis if its pointer names a field of `resolved` (a scene's document with every field) and
@@ -30,6 +32,9 @@ Axis parseAxis(std::string_view argument);
 // <reason>". Values come back as the report echoes them: 64 for 64.0. An object is merged into the
 // group it is for, so that one axis can vary several fields together.
 Axis checkedAxis(const Axis& axis, const Json& resolved);
+
+// The same of an axis that may have a value more than once, as tied ones do.
+Axis echoedAxis(const Axis& axis, const Json& resolved);
 
 // A short, distinct name for each pointer: its last token, with tokens before it as far as it takes
 // to tell two apart, or for an index: "density", "wind.strength", "position.2".

@@ -50,26 +50,6 @@ const std::string* stringMember(const Json& document, const char* key) {
     return &member->get_ref<const std::string&>();
 }
 
-std::vector<Axis> readSweep(const Json& document, const Json& resolved) {
-    std::vector<Axis> axes;
-    const auto sweep = document.find("sweep");
-    if (sweep == document.end()) return axes;
-    if (!sweep->is_object())
-        throw Error("/sweep", "expected an object, found " + described(*sweep));
-    for (const auto& [pointer, values] : sweep->items()) {
-        try {
-            if (!values.is_array())
-                throw Error(pointer, "expected an array of values, found " + described(values));
-            Axis axis{.pointer = pointer, .values = {}};
-            for (const Json& value : values) axis.values.push_back(value.dump());
-            axes.push_back(checkedAxis(axis, resolved));
-        } catch (const Error& error) {
-            throw Error("/sweep", error.what());
-        }
-    }
-    return axes;
-}
-
 Scene makeScene(const fs::path& path, Json document) {
     Scene scene;
     scene.path = path;
@@ -77,7 +57,11 @@ Scene makeScene(const fs::path& path, Json document) {
     scene.name = path.stem().string();
     scene.settings = readSettings(document);
     const Json resolved = writeSettings(scene.settings);
-    scene.axes = readSweep(document, resolved);
+    if (const auto member = document.find("sweep"); member != document.end()) {
+        SweepMember sweep = readSweep(*member, resolved);
+        scene.axes = std::move(sweep.axes);
+        scene.exclusions = std::move(sweep.exclusions);
+    }
     for (const std::string_view key : kSceneKeys) document.erase(std::string(key));
     scene.document = document.dump();
     scene.resolved = resolved.dump();

@@ -6,6 +6,7 @@
 
 #include "benchmarks/axis.h"
 #include "benchmarks/json_fwd.h"
+#include "benchmarks/read_sweep.h"
 #include "hair/settings.h"
 
 namespace benchmarks {
@@ -14,7 +15,8 @@ namespace benchmarks {
 //   "$schema"  a string for editors, ignored
 //   "base"     another scene file, relative to this one; this document is applied to it as a JSON
 //              merge patch (RFC 7386), so null takes a member of the base away
-//   "sweep"    JSON pointer -> array of values; one case for each combination, in the written order
+//   "sweep"    JSON pointer -> array of values, and the members in read_sweep.h; one case for each
+//              combination, in the written order
 struct Scene {
     std::filesystem::path path;  // as given
     std::filesystem::path directory;  // what file names in the scene are relative to
@@ -24,6 +26,7 @@ struct Scene {
     std::string resolved;  // JSON text: every field, absent ones with their defaults
     hair::Settings settings;  // of `resolved`: no axis applied
     std::vector<Axis> axes;
+    std::vector<Exclusion> exclusions;  // of what the axes make: without axes they mean nothing
 };
 
 // Reads and checks everything but the rules between fields, which hold for cases: expand() checks

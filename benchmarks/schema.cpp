@@ -120,12 +120,31 @@ void addAxes(
 Json sweepSchema(const Json& members) {
     Json axes = Json::object();
     addAxes(members, "", "", axes);
+    const auto rows = [](const char* description, const Json& field) {
+        return Json{
+            {"description", description},
+            {"type", {"array", "null"}},
+            {"items",
+             {{"type", "object"},
+              {"minProperties", 1},
+              {"propertyNames", {{"pattern", "^/"}}},
+              {"additionalProperties", field}}}};
+    };
+    const Json values = {{"type", "array"}, {"minItems", 1}};
+    axes["zip"] = rows(
+        "fields that change together: each object is one axis, whose fields have as many values "
+        "each",
+        values);
+    axes["cases"] = rows("one axis by its rows: the fields' values in each", true);
+    axes["exclude"] = rows(
+        "combinations that are left out: where all fields of an object have one of its values",
+        values);
     return {
         {"description", "what is varied: JSON pointer of a field -> its values; one case for each "
                         "combination, in the "
                         "written order, the last axis fastest"},
         {"type", {"object", "null"}},
-        {"propertyNames", {{"pattern", "^/"}}},
+        {"propertyNames", {{"pattern", "^(/.*|zip|cases|exclude)$"}}},
         {"properties", std::move(axes)},
         {"additionalProperties", {{"type", {"array", "null"}}, {"minItems", 1}}}};
 }

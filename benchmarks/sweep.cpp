@@ -1,6 +1,7 @@
 #include "benchmarks/sweep.h"
 
 #include <algorithm>
+#include <iterator>
 #include <regex>
 #include <unordered_set>
 
@@ -9,12 +10,20 @@
 #include "benchmarks/check_settings.h"
 #include "benchmarks/pointer.h"
 #include "benchmarks/read_settings.h"
+#include "benchmarks/write_settings.h"
 #include "engine/error.h"
 
 namespace benchmarks {
 namespace {
 
 using engine::Error;
+
+// The pointers that change with the axis.
+std::vector<std::string> fields(const Axis& axis) {
+    std::vector<std::string> pointers{axis.pointer};
+    for (const Axis& other : axis.tied) pointers.push_back(other.pointer);
+    return pointers;
+}
 
 std::vector<Axis>
 withOverrides(const Scene& scene, const Json& resolved, std::span<const Axis> overrides) {
@@ -26,20 +35,25 @@ withOverrides(const Scene& scene, const Json& resolved, std::span<const Axis> ov
         } catch (const Error& error) {
             throw Error("-a", error.what());
         }
-        const auto place = std::ranges::find(axes, axis.pointer, &Axis::pointer);
-        if (place != axes.end())
+        const auto place = std::ranges::find_if(
+            axes, [&](const Axis& each) { return std::ranges::count(fields(each), axis.pointer); });
+        if (place == axes.end())
+            axes.push_back(std::move(axis));
+        else if (place->tied.empty())
             *place = std::move(axis);
         else
-            axes.push_back(std::move(axis));
+            throw Error("-a", axis.pointer + ": the sweep ties it to other fields");
     }
     return axes;
 }
 
-void requireIndependent(const std::vector<Axis>& axes) {
-    for (const Axis& outer : axes)
-        for (const Axis& inner : axes)
-            if (inner.pointer.starts_with(outer.pointer + '/'))
-                throw Error(inner.pointer, "is inside the axis " + outer.pointer);
+// Every pointer of the sweep, each once and none inside another.
+void requireIndependent(const std::vector<std::string>& pointers) {
+    for (const std::string& outer : pointers) {
+        if (std::ranges::count(pointers, outer) > 1) throw Error(outer, "is swept twice");
+        for (const std::string& inner : pointers)
+            if (inner.starts_with(outer + '/')) throw Error(inner, "is inside the axis " + outer);
+    }
 }
 
 std::size_t caseCount(const std::vector<Axis>& axes) {
@@ -54,13 +68,30 @@ std::size_t caseCount(const std::vector<Axis>& axes) {
 
 // The index-th combination: its axes count like digits, the last one fastest.
 std::vector<AxisValue> combination(const std::vector<Axis>& axes, std::size_t index) {
-    std::vector<AxisValue> values(axes.size());
+    std::vector<std::size_t> digits(axes.size());
     for (std::size_t i = axes.size(); i-- > 0;) {
-        const std::size_t size = axes[i].values.size();
-        values[i] = {axes[i].pointer, axes[i].values[index % size]};
-        index /= size;
+        digits[i] = index % axes[i].values.size();
+        index /= axes[i].values.size();
+    }
+    std::vector<AxisValue> values;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        values.push_back({axes[i].pointer, axes[i].values[digits[i]]});
+        for (const Axis& other : axes[i].tied)
+            values.push_back({other.pointer, other.values[digits[i]]});
     }
     return values;
+}
+
+bool isExcluded(const hair::Settings& settings, const std::vector<Exclusion>& exclusions) {
+    if (exclusions.empty()) return false;
+    Json document = writeSettings(settings);
+    const auto meets = [&](const Axis& condition) {
+        const std::string value = valueAt(document, condition.pointer).dump();
+        return std::ranges::count(condition.values, value) > 0;
+    };
+    return std::ranges::any_of(exclusions, [&](const Exclusion& exclusion) {
+        return std::ranges::all_of(exclusion, meets);
+    });
 }
 
 std::string caseName(
@@ -78,13 +109,13 @@ std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides
     const Json resolved = Json::parse(scene.resolved);
     const std::vector<Axis> axes = withOverrides(scene, resolved, overrides);
     std::vector<std::string> pointers;
-    for (const Axis& axis : axes) pointers.push_back(axis.pointer);
+    for (const Axis& axis : axes) std::ranges::move(fields(axis), std::back_inserter(pointers));
     const std::vector<std::string> labels = axisLabels(pointers);
     std::vector<CaseSpec> cases;
     std::unordered_set<std::string> names;
     std::string context = scene.path.string();
     try {
-        requireIndependent(axes);
+        requireIndependent(pointers);
         const std::size_t count = caseCount(axes);
         for (std::size_t i = 0; i < count; ++i) {
             CaseSpec spec;
@@ -95,11 +126,14 @@ std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides
             for (const AxisValue& axis : spec.axes)
                 patch(document, axis.pointer, Json::parse(axis.value));
             spec.settings = readSettings(document);
+            if (!axes.empty() && isExcluded(spec.settings, scene.exclusions)) continue;
             spec.document = document.dump();
             checkSettings(spec.settings);
             if (!names.insert(spec.name).second) throw Error("two cases have this name");
             cases.push_back(std::move(spec));
         }
+        context = scene.path.string();
+        if (cases.empty()) throw Error("/sweep/exclude", "leaves no case");
     } catch (const Error& error) {
         throw Error(context, error.what());
     }

@@ -20,10 +20,11 @@ struct CaseSpec {
     hair::Settings settings;
 };
 
-// The cartesian product of the scene's axes in their written order, the last one fastest. An
-// override replaces the values of the axis with its pointer, in place, or adds an axis at the end.
-// Throws engine::Error: an override that names no field or a value it does not take ("-a:
-// <pointer>: ..."), axes inside one another, more than kMaximumCases, a case that breaks a rule
+// The cartesian product of the scene's axes in their written order, the last one fastest, without
+// what the scene excludes. An override replaces the values of the axis with its pointer, in place,
+// or adds an axis at the end. Throws engine::Error: an override that names no field, a value it
+// does not take or a field that is tied to others ("-a: <pointer>: ..."), a field twice or inside
+// another, more than kMaximumCases combinations or all of them excluded, a case that breaks a rule
 // between fields ("<file>: <case>: <pointer>: ...").
 std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides = {});
 

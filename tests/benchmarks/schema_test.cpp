@@ -71,12 +71,18 @@ INSTANTIATE_TEST_SUITE_P(
         R"({"simulation": {"colliders": [{"radius": null}]}})", R"({"base": 1})",
         R"({"$schema": 1})", R"({"sweep": []})", R"({"sweep": {"strands": [1]}})",
         R"({"sweep": {"/strands/density": 1}})", R"({"sweep": {"/strands/density": []}})",
-        R"({"sweep": {"/strands/density": [0]}})", R"({"sweep": {"/render/msaa": [1, 1]}})"));
+        R"({"sweep": {"/strands/density": [0]}})", R"({"sweep": {"/render/msaa": [1, 1]}})",
+        R"({"sweep": {"zip": {}}})", R"({"sweep": {"zip": [{}]}})",
+        R"({"sweep": {"zip": [{"/seed": 1}]}})", R"({"sweep": {"cases": [{"seed": 1}]}})",
+        R"({"sweep": {"exclude": [{"/seed": []}]}})", R"({"sweep": {"product": [1]}})"));
 
 TEST(SceneSchema, AcceptsWhatTheReaderAccepts) {
     for (
         const char* text :
         {"{}", R"({"sweep": {"/simulation/wind": [{"strength": 3}], "/camera/up/1": [1]}})",
+         R"({"sweep": {"zip": [{"/seed": [1, 2], "/render/msaa": [1, 4]}],
+                       "cases": [{"/strands/density": 2}, {"/lod/level": 1}],
+                       "exclude": [{"/seed": [1], "/lod/level": [0, 1]}]}})",
          R"({"simulation": {"colliders": [{"a": [0, 0, 0], "radius": 1}, {}]}, "render": {"msaa": 8}})"}) {
         EXPECT_THAT(schemaErrors(sceneSchema(), text), IsEmpty()) << text;
         const TemporaryFolder folder;

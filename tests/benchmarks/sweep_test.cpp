@@ -103,7 +103,7 @@ TEST_F(Sweep, RefusesBadOverrides) {
     EXPECT_EQ(
         error("{}", {parseAxis("/run/frame=1")}),
         "-a: /run/frame: unknown key (did you mean \"frames\"?); known: warmup, frames, "
-        "frame_time");
+        "frame_time, reference");
     EXPECT_EQ(error("{}", {parseAxis("/seed=1,1")}), "-a: /seed: 1 is there twice");
 }
 

@@ -1,0 +1,107 @@
+#include "benchmarks/decide/gate.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "benchmarks/decide/multiple_tests.h"
+#include "engine/error.h"
+
+namespace benchmarks {
+namespace {
+
+std::size_t caseCount(const std::vector<GateMetric>& metrics) {
+    std::size_t count = 0;
+    for (const GateMetric& metric : metrics) count = std::max(count, metric.case_index + 1);
+    return count;
+}
+
+bool isStage(std::size_t pairs) { return std::ranges::count(kStages, pairs) > 0; }
+
+constexpr Comparison kNothingKnown{
+    .verdict = Verdict::inconclusive,
+    .change = 0.0,
+    .lower = -1.0,  // a share: infinitely much faster
+    .upper = std::numeric_limits<double>::infinity(),
+    .decisive_change = 0.0,
+    .p = 1.0};
+
+}  // namespace
+
+Gate::Gate(std::vector<GateMetric> metrics, const VerdictRule& rule)
+    : metrics_(std::move(metrics)), rule_(rule), differences_(metrics_.size()),
+      comparable_(metrics_.size(), 1), mismatches_(caseCount(metrics_), 0) {}
+
+Gate::Step Gate::next() const {
+    if (std::ranges::count(mismatches_, 1) > 0) return Step::decided;
+    const bool a_first = pairs_ % 2 == 0;
+    if (waiting_) return a_first ? Step::run_b : Step::run_a;
+    if (isStage(pairs_)) {
+        if (pairs_ == *std::rbegin(kStages)) return Step::decided;
+        const std::vector<Comparison> compared = comparisons();
+        bool open = false;
+        for (std::size_t i = 0; i < compared.size(); ++i)
+            open |= comparable_[i] && compared[i].verdict == Verdict::inconclusive;
+        if (!open) return Step::decided;
+    }
+    return a_first ? Step::run_a : Step::run_b;
+}
+
+void Gate::add(Block block) {
+    const Step step = next();
+    assert(step != Step::decided);
+    if (block.medians.size() != metrics_.size() || block.results.size() != mismatches_.size())
+        throw engine::Error("gate", "a process measured something else than the others");
+    if (results_.empty()) results_ = block.results;
+    for (std::size_t i = 0; i < results_.size(); ++i)
+        if (block.results[i] != results_[i]) mismatches_[i] = 1;
+    if (!waiting_) {
+        waiting_ = std::move(block);
+        return;
+    }
+    if (step == Step::run_b)
+        addPair(*waiting_, block);
+    else
+        addPair(block, *waiting_);
+    waiting_.reset();
+}
+
+void Gate::addPair(const Block& a, const Block& b) {
+    for (std::size_t i = 0; i < metrics_.size(); ++i) {
+        const double difference = std::log(b.medians[i] / a.medians[i]);
+        if (a.medians[i] > 0.0 && std::isfinite(difference))
+            differences_[i].push_back(difference);
+        else
+            comparable_[i] = 0;
+    }
+    ++pairs_;
+}
+
+std::size_t Gate::nextDecision() const {
+    for (const std::size_t stage : kStages)
+        if (pairs_ < stage || (pairs_ == stage && next() == Step::decided)) return stage;
+    return *std::rbegin(kStages);
+}
+
+std::vector<Comparison> Gate::comparisons() const {
+    std::vector<std::vector<double>> differences;
+    std::vector<double> decisive_changes;
+    for (std::size_t i = 0; i < metrics_.size(); ++i) {
+        if (!comparable_[i] || pairs_ == 0) continue;
+        differences.push_back(differences_[i]);
+        decisive_changes.push_back(decisiveChange(rule_.threshold, metrics_[i].calibration));
+    }
+    const std::vector<Comparison> known = compare(differences, decisive_changes, rule_.alpha);
+    std::vector<Comparison> comparisons(metrics_.size(), kNothingKnown);
+    for (std::size_t i = 0, next_known = 0; i < metrics_.size(); ++i) {
+        if (comparable_[i] && pairs_ > 0) comparisons[i] = known[next_known++];
+        comparisons[i].decisive_change = decisiveChange(rule_.threshold, metrics_[i].calibration);
+        if (!isStage(pairs_)) comparisons[i].verdict = Verdict::inconclusive;
+        if (isMismatch(metrics_[i])) comparisons[i].verdict = Verdict::mismatch;
+    }
+    return comparisons;
+}
+
+}  // namespace benchmarks

@@ -1,0 +1,153 @@
+#include "benchmarks/decide/gate.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/error_text.h"
+
+namespace benchmarks {
+namespace {
+
+using Step = Gate::Step;
+
+const std::vector<GateMetric> kOneMetric(1);
+
+// Runs pairs whose medians of one metric are 10 and 10 * ratio(pair).
+template <class Ratio>
+std::size_t play(Gate& gate, Ratio ratio) {
+    std::size_t blocks = 0;
+    for (Step step = gate.next(); step != Step::decided; step = gate.next(), ++blocks)
+        gate.add({{step == Step::run_a ? 10.0 : 10.0 * ratio(gate.pairs())}, {"image"}});
+    return blocks;
+}
+
+// -1, 1, -1 ... times a growing spread: no two magnitudes alike, median 0.
+double wobble(std::size_t pair) {
+    return (pair % 2 == 0 ? -1.0 : 1.0) * (1.0 + 0.01 * static_cast<double>(pair));
+}
+
+TEST(Gate, TakesTurnsThatCancelADrift) {
+    Gate gate(kOneMetric);
+    std::string order;
+    for (int i = 0; i < 8; ++i) {
+        order += gate.next() == Step::run_a ? 'A' : 'B';
+        gate.add({{1.0}, {""}});
+    }
+    EXPECT_EQ(order, "ABBAABBA");
+    EXPECT_EQ(gate.pairs(), 4u);
+    EXPECT_EQ(gate.nextDecision(), 12u);
+}
+
+TEST(Gate, FindsARegressionAtTheFirstDecision) {
+    Gate gate(kOneMetric);
+    EXPECT_EQ(play(gate, [](std::size_t i) { return 1.03 + 0.001 * wobble(i); }), 24u);
+    const Comparison found = gate.comparisons()[0];
+    EXPECT_EQ(found.verdict, Verdict::regressed);
+    EXPECT_NEAR(found.change, 0.03, 0.001);
+    EXPECT_GT(found.lower, 0.02);
+    EXPECT_LT(found.upper, 0.04);
+    EXPECT_EQ(found.decisive_change, 0.02);
+    EXPECT_DOUBLE_EQ(found.p, std::ldexp(1.0, -11));  // all 12 above the band
+}
+
+TEST(Gate, MirrorsForAnImprovement) {
+    Gate gate(kOneMetric);
+    EXPECT_EQ(play(gate, [](std::size_t i) { return 1.0 / (1.03 + 0.001 * wobble(i)); }), 24u);
+    EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::improved);
+}
+
+TEST(Gate, SaysSameOfWhatIsInsideTheBand) {
+    Gate gate(kOneMetric);
+    EXPECT_EQ(play(gate, [](std::size_t i) { return 1.0 + 0.005 * wobble(i); }), 24u);
+    EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::same);
+    // A significant change that is too small to matter is none either.
+    Gate slower(kOneMetric);
+    play(slower, [](std::size_t i) { return 1.01 + 0.001 * wobble(i); });
+    EXPECT_EQ(slower.comparisons()[0].verdict, Verdict::same);
+}
+
+TEST(Gate, GoesOnWhileItCannotTellAndGivesUpAt48) {
+    Gate gate(kOneMetric);
+    EXPECT_EQ(play(gate, [](std::size_t i) { return 1.02 + 0.01 * wobble(i); }), 96u);
+    EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::inconclusive);
+    EXPECT_EQ(gate.nextDecision(), 48u);
+}
+
+TEST(Gate, EndsAt24WhenThatIsEnough) {
+    // Noise at first, then none: 12 pairs say nothing, 24 do.
+    Gate gate(kOneMetric);
+    const auto ratio = [](std::size_t i) { return 1.06 + (i < 12 ? 0.06 : 0.001) * wobble(i); };
+    EXPECT_EQ(play(gate, ratio), 48u);
+    EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::regressed);
+}
+
+TEST(Gate, DecidesNothingBetweenDecisions) {
+    Gate gate(kOneMetric);
+    for (int i = 0; i < 26; ++i)  // 13 pairs, far apart; the 12th had been enough
+        if (gate.next() != Step::decided)
+            gate.add({{gate.next() == Step::run_a ? 1.0 : 2.0 + i}, {""}});
+    EXPECT_EQ(gate.pairs(), 12u);
+    Gate early(kOneMetric);
+    for (int i = 0; i < 22; ++i) early.add({{early.next() == Step::run_a ? 1.0 : 2.0 + i}, {""}});
+    EXPECT_EQ(early.comparisons()[0].verdict, Verdict::inconclusive);
+    EXPECT_GT(early.comparisons()[0].lower, 0.02);
+}
+
+TEST(Gate, EndsAtOnceWhereResultsDiffer) {
+    Gate gate(std::vector<GateMetric>{{.case_index = 0}, {.case_index = 1}});
+    gate.add({{1.0, 1.0}, {"x", "y"}});
+    EXPECT_EQ(gate.next(), Step::run_b);
+    gate.add({{9.0, 1.0}, {"z", "y"}});
+    EXPECT_EQ(gate.next(), Step::decided);
+    EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::mismatch);
+    EXPECT_EQ(gate.comparisons()[1].verdict, Verdict::inconclusive);
+}
+
+TEST(Gate, NeedsMoreThanTheMachinesOwnNoise) {
+    // Pairs of one build differ by 2 %: a 3 % change is no news on such a machine.
+    std::vector<double> calibration;
+    for (std::size_t i = 0; i < 12; ++i) calibration.push_back(0.02 * wobble(i));
+    Gate gate(std::vector<GateMetric>{{.calibration = calibration}});
+    play(gate, [](std::size_t i) { return 1.03 + 0.001 * wobble(i); });
+    const Comparison found = gate.comparisons()[0];
+    EXPECT_EQ(found.verdict, Verdict::same);
+    // Magnitudes 1.00 ... 1.11: the MAD of both sides is about their middle, 1.055, and the median
+    // about 0; by hand to a percent.
+    EXPECT_NEAR(found.decisive_change, 3.0 * 1.4826 * 0.02 * 1.055, 0.001);
+}
+
+TEST(Gate, LeavesOutAMetricThatCannotBeCompared) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double broken : {0.0, -1.0, nan}) {
+        Gate gate(std::vector<GateMetric>(2));
+        while (gate.next() != Step::decided) gate.add({{1.0, broken}, {""}});
+        EXPECT_EQ(gate.pairs(), 12u);
+        EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::same);
+        EXPECT_EQ(gate.comparisons()[1].verdict, Verdict::inconclusive);
+    }
+}
+
+TEST(Gate, RefusesOtherMetrics) {
+    Gate gate(kOneMetric);
+    const char* const error = "gate: a process measured something else than the others";
+    EXPECT_EQ(errorText([&] { gate.add({{1.0, 2.0}, {""}}); }), error);
+    EXPECT_EQ(errorText([&] { gate.add({{1.0}, {}}); }), error);
+}
+
+TEST(Gate, KnowsNothingBeforeThePairs) {
+    const Gate gate(kOneMetric);
+    EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::inconclusive);
+    EXPECT_EQ(gate.comparisons()[0].lower, -1.0);
+}
+
+TEST(DecisiveChange, IsTheThresholdOrTheNoise) {
+    EXPECT_EQ(decisiveChange(0.02, {}), 0.02);
+    EXPECT_EQ(decisiveChange(0.02, std::vector{0.001, 0.0, -0.001}), 0.02);
+    EXPECT_DOUBLE_EQ(decisiveChange(0.02, std::vector{-0.1, 0.0, 0.1}), 3.0 * 1.4826 * 0.1);
+}
+
+}  // namespace
+}  // namespace benchmarks

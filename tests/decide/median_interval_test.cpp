@@ -1,0 +1,138 @@
+#include "benchmarks/decide/median_interval.h"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/decide/noise.h"
+#include "tests/decide/scipy_values.h"
+
+namespace benchmarks {
+namespace {
+
+// A stationary AR(1) series of variance 1.
+std::vector<double> series(Noise& noise, std::size_t n, double correlation) {
+    std::vector<double> values(n);
+    values[0] = noise.normal();
+    const double fresh = std::sqrt(1.0 - correlation * correlation);
+    for (std::size_t i = 1; i < n; ++i)
+        values[i] = correlation * values[i - 1] + fresh * noise.normal();
+    return values;
+}
+
+TEST(MedianInterval, IsScipys) {
+    for (const auto& row : scipyValues()["median_interval"]) {
+        const auto values = row["values"].get<std::vector<double>>();
+        const MedianInterval interval = medianInterval(values, row["alpha"]);
+        EXPECT_EQ(interval.estimate, row["estimate"].get<double>()) << values.size();
+        EXPECT_EQ(interval.lower, row["lower"].get<double>()) << values.size();
+        EXPECT_EQ(interval.upper, row["upper"].get<double>()) << values.size();
+        // Sums of logarithms: 1,001 times a rounding error.
+        EXPECT_NEAR(interval.confidence, row["confidence"], 1e-11) << values.size();
+    }
+}
+
+TEST(MedianInterval, OfTooFewIsInfinite) {
+    const MedianInterval interval = medianInterval(std::vector{3.0, 1.0, 2.0, 5.0, 4.0}, 0.05);
+    EXPECT_EQ(interval.estimate, 3.0);
+    EXPECT_EQ(interval.confidence, 1.0);
+    EXPECT_TRUE(std::isinf(relativeHalfWidth(interval)));
+}
+
+TEST(MedianInterval, IsWiderForFewerEffectiveSamples) {
+    std::vector<double> values;
+    for (int i = 1; i <= 1000; ++i) values.push_back(i);
+    // A quarter of the samples: twice the width, but for whole ranks of the 250.
+    const MedianInterval all = medianInterval(values, 0.05);
+    const MedianInterval quarter = medianInterval(values, 0.05, 250.0);
+    EXPECT_NEAR((quarter.upper - quarter.lower) / (all.upper - all.lower), 2.0, 0.1);
+    EXPECT_TRUE(std::isinf(medianInterval(values, 0.05, 5.0).upper));
+}
+
+TEST(MedianInterval, OfManySamplesDoesNotUnderflow) {
+    // 2^-10000 is no double. Half width in ranks: 1.96 sqrt(n) / 2 = 98, and half a rank.
+    std::vector<double> values;
+    for (int i = 0; i < 10000; ++i) values.push_back(i);
+    const MedianInterval interval = medianInterval(values, 0.05);
+    EXPECT_NEAR(0.5 * (interval.upper - interval.lower), 98.0, 1.0);
+    // One rank more at either end is 2 * 2 / sqrt(n) * 0.058, the normal density at 1.96.
+    EXPECT_GE(interval.confidence, 0.95);
+    EXPECT_LE(interval.confidence, 0.95 + 0.0024);
+}
+
+TEST(EffectiveSamples, OfWhiteNoiseAreNearlyAll) {
+    // Theory: all. Where the sum of correlations is cut off biases it downward by a few times
+    // 1 / sqrt(n).
+    Noise noise(3);
+    double sum = 0.0;
+    for (int trial = 0; trial < 100; ++trial) sum += effectiveSamples(series(noise, 1000, 0.0));
+    EXPECT_GT(sum / 100, 850.0);
+}
+
+TEST(EffectiveSamples, OfACorrelatedSeriesAreThoseOfTheory) {
+    // Being above the median is correlated by 2/pi asin(c) where normal values are by c.
+    constexpr double kCorrelation = 0.9;
+    constexpr std::size_t kCount = 4000;
+    double time = 1.0;
+    for (int lag = 1; lag < 500; ++lag)
+        time += 2.0 * 2.0 / std::numbers::pi * std::asin(std::pow(kCorrelation, lag));
+    Noise noise(4);
+    double mean = 0.0;
+    for (int trial = 0; trial < 50; ++trial)
+        mean += effectiveSamples(series(noise, kCount, kCorrelation)) / 50;
+    // The estimate's own noise, some 15 % each, falls to 2 %; its bias of second order stays.
+    EXPECT_NEAR(mean, kCount / time, 0.15 * kCount / time);
+}
+
+TEST(EffectiveSamples, OfAlternatingOrEqualOnesAreAll) {
+    std::vector<double> alternating;
+    for (int i = 0; i < 100; ++i) alternating.push_back(i % 2);
+    EXPECT_EQ(effectiveSamples(alternating), 100.0);
+    EXPECT_EQ(effectiveSamples(std::vector(7, 2.0)), 7.0);
+    EXPECT_EQ(effectiveSamples(std::vector{1.0}), 1.0);
+}
+
+double coverage(double correlation, bool effective) {
+    Noise noise(5);
+    constexpr int kTrials = 1000;
+    int covered = 0;
+    for (int trial = 0; trial < kTrials; ++trial) {
+        const std::vector<double> values = series(noise, 400, correlation);
+        const MedianInterval interval = effective
+                                            ? medianInterval(values, 0.05, effectiveSamples(values))
+                                            : medianInterval(values, 0.05);
+        covered += interval.lower <= 0.0 && 0.0 <= interval.upper;
+    }
+    return static_cast<double>(covered) / kTrials;
+}
+
+TEST(MedianInterval, CoversTheMedianOfDependentSamples) {
+    // At 95 % asked for: independent ones at least that, less 4 deviations of 1,000 trials; the
+    // effective number of dependent ones is itself uncertain, which costs a few percent.
+    EXPECT_GE(coverage(0.0, false), 0.95 - 0.028);
+    EXPECT_GE(coverage(0.0, true), 0.95 - 0.028);
+    EXPECT_GE(coverage(0.8, true), 0.90);
+    // Frames taken for independent would lie: half the true width covers at most 70 %.
+    EXPECT_LE(coverage(0.8, false), 0.75);
+}
+
+TEST(Precision, IsReachedWhenTheMedianIsKnown) {
+    // 5 % noise: the median is known to 1 % by about (1.96 * 1.2533 * 5)^2 = 151 samples.
+    Noise noise(6);
+    std::vector<double> frames;
+    std::size_t reached = 0;
+    while (reached == 0 && frames.size() < 2000) {
+        frames.push_back(10.0 * (1.0 + 0.05 * noise.normal()));
+        if (isPrecise(frames)) reached = frames.size();
+    }
+    EXPECT_GT(reached, 50u);
+    EXPECT_LT(reached, 400u);
+    EXPECT_FALSE(isPrecise({}));
+    EXPECT_TRUE(isPrecise(std::vector(6, 4.0)));  // the fewest that have an interval at 5 %
+    EXPECT_FALSE(isPrecise(std::vector(5, 4.0)));
+}
+
+}  // namespace
+}  // namespace benchmarks

@@ -1,0 +1,139 @@
+#include "benchmarks/exporters/exporters.h"
+
+#include <functional>
+#include <set>
+
+#include <gmock/gmock.h>
+
+#include "tests/error_text.h"
+#include "tests/exporters/exported.h"
+
+namespace benchmarks {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* kName = "thesis/density:64/backend:tessellation";
+
+std::vector<std::string> names(const Json& entries) {
+    std::vector<std::string> found;
+    for (const Json& entry : entries)
+        found.push_back(entry.at("name").get<std::string>().substr(std::string(kName).size() + 1));
+    return found;
+}
+
+void forEachNumber(const Json& value, const std::function<void(const Json&)>& visit) {
+    if (value.is_structured())
+        for (const Json& element : value) forEachNumber(element, visit);
+    else
+        visit(value);
+}
+
+TEST(Exporters, WriteWhatParsesAndHoldsNoNull) {
+    for (const Exporter& exporter : exporters()) {
+        const std::string text = exported(exporter.name);
+        EXPECT_TRUE(text.ends_with('\n')) << exporter.name;
+        // A bare NaN or Infinity is no JSON, and a null is no number.
+        for (const char* bad : {"NaN", "nan", "Infinity", "inf", "null"})
+            EXPECT_THAT(text, Not(HasSubstr(bad))) << exporter.name;
+        const bool is_json = std::string_view(exporter.extension) == ".json";
+        EXPECT_EQ(Json::accept(text), is_json) << exporter.name;
+    }
+}
+
+TEST(Exporters, TakeEveryMemberOfAReportAsOptionalThatTheSchemaDoes) {
+    const Json bare = Json::parse(R"({"schema": "hairbench-report/1.7.0",
+        "environment": {"device": {}, "host": {}, "build": {}, "command": [], "seed": 1},
+        "scene": {"path": "s.json", "hash": "0123456789abcdef", "document": {}},
+        "cases": [{"name": "s", "axes": {}, "status": "ok", "statistics": {}, "counts": {},
+                   "trust": {"warnings": []},
+                   "metrics": {"frame.time": {"unit": "ms", "median": 1, "mad": 0, "samples": [1]}}},
+                  {"name": "t", "axes": {}, "status": "skipped", "reason": "no"}]})");
+    for (const Exporter& exporter : exporters())
+        EXPECT_FALSE(exportReport(bare, exporter.name).empty()) << exporter.name;
+}
+
+TEST(Exporters, RefuseWhatIsNoReport) {
+    EXPECT_EQ(
+        errorText([] { exported("gbnch"); }),
+        "unknown format (did you mean \"gbench\"?); known: csv, markdown, gbench, bmf, "
+        "customSmallerIsBetter, perfetto");
+    Json report = writtenReport();
+    report["schema"] = "hairbench-report/2.0.0";
+    EXPECT_EQ(
+        errorText([&] { exportReport(report, "csv"); }),
+        "/schema: hairbench-report/2.0.0 is not hairbench-report/1.0.0");
+    EXPECT_THAT(
+        errorText([] { exportReport(Json::array(), "csv"); }), testing::StartsWith("no report: "));
+    for (const char* member : {"cases", "scene", "environment"}) {
+        report = writtenReport();
+        report.erase(member);
+        EXPECT_THAT(
+            errorText([&] {
+                for (const Exporter& each : exporters()) exportReport(report, each.name);
+            }),
+            HasSubstr(member));
+    }
+}
+
+TEST(Gbench, KeepsTheFormatsRules) {
+    const Json document = exportedJson("gbench");
+    const Json& context = document["context"];
+    EXPECT_EQ(context["json_schema_version"], 1);
+    EXPECT_TRUE(context["caches"].is_array());
+    EXPECT_EQ(context["date"], "2030-01-02T03:04:05Z");
+    EXPECT_EQ(context["num_cpus"], 2);
+    EXPECT_EQ(context["library_build_type"], "release");
+    std::set<std::string> seen;
+    for (const Json& entry : document["benchmarks"]) {
+        EXPECT_TRUE(seen.insert(entry["name"]).second) << entry["name"];
+        EXPECT_LE(entry["name"].get<std::string>().size(), 1024u);  // bencher's limit
+        EXPECT_EQ(entry["run_type"], "iteration");
+        EXPECT_EQ(entry["time_unit"], "us");
+        EXPECT_EQ(entry["real_time"], entry["cpu_time"]);
+        EXPECT_GT(entry["iterations"], 0);
+        EXPECT_EQ(entry["threads"], 1);
+        EXPECT_FALSE(entry.contains("aggregate_name"));
+    }
+}
+
+TEST(Gbench, HasTimesOnly) {
+    const Json benchmarks = exportedJson("gbench")["benchmarks"];
+    EXPECT_THAT(
+        names(benchmarks), ElementsAre("frame.time", "pass.wind.time", "pass.strands.time"));
+    EXPECT_EQ(benchmarks[0]["real_time"], 3000.0);  // 3 ms
+    EXPECT_EQ(benchmarks[0]["iterations"], 3);
+}
+
+TEST(Gbench, LeavesOutADifferenceOfTimes) {
+    Report report = sampleReport();
+    report.cases[0].metrics.push_back({"frame.overlap", "ms", {-1.5}, ""});
+    EXPECT_THAT(exportReport(Json::parse(reportText(report)), "gbench"), Not(HasSubstr("overlap")));
+}
+
+TEST(Bmf, HasAValueWithBoundsPerMeasure) {
+    const Json document = exportedJson("bmf");
+    const std::string prefix = std::string(kName) + '/';
+    EXPECT_EQ(
+        document[prefix + "frame.time"].dump(),
+        R"({"latency":{"value":3000000.0,"lower_value":2500000.0,"upper_value":3500000.0}})");
+    EXPECT_EQ(document[prefix + "fps"]["throughput"]["value"], 333.25);
+    EXPECT_EQ(document[prefix + "memory.device"]["bytes"]["value"], 1048576.0);
+    EXPECT_EQ(document.size(), 5u);  // every metric with a sample
+}
+
+TEST(CustomSmallerIsBetter, HasWhatIsBetterWhenSmaller) {
+    const Json entries = exportedJson("customSmallerIsBetter");
+    EXPECT_THAT(
+        names(entries),
+        ElementsAre("frame.time", "pass.wind.time", "pass.strands.time", "memory.device"));
+    EXPECT_EQ(entries[0]["unit"], "ms");
+    EXPECT_EQ(entries[0]["value"], 3.0);
+    EXPECT_EQ(entries[0]["range"], "± 1.0");
+    EXPECT_FALSE(entries[1].contains("range"));  // one sample
+}
+
+}  // namespace
+}  // namespace benchmarks

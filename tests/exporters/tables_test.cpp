@@ -1,0 +1,71 @@
+#include <sstream>
+
+#include <gmock/gmock.h>
+
+#include "tests/exporters/exported.h"
+
+namespace benchmarks {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<std::string> lines(const std::string& text) {
+    std::vector<std::string> found;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) found.push_back(line);
+    return found;
+}
+
+TEST(Csv, HasARowForEachMetric) {
+    EXPECT_THAT(
+        lines(exported("csv")),
+        ElementsAre(
+            "case,/strands/density,/strands/backend,status,reason,metric,samples,unit,mode,median,"
+            "mad,mean,minimum,first_quartile,third_quartile,maximum",
+            "thesis/density:64/backend:tessellation,64,tessellation,ok,,frame.time,3,ms,overlapped,"
+            "3.0,1.0,3.0,2.0,2.5,3.5,4.0",
+            "thesis/density:64/backend:tessellation,64,tessellation,ok,,fps,1,1/s,overlapped,"
+            "333.25,0.0,333.25,333.25,333.25,333.25,333.25",
+            "thesis/density:64/backend:tessellation,64,tessellation,ok,,pass.wind.time,1,ms,"
+            "isolated,0.0125,0.0,0.0125,0.0125,0.0125,0.0125,0.0125",
+            "thesis/density:64/backend:tessellation,64,tessellation,ok,,pass.strands.time,1,ms,"
+            "isolated,2.5,0.0,2.5,2.5,2.5,2.5,2.5",
+            "thesis/density:64/backend:tessellation,64,tessellation,ok,,memory.device,1,B,,"
+            "1048576.0,0.0,1048576.0,1048576.0,1048576.0,1048576.0,1048576.0",
+            "thesis/density:64/backend:mesh,64,mesh,skipped,\"the device has no "
+            "VK_EXT_mesh_shader, which the back end needs\",,,,,,,,,,,",
+            "thesis/density:64/backend:lines,64,lines,failed,device lost,,,,,,,,,,,"));
+}
+
+TEST(Csv, QuotesWhatWouldBreakARow) {
+    Report report = sampleReport();
+    report.cases[1].reason = "says \"no\",\nthen stops";
+    EXPECT_THAT(
+        exportReport(Json::parse(reportText(report)), "csv"),
+        HasSubstr(",skipped,\"says \"\"no\"\",\nthen stops\",,"));
+}
+
+TEST(Markdown, HasARowForEachCase) {
+    EXPECT_THAT(
+        lines(exported("markdown")),
+        ElementsAre(
+            "**scenes/thesis.json**, Soft, llvmpipe, 22.3.6, Some CPU, abc", "",
+            "| density | backend | frame (ms) | FPS | wind (ms) | strands (ms) | status |",
+            "| --- | --- | ---: | ---: | ---: | ---: | --- |",
+            "| 64 | tessellation | 3.00 | 333 | 0.0125 | 2.50 | ok |",
+            "| 64 | mesh |  |  |  |  | skipped: the device has no VK\\_EXT\\_mesh\\_shader, which "
+            "the back end needs |",
+            "| 64 | lines |  |  |  |  | failed: device lost |"));
+}
+
+TEST(Markdown, KeepsACellInItsCell) {
+    Report report = sampleReport();
+    report.cases[1].reason = "a|b\n<script>";
+    EXPECT_THAT(
+        exportReport(Json::parse(reportText(report)), "markdown"),
+        HasSubstr("skipped: a\\|b \\<script\\> |"));
+}
+
+}  // namespace
+}  // namespace benchmarks

@@ -1,0 +1,87 @@
+#include <map>
+
+#include <gmock/gmock.h>
+
+#include "tests/exporters/exported.h"
+
+namespace benchmarks {
+namespace {
+
+using testing::ElementsAre;
+
+Report framesAndPasses() {
+    Report report = sampleReport();
+    report.cases.resize(1);
+    report.cases[0].metrics = {
+        {"frame.time", "ms", {2.0, 4.0}, "overlapped"},
+        {"cpu.record.time", "ms", {0.5, 0.25}, "overlapped"},
+        {"cpu.submit.time", "ms", {0.125, 0.5}, "overlapped"},
+        {"pass.scene.time", "ms", {1.0, 1.5}, "isolated"},
+        {"pass.strands.time", "ms", {2.0, 2.5}, "isolated"},
+        {"frame.isolated.time", "ms", {3.5, 3.75}, "isolated"}};
+    return report;
+}
+
+// "name start+length" in us of each slice of a track.
+std::vector<std::string> slices(const Json& trace, int track) {
+    std::vector<std::string> found;
+    for (const Json& event : trace["traceEvents"])
+        if (event["ph"] == "X" && event["tid"] == track)
+            found.push_back(
+                event["name"].get<std::string>() + ' ' + event["ts"].dump() + '+' +
+                event["dur"].dump());
+    return found;
+}
+
+TEST(Perfetto, LaysFramesOneAfterAnother) {
+    const Json trace =
+        Json::parse(exportReport(Json::parse(reportText(framesAndPasses())), "perfetto"));
+    EXPECT_THAT(
+        slices(trace, 1),
+        ElementsAre(
+            "frame 0 0.0+3500.0", "scene 0.0+1000.0", "strands 1000.0+2000.0",
+            "frame 1 3500.0+4000.0",  // as long as its passes, which is longer than 3.75 ms
+            "scene 3500.0+1500.0", "strands 5000.0+2500.0"));
+    EXPECT_THAT(
+        slices(trace, 2),
+        ElementsAre(
+            "frame 0 0.0+2000.0", "cpu.record 0.0+500.0", "cpu.submit 500.0+125.0",
+            "frame 1 2000.0+4000.0", "cpu.record 2000.0+250.0", "cpu.submit 2250.0+500.0"));
+}
+
+TEST(Perfetto, NamesCasesAndTracks) {
+    const Json trace = exportedJson("perfetto");
+    std::vector<std::string> names;
+    for (const Json& event : trace["traceEvents"])
+        if (event["ph"] == "M")
+            names.push_back(
+                event["name"].get<std::string>() + ": " + event["args"]["name"].get<std::string>());
+    EXPECT_THAT(
+        names, ElementsAre(
+                   "process_name: thesis/density:64/backend:tessellation",
+                   "thread_name: isolated passes", "thread_name: CPU of overlapped frames"));
+}
+
+// A viewer shows slices of a track as a stack: one that ends after the one it began in is lost.
+TEST(Perfetto, NestsSlicesExactly) {
+    Report report = framesAndPasses();
+    for (Metric& metric : report.cases[0].metrics)
+        for (double& sample : metric.samples) sample /= 3.0;
+    const Json trace = Json::parse(exportReport(Json::parse(reportText(report)), "perfetto"));
+    std::map<int, double> frame_ends;
+    for (const Json& event : trace["traceEvents"]) {
+        if (event["ph"] != "X") continue;
+        const double start = event["ts"];
+        const double end = start + event["dur"].get<double>();
+        double& frame_end = frame_ends[event["tid"]];
+        if (event["name"].get<std::string>().starts_with("frame"))
+            frame_end = end;
+        else
+            // Both are whole ns: the doubles' rounding is far below a half.
+            EXPECT_LE(end, frame_end + 1e-6) << event;
+    }
+    EXPECT_EQ(frame_ends.size(), 2u);
+}
+
+}  // namespace
+}  // namespace benchmarks
