@@ -35,6 +35,14 @@ void checkFields(
     }
 }
 
+void checkMeshes(const hair::RenderSettings& render, const std::filesystem::path& scene) {
+    for (std::size_t i = 0; i < render.meshes.size(); ++i) {
+        if (render.meshes[i].file.empty())
+            throw engine::Error(
+                scene.string(), "/render/meshes/" + std::to_string(i) + "/file: is empty");
+    }
+}
+
 }  // namespace
 
 std::optional<hair::Mesh>
@@ -42,7 +50,8 @@ loadMesh(const hair::Settings& settings, const std::filesystem::path& directory)
     const hair::GroomSettings& groom = settings.groom;
     const std::string& file = groom.file.empty() ? groom.grow.mesh : groom.mesh;
     if (file.empty()) return std::nullopt;
-    return hair::importMesh(directory / file);
+    return hair::importMesh(
+        directory / file, settings.render.head ? hair::Textures::decoded : hair::Textures::skipped);
 }
 
 std::vector<hair::Mesh> loadFieldMeshes(
@@ -66,9 +75,15 @@ hair::RenderAssets loadRenderAssets(
     const std::filesystem::path& directory) {
     hair::RenderAssets assets{.head = head};
     for (const hair::MeshSettings& mesh : settings.render.meshes)
-        assets.meshes.push_back(hair::importMesh(directory / mesh.file));
+        assets.meshes.push_back(hair::importMesh(directory / mesh.file, hair::Textures::decoded));
+    if (settings.render.overlays.bodies) {
+        const auto grown_on = head ? std::optional(*head) : std::nullopt;
+        assets.field_meshes = loadFieldMeshes(settings, grown_on, directory);
+    }
     if (!settings.strands.texture.empty())
         assets.strand_texture = engine::readImage(directory / settings.strands.texture);
+    if (!settings.render.environment.empty())
+        assets.environment = engine::readFloatImage(directory / settings.render.environment);
     return assets;
 }
 
@@ -78,6 +93,8 @@ void checkAssets(const hair::Settings& settings, const std::filesystem::path& sc
     const hair::Groom groom =
         hair::buildGroom(settings.groom, mesh ? &*mesh : nullptr, directory, settings.seed);
     checkFields(settings, mesh, scene);
+    checkMeshes(settings.render, scene);
+    loadRenderAssets(settings, mesh ? &*mesh : nullptr, directory);
     const std::optional<hair::StrandSet> offsets = loadOffsets(settings, directory);
     try {
         hair::checkStrands(settings.strands, groom);

@@ -6,6 +6,7 @@
 #include "benchmarks/hash.h"
 #include "engine/transfer.h"
 #include "hair/groom/build_groom.h"
+#include "hair/rendering/working_color.h"
 
 namespace benchmarks {
 
@@ -21,14 +22,16 @@ const Asset* pointerTo(const std::optional<Asset>& asset) {
 Case::Case(
     const engine::Device& device, const hair::Settings& settings,
     const std::filesystem::path& directory)
-    : device_(device), settings_(settings), mesh_(loadMesh(settings, directory)),
+    : device_(device), settings_(settings), directory_(directory),
+      mesh_(loadMesh(settings, directory)),
       groom_(hair::buildGroom(settings.groom, pointerTo(mesh_), directory, settings.seed)),
       simulation_(
           device, groom_, settings.simulation, settings.seed,
           loadFieldMeshes(settings, mesh_, directory)),
       fixed_step_(double{settings.simulation.time_step}),
       groom_buffers_(device, groom_, settings, pointerTo(loadOffsets(settings, directory))),
-      renderer_(device, settings, view(), loadRenderAssets(settings, pointerTo(mesh_), directory)) {}
+      renderer_(device, settings, view(), loadRenderAssets(settings, pointerTo(mesh_), directory)) {
+}
 
 void Case::simulate(engine::Passes& passes) {
     using engine::PassKind;
@@ -71,6 +74,19 @@ std::string Case::pictureHash() const {
     return hashBytes(std::as_bytes(std::span(pixels)));
 }
 
+std::vector<float> Case::radiance() const {
+    if (renderer_.target().hasRadiance()) return engine::readRadiance(device_, renderer_.target());
+    const std::vector<std::uint8_t> pixels = picture();
+    std::vector<float> light;
+    light.reserve(pixels.size() / 4 * 3);
+    for (std::size_t i = 0; i < pixels.size(); i += 4) {
+        const glm::dvec3 linear =
+            hair::toLinear(glm::dvec3(pixels[i], pixels[i + 1], pixels[i + 2]) / 255.0);
+        for (int c = 0; c < 3; ++c) light.push_back(static_cast<float>(linear[c]));
+    }
+    return light;
+}
+
 std::string Case::stateHash() const {
     const std::vector<glm::vec3> positions = simulation_.readPositions();
     return hashBytes(std::as_bytes(std::span(positions)));
@@ -78,6 +94,10 @@ std::string Case::stateHash() const {
 
 hair::StrandPoints Case::strands() const {
     return hair::evaluateStrandPoints(device_, settings_, view());
+}
+
+hair::Renderer Case::rendererOf(const hair::Settings& settings) const {
+    return {device_, settings, view(), loadRenderAssets(settings, pointerTo(mesh_), directory_)};
 }
 
 std::vector<std::pair<std::string, std::uint64_t>> Case::counts() const {

@@ -15,6 +15,7 @@
 #include "hair/rendering/strand_points.h"
 #include "hair/settings.h"
 #include "hair/simulation/fixed_step.h"
+#include "hair/simulation/rigid_motion.h"
 #include "hair/simulation/simulation.h"
 
 namespace benchmarks {
@@ -41,6 +42,9 @@ public:
     // The picture of the last frame, [row][column] RGBA, top row first.
     std::vector<std::uint8_t> picture() const;
     std::string pictureHash() const;
+    // Its linear light, [row][column] RGB: before exposure and tone map, or, where there is no tone
+    // map, what a display shows.
+    std::vector<float> radiance() const;
     // Of the guides' positions.
     std::string stateHash() const;
 
@@ -49,16 +53,24 @@ public:
     // The guides of the last frame, [guide][vertex], m. Waits for the device.
     std::vector<glm::vec3> guides() const { return simulation_.readPositions(); }
     const hair::Groom& groom() const { return groom_; }
+    // Where the head is in the last frame.
+    hair::RigidMotion head() const { return simulation_.pose(); }
+
+    // For other pictures of the same hair: `settings` may differ from the case's in how it is lit,
+    // seen and drawn, but not in what /groom, /simulation, /seed and /strands make of it.
+    hair::Renderer rendererOf(const hair::Settings& settings) const;
+    hair::StrandView view() const;
 
     const hair::StrandPlan& plan() const { return renderer_.plan(); }
     std::optional<hair::ExpectedCounts> expected() const { return renderer_.expected(); }
     std::vector<std::pair<std::string, std::uint64_t>> counts() const;
+    // What becomes of the strands' fragments, and what of the last frame's.
+    const hair::StrandBlend& blend() const { return renderer_.blend(); }
 
 private:
-    hair::StrandView view() const;
-
     const engine::Device& device_;
     hair::Settings settings_;
+    std::filesystem::path directory_;
     std::optional<hair::Mesh> mesh_;
     hair::Groom groom_;
     hair::Simulation simulation_;

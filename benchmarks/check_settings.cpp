@@ -82,6 +82,18 @@ Broken lodDistancesAscend(const Settings& s) {
     return "is not below /lod/far_distance";
 }
 
+Broken coverageIsSeen(const Settings& s) {
+    if (s.render.coverage != hair::Coverage::analytic) return {};
+    if (s.render.transparency != hair::Transparency::none) return {};
+    return "is analytic, but /render/transparency is none";
+}
+
+Broken alphaHasSamplesToCover(const Settings& s) {
+    if (s.render.transparency != hair::Transparency::alpha_to_coverage) return {};
+    if (s.render.msaa > 1) return {};
+    return "is alpha_to_coverage, but /render/msaa is 1";
+}
+
 Broken planesAscend(const Settings& s) {
     if (s.camera.near_plane < s.camera.far_plane) return {};
     return "is not below /camera/far_plane";
@@ -108,6 +120,16 @@ Broken frameHasRoomForItsSteps(const Settings& s) {
     return "is more than 200 of /simulation/time_step";
 }
 
+Broken lightsHaveDirections(const Settings& s) {
+    for (std::size_t i = 0; i < s.shading.lights.size(); ++i) {
+        const hair::LightSettings& light = s.shading.lights[i];
+        if (light.type == hair::LightType::directional && glm::length(light.direction) == 0.0f)
+            return "entry " + std::to_string(i) +
+                   " is directional, but its direction has no length";
+    }
+    return {};
+}
+
 struct Rule {
     const char* pointer;
     Broken (*broken)(const Settings&);
@@ -125,6 +147,9 @@ constexpr Rule kRules[] = {
     {"/camera/near_plane", planesAscend},
     {"/camera/target", cameraLooksSomewhere},
     {"/camera/up", upStandsOut},
+    {"/render/coverage", coverageIsSeen},
+    {"/render/transparency", alphaHasSamplesToCover},
+    {"/shading/lights", lightsHaveDirections},
     {"/run/frame_time", frameHasRoomForItsSteps}};
 
 }  // namespace

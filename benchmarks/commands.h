@@ -38,8 +38,9 @@ int runScene(const RunOptions& options);
 
 struct RenderOptions {
     SceneOptions scene;
-    std::filesystem::path out;
+    std::filesystem::path out;  // .exr: linear light; others: PNG
     std::uint32_t frame = 0;
+    std::string frames;  // "A:B" or "A:B:STEP", and `out` is a pattern; empty: `frame`
 };
 int renderScene(const RenderOptions& options);
 
@@ -104,6 +105,17 @@ struct DiffOptions {
     bool json = false;
 };
 int diffPictures(const DiffOptions& options);
+
+struct LodOptions {
+    SceneOptions scene;
+    std::filesystem::path out;  // empty: results/local/lod.json
+    double from = 0.5;          // m, distance from /camera/target
+    double to = 20.0;
+    std::uint32_t steps = 40;
+    std::uint32_t frame = 0;
+    std::vector<std::string> command;  // as the report quotes it
+};
+int walkLod(const LodOptions& options);
 
 int validateScenes(const std::vector<std::filesystem::path>& scenes);
 int printSchema();

@@ -5,44 +5,39 @@
 
 #include "benchmarks/commands.h"
 #include "benchmarks/exit_codes.h"
-#include "benchmarks/json_text.h"
-#include "benchmarks/reference_tool.h"
+#include "benchmarks/picture_errors.h"
 #include "engine/write_file.h"
 
 namespace benchmarks {
 namespace {
 
-std::string figure(const Json& value) {
-    if (value.is_null()) return "infinite";
+std::string figure(double value) {
     char text[32];
-    std::snprintf(text, sizeof text, "%.5g", value.get<double>());
+    std::snprintf(text, sizeof text, "%.5g", value);
     return text;
+}
+
+Json toJson(const PictureErrors& errors) {
+    return {{"width", errors.width}, {"height", errors.height},
+            {"rmse", errors.rmse},   {"psnr_db", errors.psnr ? Json(*errors.psnr) : Json()},
+            {"ssim", errors.ssim},   {"flip", errors.flip}};
 }
 
 }  // namespace
 
 int diffPictures(const DiffOptions& options) {
-    const auto absolute = [](const std::filesystem::path& path) {
-        return std::filesystem::absolute(path).string();
-    };
-    std::vector<std::string> arguments{absolute(options.reference), absolute(options.picture)};
-    if (!options.out.empty()) {
-        engine::checkWritable(options.out);
-        arguments.push_back(absolute(options.out));
-    }
-    std::string text;
-    runReferenceTool("compare.py", arguments, [&](std::string_view line) { text += line; });
-    const Json figures = parseJson(text, "what compare.py wrote");
+    if (!options.out.empty()) engine::checkWritable(options.out);
+    const PictureErrors errors = comparePictures(options.reference, options.picture, options.out);
     if (options.json) {
-        std::cout << figures.dump(2) << '\n';
+        std::cout << toJson(errors).dump(2) << '\n';
         return kOk;
     }
     std::cout << options.picture.string() << " against " << options.reference.string() << ", "
-              << figures.at("width") << " x " << figures.at("height") << " px\n"
-              << "RMSE  " << figure(figures.at("rmse")) << '\n'
-              << "PSNR  " << figure(figures.at("psnr_db")) << " dB\n"
-              << "SSIM  " << figure(figures.at("ssim")) << '\n'
-              << "FLIP  " << figure(figures.at("flip")) << '\n';
+              << errors.width << " x " << errors.height << " px\n"
+              << "RMSE  " << figure(errors.rmse) << '\n'
+              << "PSNR  " << (errors.psnr ? figure(*errors.psnr) : "infinite") << " dB\n"
+              << "SSIM  " << figure(errors.ssim) << '\n'
+              << "FLIP  " << figure(errors.flip) << '\n';
     return kOk;
 }
 

@@ -15,12 +15,14 @@ constexpr const char* kExamples = R"(Examples:
   hairbench run scenes/thesis.json -a /strands/density=16,32,64 -a /render/msaa=1,4
   hairbench run scenes/thesis.json --filter 'guides:86/.*msaa:1' --out results/mine.json
   hairbench render scenes/strong_wind.json -o wind.png --frame 60
+  hairbench render scenes/strong_wind.json -o out/%04d.png --frames 0:240
   hairbench validate scenes/*.json
   hairbench groom info hair.hair --mesh head.glb
   hairbench groom convert hair.hair guides.hgl --guides 200 --vertices 16 --scale 0.01
   hairbench simulate scenes/nod.json --frames 60 --export nod.usda
   hairbench reference scenes/strong_wind.json -o truth.exr --samples 256
   hairbench diff truth.exr picture.png -o difference.png
+  hairbench lod scenes/rest.json --from 0.5 --to 20 --steps 40 -o lod.json
   hairbench physics --solver rod --check 'cantilever|catenary'
 Exit status: 0 ok, 1 internal error, 2 usage or invalid scene, 3 a check of the physics
 failed, 14 nothing ran, 77 no suitable device, 130 interrupted (what was done is saved).)";
@@ -29,6 +31,12 @@ constexpr const char* kConvertNotes = R"(Done in this order: scale, followers, v
 Without --scale lengths stay as they are, but that .hgl is always in metres: what IN states of its
 unit is applied. .hgl gets root triangles if IN has none. What a format can't hold is said on
 stderr. OUT may be IN; it is replaced when all is written, and an interrupt leaves it alone.)";
+
+constexpr const char* kLodNotes =
+    R"(The hair of one frame stands still; the camera keeps its direction. Error: root mean square of
+the picture with /lod's levels less that of level 0, display values counting from 0 to 1. Popping:
+the same of what changes from one place to the next, less what changes at level 0. Coverage: share
+of a square round the hair that it hides, without the head. Times: medians of isolated frames.)";
 
 void addDeviceOptions(CLI::App& command, engine::DeviceOptions& options) {
     command.add_option(
@@ -66,10 +74,23 @@ CLI::App* addRun(CLI::App& app, RunOptions& options) {
 }
 
 CLI::App* addRender(CLI::App& app, RenderOptions& options) {
-    CLI::App* command = app.add_subcommand("render", "writes the picture of one frame");
+    CLI::App* command = app.add_subcommand("render", "writes pictures of one frame or several");
     addSceneOptions(*command, options.scene);
-    command->add_option("-o,--out", options.out, "picture (.png)")->required()->type_name("FILE");
-    command->add_option("--frame", options.frame, "frame to draw, from 0 (default 0)");
+    command
+        ->add_option(
+            "-o,--out", options.out,
+            "picture: .png as a display shows it, .exr linear light without exposure and tone map; "
+            "of several frames with their number in it, as in out/%04d.png")
+        ->required()
+        ->type_name("FILE");
+    CLI::Option* frame =
+        command->add_option("--frame", options.frame, "frame to draw, from 0 (default 0)")
+            ->check(CLI::Range(0, 1'000'000));
+    command
+        ->add_option(
+            "--frames", options.frames, "frames to draw: A, A+1 ... below B, or every STEPth")
+        ->type_name("A:B[:STEP]")
+        ->excludes(frame);
     return command;
 }
 
@@ -124,6 +145,22 @@ CLI::App* addDiff(CLI::App& app, DiffOptions& options) {
         ->type_name("B");
     command->add_option("-o,--out", options.out, "FLIP's error map (.png)")->type_name("FILE");
     command->add_flag("--json", options.json, "as JSON");
+    return command;
+}
+
+CLI::App* addLod(CLI::App& app, LodOptions& options) {
+    CLI::App* command = app.add_subcommand(
+        "lod", "moves the camera away and compares level of detail by distance with full detail");
+    addSceneOptions(*command, options.scene);
+    command->add_option("--from", options.from, "first distance from /camera/target, m (0.5)")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--to", options.to, "last distance, m (20)")->check(CLI::PositiveNumber);
+    command->add_option("--steps", options.steps, "places, each as many times farther (40)")
+        ->check(CLI::Range(2u, 10000u));
+    command->add_option("-o,--out", options.out, "report file (default results/local/lod.json)")
+        ->type_name("FILE");
+    command->add_option("--frame", options.frame, "frame whose hair is drawn, from 0 (default 0)");
+    command->footer(kLodNotes);
     return command;
 }
 
@@ -209,6 +246,8 @@ int dispatch(int argc, char** argv) {
     RunOptions run;
     run.command.assign(argv, argv + argc);
     RenderOptions render;
+    LodOptions lod;
+    lod.command = run.command;
     PhysicsOptions physics;
     SimulateOptions simulate;
     ExportOptions exported;
@@ -220,6 +259,7 @@ int dispatch(int argc, char** argv) {
     std::vector<std::filesystem::path> scenes;
     const CLI::App* run_command = addRun(app, run);
     const CLI::App* render_command = addRender(app, render);
+    const CLI::App* lod_command = addLod(app, lod);
     const CLI::App* physics_command = addPhysics(app, physics);
     const CLI::App* simulate_command = addSimulate(app, simulate);
     const CLI::App* export_command = addExport(app, exported);
@@ -240,6 +280,7 @@ int dispatch(int argc, char** argv) {
     }
     if (run_command->parsed()) return runScene(run);
     if (render_command->parsed()) return renderScene(render);
+    if (lod_command->parsed()) return walkLod(lod);
     if (physics_command->parsed()) return checkPhysics(physics);
     if (simulate_command->parsed()) return simulateScene(simulate);
     if (export_command->parsed()) return exportScene(exported);

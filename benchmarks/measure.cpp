@@ -4,7 +4,9 @@
 #include <cmath>
 #include <iterator>
 #include <span>
+#include <utility>
 
+#include "benchmarks/hash.h"
 #include "benchmarks/statistics.h"
 #include "benchmarks/table.h"
 #include "benchmarks/trust.h"
@@ -24,6 +26,7 @@ constexpr std::uint32_t kMostTrustPairs = 16;
 struct Played {
     std::vector<FrameRecord> frames;  // measured ones
     double first_frame = 0.0;         // CPU ms from the start of recording until it was complete
+    std::vector<std::uint8_t> picture;
     std::string picture_hash;
     std::string state_hash;
 };
@@ -48,7 +51,8 @@ Played play(
     for (std::uint32_t i = 0; i <= run.frames; ++i) playFrame(loop, test_case, stop);
     const std::vector<FrameRecord> frames = loop.finish();
     played.frames.assign(frames.end() - 1 - run.frames, frames.end() - 1);
-    played.picture_hash = test_case.pictureHash();
+    played.picture = test_case.picture();
+    played.picture_hash = hashBytes(std::as_bytes(std::span(played.picture)));
     played.state_hash = test_case.stateHash();
     return played;
 }
@@ -122,6 +126,23 @@ void addStatistics(
     }
 }
 
+// Of the last frame, which is played.
+void addTransparency(const Case& test_case, CaseResult& result) {
+    const hair::StrandBlend& blend = test_case.blend();
+    if (blend.bytes() == 0) return;
+    result.metrics.push_back(
+        {"memory.transparency", "B", {static_cast<double>(blend.bytes())}, ""});
+    const std::optional<hair::ListedFragments> listed = blend.listed();
+    if (!listed) return;
+    result.counts.emplace_back("fragment_list_capacity", listed->capacity);
+    result.counts.emplace_back("fragments_wanted", listed->wanted);
+    result.counts.emplace_back("fragments_dropped", listed->dropped());
+    if (listed->dropped() == 0) return;
+    result.trust.warnings.push_back(
+        std::to_string(listed->dropped()) + " of " + std::to_string(listed->wanted) +
+        " fragments did not fit /render/list_length: the picture lacks them");
+}
+
 // Adds the isolated pass times, by timestamps if they can be trusted and else by the CPU's clock.
 void addPasses(
     const engine::Device& device, Case& test_case, const hair::RunSettings& run,
@@ -160,11 +181,11 @@ void addPasses(
 
 }  // namespace
 
-void measure(
+std::vector<std::uint8_t> measure(
     const engine::Device& device, Case& test_case, const hair::RunSettings& run,
     const StopRequest& stop, CaseResult& result) {
     result.counts = test_case.counts();
-    const Played overlapped = play(device, test_case, Timing::overlapped, run, stop);
+    Played overlapped = play(device, test_case, Timing::overlapped, run, stop);
     const Played isolated = play(device, test_case, Timing::isolated, run, stop);
     result.image_hash = overlapped.picture_hash;
     result.state_hash = overlapped.state_hash;
@@ -186,7 +207,9 @@ void measure(
     result.metrics.push_back({"frame.overlap", "ms", {sum - frame}, ""});
     result.metrics.push_back(
         {"memory.device", "B", {static_cast<double>(device.allocatedBytes())}, ""});
+    addTransparency(test_case, result);
     addStatistics(device, test_case, stop, result);
+    return std::move(overlapped.picture);
 }
 
 }  // namespace benchmarks

@@ -1,27 +1,26 @@
 #include "benchmarks/mitsuba_export.h"
 
 #include <algorithm>
-#include <optional>
+#include <iterator>
+#include <system_error>
 
 #include "benchmarks/assets.h"
 #include "benchmarks/case.h"
 #include "benchmarks/interrupt.h"
+#include "benchmarks/mitsuba_meshes.h"
 #include "benchmarks/mitsuba_scene.h"
 #include "benchmarks/mitsuba_shapes.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/simulated_strands.h"
+#include "engine/error.h"
 #include "engine/frame_loop.h"
 #include "engine/write_file.h"
-#include "hair/simulation/fixed_step.h"
-#include "hair/simulation/head_motion.h"
+#include "hair/rendering/mesh_geometry.h"
 
 namespace benchmarks {
 namespace {
 
-hair::StrandSet strandsOf(
-    const engine::Device& device, const Scene& scene, const hair::Settings& settings,
-    std::uint32_t frame) {
-    Case played(device, settings, scene.directory);
+void play(const engine::Device& device, Case& played, std::uint32_t frame) {
     engine::FrameLoop loop(device, engine::Timing::statistics);
     Progress progress(frame + std::size_t{1});
     try {
@@ -35,19 +34,38 @@ hair::StrandSet strandsOf(
         throw;
     }
     progress.clear();
-    hair::StrandSet strands = drawnStrands(played.strands());
-    if (strands.ends.empty()) throw engine::Error(scene.path.string(), "no strands are drawn");
-    return strands;
 }
 
-// Where the steps of that many frames take the head.
-hair::RigidMotion headPose(const hair::Settings& settings, std::uint32_t frame) {
-    const double time_step{settings.simulation.time_step};
-    hair::FixedStep fixed_step(time_step);
-    std::uint64_t steps = 0;
-    for (std::uint32_t i = 0; i <= frame; ++i)
-        steps += fixed_step.stepsFor(double{settings.run.frame_time});
-    return hair::HeadMotion(settings.simulation.motion).at(static_cast<double>(steps) * time_step);
+// The head, where the last frame takes it, and the meshes beside it.
+std::vector<MitsubaParts::Mesh> writeMeshes(
+    const std::filesystem::path& folder, const Scene& scene, const hair::Settings& settings,
+    const hair::RigidMotion& head) {
+    std::vector<MitsubaParts::Mesh> parts;
+    if (const auto mesh = loadMesh(settings, scene.directory); mesh && settings.render.head)
+        parts = writeMitsubaMesh(folder, "head", *mesh, head);
+    const auto& wanted = settings.render.meshes;
+    hair::RenderAssets assets = loadRenderAssets(settings, nullptr, scene.directory);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        const hair::Mesh mesh = hair::placed(std::move(assets.meshes[i]), wanted[i]);
+        std::ranges::move(
+            writeMitsubaMesh(folder, "mesh_" + std::to_string(i), mesh, {}),
+            std::back_inserter(parts));
+    }
+    return parts;
+}
+
+// The picture of the surroundings; the name of the copy, empty where there is none.
+std::string copyEnvironment(
+    const std::filesystem::path& folder, const Scene& scene, const hair::Settings& settings) {
+    if (settings.render.environment.empty()) return {};
+    const std::filesystem::path file = scene.directory / settings.render.environment;
+    const std::string name = "environment" + file.extension().string();
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    std::filesystem::copy_file(
+        file, folder / name, std::filesystem::copy_options::overwrite_existing, error);
+    if (error) throw engine::Error((folder / name).string(), error.message());
+    return name;
 }
 
 }  // namespace
@@ -60,26 +78,19 @@ MitsubaExport exportMitsuba(
     };
     MitsubaParts parts;
     MitsubaExport result;
+    Case played(device, settings, scene.directory);
+    play(device, played, frame);
     if (settings.render.hair) {
-        const hair::StrandSet strands = strandsOf(device, scene, settings, frame);
+        const hair::StrandSet strands = drawnStrands(played.strands());
+        if (strands.ends.empty()) throw engine::Error(scene.path.string(), "no strands are drawn");
         parts.hair_file = "hair.txt";
         write(parts.hair_file, [&](std::ostream& out) { writeMitsubaCurves(out, strands); });
         result.strands = strands.strandCount();
         result.points = strands.points.size();
     }
-    const std::optional<hair::Mesh> mesh =
-        settings.render.head ? loadMesh(settings, scene.directory) : std::nullopt;
-    const std::size_t materials = mesh ? mesh->materials.size() : 0;
-    for (std::uint32_t i = 0; i < materials; ++i) {
-        const auto triangles = std::ranges::count(mesh->triangle_materials, i);
-        if (triangles == 0) continue;
-        const std::string name = "head_" + std::to_string(parts.meshes.size()) + ".ply";
-        write(name, [&](std::ostream& out) {
-            writeMaterialPly(out, *mesh, i, headPose(settings, frame));
-        });
-        parts.meshes.push_back({name, mesh->materials[i].base_color});
-        result.triangles += static_cast<std::size_t>(triangles);
-    }
+    parts.meshes = writeMeshes(folder, scene, settings, played.head());
+    for (const MitsubaParts::Mesh& mesh : parts.meshes) result.triangles += mesh.triangles;
+    parts.environment_file = copyEnvironment(folder, scene, settings);
     write("scene.xml", [&](std::ostream& out) { writeMitsubaScene(out, settings, parts); });
     return result;
 }

@@ -1,38 +1,43 @@
 #include "benchmarks/mitsuba_optics.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include <glm/geometric.hpp>
 
+#include "hair/rendering/working_color.h"
+
 namespace benchmarks {
+namespace {
 
-glm::dvec3 toLinear(const glm::dvec3& display) {
-    glm::dvec3 linear;
-    for (int i = 0; i < 3; ++i) {
-        linear[i] = display[i] <= 0.04045 ? display[i] / 12.92
-                                          : std::pow((display[i] + 0.055) / 1.055, 2.4);
-    }
-    return linear;
-}
-
-glm::dvec3 absorptionOf(const glm::dvec3& color, double azimuthal_roughness) {
-    const double b = azimuthal_roughness;
-    const double scale =
-        5.969 + b * (-0.215 + b * (2.532 + b * (-10.73 + b * (5.574 + b * 0.245))));
-    glm::dvec3 absorption;
-    for (int i = 0; i < 3; ++i) {
-        const double root = std::log(std::clamp(color[i], 1e-4, 1.0)) / scale;
-        absorption[i] = root * root;
-    }
-    return absorption;
-}
-
-glm::dvec3 lightIntensity(const hair::LightSettings& light, const glm::dvec3& target) {
+// Squared distance at which the light has its colour, m^2.
+double referenceSquared(const hair::LightSettings& light, const glm::dvec3& target) {
+    const double reference{light.reference_distance};
+    if (reference > 0.0) return reference * reference;
     const glm::dvec3 offset = glm::dvec3(light.position) - target;
-    // A matt white surface reflects irradiance / pi; irradiance is intensity / distance^2.
-    return std::numbers::pi * glm::dot(offset, offset) * toLinear(light.color);
+    return glm::dot(offset, offset);
+}
+
+}  // namespace
+
+glm::dvec3 lightColor(const hair::RenderSettings& render, const hair::LightSettings& light) {
+    const double strength{light.strength};
+    const glm::dvec3 color(light.color);
+    // The strength is a factor of working colours.
+    return hair::hasLinearLight(render) ? strength * hair::toLinear(color)
+                                        : hair::toLinear(strength * color);
+}
+
+// A matt white surface reflects irradiance / pi; irradiance is intensity / distance^2.
+glm::dvec3 lightIntensity(
+    const hair::LightSettings& light, const glm::dvec3& color, const glm::dvec3& target) {
+    return std::numbers::pi * referenceSquared(light, target) * color;
+}
+
+// The irradiance of a surface that faces a sphere is pi radiance (radius / distance)^2.
+glm::dvec3
+lightRadiance(const hair::LightSettings& light, const glm::dvec3& color, const glm::dvec3& target) {
+    const double radius{light.radius};
+    return referenceSquared(light, target) / (radius * radius) * color;
 }
 
 }  // namespace benchmarks

@@ -4,19 +4,20 @@
 
 #include "hair/settings.h"
 
-// What a scene's colours, which are display RGB, mean to a path tracer, which has linear RGB.
+// What a scene's lights mean to a path tracer, which has linear RGB and units: a light's colour is
+// the radiance of a white matt surface that faces it. Where ours does not weaken with distance,
+// theirs does, and they agree at `target`.
 namespace benchmarks {
 
-// sRGB's transfer curve (IEC 61966-2-1), which goes on above 1.
-glm::dvec3 toLinear(const glm::dvec3& display);
+// Linear RGB, with the strength.
+glm::dvec3 lightColor(const hair::RenderSettings& render, const hair::LightSettings& light);
 
-// Absorption over a radius of a fibre, for which much hair has this linear colour when light
-// scatters in it again and again: Chiang et al. 2016, A practical and controllable hair and fur
-// model for production path tracing, equation (9). Colours below 1e-4 count as 1e-4.
-glm::dvec3 absorptionOf(const glm::dvec3& color, double azimuthal_roughness);
+// Radiant intensity of a point light of a linear colour.
+glm::dvec3
+lightIntensity(const hair::LightSettings& light, const glm::dvec3& color, const glm::dvec3& target);
 
-// Radiant intensity of a point light. The scenes' light does not weaken with distance; this one
-// does, and lights a white matt surface that faces it at `target` to a radiance of its colour.
-glm::dvec3 lightIntensity(const hair::LightSettings& light, const glm::dvec3& target);
+// Radiance of the surface of a sphere of light.
+glm::dvec3
+lightRadiance(const hair::LightSettings& light, const glm::dvec3& color, const glm::dvec3& target);
 
 }  // namespace benchmarks

@@ -1,28 +1,14 @@
 #include "benchmarks/mitsuba_scene.h"
 
 #include <algorithm>
-#include <type_traits>
 
-#include "benchmarks/decimal_text.h"
-#include "benchmarks/mitsuba_optics.h"
+#include "benchmarks/mitsuba_lights.h"
+#include "benchmarks/mitsuba_xml.h"
+#include "hair/rendering/hair_color.h"
+#include "hair/rendering/working_color.h"
 
 namespace benchmarks {
 namespace {
-
-template <class Value>
-std::string element(const char* type, const char* name, const Value& value) {
-    std::string text;
-    if constexpr (std::is_arithmetic_v<Value>) {
-        text = decimalText(value);
-    } else {
-        text = value;
-    }
-    return std::string("<") + type + " name=\"" + name + "\" value=\"" + text + "\"/>\n";
-}
-
-std::string rgb(const char* name, const glm::dvec3& linear) {
-    return element("rgb", name, decimalTexts(linear, ", "));
-}
 
 // Fair hair is seen through many fibres: paths are long, and end by chance only late.
 constexpr const char* kBegin = R"(<?xml version="1.0" encoding="utf-8"?>
@@ -54,26 +40,56 @@ void writeCamera(std::ostream& out, const hair::Settings& settings) {
         << "        <rfilter type=\"box\"/>\n    </film>\n</sensor>\n";
 }
 
-void writeLights(std::ostream& out, const hair::Settings& settings) {
-    if (settings.render.background != glm::vec3(0.0f)) {
-        out << "<emitter type=\"constant\">\n    "
-            << rgb("radiance", toLinear(settings.render.background)) << "</emitter>\n";
-    }
-    for (const hair::LightSettings& light : settings.shading.lights)
-        out << "<emitter type=\"point\">\n    <point name=\"position\" value=\""
-            << decimalTexts(light.position, ", ") << "\"/>\n    "
-            << rgb("intensity", lightIntensity(light, settings.camera.target)) << "</emitter>\n";
+// Along our curves, from root to tip, Mitsuba's lobes are tilted the other way than Marschner's,
+// and ours. Its tilt is in degrees.
+void writeHair(std::ostream& out, const hair::ShadingSettings& shading, const std::string& file) {
+    const glm::dvec3 absorbed = hair::absorption(shading);
+    // Mitsuba takes colours up to 1 here, and a factor.
+    const double scale = std::max({absorbed.x, absorbed.y, absorbed.z, 1.0});
+    out << "<shape type=\"bsplinecurve\">\n    " << element("string", "filename", file)
+        << "    <bsdf type=\"hair\">\n        " << rgb("sigma_a", absorbed / scale) << "        "
+        << element("float", "scale", scale) << "        "
+        << element("float", "longitudinal_roughness", shading.longitudinal_roughness) << "        "
+        << element("float", "azimuthal_roughness", shading.azimuthal_roughness)
+        << "        "
+        // Mitsuba's scales open towards the root of a curve that begins there; hair's do not.
+        << element("float", "scale_tilt", -shading.cuticle_tilt) << "        "
+        << element("float", "int_ior", shading.refractive_index) << "        "
+        << element("float", "ext_ior", 1.0) << "    </bsdf>\n</shape>\n";
 }
 
-void writeHair(std::ostream& out, const hair::Settings& settings, const std::string& file) {
-    const glm::dvec3 absorption = absorptionOf(toLinear(settings.shading.color), kHairRoughness);
-    // Mitsuba takes colours up to 1 here, and a factor.
-    const double scale = std::max({absorption.x, absorption.y, absorption.z, 1.0});
-    out << "<shape type=\"bsplinecurve\">\n    " << element("string", "filename", file)
-        << "    <bsdf type=\"hair\">\n        " << rgb("sigma_a", absorption / scale) << "        "
-        << element("float", "scale", scale) << "        "
-        << element("float", "longitudinal_roughness", kHairRoughness) << "        "
-        << element("float", "azimuthal_roughness", kHairRoughness) << "    </bsdf>\n</shape>\n";
+// A picture's rows go down as its v does, in Mitsuba as in glTF.
+void writeColor(std::ostream& out, const char* name, const MitsubaParts::Mesh& mesh) {
+    if (mesh.texture.empty()) {
+        out << rgb(name, hair::toLinear(mesh.color));
+        return;
+    }
+    out << "<texture type=\"bitmap\" name=\"" << name << "\">\n            "
+        << element("string", "filename", mesh.texture) << "            "
+        << element("string", "wrap_mode", mesh.wrap) << "        </texture>\n";
+}
+
+void writeMatt(std::ostream& out, const MitsubaParts::Mesh& mesh) {
+    out << "<bsdf type=\"diffuse\">\n        ";
+    writeColor(out, "reflectance", mesh);
+    out << "    </bsdf>\n";
+}
+
+void writeGlossy(std::ostream& out, const MitsubaParts::Mesh& mesh) {
+    out << "<bsdf type=\"principled\">\n        ";
+    writeColor(out, "base_color", mesh);
+    out << "        " << element("float", "metallic", mesh.metallic) << "        "
+        << element("float", "roughness", mesh.roughness) << "    </bsdf>\n";
+}
+
+// Where light is added up in display RGB, ours are matt.
+void writeMesh(
+    std::ostream& out, const hair::RenderSettings& render, const MitsubaParts::Mesh& mesh) {
+    out << "<shape type=\"ply\">\n    " << element("string", "filename", mesh.file) << "    ";
+    if (mesh.two_sided) out << "<bsdf type=\"twosided\">\n    ";
+    hair::hasLinearLight(render) ? writeGlossy(out, mesh) : writeMatt(out, mesh);
+    if (mesh.two_sided) out << "    </bsdf>\n";
+    out << "</shape>\n";
 }
 
 }  // namespace
@@ -82,13 +98,9 @@ void writeMitsubaScene(
     std::ostream& out, const hair::Settings& settings, const MitsubaParts& parts) {
     out << kBegin;
     writeCamera(out, settings);
-    writeLights(out, settings);
-    if (!parts.hair_file.empty()) writeHair(out, settings, parts.hair_file);
-    for (const MitsubaParts::Mesh& mesh : parts.meshes) {
-        out << "<shape type=\"ply\">\n    " << element("string", "filename", mesh.file)
-            << "    <bsdf type=\"diffuse\">\n        " << rgb("reflectance", toLinear(mesh.color))
-            << "    </bsdf>\n</shape>\n";
-    }
+    writeMitsubaLights(out, settings, parts.environment_file);
+    if (!parts.hair_file.empty()) writeHair(out, settings.shading, parts.hair_file);
+    for (const MitsubaParts::Mesh& mesh : parts.meshes) writeMesh(out, settings.render, mesh);
     out << "</scene>\n";
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -14,19 +15,24 @@ namespace benchmarks {
 struct MitsubaParts {
     struct Mesh {
         std::string file;
-        glm::vec3 color;  // display RGB
+        std::size_t triangles = 0;
+        glm::vec3 color{0.0f};  // display RGB
+        float metallic = 0.0f;
+        float roughness = 1.0f;
+        std::string texture;  // instead of the colour; empty: none
+        std::string wrap = "repeat";  // Mitsuba's: also "mirror", "clamp"
+        bool two_sided = false;  // seen from behind too
     };
     std::string hair_file;  // empty: no hair
     std::vector<Mesh> meshes;
+    std::string environment_file;  // empty: no environment
 };
 
-// Of the fibres, along them and round them: Mitsuba's own default.
-inline constexpr double kHairRoughness = 0.3;
-
-// A scene of Mitsuba 3 with the settings' camera, background and light. Hair is Mitsuba's `hair`
-// (Chiang et al. 2016), whose absorption is that of /shading/color; nothing else of our shading is
-// in it. The background is a light too, of the same radiance from everywhere. Pixels are means over
-// their squares (a box filter), as in our supersampling. Samples a pixel: the parameter `spp`.
+// A scene of Mitsuba 3 with the settings' camera, background and lights. Hair is Mitsuba's `hair`
+// (Chiang et al. 2016) with the settings' absorption, roughnesses, tilt and index; nothing else of
+// our shading is in it. The background is a light too, of the same radiance from everywhere. Pixels
+// are means over their squares (a box filter), as in our supersampling. Samples a pixel: the
+// parameter `spp`.
 void writeMitsubaScene(
     std::ostream& out, const hair::Settings& settings, const MitsubaParts& parts);
 

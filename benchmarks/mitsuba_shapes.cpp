@@ -44,12 +44,15 @@ void writeMaterialPly(
     }
     out << "ply\nformat ascii 1.0\nelement vertex " << vertices.size();
     for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) out << "\nproperty float " << name;
+    const bool has_coordinates = !mesh.texture_coordinates.empty();
+    if (has_coordinates) out << "\nproperty float u\nproperty float v";
     out << "\nelement face " << triangles.size()
         << "\nproperty list uchar int vertex_indices\nend_header\n";
     for (const std::uint32_t vertex : vertices) {
         const glm::dvec3 normal = pose.rotation * glm::dvec3(mesh.normals[vertex]);
-        out << decimalTexts(pose(mesh.positions[vertex]), " ") << ' ' << decimalTexts(normal, " ")
-            << '\n';
+        out << decimalTexts(pose(mesh.positions[vertex]), " ") << ' ' << decimalTexts(normal, " ");
+        if (has_coordinates) out << ' ' << decimalTexts(mesh.texture_coordinates[vertex], " ");
+        out << '\n';
     }
     for (const auto& [a, b, c] : triangles) out << "3 " << a << ' ' << b << ' ' << c << '\n';
 }

@@ -16,7 +16,8 @@ namespace benchmarks {
 // just beyond a tip that narrows to nothing, is 0 instead.
 void writeMitsubaCurves(std::ostream& out, const hair::StrandSet& strands);
 
-// PLY of the triangles with this material, where `pose` takes them.
+// PLY of the triangles with this material, where `pose` takes them, with texture coordinates where
+// the mesh has them.
 void writeMaterialPly(
     std::ostream& out, const hair::Mesh& mesh, std::uint32_t material,
     const hair::RigidMotion& pose);

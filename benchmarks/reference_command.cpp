@@ -1,4 +1,3 @@
-#include <cstdlib>
 #include <iostream>
 #include <optional>
 #include <sstream>
@@ -9,33 +8,12 @@
 #include "benchmarks/mitsuba_export.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/reference_tool.h"
+#include "benchmarks/scratch_folder.h"
 #include "engine/write_file.h"
 #include "hair/groom/file_extension.h"
 
 namespace benchmarks {
 namespace {
-
-// A folder that is gone in any case.
-class ScratchFolder {
-public:
-    ScratchFolder() {
-        std::string path =
-            (std::filesystem::temp_directory_path() / "hairbench-reference-XXXXXX").string();
-        if (!mkdtemp(path.data())) throw engine::Error(path, "can't be made");
-        path_ = path;
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    ~ScratchFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
 
 // The tool's lines are "passes <how many>", then "pass <samples before it>" as each begins.
 class PassProgress {

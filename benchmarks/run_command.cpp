@@ -8,10 +8,11 @@
 #include "benchmarks/hash.h"
 #include "benchmarks/interrupt.h"
 #include "benchmarks/measure.h"
+#include "benchmarks/picture_errors.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/report.h"
-#include "engine/write_file.h"
 #include "benchmarks/table.h"
+#include "engine/write_file.h"
 
 namespace benchmarks {
 
@@ -19,11 +20,16 @@ namespace {
 
 // A case that can't run here is part of the result, and the sweep goes on.
 CaseResult runCase(
-    const engine::Device& device, const CaseSpec& spec, const std::filesystem::path& directory) {
+    const engine::Device& device, const CaseSpec& spec, const std::filesystem::path& directory,
+    ReferenceComparison& references) {
     CaseResult result{.name = spec.name, .axes = spec.axes};
     try {
         Case test_case(device, spec.settings, directory);
-        measure(device, test_case, spec.settings.run, interrupted, result);
+        const hair::RunSettings& run = spec.settings.run;
+        const hair::RenderSettings& render = spec.settings.render;
+        const auto picture = measure(device, test_case, run, interrupted, result);
+        if (!run.reference.empty())
+            references.add(directory / run.reference, render.width, render.height, picture, result);
     } catch (const engine::Unsupported& error) {
         result = {
             .name = spec.name,
@@ -35,6 +41,17 @@ CaseResult runCase(
             .name = spec.name, .axes = spec.axes, .status = Status::failed, .reason = error.what()};
     }
     return result;
+}
+
+// The errors of references that are not there, before anything runs.
+void checkReferences(const std::vector<CaseSpec>& cases, const Scene& scene) {
+    for (const CaseSpec& each : cases) {
+        const std::string& file = each.settings.run.reference;
+        if (!file.empty() && !std::filesystem::is_regular_file(scene.directory / file))
+            throw engine::Error(
+                scene.path.string(),
+                "/run/reference: " + (scene.directory / file).string() + ": is no file");
+    }
 }
 
 void listCases(const std::vector<CaseSpec>& cases) {
@@ -60,6 +77,7 @@ int runScene(const RunOptions& options) {
         options.out.empty() ? std::filesystem::path("results/local") / (scene.name + ".json")
                             : options.out;
     engine::checkWritable(out);
+    checkReferences(cases, scene);
 
     catchInterrupts();
     const engine::Device device(options.scene.device);
@@ -72,10 +90,11 @@ int runScene(const RunOptions& options) {
     std::cerr << versionText() << " on " << device.info().name << " (" << device.info().driver
               << ' ' << device.info().driver_version << ")\n";
     Progress progress(cases.size());
+    ReferenceComparison references;
     try {
         for (const CaseSpec& each : cases) {
             progress.begin(each.name);
-            report.cases.push_back(runCase(device, each, scene.directory));
+            report.cases.push_back(runCase(device, each, scene.directory, references));
             for (const std::string& message : device.messages().take()) {
                 report.cases.back().trust.warnings.push_back("validation: " + message);
             }

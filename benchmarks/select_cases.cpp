@@ -18,8 +18,10 @@ std::vector<CaseSpec> selectCases(Scene& scene, const SceneOptions& options) {
         std::string files;
         for (const std::string& file :
              {groom.file, groom.mesh, groom.grow.mesh, groom.grow.scalp, groom.grow.mask,
-              groom.grow.length_map, each.settings.strands.offsets})
+              groom.grow.length_map, each.settings.strands.offsets, each.settings.strands.texture,
+              each.settings.render.environment, each.settings.run.reference})
             files += file + '\n';
+        for (const auto& mesh : each.settings.render.meshes) files += '\n' + mesh.file;
         for (const auto& field : each.settings.simulation.distance_fields)
             files += '\n' + field.mesh;
         if (checked.insert(files).second) checkAssets(each.settings, scene.path);

@@ -119,6 +119,11 @@ std::vector<Column> columns(const std::vector<CaseResult>& cases) {
     addMedian("fps", "fps");
     addMedian("frame ms", "frame.time");
     for (const std::string& pass : passes(cases)) addMedian(pass + " ms", "pass." + pass + ".time");
+    if (std::ranges::any_of(cases, [](const CaseResult& result) {
+            return std::ranges::find(result.metrics, "image.flip", &Metric::name) !=
+                   result.metrics.end();
+        }))
+        addMedian("FLIP", "image.flip");
     all.push_back(
         column("strands", cases, [](const CaseResult& r) { return countCell(r, "strands"); }));
     all.push_back(column("status", cases, statusCell));

@@ -1,5 +1,6 @@
 #include "engine/commands.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -101,7 +102,7 @@ void Commands::transition(
         .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
         .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
         .image = image.get(),
-        .subresourceRange = {image.aspect(), 0, 1, 0, 1}};
+        .subresourceRange = {image.aspect(), 0, VK_REMAINING_MIP_LEVELS, 0, 1}};
     VkDependencyInfo dependency{};
     dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
     dependency.imageMemoryBarrierCount = 1;
@@ -138,6 +139,21 @@ void Commands::copy(const Image& source, const Image& destination) {
     vkCmdCopyImage(
         buffer_, source.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, destination.get(),
         VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+}
+
+void Commands::copy(
+    const Buffer& source, std::size_t offset, const Image& destination, std::uint32_t level) {
+    const VkExtent2D extent = destination.extent();
+    const VkBufferImageCopy region{
+        .bufferOffset = offset,
+        .bufferRowLength = 0,
+        .bufferImageHeight = 0,
+        .imageSubresource = {destination.aspect(), level, 0, 1},
+        .imageOffset = {0, 0, 0},
+        .imageExtent = {
+            std::max(extent.width >> level, 1u), std::max(extent.height >> level, 1u), 1}};
+    vkCmdCopyBufferToImage(
+        buffer_, source.get(), destination.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }
 
 void Commands::fill(const Buffer& buffer, std::uint32_t value) {

@@ -61,6 +61,9 @@ public:
     void copy(const Image& source, const Image& destination);
     void
     copy(const Image& source, const Buffer& destination);  // TRANSFER_SRC_OPTIMAL, tightly packed
+    // A level from its tightly packed pixels; TRANSFER_DST_OPTIMAL.
+    void
+    copy(const Buffer& source, std::size_t offset, const Image& destination, std::uint32_t level);
     void fill(const Buffer& buffer, std::uint32_t value);
 
     // Pipelines are bound with the constants that their next dispatch or draws use.

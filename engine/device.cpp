@@ -32,7 +32,7 @@ Device::Device(const DeviceOptions& options)
     : instance_(options.validation), info_(chooseDevice(instance_, options.wanted)) {
     RequiredFeatures features;
     enableOptionalFeatures(info_.handle, features.core.features);
-    pipeline_statistics_ = features.core.features.pipelineStatisticsQuery == VK_TRUE;
+    features_ = features.core.features;
 
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue{
@@ -93,6 +93,12 @@ std::uint32_t Device::maxTessellatedVertices() const {
 bool Device::supportsSamples(std::uint32_t samples) const {
     return (info_.limits.framebufferColorSampleCounts & info_.limits.framebufferDepthSampleCounts &
             samples) != 0;
+}
+
+bool Device::supportsBlending(VkFormat format) const {
+    VkFormatProperties properties{};
+    vkGetPhysicalDeviceFormatProperties(info_.handle, format, &properties);
+    return (properties.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) != 0;
 }
 
 bool Device::fragmentCountsAreApproximate() const {

@@ -39,9 +39,15 @@ public:
     std::uint32_t maxTessellatedVertices() const;
 
     bool supportsSamples(std::uint32_t samples) const;
+    // Whether color attachments of this format can be blended into.
+    bool supportsBlending(VkFormat format) const;
     // lavapipe before Mesa 23 counts about twenty times too many fragments.
     bool fragmentCountsAreApproximate() const;
-    bool hasPipelineStatistics() const { return pipeline_statistics_; }
+    bool hasPipelineStatistics() const { return features_.pipelineStatisticsQuery == VK_TRUE; }
+    // Whether attachments of one pipeline can be blended in different ways.
+    bool hasIndependentBlend() const { return features_.independentBlend == VK_TRUE; }
+    // Whether fragment shaders can write to buffers.
+    bool hasFragmentStores() const { return features_.fragmentStoresAndAtomics == VK_TRUE; }
 
     // Bytes of memory that live allocations hold.
     std::uint64_t allocatedBytes() const;
@@ -55,7 +61,7 @@ public:
 private:
     Instance instance_;
     DeviceInfo info_;
-    bool pipeline_statistics_ = false;
+    VkPhysicalDeviceFeatures features_{};  // that are switched on
     VkDevice device_{};
     VkQueue queue_{};
     VmaAllocator_T* allocator_{};

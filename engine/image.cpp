@@ -17,7 +17,7 @@ Image::Image(const Device& device, const ImageDescription& description)
     create.imageType = VK_IMAGE_TYPE_2D;
     create.format = format_;
     create.extent = {extent_.width, extent_.height, 1};
-    create.mipLevels = 1;
+    create.mipLevels = description.levels;
     create.arrayLayers = 1;
     create.samples = static_cast<VkSampleCountFlagBits>(description.samples);
     create.tiling = VK_IMAGE_TILING_OPTIMAL;
@@ -41,7 +41,7 @@ Image::Image(const Device& device, const ImageDescription& description)
     view.image = image_;
     view.viewType = VK_IMAGE_VIEW_TYPE_2D;
     view.format = format_;
-    view.subresourceRange = {aspect_, 0, 1, 0, 1};
+    view.subresourceRange = {aspect_, 0, description.levels, 0, 1};
     VkImageView handle{};
     check(vkCreateImageView(device.get(), &view, nullptr, &handle), "create an image view");
     view_ = {device.get(), handle};

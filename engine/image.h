@@ -13,11 +13,12 @@ struct ImageDescription {
     std::uint32_t width = 1;   // px
     std::uint32_t height = 1;  // px
     std::uint32_t samples = 1;
+    std::uint32_t levels = 1;  // each half as large as the one before
     VkImageUsageFlags usage = 0;
     std::string name;
 };
 
-// A 2D image of one level with its memory and a view of all of it.
+// A 2D image with its memory and a view of all of it.
 class Image {
 public:
     Image(const Device& device, const ImageDescription& description);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace engine {
@@ -21,13 +22,25 @@ struct FloatPixels {
     std::vector<float> rgb;  // [row][column][channel], top row first
 };
 
-// Reads a PNG, JPEG, TGA or BMP of at most 2^26 pixels; what has no alpha gets 255, and 16 bits
-// become 8. Throws Error that names the file.
+// Of a PNG, JPEG, TGA or BMP of at most 2^26 pixels; what has no alpha gets 255, and 16 bits become
+// 8. Throws Error; readImage's names the file.
+Pixels decodeImage(std::string_view file);
 Pixels readImage(const std::filesystem::path& path);
 
-// Writes a PNG of RGBA pixels, [row][column], top row first; creates the folder. Throws Error.
+// Reads an OpenEXR (channels R, G, B or Y; its display window, black where there is no data) or a
+// Radiance HDR of at most 2^26 pixels; primaries are taken to be sRGB's. Throws Error that names
+// the file.
+FloatPixels readFloatImage(const std::filesystem::path& path);
+
+// Writes a PNG of RGBA pixels, [row][column], top row first, as writeFileAtomically does. Throws
+// Error.
 void writePng(
     const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
     std::span<const std::uint8_t> rgba);
+
+// The same of linear light: an OpenEXR of single-precision R, G, B, [row][column][channel].
+void writeExr(
+    const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
+    std::span<const float> rgb);
 
 }  // namespace engine

@@ -24,6 +24,8 @@ constexpr std::array kCoreFeatures{
 // Taken where the device has them.
 constexpr std::array kOptionalCoreFeatures{
     Feature{"pipelineStatisticsQuery", &VkPhysicalDeviceFeatures::pipelineStatisticsQuery},
+    Feature{"independentBlend", &VkPhysicalDeviceFeatures::independentBlend},
+    Feature{"fragmentStoresAndAtomics", &VkPhysicalDeviceFeatures::fragmentStoresAndAtomics},
 };
 
 constexpr std::array kVulkan12Features{

@@ -173,8 +173,8 @@ GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsDescripti
             description.sampled_images, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
         images_ = {device.get(), makeImageLayout(device, types, VK_SHADER_STAGE_FRAGMENT_BIT)};
     }
-    layout_ = makeLayout(
-        device, VK_SHADER_STAGE_ALL_GRAPHICS, description.push_size, images_.get());
+    layout_ =
+        makeLayout(device, VK_SHADER_STAGE_ALL_GRAPHICS, description.push_size, images_.get());
     const Specialization specialization(description.constants);
     std::vector<ShaderModule> modules;
     std::vector<VkPipelineShaderStageCreateInfo> stages;
@@ -204,7 +204,6 @@ GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsDescripti
     VkPipelineMultisampleStateCreateInfo multisample{};
     multisample.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
     multisample.rasterizationSamples = static_cast<VkSampleCountFlagBits>(description.samples);
-    multisample.alphaToCoverageEnable = description.alpha_to_coverage ? VK_TRUE : VK_FALSE;
     VkPipelineDepthStencilStateCreateInfo depth{};
     depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
     depth.depthTestEnable = VK_TRUE;

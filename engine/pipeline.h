@@ -35,8 +35,8 @@ private:
 // What becomes of a fragment's color and that of the attachment.
 enum class Blend {
     replace,
-    add,        // all channels
-    over,       // color: by the fragment's alpha; alpha: what is covered
+    add,  // all channels
+    over,  // color: by the fragment's alpha; alpha: what is covered
     attenuate,  // attachment x (1 - fragment), channel by channel
 };
 
@@ -51,14 +51,14 @@ struct GraphicsDescription {
     std::uint32_t push_size = 0;  // B
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     std::uint32_t patch_control_points = 0;  // with PATCH_LIST
-    std::vector<ColorTarget> colors;         // blends that differ need independentBlend
+    std::vector<ColorTarget> colors;  // blends that differ need independentBlend
     VkFormat depth_format = VK_FORMAT_UNDEFINED;
     std::uint32_t samples = 1;
     VkCullModeFlags cull = VK_CULL_MODE_NONE;
     VkCompareOp depth_compare = VK_COMPARE_OP_LESS;
     bool depth_write = true;
-    bool alpha_to_coverage = false;
-    std::uint32_t sampled_images = 0;  // with their samplers, at bindings 0 .. of the fragment stage
+    std::uint32_t sampled_images =
+        0;  // with their samplers, at bindings 0 .. of the fragment stage
 };
 
 // Viewport and scissor are dynamic; the rest of the state is in the description.

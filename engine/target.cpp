@@ -1,6 +1,8 @@
 #include "engine/target.h"
 
 #include <algorithm>
+#include <cassert>
+#include <cstring>
 
 #include "engine/transfer.h"
 
@@ -57,7 +59,16 @@ Target::Target(const Device& device, const TargetDescription& description)
                    .samples = 1,
                    .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                             VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-                   .name = "output"}) {}
+                   .name = "output"}) {
+    if (description.color_format == kOutputFormat) return;
+    radiance_.emplace(
+        device, ImageDescription{
+                    .format = kRadianceFormat,
+                    .width = description.width,
+                    .height = description.height,
+                    .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                    .name = "radiance"});
+}
 
 void Target::beginRendering(
     Commands& commands, Load load, const std::array<float, 3>& background) const {
@@ -87,15 +98,23 @@ void Target::beginResolve(Commands& commands) const {
     commands.transition(
         color_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
         Access::attachment, Access::compute_read);
-    commands.transition(
-        output_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, Access::transfer_read,
-        Access::compute_write);
+    const auto begin = [&](const Image& written) {
+        commands.transition(
+            written, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, Access::transfer_read,
+            Access::compute_write);
+    };
+    begin(output_);
+    if (radiance_) begin(*radiance_);
 }
 
 void Target::endResolve(Commands& commands) const {
-    commands.transition(
-        output_, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-        Access::compute_write, Access::transfer_read);
+    const auto end = [&](const Image& written) {
+        commands.transition(
+            written, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+            Access::compute_write, Access::transfer_read);
+    };
+    end(output_);
+    if (radiance_) end(*radiance_);
 }
 
 void Target::copyToOutput(Commands& commands) const {
@@ -111,19 +130,39 @@ void Target::copyToOutput(Commands& commands) const {
         Access::transfer_write, Access::transfer_read);
 }
 
-std::vector<std::uint8_t> readOutput(const Device& device, const Target& target) {
-    const VkExtent2D extent = target.output().extent();
-    const Buffer staging(
-        device, {.size = std::size_t{4} * extent.width * extent.height,
+namespace {
+
+// The bytes of an image in TRANSFER_SRC_OPTIMAL.
+Buffer readBack(const Device& device, const Image& image, std::size_t bytes_per_pixel) {
+    const VkExtent2D extent = image.extent();
+    Buffer staging(
+        device, {.size = bytes_per_pixel * extent.width * extent.height,
                  .usage = Usage::readback,
                  .name = "picture"});
     device.runOnce([&](Commands& commands) {
         commands.barrier(Access::anything, Access::transfer_read);
-        commands.copy(target.output(), staging);
+        commands.copy(image, staging);
         commands.barrier(Access::transfer_write, Access::host_read);
     });
+    return staging;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> readOutput(const Device& device, const Target& target) {
+    const Buffer staging = readBack(device, target.output(), 4);
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(staging.mapped().data());
     return {bytes, bytes + staging.size()};
+}
+
+std::vector<float> readRadiance(const Device& device, const Target& target) {
+    assert(target.hasRadiance());
+    constexpr std::size_t kPixel = 4 * sizeof(float);
+    const Buffer staging = readBack(device, target.radiance(), kPixel);
+    std::vector<float> rgb(staging.size() / kPixel * 3);
+    for (std::size_t i = 0; i < rgb.size() / 3; ++i)
+        std::memcpy(&rgb[3 * i], &staging.mapped()[kPixel * i], 3 * sizeof(float));
+    return rgb;
 }
 
 }  // namespace engine

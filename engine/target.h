@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "engine/commands.h"
 #include "engine/rendering.h"
@@ -15,12 +16,14 @@ struct TargetDescription {
     VkFormat color_format = VK_FORMAT_R8G8B8A8_UNORM;  // of what is rendered
 };
 
-// The images of an offscreen picture: color and depth that passes render into, and the output
-// picture that the resolve pass writes (8-bit RGBA, display-referred).
+// The images of an offscreen picture: color and depth that passes render into, the output picture
+// that the resolve pass writes (8-bit RGBA, display-referred), and, where color is floats, the mean
+// linear light of each of its pixels.
 class Target {
 public:
     static constexpr VkFormat kOutputFormat = VK_FORMAT_R8G8B8A8_UNORM;
     static constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+    static constexpr VkFormat kRadianceFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 
     // Throws Unsupported where the device lacks the sample count or the size.
     Target(const Device& device, const TargetDescription& description);
@@ -30,7 +33,7 @@ public:
     beginRendering(Commands& commands, Load load, const std::array<float, 3>& background) const;
     void endRendering(Commands& commands) const;
 
-    // Bracket a compute pass that reads color() and writes output().
+    // Bracket a compute pass that reads color() and writes output() and radiance().
     void beginResolve(Commands& commands) const;
     void endResolve(Commands& commands) const;
 
@@ -41,15 +44,21 @@ public:
     const Image& color() const { return color_; }
     const Image& depth() const { return depth_; }
     const Image& output() const { return output_; }  // TRANSFER_SRC_OPTIMAL once resolved
+    bool hasRadiance() const { return radiance_.has_value(); }
+    const Image& radiance() const { return *radiance_; }  // the same; only where there is one
 
 private:
     TargetDescription description_;
     Image color_;
     Image depth_;
     Image output_;
+    std::optional<Image> radiance_;
 };
 
 // The output picture's pixels: [row][column] RGBA, top row first.
 std::vector<std::uint8_t> readOutput(const Device& device, const Target& target);
+
+// The mean linear light of its pixels: [row][column] RGB. The target must have it.
+std::vector<float> readRadiance(const Device& device, const Target& target);
 
 }  // namespace engine

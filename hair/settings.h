@@ -12,9 +12,9 @@
 #include "hair/strand_settings.h"
 
 // Every parameter of a case (those of guides, simulation, strands and light are in
-// groom_settings.h, simulation_settings.h, strand_settings.h and shading_settings.h), with the thesis's values (section 6 there) as
-// defaults. A new parameter is a member and a row in the table below its struct; nothing else has
-// to be edited.
+// groom_settings.h, simulation_settings.h, strand_settings.h and shading_settings.h), with the
+// thesis's values (section 6 there) as defaults. A new parameter is a member and a row in the table
+// below its struct; nothing else has to be edited.
 namespace hair {
 
 // ---- Level of detail ----------------------------------------------------------------------------
@@ -50,7 +50,6 @@ constexpr auto fields(const LodSettings*) {
 }
 
 // ---- Picture ------------------------------------------------------------------------------------
-
 
 struct CameraSettings {
     glm::vec3 position{0.0f, 0.0f, 0.5f};
@@ -157,8 +156,8 @@ constexpr auto fields(const RenderSettings*) {
               {Transparency::weighted_blended, "weighted_blended"},
               {Transparency::fragment_list, "fragment_list"}}},
             "what opacity does; none: nothing; alpha_to_coverage: it covers as many samples, which "
-            "needs msaa; weighted_blended: McGuire and Bavoil 2013; fragment_list: fragments sorted "
-            "per pixel"},
+            "needs msaa; weighted_blended: McGuire and Bavoil 2013; fragment_list: fragments "
+            "sorted per pixel"},
         Field{
             "list_length", &S::list_length, 1, 256, "count",
             "of fragment_list: fragments that there is room for, per rendered pixel in the mean"},

@@ -77,7 +77,8 @@ constexpr auto fields(const ShadowSettings*) {
         Field{
             "stopped", &S::stopped, 0, 1, "1",
             "of phong, kajiya_kay and meshes: part of the light that a strand stops"},
-        Field{"softness", &S::softness, 0, 16, "px", "radius in the map over which it is averaged"}};
+        Field{
+            "softness", &S::softness, 0, 16, "px", "radius in the map over which it is averaged"}};
 }
 
 enum class ShadingModel { phong, kajiya_kay, marschner, dual_scattering };
@@ -113,9 +114,10 @@ constexpr auto fields(const ShadingSettings*) {
               {ShadingModel::kajiya_kay, "kajiya_kay"},
               {ShadingModel::marschner, "marschner"},
               {ShadingModel::dual_scattering, "dual_scattering"}}},
-            "how a strand is lit; phong: thesis (5), (6); kajiya_kay: 1989; marschner: light that a "
-            "fibre reflects and lets through once (R, TT, TRT), d'Eon et al. 2011 and Chiang et al. "
-            "2016; dual_scattering: the same and what other strands scatter, Zinke et al. 2008"},
+            "how a strand is lit; phong: thesis (5), (6); kajiya_kay: Kajiya and Kay 1989; "
+            "marschner: light that a fibre reflects and lets through once (R, TT, TRT), d'Eon et "
+            "al. 2011 and Chiang et al. 2016; dual_scattering: the same and what other strands "
+            "scatter, Zinke et al. 2008"},
         Choice<S, ColorSource, 2>{
             "color_from",
             &S::color_from,
@@ -146,7 +148,8 @@ constexpr auto fields(const ShadingSettings*) {
             "density_factor", &S::density_factor, 0, 1, "1",
             "d_f = d_b of dual_scattering: how much of its surroundings hair fills"},
         List<S, LightSettings>{"lights", &S::lights, 16, "the lights"},
-        Group<S, ShadowSettings>{"shadows", &S::shadows, "what is between a light and what it lights"}};
+        Group<S, ShadowSettings>{
+            "shadows", &S::shadows, "what is between a light and what it lights"}};
 }
 
 }  // namespace hair

@@ -135,7 +135,8 @@ constexpr auto fields(const StrandSettings*) {
             {"offsets", &S::offsets,
              "strands whose offsets from their own smooth shape are added to drawn ones, relative "
              "to the scene file; empty: none"}},
-        Field{"opacity", &S::opacity, 0, 1, "1", "of a strand; /render/transparency makes use of it"},
+        Field{
+            "opacity", &S::opacity, 0, 1, "1", "of a strand; /render/transparency makes use of it"},
         FileName<S>{
             {"texture", &S::texture,
              "picture (.png, ...) on strands: across them and, downward, from root to tip; its "

@@ -23,6 +23,7 @@ constexpr std::array kBackends{
     BackendRow{Backend::pulling_geometry, makePullingGeometryBackend},
 };
 
+constexpr std::size_t kSamplesConstant = 15;  // in strands/pixel_samples.glsl
 constexpr std::size_t kFirstShadingConstant = 16;  // in shading/options.glsl
 
 }  // namespace
@@ -33,24 +34,25 @@ std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext
     return row->make(context);
 }
 
-engine::Constants strandConstants(const StrandSettings& strands, LodMode lod_mode) {
-    return {
-        static_cast<std::uint32_t>(strands.curve),
-        static_cast<std::uint32_t>(strands.taper),
-        static_cast<std::uint32_t>(lod_mode),
-        static_cast<std::uint32_t>(strands.source),
-        static_cast<std::uint32_t>(strands.width),
-        hasOffsets(strands) ? 1u : 0u,
-        static_cast<std::uint32_t>(strands.interpolation),
-        strands.collision_rule ? 1u : 0u,
-        static_cast<std::uint32_t>(strands.randomness)};
+engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan) {
+    return {static_cast<std::uint32_t>(strands.curve),
+            static_cast<std::uint32_t>(strands.taper),
+            static_cast<std::uint32_t>(plan.lod_mode),
+            static_cast<std::uint32_t>(strands.source),
+            static_cast<std::uint32_t>(strands.width),
+            hasOffsets(strands) ? 1u : 0u,
+            static_cast<std::uint32_t>(strands.interpolation),
+            strands.collision_rule ? 1u : 0u,
+            static_cast<std::uint32_t>(strands.randomness),
+            plan.morphs ? 1u : 0u};
 }
 
 engine::GraphicsDescription strandPipeline(const BackendContext& context) {
     const StrandOutput& output = context.output;
-    engine::Constants constants = strandConstants(context.strands, context.plan.lod_mode);
-    assert(constants.size() <= kFirstShadingConstant);
+    engine::Constants constants = strandConstants(context.strands, context.plan);
+    assert(constants.size() <= kSamplesConstant);
     constants.resize(kFirstShadingConstant);
+    constants[kSamplesConstant] = output.samples;
     constants.insert(constants.end(), output.shading.begin(), output.shading.end());
     return {
         .constants = constants,
@@ -59,7 +61,6 @@ engine::GraphicsDescription strandPipeline(const BackendContext& context) {
         .depth_format = output.depth_format,
         .samples = output.samples,
         .depth_write = output.depth_write,
-        .alpha_to_coverage = output.alpha_to_coverage,
         .sampled_images = output.sampled_images};
 }
 

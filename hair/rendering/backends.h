@@ -15,7 +15,7 @@ std::unique_ptr<StrandBackend> makeTessellationBackend(const BackendContext& con
 std::unique_ptr<StrandBackend> makePullingGeometryBackend(const BackendContext& context);
 
 // The specialization constants of every shader that includes strands/strand.glsl.
-engine::Constants strandConstants(const StrandSettings& strands, LodMode lod_mode);
+engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan);
 
 // The pipeline state that all line back ends share.
 engine::GraphicsDescription strandPipeline(const BackendContext& context);

@@ -11,6 +11,7 @@
 #include "hair/gpu_structs.h"
 #include "hair/groom/style/strand_frames.h"
 #include "hair/random.h"
+#include "hair/rendering/lod_bound.h"
 #include "hair/rendering/root_pattern.h"
 #include "hair/rendering/strand_bounds.h"
 #include "hair/rendering/strand_offsets.h"
@@ -60,6 +61,7 @@ GroomBuffers::GroomBuffers(
     const Sphere bounds = strandBounds(groom, settings.strands);
     view_.centre = bounds.centre;
     view_.radius = bounds.radius;
+    view_.greatest_width_scale = greatestWidthScale(groom, settings.strands);
     const auto upload = [&]<class Value>(
                             engine::Buffer& buffer, const std::vector<Value>& values,
                             const char* name) {

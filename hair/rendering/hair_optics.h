@@ -1,6 +1,6 @@
 #pragma once
 
-#include <glm/vec3.hpp>
+#include <vector>
 
 #include "engine/buffer.h"
 #include "engine/device.h"
@@ -9,10 +9,13 @@
 
 namespace hair {
 
-// What a fibre scatters, as the settings say. Angles of the table are in rad.
-gpu::HairOptics makeHairOptics(const Settings& settings);
+// What a fibre scatters, as the settings say, without the address of the averages.
+gpu::HairOptics makeHairOptics(const ShadingSettings& shading);
 
-// The same on the device, with what dual scattering looks up.
+// The averages that dual scattering looks up, over cos theta_i.
+std::vector<gpu::FiberAverage> makeFiberAverages(const ShadingSettings& shading);
+
+// The same on the device; the averages only where the model needs them.
 class HairOpticsBuffers {
 public:
     HairOpticsBuffers(const engine::Device& device, const Settings& settings);
@@ -20,6 +23,7 @@ public:
     std::uint64_t address() const { return optics_.address(); }  // of gpu::HairOptics
 
 private:
+    engine::Buffer averages_;
     engine::Buffer optics_;
 };
 

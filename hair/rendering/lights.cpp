@@ -2,24 +2,53 @@
 
 #include <cstddef>
 
+#include <glm/geometric.hpp>
+
 #include "hair/rendering/working_color.h"
 
 namespace hair {
 
 static_assert(offsetof(gpu::Light, color) == 32 && sizeof(gpu::Light) == 48);
 
+namespace {
+
+gpu::Light makeLight(const RenderSettings& render, const LightSettings& light) {
+    gpu::Light result{
+        .position = light.position,
+        .type = gpu::kLightPoint,
+        .to_light = {},
+        .radius = 0.0f,
+        .color = light.strength * workingColor(render, light.color),
+        .reference_distance = light.reference_distance};
+    if (light.type == LightType::directional) {
+        result.type = gpu::kLightDirectional;
+        result.to_light = -glm::normalize(light.direction);
+        result.reference_distance = 0.0f;
+    }
+    if (light.type == LightType::sphere) {
+        result.type = gpu::kLightSphere;
+        result.radius = light.radius;
+    }
+    return result;
+}
+
+}  // namespace
+
 std::vector<gpu::Light> makeLights(const Settings& settings) {
     std::vector<gpu::Light> lights;
-    for (const LightSettings& light : settings.shading.lights) {
-        lights.push_back(
-            {.position = light.position,
-             .type = gpu::kLightPoint,
-             .to_light = {},
-             .radius = light.radius,
-             .color = light.strength * workingColor(settings.render, light.color),
-             .reference_distance = light.reference_distance});
-    }
+    for (const LightSettings& light : settings.shading.lights)
+        lights.push_back(makeLight(settings.render, light));
     return lights;
+}
+
+std::uint32_t lightKinds(const Settings& settings) {
+    std::uint32_t kinds = 0;
+    for (const gpu::Light& light : makeLights(settings)) {
+        if (light.type == gpu::kLightDirectional) kinds |= gpu::kSomeDirectional;
+        if (light.type == gpu::kLightSphere) kinds |= gpu::kSomeSpheres;
+        if (light.reference_distance > 0.0f) kinds |= gpu::kSomeWeaken;
+    }
+    return kinds;
 }
 
 }  // namespace hair

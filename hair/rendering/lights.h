@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "hair/gpu_structs.h"
@@ -9,5 +10,8 @@ namespace hair {
 
 // The lights as shaders read them, in the settings' order.
 std::vector<gpu::Light> makeLights(const Settings& settings);
+
+// kLightKinds of shading/options.glsl.
+std::uint32_t lightKinds(const Settings& settings);
 
 }  // namespace hair

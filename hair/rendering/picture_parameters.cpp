@@ -6,13 +6,24 @@
 #include <glm/trigonometric.hpp>
 
 #include "hair/rendering/camera.h"
+#include "hair/rendering/hair_color.h"
 #include "hair/rendering/working_color.h"
 
 namespace hair {
 
 // Scalar layout aligns 64-bit members to 8, as C++ does.
-static_assert(offsetof(gpu::PictureParameters, lights) == 208);
-static_assert(sizeof(gpu::PictureParameters) == 368);
+static_assert(offsetof(gpu::PictureParameters, lights) == 224);
+static_assert(sizeof(gpu::PictureParameters) == 392);
+
+namespace {
+
+glm::vec3 hairColor(const Settings& settings) {
+    if (settings.shading.color_from == ColorSource::rgb)
+        return workingColor(settings.render, settings.shading.color);
+    return workingColor(settings.render, toDisplay(linearColor(settings.shading)));
+}
+
+}  // namespace
 
 gpu::PictureParameters pictureParameters(
     const Settings& settings, const StrandPlan& plan, const StrandView& view,
@@ -25,12 +36,13 @@ gpu::PictureParameters pictureParameters(
         .view_projection = viewProjection(settings.camera, aspect),
         .head = view.head,
         .eye = settings.camera.position,
+        .lod_eye = settings.camera.position,
         .lod_near = settings.lod.near_distance,
         .lod_far = settings.lod.far_distance,
         .lod_maximum_level = settings.lod.maximum_level,
         .pixel_near = 0.0f,
         .pixel_slope = view_height / static_cast<float>(render.height * render.ssaa),
-        .hair_color = workingColor(render, shading.color),
+        .hair_color = hairColor(settings),
         .ambient = shading.ambient,
         .diffuse = shading.diffuse,
         .specular = shading.specular,
@@ -63,6 +75,10 @@ gpu::PictureParameters pictureParameters(
         .strands_per_patch = plan.strands_per_patch,
         .forced_density = plan.forced_density,
         .forced_tessellation = plan.forced_tessellation,
+        .forced_level = plan.forced_level,
+        .forced_scale = plan.forced_scale,
+        .least_density_scale =
+            view.greatest_width_scale > 0.0f ? 1.0f / view.greatest_width_scale : 0.0f,
         .seed = settings.seed,
         .blend = settings.strands.blend};
 }

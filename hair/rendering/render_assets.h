@@ -12,6 +12,7 @@ namespace hair {
 struct RenderAssets {
     const Mesh* head = nullptr;  // that the hair grows on; null: none
     std::vector<Mesh> meshes;  // of /render/meshes, in their order
+    std::vector<Mesh> field_meshes;  // of /simulation/distance_fields, where bodies are drawn
     std::optional<engine::Pixels> strand_texture;  // of /strands/texture
     std::optional<engine::FloatPixels> environment;  // of /render/environment
 };

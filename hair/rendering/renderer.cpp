@@ -38,13 +38,13 @@ Renderer::Renderer(
       plan_(planStrands(view, settings, device.info().limits.maxTessellationGenerationLevel)),
       target_(device, targetDescription(settings.render)),
       parameters_{parameterBuffer(device), parameterBuffer(device)},
-      lights_(engine::makeBuffer(
-          device, std::span<const gpu::Light>(makeLights(settings)), "lights")),
-      optics_(device, settings), shadows_(device, settings, plan_),
+      lights_(
+          engine::makeBuffer(device, std::span<const gpu::Light>(makeLights(settings)), "lights")),
+      optics_(device, settings), shadows_(device, settings, plan_, assets),
       environment_(device, settings, assets), meshes_(device, settings, assets),
-      texture_(device, assets.strand_texture),
+      texture_(device, settings.render, assets.strand_texture),
       strand_images_(strandImages(texture_, shadows_)),
-      strands_(device, settings, plan_, target_), overlay_(device, settings),
+      strands_(device, settings, plan_, target_, view), overlay_(device, settings, assets),
       resolve_(device, settings.render, target_.description()) {
     if (settings.render.hair && hasOffsets(settings.strands)) frames_.emplace(device, view);
 }
@@ -61,8 +61,7 @@ void Renderer::record(engine::Passes& passes, const StrandView& view) {
     const engine::Buffer& parameters = parameters_[passes.slot()];
     parameters.write(picture_parameters);
     const std::uint64_t picture = parameters.address();
-    const glm::vec3 background =
-        workingColor(settings_.render, settings_.render.background);
+    const glm::vec3 background = workingColor(settings_.render, settings_.render.background);
 
     if (frames_) {
         passes.pass("frames", engine::PassKind::compute, [&](engine::Commands& commands) {

@@ -34,9 +34,13 @@ public:
 
     void record(engine::Passes& passes, const StrandView& view);
 
+    // From the next picture on.
+    void setCamera(const CameraSettings& camera) { settings_.camera = camera; }
+
     const engine::Target& target() const { return target_; }
     const StrandPlan& plan() const { return plan_; }
     std::optional<ExpectedCounts> expected() const { return strands_.expected(); }
+    const StrandBlend& blend() const { return strands_.blend(); }
 
 private:
     Settings settings_;

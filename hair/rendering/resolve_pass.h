@@ -9,7 +9,9 @@
 namespace hair {
 
 // Rendered samples -> the picture: the mean over MSAA samples and SSAA pixels (thesis 2.3.7). One
-// sample a pixel is copied, which takes lavapipe 0.5 ms instead of 11.
+// sample a pixel of display colours is copied, which takes lavapipe 0.5 ms instead of 11. Of linear
+// light the mean is kept as the target's radiance(), and the picture is what the tone map makes of
+// it.
 class ResolvePass {
 public:
     ResolvePass(
@@ -19,7 +21,7 @@ public:
     void record(engine::Commands& commands, const engine::Target& target) const;
 
 private:
-    std::optional<engine::ComputePipeline> average_;  // none: one sample a pixel, a copy will do
+    std::optional<engine::ComputePipeline> pipeline_;  // none: a copy will do
 };
 
 }  // namespace hair

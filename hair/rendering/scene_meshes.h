@@ -1,23 +1,26 @@
 #pragma once
 
-#include <memory>
+#include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
+#include "engine/commands.h"
 #include "engine/pipeline.h"
-#include "engine/target.h"
-#include "engine/transfer.h"
+#include "engine/sampler.h"
+#include "engine/texture.h"
+#include "hair/rendering/mesh_geometry.h"
+#include "hair/rendering/mesh_materials.h"
 #include "hair/rendering/render_assets.h"
 #include "hair/settings.h"
 
 namespace hair {
 
-// The meshes of a picture on the device: the head, which moves, and others. Drawn material by
-// material.
+// The meshes of a picture on the device: the head, which moves, and others, which don't. Drawn
+// material by material.
 class SceneMeshes {
 public:
-    SceneMeshes(
-        const engine::Device& device, const Settings& settings, const RenderAssets& assets);
+    SceneMeshes(const engine::Device& device, const Settings& settings, const RenderAssets& assets);
 
     bool empty() const { return meshes_.empty(); }
 
@@ -26,25 +29,32 @@ public:
         engine::Commands& commands, std::uint64_t picture,
         std::span<const engine::SampledImage> shadows) const;
 
-    // Depth alone, of kDepthFormat: what a light or the eye sees. `picture` is the address of the
-    // gpu::PictureParameters with its view.
+    // Depth alone, of kDepthFormat and one sample: what a light or the eye sees of both sides of
+    // the meshes, which may be open. `picture` is the address of the gpu::PictureParameters with
+    // its view.
     void drawDepth(engine::Commands& commands, std::uint64_t picture) const;
 
 private:
-    struct Part {
-        glm::vec3 base_color;
-        std::uint32_t first_index;
-        std::uint32_t index_count;
-    };
-    struct MeshBuffers {
-        engine::Buffer positions;
-        engine::Buffer normals;
-        engine::Buffer indices;
-        std::vector<Part> parts;
+    enum class Motion { still, with_head };
+
+    struct SceneMesh {
+        MeshGeometry geometry;
+        MeshMaterials materials;
+        Motion motion;
     };
 
-    std::vector<MeshBuffers> meshes_;
-    engine::GraphicsPipeline pipeline_;
+    void
+    add(const engine::Device& device, const Settings& settings, const Mesh& mesh, Motion motion);
+
+    void bind(
+        engine::Commands& commands, const engine::GraphicsPipeline& pipeline, std::uint64_t picture,
+        const SceneMesh& mesh, const MeshMaterial& material) const;
+
+    engine::Texture blank_;
+    engine::Sampler blank_sampler_;
+    std::vector<SceneMesh> meshes_;
+    std::map<MeshLook, engine::GraphicsPipeline> pipelines_;
+    std::map<MeshLook, engine::GraphicsPipeline> depth_pipelines_;
 };
 
 }  // namespace hair

@@ -1,5 +1,6 @@
 #include "hair/rendering/shading_constants.h"
 
+#include "hair/rendering/lights.h"
 #include "hair/rendering/working_color.h"
 
 namespace hair {
@@ -14,9 +15,10 @@ engine::Constants shadingConstants(const Settings& settings) {
         shading.shadows.hair != HairShadows::none ? 1u : 0u,
         !render.environment.empty() ? 1u : 0u,
         hasLinearLight(render) ? 1u : 0u,
-        render.coverage == Coverage::analytic ? 1u : 0u,
+        render.coverage == Coverage::analytic && render.show == Show::shading ? 1u : 0u,
         !settings.strands.texture.empty() ? 1u : 0u,
-        static_cast<std::uint32_t>(render.show)};
+        static_cast<std::uint32_t>(render.show),
+        lightKinds(settings)};
 }
 
 }  // namespace hair

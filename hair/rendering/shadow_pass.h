@@ -1,13 +1,19 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "engine/frame_loop.h"
 #include "engine/sampler.h"
 #include "hair/gpu_structs.h"
+#include "hair/rendering/render_assets.h"
 #include "hair/rendering/scene_meshes.h"
+#include "hair/rendering/shadow_atlas.h"
+#include "hair/rendering/shadow_bounds.h"
 #include "hair/rendering/strand_backend.h"
 #include "hair/rendering/strand_view.h"
 #include "hair/settings.h"
@@ -15,13 +21,17 @@
 namespace hair {
 
 // What lights see: the depth of meshes, and of hair its depth and opacity in layers (Yuksel and
-// Keyser 2008, Deep opacity maps). Each light has a part of an atlas.
+// Keyser 2008, Deep opacity maps). Each light that throws shadows has a part of an atlas. Spheres
+// throw those of points at their centres.
 class ShadowPass {
 public:
-    ShadowPass(const engine::Device& device, const Settings& settings, const StrandPlan& plan);
+    // Throws engine::Unsupported where the device lacks the images.
+    ShadowPass(
+        const engine::Device& device, const Settings& settings, const StrandPlan& plan,
+        const RenderAssets& assets);
 
     // The passes "mesh_shadow" and "hair_shadow", where asked for. `picture` is what the camera's
-    // picture reads.
+    // picture reads: levels of detail are those of its lod_eye.
     void record(
         engine::Passes& passes, const SceneMeshes& meshes, const StrandView& view,
         const gpu::PictureParameters& picture);
@@ -34,10 +44,29 @@ public:
     std::span<const engine::SampledImage> images() const { return images_; }
 
 private:
+    // Addresses of the pictures that the lights see, gpu::PictureParameters.
+    std::vector<std::uint64_t>
+    writeParameters(std::uint32_t slot, const StrandView& view, const gpu::PictureParameters& of);
+    void drawMeshes(
+        engine::Commands& commands, const SceneMeshes& meshes,
+        std::span<const std::uint64_t> pictures) const;
+    void drawHair(engine::Commands& commands, std::span<const std::uint64_t> pictures) const;
+
+    Settings settings_;
+    ShadowScene scene_;
+    std::vector<std::uint32_t> lights_;  // of the atlas's parts
+    bool mesh_maps_;
+    bool hair_maps_;
+    ShadowAtlas atlas_;
     std::array<engine::Buffer, engine::FrameLoop::kMaxSlots> parameters_;
-    std::vector<engine::Image> atlases_;
+    std::array<engine::Buffer, engine::FrameLoop::kMaxSlots> pictures_;
+    engine::Image mesh_depths_;
+    engine::Image hair_depths_;
+    engine::Image hair_layers_;
     engine::Sampler sampler_;
     std::vector<engine::SampledImage> images_;
+    std::unique_ptr<StrandBackend> depth_;
+    std::unique_ptr<StrandBackend> opacity_;
 };
 
 }  // namespace hair

@@ -38,7 +38,6 @@ struct StrandOutput {
     std::vector<engine::ColorTarget> colors;
     VkFormat depth_format = engine::Target::kDepthFormat;
     bool depth_write = true;
-    bool alpha_to_coverage = false;
     std::uint32_t samples = 1;
     engine::Constants shading;  // shadingConstants
     std::uint32_t sampled_images = 0;

@@ -1,18 +1,19 @@
 #include "hair/rendering/strand_images.h"
 
+#include "hair/rendering/working_color.h"
+
 namespace hair {
 
-StrandTexture::StrandTexture(const engine::Device& device, const std::optional<engine::Pixels>&)
-    : image_(
-          device, {.format = VK_FORMAT_R8G8B8A8_UNORM,
-                   .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
-                   .name = "strand texture"}),
-      sampler_(device, {}) {
-    device.runOnce([&](engine::Commands& commands) {
-        commands.transition(
-            image_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-            engine::Access::anything, engine::Access::graphics_read);
-    });
-}
+StrandTexture::StrandTexture(
+    const engine::Device& device, const RenderSettings& settings,
+    const std::optional<engine::Pixels>& pixels)
+    : texture_(
+          device, pixels.value_or(engine::Pixels{1, 1, {255, 255, 255, 255}}),
+          engine::Texels::display_color,
+          hasLinearLight(settings) ? engine::Decoding::linear : engine::Decoding::none,
+          "strand texture"),
+      sampler_(
+          device, {.horizontal = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                   .vertical = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE}) {}
 
 }  // namespace hair

@@ -1,14 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
-#include <span>
-#include <vector>
 
-#include "engine/device.h"
-#include "engine/image_file.h"
-#include "engine/sampler.h"
-#include "engine/image.h"
 #include "engine/commands.h"
+#include "engine/sampler.h"
+#include "engine/texture.h"
+#include "hair/settings.h"
 
 namespace hair {
 
@@ -16,15 +14,18 @@ namespace hair {
 // ShadowPass::images().
 inline constexpr std::uint32_t kStrandImages = 4;
 
-// The picture on strands, on the device; one white pixel where there is none.
+// The picture on strands, on the device, for strands/texture.glsl: its colours become working
+// colours. One white pixel where there is none.
 class StrandTexture {
 public:
-    StrandTexture(const engine::Device& device, const std::optional<engine::Pixels>& pixels);
+    StrandTexture(
+        const engine::Device& device, const RenderSettings& settings,
+        const std::optional<engine::Pixels>& pixels);
 
-    engine::SampledImage image() const { return {&image_, &sampler_}; }
+    engine::SampledImage image() const { return {&texture_.image(), &sampler_}; }
 
 private:
-    engine::Image image_;
+    engine::Texture texture_;
     engine::Sampler sampler_;
 };
 

@@ -1,33 +1,36 @@
 #include "hair/rendering/strand_pass.h"
 
+#include "hair/rendering/blends.h"
 #include "hair/rendering/shading_constants.h"
 #include "hair/rendering/strand_images.h"
-#include "hair/rendering/target_description.h"
 
 namespace hair {
 
+namespace {
+
+StrandOutput shaded(StrandOutput output, const Settings& settings) {
+    output.shading = shadingConstants(settings);
+    output.sampled_images = kStrandImages;
+    return output;
+}
+
+}  // namespace
+
 StrandPass::StrandPass(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan,
-    const engine::Target&)
-    : backend_(makeBackend(
-          settings.strands.backend,
-          {.device = device,
-           .plan = plan,
-           .strands = settings.strands,
-           .output = {
-               .fragment = "strands/strand.frag",
-               .colors = {{colorFormat(settings.render)}},
-               .samples = settings.render.msaa,
-               .shading = shadingConstants(settings),
-               .sampled_images = kStrandImages}})) {}
+    const engine::Target& target, const StrandView& view)
+    : blend_(makeBlend({.device = device, .settings = settings, .target = target, .view = view})),
+      backend_(makeBackend(
+          settings.strands.backend, {.device = device,
+                                     .plan = plan,
+                                     .strands = settings.strands,
+                                     .output = shaded(blend_->output(), settings)})) {}
 
 void StrandPass::record(
     engine::Passes& passes, const engine::Target& target, std::uint64_t picture,
     std::span<const engine::SampledImage> images) const {
-    passes.pass("strands", engine::PassKind::graphics, [&](engine::Commands& commands) {
-        target.beginRendering(commands, engine::Load::keep, {});
+    blend_->record(passes, target, [&](engine::Commands& commands) {
         backend_->draw(commands, picture, images);
-        target.endRendering(commands);
     });
 }
 

@@ -14,11 +14,32 @@ constexpr std::uint32_t divideUp(std::uint32_t value, std::uint32_t divisor) {
     return (value + divisor - 1) / divisor;
 }
 
+std::uint32_t smallestFactor(std::uint32_t number) {
+    for (std::uint32_t factor = 2; factor * factor <= number; ++factor)
+        if (number % factor == 0) return factor;
+    return number;
+}
+
+// As strands/lod.glsl has it, to the last bit.
+float scaledCount(std::uint32_t count, float scale) {
+    return std::max(static_cast<float>(count) * scale, 1.0f);
+}
+
 }  // namespace
 
-std::uint32_t countAtLevel(std::uint32_t count, float level) {
-    const double scaled = std::floor(count * std::exp2(-static_cast<double>(level)) + 0.5);
-    return std::max(1u, static_cast<std::uint32_t>(scaled));
+std::uint32_t drawnStrands(std::uint32_t density, float scale) {
+    return static_cast<std::uint32_t>(std::ceil(scaledCount(density, scale)));
+}
+
+DrawnPieces drawnPieces(std::uint32_t tessellation, float scale) {
+    const float wanted = scaledCount(tessellation, scale);
+    std::uint32_t count = tessellation;
+    while (count > 1) {
+        const std::uint32_t fewer = count / smallestFactor(count);
+        if (wanted > static_cast<float>(fewer)) break;
+        count = fewer;
+    }
+    return {.count = count, .morphs = wanted < static_cast<float>(count)};
 }
 
 StrandPlan planStrands(
@@ -30,10 +51,12 @@ StrandPlan planStrands(
     plan.density = strands.density;
     plan.tessellation = strands.tessellation;
     plan.lod_mode = lod.mode;
-    const bool forced = lod.mode == LodMode::forced;
-    plan.forced_density = forced ? countAtLevel(strands.density, lod.level) : strands.density;
-    plan.forced_tessellation =
-        forced ? countAtLevel(strands.tessellation, lod.level) : strands.tessellation;
+    plan.forced_level = lod.mode == LodMode::forced ? lod.level : 0.0f;
+    plan.forced_scale = std::exp2(-plan.forced_level);
+    const DrawnPieces pieces = drawnPieces(strands.tessellation, plan.forced_scale);
+    plan.forced_density = drawnStrands(strands.density, plan.forced_scale);
+    plan.forced_tessellation = pieces.count;
+    plan.morphs = lod.mode == LodMode::distance || pieces.morphs;
     plan.patches_per_triangle = divideUp(plan.forced_density, isoline_limit);
     plan.strands_per_patch = divideUp(plan.forced_density, plan.patches_per_triangle);
     return plan;

@@ -17,8 +17,12 @@ struct StrandPlan {
     std::uint32_t segments = 0;       // guide segments per guide
     std::uint32_t density = 0;        // strands per root triangle at level 0
     std::uint32_t tessellation = 0;   // drawn segments per guide segment at level 0
-    std::uint32_t forced_density = 0;  // the same at the forced level
+    std::uint32_t forced_density = 0;  // most that are drawn: those of the forced level, or in
+                                       // LodMode::distance those of level 0
     std::uint32_t forced_tessellation = 0;
+    float forced_level = 0.0f;  // 0 in LodMode::distance
+    float forced_scale = 1.0f;  // 2^-forced_level
+    bool morphs = false;  // ends of drawn segments may be off their curve: drawnPieces
     std::uint32_t patches_per_triangle = 0;  // per guide segment
     std::uint32_t strands_per_patch = 0;
     LodMode lod_mode = LodMode::forced;
@@ -32,8 +36,18 @@ struct StrandPlan {
     std::uint64_t drawnSegments() const;
 };
 
-// A count at a level of detail: count / 2^level, rounded, at least 1.
-std::uint32_t countAtLevel(std::uint32_t count, float level);
+// Strands that are drawn of a root triangle at a level of detail, scale = 2^-level: the last one is
+// as wide as the fraction, so that none comes or goes with a jump. At least 1.
+std::uint32_t drawnStrands(std::uint32_t density, float scale);
+
+// Drawn segments per guide segment at a level of detail: the coarsest of the nested sets that has
+// at least tessellation * scale. Each set has as many times fewer than the one before as that
+// number's smallest factor, down to 1; a prime number has none between it and 1.
+struct DrawnPieces {
+    std::uint32_t count = 1;
+    bool morphs = false;  // ends that the next set lacks are on their way to its lines
+};
+DrawnPieces drawnPieces(std::uint32_t tessellation, float scale);
 
 // `isoline_limit` is the device's maxTessellationGenerationLevel: a denser triangle takes several
 // patches.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -25,15 +26,21 @@ static_assert(offsetof(gpu::StrandPointsPush, count) == 16);
 constexpr std::uint32_t kGroup = 64;               // invocations, as in evaluate.comp
 constexpr std::uint32_t kMostGroupsInRow = 65535;  // what every device has
 
-std::uint32_t pointCount(const engine::Device& device, const StrandPlan& plan) {
+// Shaders number points in 32 bits.
+std::uint32_t pointCount(const StrandPlan& plan) {
     const std::uint64_t count = plan.strands() * plan.segments * (plan.forced_tessellation + 1);
-    const std::uint64_t limit = device.info().limits.maxStorageBufferRange / sizeof(Record);
-    if (count > limit) {
+    constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+    if (count > kMost) {
         throw engine::Unsupported(
-            "strand points",
-            std::to_string(count) + " are over the device's " + std::to_string(limit));
+            "strand points", std::to_string(count) + " are over " + std::to_string(kMost));
     }
     return static_cast<std::uint32_t>(count);
+}
+
+void dispatchFor(engine::Commands& commands, std::uint32_t invocations) {
+    const std::uint32_t groups = (invocations + kGroup - 1) / kGroup;
+    const std::uint32_t columns = std::min(groups, kMostGroupsInRow);
+    commands.dispatch(columns, (groups + columns - 1) / columns);
 }
 
 }  // namespace
@@ -49,39 +56,45 @@ const Record& StrandPoints::at(
 }
 
 StrandPoints evaluateStrandPoints(
-    const engine::Device& device, const Settings& settings, const StrandView& view) {
+    const engine::Device& device, const Settings& settings, const StrandView& view,
+    std::uint32_t most_at_once) {
+    assert(most_at_once > 0);
     StrandPoints result{
         .plan = planStrands(view, settings, device.info().limits.maxTessellationGenerationLevel)};
-    const std::uint32_t count = pointCount(device, result.plan);
+    const std::uint32_t count = pointCount(result.plan);
     if (count == 0) return result;
 
     const engine::ComputePipeline pipeline(
         device, {.shader = "strands/evaluate.comp",
-                 .constants = strandConstants(settings.strands, settings.lod.mode),
+                 .constants = strandConstants(settings.strands, result.plan),
                  .push_size = sizeof(gpu::StrandPointsPush)});
     const engine::Buffer parameters(
         device, {.size = sizeof(gpu::PictureParameters),
                  .usage = engine::Usage::upload,
                  .name = "picture parameters"});
-    const engine::Buffer records(device, {.size = count * sizeof(Record), .name = "strand points"});
+    const std::uint32_t size = std::min(count, most_at_once);
+    const engine::Buffer records(device, {.size = size * sizeof(Record), .name = "strand points"});
     std::optional<FramesPass> frames;
     if (hasOffsets(settings.strands)) frames.emplace(device, view);
-    parameters.write(
-        pictureParameters(
-            settings, result.plan, view,
-            {.guide_normals = frames ? frames->normals().address() : 0}));
-    device.runOnce([&](engine::Commands& commands) {
-        if (frames) frames->record(commands, view);
-        commands.bind(
-            pipeline,
-            gpu::StrandPointsPush{
-                .picture = parameters.address(), .records = records.address(), .count = count});
-        const std::uint32_t groups = (count + kGroup - 1) / kGroup;
-        const std::uint32_t columns = std::min(groups, kMostGroupsInRow);
-        commands.dispatch(columns, (groups + columns - 1) / columns);
-        commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);
-    });
-    result.records = engine::downloadAs<Record>(device, records);
+    parameters.write(pictureParameters(
+        settings, result.plan, view, {.guide_normals = frames ? frames->normals().address() : 0}));
+    result.records.reserve(count);
+    for (std::uint32_t first = 0; first < count; first += std::min(size, count - first)) {
+        const std::uint32_t part = std::min(size, count - first);
+        device.runOnce([&](engine::Commands& commands) {
+            if (frames && first == 0) frames->record(commands, view);
+            commands.bind(
+                pipeline, gpu::StrandPointsPush{
+                              .picture = parameters.address(),
+                              .records = records.address(),
+                              .count = part,
+                              .first = first});
+            dispatchFor(commands, part);
+            commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);
+        });
+        const std::vector<Record> evaluated = engine::downloadAs<Record>(device, records);
+        result.records.insert(result.records.end(), evaluated.begin(), evaluated.begin() + part);
+    }
     return result;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "engine/device.h"
@@ -24,9 +25,13 @@ struct StrandPoints {
        std::uint32_t point) const;
 };
 
-// Evaluates all strands on the device and waits. Throws engine::Unsupported for more points than
-// one of its buffers holds.
+// Points that are evaluated in one go: 32 MiB of them. Every device has larger buffers.
+inline constexpr std::uint32_t kMostPointsAtOnce = 1u << 20;
+
+// Evaluates all strands on the device and waits. Throws engine::Unsupported for more than 2^32 - 1
+// points.
 StrandPoints evaluateStrandPoints(
-    const engine::Device& device, const Settings& settings, const StrandView& view);
+    const engine::Device& device, const Settings& settings, const StrandView& view,
+    std::uint32_t most_at_once = kMostPointsAtOnce);
 
 }  // namespace hair

@@ -23,6 +23,7 @@ struct StrandView {
     std::uint64_t offsets = 0;  // StrandOffsets::values
     glm::vec3 centre{0.0f};  // of a sphere that the strands can't leave, m, before the head moved
     float radius = 0.0f;  // of it
+    float greatest_width_scale = 0.0f;  // of levels of detail by distance: lod_bound.h; 0: any
     glm::mat4 head{1.0f};  // rigid motion of the root normals and of the mesh under the hair
     std::uint32_t guide_count = 0;
     std::uint32_t vertices_per_guide = 0;

@@ -1,4 +1,4 @@
-"""Draw the pictures over head.glb's texture coordinates.
+"""Draw the pictures over head.glb's texture coordinates, and one for strands.
 
 Run (needs what make_head.py needs): python3 make_maps.py [output_directory]
 
@@ -6,6 +6,8 @@ Run (needs what make_head.py needs): python3 make_maps.py [output_directory]
 * ``taper_lengths.png``  lengths: a short cut, tapered at the sides and nape
 
 Both are grey, 8 bits.  See make_head.texture_coordinates() for what is where.
+
+* ``strand_bands.png``   across and along a strand: dark roots, light tips
 """
 import pathlib
 import struct
@@ -77,18 +79,46 @@ def taper_lengths(size):
     return 0.1 + 0.9 * smoothstep(-32.0, 38.0, height)
 
 
-def write_png(path, grey):
-    """8-bit grey; PNG specification, 2nd edition, sections 5 and 11."""
+def strand_bands(width, height):
+    """[row, column, channel]: factors of a strand's colour, and opacity.
+
+    Rows go from the root to the tip: grown-out bleach, darkest for the first
+    eighth, with light and dark bands of a slightly uneven length, and the sun
+    in the last quarter.  Columns go across: edges are soft, and a tip thins.
+    """
+    along = (np.arange(height) + 0.5) / height
+    across = 2.0 * (np.arange(width) + 0.5) / width - 1.0
+    root = np.array([0.42, 0.33, 0.30])
+    middle = np.array([0.86, 0.80, 0.72])
+    tip = np.array([1.0, 0.97, 0.90])
+    grown_out = smoothstep(0.08, 0.30, along)[:, None]
+    bleached = smoothstep(0.55, 1.0, along)[:, None]
+    colour = root + grown_out * (middle - root)
+    colour = colour + bleached * (tip - colour)
+    phase = 2.0 * np.pi * (9.0 * along + 0.35 * np.sin(2.0 * np.pi * 2.3 * along))
+    colour = colour * (1.0 + 0.10 * np.sin(phase))[:, None]
+    edge = 1.0 - 0.55 * smoothstep(0.80, 1.0, along)  # half width that is opaque
+    opacity = 1.0 - smoothstep(0.0, 0.35, (np.abs(across) - edge[:, None]) + 0.35)
+    rgb = np.broadcast_to(np.clip(colour, 0, 1)[:, None], (height, width, 3))
+    return np.concatenate([rgb, opacity[:, :, None]], axis=2)
+
+
+def write_png(path, picture):
+    """Grey or RGBA, [row, column] or [row, column, channel], 8 bits.
+
+    PNG specification, 2nd edition, sections 5 and 11.
+    """
     def chunk(kind, data):
         return (struct.pack(">I", len(data)) + kind + data
                 + struct.pack(">I", zlib.crc32(kind + data)))
 
-    size = int(np.sqrt(len(grey)))
-    rows = np.round(255.0 * grey).astype(np.uint8).reshape(size, size)
-    filtered = np.concatenate([np.zeros((size, 1), np.uint8), rows], axis=1)
+    height, width = picture.shape[:2]
+    colour_type = 0 if picture.ndim == 2 else 6
+    rows = np.round(255.0 * picture).astype(np.uint8).reshape(height, -1)
+    filtered = np.concatenate([np.zeros((height, 1), np.uint8), rows], axis=1)
     path.write_bytes(
         b"\x89PNG\r\n\x1a\n"
-        + chunk(b"IHDR", struct.pack(">IIBBBBB", size, size, 8, 0, 0, 0, 0))
+        + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, colour_type, 0, 0, 0))
         + chunk(b"IDAT", zlib.compress(filtered.tobytes(), 9))
         + chunk(b"IEND", b""))
 
@@ -96,8 +126,9 @@ def write_png(path, grey):
 def main():
     default = pathlib.Path(__file__).resolve().parent
     out = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else default
-    write_png(out / "hairline_mask.png", hairline_mask(1024))
-    write_png(out / "taper_lengths.png", taper_lengths(256))
+    write_png(out / "hairline_mask.png", hairline_mask(1024).reshape(1024, 1024))
+    write_png(out / "taper_lengths.png", taper_lengths(256).reshape(256, 256))
+    write_png(out / "strand_bands.png", strand_bands(16, 256))
 
 
 if __name__ == "__main__":

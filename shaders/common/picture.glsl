@@ -12,6 +12,7 @@
 #include "shared/fragment_structs.h"
 #include "shared/light_structs.h"
 #include "shared/optics_structs.h"
+#include "shared/overlay_structs.h"
 #include "shared/shadow_structs.h"
 #include "shared/strand_structs.h"
 

@@ -13,5 +13,5 @@ void main() {
     uint line = uint(gl_VertexIndex) / 2u;
     vec3 from = corner(picture, line / 3u, line % 3u);
     vec3 to = corner(picture, line / 3u, line % 3u + 1u);
-    emitLineEnd(picture, gl_VertexIndex % 2 == 0 ? from : to, to - from);
+    emitLineEnd(picture, gl_VertexIndex % 2 == 0 ? from : to, to - from, kOverlayWidth);
 }

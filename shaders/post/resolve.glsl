@@ -2,10 +2,8 @@
 // is the mean, as fixed-function resolve of such images does it.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const int kSamples = 1;  // per rendered pixel
-layout(constant_id = 1) const int kFactor = 1;   // rendered pixels per picture pixel, along each side
+layout(constant_id = 1) const int kFactor = 1;   // rendered pixels per pixel, along each side
 layout(binding = 1, rgba8) uniform writeonly image2D picture;
-
-vec4 renderedSample(ivec2 pixel, int sample_index);
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -13,7 +11,8 @@ void main() {
     vec4 sum = vec4(0.0);
     for (int y = 0; y < kFactor; ++y) {
         for (int x = 0; x < kFactor; ++x) {
-            for (int i = 0; i < kSamples; ++i) sum += renderedSample(pixel * kFactor + ivec2(x, y), i);
+            ivec2 from = pixel * kFactor + ivec2(x, y);
+            for (int i = 0; i < kSamples; ++i) sum += renderedSample(from, i);
         }
     }
     imageStore(picture, pixel, sum / float(kFactor * kFactor * kSamples));

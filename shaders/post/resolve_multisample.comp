@@ -1,10 +1,4 @@
 #version 460
-#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
+#include "post/rendered_samples.glsl"
 #include "post/resolve.glsl"
-
-layout(binding = 0) uniform texture2DMS rendered;
-
-vec4 renderedSample(ivec2 pixel, int sample_index) {
-    return texelFetch(rendered, pixel, sample_index);
-}

@@ -1,25 +1,105 @@
 #version 460
-// A matt surface under the picture's light, with the same ambient part as the hair.
+// A surface under the picture's light: matt, with the same ambient part as the hair, or where light
+// is linear by its glTF material.
 #extension GL_GOOGLE_include_directive : require
+#define HAIRBENCH_SHADOW_BINDING 3
 #include "common/picture.glsl"
+#include "scene/normal_map.glsl"
+#include "scene/options.glsl"
+#include "shading/environment.glsl"
 #include "shading/lights.glsl"
-#include "shading/phong.glsl"
+#include "shading/options.glsl"
+#include "shading/shadows.glsl"
+#include "shading/surface_brdf.glsl"
+#include "shared/mesh_structs.h"
 
 layout(push_constant, scalar) uniform Push { MeshPush push; };
+layout(binding = 0) uniform sampler2D base_color_texture;
+layout(binding = 1) uniform sampler2D metallic_roughness_texture;
+layout(binding = 2) uniform sampler2D normal_texture;
 
 layout(location = 0) in vec3 position;
-layout(location = 1) in vec3 normal;
+layout(location = 1) in vec3 vertex_normal;
+layout(location = 2) in vec2 coordinates;
 layout(location = 0) out vec4 color;
+
+vec3 surfaceNormal() {
+    vec3 normal = normalize(vertex_normal);
+    if (kDoubleSided == 1u && !gl_FrontFacing) normal = -normal;
+    if (kNormalTexture == 0u) return normal;
+    vec3 texel = 2.0 * texture(normal_texture, coordinates).rgb - 1.0;
+    texel.xy *= push.normal_scale;
+    return mappedNormal(normal, position, coordinates, texel);
+}
+
+// Part of each light that gets here. The triangle's own normal is what its depths go by.
+float visiblePart(PictureParameters picture, uint light) {
+    if (kMeshShadows == 0u && kHairShadows == 0u) return 1.0;
+    vec3 flat_normal = cross(dFdx(position), dFdy(position));
+    flat_normal /= max(length(flat_normal), 1e-30);
+    return visibility(picture, lightPath(picture, light, position, flat_normal));
+}
+
+// Working colours; the thesis has such a head.
+vec3 shadeMatt(PictureParameters picture, vec3 base_color, vec3 normal) {
+    vec3 sum = vec3(0.0);
+    float ambient = kEnvironment != 0u ? 0.0 : picture.ambient;
+    for (uint i = 0u; i < kLightCount; ++i) {
+        LightSample light = lightAt(pictureLight(picture, i), position);
+        float lit = visiblePart(picture, i) * mattResponse(light, normal);
+        sum += base_color * (ambient + picture.diffuse * lit) * light.color;
+    }
+    if (kEnvironment != 0u)
+        sum += picture.ambient * base_color * environmentLight(picture, normal);
+    return sum;
+}
+
+// A light's disc makes the highlight wider: the half vector turns by half of what the light does,
+// and a slope's variance along each axis is alpha^2 / 2.
+Surface widened(Surface surface, LightSample light) {
+    if (hasSpheres())
+        surface.roughness = sqrt(sqrt(pow(surface.roughness, 4.0) + 0.5 * lightVariance(light)));
+    return surface;
+}
+
+// Linear light. What comes from all around is reflected as blurred as by a matt surface.
+vec3 shadeSurface(PictureParameters picture, Surface surface, vec3 normal, vec3 to_eye) {
+    vec3 sum = vec3(0.0);
+    vec3 around = vec3(0.0);
+    for (uint i = 0u; i < kLightCount; ++i) {
+        LightSample light = lightAt(pictureLight(picture, i), position);
+        vec3 f = surfaceBrdf(widened(surface, light), normal, to_eye, light.to_light);
+        float lit = visiblePart(picture, i) * mattResponse(light, normal);
+        sum += kSurfacePi * f * lit * light.color;
+        around += light.color;
+    }
+    vec3 straight = reflectance(surface);
+    vec3 diffuse = (1.0 - straight) * scattered(surface);
+    if (kEnvironment != 0u) {
+        vec3 mirrored = environmentLight(picture, reflect(-to_eye, normal));
+        sum += picture.ambient *
+               (diffuse * environmentLight(picture, normal) + straight * mirrored);
+    } else if (kModel == kModelPhong || kModel == kModelKajiyaKay) {
+        sum += picture.ambient * (diffuse + straight) * around;
+    }
+    return sum;
+}
 
 void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;
-    vec3 to_eye = normalize(picture.eye - position);
-    vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < picture.light_count; ++i) {
-        LightSample light = lightAt(pictureLight(picture, i), position);
-        PhongLight reflected = phong(normalize(normal), light.to_light, to_eye, 1.0);
-        vec3 body = push.base_color * (picture.ambient + picture.diffuse * reflected.diffuse);
-        sum += body * light.color;
+    vec4 base_color = vec4(push.base_color, push.opacity);
+    Surface surface = Surface(vec3(0.0), push.metallic, push.roughness);
+    if (kBaseColorTexture == 1u) base_color *= texture(base_color_texture, coordinates);
+    if (kMetallicRoughnessTexture == 1u) {
+        vec4 texel = texture(metallic_roughness_texture, coordinates);
+        surface.metallic *= texel.b;
+        surface.roughness *= texel.g;
     }
-    color = vec4(sum, 1.0);
+    surface.base_color = base_color.rgb;
+    vec3 normal = surfaceNormal();
+    vec3 to_eye = normalize(picture.eye - position);
+    vec3 light = kLinearLight == 1u ? shadeSurface(picture, surface, normal, to_eye)
+                                    : shadeMatt(picture, base_color.rgb, normal);
+    if (kMask == 1u && base_color.a < push.cutoff) discard;  // no derivatives are taken after it
+    color = vec4(light, 1.0);
 }

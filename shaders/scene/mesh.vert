@@ -1,17 +1,27 @@
 #version 460
-// A triangle mesh that moves with the head, pulled from its buffers by index.
+// A triangle mesh that moves with the head or stands still, pulled from its buffers by index.
 #extension GL_GOOGLE_include_directive : require
 #include "common/picture.glsl"
+#include "scene/options.glsl"
+#include "shared/mesh_structs.h"
 
 layout(buffer_reference, scalar) readonly buffer Vectors { vec3 values[]; };
+layout(buffer_reference, scalar) readonly buffer Coordinates { vec2 values[]; };
 layout(push_constant, scalar) uniform Push { MeshPush push; };
 
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
+layout(location = 2) out vec2 coordinates;
 
 void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;
-    position = (picture.head * vec4(Vectors(push.positions).values[gl_VertexIndex], 1.0)).xyz;
-    normal = mat3(picture.head) * Vectors(push.normals).values[gl_VertexIndex];
+    position = Vectors(push.positions).values[gl_VertexIndex];
+    normal = Vectors(push.normals).values[gl_VertexIndex];
+    if (push.is_moving == 1u) {
+        position = (picture.head * vec4(position, 1.0)).xyz;
+        normal = mat3(picture.head) * normal;
+    }
+    coordinates = vec2(0.0);
+    if (kTextured) coordinates = Coordinates(push.texture_coordinates).values[gl_VertexIndex];
     gl_Position = picture.view_projection * vec4(position, 1.0);
 }

@@ -1,15 +1,83 @@
-// Light that a fibre gets through other fibres: Zinke et al. 2008, Dual scattering approximation for
-// fast multiple scattering in hair.
+// Light that a fibre gets through other fibres: Zinke et al. 2008, Dual scattering approximation
+// for fast multiple scattering in hair.
 #ifndef HAIRBENCH_DUAL_SCATTERING_GLSL
 #define HAIRBENCH_DUAL_SCATTERING_GLSL
 
 #include "shading/fiber_bsdf.glsl"
 
-// f |cos theta_i| of a fibre whose light has met `strands` others. Directions and h as in
-// fiberBsdf().
+layout(buffer_reference, scalar) readonly buffer FiberAverages { FiberAverage at[]; };
+
+FiberAverage fiberAverage(HairOptics optics, float cos_theta) {
+    float place = cos_theta * float(kFiberAverages - 1u);
+    uint first = min(uint(place), kFiberAverages - 2u);
+    float part = place - float(first);
+    FiberAverage a = FiberAverages(optics.averages).at[first];
+    FiberAverage b = FiberAverages(optics.averages).at[first + 1u];
+    return FiberAverage(mix(a.forward, b.forward, part), mix(a.local, b.local, part),
+                        mix(a.shifts, b.shifts, part));
+}
+
+// Part of N_p in the half turn whose middle is at these distances from its own: the logistic
+// distribution goes round the fibre.
+vec4 azimuthalHalves(HairOptics optics, vec3 distances) {
+    const float half_pi = 1.57079633;
+    float k = optics.inverse_azimuthal_scale;
+    vec3 begin = 1.0 / (1.0 + exp(min(k * (half_pi - distances), 80.0)));
+    bvec3 wraps = greaterThan(distances, vec3(half_pi));
+    vec3 end = distances + mix(vec3(half_pi), vec3(-3.0 * half_pi), wraps);
+    vec3 cdf = 1.0 / (1.0 + exp(min(-k * end, 80.0)));
+    return vec4(mix(vec3(0.0), vec3(1.0), wraps) + optics.trimmed * (cdf - begin), 0.5);
+}
+
+// f |cos theta_i| of a fibre whose light has met `strands` others in the mean; what it loses there
+// is in it. Directions and h as in fiberBsdf(). Strands are met independently, so their number has
+// Poisson's distribution: exp(-n) of the light meets none, and exp(-n (1 - a_f)) - exp(-n) gets
+// there through some.
 vec3 dualScattering(PictureParameters picture, HairOptics optics, vec3 to_eye, vec3 to_light,
                     float h, float strands) {
-    return vec3(0.0);
+    FiberView view = fiberView(optics, to_eye, h);
+    float sin_i = clamp(to_light.x, -1.0, 1.0);
+    float cos_i = sqrt(1.0 - sin_i * sin_i);
+    float sin_o = clamp(to_eye.x, -1.0, 1.0);
+    float cos_o = sqrt(1.0 - sin_o * sin_o);
+    vec2 light = azimuthOf(to_light);
+    vec3 distances = azimuthalDistances(view, light);
+    float cos_phi = dot(light, view.eye);
+    FiberAverage average = fiberAverage(optics, cos_i);
+
+    // Strands that light has met which meets any and gets here; at least one.
+    float passed = strands * dot(average.forward.rgb, vec3(1.0 / 3.0));
+    float met = passed > 1e-3 ? passed / (1.0 - exp(-passed)) : 1.0;
+    float forward_shift = met * average.shifts.x;
+    float forward_variance = met * average.forward.w;
+    float direct = exp(-strands);
+    vec3 scattered = exp(-strands * (1.0 - average.forward.rgb)) - direct;
+    scattered = optics.density_factor * max(scattered, 0.0);
+
+    // theta_i less its mean changes: by nothing, forward, back there, both.
+    vec4 changes =
+        vec4(0.0, forward_shift, average.shifts.y, forward_shift + average.shifts.y);
+    vec4 sines = sin(changes);
+    vec4 cosines = cos(changes);
+    vec4 sin_from = sin_i * cosines - cos_i * sines;
+    vec4 cos_from = abs(cos_i * cosines + sin_i * sines);
+
+    // Local scattering: light from theta_i less the change, seen from theta_o.
+    vec4 local_variances = average.local.w + vec4(0.0, forward_variance, 0.0, 0.0);
+    vec4 behind = longitudinalLobes(
+        sin_o, cos_o, sin_from.zwzw, cos_from.zwzw, local_variances);
+    vec2 around = kHalfInversePi * (1.0 + vec2(1.0, 2.0 * kInversePi) * cos_phi);
+    vec2 local = 2.0 * optics.density_factor * behind.xy * around;
+
+    vec4 through = longitudinalLobes(
+        sin_i, cos_i, view.sin_tilted, view.cos_tilted, optics.variances);
+    through *= azimuthalLobes(optics, distances);
+    vec3 sum = direct * (view.attenuations * through + local.x * average.local.rgb);
+    vec4 spread = longitudinalLobes(
+        sin_from.y, cos_from.y, view.sin_tilted, view.cos_tilted,
+        optics.variances + forward_variance);
+    spread *= kInversePi * azimuthalHalves(optics, distances);
+    return sum + scattered * (view.attenuations * spread + local.y * average.local.rgb);
 }
 
 #endif

@@ -6,9 +6,124 @@
 
 layout(buffer_reference, scalar) readonly buffer HairOpticsReference { HairOptics optics; };
 
-// f of pbrt-v4: radiance = sum over lights of f |cos theta_i| times irradiance across the fibre.
-// Directions are unit vectors away from the fibre, x along it towards the tip; h in [-1, 1] is the
-// place across it, seen from `to_eye`.
-vec3 fiberBsdf(HairOptics optics, vec3 to_eye, vec3 to_light, float h) { return vec3(0.0); }
+const float kInversePi = 0.318309886;
+const float kHalfInversePi = 0.159154943;
+
+// I_0(x) e^-x: Abramowitz and Stegun 1964, Handbook of mathematical functions, 9.8.1 and 9.8.2,
+// whose relative errors are below 2e-7.
+vec4 scaledBessel0(vec4 x) {
+    vec4 t = min(x * (1.0 / 3.75), 1.0);
+    t *= t;
+    vec4 near = 1.0 + t * (3.5156229 + t * (3.0899424 + t * (1.2067492 + t * (0.2659732 +
+                      t * (0.0360768 + t * 0.0045813)))));
+    vec4 u = 3.75 / max(x, 3.75);
+    vec4 far = 0.39894228 + u * (0.01328592 + u * (0.00225319 + u * (-0.00157565 +
+               u * (0.00916281 + u * (-0.02057706 + u * (0.02635537 + u * (-0.01647633 +
+               u * 0.00392377)))))));
+    return mix(far * inversesqrt(max(x, 3.75)), near * exp(-min(x, 3.75)), lessThan(x, vec4(3.75)));
+}
+
+// M_p of four lobes, d'Eon et al. 2011: e^(-sin sin / v) I_0(cos cos / v) / (2 v sinh(1 / v)). The
+// exponents are taken together, to -(1 - cos(theta_i + theta_o)) / v, which never overflows; this
+// 1 - cos is half the square of the way from wi to the mirror image of wo, which keeps its digits.
+vec4 longitudinalLobes(float sin_i, float cos_i, vec4 sin_o, vec4 cos_o, vec4 variances) {
+    vec4 inverse = 1.0 / variances;
+    vec4 up = sin_i + sin_o;
+    vec4 across = cos_i - cos_o;
+    vec4 scale = inverse / (1.0 - exp(-2.0 * inverse));
+    return scale * exp(-0.5 * inverse * (up * up + across * across)) *
+           scaledBessel0(cos_i * cos_o * inverse);
+}
+
+// Reflected part of light without polarisation; cosine of the angle of incidence.
+float fiberFresnel(float cosine, float eta) {
+    float transmitted = sqrt(1.0 - (1.0 - cosine * cosine) / (eta * eta));
+    float parallel = (eta * cosine - transmitted) / (eta * cosine + transmitted);
+    float across = (cosine - eta * transmitted) / (cosine + eta * transmitted);
+    return 0.5 * (parallel * parallel + across * across);
+}
+
+// What of a fibre's scattering has nothing to do with the light.
+struct FiberView {
+    vec4 sin_tilted;  // theta_o, tilted for each lobe
+    vec4 cos_tilted;
+    vec3 centre_y;  // directions phi_o + Phi(p), to which R, TT and TRT would go if it were smooth
+    vec3 centre_z;
+    vec2 eye;  // direction phi_o
+    mat4x3 attenuations;  // A_p
+};
+
+// (x, y) turned by the angle of (c, s).
+vec2 turned(vec2 v, vec2 by) { return vec2(v.x * by.x - v.y * by.y, v.x * by.y + v.y * by.x); }
+
+vec2 azimuthOf(vec3 direction) {
+    float size = length(direction.yz);
+    return size > 1e-6 ? direction.yz / size : vec2(1.0, 0.0);
+}
+
+FiberView fiberView(HairOptics optics, vec3 to_eye, float h) {
+    float sin_o = clamp(to_eye.x, -1.0, 1.0);
+    float cos_o = sqrt(1.0 - sin_o * sin_o);
+    FiberView view;
+    view.sin_tilted = sin_o * optics.cos_tilts + cos_o * optics.sin_tilts;
+    view.cos_tilted = abs(cos_o * optics.cos_tilts - sin_o * optics.sin_tilts);
+    view.eye = azimuthOf(to_eye);
+
+    // eta' cos theta_o = sqrt(eta^2 - sin^2 theta_o) is eta cos theta_t too.
+    float inner = sqrt(optics.eta * optics.eta - sin_o * sin_o);
+    float cos_gamma_o = sqrt(1.0 - h * h);
+    float sin_gamma_t = h * cos_o / inner;
+    float cos_gamma_t = sqrt(1.0 - sin_gamma_t * sin_gamma_t);
+
+    // Phi(p) = 2 p gamma_t - 2 gamma_o + p pi, as directions.
+    vec2 reflected = vec2(1.0 - 2.0 * h * h, -2.0 * h * cos_gamma_o);
+    vec2 through = vec2(2.0 * sin_gamma_t * sin_gamma_t - 1.0, -2.0 * sin_gamma_t * cos_gamma_t);
+    vec2 r = turned(view.eye, reflected);
+    vec2 tt = turned(r, through);
+    vec2 trt = turned(tt, through);
+    view.centre_y = vec3(r.x, tt.x, trt.x);
+    view.centre_z = vec3(r.y, tt.y, trt.y);
+
+    vec3 transmitted = exp(-optics.absorption * (2.0 * cos_gamma_t * optics.eta / inner));
+    float f = fiberFresnel(cos_o * cos_gamma_o, optics.eta);
+    view.attenuations[0] = vec3(f);
+    view.attenuations[1] = (1.0 - f) * (1.0 - f) * transmitted;
+    view.attenuations[2] = view.attenuations[1] * transmitted * f;
+    view.attenuations[3] =
+        view.attenuations[2] * transmitted * f / max(1.0 - transmitted * f, 1e-6);
+    return view;
+}
+
+// |phi_i - phi_o - Phi(p)|, 0 to pi.
+vec3 azimuthalDistances(FiberView view, vec2 light) {
+    vec3 along = light.x * view.centre_y + light.y * view.centre_z;
+    vec3 across = light.y * view.centre_y - light.x * view.centre_z;
+    return atan(abs(across), along);
+}
+
+// N_p at these distances; the rest goes everywhere alike.
+vec4 azimuthalLobes(HairOptics optics, vec3 distances) {
+    vec3 e = exp(-distances * optics.inverse_azimuthal_scale);
+    float scale = optics.inverse_azimuthal_scale * optics.trimmed;
+    return vec4(scale * e / ((1.0 + e) * (1.0 + e)), kHalfInversePi);
+}
+
+// f |cos theta_i|, in which the cosine cancels.
+vec3 fiberScattering(HairOptics optics, FiberView view, vec3 to_light) {
+    float sin_i = clamp(to_light.x, -1.0, 1.0);
+    float cos_i = sqrt(1.0 - sin_i * sin_i);
+    vec4 lobes = longitudinalLobes(
+        sin_i, cos_i, view.sin_tilted, view.cos_tilted, optics.variances);
+    lobes *= azimuthalLobes(optics, azimuthalDistances(view, azimuthOf(to_light)));
+    return view.attenuations * lobes;
+}
+
+// f of pbrt-v4: radiance = sum over lights of f |cos theta_i| times irradiance of a plane that
+// faces the light. Directions are unit vectors away from the fibre, x along it towards the tip; h
+// in [-1, 1] is the place across it, seen from `to_eye`: positive towards cross(to_eye, x).
+vec3 fiberBsdf(HairOptics optics, vec3 to_eye, vec3 to_light, float h) {
+    float cos_i = sqrt(max(1.0 - to_light.x * to_light.x, 1e-8));
+    return fiberScattering(optics, fiberView(optics, to_eye, h), to_light) / cos_i;
+}
 
 #endif

@@ -3,6 +3,7 @@
 #define HAIRBENCH_LIGHTS_GLSL
 
 #include "common/picture.glsl"
+#include "shading/options.glsl"
 
 layout(buffer_reference, scalar) readonly buffer Lights { Light lights[]; };
 
@@ -10,15 +11,59 @@ layout(buffer_reference, scalar) readonly buffer Lights { Light lights[]; };
 struct LightSample {
     vec3 to_light;  // unit length
     vec3 color;  // what a white matt surface that faces it shows: irradiance / pi
-    float angular_radius;  // rad
+    float angular_radius;  // rad; 0 but of spheres
 };
 
+bool hasSpheres() { return (kLightKinds & kSomeSpheres) != 0u; }
+
+const float kNearestLight = 1e-3;  // m: a point light is nowhere stronger than here
+
+// The irradiance of a surface that faces a sphere of uniform radiance is pi L (r / d)^2 outside of
+// it, exactly: it falls as that of a point. Inside the sphere is all around.
 LightSample lightAt(Light light, vec3 position) {
-    return LightSample(normalize(light.position - position), light.color, 0.0);
+    // The 1e-18 m give a direction to where the light is, and change no other.
+    vec3 offset = light.position - position + vec3(0.0, 1e-18, 0.0);
+    LightSample result = LightSample(normalize(offset), light.color, 0.0);
+    if ((kLightKinds & kSomeDirectional) != 0u && light.type == kLightDirectional)
+        result.to_light = light.to_light;
+    if ((kLightKinds & kSomeWeaken) != 0u && light.reference_distance > 0.0) {
+        float nearest = max(length(offset), max(light.radius, kNearestLight));
+        float ratio = light.reference_distance / nearest;
+        result.color *= ratio * ratio;
+    }
+    if (hasSpheres() && light.type == kLightSphere)
+        result.angular_radius = asin(min(light.radius / max(length(offset), 1e-18), 1.0));
+    return result;
 }
 
 Light pictureLight(PictureParameters picture, uint index) {
     return Lights(picture.lights).lights[index];
+}
+
+// The irradiance of a surface over that of one which faces the light: the cosine, but where the
+// horizon cuts the light a parabola that joins it smoothly. There it is off by up to 4 % of the
+// sine of the light's angular radius (Snyder 1996, Area light sources for real-time graphics, has
+// the exact one).
+float mattResponse(LightSample light, vec3 normal) {
+    float cosine = dot(normal, light.to_light);
+    if (!hasSpheres()) return max(cosine, 0.0);
+    float size = sin(light.angular_radius);
+    if (abs(cosine) >= size) return max(cosine, 0.0);
+    float over = cosine + size;
+    return over * over / (4.0 * size);
+}
+
+// A direction of the light is off its centre by this much in the mean square along each of two
+// axes, rad^2: that of a uniform disc. What a light's size makes of a lobe is the lobe with its
+// variance increased by this.
+float lightVariance(LightSample light) {
+    return 0.25 * light.angular_radius * light.angular_radius;
+}
+
+// cos^n has the variance 1 / n.
+float widenedExponent(LightSample light, float exponent) {
+    if (!hasSpheres()) return exponent;
+    return 1.0 / (1.0 / exponent + lightVariance(light));
 }
 
 #endif

@@ -3,6 +3,8 @@
 #ifndef HAIRBENCH_SHADING_OPTIONS_GLSL
 #define HAIRBENCH_SHADING_OPTIONS_GLSL
 
+#include "shared/light_structs.h"
+
 const uint kModelPhong = 0;
 const uint kModelKajiyaKay = 1;
 const uint kModelMarschner = 2;
@@ -21,5 +23,6 @@ layout(constant_id = 21) const uint kLinearLight = 0;     // 1: working colours 
 layout(constant_id = 22) const uint kAnalyticCoverage = 0;  // 1: thin strands fade
 layout(constant_id = 23) const uint kStrandTexture = 0;   // 1: strands have a picture
 layout(constant_id = 24) const uint kShow = 0;            // 0: what light shows
+layout(constant_id = 25) const uint kLightKinds = kAllLightKinds;  // what lights there may be
 
 #endif

@@ -3,6 +3,10 @@
 #define HAIRBENCH_STRAND_SHADING_GLSL
 
 #include "common/picture.glsl"
+#include "shading/dual_scattering.glsl"
+#include "shading/environment.glsl"
+#include "shading/fiber_bsdf.glsl"
+#include "shading/kajiya_kay.glsl"
 #include "shading/lights.glsl"
 #include "shading/options.glsl"
 #include "shading/phong.glsl"
@@ -17,6 +21,13 @@ struct StrandFragment {
     float along;  // 0 at the root, 1 at the tip
 };
 
+// Unit vectors: x along the strand, y across it towards the eye, z across both. On a round fibre
+// the quad's point has the normal sqrt(1 - across^2) y - across z.
+mat3 fiberFrame(StrandFragment fragment) {
+    vec3 side = normalize(cross(fragment.to_eye, fragment.tangent));
+    return mat3(fragment.tangent, cross(fragment.tangent, side), -side);
+}
+
 // The normal turns with the place across the strand, as that of the half of a cylinder that faces
 // the camera (the published program takes the side vector, the same for the whole width).
 vec3 cylinderNormal(StrandFragment fragment) {
@@ -26,16 +37,98 @@ vec3 cylinderNormal(StrandFragment fragment) {
     return x * side + sqrt(1.0 - x * x) * facing;
 }
 
-// Working colours. `hair_color` is the picture's, or with a texture's factor.
-vec3 shadeStrand(PictureParameters picture, StrandFragment fragment, vec3 hair_color) {
+float visiblePart(PictureParameters picture, uint light, vec3 position) {
+    if (kMeshShadows == 0u && kHairShadows == 0u) return 1.0;
+    return visibility(picture, lightPath(picture, light, position));
+}
+
+// A model's two terms of one light, without color.
+struct Reflected {
+    float diffuse;
+    float specular;
+};
+
+Reflected reflectedLight(PictureParameters picture, StrandFragment fragment, vec3 normal,
+                         LightSample light) {
+    float exponent = widenedExponent(light, picture.exponent);
+    Reflected reflected;
+    if (kModel == kModelKajiyaKay) {
+        KajiyaKayLight model =
+            kajiyaKay(fragment.tangent, light.to_light, fragment.to_eye, exponent);
+        // Its lobe has a width along the strand only.
+        reflected = Reflected(model.diffuse, model.specular);
+        if (hasSpheres()) reflected.specular *= sqrt(exponent / picture.exponent);
+    } else {
+        PhongLight model = phong(normal, light.to_light, fragment.to_eye, exponent);
+        reflected = Reflected(mattResponse(light, normal), model.specular);
+        if (hasSpheres()) reflected.specular *= exponent / picture.exponent;
+    }
+    return reflected;
+}
+
+// phong and kajiya_kay.
+vec3 shadeOpaque(PictureParameters picture, StrandFragment fragment, vec3 hair_color) {
     vec3 normal = cylinderNormal(fragment);
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < kLightCount; ++i) {
         LightSample light = lightAt(pictureLight(picture, i), fragment.position);
-        PhongLight reflected = phong(normal, light.to_light, fragment.to_eye, picture.exponent);
-        vec3 body = hair_color * (picture.ambient + picture.diffuse * reflected.diffuse);
-        sum += (body + picture.specular * reflected.specular) * light.color;
+        Reflected reflected = reflectedLight(picture, fragment, normal, light);
+        float visible = visiblePart(picture, i, fragment.position);
+        float ambient = kEnvironment != 0u ? 0.0 : picture.ambient;
+        vec3 body = hair_color * (ambient + picture.diffuse * (visible * reflected.diffuse));
+        sum += (body + picture.specular * (visible * reflected.specular)) * light.color;
     }
+    return sum;
+}
+
+// A light's disc makes lobes wider: along the fibre, and round it by the logistic distribution's
+// variance, which is (pi s)^2 / 3.
+HairOptics widened(HairOptics optics, LightSample light) {
+    if (!hasSpheres()) return optics;
+    float variance = lightVariance(light);
+    float inverse = optics.inverse_azimuthal_scale;
+    optics.variances += variance;
+    optics.inverse_azimuthal_scale = inverse * inversesqrt(1.0 + 0.303963551 * variance *
+                                                                     inverse * inverse);
+    return optics;
+}
+
+// marschner and dual_scattering. A light's irradiance is pi times its color.
+vec3 shadeFiber(PictureParameters picture, StrandFragment fragment) {
+    HairOptics optics = HairOpticsReference(picture.optics).optics;
+    mat3 frame = fiberFrame(fragment);
+    vec3 to_eye = fragment.to_eye * frame;
+    float h = clamp(fragment.across, -1.0, 1.0);
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < kLightCount; ++i) {
+        LightSample light = lightAt(pictureLight(picture, i), fragment.position);
+        LightPath path = lightPath(picture, i, fragment.position);
+        HairOptics seen = widened(optics, light);
+        vec3 to_light = light.to_light * frame;
+        vec3 scattered;
+        if (kModel == kModelMarschner) {
+            // What has met a strand is lost: Poisson's share has met none.
+            scattered = fiberScattering(seen, fiberView(seen, to_eye, h), to_light) *
+                        exp(-path.strands);
+        } else {
+            scattered = dualScattering(picture, seen, to_eye, to_light, h, path.strands);
+        }
+        sum += 3.14159265 * path.meshes * scattered * light.color;
+    }
+    return sum;
+}
+
+// Working colours. `hair_color` is the picture's, or with a texture's factor.
+vec3 shadeStrand(PictureParameters picture, StrandFragment fragment, vec3 hair_color) {
+    vec3 sum;
+    if (kModel == kModelPhong || kModel == kModelKajiyaKay) {
+        sum = shadeOpaque(picture, fragment, hair_color);
+    } else {
+        sum = shadeFiber(picture, fragment);
+        if (kStrandTexture != 0u) sum *= hair_color / max(picture.hair_color, vec3(1e-4));
+    }
+    if (kEnvironment != 0u)
+        sum += picture.ambient * hair_color * environmentLight(picture, cylinderNormal(fragment));
     return sum;
 }
 

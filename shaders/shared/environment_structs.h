@@ -3,8 +3,27 @@
 
 // Light from all around.
 struct EnvironmentParameters {
-    vec3 irradiance[9];  // spherical harmonics of irradiance / pi, l = 0 to 2 (Ramamoorthi and
-                         // Hanrahan 2001), linear RGB, turned and scaled
+    uint64_t texels;  // vec3 [row][column], radiance, linear RGB with the strength, top row first
+    uint width;  // px
+    uint height;  // px
+    float turn;  // rad, about +y
+    vec3 irradiance[9];  // spherical harmonics of irradiance / pi, l = 0 to 2, m = -l to l
+                         // (Ramamoorthi and Hanrahan 2001), linear RGB, turned and scaled
+};
+
+// Push constants of environment/*.
+struct EnvironmentPush {
+    uint64_t picture;  // PictureParameters
+    uint64_t environment;  // EnvironmentParameters
+};
+
+// Push constants of environment/probe.comp.
+struct EnvironmentProbePush {
+    uint64_t environment;  // EnvironmentParameters
+    uint64_t directions;  // vec3 [direction], unit length
+    uint64_t radiance;  // vec3 [direction], written: what comes from there
+    uint64_t light;  // vec3 [direction], written: what surfaces that face there get
+    uint count;
 };
 
 #endif

@@ -1,13 +1,40 @@
 #ifndef HAIRBENCH_FRAGMENT_STRUCTS_H
 #define HAIRBENCH_FRAGMENT_STRUCTS_H
 
-// Lists of a picture's transparent fragments, per rendered pixel.
+// What becomes of a picture's transparent fragments: PictureParameters::fragments is the address of
+// the struct that the picture's transparency needs.
+
+// Of the random numbers that choose the samples of alpha_to_coverage.
+const uint kSamplesPurpose = 0x53414d50u;
+// The end of a list.
+const uint kNoFragment = 0xffffffffu;
+
+// Of weighted_blended: a sphere that the strands can't leave, before the head moved.
+struct BlendRange {
+    vec3 centre;  // m
+    float radius;  // m
+};
+
+// Of fragment_list: lists per rendered pixel.
 struct FragmentLists {
-    uint64_t heads;  // uint [pixel], index of the newest fragment
-    uint64_t nodes;
+    uint64_t heads;  // uint [pixel], index of the newest fragment or kNoFragment
+    uint64_t nodes;  // FragmentNode
     uint64_t counters;  // uint: fragments asked for; may be over the capacity
     uint capacity;  // nodes
     uint width;  // rendered pixels in a row
+};
+
+struct FragmentNode {
+    uint red_green;  // half floats of the colour, low half first
+    uint blue_alpha;
+    float depth;  // 0 near to 1 far
+    uint next;
+};
+
+// Push constants of composite/*.
+struct CompositePush {
+    uint64_t fragments;
+    uint sample_index;  // of a multisampled target: which sample is blended
 };
 
 #endif

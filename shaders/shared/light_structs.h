@@ -5,14 +5,21 @@ const uint kLightPoint = 0u;
 const uint kLightDirectional = 1u;
 const uint kLightSphere = 2u;
 
+// What lights of a picture are beside the thesis's, points of the same strength everywhere: bits of
+// kLightKinds in shading/options.glsl.
+const uint kSomeDirectional = 1u;
+const uint kSomeSpheres = 2u;
+const uint kSomeWeaken = 4u;  // with distance
+const uint kAllLightKinds = 7u;
+
 // A light of the picture: settings of the same names say what they are.
 struct Light {
     vec3 position;  // m
     uint type;
     vec3 to_light;  // unit length; of directional ones
-    float radius;  // m; of spheres
+    float radius;  // m; 0 but of spheres
     vec3 color;  // working colours, with the strength
-    float reference_distance;  // m
+    float reference_distance;  // m; 0 of directional ones
 };
 
 #endif

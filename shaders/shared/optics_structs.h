@@ -5,10 +5,41 @@
 struct HairOptics {
     vec3 absorption;  // sigma_a, per fibre radius
     float eta;  // refractive index
-    vec4 variances;  // v_p, longitudinal
+    vec4 variances;  // v_p, longitudinal, rad^2
     vec4 sin_tilts;  // of what is added to theta_o in lobe p
     vec4 cos_tilts;
-    float azimuthal_scale;  // s, of the logistic distribution
+    float inverse_azimuthal_scale;  // 1 / s of the logistic distribution
+    float trimmed;  // 1 over what that has in [-pi, pi]
+    float density_factor;  // d_f = d_b of dual scattering
+    float unused;
+    uint64_t averages;  // FiberAverage [kFiberAverages]; read by dual_scattering
+};
+
+// Entries of the table of averages; cos theta_i goes from 0 to 1.
+const uint kFiberAverages = 64u;
+
+// What dual scattering looks up; hair/rendering/reference_dual_scattering.h says what it is.
+struct FiberAverage {
+    vec4 forward;  // a_f; w: beta_f^2, rad^2
+    vec4 local;  // A_b; w: its variance, rad^2
+    vec2 shifts;  // mean of theta_i + theta_o, forward and local, rad
+};
+
+// What shading/probe_fiber.comp is asked, and what it says.
+struct FiberProbe {
+    vec3 to_eye;
+    float h;
+    vec3 to_light;
+    float strands;
+    vec3 bsdf;  // f |cos theta_i|, written, as the next
+    vec3 dual_scattering;
+};
+
+// Push constants of shading/probe_fiber.comp.
+struct ProbeFiberPush {
+    uint64_t optics;  // HairOptics
+    uint64_t probes;  // FiberProbe
+    uint count;
 };
 
 #endif

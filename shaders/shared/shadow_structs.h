@@ -3,19 +3,40 @@
 
 const uint kMostLights = 16u;
 
-// A light's part of the shadow atlas.
+// What throws shadows in a map.
+const uint kMeshesCast = 1u;
+const uint kHairCasts = 2u;
+
+// What a light sees, in its square part of the shadow atlases.
 struct ShadowMap {
     mat4 view_projection;  // world -> clip space of the light
-    uint enabled;  // 0: the light throws no shadows
+    vec4 depth_terms;  // (a, b, c, d): depth = (a z + b) / (c z + d), z metres along the view
+    vec2 corner;  // of its part of the atlas, texels
+    float texel_near;  // m: a texel's side at the light; above 0 in parallel projections
+    float texel_slope;  // and what it grows by per metre along the view
+    float layer_depth;  // m: see shadows/layers.glsl
+    uint casters;  // kMeshesCast | kHairCasts; 0: the light throws no shadows
 };
 
 // Read by whatever is lit.
 struct ShadowParameters {
     ShadowMap maps[kMostLights];  // [light]
-    uint map_count;  // side by side in the atlas
-    float layer_depth;  // m
+    float side;  // of a part of the atlas, texels
     float stopped;  // part of the light that a strand stops
     float softness;  // texels
+};
+
+// A point to be asked about, and what shadows/probe.frag finds.
+struct ShadowProbe {
+    vec3 position;  // m
+    uint light;
+    vec3 normal;  // of the surface, unit length; 0: of a strand
+};
+
+// Push constants of shadows/probe.
+struct ShadowProbePush {
+    uint64_t picture;  // PictureParameters
+    uint64_t probes;  // ShadowProbe [column]
 };
 
 #endif

@@ -10,11 +10,15 @@ const uint kOrderPurpose = 0x4f524452u;
 // Of those that choose a strand's offsets.
 const uint kOffsetPurpose = 0x4f464653u;
 
+// Of those that tell strands apart by color.
+const uint kColorPurpose = 0x434f4c52u;
+
 // Everything that a picture's draws read; one per frame in flight.
 struct PictureParameters {
     mat4 view_projection;  // world -> clip, y down, depth 0 near to 1 far
     mat4 head;             // rigid motion: where mesh and root normals were made -> world
     vec3 eye;              // m
+    vec3 lod_eye;  // m: where levels of detail are seen from; of a light's picture the camera
     float lod_near;        // m: level 0 up to here
     float lod_far;         // m: maximum level from here on
     float lod_maximum_level;
@@ -54,8 +58,11 @@ struct PictureParameters {
     uint tessellation;  // segments per guide segment at level 0
     uint patches_per_triangle;  // per guide segment: density beyond the device's isolines is split
     uint strands_per_patch;
-    uint forced_density;  // the same at the forced level
+    uint forced_density;  // most that are drawn: those of the forced level, or of level 0
     uint forced_tessellation;
+    float forced_level;
+    float forced_scale;  // 2^-forced_level
+    float least_density_scale;  // of levels by distance: 1 / StrandView::greatest_width_scale
     uint seed;
     float blend;  // 0: mixed strands follow one guide; 1: all three
 };
@@ -99,23 +106,9 @@ struct StrandPointRecord {
 // Push constants of strands/evaluate.comp.
 struct StrandPointsPush {
     uint64_t picture;  // PictureParameters
-    uint64_t
-        records;  // StrandPointRecord [triangle][strand][guide segment][0 .. tessellation], written
+    uint64_t records;  // StrandPointRecord [count], written
     uint count;
-};
-
-// Push constants of scene/mesh.
-struct MeshPush {
-    uint64_t picture;  // PictureParameters
-    uint64_t positions;  // vec3, m; moved by the picture's head, as the normals
-    uint64_t normals;  // vec3, unit length
-    vec3 base_color;
-};
-
-// Push constants of overlay/*.
-struct OverlayPush {
-    uint64_t picture;  // PictureParameters
-    vec3 color;
+    uint first;  // of all points, [triangle][strand][guide segment][0 .. tessellation]
 };
 
 #endif

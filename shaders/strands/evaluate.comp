@@ -1,6 +1,6 @@
 #version 460
-// Every point of every strand into a buffer; one invocation per point. The same functions as the
-// back ends that draw them.
+// Points of strands, from one on, into a buffer; one invocation per point. The same functions as
+// the back ends that draw them.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/strand.glsl"
 
@@ -14,10 +14,11 @@ layout(buffer_reference, scalar) writeonly buffer StrandPointRecords {
 
 void main() {
     uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    uint index = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    if (index >= push.count) return;  // no barrier follows
+    uint slot = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (slot >= push.count) return;  // no barrier follows
 
     // Points are numbered [triangle][strand][guide segment][point], as many as at the finest level.
+    uint index = push.first + slot;
     PictureParameters picture = PictureReference(push.picture).parameters;
     uint segments = picture.vertices_per_guide - 1u;
     uint points = picture.forced_tessellation + 1u;
@@ -32,15 +33,14 @@ void main() {
     strand_patch.lod = patchLod(picture, strand_patch, guides);
     uint isoline = strand - strand_patch.first_strand;
     bool drawn = isoline < strandsInPatch(picture, strand_patch) &&
-                 point_index <= strand_patch.lod.tessellation;
+                 point_index <= strand_patch.lod.pieces;
 
-    float t = float(point_index) / float(strand_patch.lod.tessellation);
-    StrandPoint point = pointFromGuides(picture, strand_patch, guides, strand, t);
+    StrandPoint point = pointFromGuides(picture, strand_patch, guides, strand, point_index);
 
     StrandPointRecord record;
     record.position = point.position;
     record.width = drawn ? point.width : -1.0;
     record.tangent = point.tangent;
     record.along = point.along;
-    StrandPointRecords(push.records).records[index] = record;
+    StrandPointRecords(push.records).records[slot] = record;
 }

@@ -4,26 +4,50 @@
 
 #include "common/picture.glsl"
 #include "shading/strand_shading.glsl"
+#include "strands/coverage.glsl"
+#include "strands/texture.glsl"
 
 layout(push_constant, scalar) uniform Push { StrandPush push; };
 
 layout(location = 0) in vec4 position_and_across;
 layout(location = 1) in vec4 tangent_and_along;
+layout(location = 2) in float half_width;  // m; with analytic coverage
 
-StrandFragment strandFragment(PictureParameters picture) {
+// A point of a strand as a pixel sees it.
+struct SeenStrand {
     StrandFragment fragment;
-    fragment.position = position_and_across.xyz;
-    fragment.tangent = normalize(tangent_and_along.xyz);
-    fragment.to_eye = normalize(picture.eye - fragment.position);
-    fragment.across = position_and_across.w;
-    fragment.along = tangent_and_along.w;
-    return fragment;
+    vec4 factors;  // of colour and opacity
+    float coverage;  // of the pixel; where it is sampled 1
+};
+
+SeenStrand seenStrand(PictureParameters picture) {
+    SeenStrand seen;
+    seen.fragment.position = position_and_across.xyz;
+    seen.fragment.tangent = normalize(tangent_and_along.xyz);
+    seen.fragment.to_eye = normalize(picture.eye - seen.fragment.position);
+    seen.fragment.across = position_and_across.w;
+    seen.fragment.along = tangent_and_along.w;
+    seen.coverage = 1.0;
+    if (kAnalyticCoverage != 0) {
+        float offset = position_and_across.w;
+        PixelFilter pixel = pixelFilter(offset);
+        seen.coverage = pixelCoverage(pixel, offset, half_width);
+        seen.fragment.across = pixelAcross(pixel, offset, half_width);
+    }
+    seen.factors = strandTexel(seen.fragment.across, seen.fragment.along);
+    return seen;
 }
 
-// Color and opacity.
-vec4 strandColor(PictureParameters picture) {
-    StrandFragment fragment = strandFragment(picture);
-    return vec4(shadeStrand(picture, fragment, picture.hair_color), picture.opacity);
+vec3 strandColor(PictureParameters picture, SeenStrand seen) {
+    return shadeStrand(picture, seen.fragment, picture.hair_color * seen.factors.rgb);
+}
+
+// Colour and opacity, without fragments that nothing is seen of.
+vec4 transparentStrand(PictureParameters picture) {
+    SeenStrand seen = seenStrand(picture);
+    float alpha = seen.coverage * picture.opacity * seen.factors.a;
+    if (alpha <= 0.0) discard;
+    return vec4(strandColor(picture, seen), alpha);
 }
 
 #endif

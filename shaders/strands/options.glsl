@@ -28,5 +28,6 @@ layout(constant_id = 6) const uint kInterpolation = kInterpolationMulti;
 layout(constant_id = 7) const uint kCollisionRule = 0;  // 1: strands of guides that touch a body
                                                         // follow one of them from there on
 layout(constant_id = 8) const uint kRandomness = kRandomnessHashed;
+layout(constant_id = 9) const uint kLodMorph = 0;  // 1: ends of pieces may be off the curve
 
 #endif

@@ -64,14 +64,14 @@ vec3 lodCentre(PictureParameters picture, StrandPatch strand_patch, uvec3 guides
 StrandLod patchLod(PictureParameters picture, StrandPatch strand_patch, uvec3 guides) {
     if (kLodMode == kLodForced) return forcedLod(picture);
     vec3 centre = lodCentre(picture, strand_patch, guides);
-    return lodAtDistance(picture, distance(centre, picture.eye));
+    return lodAtDistance(picture, distance(centre, picture.lod_eye));
 }
 
 // Strands of the patch that its level of detail draws; may be 0.
 uint strandsInPatch(PictureParameters picture, StrandPatch strand_patch) {
-    uint density = strand_patch.lod.density;
+    uint drawn = drawnStrands(strand_patch.lod);
     uint first = strand_patch.first_strand;
-    return density > first ? min(density - first, picture.strands_per_patch) : 0u;
+    return drawn > first ? min(drawn - first, picture.strands_per_patch) : 0u;
 }
 
 #endif

@@ -23,11 +23,11 @@ void main() {
     uvec3 guides = patchGuides(picture, strand_patch);
     strand_patch.lod = patchLod(picture, strand_patch, guides);
     bool drawn = isoline < strandsInPatch(picture, strand_patch) &&
-                 piece < strand_patch.lod.tessellation;
+                 piece < strand_patch.lod.pieces;
 
-    float t = float(piece + end) / float(strand_patch.lod.tessellation);
     StrandPoint point =
-        pointFromGuides(picture, strand_patch, guides, strand_patch.first_strand + isoline, t);
+        pointFromGuides(picture, strand_patch, guides, strand_patch.first_strand + isoline,
+                        piece + end);
     position_and_width = vec4(point.position, drawn ? point.width : -1.0);
     tangent_and_along = vec4(point.tangent, point.along);
 }

@@ -1,8 +1,13 @@
 #version 460
-// A strand's quad, opaque or with an alpha that covers samples.
+// A strand's quad, opaque; where its texture is less than half so, there is a hole.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/fragment.glsl"
 
 layout(location = 0) out vec4 color;
 
-void main() { color = strandColor(PictureReference(push.picture).parameters); }
+void main() {
+    PictureParameters picture = PictureReference(push.picture).parameters;
+    SeenStrand seen = seenStrand(picture);
+    if (kStrandTexture != 0 && seen.factors.a < 0.5) discard;
+    color = vec4(strandColor(picture, seen), 1.0);
+}

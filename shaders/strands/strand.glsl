@@ -3,6 +3,7 @@
 #define HAIRBENCH_STRAND_GLSL
 
 #include "common/picture.glsl"
+#include "shading/options.glsl"
 #include "strands/curve.glsl"
 #include "strands/interpolation.glsl"
 #include "strands/offsets.glsl"
@@ -25,7 +26,7 @@ struct StrandPoint {
     vec3 position;  // m
     vec3 tangent;   // d position / d t, not normalised
     float width;    // m
-    float along;    // 0 at the root, 1 at the tip
+    float along;    // 0 at the root, 1 at the tip; or what is shown in its place
 };
 
 float guideWidth(PictureParameters picture, PatchStrand strand, uint vertex) {
@@ -78,15 +79,44 @@ StrandPoint pointOnStrand(PictureParameters picture, StrandPatch strand_patch, P
     point.along =
         (float(strand_patch.segment) + t) / float(picture.vertices_per_guide - 1);
     point.width = strandWidth(picture, strand, strand_patch.segment, t, point.along) *
-                  strand_patch.lod.width_scale;
+                  strand_patch.lod.width_scale * strandShare(strand_patch.lod, strand.index);
     point.position += strand.lift;
     if (kOffsets != 0) offsetPoint(picture, strand_patch, strand, t, point);
     return point;
 }
 
+// What /render/show asks for of a whole strand, in [0, 1], instead of the place along it: by this
+// way it costs nothing where it isn't asked for.
+void putShown(PictureParameters picture, StrandPatch strand_patch, uint index,
+              inout StrandPoint point) {
+    if (kShow == kShowLod)
+        point.along = strand_patch.lod.level / max(picture.lod_maximum_level, 1e-6);
+    if (kShow == kShowStrands) point.along = random01(strand_patch.key, index, kColorPurpose);
+}
+
+// End number `index` of a patch's drawn pieces.
+StrandPoint drawnPoint(PictureParameters picture, StrandPatch strand_patch, PatchStrand strand,
+                       uint index) {
+    StrandLod lod = strand_patch.lod;
+    StrandPoint point = pointOnStrand(picture, strand_patch, strand, pieceEnd(lod, index));
+    uint past = index % lod.step;
+    if (kLodMorph != 0 && lod.morph < 1.0 && past != 0u) {
+        float from = pieceEnd(lod, index - past);
+        float to = pieceEnd(lod, index - past + lod.step);
+        StrandPoint a = pointOnStrand(picture, strand_patch, strand, from);
+        StrandPoint b = pointOnStrand(picture, strand_patch, strand, to);
+        float part = float(past) / float(lod.step);
+        point.position = mix(mix(a.position, b.position, part), point.position, lod.morph);
+        point.tangent = mix(mix(a.tangent, b.tangent, part), point.tangent, lod.morph);
+        point.width = mix(mix(a.width, b.width, part), point.width, lod.morph);
+    }
+    putShown(picture, strand_patch, strand.index, point);
+    return point;
+}
+
 // The same for who evaluates one point at a time, from the guides themselves.
 StrandPoint pointFromGuides(PictureParameters picture, StrandPatch strand_patch, uvec3 guides,
-                            uint index, float t) {
+                            uint index, uint piece_end) {
     PatchStrand strand;
     strand.index = index;
     strand.guides = guides;
@@ -102,7 +132,7 @@ StrandPoint pointFromGuides(PictureParameters picture, StrandPatch strand_patch,
     }
     strandControlPoints(picture, guides, segment, strand.weights, points,
                         singleShares(picture, guides, segment), strand.r);
-    return pointOnStrand(picture, strand_patch, strand, t);
+    return drawnPoint(picture, strand_patch, strand, piece_end);
 }
 
 #endif

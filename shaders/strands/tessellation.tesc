@@ -9,11 +9,12 @@ layout(push_constant, scalar) uniform Push { StrandPush push; };
 
 layout(location = 0) in uint patch_index[];
 layout(location = 0) patch out uvec4 patch_ids;  // key, segment, first strand, isolines
-layout(location = 1) patch out vec2 patch_lod;   // tessellation, width scale
+layout(location = 1) patch out vec4 patch_lod;   // level, density, width scale, morph
 layout(location = 2) patch out vec3 control_points[12];  // [guide of the triangle][r(i-1) … r(i+2)]
 layout(location = 14) patch out vec3 root_lift[3];
 layout(location = 17) patch out uvec3 patch_guides;
 layout(location = 18) patch out vec4 single_shares;  // of the control points
+layout(location = 19) patch out uvec2 patch_pieces;  // pieces, step
 
 void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;
@@ -23,7 +24,9 @@ void main() {
     uint isolines = strandsInPatch(picture, strand_patch);
 
     patch_ids = uvec4(strand_patch.key, strand_patch.segment, strand_patch.first_strand, isolines);
-    patch_lod = vec2(strand_patch.lod.tessellation, strand_patch.lod.width_scale);
+    StrandLod lod = strand_patch.lod;
+    patch_lod = vec4(lod.level, lod.density, lod.width_scale, lod.morph);
+    patch_pieces = uvec2(lod.pieces, lod.step);
     for (int corner = 0; corner < 3; ++corner) {
         for (int k = 0; k < 4; ++k) {
             control_points[4 * corner + k] =
@@ -35,7 +38,7 @@ void main() {
     root_lift = rootLift(picture, strand_patch, guides).edges;
 
     gl_TessLevelOuter[0] = float(isolines);  // 0 drops the patch
-    gl_TessLevelOuter[1] = float(strand_patch.lod.tessellation);
+    gl_TessLevelOuter[1] = float(lod.pieces);
     gl_TessLevelOuter[2] = 0.0;
     gl_TessLevelOuter[3] = 0.0;
     gl_TessLevelInner[0] = 0.0;

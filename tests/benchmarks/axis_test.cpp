@@ -37,6 +37,42 @@ TEST(ParseAxis, RefusesWhatHasNoValues) {
     EXPECT_EQ(errorText([] { parseAxis("/a=1,,2"); }), "-a /a=1,,2: a value is empty");
 }
 
+TEST(ParseAxis, WritesOutRanges) {
+    EXPECT_THAT(parseAxis("/groom/guides=pow2:4:6,86").values, ElementsAre("16", "32", "64", "86"));
+    EXPECT_THAT(parseAxis("/a=pow2:0:5:2").values, ElementsAre("1", "4", "16"));
+    EXPECT_THAT(parseAxis("/a=3:5").values, ElementsAre("3", "4", "5"));
+    EXPECT_THAT(parseAxis("/a=10:50:20").values, ElementsAre("10", "30", "50"));
+    EXPECT_THAT(parseAxis("/a=10:49:20,1").values, ElementsAre("10", "30", "1"));
+    EXPECT_THAT(parseAxis("/a=-1:1:0.5").values, ElementsAre("-1", "-0.5", "0", "0.5", "1"));
+    EXPECT_EQ(parseAxis("/a=0:1:0.1").values.size(), 11u);  // though ten times 0.1 rounds
+    EXPECT_THAT(parseAxis("/a=7:7").values, ElementsAre("7"));
+    EXPECT_EQ(parseAxis("/a=pow2:52:52").values[0], "4503599627370496");
+}
+
+TEST(ParseAxis, TakesForStringsWhatIsNoRange) {
+    EXPECT_THAT(
+        parseAxis("/a=c:d,1:x,pow2:,pow2:3,1:2:3:4,:,\"1:2\",pow10:1:2").values,
+        ElementsAre(
+            "\"c:d\"", "\"1:x\"", "\"pow2:\"", "\"pow2:3\"", "\"1:2:3:4\"", "\":\"", "\"1:2\"",
+            "\"pow10:1:2\""));
+}
+
+TEST(ParseAxis, RefusesRangesWithoutValues) {
+    const std::pair<const char*, const char*> errors[] = {
+        {"5:3", "5:3: ends before it begins"},
+        {"1:3:0", "1:3:0: the step is not above 0"},
+        {"1:3:-1", "1:3:-1: the step is not above 0"},
+        {"0:1e9", "0:1e9: has more than 100000 values"},
+        {"pow2:6:4", "pow2:6:4: ends before it begins"},
+        {"pow2:-1:4", "pow2:-1:4: exponents are whole numbers in [0, 52]"},
+        {"pow2:1:53", "pow2:1:53: exponents are whole numbers in [0, 52]"},
+        {"pow2:1:3:0.5", "pow2:1:3:0.5: exponents are whole numbers in [0, 52]"}};
+    for (const auto& [range, error] : errors) {
+        const std::string argument = std::string("/a=") + range;
+        EXPECT_EQ(errorText([&] { parseAxis(argument); }), "-a " + argument + ": " + error);
+    }
+}
+
 TEST(AxisLabels, AreTheLastTokens) {
     EXPECT_THAT(axisLabels({"/groom/guides", "/render/msaa"}), ElementsAre("guides", "msaa"));
 }

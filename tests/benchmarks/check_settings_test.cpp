@@ -38,6 +38,21 @@ TEST(CheckSettings, WantsFramesWithRoomForTheirSteps) {
     EXPECT_EQ(steps(201.0f), "/run/frame_time: is more than 200 of /simulation/time_step");
 }
 
+TEST(CheckSettings, WantsCoverageToBeSeen) {
+    EXPECT_EQ(
+        broken([](hair::Settings& s) { s.render.coverage = hair::Coverage::analytic; }),
+        "/render/coverage: is analytic, but /render/transparency is none");
+    const auto samples = [](std::uint32_t msaa) {
+        return broken([msaa](hair::Settings& s) {
+            s.render.coverage = hair::Coverage::analytic;
+            s.render.transparency = hair::Transparency::alpha_to_coverage;
+            s.render.msaa = msaa;
+        });
+    };
+    EXPECT_EQ(samples(1), "/render/transparency: is alpha_to_coverage, but /render/msaa is 1");
+    EXPECT_EQ(samples(2), "no error");
+}
+
 TEST(CheckSettings, WantsACameraThatLooksSomewhere) {
     EXPECT_EQ(
         broken([](hair::Settings& s) { s.camera.target = s.camera.position; }),
@@ -49,6 +64,16 @@ TEST(CheckSettings, WantsACameraThatLooksSomewhere) {
         broken([](hair::Settings& s) { s.camera.up = {0.0f, 0.0f, -0.5f}; }),
         "/camera/up: is parallel to the view");
     EXPECT_EQ(broken([](hair::Settings& s) { s.camera.up = {0.0f, 0.001f, 0.5f}; }), "no error");
+}
+
+TEST(CheckSettings, WantsDirectionalLightToGoSomewhere) {
+    const auto still = [](hair::Settings& s) { s.shading.lights[0].direction = glm::vec3(0.0f); };
+    EXPECT_EQ(broken(still), "no error");
+    EXPECT_EQ(
+        broken([&](hair::Settings& s) {
+            still(s), s.shading.lights[0].type = hair::LightType::directional;
+        }),
+        "/shading/lights: entry 0 is directional, but its direction has no length");
 }
 
 TEST(CheckSettings, WantsWindToBlowSomewhere) {

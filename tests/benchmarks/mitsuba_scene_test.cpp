@@ -1,5 +1,5 @@
 // Scenes of Mitsuba: well-formed, and with the values of the settings.
-#include <cmath>
+#include <numbers>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -56,8 +56,9 @@ TEST(MitsubaScene, HasTheSettings) {
     settings.render.background = {1.0f, 0.0f, 1.0f};
     settings.shading.lights[0].position = {0, -0.07f, 2};  // 2 m from the target
     settings.shading.lights[0].color = {1, 1, 0};
-    const std::string text =
-        sceneOf(settings, {.hair_file = "hair.txt", .meshes = {{"head_0.ply", {1, 0, 0}}}});
+    const std::string text = sceneOf(
+        settings,
+        {.hair_file = "hair.txt", .meshes = {{.file = "head_0.ply", .color = {1, 0, 0}}}});
     EXPECT_TRUE(isWellFormed(text)) << text;
     for (const char* part :
          {R"(<float name="fov" value="35"/>)", R"(<string name="fov_axis" value="y"/>)",
@@ -86,30 +87,98 @@ TEST(MitsubaScene, LeavesOutWhatIsNotDrawn) {
 TEST(MitsubaScene, ScalesWhatAbsorbsMuch) {
     hair::Settings settings;
     settings.shading.color = {1.0f, 1.0f, 0.0f};
-    const std::string text = sceneOf(settings, {.hair_file = "hair.txt", .meshes = {}});
+    const std::string text = sceneOf(settings, {.hair_file = "hair.txt"});
     EXPECT_THAT(text, HasSubstr(R"(<rgb name="sigma_a" value="0, 0, 1"/>)"));
     // (ln 1e-4 / 5.88841475)^2, see below.
     EXPECT_THAT(text, HasSubstr(R"(<float name="scale" value="2.4465)"));
 }
 
-TEST(MitsubaOptics, TurnsDisplayColorsLinear) {
-    // IEC 61966-2-1: the ends, the joint of its two parts from both sides, and the middle.
-    const glm::dvec3 linear = toLinear({0.0, 1.0, 0.5});
-    EXPECT_EQ(linear.x, 0.0);
-    EXPECT_EQ(linear.y, 1.0);
-    EXPECT_NEAR(linear.z, 0.21404114, 1e-8);  // as printed
-    const glm::dvec3 joint = toLinear({0.04045, 0.0404501, 0.04045});
-    EXPECT_NEAR(joint.x, 0.0031308, 1e-7);
-    EXPECT_NEAR(joint.y, joint.x, 1e-7);
+// By hand, of a light 2 m from the target whose colour is (1, 0.5, 0) of a display, sRGB's 0.5
+// being 0.21404114, as printed.
+TEST(MitsubaOptics, LightsHaveTheirColorsAsRadianceOfMattWhite) {
+    hair::RenderSettings linear, display;
+    linear.tone_map = hair::ToneMap::srgb;
+    const hair::LightSettings light{
+        .position = {1, 0, 2}, .color = {1.0f, 0.5f, 0.0f}, .strength = 2.0f, .radius = 0.5f};
+    EXPECT_NEAR(lightColor(linear, light).y, 2.0 * 0.21404114, 1e-7);
+    EXPECT_NEAR(lightColor(display, light).y, 1.0, 1e-12);  // twice 0.5 of a display
+    const glm::dvec3 target(1, 0, 0), color(1.0, 0.25, 0.0);
+    EXPECT_NEAR(lightIntensity(light, color, target).y, std::numbers::pi, 1e-12);  // pi 4 / 4
+    EXPECT_NEAR(lightRadiance(light, color, target).x, 16.0, 1e-12);               // (2 / 0.5)^2
+    hair::LightSettings weakening = light;
+    weakening.reference_distance = 3.0f;
+    EXPECT_NEAR(lightIntensity(weakening, color, target).x, 9.0 * std::numbers::pi, 1e-12);
+    EXPECT_NEAR(lightRadiance(weakening, color, target).x, 36.0, 1e-12);
 }
 
-// By hand, beta = 0.3: 5.969 - 0.0645 + 0.22788 - 0.28971 + 0.0451494 + 0.00059535 = 5.88841475.
-TEST(MitsubaOptics, InvertsTheColorOfMuchHair) {
-    const glm::dvec3 absorption = absorptionOf({1.0, std::exp(-1.0), std::exp(-2.0)}, 0.3);
-    const double one = 1.0 / (5.88841475 * 5.88841475);
-    EXPECT_EQ(absorption.x, 0.0);
-    EXPECT_NEAR(absorption.y, one, 1e-12);
-    EXPECT_NEAR(absorption.z, 4.0 * one, 1e-12);
+TEST(MitsubaScene, HasEveryKindOfLight) {
+    hair::Settings settings;
+    settings.render.tone_map = hair::ToneMap::srgb;
+    settings.camera.target = {0, 0, 0};
+    settings.shading.lights = {
+        {.type = hair::LightType::directional, .direction = {0, -0.5f, 0.25f}},
+        {.type = hair::LightType::sphere, .position = {0, 3, 0}, .radius = 1.5f},
+        {.position = {0, 1, 0}, .reference_distance = 2.0f}};
+    const std::string text = sceneOf(settings, {});
+    EXPECT_TRUE(isWellFormed(text)) << text;
+    for (const char* part :
+         {R"(<emitter type="directional">)", R"(<vector name="direction" value="0, -0.5, 0.25"/>)",
+          R"(<rgb name="irradiance" value="3.1415927, 3.1415927, 3.1415927"/>)",
+          R"(<shape type="sphere">)", R"(<point name="center" value="0, 3, 0"/>)",
+          R"(<float name="radius" value="1.5"/>)", R"(<rgb name="radiance" value="4, 4, 4"/>)",
+          R"(<rgb name="intensity" value="12.566371, 12.566371, 12.566371"/>)"})
+        EXPECT_THAT(text, HasSubstr(part));
+}
+
+TEST(MitsubaScene, HasTheFibresOptics) {
+    hair::Settings settings;
+    settings.shading.color_from = hair::ColorSource::melanin;
+    settings.shading.eumelanin = 0.5f;
+    settings.shading.pheomelanin = 0.0f;
+    settings.shading.longitudinal_roughness = 0.25f;
+    settings.shading.azimuthal_roughness = 0.75f;
+    settings.shading.cuticle_tilt = 3.0f;
+    settings.shading.refractive_index = 1.5f;
+    const std::string text = sceneOf(settings, {.hair_file = "hair.txt"});
+    for (const char* part :
+         {R"(<rgb name="sigma_a" value="0.2095, 0.3485, 0.685"/>)",
+          R"(<float name="longitudinal_roughness" value="0.25"/>)",
+          R"(<float name="azimuthal_roughness" value="0.75"/>)",
+          R"(<float name="scale_tilt" value="-3"/>)", R"(<float name="int_ior" value="1.5"/>)"})
+        EXPECT_THAT(text, HasSubstr(part));
+}
+
+// Surroundings are the background then, and no light comes from its colour.
+TEST(MitsubaScene, HasSurroundingsInsteadOfABackground) {
+    hair::Settings settings;
+    settings.render.environment_strength = 2.0f;
+    settings.render.environment_turn = -90.0f;
+    const std::string text = sceneOf(settings, {.environment_file = "environment.exr"});
+    EXPECT_TRUE(isWellFormed(text)) << text;
+    EXPECT_THAT(text, HasSubstr(R"(<string name="filename" value="environment.exr"/>)"));
+    EXPECT_THAT(text, HasSubstr(R"(<float name="scale" value="2"/>)"));
+    EXPECT_THAT(text, HasSubstr(R"(<rotate y="1" angle="-90"/>)"));
+    EXPECT_THAT(text, Not(HasSubstr("constant")));
+}
+
+TEST(MitsubaScene, HasTheMaterialsOfMeshes) {
+    hair::Settings settings;
+    const MitsubaParts parts{
+        .meshes = {
+            {.file = "a.ply", .color = {1, 1, 0}, .metallic = 1.0f, .roughness = 0.5f},
+            {.file = "b.ply", .texture = "b.png", .wrap = "mirror", .two_sided = true}}};
+    const std::string matt = sceneOf(settings, parts);
+    EXPECT_TRUE(isWellFormed(matt)) << matt;
+    EXPECT_THAT(matt, HasSubstr(R"(<rgb name="reflectance" value="1, 1, 0"/>)"));
+    EXPECT_THAT(matt, HasSubstr(R"(<texture type="bitmap" name="reflectance">)"));
+    EXPECT_THAT(matt, HasSubstr(R"(<string name="wrap_mode" value="mirror"/>)"));
+    EXPECT_THAT(matt, HasSubstr(R"(<bsdf type="twosided">)"));
+    settings.render.tone_map = hair::ToneMap::srgb;
+    const std::string glossy = sceneOf(settings, parts);
+    EXPECT_TRUE(isWellFormed(glossy)) << glossy;
+    EXPECT_THAT(glossy, HasSubstr(R"(<rgb name="base_color" value="1, 1, 0"/>)"));
+    EXPECT_THAT(glossy, HasSubstr(R"(<float name="metallic" value="1"/>)"));
+    EXPECT_THAT(glossy, HasSubstr(R"(<float name="roughness" value="0.5"/>)"));
 }
 
 TEST(MitsubaMesh, HasTheMaterialsTrianglesWhereTheHeadIs) {

@@ -43,6 +43,19 @@ TEST(Table, NamesTheCaseWhereNothingVaries) {
         "thesis/density:64/backend:tessellation    -         -     8704  ok, 1 warning\n");
 }
 
+TEST(Table, ShowsHowFarPicturesAreFromTheReference) {
+    Report report = sampleReport();
+    report.cases.resize(1);
+    report.cases[0].metrics = {{"image.flip", "1", {0.12345}, ""}};
+    report.environment.device = {};
+    report.scene.path.clear();
+    EXPECT_EQ(
+        table(report),
+        "unknown device\n"
+        "case                                    fps  frame ms   FLIP  strands  status\n"
+        "thesis/density:64/backend:tessellation    -         -  0.123     8704  ok, 1 warning\n");
+}
+
 TEST(Table, OfNoCasesIsItsHeader) {
     EXPECT_EQ(table({}), "unknown device\ncase  fps  frame ms  strands  status\n");
 }

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -13,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/cli/reference_python.h"
 #include "tests/cli/run_hairbench.h"
 #include "tests/temporary_folder.h"
 
@@ -20,15 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-constexpr const char* kNoReference =
-    "no Python environment for references: run scripts/setup --reference";
-
-bool hasReferencePython() {
-    const char* wanted = std::getenv("HAIRBENCH_REFERENCE_PYTHON");
-    return fs::exists(
-        wanted && *wanted ? wanted : HAIRBENCH_SOURCE_DIR "/.deps/reference/bin/python");
-}
 
 std::string scene(const std::string& name) { return "'" HAIRBENCH_SCENES_DIR "/" + name + "' "; }
 

@@ -116,7 +116,7 @@ TEST_F(GroomStrandsTest, WidthsOfTheGroomAreMixedBetweenRootTriangles) {
     Groom groom = boundGroom(5, 0);
     groom.root_triangles = {{0, 1, 2}, {3, 5, 4}};
     const Settings settings{
-        .strands = {.density = 20, .tessellation = 3, .width = WidthSource::groom},
+        .strands = {.density = 20, .tessellation = 4, .width = WidthSource::groom},
         .lod = {.level = 1.0f}};
     const StrandPoints points = evaluate(groom, settings);
     ASSERT_EQ(points.plan.forced_density, 10u);
@@ -128,7 +128,7 @@ TEST_F(GroomStrandsTest, WidthsOfTheGroomAreMixedBetweenRootTriangles) {
             .guides = groom.root_triangles[triangle],
             .weights = {weights[0], weights[1], weights[2]}};
         const std::uint32_t segment = i / 3 % 4;
-        // Two pieces at level 1 of three, rounded; strands twice as wide.
+        // Two pieces at level 1 of four; strands twice as wide.
         const double expected = 2.0 * widthAt(groom, binding, segment, i % 3 / 2.0);
         ASSERT_NEAR(
             points.at(triangle, strand, segment, i % 3).width, expected, 20 * 0x1p-24 * 1e-3);
@@ -140,16 +140,18 @@ TEST_F(GroomStrandsTest, LowerLevelsKeepTheFirstStrandsAndWidenThem) {
     Settings settings{.strands = kGroomStrands};
     const StrandPoints fine = evaluate(groom, settings);
     for (const auto& [level, kept, tessellation] :
-         {std::tuple{1.0f, 151u, 2u}, {2.0f, 75u, 1u}, {1.5f, 106u, 1u}}) {  // 150.5, 75.25, 106.4
+         {std::tuple{1.0f, 150.5f, 2u}, {2.0f, 75.25f, 1u}}) {
         settings.lod.level = level;
         const StrandPoints coarse = evaluate(groom, settings);
-        ASSERT_EQ(coarse.plan.strands(), kept);
+        const auto whole = static_cast<std::uint32_t>(kept);
+        ASSERT_EQ(coarse.plan.strands(), whole + 1);
         ASSERT_EQ(coarse.plan.forced_tessellation, tessellation);
-        for (std::uint32_t i = 0; i < kept * 3; ++i) {
+        for (std::uint32_t i = 0; i < (whole + 1) * 3; ++i) {
             const auto& a = coarse.at(0, i / 3, i % 3, tessellation);
             const auto& b = fine.at(0, i / 3, i % 3, 4);
             ASSERT_EQ(a.position, b.position);
-            ASSERT_FLOAT_EQ(a.width * static_cast<float>(kept), b.width * 301.0f);
+            const float share = i / 3 < whole ? 1.0f : kept - static_cast<float>(whole);
+            ASSERT_FLOAT_EQ(a.width * kept, share * b.width * 301.0f);
         }
     }
 }

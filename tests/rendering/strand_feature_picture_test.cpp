@@ -122,8 +122,9 @@ TEST_F(StrandFeaturePictureTest, BackEndsDrawTheSameAtAnyLevelOfDetail) {
 
 TEST_F(StrandFeaturePictureTest, CountsAreThoseOfThePlan) {
     if (!device().hasPipelineStatistics()) GTEST_SKIP() << "no pipeline statistics";
-    for (const auto& [level, strands, pieces] : {std::tuple{0.0f, 200u, 5u}, {1.0f, 100u, 3u}}) {
+    for (const auto& [level, strands, pieces] : {std::tuple{0.0f, 200u, 6u}, {1.0f, 100u, 3u}}) {
         Settings settings = small({.source = StrandSource::groom});
+        settings.strands.tessellation = 6;
         settings.lod.level = level;
         std::optional<ExpectedCounts> expected;
         const auto records = record(settings, engine::Timing::statistics, expected);

@@ -1,6 +1,7 @@
 #include "hair/rendering/strand_plan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -96,16 +97,45 @@ TEST(StrandPlan, PartsHoldEveryStrandOnceAndAreNeverEmpty) {
     }
 }
 
-TEST(StrandPlan, LevelsOfDetailHalveAndRound) {
-    EXPECT_EQ(countAtLevel(64, 0.0f), 64u);
-    EXPECT_EQ(countAtLevel(64, 1.0f), 32u);
-    EXPECT_EQ(countAtLevel(64, 0.5f), 45u);   // 45.25
-    EXPECT_EQ(countAtLevel(100, 0.5f), 71u);  // 70.71
-    EXPECT_EQ(countAtLevel(100, 2.0f), 25u);
-    EXPECT_EQ(countAtLevel(3, 1.0f), 2u);  // 1.5 rounds up
-    EXPECT_EQ(countAtLevel(5, 2.0f), 1u);  // 1.25
-    EXPECT_EQ(countAtLevel(1, 8.0f), 1u);  // never 0
-    EXPECT_EQ(countAtLevel(4096, 8.0f), 16u);
+float scaleOf(float level) { return std::exp2(-level); }
+
+TEST(StrandPlan, LevelsOfDetailHalveTheStrandsAndDrawThePartOfOne) {
+    EXPECT_EQ(drawnStrands(64, scaleOf(0.0f)), 64u);
+    EXPECT_EQ(drawnStrands(64, scaleOf(1.0f)), 32u);
+    EXPECT_EQ(drawnStrands(64, scaleOf(0.5f)), 46u);   // 45.25
+    EXPECT_EQ(drawnStrands(100, scaleOf(0.5f)), 71u);  // 70.71
+    EXPECT_EQ(drawnStrands(100, scaleOf(2.0f)), 25u);
+    EXPECT_EQ(drawnStrands(3, scaleOf(1.0f)), 2u);  // 1.5
+    EXPECT_EQ(drawnStrands(5, scaleOf(2.0f)), 2u);  // 1.25
+    EXPECT_EQ(drawnStrands(1, scaleOf(8.0f)), 1u);  // never 0
+    EXPECT_EQ(drawnStrands(4096, scaleOf(8.0f)), 16u);
+}
+
+TEST(StrandPlan, PiecesFallThroughNestedSets) {
+    struct Row {
+        std::uint32_t tessellation;
+        float level;
+        std::uint32_t pieces;
+        bool morphs;
+    };
+    for (const Row& row :
+         {Row{8, 0.0f, 8, false},
+          {8, 0.99f, 8, true},  // 4.03 are wanted
+          {8, 1.0f, 4, false},
+          {8, 1.01f, 4, true},  // 3.97
+          {8, 3.0f, 1, false},
+          {8, 8.0f, 1, false},
+          {6, 1.0f, 3, false},
+          {6, 1.1f, 3, true},  // 2.8: 3 has no divisor but itself
+          {12, 0.9f, 12, true},  // 6.4
+          {12, 1.5f, 6, true},   // 4.2
+          {7, 2.0f, 7, true},    // 1.75
+          {7, 3.0f, 1, false},
+          {1, 0.5f, 1, false}}) {
+        const DrawnPieces pieces = drawnPieces(row.tessellation, scaleOf(row.level));
+        EXPECT_EQ(pieces.count, row.pieces) << row.tessellation << " at " << row.level;
+        EXPECT_EQ(pieces.morphs, row.morphs) << row.tessellation << " at " << row.level;
+    }
 }
 
 TEST(StrandPlan, ForcedLevelScalesBothCountsAndKeepsTheFinestOnes) {

@@ -1,5 +1,7 @@
 #include "hair/rendering/strand_points.h"
 
+#include <cstring>
+
 #include <gtest/gtest.h>
 
 #include "tests/gpu_fixture.h"
@@ -50,7 +52,7 @@ TEST_F(StrandPointsTest, LowerLevelKeepsTheFirstStrandsAndWidensThem) {
     const StrandSettings strands{.density = 100, .tessellation = 4};
     const StrandPoints fine = evaluate(groom, {.strands = strands});
     for (const auto& [level, density, tessellation] :
-         {std::tuple{1.0f, 50u, 2u}, {1.5f, 35u, 1u}, {2.0f, 25u, 1u}}) {
+         {std::tuple{1.0f, 50u, 2u}, {2.0f, 25u, 1u}}) {
         const StrandPoints coarse = evaluate(groom, {.strands = strands, .lod = {.level = level}});
         ASSERT_EQ(coarse.plan.forced_density, density);
         ASSERT_EQ(coarse.plan.forced_tessellation, tessellation);
@@ -73,13 +75,14 @@ TEST_F(StrandPointsTest, LowerLevelKeepsTheFirstStrandsAndWidensThem) {
 TEST_F(StrandPointsTest, LevelFollowsTheLogarithmOfTheDistance) {
     struct Row {
         float distance;
-        std::uint32_t density, tessellation;
+        float density;
+        std::uint32_t tessellation;
     };
     constexpr Row kRows[] = {
-        {0.5f, 64, 8},
-        {1.8f, 36, 4},  // 64 / 1.8 = 35.6, 8 / 1.8 = 4.4
-        {4.0f, 16, 2},
-        {50.0f, 4, 1}};  // 64 / 16, 8 / 16 rounds up
+        {0.5f, 64.0f, 8},
+        {1.8f, 64.0f / 1.8f, 8},  // 35.6; 8 / 1.8 = 4.4, of the nested sets 8 and 4
+        {4.0f, 16.0f, 2},
+        {50.0f, 4.0f, 1}};  // 64 / 16, 8 / 16 and at least 1
     Groom groom;
     groom.vertices_per_strand = 3;
     for (const Row& row : kRows) {
@@ -94,7 +97,7 @@ TEST_F(StrandPointsTest, LevelFollowsTheLogarithmOfTheDistance) {
         }
     }
     const Settings settings{
-        .strands = {.density = 64, .tessellation = 8, .root_width = 1.0f, .tip_width = 1.0f},
+        .strands = {.density = 64, .tessellation = 8, .root_width = 0.01f, .tip_width = 0.01f},
         .lod =
             {.mode = LodMode::distance,
              .near_distance = 1.0f,
@@ -106,9 +109,12 @@ TEST_F(StrandPointsTest, LevelFollowsTheLogarithmOfTheDistance) {
         const Row& row = kRows[triangle];
         for (std::uint32_t strand = 0; strand < 64; ++strand) {
             for (std::uint32_t point = 0; point <= 8; ++point) {
-                const bool drawn = strand < row.density && point <= row.tessellation;
-                const float width = drawn ? 64.0f / static_cast<float>(row.density) : -1.0f;
-                ASSERT_FLOAT_EQ(points.at(triangle, strand, 1, point).width, width)
+                // Of the last strand the fraction's part.
+                const float share = std::min(row.density - static_cast<float>(strand), 1.0f);
+                const bool drawn = share > 0.0f && point <= row.tessellation;
+                const float width = drawn ? 0.01f * share * 64.0f / row.density : -1.0f;
+                // The level by logarithms is off by some 2^-20.
+                ASSERT_NEAR(points.at(triangle, strand, 1, point).width, width, 1e-6f)
                     << triangle << " " << strand << " " << point;
             }
         }
@@ -121,7 +127,29 @@ TEST_F(StrandPointsTest, NoTrianglesHaveNoPoints) {
     EXPECT_TRUE(evaluate(groom, {}).records.empty());
 }
 
-TEST_F(StrandPointsTest, MorePointsThanABufferHoldsAreUnsupported) {
+// 4 triangles x 5 strands x 7 segments x 4 points: several whole parts and a rest, none of which is
+// of whole strands; all at once is what the other tests hold against the reference. Offsets are
+// there too, for their frames are made once.
+TEST_F(StrandPointsTest, AreTheSameInParts) {
+    const Groom groom = tangledGroom(8);
+    const Settings settings{
+        .strands = {.density = 5, .tessellation = 3, .curl = {.radius = 0.01f}}};
+    const DeviceHair hair(device(), groom, settings);
+    const StrandPoints whole = evaluateStrandPoints(device(), settings, hair.view());
+    ASSERT_EQ(whole.records.size(), 560u);
+    for (const std::uint32_t most : {99u, 280u, 559u}) {
+        const StrandPoints parts = evaluateStrandPoints(device(), settings, hair.view(), most);
+        ASSERT_EQ(parts.records.size(), whole.records.size()) << most;
+        EXPECT_EQ(
+            std::memcmp(
+                parts.records.data(), whole.records.data(),
+                whole.records.size() * sizeof(whole.records[0])),
+            0)
+            << most;
+    }
+}
+
+TEST_F(StrandPointsTest, MorePointsThanShadersNumberAreUnsupported) {
     Groom groom = unitTriangles(100000);
     EXPECT_THROW(
         evaluate(groom, {.strands = {.density = 4096, .tessellation = 64}}), engine::Unsupported);

@@ -11,6 +11,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "engine/error.h"
 #include "hair/groom/mesh/base64.h"
@@ -42,6 +44,7 @@ constexpr std::array<std::string_view, 11> kSections{
     "materials",
     "extensionsUsed",
     "extensionsRequired"};
+constexpr std::array<std::string_view, 3> kImageSections{"images", "textures", "samplers"};
 
 [[noreturn]] void fail(std::size_t byte, const std::string& reason) {
     throw engine::Error("byte " + std::to_string(byte), reason);
@@ -73,9 +76,39 @@ std::string takeData(json& document) {
     return {};
 }
 
-// The file as tinygltf is to read it: without the sections that aren't read, and with the first
-// buffer's data in a chunk. Absent where that is the file itself.
-std::optional<std::string> rewritten(std::string_view file) {
+// The images without what is in them, taken from the document: tinygltf would look for their bytes
+// outside of buffers.
+std::vector<tinygltf::Image> takeImages(json& document) {
+    std::vector<tinygltf::Image> images;
+    const auto section = document.find("images");
+    if (section == document.end()) return images;
+    if (!section->is_array()) throw engine::Error("'images' is not an array");
+    for (const json& image : *section) {
+        if (!image.is_object())
+            throw engine::Error("image " + std::to_string(images.size()), "is not an object");
+        tinygltf::Image& added = images.emplace_back();
+        added.name = image.value("name", "");
+        added.uri = image.value("uri", "");
+        added.bufferView = image.value("bufferView", -1);
+    }
+    document.erase(section);
+    return images;
+}
+
+bool isRead(const std::string& section, GltfImages images) {
+    if (std::ranges::find(kSections, section) != kSections.end()) return true;
+    return images == GltfImages::named &&
+           std::ranges::find(kImageSections, section) != kImageSections.end();
+}
+
+struct Rewritten {
+    std::optional<std::string> file;  // absent where it is the file that was given
+    std::vector<tinygltf::Image> images;
+};
+
+// The file as tinygltf is to read it: without images and the sections that aren't read, and with
+// the first buffer's data in a chunk.
+Rewritten rewritten(std::string_view file, GltfImages images) {
     const GlbChunks chunks = isGlb(file) ? glbChunks(file) : GlbChunks{file, {}};
     const auto offset = static_cast<std::size_t>(chunks.json.data() - file.data());
     if (chunks.json.size() > kMaximumJson) fail(offset, "JSON of 2^31 bytes or more");
@@ -87,16 +120,19 @@ std::optional<std::string> rewritten(std::string_view file) {
         }
         if (depth != 1 || event != json::parse_event_t::key) return true;
         const auto& key = parsed.get_ref<const std::string&>();
-        if (std::ranges::find(kSections, key) != kSections.end()) return true;
+        if (isRead(key, images)) return true;
         has_others = true;
         return false;
     };
     try {
         json document = json::parse(chunks.json.begin(), chunks.json.end(), keep);
         const std::string data = isGlb(file) ? std::string() : takeData(document);
-        if (data.empty() && !has_others) return {};
-        if (data.empty() && !isGlb(file)) return document.dump();
-        return glbFile({document.dump(), data.empty() ? chunks.binary : data});
+        std::vector<tinygltf::Image> taken = takeImages(document);
+        if (data.empty() && !has_others && taken.empty()) return {};
+        std::string text = document.dump();
+        if (!data.empty() || isGlb(file))
+            text = glbFile({text, data.empty() ? chunks.binary : data});
+        return {std::move(text), std::move(taken)};
     } catch (const json::parse_error& error) {
         const std::string message = firstLine(error.what());
         fail(
@@ -135,11 +171,12 @@ void checkExtensions(const tinygltf::Model& model) {
 
 }  // namespace
 
-tinygltf::Model loadGltf(std::span<const std::byte> bytes, const std::filesystem::path& path) {
+tinygltf::Model
+loadGltf(std::span<const std::byte> bytes, const std::filesystem::path& path, GltfImages images) {
     const std::string_view file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (file.size() > std::numeric_limits<std::uint32_t>::max()) fail(0, "4 GiB or more");
-    const std::optional<std::string> other = rewritten(file);
-    const std::string_view text = other ? std::string_view(*other) : file;
+    Rewritten other = rewritten(file, images);
+    const std::string_view text = other.file ? std::string_view(*other.file) : file;
 
     tinygltf::TinyGLTF loader;
     if (path.empty()) loader.SetFsCallbacks(noOtherFiles<tinygltf::FsCallbacks>());
@@ -163,6 +200,7 @@ tinygltf::Model loadGltf(std::span<const std::byte> bytes, const std::filesystem
         throw engine::Error(firstLine(exception.what()));
     }
     checkExtensions(model);
+    model.images = std::move(other.images);
     return model;
 }
 

@@ -32,6 +32,21 @@ Material toMaterial(const aiMaterial& source) {
     return material;
 }
 
+// Of the diffuse texture, where it is a file beside the mesh's.
+void readTexture(const aiMaterial& source, const std::filesystem::path& folder, Mesh& mesh) {
+    aiString name;
+    unsigned coordinates = 0;
+    if (source.GetTexture(aiTextureType_DIFFUSE, 0, &name, nullptr, &coordinates) !=
+            aiReturn_SUCCESS ||
+        name.length == 0 || name.C_Str()[0] == '*' || coordinates != 0)
+        return;
+    std::string file = name.C_Str();
+    std::ranges::replace(file, '\\', '/');
+    mesh.materials.back().base_color_texture = {
+        .picture = static_cast<std::uint32_t>(mesh.pictures.size())};
+    mesh.pictures.push_back(engine::readImage(folder / file));
+}
+
 void checkVertex(unsigned vertex, const aiMesh& part, const std::string& what) {
     if (vertex < part.mNumVertices) return;
     throw engine::Error(
@@ -128,7 +143,7 @@ void appendScene(Mesh& mesh, const aiScene& scene) {
 
 }  // namespace
 
-Mesh importAssimp(const std::filesystem::path& path) {
+Mesh importAssimp(const std::filesystem::path& path, Textures textures) {
     Assimp::Importer importer;
     importer.SetPropertyInteger(
         AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
@@ -136,8 +151,11 @@ Mesh importAssimp(const std::filesystem::path& path) {
     const aiScene* scene = importer.ReadFile(path.string(), kSteps);
     if (!scene) throw engine::Error(importer.GetErrorString());
     Mesh mesh;
-    for (unsigned i = 0; i < scene->mNumMaterials; ++i)
-        mesh.materials.push_back(toMaterial(*scene->mMaterials[i]));
+    for (unsigned i = 0; i < scene->mNumMaterials; ++i) {
+        const aiMaterial& material = *scene->mMaterials[i];
+        mesh.materials.push_back(toMaterial(material));
+        if (textures == Textures::decoded) readTexture(material, path.parent_path(), mesh);
+    }
     appendScene(mesh, *scene);
     return mesh;
 }

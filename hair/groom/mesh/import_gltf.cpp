@@ -1,14 +1,15 @@
 #include "hair/groom/mesh/import_gltf.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <limits>
+#include <utility>
 
 #include <glm/mat3x3.hpp>
 
 #include "engine/error.h"
 #include "hair/groom/mesh/gltf_accessors.h"
+#include "hair/groom/mesh/gltf_materials.h"
 #include "hair/groom/mesh/gltf_scene.h"
 
 namespace hair {
@@ -168,26 +169,6 @@ private:
     int part_node_ = -1;
 };
 
-// glTF's factors are linear, ours are display RGB; IEC 61966-2-1.
-float encodeSrgb(double linear) {
-    return static_cast<float>(
-        linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055);
-}
-
-std::vector<Material> materials(const tinygltf::Model& model) {
-    std::vector<Material> materials{{.name = "default"}};
-    for (const tinygltf::Material& source : model.materials) {
-        const std::vector<double>& color = source.pbrMetallicRoughness.baseColorFactor;
-        Material material{.name = source.name};
-        if (color.size() >= 3) {
-            material.base_color = {
-                encodeSrgb(color[0]), encodeSrgb(color[1]), encodeSrgb(color[2])};
-        }
-        materials.push_back(material);
-    }
-    return materials;
-}
-
 std::vector<std::byte> readFile(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     std::vector<std::byte> bytes(std::filesystem::file_size(path));
@@ -198,12 +179,16 @@ std::vector<std::byte> readFile(const std::filesystem::path& path) {
 
 }  // namespace
 
-Mesh importGltf(const std::filesystem::path& path) {
-    const tinygltf::Model model = loadGltf(readFile(path), path);
+Mesh importGltf(const std::filesystem::path& path, Textures textures) {
+    const tinygltf::Model model = loadGltf(
+        readFile(path), path,
+        textures == Textures::decoded ? GltfImages::named : GltfImages::skipped);
     MeshReader reader(model);
     forEachPrimitive(model, [&](const GltfPlace& place) { reader.add(place); });
     Mesh mesh = reader.take();
-    mesh.materials = materials(model);
+    GltfMaterials materials = readMaterials(model, textures, path.parent_path());
+    mesh.materials = std::move(materials.materials);
+    mesh.pictures = std::move(materials.pictures);
     return mesh;
 }
 

@@ -7,11 +7,11 @@
 namespace hair {
 
 // glTF 2.0, .glb or .gltf, with the node transforms of the default scene applied. Reads triangle
-// lists, strips and fans with POSITION, NORMAL, TEXCOORD_0, indices, material names and base colour
-// factors. Parts are the nodes, named as they or else their meshes are. Vertex groups are the
-// application's own attributes of float scalars from 0 to 1, `_SCALP` as "scalp". Skips other
-// primitives; ignores images, skins and animation. Refuses sparse accessors and required extensions
-// that change the geometry.
-Mesh importGltf(const std::filesystem::path& path);
+// lists, strips and fans with POSITION, NORMAL, TEXCOORD_0, indices, and materials: see
+// gltf_materials.h. Parts are the nodes, named as they or else their meshes are. Vertex groups are
+// the application's own attributes of float scalars from 0 to 1, `_SCALP` as "scalp". Skips other
+// primitives; ignores skins and animation. Refuses sparse accessors and required extensions that
+// change the geometry.
+Mesh importGltf(const std::filesystem::path& path, Textures textures);
 
 }  // namespace hair

@@ -97,13 +97,13 @@ void completeNormals(Mesh& mesh) {
 
 std::span<const MeshImporter> meshImporters() { return mesh_importers; }
 
-Mesh importMesh(const std::filesystem::path& path) {
+Mesh importMesh(const std::filesystem::path& path, Textures textures) {
     try {
         const MeshImporter& importer = importerFor(lowerCaseExtension(path));
         std::error_code error;
         if (!std::filesystem::exists(path, error)) throw engine::Error("no such file");
         if (!std::filesystem::is_regular_file(path, error)) throw engine::Error("not a file");
-        Mesh mesh = importer.import(path);
+        Mesh mesh = importer.import(path, textures);
         check(mesh);
         completeNormals(mesh);
         return mesh;

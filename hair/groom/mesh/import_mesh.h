@@ -14,7 +14,7 @@ namespace hair {
 // name the file.
 struct MeshImporter {
     std::span<const std::string_view> extensions;  // lower case, with the dot
-    Mesh (*import)(const std::filesystem::path& path);
+    Mesh (*import)(const std::filesystem::path& path, Textures textures);
 };
 
 // A new format is a row here.
@@ -24,6 +24,6 @@ std::span<const MeshImporter> meshImporters();
 // and texture coordinates, weights from 0 to 1, and unit normals. Lengths are the file's; formats
 // that state their unit (glTF, FBX, COLLADA) come out in metres. Throws engine::Error "path:
 // reason".
-Mesh importMesh(const std::filesystem::path& path);
+Mesh importMesh(const std::filesystem::path& path, Textures textures = Textures::skipped);
 
 }  // namespace hair

@@ -2,17 +2,41 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "engine/image_file.h"
+
 namespace hair {
 
+// What is beyond a picture's edges.
+enum class Wrap { repeat, mirror, clamp };
+
+// A picture on a surface.
+struct MaterialTexture {
+    std::uint32_t picture = 0;  // index into Mesh::pictures
+    Wrap horizontal = Wrap::repeat;
+    Wrap vertical = Wrap::repeat;
+    bool is_smooth = true;  // between its pixels
+};
+
+// In glTF 2.0's terms (section 3.9), colours apart.
 struct Material {
     std::string name;
     glm::vec3 base_color{0.8f, 0.8f, 0.8f};  // display RGB
+    float opacity = 1.0f;
+    float metallic = 0.0f;
+    float roughness = 1.0f;
+    float normal_scale = 1.0f;
+    std::optional<float> cutoff;  // what is less opaque is not there; absent: all is there
+    bool double_sided = false;
+    std::optional<MaterialTexture> base_color_texture;  // display RGB and opacity: factors
+    std::optional<MaterialTexture> metallic_roughness_texture;  // blue and green: factors
+    std::optional<MaterialTexture> normal_texture;  // right, up, out; -1 to 1 as 0 to 255
 };
 
 // Vertices that a modelling program gave a name to.
@@ -29,9 +53,13 @@ struct Mesh {
     std::vector<std::array<std::uint32_t, 3>> triangles;  // [triangle]
     std::vector<std::uint32_t> triangle_materials;  // [triangle], index into materials
     std::vector<Material> materials;
+    std::vector<engine::Pixels> pictures;  // of the materials' textures
     std::vector<std::uint32_t> triangle_parts;  // [triangle], index into parts, or empty
     std::vector<std::string> parts;  // names of meshes, objects or groups
     std::vector<VertexGroup> vertex_groups;
 };
+
+// Whether who reads a mesh wants its materials' textures.
+enum class Textures { skipped, decoded };
 
 }  // namespace hair

@@ -1,0 +1,80 @@
+#version 460
+// A pixel's list of fragments -> one fragment over the picture. However long the list is, all of it
+// is blended in order: the nearest kChunk fragments are picked out and sorted, then those behind
+// them, until the list ends or nothing behind can be seen.
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_GOOGLE_include_directive : require
+#include "shared/fragment_structs.h"
+
+layout(push_constant, scalar) uniform Push { CompositePush push; };
+layout(buffer_reference, scalar) readonly buffer Lists { FragmentLists lists; };
+layout(buffer_reference, scalar) readonly buffer Heads { uint heads[]; };
+layout(buffer_reference, scalar) readonly buffer Nodes { FragmentNode nodes[]; };
+
+layout(location = 0) out vec4 color;
+
+const uint kChunk = 16;
+const float kUnseen = 1.0 / 4096.0;  // of what is behind: a sixteenth of a step of 8-bit colours
+
+// The order in which fragments are blended: by depth, then by colour, which are the same however
+// the list came about, and at last by index, which tells apart what looks the same.
+bool isBefore(Nodes list, float depth_a, uint a, float depth_b, uint b) {
+    if (depth_a != depth_b) return depth_a < depth_b;
+    FragmentNode node_a = list.nodes[a];
+    FragmentNode node_b = list.nodes[b];
+    if (node_a.blue_alpha != node_b.blue_alpha) return node_a.blue_alpha < node_b.blue_alpha;
+    if (node_a.red_green != node_b.red_green) return node_a.red_green < node_b.red_green;
+    return a < b;
+}
+
+void main() {
+    FragmentLists lists = Lists(push.fragments).lists;
+    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    uint head = Heads(lists.heads).heads[pixel.y * lists.width + pixel.x];
+    if (head == kNoFragment) discard;
+    Nodes list = Nodes(lists.nodes);
+
+    vec3 light = vec3(0.0);
+    float revealed = 1.0;
+    float last_depth = -1.0;  // of the fragments already blended the farthest
+    uint last = 0u;
+    uint found = kChunk;
+    while (found == kChunk && revealed > kUnseen) {
+        float depths[kChunk];
+        uint indices[kChunk];
+        found = 0u;
+        for (uint at = head; at != kNoFragment;) {
+            FragmentNode node = list.nodes[at];
+            bool behind = last_depth < 0.0 || isBefore(list, last_depth, last, node.depth, at);
+            bool fits = found < kChunk || isBefore(list, node.depth, at, depths[kChunk - 1u],
+                                                   indices[kChunk - 1u]);
+            if (behind && fits) {
+                uint place = min(found, kChunk - 1u);
+                for (; place > 0u; --place) {
+                    uint before = place - 1u;
+                    if (isBefore(list, depths[before], indices[before], node.depth, at)) break;
+                    depths[place] = depths[before];
+                    indices[place] = indices[before];
+                }
+                depths[place] = node.depth;
+                indices[place] = at;
+                found = min(found + 1u, kChunk);
+            }
+            at = node.next;
+        }
+        for (uint i = 0u; i < found; ++i) {
+            FragmentNode node = list.nodes[indices[i]];
+            vec2 blue_alpha = unpackHalf2x16(node.blue_alpha);
+            light += revealed * blue_alpha.y * vec3(unpackHalf2x16(node.red_green), blue_alpha.x);
+            revealed *= 1.0 - blue_alpha.y;
+        }
+        if (found > 0u) {
+            last_depth = depths[found - 1u];
+            last = indices[found - 1u];
+        }
+    }
+    if (revealed >= 1.0) discard;
+    color = vec4(light / (1.0 - revealed), 1.0 - revealed);
+}

@@ -1,0 +1,18 @@
+#version 460
+// One sample of every pixel.
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_GOOGLE_include_directive : require
+#include "composite/weighted.glsl"
+#include "shared/fragment_structs.h"
+
+layout(push_constant, scalar) uniform Push { CompositePush push; };
+layout(binding = 0) uniform sampler2DMS weighted_sum;
+layout(binding = 1) uniform sampler2DMS revealed_part;
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    int i = int(push.sample_index);
+    gl_SampleMask[0] = 1 << i;
+    blendWeighted(texelFetch(weighted_sum, pixel, i), texelFetch(revealed_part, pixel, i).r);
+}

@@ -1,0 +1,50 @@
+// Rendered linear light -> its mean over each pixel of the picture, and what a display shows of it.
+#include "common/display_color.glsl"
+#include "post/tone_map_aces.glsl"
+#include "post/tone_map_agx.glsl"
+
+const uint kToneMapAces = 2;
+const uint kToneMapAgx = 3;
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const int kSamples = 1;  // per rendered pixel
+layout(constant_id = 1) const int kFactor = 1;   // rendered pixels per pixel, along each side
+layout(constant_id = 2) const uint kToneMap = 1;
+layout(constant_id = 3) const float kExposure = 1.0;  // factor of the light
+layout(binding = 1, rgba32f) uniform writeonly image2D radiance;
+layout(binding = 2, rgba8) uniform writeonly image2D picture;
+
+const float kMostHalf = 65504.0;  // largest half-precision float
+
+// One bad sample must not spoil its pixel: below 0 and what is no number (which no comparison
+// holds for) is black, infinity the brightest there is.
+vec3 soundLight(vec3 light) {
+    return min(mix(vec3(0.0), light, greaterThan(light, vec3(0.0))), vec3(kMostHalf));
+}
+
+vec3 meanLight(ivec2 pixel) {
+    vec3 sum = vec3(0.0);
+    for (int y = 0; y < kFactor; ++y) {
+        for (int x = 0; x < kFactor; ++x) {
+            for (int i = 0; i < kSamples; ++i) {
+                sum += soundLight(renderedSample(pixel * kFactor + ivec2(x, y), i).rgb);
+            }
+        }
+    }
+    return sum / float(kFactor * kFactor * kSamples);
+}
+
+vec3 toneMapped(vec3 light) {
+    if (kToneMap == kToneMapAces) return toneMapAces(light);
+    if (kToneMap == kToneMapAgx) return toneMapAgx(light);
+    return light;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(picture)))) return;
+    vec3 light = meanLight(pixel);
+    imageStore(radiance, pixel, vec4(light, 1.0));
+    vec3 shown = clamp(toneMapped(kExposure * light), 0.0, 1.0);
+    imageStore(picture, pixel, vec4(toDisplay(shown), 1.0));
+}

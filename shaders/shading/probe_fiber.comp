@@ -1,0 +1,27 @@
+#version 460
+// What a fibre scatters, in directions of the host's choice; one invocation per probe.
+#extension GL_GOOGLE_include_directive : require
+
+#include "shading/dual_scattering.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(push_constant, scalar) uniform Push { ProbeFiberPush push; };
+
+layout(buffer_reference, scalar) buffer Probes { FiberProbe at[]; };
+
+void main() {
+    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint index = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (index >= push.count) return;  // no barrier follows
+
+    HairOptics optics = HairOpticsReference(push.optics).optics;
+    FiberProbe probe = Probes(push.probes).at[index];
+    float cos_i = sqrt(max(1.0 - probe.to_light.x * probe.to_light.x, 0.0));
+    probe.bsdf = fiberBsdf(optics, probe.to_eye, probe.to_light, probe.h) * cos_i;
+    PictureParameters none;
+    if (optics.averages != 0)
+        probe.dual_scattering = dualScattering(
+            none, optics, probe.to_eye, probe.to_light, probe.h, probe.strands);
+    Probes(push.probes).at[index] = probe;
+}

@@ -1,0 +1,33 @@
+// Deep opacity maps: Yuksel and Keyser 2008. Layers follow the surface of the hair that a light
+// sees: at z0, the depth of its nearest strand, the first begins; it is `layer_depth` deep, and
+// each of the next twice as deep as the one before. What is behind the last counts as in it.
+#ifndef HAIRBENCH_SHADOW_LAYERS_GLSL
+#define HAIRBENCH_SHADOW_LAYERS_GLSL
+
+// Where the four layers end, in depths of the first: behind the last, opacity grows no more.
+const vec4 kLayerEnds = vec4(1.0, 3.0, 7.0, 15.0);
+
+// Metres along the light's view: depth_terms as in ShadowMap.
+float viewDepth(vec4 depth_terms, float depth) {
+    return (depth_terms.y - depth * depth_terms.w) / (depth * depth_terms.z - depth_terms.x);
+}
+
+// What depth grows by per metre there.
+float depthPerMetre(vec4 depth_terms, float z) {
+    float w = depth_terms.z * z + depth_terms.w;
+    return (depth_terms.x * depth_terms.w - depth_terms.y * depth_terms.z) / (w * w);
+}
+
+// The layers that a strand `behind` metres behind z0 adds to: its own and all behind it.
+vec4 layersOf(float behind, float layer_depth) {
+    return vec4(lessThan(vec3(behind), layer_depth * kLayerEnds.xyz), 1.0);
+}
+
+// Mean number of strands between z0 and `behind` metres behind it, linear within each layer.
+float strandsBefore(vec4 layers, float behind, float layer_depth) {
+    vec4 begins = vec4(0.0, kLayerEnds.xyz);
+    vec4 parts = clamp((behind / layer_depth - begins) / (kLayerEnds - begins), 0.0, 1.0);
+    return dot(parts, layers - vec4(0.0, layers.xyz));
+}
+
+#endif

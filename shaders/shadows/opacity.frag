@@ -1,0 +1,21 @@
+#version 460
+// A strand that a light sees, added to the layers of opacity.
+#extension GL_GOOGLE_include_directive : require
+#include "common/picture.glsl"
+#include "shadows/layers.glsl"
+
+layout(buffer_reference, scalar) readonly buffer ShadowMapReference { ShadowMap map; };
+layout(push_constant, scalar) uniform Push { StrandPush push; };
+layout(binding = 0) uniform sampler2D hair_depths;
+
+layout(location = 0) in float coverage;
+layout(location = 0) out vec4 layers;
+
+void main() {
+    PictureParameters picture = PictureReference(push.picture).parameters;
+    ShadowMap map = ShadowMapReference(picture.shadows).map;
+    float nearest = texelFetch(hair_depths, ivec2(gl_FragCoord.xy), 0).r;
+    float behind =
+        viewDepth(map.depth_terms, gl_FragCoord.z) - viewDepth(map.depth_terms, nearest);
+    layers = coverage * layersOf(behind, map.layer_depth);
+}

@@ -1,0 +1,20 @@
+#version 460
+// What is between a light and points of the host's choice, one to a column.
+#extension GL_GOOGLE_include_directive : require
+#define HAIRBENCH_SHADOW_BINDING 0
+#include "common/picture.glsl"
+#include "shading/shadows.glsl"
+
+layout(buffer_reference, scalar) readonly buffer Probes { ShadowProbe at[]; };
+layout(push_constant, scalar) uniform Push { ShadowProbePush push; };
+layout(location = 0) out vec4 path;  // meshes, strands, visibility
+
+void main() {
+    PictureParameters picture = PictureReference(push.picture).parameters;
+    ShadowProbe probe = Probes(push.probes).at[uint(gl_FragCoord.x)];
+    LightPath found =
+        probe.normal == vec3(0.0)
+            ? lightPath(picture, probe.light, probe.position)
+            : lightPath(picture, probe.light, probe.position, probe.normal);
+    path = vec4(found.meshes, found.strands, visibility(picture, found), 0.0);
+}

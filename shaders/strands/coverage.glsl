@@ -1,0 +1,60 @@
+// The part of a pixel that a straight strand covers, exactly: the pixel's square is spread across
+// the strand as one box convolved with another, which are as wide as the distance from the strand's
+// middle changes from pixel to pixel along x and along y. Duff 1989, Polygon scan conversion by
+// exact convolution, does so for edges.
+#ifndef HAIRBENCH_COVERAGE_GLSL
+#define HAIRBENCH_COVERAGE_GLSL
+
+struct PixelFilter {
+    vec2 widths;  // of the boxes
+    float reach;  // it is 0 beyond
+};
+
+// For a pixel at this distance from the strand's middle, in any unit.
+PixelFilter pixelFilter(float offset) {
+    vec2 widths = abs(vec2(dFdx(offset), dFdy(offset)));
+    float widest = max(max(widths.x, widths.y), 1e-12);
+    // An upright or level strand has a box of no width: 1/50 px of blur keeps what follows exact
+    // to 1e-5.
+    widths = max(widths, vec2(0.02 * widest));
+    return PixelFilter(widths, 0.5 * (widths.x + widths.y));
+}
+
+// Distances from the four corners of the filter's trapezoid, where x is beyond them.
+vec4 beyondCorners(PixelFilter pixel, float x) {
+    float difference = 0.5 * (pixel.widths.x - pixel.widths.y);
+    vec4 corners = vec4(-pixel.reach, -difference, difference, pixel.reach);
+    return max(vec4(clamp(x, -pixel.reach, pixel.reach)) - corners, 0.0);
+}
+
+const vec4 kTrapezoid = vec4(1.0, -1.0, -1.0, 1.0);
+
+// The filter's integral from -infinity to x.
+float filterBelow(PixelFilter pixel, float x) {
+    vec4 beyond = beyondCorners(pixel, x);
+    return dot(kTrapezoid, beyond * beyond) / (2.0 * pixel.widths.x * pixel.widths.y);
+}
+
+// And that integral's.
+float filterBelowIntegral(PixelFilter pixel, float x) {
+    vec4 beyond = beyondCorners(pixel, x);
+    float inside = dot(kTrapezoid, beyond * beyond * beyond);
+    return inside / (6.0 * pixel.widths.x * pixel.widths.y) + max(x - pixel.reach, 0.0);
+}
+
+float pixelCoverage(PixelFilter pixel, float offset, float half_width) {
+    return filterBelow(pixel, offset + half_width) - filterBelow(pixel, offset - half_width);
+}
+
+// The place across the strand, -1 to 1, that stands for what the pixel sees of it: as much of the
+// coverage of a row of pixels is on either side as of the strand's width. So wide strands have
+// their own place, and of thin ones the mean over pixels is, weighted by coverage, the mean over
+// the width, whatever is shaded.
+float pixelAcross(PixelFilter pixel, float offset, float half_width) {
+    float half_seen = max(half_width, 0.05 * pixel.reach);  // thinner ones: as this one
+    float covered = filterBelowIntegral(pixel, offset + half_seen) -
+                    filterBelowIntegral(pixel, offset - half_seen);
+    return clamp(covered / half_seen - 1.0, -1.0, 1.0);
+}
+
+#endif

@@ -1,0 +1,20 @@
+// How far beyond a strand's edges its quad must reach, so that every pixel that the strand touches
+// is drawn.
+#ifndef HAIRBENCH_PIXEL_MARGIN_GLSL
+#define HAIRBENCH_PIXEL_MARGIN_GLSL
+
+#include "common/picture.glsl"
+#include "strands/pixel_samples.glsl"
+
+// Of a pixel whose corner touches the edge, the centre is half a diagonal away, and of its samples
+// one may be as far again. A bit more, for rounding.
+const float kHalfDiagonal = 0.7075;  // px
+
+// m, at this place.
+float pixelMargin(PictureParameters picture, vec3 position) {
+    float depth = max((picture.view_projection * vec4(position, 1.0)).w, 0.0);
+    float pixel = picture.pixel_near + picture.pixel_slope * depth;
+    return (kSamples > 1u ? 2.0 : 1.0) * kHalfDiagonal * pixel;
+}
+
+#endif

@@ -1,0 +1,108 @@
+#include "benchmarks/lod_report.h"
+
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/benchmarks/sample_report.h"
+#include "tests/benchmarks/schema_errors.h"
+#include "tests/temporary_folder.h"
+
+namespace benchmarks {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+const std::filesystem::path kSchemaFile =
+    std::filesystem::path(HAIRBENCH_SCENES_DIR) / "../results/lod.schema.json";
+
+// Two steps; the first has no step before it and doesn't know its strands.
+LodReport sampleLod() {
+    return {
+        .environment = sampleReport().environment,
+        .scene = sampleReport().scene,
+        .frame = 60,
+        .steps = {
+            {.distance = 0.5,
+             .full_strands = 8704,
+             .error = 0.0,
+             .coverage = 0.3,
+             .full_coverage = 0.3,
+             .time = {10.0, 20.0},
+             .full_time = {10.0, 20.0}},
+            {.distance = 20.0,
+             .mean_level = 4.0,
+             .strands = 1000,
+             .full_strands = 8704,
+             .error = 0.01,
+             .popping = 0.002,
+             .coverage = 0.09,
+             .full_coverage = 0.1,
+             .time = {2.0, 10.0},
+             .full_time = {14.0, 20.0}}}};
+}
+
+Json written() { return Json::parse(lodReportText(sampleLod())); }
+
+TEST(LodTotals, AreThoseOfAllSteps) {
+    const LodTotals totals = totalsOf(sampleLod().steps);
+    EXPECT_EQ(totals.worst_popping, 0.002);
+    EXPECT_NEAR(totals.mean_coverage_change, -0.05, 1e-15);
+    EXPECT_NEAR(totals.worst_coverage_change, -0.1, 1e-15);
+    EXPECT_DOUBLE_EQ(totals.strands_speed_up, 2.0);  // 24 ms / 12 ms
+    EXPECT_DOUBLE_EQ(totals.frame_speed_up, 40.0 / 30.0);
+}
+
+TEST(LodReport, LeavesOutWhatIsNotKnown) {
+    const Json report = written();
+    EXPECT_FALSE(report["steps"][0].contains("popping"));
+    EXPECT_FALSE(report["steps"][0].contains("strands"));
+    EXPECT_EQ(report["steps"][1]["strands"], 1000);
+    EXPECT_EQ(report["steps"][1]["full_time"]["strands"], 14.0);
+    LodReport interrupted = sampleLod();
+    interrupted.steps.clear();
+    interrupted.interrupted = true;
+    EXPECT_FALSE(Json::parse(lodReportText(interrupted)).contains("totals"));
+    EXPECT_THAT(schemaErrors(textOf(kSchemaFile), lodReportText(interrupted)), IsEmpty());
+}
+
+TEST(LodSchema, DescribesTheReport) {
+    EXPECT_THAT(schemaErrors(textOf(kSchemaFile), lodReportText(sampleLod())), IsEmpty());
+}
+
+TEST(LodSchema, FindsWhatIsWrong) {
+    const std::string schema = textOf(kSchemaFile);
+    for (const char* pointer :
+         {"/schema", "/environment/device", "/scene/hash", "/frame", "/steps/0/distance",
+          "/steps/0/time/frame", "/totals/strands_speed_up"}) {
+        Json report = written();
+        const Json::json_pointer place(pointer);
+        report[place.parent_pointer()].erase(place.back());
+        EXPECT_THAT(schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
+    }
+    const std::pair<const char*, Json> replaced[] = {
+        {"/schema", "hairbench-report/1.0.0"},
+        {"/steps/1/strands", -1},
+        {"/steps/1/popping", nullptr},
+        {"/steps/1/coverage", 1.5},
+        {"/steps/1/distance", 0.0}};
+    for (const auto& [pointer, value] : replaced) {
+        Json report = written();
+        report[Json::json_pointer(pointer)] = value;
+        EXPECT_THAT(schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
+    }
+}
+
+TEST(LodTable, HasALinePerStepAndTheTotals) {
+    const std::string table = lodTable(sampleLod());
+    EXPECT_THAT(table, HasSubstr("0.500"));
+    EXPECT_THAT(table, HasSubstr("20.000"));
+    EXPECT_THAT(table, HasSubstr("-10.00"));
+    EXPECT_THAT(table, HasSubstr("coverage change: mean -5.00 %, worst -10.00 %"));
+}
+
+}  // namespace
+}  // namespace benchmarks

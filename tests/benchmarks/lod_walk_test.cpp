@@ -1,0 +1,64 @@
+#include "benchmarks/lod_walk.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/gpu_fixture.h"
+
+namespace benchmarks {
+namespace {
+
+TEST(LodPath, StepsAreOfOneRatio) {
+    const auto distances = distancesOf({.from = 0.5, .to = 8.0, .steps = 5});
+    ASSERT_EQ(distances.size(), 5u);
+    for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(distances[i], 0.5 * (1u << i), 1e-12);
+}
+
+TEST(LodPath, CameraKeepsItsDirection) {
+    hair::CameraSettings camera;
+    camera.position = {1.0f, 2.0f, 3.0f};
+    camera.target = {1.0f, 0.0f, 3.0f};
+    const hair::CameraSettings moved = cameraAt(camera, 7.0);
+    EXPECT_EQ(moved.position, glm::vec3(1.0f, 7.0f, 3.0f));
+    EXPECT_EQ(moved.target, camera.target);
+}
+
+class LodWalkTest : public GpuTest {};
+
+TEST_F(LodWalkTest, ComparesWithFullDetail) {
+    hair::Settings settings;
+    settings.simulation.solver = hair::Solver::none;
+    settings.strands.density = 16;
+    settings.camera.field_of_view = 20.0f;
+    settings.render.width = 96;
+    settings.render.height = 64;
+    settings.lod.near_distance = 1.0f;
+    Case hair(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
+    std::vector<LodStep> steps;
+    std::vector<double> begun;
+    walk(
+        device(), hair, settings, {.from = 0.5, .to = 4.0, .steps = 2},
+        [&](double distance) { begun.push_back(distance); }, steps);
+    ASSERT_EQ(steps.size(), 2u);
+    EXPECT_EQ(begun, (std::vector{0.5, 4.0}));
+
+    // Within 1 m all is level 0: the same picture.
+    EXPECT_EQ(steps[0].mean_level, 0.0);
+    EXPECT_EQ(steps[0].error, 0.0);
+    EXPECT_EQ(steps[0].coverage, steps[0].full_coverage);
+    EXPECT_EQ(steps[0].strands, steps[0].full_strands);
+    EXPECT_FALSE(steps[0].popping);
+
+    // Level 4 log(4) / log(8) = 2.67 at 4 m, roots some 0.1 m nearer or farther.
+    EXPECT_NEAR(steps[1].mean_level, 2.67, 0.1);
+    EXPECT_GT(steps[1].error, 0.0);
+    // All that the picture of 4 m has of error came since the one without.
+    ASSERT_TRUE(steps[1].popping);
+    EXPECT_DOUBLE_EQ(*steps[1].popping, steps[1].error);
+    EXPECT_LT(*steps[1].strands, steps[1].full_strands);
+    EXPECT_GT(steps[1].full_coverage, 0.05);
+    EXPECT_GT(steps[1].full_time.frame, steps[1].full_time.strands);
+}
+
+}  // namespace
+}  // namespace benchmarks

@@ -1,0 +1,188 @@
+#pragma once
+
+#include <vector>
+
+#include "tests/rendering/pictures.h"
+
+// What has a golden picture: a feature, and the settings that show it.
+namespace hair {
+
+struct Feature {
+    const char* name;  // of tests/golden/pictures/<name>.png
+    void (*show)(Settings&);
+    // A feature whose picture this one must differ from: that it is seen at all.
+    const char* differs_from = "plain";
+};
+
+// The thesis's head of hair from near by, small.
+inline Settings plainSettings() {
+    Settings settings = thesisAtRest();
+    settings.simulation.solver = Solver::none;
+    settings.groom.grow.droop = 10.0f;
+    settings.strands.density = 24;
+    settings.camera.position = {0.24f, 0.08f, 0.38f};
+    settings.camera.target = {0.0f, -0.02f, 0.0f};
+    settings.camera.field_of_view = 40.0f;
+    settings.render.width = 160;
+    settings.render.height = 128;
+    return settings;
+}
+
+// Linear light from the side, with shadows.
+inline void lit(Settings& settings) {
+    settings.render.tone_map = ToneMap::srgb;
+    settings.render.background = {0.05f, 0.05f, 0.06f};
+    settings.shading.color = {0.6f, 0.4f, 0.25f};
+    settings.shading.ambient = 0.1f;
+    settings.shading.lights[0].position = {2.0f, 3.0f, 1.0f};
+    settings.shading.shadows.meshes = true;
+    settings.shading.shadows.hair = HairShadows::deep_opacity;
+    settings.shading.shadows.resolution = 256;
+}
+
+inline const std::vector<Feature>& features() {
+    static const std::vector<Feature> kFeatures{
+        {"plain", [](Settings&) {}, nullptr},
+        {"single", [](Settings& s) { s.strands.interpolation = Interpolation::single; }},
+        {"mixed", [](Settings& s) { s.strands.interpolation = Interpolation::mixed; }, "single"},
+        {"catmull_rom", [](Settings& s) { s.strands.curve = Curve::catmull_rom; }},
+        {"curl",
+         [](Settings& s) {
+             s.strands.curl.radius = 0.006f;
+             s.strands.tessellation = 12;
+         }},
+        {"variation",
+         [](Settings& s) {
+             s.strands.variation.amplitude = 0.008f;
+             s.strands.variation.share = 0.8f;
+         }},
+        {"taper",
+         [](Settings& s) {
+             s.strands.root_width = 0.004f;
+             s.strands.tip_width = 0.0f;
+             s.strands.taper_start = 0.5f;
+         }},
+        {"lod", [](Settings& s) { s.lod.level = 1.6f; }},
+        {"msaa", [](Settings& s) { s.render.msaa = 4; }},
+        {"ssaa", [](Settings& s) { s.render.ssaa = 2; }},
+        {"ssaa4", [](Settings& s) { s.render.ssaa = 4; }},
+        {"msaa_ssaa",
+         [](Settings& s) {
+             s.render.msaa = 4;
+             s.render.ssaa = 2;
+         }},
+        {"alpha_to_coverage",
+         [](Settings& s) {
+             s.render.msaa = 4;
+             s.render.transparency = Transparency::alpha_to_coverage;
+             s.strands.opacity = 0.5f;
+         },
+         "msaa"},
+        {"weighted_blended",
+         [](Settings& s) {
+             s.render.transparency = Transparency::weighted_blended;
+             s.render.coverage = Coverage::analytic;
+             s.strands.opacity = 0.6f;
+         }},
+        {"fragment_list",
+         [](Settings& s) {
+             s.render.transparency = Transparency::fragment_list;
+             s.render.coverage = Coverage::analytic;
+             s.render.list_length = 64;
+         }},
+        {"lit", lit},
+        {"kajiya_kay",
+         [](Settings& s) {
+             lit(s);
+             s.shading.model = ShadingModel::kajiya_kay;
+         },
+         "lit"},
+        {"marschner",
+         [](Settings& s) {
+             lit(s);
+             s.shading.model = ShadingModel::marschner;
+         },
+         "kajiya_kay"},
+        {"dual_scattering",
+         [](Settings& s) {
+             lit(s);
+             s.shading.model = ShadingModel::dual_scattering;
+         },
+         "marschner"},
+        {"melanin",
+         [](Settings& s) {
+             lit(s);
+             s.shading.model = ShadingModel::dual_scattering;
+             s.shading.color_from = ColorSource::melanin;
+             s.shading.pheomelanin = 0.8f;
+             s.shading.eumelanin = 0.2f;
+         },
+         "dual_scattering"},
+        {"no_shadows",
+         [](Settings& s) {
+             lit(s);
+             s.shading.shadows = {};
+         },
+         "lit"},
+        {"lights",
+         [](Settings& s) {
+             lit(s);
+             s.shading.lights = {
+                 {.type = LightType::sphere,
+                  .position = {-0.5f, 0.3f, 0.3f},
+                  .color = {1.0f, 0.5f, 0.2f},
+                  .radius = 0.2f},
+                 {.type = LightType::directional,
+                  .direction = {-0.5f, -0.4f, -0.8f},
+                  .color = {0.2f, 0.4f, 1.0f}},
+                 {.position = {0.3f, 0.3f, -0.2f}, .reference_distance = 0.3f}};
+         },
+         "lit"},
+        {"aces",
+         [](Settings& s) {
+             lit(s);
+             s.render.tone_map = ToneMap::aces;
+             s.render.exposure = 1.0f;
+         },
+         "lit"},
+        {"agx",
+         [](Settings& s) {
+             lit(s);
+             s.render.tone_map = ToneMap::agx;
+             s.render.exposure = 1.0f;
+         },
+         "aces"},
+        {"environment",
+         [](Settings& s) {
+             lit(s);
+             s.render.environment = "assets/studio.exr";
+             s.shading.ambient = 1.0f;
+         },
+         "lit"},
+        {"texture", [](Settings& s) { s.strands.texture = "assets/strand_bands.png"; }},
+        {"mesh",
+         [](Settings& s) {
+             lit(s);
+             s.render.meshes = {{.file = "assets/head.glb", .translation = {-0.22f, 0.0f, -0.1f}}};
+         },
+         "lit"},
+        {"guides", [](Settings& s) { s.render.overlays.guides = true; }},
+        {"root_triangles", [](Settings& s) { s.render.overlays.root_triangles = true; }},
+        {"bodies",
+         [](Settings& s) {
+             s.render.overlays.bodies = true;
+             s.simulation.colliders = {
+                 {.a = {-0.03f, 0.0f, 0.0f}, .b = {0.03f, 0.02f, 0.0f}, .radius = 0.075f}};
+         }},
+        {"tangents", [](Settings& s) { s.render.show = Show::tangents; }},
+        {"normals", [](Settings& s) { s.render.show = Show::normals; }, "tangents"},
+        {"levels",
+         [](Settings& s) {
+             s.render.show = Show::lod;
+             s.lod = {.mode = LodMode::distance, .near_distance = 0.3f, .far_distance = 0.6f};
+         }},
+        {"strands", [](Settings& s) { s.render.show = Show::strands; }, "tangents"}};
+    return kFeatures;
+}
+
+}  // namespace hair

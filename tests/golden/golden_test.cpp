@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "engine/image_file.h"
+#include "tests/golden/features.h"
+#include "tests/gpu_fixture.h"
+#include "tests/python.h"
+#include "tests/temporary_folder.h"
+
+// Pictures of features against those that people have looked at: tests/golden/README.md.
+namespace hair {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Mean FLIP error. Software pictures are the same from run to run and nearly so between Mesa's
+// versions; what is left is rounding that moves an edge over a sample. One pixel of other colour in
+// 160 x 128 is 5e-5, spread by FLIP's filters to some 2e-4: room for ten of them.
+constexpr double kTolerance = 0.002;
+
+fs::path goldenPicture(const std::string& name) {
+    return fs::path(HAIRBENCH_SOURCE_DIR "/tests/golden/pictures") / (name + ".png");
+}
+
+// FLIP of each pair, in order.
+std::vector<double> flips(const std::vector<std::pair<fs::path, fs::path>>& pairs) {
+    const TemporaryFolder folder;
+    {
+        std::ofstream list(folder.path() / "pairs.txt");
+        for (const auto& [reference, picture] : pairs)
+            list << reference.string() << '\t' << picture.string() << '\n';
+    }
+    const Outcome outcome =
+        runPython("tests/golden/flip.py", "< '" + (folder.path() / "pairs.txt").string() + "'");
+    std::vector<double> figures;
+    std::istringstream lines(outcome.output);
+    for (double figure = 0; lines >> figure;) figures.push_back(figure);
+    if (figures.size() != pairs.size()) ADD_FAILURE() << outcome.output;
+    figures.resize(pairs.size(), 1.0);
+    return figures;
+}
+
+class GoldenTest : public GpuTest {
+protected:
+    void SetUp() override {
+        GpuTest::SetUp();
+        if (IsSkipped()) return;
+        if (device().info().driver_id != VK_DRIVER_ID_MESA_LLVMPIPE)
+            GTEST_SKIP() << "the pictures are lavapipe's";
+        if (pythonInterpreter().empty()) GTEST_SKIP() << kNoPython;
+    }
+};
+
+// What was drawn stays in golden/ beside the program, to look at, and to take over where a change
+// is meant.
+TEST_F(GoldenTest, FeaturesLookAsTheyDid) {
+    const fs::path drawn = fs::current_path() / "golden";
+    std::vector<std::pair<fs::path, fs::path>> pairs;
+    for (const Feature& feature : features()) {
+        Settings settings = plainSettings();
+        feature.show(settings);
+        const fs::path path = drawn / (std::string(feature.name) + ".png");
+        engine::writePng(
+            path, settings.render.width, settings.render.height, drawCase(device(), settings));
+        for (const std::string& message : device().messages().take())
+            ADD_FAILURE() << feature.name << ": " << message;
+        if (fs::exists(goldenPicture(feature.name)))
+            pairs.emplace_back(goldenPicture(feature.name), path);
+        else
+            ADD_FAILURE() << path << " has no golden picture";
+    }
+    const std::vector<double> figures = flips(pairs);
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        EXPECT_LE(figures[i], kTolerance) << "see " << pairs[i].second;
+}
+
+// A golden picture that looks like the one without the feature would hold nothing.
+TEST_F(GoldenTest, FeaturesAreSeen) {
+    std::vector<std::pair<fs::path, fs::path>> pairs;
+    std::vector<const char*> names;
+    for (const Feature& feature : features()) {
+        if (!feature.differs_from) continue;
+        pairs.emplace_back(goldenPicture(feature.differs_from), goldenPicture(feature.name));
+        names.push_back(feature.name);
+    }
+    const std::vector<double> figures = flips(pairs);
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        EXPECT_GT(figures[i], 3 * kTolerance) << names[i];
+}
+
+TEST_F(GoldenTest, ToleranceIsSmallerThanAShiftByAPixel) {
+    const engine::Pixels golden = engine::readImage(goldenPicture("plain"));
+    std::vector<std::uint8_t> shifted = golden.rgba;
+    std::rotate(shifted.begin(), shifted.begin() + 4, shifted.end());
+    const TemporaryFolder folder;
+    engine::writePng(folder.path() / "shifted.png", golden.width, golden.height, shifted);
+    EXPECT_GT(flips({{goldenPicture("plain"), folder.path() / "shifted.png"}})[0], 3 * kTolerance);
+}
+
+}  // namespace
+}  // namespace hair

@@ -1,0 +1,116 @@
+#include "hair/rendering/reference_dual_scattering.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "tests/rendering/fiber_rig.h"
+
+namespace hair {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+TEST(FiberAverages, AreAllOfTheLightOfAWhiteFiber) {
+    for (const float n : kRoughnesses) {
+        for (const double theta : {0.0, 0.6, 1.3, kPi / 2}) {
+            const FiberAverages white = averageOverFiber(makeFiber(whiteFiber(0.3f, n)), theta);
+            EXPECT_NEAR(white.forward.g + white.backward.g, 1, 1e-9) << n << ' ' << theta;
+            const FiberAverages brown = averageOverFiber(makeFiber(brownFiber()), theta);
+            if (theta < 1.5) {
+                EXPECT_LT(brown.forward.g + brown.backward.g, 1) << theta;
+            }
+            EXPECT_LE(brown.forward.b, brown.forward.r) << theta;
+        }
+    }
+}
+
+// Fibres in a row, light that goes forward i times, back, and so on: the paper's double sums term
+// by term. It is the third power of 1 - a_f^2 under a_b^3, not the second.
+TEST(LocalScattering, IsTheSumOverItsPaths) {
+    const FiberAverages averages{
+        .forward = {0.8, 0.5, 0.3},
+        .backward = {0.15, 0.3, 0.1},
+        .forward_shift = 0.02,
+        .backward_shift = -0.05,
+        .forward_variance = 0.01,
+        .backward_variance = 0.03};
+    const LocalScattering local = localScattering(averages);
+    double weights = 0;
+    double shifts = 0;
+    double variances = 0;
+    for (int c = 0; c < 3; ++c) {
+        const double f = averages.forward[c];
+        const double b = averages.backward[c];
+        double sum = 0;
+        const auto add = [&](int forward, int backward) {
+            const double part = std::pow(f, forward) * std::pow(b, backward);
+            sum += part;
+            weights += part;
+            shifts += part * (forward * 0.02 + backward * -0.05);
+            variances += part * (forward * 0.01 + backward * 0.03);
+        };
+        constexpr int kDeepest = 60;  // 0.8^120 is 2e-12
+        for (int i = 1; i < kDeepest; ++i) {
+            add(2 * i, 1);
+            for (int j = 0; j < i; ++j)
+                for (int k = j + 1; k < kDeepest; ++k) add(i + (i - j - 1) + (k - j - 1) + k, 3);
+        }
+        EXPECT_NEAR(local.albedo[c], sum, 1e-6 * sum);
+    }
+    EXPECT_NEAR(local.shift, shifts / weights, 1e-7);
+    EXPECT_NEAR(local.variance, variances / weights, 1e-7);
+}
+
+// What a stack of layers reflects has a closed form: R = b + f^2 R / (1 - b R). The sum of one and
+// three scatterings backward is less, and misses what is of fifth order in b.
+TEST(LocalScattering, ReflectsNoMoreThanAllLayersDo) {
+    for (const float n : kRoughnesses) {
+        for (const float eumelanin : {0.0f, 0.1f, 1.0f}) {
+            for (const float eta : {1.01f, 1.55f, 3.0f}) {
+                ShadingSettings shading = brownFiber();
+                shading.azimuthal_roughness = n;
+                shading.eumelanin = eumelanin;
+                shading.refractive_index = eta;
+                const FiberAverages averages = averageOverFiber(makeFiber(shading), 0.4);
+                const LocalScattering local = localScattering(averages);
+                for (int c = 0; c < 3; ++c) {
+                    const double f = averages.forward[c];
+                    const double b = averages.backward[c];
+                    // b R^2 - (1 + b^2 - f^2) R + b = 0
+                    const double p = 1 + b * b - f * f;
+                    const double all = 2 * b / (p + std::sqrt(std::max(p * p - 4 * b * b, 0.0)));
+                    const double some = b + local.albedo[c];
+                    EXPECT_LE(some, all + 1e-9) << n << ' ' << eumelanin << ' ' << eta;
+                    EXPECT_LE(all, 1 + 1e-6);  // a root of what is 0 for a white fibre
+                    // r_5 of the series of R in b, from r_1 and r_3 as in the paper.
+                    const double rest = 1 - f * f;
+                    const double missing = 2 * f * f * std::pow(b, 5) / std::pow(rest, 5);
+                    if (b < 0.1 * rest) {
+                        EXPECT_NEAR(some, all, 1.2 * missing + 1e-12);
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(DualScattering, IsTheFibersOwnWhereNothingElseIs) {
+    const Fiber fiber = makeFiber(brownFiber());
+    const glm::dvec3 wo = direction(0.2, 0);
+    const glm::dvec3 wi = direction(-0.3, 1.0);
+    EXPECT_EQ(dualScattering(fiber, 0, wo, wi, 0.3, 0), scattering(fiber, wo, wi, 0.3));
+    // Without density only what meets no strand is left.
+    EXPECT_NEAR(
+        dualScattering(fiber, 0, wo, wi, 0.3, 2).g,
+        std::exp(-2.0) * scattering(fiber, wo, wi, 0.3).g, 1e-12);
+    // Hair around it adds, hair before it takes away.
+    const double alone = scattering(fiber, wo, wi, 0.3).g;
+    const double among = dualScattering(fiber, 0.7, wo, wi, 0.3, 0).g;
+    EXPECT_GT(among, alone);
+    EXPECT_LT(dualScattering(fiber, 0.7, wo, wi, 0.3, 20).g, 0.1 * among);
+}
+
+}  // namespace
+}  // namespace hair

@@ -1,0 +1,252 @@
+#include <array>
+#include <cmath>
+
+#include <glm/ext/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/gpu_fixture.h"
+#include "tests/rendering/shadow_probe.h"
+
+// Deep opacity maps of strands whose mean number before a point is known.
+namespace hair {
+namespace {
+
+using HairShadowTest = GpuTest;
+
+// Parallel straight strands in planes across z, all of one length, with a strand each `pitch`.
+struct Fans {
+    std::vector<float> depths{0.0f};  // m, along -z from z = 0
+    float pitch = 0.001f;             // m
+    float angle = 0.0f;               // of the strands, to y, rad
+};
+
+constexpr float kReach = 0.1f;  // m: fans are from -kReach to kReach across and along strands
+
+Groom fansOfStrands(const Fans& fans) {
+    Groom groom{.vertices_per_strand = 3};
+    const glm::vec3 along(std::sin(fans.angle), std::cos(fans.angle), 0.0f);
+    const glm::vec3 across(along.y, -along.x, 0.0f);
+    const int half = static_cast<int>(kReach / fans.pitch);
+    for (const float depth : fans.depths) {
+        for (int i = -half; i <= half; ++i) {
+            const glm::vec3 middle =
+                static_cast<float>(i) * fans.pitch * across - glm::vec3(0.0f, 0.0f, depth);
+            for (int v = -1; v <= 1; ++v)
+                groom.points.push_back(middle + static_cast<float>(v) * kReach * along);
+            groom.root_triangles.push_back(
+                {groom.strand_count, groom.strand_count, groom.strand_count});
+            ++groom.strand_count;
+        }
+    }
+    return groom;
+}
+
+// One light, that of the fans from +z.
+Settings litFromAbove(float width) {
+    Settings settings;
+    settings.strands.density = 1;
+    settings.strands.tessellation = 1;
+    settings.strands.root_width = width;
+    settings.strands.tip_width = width;
+    settings.shading.lights = {
+        {.type = LightType::directional, .direction = glm::vec3(0.0f, 0.0f, -1.0f)}};
+    settings.shading.shadows.hair = HairShadows::deep_opacity;
+    settings.shading.shadows.resolution = 128;
+    return settings;
+}
+
+// A grid in the plane z = -depth, well inside the fans.
+std::vector<glm::vec3> plane(float depth, float reach = 0.5f * kReach) {
+    std::vector<glm::vec3> points;
+    constexpr int kSide = 40;
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            const auto place = [&](int i) {
+                return reach * (2.0f * (static_cast<float>(i) + 0.5f) / kSide - 1.0f);
+            };
+            points.emplace_back(place(x), place(y), -depth);
+        }
+    }
+    return points;
+}
+
+// Texels of the map of such a fan: 128 a side for a sphere about the roots' middle that is as wide
+// as the fan and as high as the strands are long, hypot(0.1, 0.2) or 0.1 + 0.2 m at the most.
+constexpr float kTexel = 2.0f * (kReach + 2.0f * kReach) / 128.0f;
+
+// In fans of coverage c each, a point behind k of them has met k c strands. Layers of 0.01, 0.02,
+// 0.04 and 0.08 m have one fan each, so their ends are behind one fan more; between, the number is
+// linear in depth (Yuksel and Keyser 2008, section 3), wherever in the layer its fan is: off by c
+// times the layer's part before or behind it.
+TEST_F(HairShadowTest, CountsTheFansBeforeAPoint) {
+    const Fans fans{.depths = {0.0f, 0.02f, 0.05f, 0.11f}, .pitch = 0.0015f};
+    constexpr float kWidth = 0.0004f;
+    ASSERT_LT(fans.pitch, 0.5f * kTexel);  // the first fan, a texel wide, is in every texel
+    const double c = kWidth / fans.pitch;
+    const Groom groom = fansOfStrands(fans);
+    Settings settings = litFromAbove(kWidth);
+    settings.shading.shadows.layer_depth = 0.01f;
+    for (const LightType type : {LightType::directional, LightType::point, LightType::sphere}) {
+        settings.shading.lights[0].type = type;
+        settings.shading.lights[0].position = {0.0f, 0.0f, 2.0f};
+        const DeviceHair hair(device(), groom, settings);
+        struct Row {
+            float depth;
+            double fans;  // before it
+            double tolerance;
+        };
+        // 3.1 pitches are a texel, so that a column of texels is hit by one strand more or less;
+        // these are averaged over 21 columns. 2 % of the fans that have a part in it is what is
+        // asked of coverage.
+        constexpr std::array kRows{
+            Row{-0.01f, 0.0, 0.0},   Row{0.0101f, 1.0, 0.02}, Row{0.0301f, 2.0, 0.04},
+            Row{0.0701f, 3.0, 0.06}, Row{0.15f, 4.0, 0.08},   Row{0.16f, 4.0, 0.08},
+            Row{0.005f, 0.5, 0.02},  Row{0.02f, 1.5, 0.04},   Row{0.06f, 2.75, 0.06}};
+        std::vector<glm::vec3> points;
+        for (const Row& row : kRows) {
+            const std::vector<glm::vec3> there = plane(row.depth);
+            points.insert(points.end(), there.begin(), there.end());
+        }
+        const std::vector<FoundPath> paths = findPaths(device(), settings, hair.view(), {}, points);
+        const std::size_t each = paths.size() / kRows.size();
+        for (std::size_t i = 0; i < kRows.size(); ++i) {
+            const double found = meanStrands(std::span(paths).subspan(i * each, each));
+            EXPECT_NEAR(found, kRows[i].fans * c, kRows[i].tolerance * c) << kRows[i].depth;
+        }
+    }
+}
+
+// Whatever the strands' width in texels: width / pitch.
+TEST_F(HairShadowTest, ThinStrandsCoverTheirArea) {
+    constexpr float kFine = 0.25f * kTexel;  // in maps of 512
+    // A pitch of 5.7 texels and an angle, so that strands are at all places in texels. Points are
+    // all over 14 whole pitches.
+    const Fans fans{.pitch = 5.7f * kFine, .angle = 0.3f};
+    std::vector<glm::vec3> points = plane(0.0f, 7.0f * fans.pitch);
+    for (glm::vec3& p : points) {
+        p = {
+            p.x * std::cos(fans.angle) + p.y * std::sin(fans.angle),
+            p.y * std::cos(fans.angle) - p.x * std::sin(fans.angle), -0.05f};
+    }
+    const Groom groom = fansOfStrands(fans);
+    for (const float texels : {0.1f, 0.3f, 0.7f, 1.0f, 1.3f, 2.0f}) {
+        Settings settings = litFromAbove(texels * kFine);
+        settings.shading.shadows.softness = 3.0f;
+        settings.shading.shadows.layer_depth = 0.001f;
+        settings.shading.shadows.resolution = 512;
+        const DeviceHair hair(device(), groom, settings);
+        const double covered = meanStrands(findPaths(device(), settings, hair.view(), {}, points));
+        const double expected = texels / 5.7;
+        EXPECT_NEAR(covered, expected, 0.02 * expected) << texels;
+    }
+}
+
+// Light goes through strands at random as exp(-stopped n), n the mean number.
+TEST_F(HairShadowTest, VisibilityIsThatOfRandomStrands) {
+    const Fans fans{.depths = {0.0f}, .pitch = 0.0015f};
+    Settings settings = litFromAbove(0.0006f);
+    settings.shading.shadows.stopped = 0.7f;
+    const DeviceHair hair(device(), fansOfStrands(fans), settings);
+    const std::vector<FoundPath> paths =
+        findPaths(device(), settings, hair.view(), {}, plane(0.2f));
+    // Powers of the device are good to 3 + 2 |exponent| units of 2^-23, Vulkan's precision of exp.
+    for (const FoundPath& path : paths)
+        ASSERT_NEAR(path.visibility, std::exp(-0.7 * path.strands), 1e-6);
+}
+
+TEST_F(HairShadowTest, OpacityCountsWhereItIsDrawn) {
+    const Fans fans{.pitch = 0.0015f};
+    Settings settings = litFromAbove(0.0006f);
+    settings.strands.opacity = 0.25f;
+    const DeviceHair hair(device(), fansOfStrands(fans), settings);
+    const auto strands = [&] {
+        return meanStrands(findPaths(device(), settings, hair.view(), {}, plane(0.2f)));
+    };
+    const double opaque = strands();
+    settings.render.transparency = Transparency::weighted_blended;
+    EXPECT_NEAR(strands(), 0.25 * opaque, 1e-5);  // a quarter is exact; sums of 20 are rounded
+}
+
+// Hair, points and light turned and moved together: nothing changes but by rounding.
+TEST_F(HairShadowTest, FollowsTheHead) {
+    glm::mat4 head = glm::translate(glm::mat4(1.0f), {0.4f, -0.2f, 0.3f});
+    head = glm::rotate(head, 2.0f, glm::normalize(glm::vec3(1.0f, -2.0f, 3.0f)));
+    const Groom groom = fansOfStrands({.pitch = 0.0015f});
+    Groom moved = groom;
+    for (glm::vec3& point : moved.points) point = glm::vec3(head * glm::vec4(point, 1.0f));
+    std::vector<glm::vec3> points = plane(0.2f);
+    for (glm::vec3& point : points) point = glm::vec3(head * glm::vec4(point, 1.0f));
+
+    Settings settings = litFromAbove(0.0006f);
+    settings.shading.lights[0].direction =
+        glm::vec3(head * glm::vec4(settings.shading.lights[0].direction, 0.0f));
+    const DeviceHair still(device(), groom, settings);
+    const DeviceHair turned(device(), moved, settings);
+    StrandView view = still.view();
+    view.guides = turned.view().guides;
+    view.head = head;
+    EXPECT_NEAR(meanStrands(findPaths(device(), settings, view, {}, points)), 0.4, 0.02 * 0.4);
+}
+
+// Each light has its part of the atlas, and those without shadows none.
+TEST_F(HairShadowTest, LightsDoNotDisturbEachOther) {
+    const Groom groom = fansOfStrands({.depths = {0.0f, 0.03f}, .pitch = 0.0015f});
+    Settings settings = litFromAbove(0.0006f);
+    settings.shading.lights = {
+        {.type = LightType::directional, .direction = {0.3f, 0.0f, -1.0f}},
+        {.position = {0.0f, 0.1f, 3.0f}, .shadows = false},
+        {.position = {0.5f, 0.3f, 2.0f}},
+        {.type = LightType::directional, .direction = {0.0f, -1.0f, -1.0f}}};
+    const DeviceHair hair(device(), groom, settings);
+    const std::vector<glm::vec3> points = plane(0.06f);
+    for (const std::uint32_t light : {0u, 2u, 3u}) {
+        Settings alone = settings;
+        alone.shading.lights = {settings.shading.lights[light]};
+        const auto among = findPaths(device(), settings, hair.view(), {}, points, light);
+        const auto single = findPaths(device(), alone, hair.view(), {}, points);
+        // The same triangles on the same grid of sub-pixels.
+        for (std::size_t i = 0; i < points.size(); ++i)
+            ASSERT_NEAR(among[i].strands, single[i].strands, 1e-4) << light;
+        EXPECT_GT(meanStrands(single), 0.5);
+    }
+    for (const FoundPath& path : findPaths(device(), settings, hair.view(), {}, points, 1)) {
+        ASSERT_EQ(path.strands, 0.0f);
+        ASSERT_EQ(path.visibility, 1.0f);
+    }
+}
+
+// A light among the hair throws the shadows of what is before it, and none behind it.
+TEST_F(HairShadowTest, LightMayBeAmongTheHair) {
+    const Groom groom = fansOfStrands({.depths = {-0.1f, 0.0f, 0.1f}, .pitch = 0.0011f});
+    Settings settings = litFromAbove(0.00044f);
+    settings.shading.lights = {{.position = {0.0f, -kReach, 0.05f}}};
+    const DeviceHair hair(device(), groom, settings);
+    // The light looks to the roots' middle, along -z.
+    ASSERT_LT(glm::distance(hair.view().centre, {0.0f, -kReach, 0.0f}), 1e-6f);
+    ASSERT_GT(hair.view().radius, kReach);
+    const auto at = [&](float depth) {
+        std::vector<glm::vec3> points = plane(depth, 0.03f);
+        for (glm::vec3& point : points) point.y -= 0.07f;
+        return meanStrands(findPaths(device(), settings, hair.view(), {}, points));
+    };
+    // 2 %, and 2 % for a pitch that is seen under up to 17 degrees, 4 % narrower at the edge.
+    EXPECT_NEAR(at(0.05f), 0.4, 0.04 * 0.4);
+    EXPECT_EQ(at(-0.2f), 0.0);
+}
+
+TEST_F(HairShadowTest, BackEndsThrowTheSame) {
+    const Groom groom = tangledGroom(6);
+    Settings settings = litFromAbove(0.002f);
+    settings.strands.density = 30;
+    const DeviceHair hair(device(), groom, settings);
+    const std::vector<glm::vec3> points = plane(0.1f, 0.2f);
+    const auto tessellated = findPaths(device(), settings, hair.view(), {}, points);
+    settings.strands.backend = Backend::pulling_geometry;
+    const auto pulled = findPaths(device(), settings, hair.view(), {}, points);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        ASSERT_EQ(tessellated[i].strands, pulled[i].strands);
+    EXPECT_GT(meanStrands(pulled), 0.0);
+}
+
+}  // namespace
+}  // namespace hair

@@ -1,0 +1,53 @@
+// Pictures under many lights.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "engine/target.h"
+#include "tests/gpu_fixture.h"
+#include "tests/rendering/linear_picture.h"
+
+namespace hair {
+namespace {
+
+class LightPictures : public GpuTest {};
+
+// Sixteen lights of every type, all round.
+std::vector<LightSettings> manyLights() {
+    std::vector<LightSettings> lights;
+    for (std::uint32_t i = 0; i < 16; ++i) {
+        const float angle = 0.4f * static_cast<float>(i);
+        const glm::vec3 position(2.0f * std::cos(angle), 0.5f, 2.0f * std::sin(angle));
+        lights.push_back(
+            {.type = static_cast<LightType>(i % 3),
+             .position = position,
+             .direction = -0.3f * position,
+             .color = {0.3f, 0.5f, 0.2f + 0.02f * static_cast<float>(i)},
+             .reference_distance = i % 2 == 0 ? 1.5f : 0.0f});
+    }
+    return lights;
+}
+
+TEST_F(LightPictures, OfManyLightsAreTheSumOfEachAlone) {
+    Settings settings = linearPicture(32, 32);
+    settings.shading.lights = manyLights();
+    const Groom groom = tangledGroom(4);
+    const std::vector<float> together = drawLinear(device(), settings, groom);
+    std::vector<double> sum(together.size());
+    for (const LightSettings& light : manyLights()) {
+        settings.shading.lights = {light};
+        const std::vector<float> alone = drawLinear(device(), settings, groom);
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += double{alone[i]};
+    }
+    double most = 0.0;
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        // Half floats: each of the seventeen is rounded by up to 2^-11, and single precision
+        // before.
+        ASSERT_NEAR(together[i], sum[i], 0x1p-10 * sum[i] + 1e-6) << i;
+        most = std::max(most, sum[i]);
+    }
+    EXPECT_GT(most, 0.5);  // it is lit
+}
+
+}  // namespace
+}  // namespace hair

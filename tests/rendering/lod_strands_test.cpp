@@ -1,0 +1,241 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "hair/rendering/lod_levels.h"
+#include "hair/rendering/strand_points.h"
+#include "tests/gpu_fixture.h"
+#include "tests/rendering/device_hair.h"
+
+// Levels of detail of strands as points: thesis 2.3.8.1, but without jumps.
+namespace hair {
+namespace {
+
+// A strand's polyline: in each segment, at `t`. Absent where it is not drawn.
+struct Place {
+    glm::vec3 position;
+    glm::vec3 tangent;
+    float width;
+};
+
+// At t of the drawn line of a segment, whatever it is tessellated to.
+std::optional<Place> placeOnLine(
+    const StrandPoints& points, std::uint32_t triangle, std::uint32_t strand, std::uint32_t segment,
+    float t) {
+    const std::uint32_t pieces = points.plan.forced_tessellation;
+    if (strand >= points.plan.forced_density) return std::nullopt;
+    const float place = t * static_cast<float>(pieces);
+    const std::uint32_t piece = std::min(static_cast<std::uint32_t>(place), pieces - 1);
+    const float part = place - static_cast<float>(piece);
+    const auto& a = points.at(triangle, strand, segment, piece);
+    const auto& b = points.at(triangle, strand, segment, piece + 1);
+    return Place{
+        glm::mix(a.position, b.position, part), glm::mix(a.tangent, b.tangent, part),
+        std::lerp(a.width, b.width, part)};
+}
+
+class LodStrandsTest : public GpuTest {
+protected:
+    static StrandPoints evaluate(const Groom& groom, const Settings& settings) {
+        const DeviceHair hair(device(), groom, settings);
+        return evaluateStrandPoints(device(), settings, hair.view());
+    }
+
+    static StrandPoints evaluateAt(StrandSettings strands, float level) {
+        return evaluate(tangledGroom(8), {.strands = strands, .lod = {.level = level}});
+    }
+
+    // The greatest change of any strand's line, over lengths of about 1, and of its width, over
+    // the full width there: a strand that isn't drawn has no width.
+    static double greatestChange(const StrandPoints& a, const StrandPoints& b) {
+        double change = 0.0;
+        const std::uint32_t strands = std::max(a.plan.forced_density, b.plan.forced_density);
+        for (std::uint32_t strand = 0; strand < strands; ++strand) {
+            for (int i = 0; i <= 24; ++i) {
+                const float t = static_cast<float>(i) / 24.0f;
+                const auto from = placeOnLine(a, 1, strand, 3, t);
+                const auto to = placeOnLine(b, 1, strand, 3, t);
+                const auto width = [](const auto& p) { return p ? double{p->width} : 0.0; };
+                const double full = width(placeOnLine(a, 1, 0, 3, t));
+                change = std::max(change, std::abs(width(from) - width(to)) / full);
+                if (!from || !to) continue;
+                change = std::max<double>(change, glm::distance(from->position, to->position));
+                change = std::max<double>(change, glm::distance(from->tangent, to->tangent));
+            }
+        }
+        return change;
+    }
+};
+
+// A thousandth of a level is 0.07 % of a count. Of 30 strands that is 0.02 of one's width; of the
+// pieces it moves ends by 0.1 % of what the line bends, some 0.1 m. Counts that are rounded, to
+// whole numbers or at halves between them, would lose a whole strand there, a change of 1, and
+// pieces that are dropped where they are would move by a tenth of that bend.
+TEST_F(LodStrandsTest, NothingJumpsWhereCountsFall) {
+    constexpr float kStep = 1e-3f;
+    constexpr float kBound = 0.03f;
+    const auto changeAt = [&](const StrandSettings& strands, float level) {
+        const float before = std::max(level - 0.5f * kStep, 0.0f);
+        return greatestChange(evaluateAt(strands, before), evaluateAt(strands, before + kStep));
+    };
+    for (const float count : {30.0f, 29.0f, 20.5f, 2.0f})
+        EXPECT_LT(changeAt({.density = 30, .tessellation = 4}, std::log2(30.0f / count)), kBound)
+            << count << " strands";
+    for (const std::uint32_t tessellation : {4u, 5u}) {
+        const StrandSettings strands{.density = 1, .tessellation = tessellation};
+        for (const float pieces : {3.0f, 2.0f, 1.0f}) {
+            if (pieces >= static_cast<float>(tessellation)) continue;
+            const float level = std::log2(static_cast<float>(tessellation) / pieces);
+            EXPECT_LT(changeAt(strands, level), 1e-3) << pieces << " pieces of " << tessellation;
+        }
+    }
+}
+
+TEST_F(LodStrandsTest, BigStepsAreSeen) {  // or the test above would see nothing
+    const StrandSettings strands{.density = 30, .tessellation = 4};
+    EXPECT_GT(greatestChange(evaluateAt(strands, 0.5f), evaluateAt(strands, 0.6f)), 0.1);
+}
+
+// Between the nested sets, ends that stay are on the curve and the others on the way from it to
+// the line: 6 -> 3 -> 1.
+TEST_F(LodStrandsTest, EndsMoveFromTheCurveToTheLine) {
+    const StrandSettings strands{.density = 4, .tessellation = 6};
+    const StrandPoints fine = evaluateAt(strands, 0.0f);
+    struct Row {
+        float wanted;
+        std::uint32_t pieces;
+        std::uint32_t step;
+        double morph;
+    };
+    for (const Row& row :
+         {Row{4.5f, 6, 2, 0.5}, {3.0f, 3, 3, 1.0}, {2.0f, 3, 3, 0.5}, {1.5f, 3, 3, 0.25}}) {
+        const StrandPoints points = evaluateAt(strands, std::log2(6.0f / row.wanted));
+        ASSERT_EQ(points.plan.forced_tessellation, row.pieces);
+        const auto fineAt = [&](std::uint32_t i) {
+            return glm::dvec3(fine.at(2, 0, 4, 6 / row.pieces * i).position);
+        };
+        for (std::uint32_t i = 0; i <= row.pieces; ++i) {
+            const std::uint32_t past = i % row.step;
+            glm::dvec3 expected = fineAt(i);
+            if (past != 0) {
+                const double part = static_cast<double>(past) / row.step;
+                const glm::dvec3 line =
+                    glm::mix(fineAt(i - past), fineAt(i - past + row.step), part);
+                expected = glm::mix(line, expected, row.morph);
+            }
+            // The level in 24 bits puts the wanted pieces off by some 1e-6.
+            EXPECT_LT(glm::distance(glm::dvec3(points.at(2, 0, 4, i).position), expected), 1e-6)
+                << row.wanted << " " << i;
+        }
+    }
+}
+
+// Joints of the guide segments stay closed to the last bit, and are those of level 0.
+TEST_F(LodStrandsTest, JointsHaveNoGaps) {
+    const StrandSettings strands{
+        .density = 5, .tessellation = 4, .variation = {.amplitude = 0.01f}};
+    const StrandPoints fine = evaluateAt(strands, 0.0f);
+    for (const float level : {0.3f, 0.9f, 1.7f, 3.5f}) {
+        const StrandPoints points = evaluateAt(strands, level);
+        const std::uint32_t last = points.plan.forced_tessellation;
+        for (std::uint32_t segment = 0; segment + 1 < points.plan.segments; ++segment) {
+            const glm::vec3 end = points.at(0, 0, segment, last).position;
+            EXPECT_EQ(end, points.at(0, 0, segment + 1, 0).position) << level;
+            EXPECT_EQ(end, fine.at(0, 0, segment, 4).position) << level;
+        }
+    }
+}
+
+// The sum over strands of width times length is that of level 0 but for the shorter polylines: none
+// is longer than that of level 0 or shorter than the chords of the guide segments. The widths of
+// all strands add up to the same everywhere; sums of 50 floats are off by some 1e-6.
+TEST_F(LodStrandsTest, AreaIsKept) {
+    Groom groom = tangledGroom(8);
+    groom.root_triangles = {{0, 0, 0}};  // all strands of a length
+    const auto pointsAt = [&](float level) {
+        return evaluate(
+            groom, {.strands = {.density = 50, .tessellation = 8}, .lod = {.level = level}});
+    };
+    const auto area = [](const StrandPoints& points) {
+        double sum = 0.0;
+        for (std::uint32_t strand = 0; strand < points.plan.forced_density; ++strand) {
+            for (std::uint32_t segment = 0; segment < 7; ++segment) {
+                for (std::uint32_t i = 0; i < points.plan.forced_tessellation; ++i) {
+                    const auto& a = points.at(0, strand, segment, i);
+                    const auto& b = points.at(0, strand, segment, i + 1);
+                    sum += 0.5 * (a.width + b.width) * glm::distance(a.position, b.position);
+                }
+            }
+        }
+        return sum;
+    };
+    const StrandPoints fine = pointsAt(0.0f);
+    double chords = 0.0;
+    for (std::uint32_t segment = 0; segment < 7; ++segment) {
+        const auto& a = fine.at(0, 0, segment, 0);
+        const auto& b = fine.at(0, 0, segment, 8);
+        chords += 50 * 0.5 * (a.width + b.width) * glm::distance(a.position, b.position);
+    }
+    for (const float level : {0.1f, 0.5f, 0.77f, 1.0f, 2.3f, 3.0f, 4.4f, 5.6f}) {
+        const StrandPoints points = pointsAt(level);
+        EXPECT_LT(area(points), area(fine) * (1.0 + 1e-5)) << level;
+        EXPECT_GT(area(points), chords * (1.0 - 1e-5)) << level;
+        double width = 0.0;
+        for (std::uint32_t strand = 0; strand < points.plan.forced_density; ++strand)
+            width += points.at(0, strand, 2, 0).width;
+        EXPECT_NEAR(width / (50.0 * fine.at(0, 0, 2, 0).width), 1.0, 1e-5) << level;
+    }
+    EXPECT_NEAR(area(pointsAt(5.6f)) / chords, 1.0, 1e-5);
+}
+
+// A strand that is drawn at a level is drawn at every lower one, wherever the camera goes.
+TEST_F(LodStrandsTest, StrandsLeaveInOneOrder) {
+    Settings settings{
+        .strands = {.density = 40, .tessellation = 2},
+        .lod = {
+            .mode = LodMode::distance,
+            .near_distance = 1.0f,
+            .far_distance = 16.0f,
+            .maximum_level = 4.0f}};
+    std::uint32_t before = 40;
+    const Groom groom = tangledGroom(3);
+    for (const float distance : {1.0f, 1.6f, 2.9f, 6.0f, 13.0f, 30.0f}) {
+        settings.camera.position = {0.0f, 0.0f, distance};
+        const StrandPoints points = evaluate(groom, settings);
+        std::uint32_t drawn = 0;
+        while (drawn < 40 && points.at(0, drawn, 0, 0).width >= 0.0f) ++drawn;
+        for (std::uint32_t strand = drawn; strand < 40; ++strand)
+            EXPECT_EQ(points.at(0, strand, 0, 0).width, -1.0f);
+        EXPECT_LE(drawn, before) << distance;
+        before = drawn;
+    }
+    EXPECT_LT(before, 40u);
+}
+
+// What the host says of a path is what the device draws.
+TEST_F(LodStrandsTest, HostCountsWhatTheDeviceDraws) {
+    const Groom groom = tangledGroom(3);
+    Settings settings{
+        .strands = {.density = 40, .tessellation = 2, .root_width = 1e-4f, .tip_width = 1e-4f},
+        .lod = {
+            .mode = LodMode::distance,
+            .near_distance = 1.0f,
+            .far_distance = 16.0f,
+            .maximum_level = 4.0f}};
+    const DeviceHair hair(device(), groom, settings);
+    for (const float distance : {0.5f, 1.7f, 4.4f, 40.0f}) {
+        settings.camera.position = {0.0f, 0.0f, distance};
+        const StrandPoints points = evaluateStrandPoints(device(), settings, hair.view());
+        std::uint64_t drawn = 0;
+        for (std::uint32_t i = 0; i < 4 * 40; ++i)
+            drawn += points.at(i / 40, i % 40, 0, 0).width >= 0.0f;
+        const DistanceLod state = distanceLod(groom, groom.points, hair.view(), settings);
+        EXPECT_EQ(state.strands, drawn) << distance;
+    }
+}
+
+}  // namespace
+}  // namespace hair

@@ -1,0 +1,181 @@
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/gpu_fixture.h"
+#include "tests/rendering/shadow_probe.h"
+
+// Shadow maps of a square.
+namespace hair {
+namespace {
+
+using MeshShadowTest = GpuTest;
+
+constexpr float kHalf = 0.05f;  // m, of the square's side
+
+// Of the filter's weights, up to 49 of them, each of three roundings of 2^-24.
+constexpr float kRounding = 1e-5f;
+
+// Round the origin, with this normal.
+Mesh square(const glm::vec3& normal) {
+    const glm::vec3 a = glm::normalize(glm::cross(normal, glm::vec3(0.3f, 1.0f, 0.2f)));
+    const glm::vec3 b = glm::cross(normal, a);
+    return {
+        .positions = {kHalf * (-a - b), kHalf * (a - b), kHalf * (a + b), kHalf * (b - a)},
+        .normals = std::vector<glm::vec3>(4, normal),
+        .triangles = {{0, 1, 2}, {0, 2, 3}},
+        .triangle_materials = {0, 0},
+        .materials = {{.name = "square"}}};
+}
+
+// One across z, its sides along x and y.
+Mesh squareAcrossZ() {
+    Mesh mesh = square({0.0f, 0.0f, 1.0f});
+    mesh.positions = {
+        {-kHalf, -kHalf, 0.0f}, {kHalf, -kHalf, 0.0f}, {kHalf, kHalf, 0.0f}, {-kHalf, kHalf, 0.0f}};
+    return mesh;
+}
+
+Settings meshShadows(const LightSettings& light) {
+    Settings settings;
+    settings.render.hair = false;
+    settings.shading.lights = {light};
+    settings.shading.shadows.meshes = true;
+    settings.shading.shadows.resolution = 256;
+    return settings;
+}
+
+// The light's map shows the square's circle, side sqrt(2) kHalf to each side; parallel light.
+constexpr float kTexel = 2.0f * 1.4143f * kHalf / 256.0f;
+
+// No hair.
+StrandView bald() {
+    StrandView view;
+    view.vertices_per_guide = 2;
+    return view;
+}
+
+std::vector<glm::vec3> grid(float reach, float z) {
+    std::vector<glm::vec3> points;
+    for (int i = -30; i <= 30; ++i)
+        for (int k = -30; k <= 30; ++k)
+            points.emplace_back(
+                reach * static_cast<float>(i) / 30.0f, reach * static_cast<float>(k) / 30.0f, z);
+    return points;
+}
+
+void expectGeometry(
+    const engine::Device& device, const Settings& settings, const RenderAssets& assets,
+    const std::vector<glm::vec3>& points) {
+    const LightSettings& light = settings.shading.lights[0];
+    const auto paths = findPaths(device, settings, bald(), assets, points);
+    std::size_t lit = 0;
+    std::size_t unlit = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const glm::vec3 to_light =
+            light.type == LightType::directional ? -light.direction : light.position - points[i];
+        // Where the way to the light meets the square's plane.
+        const glm::vec3 at = points[i] - points[i].z / to_light.z * to_light;
+        const float outside = std::max(std::abs(at.x), std::abs(at.y)) - kHalf;
+        // Softness and half a texel of rasterisation; a light's map is up to twice as coarse in
+        // perspective from the distances here.
+        const float filter = 2.0f * (settings.shading.shadows.softness + 0.5f) * kTexel;
+        if (std::abs(outside) < filter) continue;
+        ASSERT_NEAR(paths[i].meshes, outside > 0.0f ? 1.0f : 0.0f, kRounding) << i;
+        ASSERT_EQ(paths[i].strands, 0.0f);
+        ++(outside > 0.0f ? lit : unlit);
+    }
+    EXPECT_GT(lit, 500u);
+    EXPECT_GT(unlit, 500u);
+}
+
+TEST_F(MeshShadowTest, SquareShadesWhatIsBehindIt) {
+    const Mesh mesh = squareAcrossZ();
+    const LightSettings directional{
+        .type = LightType::directional, .direction = {0.0f, 0.0f, -1.0f}};
+    const LightSettings oblique{.type = LightType::directional, .direction = {0.3f, -0.2f, -1.0f}};
+    const LightSettings point{.position = {0.1f, 0.2f, 1.0f}};
+    const LightSettings sphere{.type = LightType::sphere, .position = {0.0f, 0.0f, 0.4f}};
+    for (const LightSettings& light : {directional, oblique, point, sphere}) {
+        Settings settings = meshShadows(light);
+        for (const float softness : {0.0f, 1.0f, 2.5f}) {
+            settings.shading.shadows.softness = softness;
+            // The second are beyond the far end of the light's depths.
+            expectGeometry(device(), settings, {.head = &mesh}, grid(0.09f, -0.03f));
+            expectGeometry(device(), settings, {.head = &mesh}, grid(0.12f, -0.2f));
+        }
+    }
+}
+
+TEST_F(MeshShadowTest, WhatIsBeforeTheSquareIsLit) {
+    const Mesh mesh = squareAcrossZ();
+    const Settings settings = meshShadows({.position = {0.1f, 0.2f, 1.0f}});
+    for (const FoundPath& path :
+         findPaths(device(), settings, bald(), {.head = &mesh}, grid(0.09f, 0.01f)))
+        ASSERT_NEAR(path.meshes, 1.0f, kRounding);
+}
+
+// Flat surfaces don't shade themselves, however they are turned, up to 6 degrees to the light. A
+// surface behind another is shaded from half a texel along the light on, and what a surface turned
+// by 5 degrees more rises in the filter.
+TEST_F(MeshShadowTest, SurfacesShadeNotThemselvesButWhatIsCloseBehind) {
+    const glm::vec3 down(0.0f, 0.0f, -1.0f);
+    for (const float degrees : {0.0f, 20.0f, 45.0f, 70.0f, 83.0f}) {
+        const float angle = degrees * 0.0174533f;
+        const glm::vec3 normal = glm::normalize(
+            glm::vec3(0.8f * std::sin(angle), 0.6f * std::sin(angle), std::cos(angle)));
+        const Mesh mesh = square(normal);
+        for (const LightType type : {LightType::directional, LightType::point}) {
+            Settings settings =
+                meshShadows({.type = type, .position = {0.0f, 0.0f, 1.0f}, .direction = down});
+            const glm::vec3 a = 0.5f * (mesh.positions[1] - mesh.positions[0]);
+            const glm::vec3 b = 0.5f * (mesh.positions[2] - mesh.positions[1]);
+            std::vector<gpu::ShadowProbe> on;
+            std::vector<gpu::ShadowProbe> behind;
+            const float inside = std::cos(angle) > 0.3f ? 0.9f : 0.5f;  // of the filter
+            for (const glm::vec3& point : grid(inside, 0.0f)) {
+                const glm::vec3 place = point.x * a + point.y * b;
+                on.push_back({place, 0, normal});
+                const glm::vec3 light(0.0f, 0.0f, 1.0f);
+                const glm::vec3 away =
+                    type == LightType::point ? glm::normalize(place - light) : down;
+                const float cosine = glm::dot(normal, -away);
+                if (cosine < 0.1f) continue;
+                // 0.1 texels for rounding; 5 % for texels that are larger behind.
+                const float turned = 0.0873f * 1.5f / (cosine * cosine);
+                behind.push_back({place + 1.05f * (0.6f + turned) * kTexel * away, 0, normal});
+            }
+            for (const FoundPath& path : findPaths(device(), settings, bald(), {.head = &mesh}, on))
+                ASSERT_NEAR(path.meshes, 1.0f, kRounding) << degrees;
+            for (const FoundPath& path :
+                 findPaths(device(), settings, bald(), {.head = &mesh}, behind))
+                ASSERT_EQ(path.meshes, 0.0f) << degrees;
+        }
+    }
+}
+
+// Strands don't know the surface that they lie on: they are lit on it up to a slope of 63 degrees,
+// and shaded 2 (softness + 0.5) texels behind.
+TEST_F(MeshShadowTest, StrandsOnASurfaceAreLit) {
+    const glm::vec3 down(0.0f, 0.0f, -1.0f);
+    const glm::vec3 normal = glm::normalize(glm::vec3(1.0f, 0.0f, 1.0f));
+    const Mesh mesh = square(normal);
+    const Settings settings = meshShadows({.type = LightType::directional, .direction = down});
+    const glm::vec3 a = 0.5f * (mesh.positions[1] - mesh.positions[0]);
+    const glm::vec3 b = 0.5f * (mesh.positions[2] - mesh.positions[1]);
+    std::vector<glm::vec3> on;
+    std::vector<glm::vec3> behind;
+    for (const glm::vec3& point : grid(0.9f, 0.0f)) {
+        on.push_back(point.x * a + point.y * b);
+        // The bias of 3 texels, and 1.5 for how the surface falls within the filter.
+        behind.push_back(on.back() + (3.0f + 1.5f + 0.1f) * kTexel * down);
+    }
+    for (const FoundPath& path : findPaths(device(), settings, bald(), {.head = &mesh}, on))
+        ASSERT_NEAR(path.meshes, 1.0f, kRounding);
+    for (const FoundPath& path : findPaths(device(), settings, bald(), {.head = &mesh}, behind))
+        ASSERT_EQ(path.meshes, 0.0f);
+}
+
+}  // namespace
+}  // namespace hair

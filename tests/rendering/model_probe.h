@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "engine/commands.h"
+#include "engine/pipeline.h"
+#include "engine/transfer.h"
+#include "hair/gpu_structs.h"
+#include "hair/rendering/lights.h"
+#include "tests/gpu_fixture.h"
+
+namespace hair {
+
+// What the device's functions of lights and models say at points, of the lights of settings.
+inline std::vector<gpu::ModelProbe> probeModels(
+    const engine::Device& device, const std::vector<LightSettings>& lights,
+    std::vector<gpu::ModelProbe> probes) {
+    static_assert(offsetof(gpu::ProbeModelsPush, count) == 16);
+    Settings settings;
+    settings.render.tone_map = ToneMap::srgb;  // linear colours
+    settings.shading.lights = lights;
+    const engine::ComputePipeline pipeline(
+        device, {.shader = "shading/probe_models.comp", .push_size = sizeof(gpu::ProbeModelsPush)});
+    const engine::Buffer light_buffer =
+        engine::makeBuffer(device, std::span<const gpu::Light>(makeLights(settings)), "lights");
+    const engine::Buffer buffer =
+        engine::makeBuffer(device, std::span<const gpu::ModelProbe>(probes), "probes");
+    const auto count = static_cast<std::uint32_t>(probes.size());
+    device.runOnce([&](engine::Commands& commands) {
+        commands.bind(
+            pipeline,
+            gpu::ProbeModelsPush{
+                .lights = light_buffer.address(), .probes = buffer.address(), .count = count});
+        commands.dispatch((count + 63) / 64, 1);
+        commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);
+    });
+    return engine::downloadAs<gpu::ModelProbe>(device, buffer);
+}
+
+}  // namespace hair

@@ -1,0 +1,70 @@
+// Phong and Kajiya-Kay on the device against values by hand.
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "tests/rendering/model_probe.h"
+
+namespace hair {
+namespace {
+
+// Some ten roundings, of powers up to 50 times as many.
+constexpr double kRounding = 1e-4;
+
+glm::vec3 atDegrees(double from_z, double turn = 0.0) {
+    const double a = from_z * std::numbers::pi / 180.0;
+    const double b = turn * std::numbers::pi / 180.0;
+    return {std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)};
+}
+
+class ShadingModels : public GpuTest {
+protected:
+    // A light that goes against `to_light`, of a normal or a tangent along +z.
+    static gpu::ModelProbe
+    probe(const glm::vec3& to_light, const glm::vec3& to_eye, float exponent) {
+        return probeModels(
+                   device(), {{.type = LightType::directional, .direction = -to_light}},
+                   {{.normal = {0, 0, 1},
+                     .exponent = exponent,
+                     .tangent = {0, 0, 1},
+                     .to_eye = to_eye}})
+            .front();
+    }
+};
+
+TEST_F(ShadingModels, PhongIsThesisEquations5And6) {
+    // Light 60 degrees from the normal, the eye in the mirrored direction: cos 60 and 1.
+    const gpu::ModelProbe mirrored = probe(atDegrees(60), atDegrees(60, 180), 50.0f);
+    EXPECT_NEAR(mirrored.phong_diffuse, 0.5, kRounding);
+    EXPECT_NEAR(mirrored.phong_specular, 1.0, kRounding);
+    // The eye 10 degrees off: cos(10)^50 = 0.98480775^50 = 0.465128.
+    const gpu::ModelProbe off = probe(atDegrees(60), atDegrees(50, 180), 50.0f);
+    EXPECT_NEAR(off.phong_specular, 0.465128, kRounding);
+    // Light from behind.
+    const gpu::ModelProbe behind = probe(atDegrees(120), atDegrees(60, 180), 50.0f);
+    EXPECT_EQ(behind.phong_diffuse, 0.0f);
+    EXPECT_EQ(behind.phong_specular, 0.0f);
+}
+
+// Angles are from the strand's direction. With light from 30 degrees of it, the cone of mirrored
+// light is 150 degrees from it.
+TEST_F(ShadingModels, KajiyaKayIsTheirEquations) {
+    for (const double turn : {0.0, 77.0, 180.0}) {  // the eye is anywhere on the cone
+        const gpu::ModelProbe mirrored = probe(atDegrees(30), atDegrees(150, turn), 20.0f);
+        EXPECT_NEAR(mirrored.kajiya_kay_diffuse, 0.5, kRounding) << turn;  // sin 30
+        EXPECT_NEAR(mirrored.kajiya_kay_specular, 1.0, kRounding) << turn;
+    }
+    // 140 degrees: 10 off the cone; cos(10)^20 = 0.736257. Straight across, 60 off: 0.5^20.
+    EXPECT_NEAR(
+        probe(atDegrees(30), atDegrees(140, 20), 20.0f).kajiya_kay_specular, 0.736257, kRounding);
+    EXPECT_NEAR(probe(atDegrees(30), atDegrees(90, 20), 2.0f).kajiya_kay_specular, 0.25, kRounding);
+    // More than a right angle off: nothing.
+    EXPECT_EQ(probe(atDegrees(30), atDegrees(40), 2.0f).kajiya_kay_specular, 0.0f);
+    // Light along the strand, in whose length no light meets it.
+    const gpu::ModelProbe along = probe(atDegrees(0), atDegrees(90), 20.0f);
+    EXPECT_NEAR(along.kajiya_kay_diffuse, 0.0, 1e-3);  // the root of a rounding
+}
+
+}  // namespace
+}  // namespace hair

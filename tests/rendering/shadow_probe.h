@@ -1,0 +1,113 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+#include "engine/frame_loop.h"
+#include "engine/rendering.h"
+#include "engine/transfer.h"
+#include "hair/rendering/picture_parameters.h"
+#include "hair/rendering/scene_meshes.h"
+#include "hair/rendering/shading_constants.h"
+#include "hair/rendering/shadow_pass.h"
+#include "tests/rendering/device_hair.h"
+
+namespace hair {
+
+// What is between a light and a point, as shading finds it.
+struct FoundPath {
+    float meshes;
+    float strands;
+    float visibility;
+    float unused;
+};
+
+// Draws the lights' maps in three frames, two of them in flight, and asks about the probes in each.
+inline std::vector<FoundPath> findPaths(
+    const engine::Device& device, const Settings& settings, const StrandView& view,
+    const RenderAssets& assets, std::span<const gpu::ShadowProbe> probes) {
+    static_assert(sizeof(gpu::ShadowProbe) == 28 && sizeof(gpu::ShadowProbePush) == 16);
+    constexpr std::size_t kShadingConstants = 16;  // the first, in shading/options.glsl
+    engine::Constants constants(kShadingConstants);
+    for (const std::uint32_t constant : shadingConstants(settings)) constants.push_back(constant);
+    constexpr VkFormat kFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+    const engine::GraphicsPipeline pipeline(
+        device, {.shaders = {"composite/screen.vert", "shadows/probe.frag"},
+                 .constants = constants,
+                 .push_size = sizeof(gpu::ShadowProbePush),
+                 .colors = {{kFormat}},
+                 .sampled_images = 3});
+    const engine::Image found(
+        device, {.format = kFormat,
+                 .width = static_cast<std::uint32_t>(probes.size()),
+                 .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                 .name = "light paths"});
+    const engine::Buffer probe_buffer = engine::makeBuffer(device, probes, "shadow probes");
+    const engine::Buffer read(
+        device, {.size = probes.size() * sizeof(FoundPath),
+                 .usage = engine::Usage::readback,
+                 .name = "light paths"});
+    std::array<engine::Buffer, engine::FrameLoop::kMaxSlots> pictures;
+    for (engine::Buffer& picture : pictures)
+        picture = {
+            device, {.size = sizeof(gpu::PictureParameters), .usage = engine::Usage::upload}};
+    const StrandPlan plan =
+        planStrands(view, settings, device.info().limits.maxTessellationGenerationLevel);
+    const SceneMeshes meshes(device, settings, assets);
+    ShadowPass shadows(device, settings, plan, assets);
+
+    engine::FrameLoop loop(device, engine::Timing::overlapped);
+    for (int frame = 0; frame < 3; ++frame) {
+        loop.frame([&](engine::Passes& passes) {
+            const gpu::PictureParameters picture = pictureParameters(
+                settings, plan, view, {.shadows = shadows.address(passes.slot())});
+            pictures[passes.slot()].write(picture);
+            shadows.record(passes, meshes, view, picture);
+            passes.pass("probe", engine::PassKind::graphics, [&](engine::Commands& commands) {
+                commands.transition(
+                    found, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                    engine::Access::anything, engine::Access::attachment);
+                const engine::Attachment color{&found, engine::Load::clear, {}};
+                engine::beginRendering(commands, std::span(&color, 1), std::nullopt);
+                commands.bind(
+                    pipeline, gpu::ShadowProbePush{
+                                  .picture = pictures[passes.slot()].address(),
+                                  .probes = probe_buffer.address()});
+                commands.images(pipeline, shadows.images());
+                commands.draw({.vertices = 3});
+                engine::endRendering(commands);
+                commands.transition(
+                    found, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                    VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, engine::Access::attachment,
+                    engine::Access::transfer_read);
+                commands.barrier(engine::Access::anything, engine::Access::transfer_write);
+                commands.copy(found, read);
+                commands.barrier(engine::Access::transfer_write, engine::Access::host_read);
+            });
+        });
+    }
+    loop.finish();
+    std::vector<FoundPath> paths(probes.size());
+    std::memcpy(paths.data(), read.mapped().data(), read.size());
+    return paths;
+}
+
+// Of points of strands.
+inline std::vector<FoundPath> findPaths(
+    const engine::Device& device, const Settings& settings, const StrandView& view,
+    const RenderAssets& assets, std::span<const glm::vec3> points, std::uint32_t light = 0) {
+    std::vector<gpu::ShadowProbe> probes;
+    for (const glm::vec3& point : points) probes.push_back({point, light, glm::vec3(0.0f)});
+    return findPaths(device, settings, view, assets, probes);
+}
+
+inline double meanStrands(std::span<const FoundPath> paths) {
+    double sum = 0.0;
+    for (const FoundPath& path : paths) sum += path.strands;
+    return sum / static_cast<double>(paths.size());
+}
+
+}  // namespace hair

@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "tests/gpu_fixture.h"
+#include "tests/rendering/pictures.h"
+
+// /render/show and the overlay of bodies, as they are seen.
+namespace hair {
+namespace {
+
+class ShowPictureTest : public GpuTest {
+protected:
+    // Straight strands along +y before the camera, 5 mm wide.
+    static Settings settings(Show show) {
+        Settings settings;
+        settings.strands = {
+            .density = 12, .tessellation = 2, .root_width = 0.005f, .tip_width = 0.005f};
+        settings.render.width = 128;
+        settings.render.height = 128;
+        settings.render.show = show;
+        settings.camera.field_of_view = 40.0f;
+        return settings;
+    }
+
+    static Groom straight() {
+        const auto guide = [](float x) {
+            return std::vector<glm::vec3>{{x, -0.1f, 0}, {x, 0, 0}, {x, 0.1f, 0}};
+        };
+        return oneTriangle({guide(-0.1f), guide(0.0f), guide(0.1f)});
+    }
+
+    static Pixels draw(const Settings& settings) {
+        return drawGroom(device(), settings, straight(), nullptr);
+    }
+
+    // Colors other than the background's.
+    static std::set<std::array<int, 3>> colors(const Pixels& pixels) {
+        std::set<std::array<int, 3>> found;
+        for (std::size_t i = 0; i < pixels.size(); i += 4)
+            found.insert({pixels[i], pixels[i + 1], pixels[i + 2]});
+        found.erase({64, 38, 46});  // 0.25, 0.15 and 0.18 of 255
+        return found;
+    }
+};
+
+// (0, 1, 0) as 0.5 + 0.5 v is (127.5, 255, 127.5).
+TEST_F(ShowPictureTest, TangentsAreDirectionsAsRgb) {
+    const auto found = colors(draw(settings(Show::tangents)));
+    ASSERT_FALSE(found.empty());
+    for (const auto& [red, green, blue] : found) {
+        EXPECT_NEAR(red, 127.5, 1.0);
+        EXPECT_NEAR(green, 255, 1.0);
+        EXPECT_NEAR(blue, 127.5, 1.0);
+    }
+}
+
+// Normals of a strand along y are across it: no y, and towards the camera at +z.
+TEST_F(ShowPictureTest, NormalsFaceTheCamera) {
+    const auto found = colors(draw(settings(Show::normals)));
+    ASSERT_GT(found.size(), 3u);  // they turn across the strand
+    for (const auto& [red, green, blue] : found) {
+        EXPECT_NEAR(green, 127.5, 1.5);
+        // The camera sees the outermost strands from 11 degrees aside: cos 101 is -0.2.
+        EXPECT_GT(blue, 127.5 * (1.0 - 0.2) - 1.0);
+    }
+}
+
+TEST_F(ShowPictureTest, LevelsGoFromBlueToRed) {
+    Settings shown = settings(Show::lod);
+    const auto zero = colors(draw(shown));
+    ASSERT_EQ(zero.size(), 1u);
+    EXPECT_GT((*zero.begin())[2], (*zero.begin())[0] + 100);
+    shown.lod.level = shown.lod.maximum_level;
+    const auto most = colors(draw(shown));
+    ASSERT_EQ(most.size(), 1u);
+    EXPECT_GT((*most.begin())[0], (*most.begin())[2] + 100);
+}
+
+// As many colours as strands, one for each, whatever the back end and the level.
+TEST_F(ShowPictureTest, StrandsKeepColorsOfTheirOwn) {
+    Settings shown = settings(Show::strands);
+    const Pixels all = draw(shown);
+    const auto found = colors(all);
+    EXPECT_GT(found.size(), 6u);  // some hide others
+    EXPECT_LE(found.size(), 12u);
+    shown.lod.level = 1.0f;
+    for (const auto& color : colors(draw(shown)))
+        EXPECT_TRUE(found.contains(color)) << color[0] << ' ' << color[1] << ' ' << color[2];
+    shown.lod.level = 0.0f;
+    shown.strands.backend = Backend::pulling_geometry;
+    EXPECT_EQ(differingPixels(draw(shown), all), 0u);
+}
+
+// A sphere of 0.05 m behind the strands: nothing is drawn farther than that from its middle, and
+// of what is drawn the hair hides nothing.
+TEST_F(ShowPictureTest, BodiesAreSeenThroughHair) {
+    Settings shown = settings(Show::shading);
+    const Pixels without = draw(shown);
+    shown.simulation.colliders = {{.a = {0, 0, -0.1f}, .b = {0, 0, -0.1f}, .radius = 0.05f}};
+    shown.render.overlays.bodies = true;
+    const Pixels with = draw(shown);
+    Settings bald = shown;
+    bald.strands.root_width = 0.0f;
+    bald.strands.tip_width = 0.0f;
+    const Pixels alone = draw(bald);
+    bald.render.overlays.bodies = false;
+    const Pixels empty = draw(bald);
+    // A circle of 94 px and two lines of 30 px, 0.5 px wide: 77 px, and half where chance is bad.
+    EXPECT_GT(differingPixels(alone, empty), 38u);
+    for (std::size_t i = 0; i < with.size(); i += 4) {
+        const bool wire = !std::equal(&alone[i], &alone[i] + 3, &empty[i]);
+        const Pixels& expected = wire ? alone : without;
+        ASSERT_TRUE(std::equal(&with[i], &with[i] + 3, &expected[i])) << "pixel " << i / 4;
+        if (!wire) continue;
+        // 64 px are 0.6 m tan 20 degrees = 0.218 m at the sphere; its outline is 15 px out.
+        const double x = static_cast<double>(i / 4 % 128) - 63.5;
+        const double y = static_cast<double>(i / 4 / 128) - 63.5;
+        ASSERT_LT(std::hypot(x, y), 64.0 * 0.05 / 0.218 + 2.0);
+    }
+}
+
+}  // namespace
+}  // namespace hair
