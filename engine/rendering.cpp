@@ -14,14 +14,13 @@ VkRenderingAttachmentInfo attachmentInfo(const Attachment& attachment) {
     info.imageView = attachment.image->view();
     info.imageLayout = is_depth ? VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL
                                 : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    info.loadOp = attachment.load == Load::clear ? VK_ATTACHMENT_LOAD_OP_CLEAR
-                                                 : VK_ATTACHMENT_LOAD_OP_LOAD;
+    info.loadOp =
+        attachment.load == Load::clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
     info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     if (is_depth) {
         info.clearValue.depthStencil = {attachment.clear[0], 0};
     } else {
-        for (std::size_t i = 0; i < 4; ++i)
-            info.clearValue.color.float32[i] = attachment.clear[i];
+        for (std::size_t i = 0; i < 4; ++i) info.clearValue.color.float32[i] = attachment.clear[i];
     }
     return info;
 }
@@ -49,9 +48,12 @@ void beginRendering(
     vkCmdBeginRendering(commands.get(), &info);
 
     const VkViewport viewport{
-        static_cast<float>(rendered.offset.x), static_cast<float>(rendered.offset.y),
-        static_cast<float>(rendered.extent.width), static_cast<float>(rendered.extent.height),
-        0.0f, 1.0f};
+        static_cast<float>(rendered.offset.x),
+        static_cast<float>(rendered.offset.y),
+        static_cast<float>(rendered.extent.width),
+        static_cast<float>(rendered.extent.height),
+        0.0f,
+        1.0f};
     vkCmdSetViewport(commands.get(), 0, 1, &viewport);
     vkCmdSetScissor(commands.get(), 0, 1, &rendered);
 }

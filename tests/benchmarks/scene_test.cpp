@@ -129,11 +129,13 @@ const BadScene kBadFields[] = {
     {R"({"strands": {"tessalation": 1}})",
      ": /strands/tessalation: unknown key (did you mean \"tessellation\"?); known: backend, "
      "source, interpolation, blend, collision_rule, randomness, density, tessellation, width, "
-     "root_width, tip_width, curl, variation, offsets, opacity, texture, curve, taper, taper_start, submission"},
+     "root_width, tip_width, curl, variation, offsets, opacity, texture, curve, taper, "
+     "taper_start, submission"},
     {R"({"sweeep": {}})", ": /sweeep: unknown key (did you mean \"sweep\"?); known: description, "
                           "seed, groom, simulation, strands, "
                           "lod, shading, camera, render, run, $schema, base, sweep"},
-    {R"({"run": {"a/b\n~": 1}})", ": /run/a~1b?~0: unknown key; known: warmup, frames, frame_time, reference"},
+    {R"({"run": {"a/b\n~": 1}})",
+     ": /run/a~1b?~0: unknown key; known: warmup, frames, frame_time, reference"},
     {R"({"strands": 3})", ": /strands: expected an object, found 3"},
     {R"({"strands": {"density": "64"}})",
      ": /strands/density: expected an integer, found the string \"64\""},
