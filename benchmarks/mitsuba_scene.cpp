@@ -40,8 +40,6 @@ void writeCamera(std::ostream& out, const hair::Settings& settings) {
         << "        <rfilter type=\"box\"/>\n    </film>\n</sensor>\n";
 }
 
-// Along our curves, from root to tip, Mitsuba's lobes are tilted the other way than Marschner's,
-// and ours. Its tilt is in degrees.
 void writeHair(std::ostream& out, const hair::ShadingSettings& shading, const std::string& file) {
     const glm::dvec3 absorbed = hair::absorption(shading);
     // Mitsuba takes colours up to 1 here, and a factor.
