@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "benchmarks/hash.h"
+#include "benchmarks/dropped_fragments.h"
 #include "benchmarks/statistics.h"
 #include "benchmarks/table.h"
 #include "benchmarks/trust.h"
@@ -137,10 +138,8 @@ void addTransparency(const Case& test_case, CaseResult& result) {
     result.counts.emplace_back("fragment_list_capacity", listed->capacity);
     result.counts.emplace_back("fragments_wanted", listed->wanted);
     result.counts.emplace_back("fragments_dropped", listed->dropped());
-    if (listed->dropped() == 0) return;
-    result.trust.warnings.push_back(
-        std::to_string(listed->dropped()) + " of " + std::to_string(listed->wanted) +
-        " fragments did not fit /render/list_length: the picture lacks them");
+    if (std::string text = droppedFragments(test_case); !text.empty())
+        result.trust.warnings.push_back(std::move(text));
 }
 
 // Adds the isolated pass times, by timestamps if they can be trusted and else by the CPU's clock.

@@ -4,6 +4,7 @@
 
 #include "benchmarks/case.h"
 #include "benchmarks/commands.h"
+#include "benchmarks/dropped_fragments.h"
 #include "benchmarks/exit_codes.h"
 #include "benchmarks/frame_path.h"
 #include "benchmarks/frame_range.h"
@@ -89,6 +90,8 @@ int renderScene(const RenderOptions& options) {
     }
     progress.clear();
     for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
+    if (const std::string text = droppedFragments(picture); !text.empty())
+        std::cerr << "hairbench: " << text << '\n';
     std::cout << options.out.string() << ": ";
     if (range.count() > 1) {
         std::cout << range.count() << " pictures, frames " << range.first << " to "

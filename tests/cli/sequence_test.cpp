@@ -45,6 +45,17 @@ TEST_F(SequenceCli, WritesEveryFrameAsItIsByItself) {
     EXPECT_NE(textOf(folder_.file("five.png")), textOf(folder_.file("out/001.png")));
 }
 
+// Hair that covers a pixel a hundredfold and lists with room for one fragment a pixel.
+TEST_F(SequenceCli, SaysWhatListsOfFragmentsHaveNoRoomFor) {
+    const std::string lists = "-a /strands/density=64 -a /render/transparency=fragment_list "
+                              "-a /render/list_length=";
+    const Outcome short_lists = hairbench(smallSmoke() + lists + "1 -o " + quoted("short.png"));
+    EXPECT_EQ(short_lists.status, 0) << short_lists.output;
+    EXPECT_THAT(short_lists.output, HasSubstr("fragments did not fit /render/list_length"));
+    const Outcome long_lists = hairbench(smallSmoke() + lists + "256 -o " + quoted("long.png"));
+    EXPECT_THAT(long_lists.output, testing::Not(HasSubstr("did not fit")));
+}
+
 // The first bytes of an OpenEXR file are its magic number, 20000630.
 TEST_F(SequenceCli, WritesLinearLightAsExr) {
     for (const char* options : {"", "-a '/render/tone_map=\"agx\"' "}) {
