@@ -45,10 +45,10 @@ TEST_F(SequenceCli, WritesEveryFrameAsItIsByItself) {
     EXPECT_NE(textOf(folder_.file("five.png")), textOf(folder_.file("out/001.png")));
 }
 
-// Hair that covers a pixel a hundredfold and lists with room for one fragment a pixel.
+// Every strand is a pixel wide at least, so thousands of them are more than one fragment a pixel.
 TEST_F(SequenceCli, SaysWhatListsOfFragmentsHaveNoRoomFor) {
-    const std::string lists = "-a /strands/density=64 -a /render/transparency=fragment_list "
-                              "-a /render/list_length=";
+    const std::string lists = "-a /render/coverage=analytic -a /strands/density=64 "
+                              "-a /render/transparency=fragment_list -a /render/list_length=";
     const Outcome short_lists = hairbench(smallSmoke() + lists + "1 -o " + quoted("short.png"));
     EXPECT_EQ(short_lists.status, 0) << short_lists.output;
     EXPECT_THAT(short_lists.output, HasSubstr("fragments did not fit /render/list_length"));
