@@ -11,7 +11,9 @@ layout(location = 0) out vec4 path;  // meshes, strands, visibility
 
 void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;
-    ShadowProbe probe = Probes(push.probes).at[uint(gl_FragCoord.x)];
+    // Neighbours of the picture's last pixels are worked out too, and see no probe.
+    uint column = min(uint(gl_FragCoord.x), push.count - 1u);
+    ShadowProbe probe = Probes(push.probes).at[column];
     LightPath found =
         probe.normal == vec3(0.0)
             ? lightPath(picture, probe.light, probe.position)

@@ -37,6 +37,7 @@ struct ShadowProbe {
 struct ShadowProbePush {
     uint64_t picture;  // PictureParameters
     uint64_t probes;  // ShadowProbe [column]
+    uint count;
 };
 
 #endif

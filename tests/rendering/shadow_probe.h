@@ -29,7 +29,7 @@ struct FoundPath {
 inline std::vector<FoundPath> findPaths(
     const engine::Device& device, const Settings& settings, const StrandView& view,
     const RenderAssets& assets, std::span<const gpu::ShadowProbe> probes) {
-    static_assert(sizeof(gpu::ShadowProbe) == 28 && sizeof(gpu::ShadowProbePush) == 16);
+    static_assert(sizeof(gpu::ShadowProbe) == 28 && sizeof(gpu::ShadowProbePush) == 24);
     constexpr std::size_t kShadingConstants = 16;  // the first, in shading/options.glsl
     engine::Constants constants(kShadingConstants);
     for (const std::uint32_t constant : shadingConstants(settings)) constants.push_back(constant);
@@ -75,7 +75,8 @@ inline std::vector<FoundPath> findPaths(
                 commands.bind(
                     pipeline, gpu::ShadowProbePush{
                                   .picture = pictures[passes.slot()].address(),
-                                  .probes = probe_buffer.address()});
+                                  .probes = probe_buffer.address(),
+                                  .count = static_cast<std::uint32_t>(probes.size())});
                 commands.images(pipeline, shadows.images());
                 commands.draw({.vertices = 3});
                 engine::endRendering(commands);
