@@ -44,6 +44,7 @@ Buffer::Buffer(const Device& device, const BufferDescription& description)
             "buffer '" + description.name + "' of " + std::to_string(description.size) + " B",
             resultName(result));
     }
+    line_ = device.memoryLine(allocation_, description.name);
     mapped_ = allocated.pMappedData;
     const VkBufferDeviceAddressInfo info{
         .sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, .pNext = nullptr, .buffer = buffer_};
@@ -63,6 +64,7 @@ void Buffer::swap(Buffer& other) noexcept {
     std::swap(address_, other.address_);
     std::swap(size_, other.size_);
     std::swap(mapped_, other.mapped_);
+    std::swap(line_, other.line_);
 }
 
 }  // namespace engine

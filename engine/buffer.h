@@ -59,6 +59,7 @@ private:
     VkDeviceAddress address_ = 0;
     std::size_t size_ = 0;
     void* mapped_ = nullptr;
+    MemoryLedger::Line line_;
 };
 
 }  // namespace engine

@@ -58,6 +58,7 @@ Device::Device(const DeviceOptions& options)
     volkLoadDevice(device_);
     vkGetDeviceQueue(device_, info_.queue_family, 0, &queue_);
     allocator_ = createAllocator(instance_.get(), info_, device_);
+    memory_ = std::make_unique<MemoryLedger>();
     cache_ = std::make_unique<PipelineCache>(device_, info_);
 
     const VkCommandPoolCreateInfo pool{
@@ -110,6 +111,16 @@ std::uint64_t Device::allocatedBytes() const {
     VmaTotalStatistics statistics{};
     vmaCalculateStatistics(allocator_, &statistics);
     return statistics.total.statistics.allocationBytes;
+}
+
+MemoryLedger::Line Device::memoryLine(VmaAllocation_T* allocation, const std::string& name) const {
+    VmaAllocationInfo info{};
+    vmaGetAllocationInfo(allocator_, allocation, &info);
+    const VkPhysicalDeviceMemoryProperties* memory{};
+    vmaGetMemoryProperties(allocator_, &memory);
+    const VkMemoryType& type = memory->memoryTypes[info.memoryType];
+    const bool device_local = (type.propertyFlags & VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) != 0;
+    return {*memory_, {type.heapIndex, device_local, name}, info.size};
 }
 
 void Device::setName(VkObjectType type, std::uint64_t handle, const std::string& name) const {

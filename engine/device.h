@@ -4,9 +4,11 @@
 #include <string>
 
 #include "engine/handle.h"
+#include "engine/memory_ledger.h"
 #include "engine/physical_device.h"
 #include "engine/pipeline_cache.h"
 
+struct VmaAllocation_T;
 struct VmaAllocator_T;
 
 namespace engine {
@@ -52,6 +54,11 @@ public:
     // Bytes of memory that live allocations hold.
     std::uint64_t allocatedBytes() const;
 
+    // Who holds what of the device's memory: buffers and images enter and leave themselves.
+    const MemoryLedger& memory() const { return *memory_; }
+    // What an allocation's owner keeps for as long as it lives.
+    MemoryLedger::Line memoryLine(VmaAllocation_T* allocation, const std::string& name) const;
+
     // Names an object for debuggers and validation messages.
     void setName(VkObjectType type, std::uint64_t handle, const std::string& name) const;
 
@@ -65,6 +72,7 @@ private:
     VkDevice device_{};
     VkQueue queue_{};
     VmaAllocator_T* allocator_{};
+    std::unique_ptr<MemoryLedger> memory_;
     std::unique_ptr<PipelineCache> cache_;
     Handle<VkCommandPool, &vkDestroyCommandPool> pool_;
     Handle<VkFence, &vkDestroyFence> fence_;

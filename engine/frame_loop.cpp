@@ -16,12 +16,13 @@ double millisecondsBetween(Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double, std::milli>(to - from).count();
 }
 
-void addTime(std::vector<PassTime>& passes, const std::string& name, double milliseconds) {
-    const auto found = std::ranges::find(passes, name, &PassTime::name);
+void addTime(std::vector<PassTime>& passes, const PassTime& time) {
+    const auto found = std::ranges::find(passes, time.name, &PassTime::name);
     if (found != passes.end()) {
-        found->milliseconds += milliseconds;
+        found->milliseconds += time.milliseconds;
+        found->use = found->use + time.use;
     } else {
-        passes.push_back({name, milliseconds});
+        passes.push_back(time);
     }
 }
 
@@ -186,12 +187,13 @@ public:
         record(commands);
         commands.barrier(Access::anything, Access::anything);
         commands.end();
+        const ProcessUse used = processUse();
         const Clock::time_point start = Clock::now();
         submit(device_, slot_data_.buffer, timeline_, ++submitted_);
         waitFor(device_.get(), timeline_, submitted_);
         const double time = millisecondsBetween(start, Clock::now());
         record_.wall += time;
-        addTime(record_.passes, name, time);
+        addTime(record_.passes, {name, time, processUse() - used});
     }
 
 private:
@@ -217,8 +219,11 @@ FrameLoop::~FrameLoop() { vkQueueWaitIdle(device_.queue()); }
 void FrameLoop::frame(const std::function<void(Passes&)>& record) {
     const std::uint32_t index = static_cast<std::uint32_t>(starts_.size() % slots_.size());
     Slot& slot = *slots_[index];
-    collect(slot);
     const Clock::time_point start = Clock::now();
+    // Frames that overlap have no use of their own, and asking for it takes time.
+    const ProcessUse used = timing_ == Timing::overlapped ? ProcessUse{} : processUse();
+    collect(slot);
+    const Clock::time_point free = Clock::now();
     if (!starts_.empty()) {
         records_[starts_.size() - 1].interval = millisecondsBetween(starts_.back(), start);
     }
@@ -228,6 +233,7 @@ void FrameLoop::frame(const std::function<void(Passes&)>& record) {
     if (timing_ == Timing::wall_clock) {
         SubmittedPasses<Slot> passes(device_, slot, timeline_.get(), submitted_, result);
         record(passes);
+        result.use = processUse() - used;
         return;
     }
 
@@ -246,11 +252,15 @@ void FrameLoop::frame(const std::function<void(Passes&)>& record) {
     slot.record = records_.size() - 1;
     submit(device_, slot.buffer, timeline_.get(), slot.value);
     const Clock::time_point submitted = Clock::now();
-    result.record = millisecondsBetween(start, recorded);
+    result.wait = millisecondsBetween(start, free);
+    result.record = millisecondsBetween(free, recorded);
     result.submit = millisecondsBetween(recorded, submitted);
     if (timing_ != Timing::overlapped) {
         waitFor(device_.get(), timeline_.get(), slot.value);
-        result.wall = millisecondsBetween(recorded, Clock::now());
+        const Clock::time_point done = Clock::now();
+        result.wall = millisecondsBetween(recorded, done);
+        result.wait = millisecondsBetween(submitted, done);
+        result.use = processUse() - used;
         collect(slot);
     }
 }
@@ -273,7 +283,9 @@ void FrameLoop::collect(Slot& slot) {
     if (slot.timestamps) {
         const std::vector<double> times = slot.timestamps->read();
         for (const Slot::Span& span : slot.spans) {
-            addTime(record.passes, span.name, times[span.last_stamp] - times[span.first_stamp]);
+            addTime(
+                record.passes,
+                {span.name, times[span.last_stamp] - times[span.first_stamp], ProcessUse{}});
         }
         if (!times.empty()) record.device = times.back();
     }

@@ -9,6 +9,7 @@
 
 #include "engine/commands.h"
 #include "engine/pipeline_statistics.h"
+#include "engine/process_use.h"
 #include "engine/timestamps.h"
 
 namespace engine {
@@ -26,6 +27,7 @@ enum class PassKind { compute, graphics };
 struct PassTime {
     std::string name;
     double milliseconds = 0.0;
+    ProcessUse use;  // CPU: of the whole process while the pass ran (wall_clock)
 };
 
 struct PassStatistics {
@@ -39,6 +41,8 @@ struct FrameRecord {
     double wall = 0.0;  // CPU: from submission until completion was seen (isolated, wall_clock)
     double record = 0.0;  // CPU: recording the commands
     double submit = 0.0;  // CPU: in vkQueueSubmit2
+    double wait = 0.0;  // CPU: for the device (overlapped: until a slot was free)
+    ProcessUse use;  // CPU: of the whole process, from recording to completion (not overlapped)
     double device = 0.0;  // GPU: first to last stamp (overlapped, isolated)
     std::vector<PassTime> passes;  // passes of one name are summed
     std::vector<PassStatistics> statistics;

@@ -36,6 +36,8 @@ Image::Image(const Device& device, const ImageDescription& description)
             resultName(result));
     }
 
+    line_ = device.memoryLine(allocation_, description.name);
+
     VkImageViewCreateInfo view{};
     view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
     view.image = image_;
@@ -51,7 +53,8 @@ Image::Image(const Device& device, const ImageDescription& description)
 Image::Image(Image&& other) noexcept
     : allocator_(other.allocator_), allocation_(std::exchange(other.allocation_, nullptr)),
       format_(other.format_), extent_(other.extent_), aspect_(other.aspect_),
-      image_(std::exchange(other.image_, VkImage{})), view_(std::move(other.view_)) {}
+      image_(std::exchange(other.image_, VkImage{})), view_(std::move(other.view_)),
+      line_(std::move(other.line_)) {}
 
 Image::~Image() {
     view_ = {};

@@ -40,6 +40,7 @@ private:
     VkImageAspectFlags aspect_;
     VkImage image_{};
     Handle<VkImageView, &vkDestroyImageView> view_;
+    MemoryLedger::Line line_;
 };
 
 }  // namespace engine

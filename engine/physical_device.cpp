@@ -26,6 +26,10 @@ constexpr std::array kOptionalCoreFeatures{
     Feature{"pipelineStatisticsQuery", &VkPhysicalDeviceFeatures::pipelineStatisticsQuery},
     Feature{"independentBlend", &VkPhysicalDeviceFeatures::independentBlend},
     Feature{"fragmentStoresAndAtomics", &VkPhysicalDeviceFeatures::fragmentStoresAndAtomics},
+    Feature{
+        "vertexPipelineStoresAndAtomics",
+        &VkPhysicalDeviceFeatures::vertexPipelineStoresAndAtomics},
+    Feature{"occlusionQueryPrecise", &VkPhysicalDeviceFeatures::occlusionQueryPrecise},
 };
 
 constexpr std::array kVulkan12Features{

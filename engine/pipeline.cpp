@@ -161,6 +161,9 @@ VkPipelineColorBlendAttachmentState blendState(Blend blend) {
     case Blend::attenuate:
         factors(VK_BLEND_FACTOR_ZERO, VK_BLEND_FACTOR_ONE_MINUS_SRC_COLOR);
         break;
+    case Blend::keep:
+        state.colorWriteMask = 0;
+        break;
     }
     return state;
 }
@@ -197,6 +200,7 @@ GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsDescripti
     viewport.scissorCount = 1;
     VkPipelineRasterizationStateCreateInfo rasterization{};
     rasterization.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+    rasterization.rasterizerDiscardEnable = description.discard ? VK_TRUE : VK_FALSE;
     rasterization.polygonMode = VK_POLYGON_MODE_FILL;
     rasterization.cullMode = description.cull;
     rasterization.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;

@@ -38,6 +38,7 @@ enum class Blend {
     add,  // all channels
     over,  // color: by the fragment's alpha; alpha: what is covered
     attenuate,  // attachment x (1 - fragment), channel by channel
+    keep,  // nothing: the attachment stays as it is
 };
 
 struct ColorTarget {
@@ -57,6 +58,7 @@ struct GraphicsDescription {
     VkCullModeFlags cull = VK_CULL_MODE_NONE;
     VkCompareOp depth_compare = VK_COMPARE_OP_LESS;
     bool depth_write = true;
+    bool discard = false;  // primitives, before they are rasterised: no .frag then
     std::uint32_t sampled_images =
         0;  // with their samplers, at bindings 0 .. of the fragment stage
 };

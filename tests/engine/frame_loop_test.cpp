@@ -86,6 +86,36 @@ TEST_F(FrameLoopTest, KeepsTwoFramesInFlightWhenOverlapped) {
     EXPECT_EQ(slots_, (std::vector<std::uint32_t>{0, 0, 0}));
 }
 
+// An interval is waiting, recording and submitting one after the other, by one clock.
+TEST_F(FrameLoopTest, SharesOutTheTimeOfTheCpu) {
+    for (const Timing timing : {Timing::overlapped, Timing::isolated})
+        for (const FrameRecord& frame : play(timing, 4)) {
+            EXPECT_GE(frame.wait, 0.0);
+            EXPECT_GT(frame.record, 0.0);
+            EXPECT_GT(frame.submit, 0.0);
+            // 1 us for rounding of sums in ms.
+            EXPECT_LE(frame.wait + frame.record + frame.submit, frame.interval + 1e-3);
+        }
+}
+
+// What a frame uses is its passes' and what is done between them.
+TEST_F(FrameLoopTest, TellsWhatFramesAndPassesUseOfTheCpu) {
+    double all = 0.0;
+    for (const FrameRecord& frame : play(Timing::wall_clock, 5)) {
+        double passes = 0.0;
+        for (const PassTime& pass : frame.passes) {
+            EXPECT_GE(pass.use.cpu, 0.0);
+            passes += pass.use.cpu;
+        }
+        EXPECT_LE(passes, frame.use.cpu + 1e-3);
+        all += passes;
+    }
+    // Filling 640 MiB costs the processor something where it is what fills them.
+    if (device().info().type == "cpu") {
+        EXPECT_GT(all, 0.0);
+    }
+}
+
 TEST_F(FrameLoopTest, GivesTheFramesSinceTheLastTime) {
     FrameLoop loop(device(), Timing::overlapped);
     loop.frame([&](Passes& passes) { record(passes); });
