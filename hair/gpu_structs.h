@@ -30,5 +30,6 @@ using uint = std::uint32_t;
 #include "shaders/shared/simulation_structs.h"
 #include "shaders/shared/strand_structs.h"
 #include "shaders/shared/volume_structs.h"
+#include "shaders/shared/watch_structs.h"
 
 }  // namespace hair::gpu

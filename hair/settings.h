@@ -203,7 +203,11 @@ constexpr auto fields(const RenderSettings*) {
 struct RunSettings {
     std::uint32_t warmup = 3;
     std::uint32_t frames = 10;
+    float precision = 0.01f;
+    float max_time = 10.0f;
     float frame_time = 1.0f / 60.0f;
+    std::string busy_pass;
+    std::uint32_t busy_work = 0;
     std::string reference;
 };
 
@@ -211,10 +215,25 @@ constexpr auto fields(const RunSettings*) {
     using S = RunSettings;
     return std::tuple{
         Field{"warmup", &S::warmup, 2, 10000, "count", "frames drawn before measuring"},
-        Field{"frames", &S::frames, 1, 1000000, "count", "frames measured in each mode"},
+        Field{
+            "frames", &S::frames, 1, 1000000, "count",
+            "frames of a round: each round of a mode plays these ones"},
+        Field{
+            "precision", &S::precision, 0, 1, "1",
+            "rounds are played until half the interval of the frame time's median is this share of "
+            "it; 0: for max_time"},
+        Field{
+            "max_time", &S::max_time, 0, 86400, "s",
+            "no more rounds are begun in a mode after so long; 0: one round"},
         Field{
             "frame_time", &S::frame_time, 0, 1, "s",
             "simulated time that a frame advances; 0 draws the same instant again"},
+        Text<S>{
+            "busy_pass", &S::busy_pass,
+            "pass to slow down, to see whether a comparison finds it; empty: none"},
+        Field{
+            "busy_work", &S::busy_work, 0, 1000000000, "count",
+            "steps of work that nobody needs, added to each busy_pass"},
         FileName<S>{
             {"reference", &S::reference,
              "picture (.exr, .png) that the last frame is compared with, relative to the scene "

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 
+#include "engine/error.h"
 #include "engine/target.h"
 #include "hair/gpu_structs.h"
 #include "hair/rendering/strand_offsets.h"
@@ -23,6 +24,11 @@ constexpr std::array kBackends{
     BackendRow{Backend::pulling_geometry, makePullingGeometryBackend},
 };
 
+constexpr std::uint32_t pushSize(const StrandStages& stages) {
+    return stages.watched ? std::uint32_t{sizeof(gpu::WatchedPush)}
+                          : std::uint32_t{sizeof(gpu::StrandPush)};
+}
+
 constexpr std::size_t kSamplesConstant = 15;  // in strands/pixel_samples.glsl
 constexpr std::size_t kFirstShadingConstant = 16;  // in shading/options.glsl
 
@@ -31,6 +37,9 @@ constexpr std::size_t kFirstShadingConstant = 16;  // in shading/options.glsl
 std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext& context) {
     const auto row = std::ranges::find(kBackends, backend, &BackendRow::backend);
     assert(row != kBackends.end());
+    if (!context.stages.last) return makeEmptyBackend();
+    if (backend != Backend::tessellation && context.stages != StrandStages{})
+        throw engine::Unsupported("/strands/backend", "only tessellation's stages can be left out");
     return row->make(context);
 }
 
@@ -49,6 +58,10 @@ engine::Constants strandConstants(const StrandSettings& strands, const StrandPla
 
 engine::GraphicsDescription strandPipeline(const BackendContext& context) {
     const StrandOutput& output = context.output;
+    const StrandStages& stages = context.stages;
+    std::vector<engine::ColorTarget> colors = output.colors;
+    if (stages.last != StrandStage::fragment)
+        for (engine::ColorTarget& color : colors) color.blend = engine::Blend::keep;
     engine::Constants constants = strandConstants(context.strands, context.plan);
     assert(constants.size() <= kSamplesConstant);
     constants.resize(kFirstShadingConstant);
@@ -56,11 +69,12 @@ engine::GraphicsDescription strandPipeline(const BackendContext& context) {
     constants.insert(constants.end(), output.shading.begin(), output.shading.end());
     return {
         .constants = constants,
-        .push_size = sizeof(gpu::StrandPush),
-        .colors = output.colors,
+        .push_size = pushSize(stages),
+        .colors = colors,
         .depth_format = output.depth_format,
         .samples = output.samples,
         .depth_write = output.depth_write,
+        .discard = stages.last < StrandStage::raster,
         .sampled_images = output.sampled_images};
 }
 

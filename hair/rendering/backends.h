@@ -14,10 +14,13 @@ std::unique_ptr<StrandBackend> makeTessellationBackend(const BackendContext& con
 // stages.
 std::unique_ptr<StrandBackend> makePullingGeometryBackend(const BackendContext& context);
 
+// No strand at all.
+std::unique_ptr<StrandBackend> makeEmptyBackend();
+
 // The specialization constants of every shader that includes strands/strand.glsl.
 engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan);
 
-// The pipeline state that all line back ends share.
+// The pipeline state that all line back ends share; without shaders.
 engine::GraphicsDescription strandPipeline(const BackendContext& context);
 
 }  // namespace hair

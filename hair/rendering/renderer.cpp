@@ -33,7 +33,7 @@ strandImages(const StrandTexture& texture, const ShadowPass& shadows) {
 
 Renderer::Renderer(
     const engine::Device& device, const Settings& settings, const StrandView& view,
-    const RenderAssets& assets)
+    const RenderAssets& assets, const StrandStages& stages)
     : settings_(settings),
       plan_(planStrands(view, settings, device.info().limits.maxTessellationGenerationLevel)),
       target_(device, targetDescription(settings.render)),
@@ -44,7 +44,7 @@ Renderer::Renderer(
       environment_(device, settings, assets), meshes_(device, settings, assets),
       texture_(device, settings.render, assets.strand_texture),
       strand_images_(strandImages(texture_, shadows_)),
-      strands_(device, settings, plan_, target_, view), overlay_(device, settings, assets),
+      strands_(device, settings, plan_, target_, view, stages), overlay_(device, settings, assets),
       resolve_(device, settings.render, target_.description()) {
     if (settings.render.hair && hasOffsets(settings.strands)) frames_.emplace(device, view);
 }

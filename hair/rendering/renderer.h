@@ -27,10 +27,10 @@ namespace hair {
 class Renderer {
 public:
     // `view` gives the counts, which stay as they are. Throws engine::Unsupported for what the
-    // device can't do.
+    // device can't do. Only what the camera sees of strands goes by `stages`.
     Renderer(
         const engine::Device& device, const Settings& settings, const StrandView& view,
-        const RenderAssets& assets);
+        const RenderAssets& assets, const StrandStages& stages = {});
 
     void record(engine::Passes& passes, const StrandView& view);
 

@@ -11,6 +11,7 @@
 #include "engine/pipeline.h"
 #include "engine/target.h"
 #include "hair/rendering/strand_plan.h"
+#include "hair/rendering/strand_stages.h"
 #include "hair/settings.h"
 
 namespace hair {
@@ -48,8 +49,10 @@ struct BackendContext {
     const StrandPlan& plan;
     const StrandSettings& strands;
     StrandOutput output;
+    StrandStages stages{};
 };
 
+// Throws engine::Unsupported for stages that the back end doesn't have.
 std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext& context);
 
 }  // namespace hair

@@ -18,13 +18,14 @@ StrandOutput shaded(StrandOutput output, const Settings& settings) {
 
 StrandPass::StrandPass(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan,
-    const engine::Target& target, const StrandView& view)
+    const engine::Target& target, const StrandView& view, const StrandStages& stages)
     : blend_(makeBlend({.device = device, .settings = settings, .target = target, .view = view})),
       backend_(makeBackend(
           settings.strands.backend, {.device = device,
                                      .plan = plan,
                                      .strands = settings.strands,
-                                     .output = shaded(blend_->output(), settings)})) {}
+                                     .output = shaded(blend_->output(), settings),
+                                     .stages = stages})) {}
 
 void StrandPass::record(
     engine::Passes& passes, const engine::Target& target, std::uint64_t picture,

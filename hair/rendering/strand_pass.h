@@ -22,7 +22,7 @@ public:
     // engine::Unsupported for what the device lacks.
     StrandPass(
         const engine::Device& device, const Settings& settings, const StrandPlan& plan,
-        const engine::Target& target, const StrandView& view);
+        const engine::Target& target, const StrandView& view, const StrandStages& stages = {});
 
     // `images` are the kStrandImages that strands/fragment.glsl samples.
     void record(

@@ -1,42 +1,15 @@
 #version 460
-// A vertex of a strand: interpolation between the guides, then the curve. Thesis 2.3.2 and 2.3.5.
+// A vertex of a strand, for the geometry stage.
 #extension GL_GOOGLE_include_directive : require
-#include "strands/strand.glsl"
+#include "strands/evaluation.glsl"
 
-layout(isolines, equal_spacing) in;
 layout(push_constant, scalar) uniform Push { StrandPush push; };
 
-layout(location = 0) patch in uvec4 patch_ids;
-layout(location = 1) patch in vec4 patch_lod;
-layout(location = 2) patch in vec3 control_points[12];
-layout(location = 14) patch in vec3 root_lift[3];
-layout(location = 17) patch in uvec3 patch_guides;
-layout(location = 18) patch in vec4 single_shares;
-layout(location = 19) patch in uvec2 patch_pieces;
 layout(location = 0) out vec4 position_and_width;
 layout(location = 1) out vec4 tangent_and_along;
 
 void main() {
-    PictureParameters picture = PictureReference(push.picture).parameters;
-    // Whole numbers again, so that no rounding of the tessellator moves a strand or opens a joint.
-    uint isoline = uint(gl_TessCoord.y * float(patch_ids.w) + 0.5);
-    uint piece_end = uint(gl_TessCoord.x * float(patch_pieces.x) + 0.5);
-
-    StrandPatch strand_patch;
-    strand_patch.key = patch_ids.x;
-    strand_patch.segment = patch_ids.y;
-    strand_patch.first_strand = patch_ids.z;
-    strand_patch.lod = StrandLod(patch_lod.x, patch_lod.y, patch_lod.z, patch_pieces.x,
-                                 patch_pieces.y, patch_lod.w);
-
-    PatchStrand strand;
-    strand.index = patch_ids.z + isoline;
-    strand.guides = patch_guides;
-    strand.weights = strandWeights(picture, strand_patch.key, strand.index);
-    strand.lift = strandLift(RootLift(root_lift), strand.weights);
-    strandControlPoints(picture, patch_guides, strand_patch.segment, strand.weights,
-                        control_points, single_shares, strand.r);
-    StrandPoint point = drawnPoint(picture, strand_patch, strand, piece_end);
+    StrandPoint point = evaluatedPoint(PictureReference(push.picture).parameters);
     position_and_width = vec4(point.position, point.width);
     tangent_and_along = vec4(point.tangent, point.along);
 }

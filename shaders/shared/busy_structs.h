@@ -1,0 +1,12 @@
+#ifndef HAIRBENCH_BUSY_STRUCTS_H
+#define HAIRBENCH_BUSY_STRUCTS_H
+
+const uint kBusyRounds = 16;  // numbers that each invocation makes in a step
+
+// Push constants of busy/busy.comp.
+struct BusyPush {
+    uint64_t results;  // uint: the number of steps, then one for each group
+    uint steps;
+};
+
+#endif

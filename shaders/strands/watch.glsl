@@ -1,0 +1,26 @@
+// For shaders of stages that are watched: see hair/rendering/stage_watch.h.
+#ifndef HAIRBENCH_WATCH_GLSL
+#define HAIRBENCH_WATCH_GLSL
+
+#include "common/picture.glsl"
+#include "shared/watch_structs.h"
+
+layout(push_constant, scalar) uniform Push { WatchedPush push; };
+
+layout(buffer_reference, scalar) buffer StageWatchReference { StageWatch watch; };
+
+// Sums of bits: unlike floats' they can't be simplified, and an addition a number is little to do.
+uint bitSum(vec4 made) {
+    uvec4 bits = floatBitsToUint(made);
+    return bits.x + bits.y + bits.z + bits.w;
+}
+
+// `made` is to have come from all that the invocation makes.
+void see(uint made) {
+    StageWatchReference reference = StageWatchReference(push.watch);
+    if ((made & reference.watch.mask) != reference.watch.wanted) return;
+    atomicAdd(reference.watch.sum, made);
+    atomicAdd(reference.watch.count, 1u);
+}
+
+#endif

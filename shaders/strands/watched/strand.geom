@@ -1,0 +1,22 @@
+#version 460
+// strands/strand.geom, watched.
+#extension GL_GOOGLE_include_directive : require
+#include "strands/quad.glsl"
+#include "strands/watch.glsl"
+
+void main() {
+    if (!isDrawn()) return;
+    PictureParameters picture = PictureReference(push.picture).parameters;
+    uint made = 0;
+    for (int end = 0; end < 2; ++end) {
+        QuadEnd quad = quadEnd(picture, end);
+        for (float across = -1.0; across <= 1.0; across += 2.0) {
+            makeCorner(picture, end, quad, across);
+            made += bitSum(gl_Position) + bitSum(position_and_across) +
+                    bitSum(tangent_and_along_out);
+            if (kAnalyticCoverage != 0) made += floatBitsToUint(half_width);
+            EmitVertex();
+        }
+    }
+    see(made);
+}

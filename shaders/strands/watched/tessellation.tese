@@ -1,0 +1,15 @@
+#version 460
+// strands/tessellation.tese, watched.
+#extension GL_GOOGLE_include_directive : require
+#include "strands/evaluation.glsl"
+#include "strands/watch.glsl"
+
+layout(location = 0) out vec4 position_and_width;
+layout(location = 1) out vec4 tangent_and_along;
+
+void main() {
+    StrandPoint point = evaluatedPoint(PictureReference(push.picture).parameters);
+    position_and_width = vec4(point.position, point.width);
+    tangent_and_along = vec4(point.tangent, point.along);
+    see(bitSum(position_and_width) + bitSum(tangent_and_along));
+}

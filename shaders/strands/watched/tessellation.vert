@@ -1,0 +1,13 @@
+#version 460
+// strands/tessellation.vert, watched.
+#extension GL_GOOGLE_include_directive : require
+#include "strands/patch_number.glsl"
+#include "strands/watch.glsl"
+
+layout(location = 0) out uint patch_index;
+
+void main() {
+    patch_index = patchNumber(PictureReference(push.picture).parameters);
+    gl_PointSize = 1.0;  // where it is the last stage, vertices are points
+    see(patch_index);
+}
