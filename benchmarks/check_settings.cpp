@@ -112,6 +112,11 @@ Broken upStandsOut(const Settings& s) {
     return "is parallel to the view";
 }
 
+Broken busyWorkHasAPass(const Settings& s) {
+    if (s.run.busy_work == 0 || !s.run.busy_pass.empty()) return {};
+    return "is above 0, but /run/busy_pass is empty";
+}
+
 // A frame's passes are stamped one by one, and its stamps have room for so many steps.
 constexpr float kMostStepsPerFrame = 200.0f;
 
@@ -150,6 +155,7 @@ constexpr Rule kRules[] = {
     {"/render/coverage", coverageIsSeen},
     {"/render/transparency", alphaHasSamplesToCover},
     {"/shading/lights", lightsHaveDirections},
+    {"/run/busy_work", busyWorkHasAPass},
     {"/run/frame_time", frameHasRoomForItsSteps}};
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include "benchmarks/device_record.h"
 #include "build_info.h"
 
 namespace benchmarks {
@@ -66,30 +67,34 @@ HostRecord describeHost() {
 
 }  // namespace
 
+BuildRecord describeBuild() {
+    BuildRecord build{
+        .version = kBuildVersion,
+        .commit = kBuildCommit,
+        .compiler = kBuildCompiler,
+        .type = kBuildType,
+        .flags = kBuildFlags,
+        .dirty = std::nullopt};
+    if (!build.commit.empty()) build.dirty = kBuildDirty;
+    return build;
+}
+
 std::string versionText() {
     const std::string commit = kBuildCommit;
     return "hairbench " + std::string(kBuildVersion) + (commit.empty() ? "" : " (" + commit + ")");
 }
 
 Environment describeEnvironment(
-    const engine::DeviceInfo& device, std::vector<std::string> command, std::uint64_t seed) {
+    const engine::Device& device, std::vector<std::string> command, std::uint64_t seed,
+    engine::Validation validation) {
     return {
-        .device =
-            {.name = device.name,
-             .type = device.type,
-             .driver = device.driver,
-             .driver_version = device.driver_version,
-             .api_version = device.api_version,
-             .timestamp_period_ns = double{device.limits.timestampPeriod}},
+        .device = describeDevice(device),
         .host = describeHost(),
-        .build =
-            {.version = kBuildVersion,
-             .commit = kBuildCommit,
-             .compiler = kBuildCompiler,
-             .type = kBuildType},
+        .build = describeBuild(),
         .command = std::move(command),
         .started = utcNow(),
-        .seed = seed};
+        .seed = seed,
+        .validation = validation == engine::Validation::on};
 }
 
 }  // namespace benchmarks

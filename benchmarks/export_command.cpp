@@ -10,15 +10,14 @@ namespace benchmarks {
 
 int exportScene(const ExportOptions& options) {
     Scene scene = loadScene(options.scene.scene);
-    scene.axes.clear();  // the scene's own settings, with what the command line changes
-    const std::vector<CaseSpec> cases = selectCases(scene, options.scene);
+    const CaseSpec spec = singleCase(scene, options.scene);
     engine::checkWritable(options.mitsuba / "scene.xml");
 
     const engine::Device device(options.scene.device);
     catchInterrupts();
     try {
         const MitsubaExport written =
-            exportMitsuba(device, scene, cases.front().settings, options.frame, options.mitsuba);
+            exportMitsuba(device, scene, spec.settings, options.frame, options.mitsuba);
         for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
         std::cout << (options.mitsuba / "scene.xml").string() << ": frame " << options.frame
                   << " of " << scene.name << ", " << written.strands << " strands, "

@@ -4,6 +4,7 @@
 #include "benchmarks/commands.h"
 #include "benchmarks/exit_codes.h"
 #include "benchmarks/schema.h"
+#include "benchmarks/suite.h"
 
 namespace benchmarks {
 
@@ -12,8 +13,9 @@ int validateScenes(const std::vector<std::filesystem::path>& scenes) {
     for (const std::filesystem::path& path : scenes) {
         if (path.string().ends_with(".schema.json")) continue;  // scenes/*.json names it too
         try {
-            Scene scene = loadScene(path);
-            const std::size_t count = selectCases(scene, {.scene = path}).size();
+            std::size_t count = 0;
+            for (Scene& scene : loadScenes(path))
+                count += selectCases(scene, {.scene = path}).size();
             std::cout << path.string() << ": ok, " << count
                       << (count == 1 ? " case\n" : " cases\n");
         } catch (const engine::Error& error) {

@@ -35,9 +35,8 @@ void checkPath(const LodPath& path, const hair::Settings& settings) {
 
 int walkLod(const LodOptions& options) {
     Scene scene = loadScene(options.scene.scene);
-    scene.axes.clear();  // the scene's own settings, with what the command line changes
-    const std::vector<CaseSpec> cases = selectCases(scene, options.scene);
-    const hair::Settings& settings = cases.front().settings;
+    const CaseSpec spec = singleCase(scene, options.scene);
+    const hair::Settings& settings = spec.settings;
     const LodPath path{.from = options.from, .to = options.to, .steps = options.steps};
     checkPath(path, settings);
     const std::filesystem::path out =
@@ -49,7 +48,8 @@ int walkLod(const LodOptions& options) {
     std::cerr << versionText() << " on " << device.info().name << " (" << device.info().driver
               << ' ' << device.info().driver_version << ")\n";
     LodReport report{
-        .environment = describeEnvironment(device.info(), options.command, scene.settings.seed),
+        .environment = describeEnvironment(
+            device, options.command, scene.settings.seed, options.scene.device.validation),
         .scene =
             {.path = scene.path.string(),
              .hash = hashText(scene.resolved),

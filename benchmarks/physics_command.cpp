@@ -100,7 +100,8 @@ int checkPhysics(const PhysicsOptions& options) {
     std::cerr << versionText() << " on " << device.info().name << " (" << device.info().driver
               << ' ' << device.info().driver_version << ")\n";
     PhysicsReport report{
-        .environment = describeEnvironment(device.info(), options.command, kSeed),
+        .environment =
+            describeEnvironment(device, options.command, kSeed, options.device.validation),
         .outcomes = {},
         .curves = {}};
     Progress progress(checks.size() * solvers.size());

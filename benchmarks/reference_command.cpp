@@ -55,9 +55,8 @@ int renderReference(const ReferenceOptions& options) {
     if (extension != ".exr" && extension != ".png")
         throw engine::Error(options.out.string(), "is neither .exr nor .png");
     Scene scene = loadScene(options.scene.scene);
-    scene.axes.clear();  // the scene's own settings, with what the command line changes
-    const std::vector<CaseSpec> cases = selectCases(scene, options.scene);
-    const hair::Settings& settings = cases.front().settings;
+    const CaseSpec spec = singleCase(scene, options.scene);
+    const hair::Settings& settings = spec.settings;
     engine::checkWritable(options.out);
     checkReferenceTool();
 

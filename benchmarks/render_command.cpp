@@ -66,13 +66,12 @@ int renderScene(const RenderOptions& options) {
     checkFormat(file(range.first));
 
     Scene scene = loadScene(options.scene.scene);
-    scene.axes.clear();  // the scene's own settings, with what the command line changes
-    const std::vector<CaseSpec> cases = selectCases(scene, options.scene);
+    const CaseSpec spec = singleCase(scene, options.scene);
     engine::checkWritable(file(range.first));
-    const hair::RenderSettings& render = cases.front().settings.render;
+    const hair::RenderSettings& render = spec.settings.render;
 
     const engine::Device device(options.scene.device);
-    Case picture(device, cases.front().settings, scene.directory);
+    Case picture(device, spec.settings, scene.directory);
     catchInterrupts();
     Progress progress(range.count());
     std::uint32_t written = 0;

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/decide/median_interval.h"
 #include "benchmarks/statistics.h"
-#include "engine/write_file.h"
 
 namespace benchmarks {
 namespace {
@@ -39,6 +39,9 @@ Json toJson(const DeviceRecord& device) {
     put(object, "driver_version", device.driver_version);
     put(object, "api_version", device.api_version);
     put(object, "timestamp_period_ns", device.timestamp_period_ns);
+    put(object, "id", device.id);
+    put(object, "timestamp_valid_bits", device.timestamp_valid_bits);
+    for (const auto& [name, limit] : device.limits) put(object["limits"], name.c_str(), limit);
     return object;
 }
 
@@ -57,11 +60,25 @@ Json toJson(const BuildRecord& build) {
     put(object, "commit", build.commit);
     put(object, "compiler", build.compiler);
     put(object, "type", build.type);
+    put(object, "flags", build.flags);
+    put(object, "dirty", build.dirty);
     return object;
 }
 
 Json toJson(const SceneRecord& scene) {
     return {{"path", scene.path}, {"hash", scene.hash}, {"document", Json::parse(scene.document)}};
+}
+
+// What is better of a quantity; empty: neither.
+std::string hintOf(const Metric& metric) {
+    const std::string& name = metric.name;
+    // One waits longer where others are faster.
+    if (name == "frame.overlap" || name.ends_with(".wait.time")) return {};
+    if (metric.unit == "B" || metric.unit == "ms" || name.ends_with(".instructions") ||
+        name == "image.rmse" || name == "image.flip")
+        return "lower";
+    if (metric.unit == "1/s" || metric.unit == "dB" || name == "image.ssim") return "higher";
+    return {};
 }
 
 // Null if there is no finite sample.
@@ -73,6 +90,7 @@ Json toJson(const Metric& metric) {
     const Summary summary = summarize(samples);
     Json object = Json::object();
     object["unit"] = metric.unit;
+    put(object, "hint", hintOf(metric));
     put(object, "mode", metric.mode);
     put(object, "median", summary.median);
     put(object, "mad", summary.mad);
@@ -81,9 +99,46 @@ Json toJson(const Metric& metric) {
     put(object, "first_quartile", summary.first_quartile);
     put(object, "third_quartile", summary.third_quartile);
     put(object, "maximum", summary.maximum);
+    if (samples.size() > 1) {
+        put(object, "percentile_5", quantile(samples, 0.05));
+        put(object, "percentile_95", quantile(samples, 0.95));
+        put(object, "percentile_99", quantile(samples, 0.99));
+        put(object, "effective_samples", effectiveSamples(samples));
+        const MedianInterval interval = medianInterval(samples, 0.05, effectiveSamples(samples));
+        if (std::isfinite(interval.lower) && std::isfinite(interval.upper))
+            object["interval"] = {
+                {"lower", interval.lower},
+                {"upper", interval.upper},
+                {"confidence", interval.confidence}};
+    }
     put(object, "relative_deviation", summary.relative_deviation);
     object["samples"] = std::move(samples);
     if (missing > 0) object["missing_samples"] = missing;
+    return object;
+}
+
+Json toJson(const Sampling& sampling) {
+    Json object = {
+        {"mode", sampling.mode},
+        {"rounds", sampling.rounds},
+        {"warmup_rounds", sampling.warmup_rounds},
+        {"throttled_rounds", sampling.throttled_rounds}};
+    put(object, "seconds", sampling.seconds);
+    put(object, "steady", sampling.steady);
+    put(object, "precision", sampling.precision);
+    return object;
+}
+
+Json toJson(const Conditions& conditions) {
+    Json object = Json::object();
+    put(object, "clock_mhz", conditions.clock_mhz);
+    put(object, "base_clock_mhz", conditions.base_clock_mhz);
+    put(object, "memory_clock_mhz", conditions.memory_clock_mhz);
+    put(object, "temperature", conditions.temperature);
+    put(object, "steal", conditions.steal);
+    put(object, "other_load", conditions.other_load);
+    if (!conditions.throttle_reasons.empty())
+        object["throttle_reasons"] = conditions.throttle_reasons;
     return object;
 }
 
@@ -110,15 +165,21 @@ void putMeasured(Json& object, const CaseResult& result) {
         statistics[statistic.name] = toJson(statistic);
     Json& counts = object["counts"] = Json::object();
     for (const auto& [name, count] : result.counts) counts[name] = count;
+    Json& sampling = object["sampling"] = Json::array();
+    for (const Sampling& each : result.sampling) sampling.push_back(toJson(each));
+    object["conditions"] = toJson(result.conditions);
     object["trust"] = toJson(result.trust);
     put(object, "image_hash", result.image_hash);
     put(object, "state_hash", result.state_hash);
+    put(object, "picture", result.picture);
 }
 
 Json toJson(const CaseResult& result) {
     Json object = {{"name", result.name}, {"axes", Json::object()}};
     for (const AxisValue& axis : result.axes)
         object["axes"][axis.pointer] = Json::parse(axis.value);
+    put(object, "index", result.index);
+    put(object, "order", result.order);
     object["status"] = statusName(result.status);
     put(object, "reason", result.reason);
     if (result.status == Status::ok) putMeasured(object, result);
@@ -147,23 +208,39 @@ Json environmentJson(const Environment& environment) {
     object["command"] = environment.command;
     put(object, "started", environment.started);
     object["seed"] = environment.seed;
+    put(object, "validation", environment.validation);
     return object;
 }
 
-std::string reportText(const Report& report) {
+Json headerJson(const ReportHeader& header) {
     Json object = Json::object();
     object["schema"] = kReportSchema;
-    object["environment"] = environmentJson(report.environment);
-    object["scene"] = toJson(report.scene);
-    object["interrupted"] = report.interrupted;
-    Json& cases = object["cases"] = Json::array();
-    for (const CaseResult& result : report.cases) cases.push_back(toJson(result));
-    // What drivers and commands say need not be UTF-8.
-    return object.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+    object["environment"] = environmentJson(header.environment);
+    object["scene"] = toJson(header.scene);
+    put(object, "case_count", header.case_count);
+    put(object, "order_seed", header.order_seed);
+    if (header.shard)
+        object["shard"] = {{"index", header.shard->index}, {"count", header.shard->count}};
+    return object;
 }
 
-void writeReport(const Report& report, const std::filesystem::path& path) {
-    engine::writeFileAtomically(path, reportText(report));
+Json caseJson(const CaseResult& result) { return toJson(result); }
+
+Json assembledReport(Json header, std::vector<Json> cases, bool interrupted) {
+    header["interrupted"] = interrupted;
+    header["cases"] = std::move(cases);
+    return header;
+}
+
+Json reportJson(const Report& report) {
+    std::vector<Json> cases;
+    for (const CaseResult& result : report.cases) cases.push_back(toJson(result));
+    return assembledReport(headerJson(report), std::move(cases), report.interrupted);
+}
+
+std::string reportText(const Report& report) {
+    // What drivers and commands say need not be UTF-8.
+    return reportJson(report).dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace benchmarks

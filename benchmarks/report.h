@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,7 +14,7 @@
 // "": empty strings, empty optionals, and numbers that are not finite are left out.
 namespace benchmarks {
 
-inline constexpr const char* kReportSchema = "hairbench-report/1.0.0";
+inline constexpr const char* kReportSchema = "hairbench-report/1.1.0";
 
 struct DeviceRecord {
     std::string name;
@@ -24,6 +23,10 @@ struct DeviceRecord {
     std::string driver_version;
     std::string api_version;
     std::optional<double> timestamp_period_ns;
+    std::string id;  // "10005:0000" vendor and device in hex
+    std::optional<std::uint32_t> timestamp_valid_bits;
+    // Of VkPhysicalDeviceLimits, under Vulkan's names, those that decide what runs here.
+    std::vector<std::pair<std::string, double>> limits;
 };
 
 struct HostRecord {
@@ -38,6 +41,8 @@ struct BuildRecord {
     std::string commit;
     std::string compiler;
     std::string type;  // "Release", ...
+    std::string flags;  // of the compiler
+    std::optional<bool> dirty;  // whether tracked files differed from the commit
 };
 
 struct Environment {
@@ -47,6 +52,7 @@ struct Environment {
     std::vector<std::string> command;
     std::string started;  // UTC, ISO 8601
     std::uint64_t seed = 1;
+    std::optional<bool> validation;  // whether the validation layer was on: times are then useless
 };
 
 // As reports of any kind write it.
@@ -54,7 +60,7 @@ Json environmentJson(const Environment& environment);
 
 struct SceneRecord {
     std::string path;
-    std::string hash;      // hashText(document)
+    std::string hash;  // hashText(document)
     std::string document;  // JSON text: every field, no axis applied
 };
 
@@ -76,6 +82,31 @@ struct Statistic {
     std::string note;
 };
 
+// How a mode's samples came about.
+struct Sampling {
+    std::string mode;  // "overlapped", "isolated", "wall_clock"
+    std::uint32_t rounds = 0;  // that samples are from; each plays the same frames
+    std::uint32_t warmup_rounds = 0;  // left out before: times still drifted
+    std::uint32_t throttled_rounds = 0;  // left out: the device's clock was below 75 % of its base
+    double seconds = 0.0;  // that all of it took
+    std::optional<bool> steady;  // no trend in the last samples; absent: too few to tell
+    // Half the 95 % interval of the median frame time over it, samples being as dependent as they
+    // look; absent where there are too few for an interval.
+    std::optional<double> precision;
+};
+
+// What else went on. Medians over the rounds.
+struct Conditions {
+    std::optional<double> clock_mhz;  // of the device's shaders
+    std::optional<double> base_clock_mhz;
+    std::optional<double> memory_clock_mhz;
+    std::optional<double> temperature;  // degrees Celsius
+    std::optional<double>
+        steal;  // share of all processors' time that the hypervisor gave to others
+    std::optional<double> other_load;  // share of it that other processes used
+    std::vector<std::string> throttle_reasons;  // that the driver gave, each once
+};
+
 struct Trust {
     std::optional<double> pass_sum_over_wall;
     std::vector<std::string> warnings;
@@ -85,6 +116,8 @@ enum class Status { ok, skipped, failed };
 
 struct CaseResult {
     std::string name;
+    std::optional<std::size_t> index;  // in the whole sweep, from 0
+    std::optional<std::size_t> order;  // in which it ran, from 0
     std::vector<AxisValue> axes;
     Status status = Status::ok;
     std::string reason;  // why it was skipped or failed
@@ -92,25 +125,43 @@ struct CaseResult {
     std::vector<Statistic> statistics;
     std::vector<std::pair<std::string, std::uint64_t>>
         counts;  // "guides", "strands", "segments", ...
+    std::vector<Sampling> sampling;
+    Conditions conditions;
     Trust trust;
     std::string image_hash;
     std::string state_hash;
+    std::string picture;  // file of the last frame's picture, relative to the report; may be empty
 };
 
-struct Report {
+// Which part of a sweep a report is of.
+struct Shard {
+    std::uint32_t index = 1;  // from 1
+    std::uint32_t count = 1;
+};
+
+// All of a report but its cases.
+struct ReportHeader {
     Environment environment;
     SceneRecord scene;
+    std::optional<std::size_t> case_count;  // of the whole sweep
+    std::optional<std::uint32_t> order_seed;  // of the order in which cases ran
+    std::optional<Shard> shard;
+};
+
+struct Report : ReportHeader {
     std::vector<CaseResult> cases;
     bool interrupted = false;  // stopped by the user: the cases are those that were done
 };
+
+Json headerJson(const ReportHeader& header);
+Json caseJson(const CaseResult& result);
+// A report of cases that are JSON already; `interrupted` as above.
+Json assembledReport(Json header, std::vector<Json> cases, bool interrupted);
+Json reportJson(const Report& report);
 
 const char* statusName(Status status);
 
 // The report as indented JSON. A scene document or an axis value that is no JSON is our own bug.
 std::string reportText(const Report& report);
-
-// Writes the report in one step: whoever opens the file sees the old report or the new one. Creates
-// missing folders. Throws engine::Error "<path>: <reason>".
-void writeReport(const Report& report, const std::filesystem::path& path);
 
 }  // namespace benchmarks

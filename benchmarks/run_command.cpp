@@ -1,125 +1,177 @@
 #include <algorithm>
 #include <iostream>
+#include <random>
 
-#include "benchmarks/case.h"
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/baseline.h"
 #include "benchmarks/commands.h"
 #include "benchmarks/environment.h"
 #include "benchmarks/exit_codes.h"
-#include "benchmarks/hash.h"
 #include "benchmarks/interrupt.h"
-#include "benchmarks/measure.h"
 #include "benchmarks/picture_errors.h"
 #include "benchmarks/progress.h"
-#include "benchmarks/report.h"
+#include "benchmarks/run/estimate.h"
+#include "benchmarks/run/picture_folder.h"
+#include "benchmarks/run/run_case.h"
+#include "benchmarks/run/run_plan.h"
+#include "benchmarks/run/run_record.h"
 #include "benchmarks/table.h"
+#include "engine/process_use.h"
 #include "engine/write_file.h"
 
 namespace benchmarks {
 
 namespace {
 
-// A case that can't run here is part of the result, and the sweep goes on.
-CaseResult runCase(
-    const engine::Device& device, const CaseSpec& spec, const std::filesystem::path& directory,
-    ReferenceComparison& references) {
-    CaseResult result{.name = spec.name, .axes = spec.axes};
-    try {
-        Case test_case(device, spec.settings, directory);
-        const hair::RunSettings& run = spec.settings.run;
-        const hair::RenderSettings& render = spec.settings.render;
-        const auto picture = measure(device, test_case, run, interrupted, result);
-        if (!run.reference.empty())
-            references.add(directory / run.reference, render.width, render.height, picture, result);
-    } catch (const engine::Unsupported& error) {
-        result = {
-            .name = spec.name,
-            .axes = spec.axes,
-            .status = Status::skipped,
-            .reason = error.what()};
-    } catch (const engine::Error& error) {
-        result = {
-            .name = spec.name, .axes = spec.axes, .status = Status::failed, .reason = error.what()};
-    }
-    return result;
+int listCases(const RunPlan& plan) {
+    for (const PlannedCase& each : plan.cases) std::cout << each.spec.name << '\n';
+    std::cout << plan.cases.size() << (plan.cases.size() == 1 ? " case\n" : " cases\n");
+    return kOk;
 }
 
-// The errors of references that are not there, before anything runs.
-void checkReferences(const std::vector<CaseSpec>& cases, const Scene& scene) {
-    for (const CaseSpec& each : cases) {
-        const std::string& file = each.settings.run.reference;
-        if (!file.empty() && !std::filesystem::is_regular_file(scene.directory / file))
+// Shards of a sweep in one folder are not to take each other's place.
+std::filesystem::path reportFile(const RunOptions& options, const RunPlan& plan) {
+    if (!options.out.empty()) return options.out;
+    std::string name = plan.name;
+    if (!options.shard.empty()) {
+        const Shard shard = parseShard(options.shard);
+        name += '.' + std::to_string(shard.index) + "of" + std::to_string(shard.count);
+    }
+    return std::filesystem::path("results/local") / (name + ".json");
+}
+
+// Throws where a reference is not there.
+void checkReferences(const RunPlan& plan) {
+    for (const PlannedCase& each : plan.cases) {
+        const std::string& file = each.spec.settings.run.reference;
+        if (!file.empty() && !std::filesystem::is_regular_file(each.directory / file))
             throw engine::Error(
-                scene.path.string(),
-                "/run/reference: " + (scene.directory / file).string() + ": is no file");
+                plan.scene.path,
+                "/run/reference: " + (each.directory / file).string() + ": is no file");
     }
 }
 
-void listCases(const std::vector<CaseSpec>& cases) {
-    for (const CaseSpec& each : cases) std::cout << each.name << '\n';
-    std::cout << cases.size() << (cases.size() == 1 ? " case\n" : " cases\n");
+ReportHeader
+headerOf(const RunOptions& options, const RunPlan& plan, const engine::Device& device) {
+    ReportHeader header;
+    header.environment =
+        describeEnvironment(device, options.command, plan.seed, options.scene.device.validation);
+    header.scene = plan.scene;
+    header.case_count = plan.case_count;
+    header.order_seed = options.order_seed ? *options.order_seed : std::random_device()();
+    if (!options.shard.empty()) header.shard = parseShard(options.shard);
+    return header;
+}
+
+void printReport(const Json& report, const std::filesystem::path& out) {
+    std::cout << table(report) << '\n';
+    for (const Json& each : report.at("cases"))
+        for (const Json& warning : each.value("/trust/warnings"_json_pointer, Json::array()))
+            std::cout << each.at("name").get<std::string>() << ": " << warning.get<std::string>()
+                      << '\n';
+    std::cout << "report: " << out.string() << '\n';
+}
+
+// Keeps and compares a complete report as the command line asks; the exit status.
+int conclude(const RunOptions& options, const Json& report, const std::filesystem::path& out) {
+    const bool any_ran = std::ranges::any_of(
+        report.at("cases"), [](const Json& each) { return each.at("status") == "ok"; });
+    int status = any_ran ? kOk : kNothingRan;
+    if (any_ran && !options.baseline.empty())
+        status = compareReports(
+            {.a = {}, .b = out, .baseline = options.baseline, .verdict = options.verdict});
+    // Only now: the name may be that of the baseline that was compared with.
+    if (!options.save_baseline.empty()) saveBaseline(options.save_baseline, out);
+    return status;
+}
+
+int playCases(
+    const RunOptions& options, const RunPlan& plan, const ReportHeader& header,
+    const std::filesystem::path& out, const engine::Device& device) {
+    RunRecord record(
+        plan, header, {.out = out, .filter = options.filter, .resume = options.resume});
+    if (record.done() > 0)
+        std::cerr << "going on after " << record.done() << " of " << plan.cases.size()
+                  << " cases\n";
+    Progress progress(plan.cases.size(), record.done());
+    const MeasureHooks hooks{.stop = interrupted, .progress = [&](const SamplingState& state) {
+                                 progress.update(state);
+                             }};
+    const std::filesystem::path pictures_of =
+        options.pictures && record.hasJournal() ? out : std::filesystem::path();
+    ReferenceComparison references;
+    bool was_interrupted = false;
+    try {
+        for (const auto& [place, order] : record.remaining()) {
+            const PlannedCase& each = plan.cases[place];
+            progress.begin(each.spec.name);
+            CaseResult result = runCase(device, each, hooks, pictures_of, references);
+            result.order = order;
+            record.add(result);
+        }
+    } catch (const Interrupted&) {
+        was_interrupted = true;
+    } catch (...) {
+        progress.clear();
+        throw;
+    }
+    progress.clear();
+    const Json report = record.report(was_interrupted);
+    record.write(report);
+    printReport(report, out);
+    if (was_interrupted) {
+        std::cerr << "interrupted after " << record.done() << " of " << plan.cases.size()
+                  << " cases; --resume goes on\n";
+        return kInterrupted;
+    }
+    if (record.hasJournal()) removeOtherPictures(report, out);
+    return conclude(options, report, out);
 }
 
 }  // namespace
 
 int runScene(const RunOptions& options) {
-    Scene scene = loadScene(options.scene.scene);
-    std::vector<CaseSpec> cases = selectCases(scene, options.scene);
-    if (!options.filter.empty()) cases = keepMatching(std::move(cases), options.filter);
-    if (options.dry_run) {
-        listCases(cases);
-        return kOk;
-    }
-    if (cases.empty()) {
-        std::cerr << "hairbench: no case's name matches '" << options.filter << "'\n";
+    const RunPlan plan = planRun(options.scene, options.filter, options.shard);
+    if (options.list) return listCases(plan);
+    if (options.dry_run) return estimateRun(plan, options.scene.device);
+    if (plan.cases.empty()) {
+        if (options.shard.empty())
+            std::cerr << "hairbench: no case's name matches '" << options.filter << "'\n";
+        else
+            std::cerr << "hairbench: none of the " << plan.case_count << " cases is in shard "
+                      << options.shard << '\n';
         return kNothingRan;
     }
-    const std::filesystem::path out =
-        options.out.empty() ? std::filesystem::path("results/local") / (scene.name + ".json")
-                            : options.out;
+    // What is wrong shows before hours of work, not after them.
+    if (!options.save_baseline.empty()) baselineFile(options.save_baseline, plan.name);
+    if (!options.baseline.empty())
+        if (const auto file = baselineFile(options.baseline, plan.name);
+            !std::filesystem::is_regular_file(file)) {
+            std::cerr << "hairbench: there is no such baseline: " << file.string() << '\n';
+            return kNoBaseline;
+        }
+    const std::filesystem::path out = reportFile(options, plan);
     engine::checkWritable(out);
-    checkReferences(cases, scene);
+    checkReferences(plan);
 
     catchInterrupts();
+    engine::processUse();  // counts the threads that begin from here on: those of the device too
     const engine::Device device(options.scene.device);
-    Report report{
-        .environment = describeEnvironment(device.info(), options.command, scene.settings.seed),
-        .scene = {
-            .path = scene.path.string(),
-            .hash = hashText(scene.resolved),
-            .document = scene.resolved}};
+    const ReportHeader header = headerOf(options, plan, device);
     std::cerr << versionText() << " on " << device.info().name << " (" << device.info().driver
               << ' ' << device.info().driver_version << ")\n";
-    Progress progress(cases.size());
-    ReferenceComparison references;
     try {
-        for (const CaseSpec& each : cases) {
-            progress.begin(each.name);
-            report.cases.push_back(runCase(device, each, scene.directory, references));
-            for (const std::string& message : device.messages().take()) {
-                report.cases.back().trust.warnings.push_back("validation: " + message);
+        if (options.resume)
+            if (const auto report = completeReport(plan, header, out)) {
+                std::cout << "nothing left to do: " << out.string() << " is complete\n";
+                return conclude(options, *report, out);
             }
-        }
-    } catch (const Interrupted&) {
-        report.interrupted = true;
+        return playCases(options, plan, header, out, device);
+    } catch (const WriteFailed& error) {
+        std::cerr << "hairbench: " << error.what() << '\n';
+        return kInternalError;
     }
-    progress.clear();
-    writeReport(report, out);
-
-    std::cout << table(report) << '\n';
-    for (const CaseResult& each : report.cases) {
-        for (const std::string& warning : each.trust.warnings) {
-            std::cout << each.name << ": " << warning << '\n';
-        }
-    }
-    std::cout << "report: " << out.string() << '\n';
-    if (report.interrupted) {
-        std::cerr << "interrupted after " << report.cases.size() << " of " << cases.size()
-                  << " cases\n";
-        return kInterrupted;
-    }
-    const bool any_ran = std::ranges::any_of(
-        report.cases, [](const CaseResult& each) { return each.status == Status::ok; });
-    return any_ran ? kOk : kNothingRan;
 }
 
 }  // namespace benchmarks

@@ -121,6 +121,8 @@ Json loadDocument(const fs::path& path, std::vector<fs::path> opened) {
     Json document = parseJson(text, path.string());
     return inFile(path, [&] {
         if (!document.is_object()) throw Error("expected an object, found " + described(document));
+        if (document.contains("suite"))
+            throw Error("/suite", "this is a suite of scenes, and one scene is wanted here");
         stringMember(document, "$schema");
         if (const std::string* const base = stringMember(document, "base")) {
             const fs::path base_path = path.parent_path() / *base;

@@ -164,6 +164,13 @@ std::string sceneSchema() {
          "patch (RFC 7386): null takes a member of the base away"},
         {"type", "string"}};
     members["sweep"] = std::move(sweep);
+    members["suite"] = {
+        {"description",
+         "scene files, relative to this one, that are run one after another; nothing but $schema "
+         "and description is beside it"},
+        {"type", "array"},
+        {"minItems", 1},
+        {"items", {{"type", "string"}}}};
     return schema.dump(2) + '\n';
 }
 

@@ -1,13 +1,42 @@
 #include <set>
 
+#include <nlohmann/json.hpp>
+
 #include "benchmarks/assets.h"
 #include "benchmarks/commands.h"
+#include "benchmarks/decimal_text.h"
+#include "engine/error.h"
 
 namespace benchmarks {
+
+namespace {
+
+// "POINTER=VALUE": a value is JSON if it reads as such, otherwise a string.
+void setField(Scene& scene, const std::string& argument) {
+    const std::size_t equals = argument.find('=');
+    try {
+        if (equals == std::string::npos || equals == 0)
+            throw engine::Error("expected POINTER=VALUE, as in /strands/density=16");
+        const Json value = Json::parse(argument.substr(equals + 1), nullptr, false);
+        const Axis field = checkedAxis(
+            {.pointer = argument.substr(0, equals),
+             .values = {(value.is_discarded() ? Json(argument.substr(equals + 1)) : value)
+                            .dump(-1, ' ', false, Json::error_handler_t::replace)}},
+            Json::parse(scene.resolved));
+        setField(scene, field.pointer, field.values.front());
+    } catch (const engine::Error& error) {
+        throw engine::Error("--set " + argument, error.what());
+    }
+}
+
+}  // namespace
 
 std::vector<CaseSpec> selectCases(Scene& scene, const SceneOptions& options) {
     if (options.frames) setField(scene, "/run/frames", std::to_string(*options.frames));
     if (options.warmup) setField(scene, "/run/warmup", std::to_string(*options.warmup));
+    if (options.precision) setField(scene, "/run/precision", decimalText(*options.precision));
+    if (options.max_time) setField(scene, "/run/max_time", decimalText(*options.max_time));
+    for (const std::string& set : options.sets) setField(scene, set);
     std::vector<Axis> overrides;
     for (const std::string& axis : options.axes) overrides.push_back(parseAxis(axis));
     std::vector<CaseSpec> cases = expand(scene, overrides);
@@ -27,6 +56,11 @@ std::vector<CaseSpec> selectCases(Scene& scene, const SceneOptions& options) {
         if (checked.insert(files).second) checkAssets(each.settings, scene.path);
     }
     return cases;
+}
+
+CaseSpec singleCase(Scene& scene, const SceneOptions& options) {
+    scene.axes.clear();
+    return selectCases(scene, options).front();
 }
 
 }  // namespace benchmarks

@@ -115,13 +115,12 @@ std::string sizeOf(const std::filesystem::path& path) {
 
 int simulateScene(const SimulateOptions& options) {
     Scene scene = loadScene(options.scene.scene);
-    scene.axes.clear();  // the scene's own settings, with what the command line changes
-    const std::vector<CaseSpec> cases = selectCases(scene, options.scene);
+    const CaseSpec spec = singleCase(scene, options.scene);
     hair::strandExporterOf(options.out);  // or there is nothing to play for
     engine::checkWritable(options.out);
 
     const engine::Device device(options.scene.device);
-    Recording recording(device, scene, cases.front().settings, options);
+    Recording recording(device, scene, spec.settings, options);
     const bool moves = hair::lowerCaseExtension(options.out) == ".usda";
     catchInterrupts();
     try {

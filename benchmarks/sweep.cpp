@@ -140,15 +140,14 @@ std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides
     return cases;
 }
 
-std::vector<CaseSpec> keepMatching(std::vector<CaseSpec> cases, const std::string& regex) {
+std::function<bool(const std::string& name)> nameMatcher(const std::string& regex) {
     try {
-        const std::regex pattern(regex, std::regex::ECMAScript);
-        std::erase_if(
-            cases, [&](const CaseSpec& spec) { return !std::regex_search(spec.name, pattern); });
+        return [pattern = std::regex(regex, std::regex::ECMAScript)](const std::string& name) {
+            return std::regex_search(name, pattern);
+        };
     } catch (const std::regex_error& error) {
         throw Error("--filter " + regex, error.what());
     }
-    return cases;
 }
 
 }  // namespace benchmarks

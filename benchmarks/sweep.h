@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,8 +29,8 @@ struct CaseSpec {
 // between fields ("<file>: <case>: <pointer>: ...").
 std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides = {});
 
-// The cases in whose name the ECMAScript regular expression is found. A malformed one is an
-// engine::Error.
-std::vector<CaseSpec> keepMatching(std::vector<CaseSpec> cases, const std::string& regex);
+// Whether the ECMAScript regular expression is found in a name; an empty one is in all. A malformed
+// one is an engine::Error.
+std::function<bool(const std::string& name)> nameMatcher(const std::string& regex);
 
 }  // namespace benchmarks

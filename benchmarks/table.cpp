@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <optional>
+#include <map>
 #include <set>
 #include <string_view>
+#include <vector>
 
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/axis.h"
 #include "benchmarks/columns.h"
-#include "benchmarks/statistics.h"
 
 namespace benchmarks {
 namespace {
@@ -17,29 +20,27 @@ constexpr std::size_t kLongestReason = 45;
 
 // ---- What a case says -----------------------------------------------------------------------
 
-const AxisValue* findAxis(const CaseResult& result, const std::string& pointer) {
-    const auto axis = std::ranges::find(result.axes, pointer, &AxisValue::pointer);
-    return axis == result.axes.end() ? nullptr : &*axis;
+// The member's value; null where it is absent.
+const Json& member(const Json& object, const std::string& name) {
+    static const Json absent;
+    const auto found = object.find(name);
+    return found == object.end() ? absent : *found;
 }
 
-// Absent if no sample is finite.
-std::optional<double> medianOf(const Metric& metric) {
-    std::vector<double> samples = metric.samples;
-    std::erase_if(samples, [](double value) { return !std::isfinite(value); });
-    if (samples.empty()) return {};
-    return summarize(samples).median;
+// Empty where it is absent.
+std::string text(const Json& object, const std::string& name) {
+    const Json& value = member(object, name);
+    return value.is_string() ? value.get<std::string>() : std::string();
 }
 
-std::string medianCell(const CaseResult& result, const std::string& name) {
-    const auto metric = std::ranges::find(result.metrics, name, &Metric::name);
-    const auto median = metric == result.metrics.end() ? std::nullopt : medianOf(*metric);
-    return median ? shortNumber(*median) : "-";
+std::string medianCell(const Json& result, const std::string& name) {
+    const Json& median = member(member(member(result, "metrics"), name), "median");
+    return median.is_number() ? shortNumber(median.get<double>()) : "-";
 }
 
-std::string countCell(const CaseResult& result, const std::string& name) {
-    for (const auto& [count_name, count] : result.counts)
-        if (count_name == name) return std::to_string(count);
-    return "-";
+std::string countCell(const Json& result, const std::string& name) {
+    const Json& count = member(member(result, "counts"), name);
+    return count.is_number() ? count.dump() : "-";
 }
 
 // The first line, cut at a word.
@@ -50,82 +51,88 @@ std::string shortened(const std::string& reason) {
     return first.substr(0, space == std::string::npos ? kLongestReason : space) + "...";
 }
 
-std::string statusCell(const CaseResult& result) {
-    std::string text = statusName(result.status);
-    if (const std::size_t warnings = result.trust.warnings.size(); warnings > 0)
-        text += ", " + std::to_string(warnings) + (warnings == 1 ? " warning" : " warnings");
-    return result.reason.empty() ? text : text + ": " + shortened(result.reason);
+std::string statusCell(const Json& result) {
+    std::string cell = text(result, "status");
+    if (const std::size_t warnings = member(member(result, "trust"), "warnings").size();
+        warnings > 0)
+        cell += ", " + std::to_string(warnings) + (warnings == 1 ? " warning" : " warnings");
+    const std::string reason = text(result, "reason");
+    return reason.empty() ? cell : cell + ": " + shortened(reason);
 }
 
 // ---- Columns --------------------------------------------------------------------------------
 
 // Pointers of the axes that have more than one value in the report, in the sweep's order.
-std::vector<std::string> varyingAxes(const std::vector<CaseResult>& cases) {
-    std::vector<std::string> varying;
-    if (cases.empty()) return varying;
-    for (const AxisValue& axis : cases.front().axes) {
-        std::set<std::string> values;
-        for (const CaseResult& result : cases)
-            if (const AxisValue* const mine = findAxis(result, axis.pointer))
-                values.insert(mine->value);
-        if (values.size() > 1) varying.push_back(axis.pointer);
-    }
-    return varying;
+std::vector<std::string> varyingAxes(const Json& cases) {
+    std::vector<std::string> pointers;
+    std::map<std::string, std::set<std::string>> values;
+    for (const Json& result : cases)
+        for (const auto& [pointer, value] : member(result, "axes").items()) {
+            if (values[pointer].empty()) pointers.push_back(pointer);
+            values[pointer].insert(value.dump());
+        }
+    std::erase_if(pointers, [&](const std::string& each) { return values[each].size() < 2; });
+    return pointers;
 }
 
 // "pass.strands.time" -> "strands"; empty for other metrics.
 std::string passOf(std::string_view metric) {
     constexpr std::string_view kBefore = "pass.", kAfter = ".time";
     if (!metric.starts_with(kBefore) || !metric.ends_with(kAfter)) return {};
-    return std::string(
-        metric.substr(kBefore.size(), metric.size() - kBefore.size() - kAfter.size()));
+    const std::string_view pass =
+        metric.substr(kBefore.size(), metric.size() - kBefore.size() - kAfter.size());
+    return pass.find('.') == pass.npos ? std::string(pass) : std::string();  // not pass.*.cpu.time
 }
 
-std::vector<std::string> passes(const std::vector<CaseResult>& cases) {
+std::vector<std::string> passes(const Json& cases) {
     std::vector<std::string> names;
-    for (const CaseResult& result : cases)
-        for (const Metric& metric : result.metrics)
-            if (const std::string pass = passOf(metric.name);
-                !pass.empty() && medianOf(metric) && std::ranges::find(names, pass) == names.end())
+    for (const Json& result : cases)
+        for (const auto& [name, metric] : member(result, "metrics").items())
+            if (const std::string pass = passOf(name);
+                !pass.empty() && std::ranges::find(names, pass) == names.end())
                 names.push_back(pass);
     return names;
 }
 
 template <class Cell>
-Column column(std::string title, const std::vector<CaseResult>& cases, Cell&& cell) {
+Column column(std::string title, const Json& cases, Cell&& cell) {
     Column column{.title = std::move(title)};
-    for (const CaseResult& result : cases) column.cells.push_back(cell(result));
+    for (const Json& result : cases) column.cells.push_back(cell(result));
     return column;
 }
 
-std::vector<Column> columns(const std::vector<CaseResult>& cases) {
+std::vector<Column> columns(const Json& report) {
     std::vector<Column> all;
-    const std::vector<std::string> pointers = varyingAxes(cases);
+    const Json& cases = member(report, "cases");
+    std::vector<std::string> pointers;
+    // A suite's scenes vary different things: only names tell their cases apart.
+    if (member(member(member(report, "scene"), "document"), "suite").is_null())
+        pointers = varyingAxes(cases);
     const std::vector<std::string> labels = axisLabels(pointers);
     for (std::size_t i = 0; i < pointers.size(); ++i)
-        all.push_back(column(labels[i], cases, [&](const CaseResult& result) {
-            const AxisValue* const axis = findAxis(result, pointers[i]);
-            return axis ? valueLabel(axis->value) : std::string("-");
+        all.push_back(column(labels[i], cases, [&](const Json& result) {
+            const Json& value = member(member(result, "axes"), pointers[i]);
+            return value.is_null() ? std::string("-") : valueLabel(value.dump());
         }));
     if (pointers.empty()) {
-        all.push_back(column("case", cases, [](const CaseResult& result) { return result.name; }));
+        all.push_back(
+            column("case", cases, [](const Json& result) { return text(result, "name"); }));
         all.back().numeric = false;
     }
     const auto addMedian = [&](std::string title, const std::string& metric) {
-        all.push_back(column(std::move(title), cases, [&](const CaseResult& result) {
+        all.push_back(column(std::move(title), cases, [&](const Json& result) {
             return medianCell(result, metric);
         }));
     };
     addMedian("fps", "fps");
     addMedian("frame ms", "frame.time");
     for (const std::string& pass : passes(cases)) addMedian(pass + " ms", "pass." + pass + ".time");
-    if (std::ranges::any_of(cases, [](const CaseResult& result) {
-            return std::ranges::find(result.metrics, "image.flip", &Metric::name) !=
-                   result.metrics.end();
+    if (std::ranges::any_of(cases, [](const Json& result) {
+            return !member(member(result, "metrics"), "image.flip").is_null();
         }))
         addMedian("FLIP", "image.flip");
     all.push_back(
-        column("strands", cases, [](const CaseResult& r) { return countCell(r, "strands"); }));
+        column("strands", cases, [](const Json& result) { return countCell(result, "strands"); }));
     all.push_back(column("status", cases, statusCell));
     all.back().numeric = false;
     return all;
@@ -133,15 +140,19 @@ std::vector<Column> columns(const std::vector<CaseResult>& cases) {
 
 // ---- Text -----------------------------------------------------------------------------------
 
-std::string header(const Report& report) {
-    const DeviceRecord& device = report.environment.device;
-    std::string text = device.name.empty() ? "unknown device" : device.name;
-    if (!device.type.empty()) text += " (" + device.type + ")";
-    if (!device.driver.empty()) text += ", " + device.driver;
-    if (!device.driver_version.empty()) text += ' ' + device.driver_version;
-    if (!device.api_version.empty()) text += ", Vulkan " + device.api_version;
-    if (!report.scene.path.empty()) text += "; " + report.scene.path;
-    return text + '\n';
+std::string header(const Json& report) {
+    const Json& device = member(member(report, "environment"), "device");
+    std::string line = text(device, "name");
+    if (line.empty()) line = "unknown device";
+    if (const std::string type = text(device, "type"); !type.empty()) line += " (" + type + ")";
+    if (const std::string driver = text(device, "driver"); !driver.empty()) line += ", " + driver;
+    if (const std::string version = text(device, "driver_version"); !version.empty())
+        line += ' ' + version;
+    if (const std::string api = text(device, "api_version"); !api.empty())
+        line += ", Vulkan " + api;
+    if (const std::string path = text(member(report, "scene"), "path"); !path.empty())
+        line += "; " + path;
+    return line + '\n';
 }
 
 }  // namespace
@@ -156,11 +167,12 @@ std::string shortNumber(double number) {
     return text;
 }
 
-std::string table(const Report& report) {
-    std::string text = header(report);
-    const std::vector<Column> all = columns(report.cases);
-    for (std::size_t row = 0; row <= report.cases.size(); ++row) text += columnsLine(all, row);
-    return text;
+std::string table(const Json& report) {
+    std::string lines = header(report);
+    const std::vector<Column> all = columns(report);
+    for (std::size_t row = 0; row <= member(report, "cases").size(); ++row)
+        lines += columnsLine(all, row);
+    return lines;
 }
 
 }  // namespace benchmarks

@@ -18,11 +18,9 @@ std::size_t caseCount(const std::vector<GateMetric>& metrics) {
     return count;
 }
 
-bool isStage(std::size_t pairs) { return std::ranges::count(kStages, pairs) > 0; }
-
 constexpr Comparison kNothingKnown{
     .verdict = Verdict::inconclusive,
-    .change = 0.0,
+    .change = std::numeric_limits<double>::quiet_NaN(),
     .lower = -1.0,  // a share: infinitely much faster
     .upper = std::numeric_limits<double>::infinity(),
     .decisive_change = 0.0,
@@ -32,7 +30,13 @@ constexpr Comparison kNothingKnown{
 
 Gate::Gate(std::vector<GateMetric> metrics, const VerdictRule& rule)
     : metrics_(std::move(metrics)), rule_(rule), differences_(metrics_.size()),
-      comparable_(metrics_.size(), 1), mismatches_(caseCount(metrics_), 0) {}
+      comparable_(metrics_.size(), 1), mismatches_(caseCount(metrics_), 0) {
+    assert(std::ranges::count(kStages, rule_.first_pairs) == 1);
+}
+
+bool Gate::isStage(std::size_t pairs) const {
+    return pairs >= rule_.first_pairs && std::ranges::count(kStages, pairs) > 0;
+}
 
 Gate::Step Gate::next() const {
     if (std::ranges::count(mismatches_, 1) > 0) return Step::decided;
@@ -80,8 +84,10 @@ void Gate::addPair(const Block& a, const Block& b) {
 }
 
 std::size_t Gate::nextDecision() const {
-    for (const std::size_t stage : kStages)
+    for (const std::size_t stage : kStages) {
+        if (!isStage(stage)) continue;
         if (pairs_ < stage || (pairs_ == stage && next() == Step::decided)) return stage;
+    }
     return *std::rbegin(kStages);
 }
 

@@ -22,9 +22,9 @@ struct GateMetric {
 
 // Says which build to run next and when enough is known, and judges: whoever has it runs processes.
 // Pairs of blocks go A B, B A, A B ..., so that a drift of the machine raises as many differences
-// as it lowers. After 12, 24 and 48 pairs it is over if no metric is inconclusive; at 48 whatever
-// is inconclusive stays so. Results that differ end it at once: times of different work say
-// nothing.
+// as it lowers. After 12, 24 and 48 pairs (from the rule's first_pairs on) it is over if no metric
+// is inconclusive; at 48 whatever is inconclusive stays so. Results that differ end it at once:
+// times of different work say nothing.
 class Gate {
 public:
     enum class Step { run_a, run_b, decided };
@@ -50,6 +50,7 @@ public:
 
 private:
     void addPair(const Block& a, const Block& b);
+    bool isStage(std::size_t pairs) const;
     bool isMismatch(const GateMetric& metric) const { return mismatches_[metric.case_index]; }
 
     std::vector<GateMetric> metrics_;

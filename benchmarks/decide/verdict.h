@@ -16,6 +16,8 @@ const char* verdictName(Verdict verdict);
 struct VerdictRule {
     double threshold = 0.02;  // a change of this share matters to nobody
     double alpha = 0.05;      // over all tries and metrics: see multiple_tests.h
+    std::size_t first_pairs = 12;  // of the first try: one of kStages; a later one leaves each
+                                   // try's level as it is, and the whole below alpha
 };
 
 // What changes of one metric count: max(threshold, 3 * 1.4826 * MAD of ln(A2/A1) over the pairs of
@@ -26,7 +28,7 @@ double decisiveChange(double threshold, std::span<const double> calibration);
 // What the pairs say of one metric.
 struct Comparison {
     Verdict verdict;
-    double change;            // median of B/A - 1, a share
+    double change;  // median of B/A - 1, a share; NaN if nothing is known
     double lower;  // its interval at the try's level, shares; infinite if too few pairs
     double upper;
     double decisive_change;  // tau: below it, changes count as none

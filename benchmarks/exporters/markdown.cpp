@@ -26,8 +26,8 @@ void addCell(std::string& line, const std::string& text) { line += ' ' + text + 
 std::vector<std::string> columnMetrics(const Json& report) {
     std::vector<std::string> names;
     for (const Reading& reading : readings(report)) {
-        const bool shown = reading.name == "fps" || reading.name == "frame.time" ||
-                           reading.name.starts_with("pass.");
+        const bool shown =
+            reading.name == "fps" || reading.name == "frame.time" || isPassTime(reading.name);
         if (shown && std::ranges::find(names, reading.name) == names.end())
             names.push_back(reading.name);
     }

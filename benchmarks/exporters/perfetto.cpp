@@ -97,7 +97,7 @@ void addCase(Trace& trace, int process, const Json& result) {
     std::vector<Series> passes;
     std::string clock = "isolated";
     for (const auto& [name, metric] : metrics.items()) {
-        if (!name.starts_with("pass.")) continue;
+        if (!isPassTime(name)) continue;
         passes.push_back({sliceName(name), samplesOf(metrics, name)});
         clock = metric.value("mode", clock);
     }

@@ -22,7 +22,13 @@ std::vector<Reading> readings(const Json& report) {
 }
 
 bool isTime(const Reading& reading) {
-    return reading.unit == "ms" && reading.name.ends_with(".time");
+    return reading.unit == "ms" && reading.name.ends_with(".time") &&
+           !reading.name.ends_with(".wait.time");
+}
+
+bool isPassTime(const std::string& metric) {
+    return metric.starts_with("pass.") && metric.ends_with(".time") &&
+           std::ranges::count(metric, '.') == 2;
 }
 
 std::string benchmarkName(const Reading& reading) { return reading.case_name + '/' + reading.name; }

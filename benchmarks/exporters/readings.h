@@ -22,8 +22,12 @@ struct Reading {
 // Of all cases that ran, in the report's order.
 std::vector<Reading> readings(const Json& report);
 
-// A duration of a frame or pass: in ms, and not a difference of two, which may be negative.
+// A duration of a frame or pass of which less is better: in ms, and not a difference of two, which
+// may be negative, nor a wait, which grows when others get faster.
 bool isTime(const Reading& reading);
+
+// The time of a pass itself: "pass.strands.time", and not "pass.strands.cpu.time".
+bool isPassTime(const std::string& metric);
 
 // "<case>/<metric>", which no two readings share.
 std::string benchmarkName(const Reading& reading);

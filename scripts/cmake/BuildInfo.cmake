@@ -1,8 +1,10 @@
-# cmake -DOUTPUT=build_info.h -DSOURCE=… -DVERSION=… -DCOMPILER=… -DTYPE=… -P BuildInfo.cmake
+# cmake -DOUTPUT=build_info.h -DSOURCE=… -DVERSION=… -DCOMPILER=… -DTYPE=… -DFLAGS=…
+#     -P BuildInfo.cmake
 # Run at every build: the commit changes without CMake being run again. The file is touched only when
 # something in it changed.
 find_program(GIT git)
 set(commit "")
+set(dirty false)
 if(GIT)
     execute_process(COMMAND "${GIT}" -C "${SOURCE}" rev-parse --short=12 HEAD
         OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
@@ -10,13 +12,21 @@ if(GIT)
         OUTPUT_VARIABLE changes OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
     if(commit AND changes)
         string(APPEND commit "-dirty")
+        set(dirty true)
     endif()
 endif()
+string(STRIP "${FLAGS}" flags)
+string(REGEX REPLACE " +" " " flags "${flags}")
+# As a C++ string.
+string(REPLACE "\\" "\\\\" flags "${flags}")
+string(REPLACE "\"" "\\\"" flags "${flags}")
 set(text "#pragma once
 inline constexpr const char* kBuildVersion = \"${VERSION}\";
 inline constexpr const char* kBuildCommit = \"${commit}\";
+inline constexpr bool kBuildDirty = ${dirty};
 inline constexpr const char* kBuildCompiler = \"${COMPILER}\";
 inline constexpr const char* kBuildType = \"${TYPE}\";
+inline constexpr const char* kBuildFlags = \"${flags}\";
 ")
 set(old "")
 if(EXISTS "${OUTPUT}")

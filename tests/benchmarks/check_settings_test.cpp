@@ -38,6 +38,18 @@ TEST(CheckSettings, WantsFramesWithRoomForTheirSteps) {
     EXPECT_EQ(steps(201.0f), "/run/frame_time: is more than 200 of /simulation/time_step");
 }
 
+TEST(CheckSettings, WantsAPassForBusyWork) {
+    const auto busy = [](const char* pass, std::uint32_t work) {
+        return broken([&](hair::Settings& s) {
+            s.run.busy_pass = pass;
+            s.run.busy_work = work;
+        });
+    };
+    EXPECT_EQ(busy("", 1), "/run/busy_work: is above 0, but /run/busy_pass is empty");
+    EXPECT_EQ(busy("strands", 1), "no error");
+    EXPECT_EQ(busy("strands", 0), "no error");  // what a sweep of it starts with
+}
+
 TEST(CheckSettings, WantsCoverageToBeSeen) {
     EXPECT_EQ(
         broken([](hair::Settings& s) { s.render.coverage = hair::Coverage::analytic; }),

@@ -1,6 +1,7 @@
 #include "benchmarks/table.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/benchmarks/sample_report.h"
 
@@ -20,7 +21,7 @@ TEST(ShortNumber, HasThreeSignificantDigits) {
 
 TEST(Table, ShowsVaryingAxesMediansAndStatus) {
     EXPECT_EQ(
-        table(sampleReport()),
+        table(reportJson(sampleReport())),
         "Soft (cpu), llvmpipe 22.3.6, Vulkan 1.3.230; scenes/thesis.json\n"
         "     backend  fps  frame ms  wind ms  strands ms  strands  status\n"
         "tessellation  333      3.00   0.0125        2.50     8704  ok, 1 warning\n"
@@ -37,10 +38,17 @@ TEST(Table, NamesTheCaseWhereNothingVaries) {
     report.environment.device = {};
     report.scene.path.clear();
     EXPECT_EQ(
-        table(report),
+        table(reportJson(report)),
         "unknown device\n"
         "case                                    fps  frame ms  strands  status\n"
         "thesis/density:64/backend:tessellation    -         -     8704  ok, 1 warning\n");
+}
+
+TEST(Table, HasAColumnForEachPassAlone) {
+    Report report = sampleReport();
+    report.cases[0].metrics.push_back({"pass.strands.cpu.time", "ms", {7.25}, "wall_clock"});
+    report.cases[0].metrics.push_back({"pass.strands.instructions", "1", {7.0}, "wall_clock"});
+    EXPECT_EQ(table(reportJson(report)), table(reportJson(sampleReport())));
 }
 
 TEST(Table, ShowsHowFarPicturesAreFromTheReference) {
@@ -50,14 +58,22 @@ TEST(Table, ShowsHowFarPicturesAreFromTheReference) {
     report.environment.device = {};
     report.scene.path.clear();
     EXPECT_EQ(
-        table(report),
+        table(reportJson(report)),
         "unknown device\n"
         "case                                    fps  frame ms   FLIP  strands  status\n"
         "thesis/density:64/backend:tessellation    -         -  0.123     8704  ok, 1 warning\n");
 }
 
+// What varies in one scene of a suite is not there in another.
+TEST(Table, NamesTheCasesOfASuite) {
+    Report report = sampleReport();
+    report.scene.document = R"({"suite": {"thesis": {}}})";
+    EXPECT_NE(
+        table(reportJson(report)).find("\nthesis/density:64/backend:mesh "), std::string::npos);
+}
+
 TEST(Table, OfNoCasesIsItsHeader) {
-    EXPECT_EQ(table({}), "unknown device\ncase  fps  frame ms  strands  status\n");
+    EXPECT_EQ(table(Json::object()), "unknown device\ncase  fps  frame ms  strands  status\n");
 }
 
 }  // namespace

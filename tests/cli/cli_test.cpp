@@ -48,13 +48,37 @@ TEST(Cli, SchemaIsTheCommittedOne) {
     EXPECT_TRUE(outcome.output == committed) << "hairbench schema > scenes/scene.schema.json";
 }
 
-TEST(Cli, DryRunListsTheWholeSweep) {
-    const Outcome outcome = hairbench("run " + scene("thesis.json") + " --dry-run");
+TEST(Cli, ListsTheWholeSweep) {
+    const Outcome outcome = hairbench("run " + scene("thesis.json") + " --list");
     EXPECT_EQ(outcome.status, 0);
     // 3 guide counts x 3 densities x 3 tessellation factors x 3 sample counts x 3 levels.
     EXPECT_THAT(outcome.output, HasSubstr("243 cases"));
     EXPECT_THAT(
         outcome.output, HasSubstr("thesis/guides:86/density:64/tessellation:4/msaa:1/level:0\n"));
+}
+
+TEST(Cli, DryRunEstimatesAndWritesNothing) {
+    if (!hasDevice()) GTEST_SKIP() << "no Vulkan device";
+    const TemporaryFolder folder;
+    const fs::path out = folder.path() / "report.json";
+    const Outcome outcome =
+        hairbench("run " + scene("smoke.json") + " --dry-run --out '" + out.string() + "'");
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_THAT(outcome.output, HasSubstr("memory"));
+    EXPECT_THAT(outcome.output, testing::ContainsRegex("smoke/msaa:4 +[0-9.]+ MB +[0-9.]+ "));
+    EXPECT_THAT(outcome.output, testing::ContainsRegex("2 cases, at most [0-9.]+ MB at a time"));
+    EXPECT_FALSE(fs::exists(out));
+}
+
+TEST(Cli, SetsFieldsWithoutNamingCasesAfterThem) {
+    const Outcome outcome =
+        hairbench("run " + scene("smoke.json") + " --set /strands/density=8 --list");
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.output, "smoke/msaa:1\nsmoke/msaa:4\n2 cases\n");
+    const Outcome unknown = hairbench("run " + scene("smoke.json") + " --set /no/such=1 --list");
+    EXPECT_EQ(unknown.status, 2);
+    EXPECT_THAT(unknown.output, HasSubstr("--set /no/such=1: "));
+    EXPECT_EQ(hairbench("run " + scene("smoke.json") + " --set density --list").status, 2);
 }
 
 // ---- What is refused: one line, status 2, nothing written ---------------------------------------
@@ -217,14 +241,15 @@ TEST_F(CliRun, SaysWhyACaseIsSkippedAndGoesOn) {
 
 TEST_F(CliRun, SavesWhatWasDoneWhenItIsInterrupted) {
     const fs::path out = folder_.path() / "interrupted.json";
-    const std::string log = (folder_.path() / "log").string();
     // Job control, or the shell would have its children ignore the interrupt. Enough frames for
-    // minutes; the interrupt comes once the second case has begun, and after a minute in any case.
+    // minutes; the interrupt comes once the first case is in the journal, and after a minute in any
+    // case. With this seed the short case is the first.
     const fs::path script = folder_.write(
         "interrupt.sh", "set -m\n'" HAIRBENCH_PROGRAM "' run " + scene("smoke.json") +
-                            " -a /render/msaa=1 -a /run/frames=1,1000000 --out '" + out.string() +
-                            "' >'" + log + "' 2>&1 &\nfor i in $(seq 600); do grep -qF '[2/2]' '" +
-                            log + "' && break; sleep 0.1; done\nkill -INT $!\nwait $!\n");
+                            " -a /render/msaa=1 -a /run/frames=1,1000000 --order-seed 1 --out '" +
+                            out.string() + "' &\nfor i in $(seq 600); do grep -q frames:1 '" +
+                            out.string() + ".journal' 2>/dev/null && break; sleep 0.1; done\n" +
+                            "kill -INT $!\nwait $!\n");
     const int status = std::system(("bash '" + script.string() + "'").c_str());
     EXPECT_EQ(WEXITSTATUS(status), 130);
     const nlohmann::json report = reportOf(out);

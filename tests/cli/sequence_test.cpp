@@ -34,7 +34,7 @@ protected:
 TEST_F(SequenceCli, WritesEveryFrameAsItIsByItself) {
     const Outcome outcome = hairbench(smallSmoke() + "--frames 1:6:2 -o " + quoted("out/%03d.png"));
     EXPECT_EQ(outcome.status, 0) << outcome.output;
-    EXPECT_THAT(outcome.output, HasSubstr("[3/3]"));
+    EXPECT_THAT(outcome.output, testing::Not(HasSubstr("[3/3]")));  // no terminal, no progress
     EXPECT_THAT(outcome.output, HasSubstr("3 pictures, frames 1 to 5 of smoke"));
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder_.file("out")))

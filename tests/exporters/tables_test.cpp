@@ -59,6 +59,14 @@ TEST(Markdown, HasARowForEachCase) {
             "| 64 | lines |  |  |  |  | failed: device lost |"));
 }
 
+TEST(Markdown, HasOneColumnForAPass) {
+    Report report = sampleReport();
+    const std::string before = exportReport(Json::parse(reportText(report)), "markdown");
+    report.cases[0].metrics.push_back({"pass.strands.cpu.time", "ms", {1.5}, "wall_clock"});
+    report.cases[0].metrics.push_back({"pass.strands.instructions", "1", {1e6}, "wall_clock"});
+    EXPECT_EQ(exportReport(Json::parse(reportText(report)), "markdown"), before);
+}
+
 TEST(Markdown, KeepsACellInItsCell) {
     Report report = sampleReport();
     report.cases[1].reason = "a|b\n<script>";

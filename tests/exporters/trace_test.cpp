@@ -18,6 +18,8 @@ Report framesAndPasses() {
         {"cpu.submit.time", "ms", {0.125, 0.5}, "overlapped"},
         {"pass.scene.time", "ms", {1.0, 1.5}, "isolated"},
         {"pass.strands.time", "ms", {2.0, 2.5}, "isolated"},
+        {"pass.strands.cpu.time", "ms", {1.75, 2.25}, "wall_clock"},
+        {"pass.strands.instructions", "1", {1e6, 1e6}, "wall_clock"},
         {"frame.isolated.time", "ms", {3.5, 3.75}, "isolated"}};
     return report;
 }

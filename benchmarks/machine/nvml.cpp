@@ -1,0 +1,139 @@
+#include "benchmarks/machine/nvml.h"
+
+#include <dlfcn.h>
+
+namespace benchmarks {
+
+namespace {
+
+// NVML's C interface as far as it is used here, after the NVML API Reference: results and enums
+// are ints, a device is an opaque pointer.
+constexpr int kSuccess = 0;          // NVML_SUCCESS
+constexpr int kShaderClock = 1;      // NVML_CLOCK_SM
+constexpr int kMemoryClock = 2;      // NVML_CLOCK_MEM
+constexpr int kChipTemperature = 0;  // NVML_TEMPERATURE_GPU
+using Device = void*;
+using Init = int (*)();
+using Shutdown = int (*)();
+using HandleByAddress = int (*)(const char* address, Device* device);
+using Clock = int (*)(Device device, int clock, unsigned int* megahertz);
+using Temperature = int (*)(Device device, int sensor, unsigned int* degrees);
+using Reasons = int (*)(Device device, unsigned long long* bits);
+
+struct Reason {
+    unsigned long long bit;
+    const char* name;
+};
+
+constexpr unsigned long long kIdle = 0x1;
+constexpr unsigned long long kHeld = 0x2;  // the applications clocks setting
+constexpr Reason kReasons[] = {
+    {0x4, "power cap"},
+    {0x8, "hardware slowdown"},
+    {0x10, "sync boost"},
+    {0x20, "software thermal slowdown"},
+    {0x40, "hardware thermal slowdown"},
+    {0x80, "power brake"},
+    {0x100, "display clock setting"},
+};
+
+class Library {
+public:
+    explicit Library(const std::string& name) : handle_(dlopen(name.c_str(), RTLD_NOW)) {}
+    Library(const Library&) = delete;
+    Library& operator=(const Library&) = delete;
+    ~Library() {
+        if (handle_) dlclose(handle_);
+    }
+
+    // Null where the library lacks it.
+    template <class Function>
+    Function find(const char* name) const {
+        return handle_ ? reinterpret_cast<Function>(dlsym(handle_, name)) : nullptr;
+    }
+    template <class Function>
+    Function find(const char* name, const char* older_name) const {
+        const auto found = find<Function>(name);
+        return found ? found : find<Function>(older_name);
+    }
+
+private:
+    void* handle_;
+};
+
+class Nvml : public ClockSource {
+public:
+    Nvml(const PciAddress& address, const std::string& library) : library_(library) {
+        const auto init = library_.find<Init>("nvmlInit_v2");
+        shutdown_ = library_.find<Shutdown>("nvmlShutdown");
+        if (!init || !shutdown_ || init() != kSuccess) return;
+        started_ = true;
+        const auto handle = library_.find<HandleByAddress>("nvmlDeviceGetHandleByPciBusId_v2");
+        if (!handle || handle(addressText(address).c_str(), &device_) != kSuccess) return;
+        found_ = true;
+        clock_ = library_.find<Clock>("nvmlDeviceGetClockInfo");
+        applications_clock_ = library_.find<Clock>("nvmlDeviceGetApplicationsClock");
+        greatest_clock_ = library_.find<Clock>("nvmlDeviceGetMaxClockInfo");
+        temperature_ = library_.find<Temperature>("nvmlDeviceGetTemperature");
+        reasons_ = library_.find<Reasons>(
+            "nvmlDeviceGetCurrentClocksEventReasons", "nvmlDeviceGetCurrentClocksThrottleReasons");
+    }
+    Nvml(const Nvml&) = delete;
+    Nvml& operator=(const Nvml&) = delete;
+    ~Nvml() override {
+        if (started_) shutdown_();
+    }
+
+    bool found() const { return found_; }
+
+    ClockReading read() override {
+        ClockReading reading;
+        unsigned long long bits = 0;
+        if (reasons_ && reasons_(device_, &bits) == kSuccess) {
+            reading.idle = (bits & kIdle) != 0;
+            reading.held = (bits & kHeld) != 0;
+            for (const Reason& reason : kReasons)
+                if (bits & reason.bit) reading.throttle_reasons.emplace_back(reason.name);
+        }
+        reading.clock_mhz = value(clock_, kShaderClock);
+        reading.memory_clock_mhz = value(clock_, kMemoryClock);
+        reading.temperature = value(temperature_, kChipTemperature);
+        if (!reading.held) {
+            reading.base_clock_mhz = value(applications_clock_, kShaderClock);
+            if (!reading.base_clock_mhz)
+                reading.base_clock_mhz = value(greatest_clock_, kShaderClock);
+        }
+        return reading;
+    }
+
+private:
+    // What one of NVML's functions says; absent where there is none, it fails, or it says 0.
+    template <class Function>
+    std::optional<double> value(Function function, int what) const {
+        unsigned int number = 0;
+        if (!function || function(device_, what, &number) != kSuccess || number == 0)
+            return std::nullopt;
+        return number;
+    }
+
+    Library library_;
+    Shutdown shutdown_ = nullptr;
+    bool started_ = false;
+    bool found_ = false;
+    Device device_ = nullptr;
+    Clock clock_ = nullptr;
+    Clock applications_clock_ = nullptr;
+    Clock greatest_clock_ = nullptr;
+    Temperature temperature_ = nullptr;
+    Reasons reasons_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<ClockSource> openNvml(const PciAddress& address, const std::string& library) {
+    auto nvml = std::make_unique<Nvml>(address, library);
+    if (!nvml->found()) return nullptr;
+    return nvml;
+}
+
+}  // namespace benchmarks

@@ -1,0 +1,65 @@
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "benchmarks/measure/metrics.h"
+#include "benchmarks/trust.h"
+
+namespace benchmarks {
+
+namespace {
+
+using engine::FrameRecord;
+using engine::PassTime;
+using engine::ProcessUse;
+
+// "frame" -> frame.cpu.time and frame.instructions. A count that some of the frames lack is left
+// out: samples of different frames would be none of one quantity.
+void addUse(
+    const std::string& name, const std::vector<ProcessUse>& uses, const char* mode,
+    CaseResult& result) {
+    std::vector<double> times;
+    std::vector<double> instructions;
+    for (const ProcessUse& use : uses) {
+        times.push_back(use.cpu);
+        if (use.instructions) instructions.push_back(*use.instructions);
+    }
+    const bool counted = instructions.size() == uses.size();
+    result.metrics.push_back({name + ".cpu.time", "ms", std::move(times), mode});
+    if (counted)
+        result.metrics.push_back({name + ".instructions", "1", std::move(instructions), mode});
+}
+
+}  // namespace
+
+void addIsolatedMetrics(std::span<const FrameRecord> frames, CaseResult& result) {
+    std::vector<double> walls;
+    for (const FrameRecord& frame : frames) walls.push_back(frame.wall);
+    result.metrics.push_back({"frame.isolated.time", "ms", std::move(walls), "isolated"});
+}
+
+void addPassTimes(
+    std::span<const FrameRecord> frames, const std::string& mode, CaseResult& result) {
+    for (const std::string& pass : passNames(frames))
+        result.metrics.push_back({"pass." + pass + ".time", "ms", passTimes(frames, pass), mode});
+}
+
+void addFrameUse(std::span<const FrameRecord> isolated, CaseResult& result) {
+    std::vector<ProcessUse> uses;
+    for (const FrameRecord& frame : isolated) uses.push_back(frame.use);
+    addUse("frame", uses, "isolated", result);
+}
+
+void addPassUse(std::span<const FrameRecord> wall_clock, CaseResult& result) {
+    for (const std::string& name : passNames(wall_clock)) {
+        std::vector<ProcessUse> uses;
+        for (const FrameRecord& frame : wall_clock) {
+            const auto found = std::ranges::find(frame.passes, name, &PassTime::name);
+            if (found != frame.passes.end()) uses.push_back(found->use);
+        }
+        addUse("pass." + name, uses, "wall_clock", result);
+    }
+}
+
+}  // namespace benchmarks

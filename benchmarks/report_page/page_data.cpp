@@ -1,0 +1,80 @@
+#include "benchmarks/report_page/page_data.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/compare/report_comparison.h"
+#include "benchmarks/hash.h"
+#include "benchmarks/report_file.h"
+#include "benchmarks/report_page/picture_uri.h"
+#include "engine/error.h"
+
+namespace benchmarks {
+
+namespace {
+
+// "A" to "Z", then "27" and so on.
+std::string labelOf(std::size_t index) {
+    return index < 26 ? std::string(1, static_cast<char>('A' + index)) : std::to_string(index + 1);
+}
+
+// The pictures are beside the report.
+void addPictures(Json& report, const std::filesystem::path& file, Json& pictures) {
+    for (Json& each : report.at("cases")) {
+        const auto picture = each.find("picture");
+        if (picture == each.end()) continue;
+        const auto path = picture->get<std::string>();
+        if (const auto uri = pictureUri(file.parent_path() / path)) {
+            const std::string id = hashText(*uri);
+            pictures[id] = *uri;
+            each["picture_id"] = id;
+        } else {
+            each["picture_missing"] = path;
+        }
+    }
+}
+
+// The scene's name, or the scenes' if there are several.
+std::string titleOf(const Json& reports) {
+    std::vector<std::string> names;
+    for (const Json& report : reports) {
+        const std::string name =
+            std::filesystem::path(report.at("scene").at("path").get<std::string>()).stem().string();
+        if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+    std::string title;
+    for (const std::string& name : names) title += (title.empty() ? "" : ", ") + name;
+    return title;
+}
+
+}  // namespace
+
+Json pageData(std::span<const std::filesystem::path> files) {
+    Json reports = Json::array();
+    Json pictures = Json::object();
+    for (const std::filesystem::path& file : files) try {
+            Json report = readReport(file);
+            report["label"] = labelOf(reports.size());
+            report["file"] = file.filename().string();
+            addPictures(report, file, pictures);
+            reports.push_back(std::move(report));
+        } catch (const Json::exception& error) {
+            throw engine::Error(file.string(), error.what());
+        }
+    Json comparisons = Json::array();
+    for (std::size_t i = 1; i < reports.size(); ++i)
+        comparisons.push_back(comparisonJson(
+            compareReports(reports[0], reports[i], VerdictOptions{}), reports[0].at("file"),
+            reports[i].at("file")));
+    const std::string title = titleOf(reports);
+    return {
+        {"title", title},
+        {"reports", std::move(reports)},
+        {"pictures", std::move(pictures)},
+        {"comparisons", std::move(comparisons)}};
+}
+
+}  // namespace benchmarks

@@ -1,0 +1,162 @@
+#include "benchmarks/run/merge_reports.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/report.h"
+#include "benchmarks/report_file.h"
+#include "benchmarks/run/identity.h"
+#include "engine/error.h"
+
+namespace benchmarks {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostNamed = 8;
+
+struct Part {
+    fs::path path;
+    Json report;
+};
+
+// Throws what is wrong, or with `force` notes it.
+class Judge {
+public:
+    Judge(bool force, std::vector<std::string>& notes) : force_(force), notes_(notes) {}
+
+    void object(const fs::path& path, const std::string& reason) {
+        if (!force_) throw engine::Error(path.string(), reason);
+        notes_.push_back(path.string() + ": " + reason);
+    }
+
+private:
+    bool force_;
+    std::vector<std::string>& notes_;
+};
+
+// Those of older reports, which do not say it, come last.
+std::size_t indexOf(const Json& result) {
+    return result.value("index", std::numeric_limits<std::size_t>::max());
+}
+
+// The file as seen from the new report's folder.
+void moveReference(Json& result, const fs::path& from, const fs::path& to) {
+    if (!result.contains("picture")) return;
+    const fs::path file = fs::absolute(from).parent_path() / result["picture"].get<std::string>();
+    const fs::path folder = fs::absolute(to).parent_path();
+    const fs::path relative = file.lexically_normal().lexically_relative(folder.lexically_normal());
+    result["picture"] = (relative.empty() ? file : relative).generic_string();
+}
+
+// Takes the cases out of the parts.
+std::vector<Json> joinedCases(std::vector<Part>& parts, const fs::path& out, Judge& judge) {
+    std::vector<Json> cases;
+    std::map<std::string, fs::path> names;
+    std::map<std::size_t, fs::path> indices;
+    for (Part& part : parts)
+        for (Json& result : part.report.at("cases")) {
+            const auto name = result.at("name").get<std::string>();
+            const std::size_t index = indexOf(result);
+            if (const auto earlier = names.find(name); earlier != names.end()) {
+                judge.object(part.path, name + " is in " + earlier->second.string() + " too");
+                continue;
+            }
+            if (const auto earlier = indices.find(index);
+                result.contains("index") && earlier != indices.end()) {
+                judge.object(
+                    part.path, name + " has the number " + std::to_string(index) +
+                                   " of another case of " + earlier->second.string());
+                continue;
+            }
+            names[name] = part.path;
+            indices[index] = part.path;
+            moveReference(result, part.path, out);
+            cases.push_back(std::move(result));
+        }
+    std::ranges::stable_sort(cases, {}, indexOf);
+    return cases;
+}
+
+// Whether the reports are all of a sweep's shards and each is complete: what is not there was left
+// out by --filter.
+bool areAllShards(const std::vector<Part>& parts) {
+    std::set<std::size_t> indices;
+    std::set<std::size_t> counts;
+    for (const Part& part : parts) {
+        const Json shard = part.report.value("shard", Json::object());
+        if (shard.empty() || part.report.value("interrupted", false)) return false;
+        indices.insert(shard.at("index").get<std::size_t>());
+        counts.insert(shard.at("count").get<std::size_t>());
+    }
+    return counts.size() == 1 && indices.size() == *counts.begin();
+}
+
+std::vector<std::size_t> missingIndices(const std::vector<Json>& cases, std::size_t count) {
+    std::set<std::size_t> found;
+    for (const Json& result : cases) found.insert(indexOf(result));
+    std::vector<std::size_t> missing;
+    for (std::size_t i = 0; i < count; ++i)
+        if (!found.contains(i)) missing.push_back(i);
+    return missing;
+}
+
+// "5 of 12 cases are missing: number 1, 4, 7 ... of the sweep, counted from 0"
+std::string missingText(const std::vector<std::size_t>& missing, std::size_t count) {
+    std::string text = std::to_string(missing.size()) + " of " + std::to_string(count) +
+                       (missing.size() == 1 ? " cases is" : " cases are") + " missing: number ";
+    for (std::size_t i = 0; i < std::min(missing.size(), kMostNamed); ++i)
+        text += (i == 0 ? "" : ", ") + std::to_string(missing[i]);
+    return text + (missing.size() > kMostNamed ? " ..." : "") + " of the sweep, counted from 0";
+}
+
+Json merged(std::vector<Part> parts, const MergeRules& rules, std::vector<std::string>& notes) {
+    Judge judge(rules.force, notes);
+    const Part& first = parts.front();
+    for (const Part& part : parts)
+        if (const auto difference = identityDifference(part.report, first.report))
+            judge.object(part.path, *difference + ", as in " + first.path.string());
+
+    bool interrupted = std::ranges::any_of(
+        parts, [](const Part& part) { return part.report.value("interrupted", false); });
+    const bool all_shards = areAllShards(parts);
+    std::vector<Json> cases = joinedCases(parts, rules.out, judge);
+    Json header = std::move(parts.front().report);
+    if (header.contains("case_count")) {
+        const auto count = header["case_count"].get<std::size_t>();
+        const auto missing = all_shards ? std::vector<std::size_t>() : missingIndices(cases, count);
+        if (!missing.empty()) notes.push_back(missingText(missing, count));
+        interrupted = !missing.empty();
+    }
+    header.erase("shard");
+    // Where each part had its own there is none of the whole.
+    const Json seed = header.value("order_seed", Json());
+    if (std::ranges::any_of(parts, [&](const Part& part) {
+            return &part != &parts.front() && part.report.value("order_seed", Json()) != seed;
+        }))
+        header.erase("order_seed");
+    return assembledReport(std::move(header), std::move(cases), interrupted);
+}
+
+}  // namespace
+
+Json mergedReport(
+    const std::vector<fs::path>& reports, const MergeRules& rules,
+    std::vector<std::string>& notes) {
+    std::vector<Part> parts;
+    for (const fs::path& path : reports) parts.push_back({path, readReport(path)});
+    try {
+        return merged(std::move(parts), rules, notes);
+    } catch (const Json::exception& error) {
+        throw engine::Error("merge", std::string("a report is damaged: ") + error.what());
+    }
+}
+
+}  // namespace benchmarks

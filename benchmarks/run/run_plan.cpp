@@ -1,0 +1,82 @@
+#include "benchmarks/run/run_plan.h"
+
+#include <charconv>
+#include <numeric>
+#include <random>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/hash.h"
+#include "benchmarks/scene.h"
+#include "benchmarks/suite.h"
+#include "engine/error.h"
+
+namespace benchmarks {
+
+namespace {
+
+SceneRecord recordOf(const std::filesystem::path& path, std::string document) {
+    SceneRecord record{.path = path.string(), .hash = hashText(document), .document = {}};
+    record.document = std::move(document);
+    return record;
+}
+
+bool readNumber(std::string_view text, std::uint32_t& number) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc() && end == text.data() + text.size();
+}
+
+}  // namespace
+
+Shard parseShard(const std::string& text) {
+    Shard shard;
+    const std::size_t slash = text.find('/');
+    if (slash == std::string::npos ||
+        !readNumber(std::string_view(text).substr(0, slash), shard.index) ||
+        !readNumber(std::string_view(text).substr(slash + 1), shard.count))
+        throw engine::Error("--shard", "'" + text + "' is not as 2/8: the second of eight parts");
+    if (shard.index < 1 || shard.index > shard.count)
+        throw engine::Error(
+            "--shard", "'" + text + "': the part is between 1 and the number of parts");
+    return shard;
+}
+
+RunPlan
+planRun(const SceneOptions& options, const std::string& filter, const std::string& shard_text) {
+    const Shard shard = shard_text.empty() ? Shard{} : parseShard(shard_text);
+    std::vector<Scene> scenes = loadScenes(options.scene);
+    RunPlan plan{
+        .name = options.scene.stem().string(), .scene = {}, .seed = scenes.front().settings.seed};
+    Json documents = Json::object();
+    std::string all_documents;
+    std::vector<PlannedCase> cases;
+    for (Scene& scene : scenes) {
+        for (CaseSpec& spec : selectCases(scene, options)) {
+            all_documents += spec.name + '\n' + spec.document + '\n';
+            const std::size_t index = cases.size();
+            cases.push_back(
+                {.spec = std::move(spec), .directory = scene.directory, .index = index});
+        }
+        documents[scene.name] = Json::parse(scene.resolved);
+    }
+    plan.scene = isSuite(options.scene) ? recordOf(options.scene, Json{{"suite", documents}}.dump())
+                                        : recordOf(options.scene, scenes.front().resolved);
+    plan.case_count = cases.size();
+    plan.cases_hash = hashText(all_documents);
+    const auto matches = nameMatcher(filter);
+    for (PlannedCase& each : cases)
+        if (each.index % shard.count == shard.index - 1 && matches(each.spec.name))
+            plan.cases.push_back(std::move(each));
+    return plan;
+}
+
+std::vector<std::size_t> shuffledOrder(std::size_t count, std::uint32_t seed) {
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::mt19937 random(seed);  // whose numbers the standard fixes, unlike those of distributions
+    for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random() % i]);
+    return order;
+}
+
+}  // namespace benchmarks

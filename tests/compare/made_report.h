@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/json_fwd.h"
+
+namespace benchmarks {
+
+// A report with what comparisons read of one, made up.
+inline Json madeReport(const std::string& device_type = "discrete") {
+    Json report = {{"schema", "hairbench-report/1.1.0"}};
+    report["environment"] = {
+        {"device", {{"name", "Made up"}, {"type", device_type}}},
+        {"host", {{"processor", "Abacus"}}},
+        {"build", {{"version", "0.1.0"}, {"commit", "1a2b3c4d5e6f"}}},
+        {"command", {"hairbench", "run"}},
+        {"seed", 1}};
+    report["scene"] = {
+        {"path", "scenes/made.json"}, {"hash", "0123456789abcdef"}, {"document", Json::object()}};
+    report["cases"] = Json::array();
+    return report;
+}
+
+struct MadeMetric {
+    std::string name;
+    std::vector<double> samples;  // in rising or falling order: the median is the middle one
+    std::string unit = "ms";
+    std::string hint = "lower";
+    std::string mode = "isolated";
+};
+
+inline Json madeMetric(const MadeMetric& metric) {
+    return {{"unit", metric.unit}, {"hint", metric.hint},
+            {"mode", metric.mode}, {"median", metric.samples[metric.samples.size() / 2]},
+            {"mad", 0.0},          {"samples", metric.samples}};
+}
+
+inline Json madeCase(
+    const std::string& name, const std::vector<MadeMetric>& metrics,
+    const std::string& image_hash = "00000000000000aa",
+    const std::string& state_hash = "00000000000000bb") {
+    Json result = {{"name", name}, {"axes", Json::object()}, {"status", "ok"}};
+    result["metrics"] = Json::object();
+    for (const MadeMetric& each : metrics) result["metrics"][each.name] = madeMetric(each);
+    result["image_hash"] = image_hash;
+    result["state_hash"] = state_hash;
+    return result;
+}
+
+inline Json failedCase(const std::string& name, const std::string& reason) {
+    return {{"name", name}, {"axes", Json::object()}, {"status", "failed"}, {"reason", reason}};
+}
+
+}  // namespace benchmarks

@@ -1,0 +1,151 @@
+#include "benchmarks/compare/report_comparison.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/compare/made_report.h"
+#include "tests/error_text.h"
+
+namespace benchmarks {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// 40 samples about `middle`, 1 % around it, in an order without a trend; made so that the median is
+// the sample in the middle.
+std::vector<double> about(double middle) {
+    std::vector<double> samples;
+    for (int i = 0; i < 41; ++i) samples.push_back(middle * (1.0 + 0.0005 * ((17 * i) % 41 - 20)));
+    std::swap(samples[20], *std::ranges::find(samples, middle));
+    return samples;
+}
+
+Json reportOf(const std::vector<Json>& cases, const std::string& device = "discrete") {
+    Json report = madeReport(device);
+    for (const Json& each : cases) report["cases"].push_back(each);
+    return report;
+}
+
+Json frameCase(const std::string& name, double time) {
+    return madeCase(name, {{"frame.time", about(time)}});
+}
+
+Verdict verdictOfOne(double a, double b) {
+    const ReportComparison found =
+        compareReports(reportOf({frameCase("x", a)}), reportOf({frameCase("x", b)}), {});
+    EXPECT_EQ(found.changes.size(), 1u);
+    return found.changes.front().comparison.verdict;
+}
+
+TEST(ReportComparison, HasFourVerdicts) {
+    EXPECT_EQ(verdictOfOne(10.0, 11.0), Verdict::regressed);
+    EXPECT_EQ(verdictOfOne(11.0, 10.0), Verdict::improved);
+    EXPECT_EQ(verdictOfOne(10.0, 10.0), Verdict::same);
+    EXPECT_EQ(verdictOfOne(10.0, 10.2), Verdict::inconclusive);
+}
+
+TEST(ReportComparison, PairsCasesByName) {
+    const ReportComparison found = compareReports(
+        reportOf({frameCase("x", 10.0), frameCase("y", 20.0), frameCase("gone", 1.0)}),
+        reportOf({frameCase("new", 1.0), frameCase("y", 20.0), frameCase("x", 10.0)}), {});
+    EXPECT_EQ(found.common_cases, 2u);
+    ASSERT_EQ(found.changes.size(), 2u);
+    EXPECT_EQ(found.changes[1].case_name, "y");
+    EXPECT_EQ(found.changes[1].comparison.verdict, Verdict::same);
+    EXPECT_THAT(found.unmatched, ElementsAre("only in A: gone", "only in B: new"));
+}
+
+TEST(ReportComparison, ComparesNoTimesOfDifferentWork) {
+    Json other = frameCase("x", 20.0);
+    other["image_hash"] = "00000000000000ff";
+    const ReportComparison found = compareReports(
+        reportOf({frameCase("x", 10.0), frameCase("y", 10.0)}),
+        reportOf({other, frameCase("y", 10.0)}), {});
+    ASSERT_EQ(found.mismatches.size(), 1u);
+    EXPECT_EQ(
+        mismatchText(found.mismatches[0]),
+        "x: the pictures differ: 00000000000000aa and 00000000000000ff");
+    ASSERT_EQ(found.changes.size(), 1u);
+    EXPECT_EQ(found.changes[0].case_name, "y");
+    EXPECT_EQ(overallVerdict(found), Verdict::mismatch);
+}
+
+TEST(ReportComparison, TakesAHashThatIsNotKnownForNone) {
+    Json older = frameCase("x", 10.0);
+    older.erase("state_hash");
+    EXPECT_THAT(
+        compareReports(reportOf({older}), reportOf({frameCase("x", 10.0)}), {}).mismatches,
+        IsEmpty());
+}
+
+TEST(ReportComparison, TakesACaseThatOnlyOnePlayedForAMismatch) {
+    const ReportComparison found = compareReports(
+        reportOf({frameCase("x", 10.0), failedCase("y", "no")}),
+        reportOf({failedCase("x", "no such groom"), failedCase("y", "no")}), {});
+    ASSERT_EQ(found.mismatches.size(), 1u);
+    EXPECT_EQ(found.mismatches[0].b, "failed: no such groom");
+}
+
+TEST(ReportComparison, WarnsOfOtherSurroundings) {
+    Json b = reportOf({frameCase("x", 10.0)}, "cpu");
+    b["environment"]["host"]["processor"] = "Slide rule";
+    b["scene"]["hash"] = "fedcba9876543210";
+    const ReportComparison found = compareReports(reportOf({frameCase("x", 10.0)}), b, {});
+    EXPECT_FALSE(found.same_device);
+    EXPECT_THAT(
+        found.warnings, ElementsAre(
+                            "kind of device: discrete and cpu", "processor: Abacus and Slide rule",
+                            "scene: 0123456789abcdef and fedcba9876543210"));
+}
+
+TEST(ReportComparison, ComparesNoTwoWaysOfTiming) {
+    const Json a = reportOf({madeCase("x", {{"pass.wind.time", about(1.0)}})});
+    const Json b =
+        reportOf({madeCase("x", {{"pass.wind.time", about(2.0), "ms", "lower", "wall_clock"}})});
+    const ReportComparison found = compareReports(a, b, {});
+    EXPECT_THAT(found.changes, IsEmpty());
+    EXPECT_THAT(found.warnings, Contains(HasSubstr("isolated and wall_clock")));
+}
+
+TEST(ReportComparison, JudgesWhatIsAskedFor) {
+    const auto report = [](double time, double rate, double bytes) {
+        return reportOf({madeCase(
+            "x", {{"frame.time", about(time)},
+                  {"fps", about(rate), "1/s", "higher"},
+                  {"memory.device", {bytes}, "B"}})});
+    };
+    const ReportComparison found = compareReports(
+        report(10.0, 100.0, 1000.0), report(20.0, 50.0, 1030.0), {.metrics = "fps|memory"});
+    ASSERT_EQ(found.changes.size(), 2u);
+    EXPECT_EQ(found.changes[0].metric, "fps");
+    EXPECT_EQ(found.changes[0].comparison.verdict, Verdict::regressed);
+    EXPECT_NEAR(found.changes[0].comparison.change, 1.0, 1e-9);  // a frame takes twice as long
+    // Bytes are counted: one sample is enough to know that there are 3 % more.
+    EXPECT_EQ(found.changes[1].comparison.verdict, Verdict::regressed);
+    EXPECT_EQ(
+        errorText([&] {
+            compareReports(report(1, 1, 1), report(1, 1, 1), {.metrics = "("});
+        }).substr(0, 10),
+        "--metrics:");
+}
+
+TEST(ReportComparison, LeavesOutWhatIsTooShort) {
+    const auto report = [](double a, double b) {
+        return reportOf({madeCase("x", {{"pass.a.time", about(a)}, {"pass.b.time", about(b)}})});
+    };
+    const ReportComparison found = compareReports(report(0.02, 0.02), report(0.04, 0.2), {});
+    ASSERT_EQ(found.too_short.size(), 1u);
+    EXPECT_EQ(found.too_short[0].metric, "pass.a.time");
+    EXPECT_EQ(found.changes[0].comparison.verdict, Verdict::regressed);  // long in B
+}
+
+TEST(ReportComparison, NamesWhatAReportLacks) {
+    EXPECT_THAT(
+        errorText([] { compareReports(Json::object(), Json::object(), {}); }),
+        HasSubstr("the reports can't be compared"));
+}
+
+}  // namespace
+}  // namespace benchmarks

@@ -1,0 +1,77 @@
+#include "benchmarks/doctor/doctor_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/case.h"
+#include "benchmarks/scene.h"
+#include "benchmarks/sweep.h"
+#include "benchmarks/trust.h"
+#include "benchmarks/write_settings.h"
+#include "tests/gpu_fixture.h"
+#include "tests/temporary_folder.h"
+
+namespace benchmarks {
+namespace {
+
+using testing::Each;
+using testing::ElementsAre;
+using testing::Gt;
+
+TEST(DoctorStrands, HangWithTheirLengthFromADisc) {
+    const hair::StrandSet strands = doctorStrands();
+    ASSERT_GT(strands.strandCount(), 0u);
+    for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
+        const auto points = strands.strand(i);
+        ASSERT_EQ(points.size(), 8u);
+        EXPECT_LE(std::hypot(points[0].x, points[0].z), 0.08f);
+        double length = 0.0;
+        for (std::size_t j = 1; j < points.size(); ++j) {
+            EXPECT_LT(points[j].y, points[j - 1].y);
+            length += std::hypot(
+                points[j].x - points[j - 1].x, points[j].y - points[j - 1].y,
+                points[j].z - points[j - 1].z);
+        }
+        EXPECT_NEAR(length, 0.2, 1e-6);  // seven sums of float coordinates below 0.2
+    }
+}
+
+TEST(DoctorScene, IsASceneFileLikeAnyOther) {
+    const TemporaryFolder folder;
+    const std::filesystem::path path = writeDoctorScene(folder.path());
+    const Scene scene = loadScene(path);
+    EXPECT_EQ(writeSettings(scene.settings), writeSettings(doctorSettings()));
+    EXPECT_EQ(expand(scene).size(), 1u);
+}
+
+using DoctorSceneTest = GpuTest;
+
+TEST_F(DoctorSceneTest, ShowsMovingHairInEveryPassOfTheFrame) {
+    const TemporaryFolder folder;
+    writeDoctorScene(folder.path());
+    Case test_case(device(), doctorSettings(), folder.path());
+    engine::FrameLoop loop(device(), engine::Timing::isolated);
+    const auto draw = [&] { loop.frame([&](engine::Passes& passes) { test_case.frame(passes); }); };
+    draw();
+    const std::vector<engine::FrameRecord> frames = loop.finish();
+    EXPECT_THAT(passNames(frames), ElementsAre("wind", "simulate", "scene", "strands", "resolve"));
+    const std::string state = test_case.stateHash();
+
+    // Hair is whatever is not like the corner, which is background.
+    const std::vector<std::uint8_t> pixels = test_case.picture();
+    std::size_t hair = 0;
+    for (std::size_t i = 0; i < pixels.size(); i += 4)
+        hair += !std::equal(
+            pixels.begin(), pixels.begin() + 3, pixels.begin() + static_cast<std::ptrdiff_t>(i));
+    EXPECT_GT(hair, pixels.size() / 4 / 20);
+    EXPECT_LT(hair, pixels.size() / 4 / 2);
+    draw();
+    loop.finish();
+    EXPECT_NE(test_case.stateHash(), state);
+}
+
+}  // namespace
+}  // namespace benchmarks

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <algorithm>
+
+#include "benchmarks/doctor/checks.h"
+#include "benchmarks/doctor/facts.h"
+
+namespace benchmarks {
+
+// A machine without fault: a discrete device with held clocks, on mains, idle.
+inline Facts goodFacts() {
+    Facts facts;
+    facts.device = {.name = "Fast", .type = "discrete"};
+    facts.build = {
+        .build =
+            {.version = "0.1.0",
+             .commit = "abc",
+             .compiler = "GNU 12.2.0",
+             .type = "Release",
+             .flags = "-O3 -DNDEBUG",
+             .dirty = false},
+        .assertions = false};
+    facts.timestamps = {.valid_bits = 64, .period_ns = 1.0, .step_ns = 32.0, .gap_ns = 960.0};
+    facts.passes = {.sum_over_wall = 0.99, .faults = {}};
+    facts.repeat = {.same_picture = true, .same_state = true};
+    for (int pair = 0; pair < 12; ++pair) {
+        facts.repeat.frame.push_back(pair % 2 == 0 ? 0.002 : -0.002);
+        facts.repeat.cpu.push_back(pair % 2 == 0 ? 0.001 : -0.001);
+    }
+    facts.clocks = ClockFacts{
+        .lowest_mhz = 1500,
+        .highest_mhz = 1500,
+        .held = true,
+        .conditions = {.clock_mhz = 1500, .temperature = 50}};
+    facts.processor = {.governors = {"performance"}, .count = 16};
+    facts.load = {.steal = 0.0, .others = 0.01};
+    facts.on_battery = false;
+    return facts;
+}
+
+// The same with a software device.
+inline Facts softwareFacts() {
+    Facts facts = goodFacts();
+    facts.device = {.name = "Soft", .type = "cpu"};
+    facts.clocks.reset();
+    return facts;
+}
+
+// What the check of this name says.
+inline Finding findingOf(const Facts& facts, const std::string& check) {
+    const std::vector<Finding> findings = judgeAll(facts);
+    const auto found = std::ranges::find(findings, check, &Finding::check);
+    return found == findings.end() ? Finding{"no such check", Health::bad, "", ""} : *found;
+}
+
+}  // namespace benchmarks

@@ -1,0 +1,202 @@
+#include <gmock/gmock.h>
+
+#include "tests/gate/fake_builds.h"
+
+// The gate as a user runs it, on programs that stand for builds.
+namespace benchmarks {
+namespace {
+
+using testing::Each;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(GateCommand, PassesIdenticalBuilds) {
+    const FakeBuilds builds(FakeMachine(0.0));
+    const Outcome gate = builds.gate();
+    EXPECT_EQ(gate.status, 0) << gate.output;
+    EXPECT_THAT(gate.output, HasSubstr("0 regressed, 0 improved, 1 same, 0 inconclusive"));
+    EXPECT_EQ(builds.report()["verdict"], "same");
+    EXPECT_EQ(builds.report()["pairs"], 12);
+}
+
+TEST(GateCommand, FailsASlowerBuild) {
+    const FakeBuilds builds(FakeMachine(0.05));
+    const Outcome gate = builds.gate();
+    EXPECT_EQ(gate.status, 10) << gate.output;
+    EXPECT_THAT(gate.output, HasSubstr("verdict: regressed"));
+    const Json change = builds.report()["changes"][0];
+    // The estimate of 12 pairs whose differences have a standard deviation of
+    // sqrt(2) * 0.4 % and a bit of drift: four standard errors.
+    EXPECT_NEAR(change["change"].get<double>(), 0.05, 4.0 * 0.008 / std::sqrt(12.0));
+}
+
+TEST(GateCommand, PassesAFasterBuild) {
+    const FakeBuilds builds(FakeMachine(-0.05));
+    const Outcome gate = builds.gate();
+    EXPECT_EQ(gate.status, 0) << gate.output;
+    EXPECT_THAT(gate.output, HasSubstr("verdict: improved"));
+}
+
+TEST(GateCommand, TakesTurnsAfterOneBlockOfEach) {
+    const FakeBuilds builds(FakeMachine(0.0));
+    builds.gate();
+    EXPECT_EQ(
+        builds.order(), "AB"
+                        "ABBAABBAABBAABBAABBAABBA");
+}
+
+TEST(GateCommand, GivesBothBlocksOfAPairTheSameOrderOfCases) {
+    const FakeBuilds builds(FakeMachine(0.0));
+    builds.gate();
+    const std::vector<std::string> calls = builds.calls();
+    ASSERT_EQ(calls.size(), 26u);
+    const auto seed = [&](std::size_t call) {
+        const std::size_t at = calls[call].find("--order-seed ");
+        return calls[call].substr(at, calls[call].find(' ', at + 13) - at);
+    };
+    for (std::size_t i = 2; i < calls.size(); i += 2) EXPECT_EQ(seed(i), seed(i + 1));
+    EXPECT_NE(seed(2), seed(4));
+}
+
+TEST(GateCommand, HandsOptionsToTheRuns) {
+    const FakeBuilds builds(FakeMachine(0.0));
+    builds.gate(
+        "-a /render/msaa=1,4 --set /seed=3 --set-a /seed=4 --set-b /seed=5 --filter x --frames 7 "
+        "--device soft");
+    const std::vector<std::string> calls = builds.calls();
+    const std::string both = "--axis /render/msaa=1,4 --set /seed=3 ";
+    EXPECT_THAT(calls[0], HasSubstr("run made.json --out "));
+    EXPECT_THAT(calls[0], HasSubstr(" --no-pictures "));
+    EXPECT_THAT(
+        calls[0],
+        HasSubstr(both + "--set /seed=4 --filter x --device soft --frames 7 --max-time 0.5"));
+    EXPECT_THAT(calls[1], HasSubstr(both + "--set /seed=5 --filter x"));
+}
+
+TEST(GateCommand, GoesOnWhileItCannotTell) {
+    // Of a slowdown at the threshold nothing can be said.
+    const FakeBuilds builds(FakeMachine(0.02, 0.02));
+    const Outcome gate = builds.gate();
+    EXPECT_EQ(gate.status, 0) << gate.output;
+    EXPECT_THAT(gate.output, HasSubstr("48 pairs"));
+    EXPECT_THAT(gate.output, HasSubstr("verdict: inconclusive"));
+    EXPECT_EQ(builds.calls().size(), 2u + 96u);
+}
+
+TEST(GateCommand, FailsOnInconclusiveWhereAskedTo) {
+    const FakeBuilds builds(FakeMachine(0.02, 0.02));
+    EXPECT_EQ(builds.gate("--fail-on inconclusive").status, 11);
+}
+
+TEST(GateCommand, DecidesFirstWhereAskedTo) {
+    const FakeBuilds builds(FakeMachine(0.05));
+    EXPECT_EQ(builds.gate("--pairs 24").status, 10);
+    EXPECT_EQ(builds.report()["pairs"], 24);
+    EXPECT_EQ(builds.report()["rule"]["decisions"].dump(), "[24,48]");
+}
+
+TEST(GateCommand, CalibratesWithAAlone) {
+    // Pairs of one build differ by sqrt(2) * 3 %: a slowdown of 5 % is no news there.
+    const FakeBuilds builds(FakeMachine(0.05, 0.03));
+    const Outcome gate = builds.gate("--calibrate 48");
+    EXPECT_EQ(gate.status, 0) << gate.output;
+    EXPECT_EQ(builds.order().substr(0, 2 + 96 + 4), "AB" + std::string(96, 'A') + "ABBA");
+    const Json report = builds.report();
+    EXPECT_EQ(report["times"][0]["calibration"].size(), 48u);
+    // Three standard deviations of a pair. The MAD of 48 normal values has a relative standard
+    // error of 1.17 / sqrt(48) = 17 % (Rousseeuw and Croux 1993: an efficiency of 37 %).
+    const double expected = 3.0 * std::sqrt(2.0) * 0.03;
+    EXPECT_NEAR(
+        report["changes"][0]["decisive_change"].get<double>(), expected, 3.0 * 0.17 * expected);
+}
+
+TEST(GateCommand, JudgesCpuTimeOnSoftwareDevices) {
+    const auto report = [](const char* device) {
+        return [device](char, int) {
+            Json made = madeReport(device);
+            made["cases"].push_back(madeCase(
+                "made", {{"frame.time", {10.0}},
+                         {"frame.first.time", {99.0}},
+                         {"frame.overlap", {1.0}, "ms", ""},
+                         {"cpu.record.time", {1.0}},
+                         {"fps", {100.0}, "1/s", "higher"},
+                         {"memory.device", {1000.0}, "B"},
+                         {"pass.strands.time", {8.0}},
+                         {"pass.wind.time", {0.04}},
+                         {"frame.cpu.time", {15.0}},
+                         {"pass.strands.cpu.time", {12.0}},
+                         {"pass.strands.instructions", {1e6}, "1"}}));
+            return made;
+        };
+    };
+    const auto judged = [](const FakeBuilds& builds) {
+        std::vector<std::string> names;
+        const Json made = builds.report();
+        for (const Json& each : made["changes"]) names.push_back(each["metric"]);
+        return names;
+    };
+    const FakeBuilds software(report("cpu"));
+    software.gate();
+    EXPECT_THAT(
+        judged(software),
+        testing::ElementsAre(
+            "frame.cpu.time", "pass.strands.cpu.time", "pass.strands.instructions"));
+    const FakeBuilds hardware(report("discrete"));
+    const Outcome gate = hardware.gate();
+    EXPECT_THAT(judged(hardware), testing::ElementsAre("frame.time", "pass.strands.time"));
+    EXPECT_THAT(gate.output, HasSubstr("shorter than 0.05 ms, not judged: pass.wind.time"));
+    const FakeBuilds chosen(report("cpu"));
+    chosen.gate("--metrics '^fps|strands.time|memory'");
+    EXPECT_THAT(judged(chosen), testing::ElementsAre("fps", "memory.device", "pass.strands.time"));
+}
+
+TEST(GateCommand, TakesLowerRatesForWorse) {
+    const FakeBuilds builds([](char side, int) {
+        Json made = madeReport();
+        made["cases"].push_back(
+            madeCase("made", {{"fps", {side == 'A' ? 100.0 : 80.0}, "1/s", "higher"}}));
+        return made;
+    });
+    const Outcome gate = builds.gate("--metrics fps");
+    EXPECT_EQ(gate.status, 10) << gate.output;
+    EXPECT_NEAR(builds.report()["changes"][0]["change"].get<double>(), 0.25, 1e-9);
+}
+
+TEST(GateCommand, TakesACommandLine) {
+    const FakeBuilds builds(FakeMachine(0.0));
+    const Outcome gate = hairbench(
+        "gate --a '" + builds.program('A') + "' --b 'MORE=1 nice -n 1 " + builds.program('B') +
+        "' --scene 'my made.json' -o " + builds.reportFile().string());
+    EXPECT_EQ(gate.status, 0) << gate.output;
+    EXPECT_THAT(builds.calls()[1], HasSubstr("B run my made.json --out /"));
+}
+
+TEST(GateCommand, TakesACommandWithPlacesAsItIs) {
+    const FakeBuilds builds(FakeMachine(0.0));
+    const std::string pattern = " x {scene} y {out}'";
+    const Outcome gate = hairbench(
+        "gate --a '" + builds.program('A') + pattern + " --b '" + builds.program('B') + pattern +
+        " --scene 'my made.json' -o " + builds.reportFile().string());
+    EXPECT_EQ(gate.status, 0) << gate.output;
+    EXPECT_THAT(builds.calls(), Each(Not(HasSubstr("--out"))));
+    EXPECT_THAT(builds.calls()[0], HasSubstr("A x my made.json y /"));
+}
+
+TEST(GateCommand, FindsAProgramInABuildFolder) {
+    const FakeBuilds builds(FakeMachine(0.0));
+    for (const char* const place : {"old/benchmarks", "new"}) {
+        const auto folder = builds.folder().file(place);
+        std::filesystem::create_directories(folder);
+        std::filesystem::copy_file(
+            builds.program(place == std::string("new") ? 'B' : 'A'), folder / "hairbench");
+    }
+    const std::string folder = builds.folder().path().string();
+    const Outcome gate = hairbench(
+        "gate --a " + folder + "/old --b " + folder + "/new --scene made.json -o " +
+        builds.reportFile().string());
+    EXPECT_EQ(gate.status, 0) << gate.output;
+    EXPECT_EQ(builds.order().substr(0, 6), "ABABBA");
+}
+
+}  // namespace
+}  // namespace benchmarks

@@ -1,0 +1,142 @@
+#include <gmock/gmock.h>
+
+#include "benchmarks/decide/verdict.h"
+#include "tests/benchmarks/schema_errors.h"
+#include "tests/gate/fake_builds.h"
+
+// What the gate writes down.
+namespace benchmarks {
+namespace {
+
+using testing::IsEmpty;
+
+std::vector<std::string> errorsOf(const FakeBuilds& builds) {
+    return schemaErrors(
+        textOf(HAIRBENCH_SOURCE_DIR "/results/gate.schema.json"), textOf(builds.reportFile()));
+}
+
+// Two cases of two metrics, with noise of a processes' own.
+Json twoCases(char side, int n) {
+    Json report = madeReport();
+    Noise noise(static_cast<std::uint64_t>(2 * n + (side == 'B')));
+    const double cost = side == 'B' ? 1.04 : 1.0;
+    for (const char* const name : {"near", "far"}) {
+        const double frame = 10.0 * std::exp(0.01 * noise.normal());
+        const double pass = 6.0 * cost * std::exp(0.01 * noise.normal());
+        report["cases"].push_back(
+            madeCase(name, {{"frame.time", {frame}}, {"pass.strands.time", {pass}}}));
+    }
+    return report;
+}
+
+TEST(GateReport, IsOfItsSchema) {
+    const FakeBuilds builds(twoCases);
+    builds.gate("--calibrate 12");
+    EXPECT_THAT(errorsOf(builds), IsEmpty());
+}
+
+TEST(GateReport, IsOfItsSchemaHoweverTheGateEnds) {
+    FakeBuilds failing(twoCases);
+    failing.writeProgram('B', "exit 1");
+    failing.gate();
+    EXPECT_EQ(failing.report()["end"], "failed");
+    EXPECT_THAT(errorsOf(failing), IsEmpty());
+
+    const FakeBuilds different([](char side, int) {
+        Json report = madeReport();
+        report["cases"].push_back(madeCase("x", {{"frame.time", {1.0}}}, std::string{side}));
+        return report;
+    });
+    EXPECT_EQ(different.gate().status, 12);
+    EXPECT_THAT(errorsOf(different), IsEmpty());
+
+    const FakeBuilds odd([](char, int n) {  // in one process the time is missing
+        Json report = madeReport();
+        report["cases"].push_back(
+            madeCase("x", {{n == 9 ? "fps" : "frame.time", {1.0}}, {"pass.x.time", {1.0}}}));
+        return report;
+    });
+    const Outcome gate = odd.gate();
+    EXPECT_EQ(gate.status, 0) << gate.output;
+    EXPECT_THAT(
+        gate.output,
+        testing::HasSubstr("missing, or timed in another way, in some process: frame.time"));
+    EXPECT_EQ(odd.report()["changes"][0]["verdict"], "inconclusive");
+    EXPECT_EQ(odd.report()["changes"][1]["verdict"], "same");
+    EXPECT_THAT(errorsOf(odd), IsEmpty());
+}
+
+TEST(GateReport, SchemaRefusesWhatIsNoReport) {
+    EXPECT_FALSE(schemaErrors(
+                     textOf(HAIRBENCH_SOURCE_DIR "/results/gate.schema.json"),
+                     R"({"schema": "hairbench-gate/1.0.0"})")
+                     .empty());
+}
+
+// Pairs from the blocks, differences from the medians, verdicts from the differences.
+TEST(GateReport, HoldsAllThatItsVerdictsFollowFrom) {
+    const FakeBuilds builds(twoCases);
+    builds.gate("--calibrate 12");
+    const Json report = builds.report();
+    const std::size_t count = report["times"].size();
+    ASSERT_EQ(count, 4u);
+    std::vector<std::vector<double>> differences(count);
+    std::vector<double> decisive_changes;
+    for (std::size_t i = 0; i < count; ++i) {
+        std::map<int, std::map<std::string, double>> pairs;
+        for (const Json& block : report["blocks"])
+            if (block["phase"] == "gate") pairs[block["pair"]][block["side"]] = block["medians"][i];
+        for (const auto& [pair, medians] : pairs)
+            differences[i].push_back(std::log(medians.at("B") / medians.at("A")));
+        const auto& written = report["times"][i]["differences"];
+        ASSERT_EQ(written.size(), differences[i].size());
+        for (std::size_t pair = 0; pair < written.size(); ++pair)
+            EXPECT_DOUBLE_EQ(written[pair].get<double>(), differences[i][pair]);
+        decisive_changes.push_back(decisiveChange(
+            report["rule"]["threshold"],
+            report["times"][i]["calibration"].get<std::vector<double>>()));
+    }
+    const std::vector<Comparison> again =
+        compare(differences, decisive_changes, report["rule"]["alpha"]);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Json& change = report["changes"][i];
+        EXPECT_EQ(change["verdict"], verdictName(again[i].verdict));
+        EXPECT_DOUBLE_EQ(change["change"].get<double>(), again[i].change);
+        EXPECT_DOUBLE_EQ(change["lower"].get<double>(), again[i].lower);
+        EXPECT_DOUBLE_EQ(change["p"].get<double>(), again[i].p);
+    }
+}
+
+// A made report's pairs of A with itself come in both orders too.
+TEST(GateReport, CancelsADriftInTheCalibration) {
+    const FakeBuilds builds([](char, int n) {
+        Json report = madeReport();
+        report["cases"].push_back(madeCase("x", {{"frame.time", {std::exp(0.01 * n)}}}));
+        return report;
+    });
+    builds.gate("--calibrate 12");
+    const auto calibration = builds.report()["times"][0]["calibration"].get<std::vector<double>>();
+    ASSERT_EQ(calibration.size(), 12u);
+    for (std::size_t i = 0; i < calibration.size(); ++i)
+        EXPECT_NEAR(calibration[i], i % 2 == 0 ? 0.01 : -0.01, 1e-12);
+}
+
+// The software itself, as plumbing: what it decides of times is the machine's affair.
+TEST(GateReport, IsOfItsSchemaForARealGate) {
+    const TemporaryFolder folder;
+    const auto out = folder.file("gate.json");
+    const Outcome gate = hairbench(
+        "gate --a '" HAIRBENCH_PROGRAM "' --b '" HAIRBENCH_PROGRAM
+        "' --scene '" HAIRBENCH_SCENES_DIR "/smoke.json' --filter msaa:1 --frames 2 --warmup 2 "
+        "--max-time 0 --threshold 1000% -o " +
+        out.string());
+    if (gate.status == 77) GTEST_SKIP() << "no Vulkan device";
+    EXPECT_EQ(gate.status, 0) << gate.output;
+    EXPECT_THAT(
+        schemaErrors(textOf(HAIRBENCH_SOURCE_DIR "/results/gate.schema.json"), textOf(out)),
+        IsEmpty());
+    EXPECT_THAT(Json::parse(textOf(out))["changes"], testing::Not(IsEmpty()));
+}
+
+}  // namespace
+}  // namespace benchmarks

@@ -1,0 +1,81 @@
+#include "benchmarks/machine/amdgpu.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/temporary_folder.h"
+
+namespace benchmarks {
+namespace {
+
+constexpr PciAddress kAddress{.domain = 0, .bus = 3, .device = 0, .function = 0};
+
+// The files as Linux's documentation of amdgpu shows them.
+class AmdgpuTest : public testing::Test {
+protected:
+    void write(const std::string& name, const std::string& text) {
+        folder_.write("0000:03:00.0/" + name, text);
+    }
+    std::unique_ptr<ClockSource> open() const { return openAmdgpu(kAddress, folder_.path()); }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(AmdgpuTest, IsAbsentWithoutFiles) { EXPECT_EQ(open(), nullptr); }
+
+TEST_F(AmdgpuTest, IsAbsentForADriverWithoutLevels) {
+    write("pp_dpm_sclk", "");
+    EXPECT_EQ(open(), nullptr);
+}
+
+TEST_F(AmdgpuTest, ReadsThePresentLevels) {
+    write("pp_dpm_sclk", "0: 500Mhz\n1: 1500Mhz *\n2: 2100Mhz\n");
+    write("pp_dpm_mclk", "0: 96Mhz\n1: 1000Mhz *\n");
+    const auto source = open();
+    ASSERT_NE(source, nullptr);
+    const ClockReading reading = source->read();
+    EXPECT_EQ(reading.clock_mhz, 1500.0);
+    EXPECT_EQ(reading.base_clock_mhz, 2100.0);
+    EXPECT_EQ(reading.memory_clock_mhz, 1000.0);
+    EXPECT_EQ(reading.temperature, std::nullopt);
+    EXPECT_FALSE(reading.held);
+}
+
+TEST_F(AmdgpuTest, PrefersTheMeasuredClock) {
+    write("pp_dpm_sclk", "0: 500Mhz\n1: 2100Mhz *\n");
+    write("hwmon/hwmon4/freq1_input", "1873000000\n");
+    write("hwmon/hwmon4/temp1_input", "53500\n");
+    const ClockReading reading = open()->read();
+    EXPECT_EQ(reading.clock_mhz, 1873.0);
+    EXPECT_EQ(reading.temperature, 53.5);
+}
+
+TEST_F(AmdgpuTest, ReadsAgainEveryTime) {
+    write("pp_dpm_sclk", "0: 500Mhz *\n1: 2100Mhz\n");
+    const auto source = open();
+    EXPECT_EQ(source->read().clock_mhz, 500.0);
+    write("pp_dpm_sclk", "0: 500Mhz\n1: 2100Mhz *\n");
+    EXPECT_EQ(source->read().clock_mhz, 2100.0);
+}
+
+TEST_F(AmdgpuTest, LeavesOutALevelThatIsNotMarkedOrNotANumber) {
+    write("pp_dpm_sclk", "0: 500Mhz\n1: 2100Mhz\n");
+    write("pp_dpm_mclk", "0: fast *\n");
+    write("hwmon/hwmon0/temp1_input", "hot\n");
+    const ClockReading reading = open()->read();
+    EXPECT_EQ(reading.clock_mhz, std::nullopt);
+    EXPECT_EQ(reading.memory_clock_mhz, std::nullopt);
+    EXPECT_EQ(reading.temperature, std::nullopt);
+}
+
+TEST_F(AmdgpuTest, HoldsNoClockAgainstAnAdministratorsChoice) {
+    write("pp_dpm_sclk", "0: 500Mhz *\n1: 2100Mhz\n");
+    write("power_dpm_force_performance_level", "low\n");
+    const ClockReading reading = open()->read();
+    EXPECT_TRUE(reading.held);
+    EXPECT_EQ(reading.base_clock_mhz, std::nullopt);
+    write("power_dpm_force_performance_level", "auto\n");
+    EXPECT_EQ(open()->read().base_clock_mhz, 2100.0);
+}
+
+}  // namespace
+}  // namespace benchmarks

@@ -1,0 +1,21 @@
+#ifndef FAKE_NVML_H
+#define FAKE_NVML_H
+
+/* What the made-up NVML says, and how it was used. */
+struct FakeNvml {
+    int init_result; /* 0 is success, here and below */
+    int handle_result;
+    int clock_result;
+    int applications_clock_result;
+    int reasons_result;
+    unsigned int clock; /* MHz */
+    unsigned int memory_clock;
+    unsigned int applications_clock;
+    unsigned int greatest_clock;
+    unsigned int temperature;
+    unsigned long long reasons;
+    char address[64]; /* that was asked for */
+    int users;        /* initialised less shut down */
+};
+
+#endif

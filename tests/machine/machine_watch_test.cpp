@@ -1,0 +1,78 @@
+#include "benchmarks/machine/machine_watch.h"
+
+#include <chrono>
+
+#include <gmock/gmock.h>
+
+#include "benchmarks/machine/pci_address.h"
+#include "tests/gpu_fixture.h"
+
+namespace benchmarks {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+TEST(MedianConditions, AreThoseOfTheRoundsThatKnow) {
+    const Conditions median = medianConditions(
+        {{.clock_mhz = 1500, .steal = 0.1, .throttle_reasons = {"power cap"}},
+         {.clock_mhz = 1700, .temperature = 60},
+         {.clock_mhz = 1000, .steal = 0.3, .throttle_reasons = {"power brake", "power cap"}}});
+    EXPECT_EQ(median.clock_mhz, 1500.0);
+    EXPECT_EQ(median.temperature, 60.0);
+    EXPECT_DOUBLE_EQ(median.steal.value(), 0.2);
+    EXPECT_EQ(median.base_clock_mhz, std::nullopt);
+    EXPECT_EQ(median.other_load, std::nullopt);
+    EXPECT_THAT(median.throttle_reasons, ElementsAre("power cap", "power brake"));
+}
+
+TEST(MedianConditions, OfNoRoundsAreUnknown) {
+    const Conditions median = medianConditions({});
+    EXPECT_EQ(median.clock_mhz, std::nullopt);
+    EXPECT_THAT(median.throttle_reasons, IsEmpty());
+}
+
+TEST(IsThrottled, BelowThreeQuartersOfTheBaseClock) {
+    EXPECT_TRUE(isThrottled({.clock_mhz = 1499, .base_clock_mhz = 2000}));
+    EXPECT_FALSE(isThrottled({.clock_mhz = 1500, .base_clock_mhz = 2000}));
+    EXPECT_FALSE(isThrottled({.clock_mhz = 100}));
+    EXPECT_FALSE(isThrottled({.base_clock_mhz = 2000}));
+}
+
+TEST(PciAddress, IsWrittenAsTheSystemDoes) {
+    EXPECT_EQ(
+        addressText({.domain = 0, .bus = 0xc1, .device = 0x1f, .function = 7}), "0000:c1:1f.7");
+    EXPECT_EQ(
+        addressText({.domain = 0x10000, .bus = 2, .device = 0, .function = 0}), "10000:02:00.0");
+}
+
+using MachineWatchTest = GpuTest;
+
+TEST_F(MachineWatchTest, TellsSharesOfTheProcessorsTime) {
+    MachineWatch watch(device());
+    watch.begin();
+    // Some ticks of /proc/stat.
+    const auto start = std::chrono::steady_clock::now();
+    while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(100)) {
+    }
+    const Conditions conditions = watch.end();
+    if (!conditions.other_load) GTEST_SKIP() << "/proc/stat tells nothing here";
+    EXPECT_GE(*conditions.other_load, 0.0);
+    EXPECT_LE(*conditions.other_load, 1.0);
+    EXPECT_GE(conditions.steal.value(), 0.0);
+    EXPECT_LE(*conditions.steal, 1.0);
+}
+
+TEST_F(MachineWatchTest, KnowsNoClockOfASoftwareDevice) {
+    if (device().info().type != "cpu") GTEST_SKIP() << "this device has clocks";
+    EXPECT_EQ(pciAddress(device().info()), std::nullopt);
+    MachineWatch watch(device());
+    watch.begin();
+    const Conditions conditions = watch.end();
+    EXPECT_EQ(conditions.clock_mhz, std::nullopt);
+    EXPECT_EQ(conditions.base_clock_mhz, std::nullopt);
+    EXPECT_FALSE(isThrottled(conditions));
+}
+
+}  // namespace
+}  // namespace benchmarks

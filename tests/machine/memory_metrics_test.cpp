@@ -1,0 +1,124 @@
+#include "benchmarks/memory_metrics.h"
+
+#include <numeric>
+
+#include <gmock/gmock.h>
+
+#include "benchmarks/case.h"
+#include "tests/golden/features.h"
+#include "tests/gpu_fixture.h"
+
+namespace benchmarks {
+namespace {
+
+using engine::MemoryLedger;
+
+double sumOf(const std::vector<Metric>& metrics, std::string_view beginning) {
+    double sum = 0.0;
+    for (const Metric& metric : metrics)
+        if (metric.name.starts_with(beginning)) sum += metric.samples.at(0);
+    return sum;
+}
+
+double valueOf(const std::vector<Metric>& metrics, std::string_view name) {
+    for (const Metric& metric : metrics)
+        if (metric.name == name) return metric.samples.at(0);
+    return 0.0;
+}
+
+double total(const MemoryLedger& ledger) {
+    return std::accumulate(
+        ledger.bytes().begin(), ledger.bytes().end(), 0.0,
+        [](double sum, const auto& line) { return sum + static_cast<double>(line.second); });
+}
+
+TEST(MemoryMetrics, AddUpByHeapAndByPurpose) {
+    MemoryLedger ledger;
+    const MemoryLedger::Line lines[] = {
+        {ledger, {0, true, "guide positions"}, 1000},
+        {ledger, {1, false, "picture parameters"}, 30},
+        {ledger, {0, true, "rod scratch"}, 200},
+        {ledger, {0, true, "a thing without a row"}, 4}};
+    const std::vector<Metric> metrics = memoryMetrics(ledger);
+    EXPECT_EQ(valueOf(metrics, "memory.heap.0"), 1204.0);
+    EXPECT_EQ(valueOf(metrics, "memory.heap.1"), 30.0);
+    EXPECT_EQ(valueOf(metrics, "memory.purpose.simulation"), 1200.0);
+    EXPECT_EQ(valueOf(metrics, "memory.purpose.shading"), 30.0);
+    EXPECT_EQ(valueOf(metrics, "memory.purpose.other"), 4.0);
+    EXPECT_EQ(metrics.size(), 5u);
+    for (const Metric& metric : metrics) EXPECT_EQ(metric.unit, "B") << metric.name;
+}
+
+TEST(MemoryMetrics, OfNothingAreNone) { EXPECT_TRUE(memoryMetrics(MemoryLedger()).empty()); }
+
+// The longer name's row counts where one name begins another.
+TEST(MemoryPurpose, TellsSimilarNamesApart) {
+    EXPECT_EQ(memoryPurpose("picture parameters"), "shading");
+    EXPECT_EQ(memoryPurpose("picture"), "transfers");
+    EXPECT_EQ(memoryPurpose("lights' pictures"), "shadows");
+    EXPECT_EQ(memoryPurpose("lights"), "shading");
+    EXPECT_EQ(memoryPurpose("depth of hair"), "shadows");
+    EXPECT_EQ(memoryPurpose("depth"), "targets");
+    EXPECT_EQ(memoryPurpose("mesh texture coordinates"), "meshes");
+    EXPECT_EQ(memoryPurpose("mesh texture"), "textures");
+}
+
+class MemoryOfCasesTest : public GpuTest {
+protected:
+    // Holds a case against the table and the allocator while it lives, drawn once.
+    static void expectAccounted(const char* name, const hair::Settings& settings) {
+        SCOPED_TRACE(name);
+        const std::uint64_t before = device().allocatedBytes();
+        {
+            Case test_case(device(), settings, HAIRBENCH_SCENES_DIR);
+            engine::FrameLoop loop(device(), engine::Timing::overlapped);
+            loop.frame([&](engine::Passes& passes) { test_case.frame(passes); });
+            loop.finish();
+            const MemoryLedger& ledger = device().memory();
+            EXPECT_EQ(total(ledger), static_cast<double>(device().allocatedBytes()));
+            const std::vector<Metric> metrics = memoryMetrics(ledger);
+            EXPECT_EQ(sumOf(metrics, "memory.heap."), total(ledger));
+            EXPECT_EQ(sumOf(metrics, "memory.purpose."), total(ledger));
+            for (const auto& [entry, bytes] : ledger.bytes())
+                EXPECT_NE(memoryPurpose(entry.name), "other") << entry.name;
+            // A 32-bit colour and depth of every rendered pixel at least.
+            const hair::RenderSettings& render = settings.render;
+            EXPECT_GE(
+                valueOf(metrics, "memory.purpose.targets"),
+                8.0 * render.width * render.height * render.ssaa * render.ssaa * render.msaa);
+        }
+        EXPECT_EQ(device().allocatedBytes(), before);
+    }
+};
+
+TEST_F(MemoryOfCasesTest, OfEveryPictureFeatureHasAPurpose) {
+    for (const hair::Feature& feature : hair::features()) {
+        hair::Settings settings = hair::plainSettings();
+        feature.show(settings);
+        expectAccounted(feature.name, settings);
+    }
+}
+
+TEST_F(MemoryOfCasesTest, OfEverySolverHasAPurpose) {
+    for (const hair::Solver solver :
+         {hair::Solver::none, hair::Solver::shape, hair::Solver::ftl, hair::Solver::rod}) {
+        hair::Settings settings = hair::plainSettings();
+        settings.simulation.solver = solver;
+        settings.simulation.settle_steps = 2;
+        settings.simulation.colliders = {{.radius = 0.05f}};
+        settings.simulation.distance_fields = {{.resolution = 8}};
+        if (solver == hair::Solver::shape) settings.simulation.hair_hair.friction = 0.1f;
+        expectAccounted("solver", settings);
+    }
+}
+
+TEST_F(MemoryOfCasesTest, OfStrandsOfTheirOwnHasAPurpose) {
+    hair::Settings settings = hair::plainSettings();
+    settings.strands.randomness = hair::Randomness::thesis;
+    expectAccounted("thesis", settings);
+    settings.strands.backend = hair::Backend::pulling_geometry;
+    expectAccounted("pulling_geometry", settings);
+}
+
+}  // namespace
+}  // namespace benchmarks

@@ -1,0 +1,163 @@
+#include "benchmarks/machine/nvml.h"
+
+#include <stdexcept>
+
+#include <dlfcn.h>
+#include <gmock/gmock.h>
+
+extern "C" {
+#include "tests/machine/fake_nvml.h"
+}
+
+namespace benchmarks {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+constexpr PciAddress kAddress{.domain = 0, .bus = 0x65, .device = 0, .function = 0};
+constexpr int kNotSupported = 3;  // NVML_ERROR_NOT_SUPPORTED
+constexpr int kUnknown = 999;     // NVML_ERROR_UNKNOWN
+
+// A made-up library in a healthy state, and what it says.
+class Fake {
+public:
+    explicit Fake(const char* path) : path_(path), library_(dlopen(path, RTLD_NOW)) {
+        if (!library_) throw std::runtime_error(dlerror());
+        state_ = static_cast<FakeNvml*>(dlsym(library_, "fakeNvml"));
+        *state_ = {};
+        state_->clock = 1500;
+        state_->memory_clock = 2619;
+        state_->applications_clock = 1980;
+        state_->greatest_clock = 2100;
+        state_->temperature = 41;
+    }
+    Fake(const Fake&) = delete;
+    Fake& operator=(const Fake&) = delete;
+    ~Fake() { dlclose(library_); }
+
+    FakeNvml* operator->() const { return state_; }
+    std::unique_ptr<ClockSource> open() const { return openNvml(kAddress, path_); }
+    ClockReading read() const { return open()->read(); }
+
+private:
+    const char* path_;
+    void* library_;
+    FakeNvml* state_;
+};
+
+TEST(Nvml, IsAbsentWithoutItsLibrary) {
+    EXPECT_EQ(openNvml(kAddress, "libhairbench-no-such-library.so.1"), nullptr);
+}
+
+TEST(Nvml, IsAbsentIfALibraryOfThatNameIsSomethingElse) {
+    EXPECT_EQ(openNvml(kAddress, "libc.so.6"), nullptr);
+}
+
+TEST(Nvml, IsAbsentWithoutADriver) {
+    const Fake fake(FAKE_NVML);
+    fake->init_result = 9;  // NVML_ERROR_DRIVER_NOT_LOADED
+    EXPECT_EQ(fake.open(), nullptr);
+    EXPECT_EQ(fake->users, 0);
+}
+
+TEST(Nvml, IsAbsentForADeviceThatItDoesNotKnow) {
+    const Fake fake(FAKE_NVML);
+    fake->handle_result = 6;  // NVML_ERROR_NOT_FOUND
+    EXPECT_EQ(fake.open(), nullptr);
+    EXPECT_EQ(fake->users, 0);
+}
+
+TEST(Nvml, AsksForTheDeviceByItsAddressAndShutsDown) {
+    const Fake fake(FAKE_NVML);
+    {
+        const auto nvml = fake.open();
+        ASSERT_NE(nvml, nullptr);
+        EXPECT_STREQ(fake->address, "0000:65:00.0");
+        EXPECT_EQ(fake->users, 1);
+    }
+    EXPECT_EQ(fake->users, 0);
+}
+
+TEST(Nvml, ReadsClocksAndTemperature) {
+    const Fake fake(FAKE_NVML);
+    const ClockReading reading = fake.read();
+    EXPECT_EQ(reading.clock_mhz, 1500.0);
+    EXPECT_EQ(reading.memory_clock_mhz, 2619.0);
+    EXPECT_EQ(reading.base_clock_mhz, 1980.0);
+    EXPECT_EQ(reading.temperature, 41.0);
+    EXPECT_FALSE(reading.idle);
+    EXPECT_FALSE(reading.held);
+    EXPECT_THAT(reading.throttle_reasons, IsEmpty());
+}
+
+TEST(Nvml, TakesTheGreatestClockAsBaseOfABoardWithoutApplicationsClock) {
+    const Fake fake(FAKE_NVML);
+    fake->applications_clock_result = kNotSupported;
+    EXPECT_EQ(fake.read().base_clock_mhz, 2100.0);
+}
+
+TEST(Nvml, NamesThrottleReasons) {
+    const Fake fake(FAKE_NVML);
+    fake->reasons = 0x4 | 0x40;  // nvmlClocksEventReasonSwPowerCap, HwThermalSlowdown
+    EXPECT_THAT(
+        fake.read().throttle_reasons, ElementsAre("power cap", "hardware thermal slowdown"));
+}
+
+TEST(Nvml, KnowsAnIdleDevice) {
+    const Fake fake(FAKE_NVML);
+    fake->reasons = 0x1;  // nvmlClocksEventReasonGpuIdle
+    const ClockReading reading = fake.read();
+    EXPECT_TRUE(reading.idle);
+    EXPECT_THAT(reading.throttle_reasons, IsEmpty());
+}
+
+TEST(Nvml, HoldsNoClockAgainstAnAdministratorsChoice) {
+    const Fake fake(FAKE_NVML);
+    fake->reasons = 0x2;  // nvmlClocksEventReasonApplicationsClocksSetting
+    const ClockReading reading = fake.read();
+    EXPECT_TRUE(reading.held);
+    EXPECT_EQ(reading.clock_mhz, 1500.0);
+    EXPECT_EQ(reading.base_clock_mhz, std::nullopt);
+    EXPECT_THAT(reading.throttle_reasons, IsEmpty());
+}
+
+TEST(Nvml, LeavesOutWhatFails) {
+    const Fake fake(FAKE_NVML);
+    fake->clock_result = kUnknown;
+    fake->reasons_result = kNotSupported;
+    fake->reasons = 0x4;
+    const ClockReading reading = fake.read();
+    EXPECT_EQ(reading.clock_mhz, std::nullopt);
+    EXPECT_EQ(reading.memory_clock_mhz, std::nullopt);
+    EXPECT_THAT(reading.throttle_reasons, IsEmpty());
+    EXPECT_EQ(reading.base_clock_mhz, 1980.0);
+    EXPECT_EQ(reading.temperature, 41.0);
+}
+
+TEST(Nvml, TakesAClockOfZeroForUnknown) {
+    const Fake fake(FAKE_NVML);
+    fake->clock = 0;
+    EXPECT_EQ(fake.read().clock_mhz, std::nullopt);
+}
+
+TEST(Nvml, KnowsTheOlderNameOfThrottleReasons) {
+    const Fake fake(FAKE_NVML_OLD);
+    fake->reasons = 0x80;  // nvmlClocksThrottleReasonHwPowerBrakeSlowdown
+    const ClockReading reading = fake.read();
+    EXPECT_THAT(reading.throttle_reasons, ElementsAre("power brake"));
+    EXPECT_EQ(reading.base_clock_mhz, 2100.0);
+}
+
+TEST(Nvml, SaysNothingWhereEveryFunctionIsMissing) {
+    const Fake fake(FAKE_NVML_BARE);
+    const ClockReading reading = fake.read();
+    EXPECT_EQ(reading.clock_mhz, std::nullopt);
+    EXPECT_EQ(reading.base_clock_mhz, std::nullopt);
+    EXPECT_EQ(reading.memory_clock_mhz, std::nullopt);
+    EXPECT_EQ(reading.temperature, std::nullopt);
+    EXPECT_FALSE(reading.idle);
+}
+
+}  // namespace
+}  // namespace benchmarks

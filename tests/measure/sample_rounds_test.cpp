@@ -1,0 +1,175 @@
+#include "benchmarks/measure/sample_rounds.h"
+
+#include <functional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/decide/noise.h"
+#include "tests/error_text.h"
+
+namespace benchmarks {
+namespace {
+
+using testing::DoubleNear;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+constexpr double kBaseClock = 1000.0;
+
+// A machine whose clock only advances as rounds are played and pauses made.
+struct Machine {
+    std::function<double(int round, int frame)> time;                       // ms
+    std::function<double(int round)> clock = [](int) { return kBaseClock; };  // MHz
+    int frames = 10;
+    double now = 100.0;  // s
+    int rounds = 0;
+    double paused = 0.0;  // s
+    std::vector<SamplingState> told{};
+
+    SampledRounds sample(SamplingRule rule) {
+        rule.mode = "isolated";
+        rule.time = &engine::FrameRecord::wall;
+        return sampleRounds(
+            rule, {.play =
+                       [&] {
+                           std::vector<engine::FrameRecord> round(static_cast<std::size_t>(frames));
+                           for (int i = 0; i < frames; ++i) {
+                               round[static_cast<std::size_t>(i)].wall = time(rounds, i);
+                               now += time(rounds, i) * 1e-3;
+                           }
+                           ++rounds;
+                           return round;
+                       },
+                   .begin_watch = [] {},
+                   .end_watch =
+                       [&] {
+                           return Conditions{
+                               .clock_mhz = clock(rounds - 1), .base_clock_mhz = kBaseClock};
+                       },
+                   .seconds = [&] { return now; },
+                   .pause =
+                       [&](double seconds) {
+                           paused += seconds;
+                           now += seconds;
+                       },
+                   .progress = [&](const SamplingState& state) { told.push_back(state); }});
+    }
+};
+
+std::vector<double> walls(const SampledRounds& sampled) {
+    std::vector<double> times;
+    for (const engine::FrameRecord& frame : sampled.frames) times.push_back(frame.wall);
+    return times;
+}
+
+TEST(SampleRounds, PlaysOneWithoutTime) {
+    Machine machine{.time = [](int, int frame) { return 5.0 + frame; }};
+    const SampledRounds sampled = machine.sample({.max_time = 0.0});
+    EXPECT_THAT(
+        walls(sampled),
+        testing::ElementsAre(5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0));
+    EXPECT_EQ(sampled.sampling.mode, "isolated");
+    EXPECT_EQ(sampled.sampling.rounds, 1u);
+    EXPECT_EQ(sampled.sampling.warmup_rounds, 0u);
+    EXPECT_EQ(sampled.sampling.throttled_rounds, 0u);
+    EXPECT_EQ(sampled.sampling.steady, std::nullopt);
+    EXPECT_NEAR(sampled.sampling.seconds, 0.095, 1e-9);
+    EXPECT_THAT(sampled.conditions, SizeIs(1));
+}
+
+// Noise of 1 %: its median is known to 1 % long before 60 s, and all of it is kept.
+TEST(SampleRounds, EndsWhenTheMedianIsKnown) {
+    Noise noise(1);
+    Machine machine{.time = [&](int, int) { return 10.0 * (1.0 + 0.01 * noise.normal()); }};
+    const SampledRounds sampled = machine.sample({.precision = 0.01, .max_time = 60.0});
+    EXPECT_EQ(sampled.sampling.steady, true);
+    EXPECT_LE(sampled.sampling.precision.value_or(1.0), 0.01);
+    EXPECT_LT(machine.rounds, 50);
+    EXPECT_THAT(sampled.frames, SizeIs(10 * machine.rounds));
+    EXPECT_THAT(machine.told, SizeIs(machine.rounds));
+    EXPECT_EQ(machine.told.back().mode, "isolated");
+    EXPECT_EQ(machine.told.back().max_seconds, 60.0);
+    EXPECT_EQ(machine.told.back().rounds, static_cast<std::uint32_t>(machine.rounds));
+    EXPECT_NEAR(machine.told.back().median, 10.0, 0.1);
+}
+
+// Rounds of 0.1 s: the last one that is begun begins before 2 s are over.
+TEST(SampleRounds, EndsWhenTimeIsOver) {
+    Noise noise(2);
+    Machine machine{.time = [&](int, int) { return 7.0 + 6.0 * noise.uniform(); }};
+    const SampledRounds sampled = machine.sample({.precision = 1e-4, .max_time = 2.0});
+    EXPECT_GE(sampled.sampling.seconds, 2.0);
+    EXPECT_LT(sampled.sampling.seconds, 2.0 + 0.13);
+    EXPECT_GT(sampled.sampling.precision.value_or(0.0), 1e-4);
+}
+
+TEST(SampleRounds, TakesAllTheTimeForAPrecisionOfNothing) {
+    Machine machine{.time = [](int, int) { return 10.0; }};
+    EXPECT_THAT(machine.sample({.precision = 0.0, .max_time = 3.05}).frames, SizeIs(310));
+}
+
+TEST(SampleRounds, PlaysNoMoreThanAsked) {
+    Machine machine{.time = [](int, int) { return 10.0; }};
+    EXPECT_EQ(
+        machine.sample({.precision = 0.0, .max_time = 60.0, .most_rounds = 7}).sampling.rounds, 7u);
+}
+
+// The first ten rounds settle from 40 % more, by 4 % each; the last two of them may stay.
+TEST(SampleRounds, LeavesOutTheFirstWhileTheySettle) {
+    Noise noise(3);
+    Machine machine{.time = [&](int round, int) {
+        return 10.0 * (1.0 + std::max(0.0, 0.4 - 0.04 * round) + 0.002 * noise.normal());
+    }};
+    const SampledRounds sampled = machine.sample({.precision = 0.0, .max_time = 5.0});
+    EXPECT_GE(sampled.sampling.warmup_rounds, 8u);
+    EXPECT_LE(sampled.sampling.warmup_rounds, 12u);
+    EXPECT_EQ(
+        sampled.sampling.warmup_rounds + sampled.sampling.rounds,
+        static_cast<std::uint32_t>(machine.rounds));
+    EXPECT_THAT(sampled.frames, SizeIs(10 * sampled.sampling.rounds));
+    // 8 % of the last round but one, and ten standard deviations of the noise.
+    EXPECT_THAT(walls(sampled), testing::Each(DoubleNear(10.0, 1.0)));
+    EXPECT_THAT(sampled.conditions, SizeIs(machine.rounds));
+}
+
+TEST(SampleRounds, SaysWhatDriftsToTheEnd) {
+    Machine machine{.time = [](int round, int) { return 10.0 + 0.2 * round; }};
+    const SampledRounds sampled = machine.sample({.precision = 0.01, .max_time = 4.0});
+    EXPECT_GE(sampled.sampling.seconds, 4.0);
+    EXPECT_EQ(sampled.sampling.steady, false);
+    EXPECT_EQ(sampled.sampling.warmup_rounds, 0u);
+}
+
+// Every third round at 74 % of the clock takes twice as long; at 76 % rounds count.
+TEST(SampleRounds, LeavesOutThrottledRounds) {
+    Machine machine{
+        .time = [](int round, int) { return round % 3 == 0 ? 20.0 : 10.0; },
+        .clock = [](int round) { return round % 3 == 0 ? 740.0 : 760.0; }};
+    const SampledRounds sampled = machine.sample({.precision = 0.0, .max_time = 3.0});
+    EXPECT_THAT(walls(sampled), testing::Each(10.0));
+    EXPECT_EQ(
+        sampled.sampling.throttled_rounds, static_cast<std::uint32_t>((machine.rounds + 2) / 3));
+    EXPECT_NEAR(machine.paused, 0.05 * sampled.sampling.throttled_rounds, 1e-9);
+    EXPECT_THAT(sampled.conditions, SizeIs(machine.rounds));
+}
+
+TEST(SampleRounds, WaitsForADeviceToReachItsClock) {
+    Machine machine{
+        .time = [](int, int) { return 10.0; },
+        .clock = [](int round) { return round < 4 ? 300.0 : 1000.0; }};
+    const SampledRounds sampled = machine.sample({.max_time = 0.0});
+    EXPECT_EQ(sampled.sampling.rounds, 1u);
+    EXPECT_EQ(sampled.sampling.throttled_rounds, 4u);
+}
+
+TEST(SampleRounds, GivesUpWhereAllAreThrottled) {
+    Machine machine{.time = [](int, int) { return 10.0; }, .clock = [](int) { return 500.0; }};
+    EXPECT_EQ(
+        errorText([&] { machine.sample({.max_time = 0.0}); }),
+        "isolated: the device's clock was below 75 % of its base in all 10 rounds");
+    EXPECT_THAT(machine.told, IsEmpty());
+}
+
+}  // namespace
+}  // namespace benchmarks

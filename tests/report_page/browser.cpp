@@ -1,0 +1,93 @@
+#include "tests/report_page/browser.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/report_page/assemble_page.h"
+#include "benchmarks/report_page/page_data.h"
+#include "engine/read_file.h"
+#include "hair/groom/formats/run_tool.h"
+#include "tests/temporary_folder.h"
+
+namespace report_page {
+
+namespace {
+
+std::string toolText(const std::string& file) {
+    return engine::readFile(HAIRBENCH_SOURCE_DIR "/tests/report_page/" + file);
+}
+
+// The page, watched from its head on, with the steps behind it.
+std::string watched(std::string page, const std::string& steps) {
+    const std::string head = "<head>\n";
+    page.insert(page.find(head) + head.size(), "<script>" + toolText("watch.js") + "</script>\n");
+    // The result has no character that HTML writes in another way.
+    return page + "<script>(async () => {\n" + toolText("steps.js") + "try {\n" + steps + R"(
+} catch (error) {
+    complaints.push(`steps: ${error.stack}`);
+}
+said.errors = complaints.concat(performance.getEntriesByType("resource")
+    .map((each) => each.name).filter((name) => !/^(data|blob):/.test(name)));
+const result = document.createElement("pre");
+result.id = "test-result";
+result.textContent = JSON.stringify(said).replace(/[<>&\u00a0]/g, (each) =>
+    "\\u" + each.charCodeAt(0).toString(16).padStart(4, "0"));
+document.body.append(result);
+})();</script>)";
+}
+
+bool isThere(const std::string& program) {
+    try {
+        hair::runTool({program, "--version"});
+        return true;
+    } catch (const std::exception&) {
+        return false;
+    }
+}
+
+std::optional<std::string> lookForBrowser() {
+    if (const char* wanted = std::getenv("HAIRBENCH_BROWSER"); wanted && *wanted) return wanted;
+    for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
+        if (isThere(name)) return name;
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> findBrowser() {
+    static const std::optional<std::string> found = lookForBrowser();
+    return found;
+}
+
+std::string pageOf(std::span<const std::filesystem::path> reports) {
+    return benchmarks::assemblePage(
+        benchmarks::readPageParts(benchmarks::readPlotly()), benchmarks::pageData(reports));
+}
+
+benchmarks::Json inBrowser(const std::string& page, const std::string& steps, int width) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "page.html";
+    std::ofstream(file) << watched(page, steps);
+    // Virtual time passes as fast as the page's work allows, however busy the machine is.
+    const std::vector<std::byte> bytes = hair::runTool(
+        {"timeout", "300", *findBrowser(), "--headless=new", "--no-sandbox", "--disable-gpu",
+         "--disable-dev-shm-usage", "--host-resolver-rules=MAP * ~NOTFOUND",
+         "--user-data-dir=" + (folder.path() / "profile").string(),
+         "--window-size=" + std::to_string(width) + ",900", "--virtual-time-budget=15000",
+         "--dump-dom", "file://" + file.string()});
+    const std::string_view dom(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::string_view mark = "<pre id=\"test-result\">";
+    const std::size_t begin = dom.rfind(mark);
+    if (begin == std::string_view::npos) {
+        ADD_FAILURE() << "the page never came to the end of the steps";
+        return benchmarks::Json::object();
+    }
+    const std::string_view result = dom.substr(begin + mark.size());
+    return benchmarks::Json::parse(result.substr(0, result.find("</pre>")));
+}
+
+}  // namespace report_page

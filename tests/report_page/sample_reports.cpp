@@ -1,0 +1,102 @@
+#include "tests/report_page/sample_reports.h"
+
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "engine/image_file.h"
+
+namespace report_page {
+
+namespace {
+
+constexpr int kSamples = 60;
+
+// Evenly spread over +-1 % in an order without trend: golden-section steps (Weyl 1916).
+std::vector<double> around(double median) {
+    std::vector<double> samples;
+    for (int i = 0; i < kSamples; ++i) {
+        double whole;
+        samples.push_back(median * (0.99 + 0.02 * std::modf(i * 0.6180339887 + 0.5, &whole)));
+    }
+    return samples;
+}
+
+std::string caseName(const Known& known) {
+    return "known/density:" + std::to_string(known.density) + "/msaa:" + std::to_string(known.msaa);
+}
+
+benchmarks::CaseResult emptyCase(const Known& known) {
+    benchmarks::CaseResult result;
+    result.name = caseName(known);
+    result.axes = {
+        {"/strands/density", std::to_string(known.density)},
+        {"/render/msaa", std::to_string(known.msaa)}};
+    return result;
+}
+
+benchmarks::CaseResult measuredCase(const Known& known, double slower) {
+    benchmarks::CaseResult result = emptyCase(known);
+    const double ms = known.frame_ms * slower;
+    result.metrics = {
+        {"fps", "1/s", {1000.0 / ms}, "overlapped"},
+        {"frame.time", "ms", around(ms), "overlapped"},
+        {"pass.simulate.time", "ms", around(0.2 * ms), "isolated"},
+        {"pass.strands.time", "ms", around(0.7 * ms), "isolated"},
+        {"pass.resolve.time", "ms", around(0.1 * ms), "isolated"},
+        {"image.flip", "1", {1.0 / known.density}, ""},
+        {"memory.device", "B", {1048576.0 * known.density}, ""}};
+    if (known.density == 16 && known.msaa == 1) result.trust.warnings = {kWarning};
+    result.image_hash = result.state_hash = "0123456789abcdef";
+    return result;
+}
+
+benchmarks::Report emptyReport(const std::string& scene) {
+    benchmarks::Report report;
+    report.environment.device = {"Sample device", "discrete", "sample", "1.0", "1.3.0", 1.0};
+    report.environment.command = {"hairbench", "run", "scenes/" + scene + ".json"};
+    report.scene = {
+        "scenes/" + scene + ".json", "0123456789abcdef", R"({"description": "Known."})"};
+    return report;
+}
+
+}  // namespace
+
+benchmarks::Report knownReport(double slower) {
+    benchmarks::Report report = emptyReport("known");
+    for (const Known& known : kKnown) report.cases.push_back(measuredCase(known, slower));
+    benchmarks::CaseResult skipped = emptyCase({32, 4, 0.0});
+    skipped.status = benchmarks::Status::skipped;
+    skipped.reason = kSkipReason;
+    report.cases.push_back(skipped);
+    return report;
+}
+
+benchmarks::Report oneCaseReport(const std::string& name, std::vector<benchmarks::AxisValue> axes) {
+    benchmarks::Report report = emptyReport("one");
+    benchmarks::CaseResult result;
+    result.name = name;
+    result.axes = std::move(axes);
+    result.metrics = {
+        {"frame.time", "ms", around(1.0), "overlapped"},
+        {"pass.strands.time", "ms", around(0.5), "isolated"},
+        {"pass.strands.cpu.time", "ms", around(0.75), "wall_clock"}};
+    report.cases.push_back(result);
+    return report;
+}
+
+std::filesystem::path
+writeWithPictures(benchmarks::Report report, const std::filesystem::path& file, unsigned char red) {
+    const std::string folder = file.stem().string() + ".pictures";
+    std::vector<unsigned char> pixels;
+    for (int i = 0; i < 4 * 2; ++i) pixels.insert(pixels.end(), {red, 0, 128, 255});
+    for (std::size_t i = 0; i < report.cases.size(); ++i) {
+        if (report.cases[i].status != benchmarks::Status::ok) continue;
+        report.cases[i].picture = folder + '/' + std::to_string(i) + ".png";
+        engine::writePng(file.parent_path() / report.cases[i].picture, 4, 2, pixels);
+    }
+    std::ofstream(file) << reportText(report);
+    return file;
+}
+
+}  // namespace report_page

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "benchmarks/report.h"
+
+// Reports whose every figure is known, for pages to show.
+namespace report_page {
+
+// In the order of the sweep: neither sorted by number nor as texts would be.
+struct Known {
+    int density;
+    int msaa;
+    double frame_ms;  // the median of frame.time; the passes are 20, 70 and 10 % of it
+};
+inline constexpr Known kKnown[] = {
+    {8, 1, 9.5}, {8, 4, 100.0}, {16, 1, 20.0}, {16, 4, 3.25}, {32, 1, 47.0}};
+inline constexpr const char* kSkipReason = "the device has no 4-sample images";
+inline constexpr const char* kWarning = "timestamps are not trusted";  // of the case 16, 1
+
+// kKnown's cases, each with 60 samples within 1 % of `slower` times the median, and the case 32, 4,
+// which was skipped.
+benchmarks::Report knownReport(double slower = 1.0);
+
+// One case with these axes: a frame takes 1 ms, its strands 0.5 ms, and 0.75 ms of CPU time.
+benchmarks::Report oneCaseReport(const std::string& name, std::vector<benchmarks::AxisValue> axes);
+
+// Writes a report and for each of its cases that ran a picture of one colour, 4 x 2 px.
+std::filesystem::path
+writeWithPictures(benchmarks::Report report, const std::filesystem::path& file, unsigned char red);
+
+}  // namespace report_page

@@ -1,0 +1,67 @@
+// kill -9 at any moment of a sweep, then --resume: nothing is lost but the case that was played.
+#include <chrono>
+#include <cstdlib>
+#include <random>
+#include <thread>
+
+#include "tests/run/tiny_sweep.h"
+
+namespace benchmarks {
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+class Killed : public TinySweep {
+protected:
+    // Kills so many runs and lets each sweep come to its end in between.
+    void killAndResume(int kills, std::uint32_t seed) {
+        whole();
+        const auto start = std::chrono::steady_clock::now();
+        ASSERT_EQ(run(folder_.file("timed.json")).status, 0);
+        const double duration = Seconds(std::chrono::steady_clock::now() - start).count();
+        std::mt19937 random(seed);
+        int done = 0;
+        int early = 0;     // before the first case was done
+        int between = 0;   // after the run's first case, before its last
+        for (int sweep = 0; done < kills; ++sweep) {
+            const std::filesystem::path out = folder_.file(std::to_string(sweep) + ".json");
+            // One to four kills, wherever they fall: before the journal is there, while a case is
+            // played, between two of them.
+            for (std::uint32_t left = 1 + random() % 4; left > 0 && done < kills; --left) {
+                const long before = journalled(out);
+                ChildProcess process(arguments(out, {"--resume"}), log_);
+                // More often early, where a run starts, than late.
+                const double share = static_cast<double>(random() % 1000) / 1000.0;
+                std::this_thread::sleep_for(Seconds(duration * share * share));
+                process.kill(SIGKILL);
+                if (process.wait() != 128 + SIGKILL) break;  // it was through
+                ++done;
+                const long after = journalled(out);
+                EXPECT_GE(after, before);  // nothing is lost
+                if (after <= 0)
+                    ++early;
+                else if (after > before && after < static_cast<long>(kCases))
+                    ++between;
+            }
+            const Outcome outcome = run(out, {"--resume"});
+            ASSERT_EQ(outcome.status, 0) << outcome.output;
+            EXPECT_EQ(difference(lasting(readReport(out)), whole()), "[]");
+            EXPECT_FALSE(std::filesystem::exists(journalFile(out)));
+            std::filesystem::remove(out);
+        }
+        std::cout << done << " kills: " << early << " before any case was done, " << between
+                  << " after more cases\n";
+    }
+};
+
+TEST_F(Killed, LosesNothing) { killAndResume(8, 1); }
+
+// HAIRBENCH_KILLS=50 test_run --gtest_filter='Killed.*'
+TEST_F(Killed, LosesNothingHoweverOften) {
+    const char* const kills = std::getenv("HAIRBENCH_KILLS");
+    if (!kills) GTEST_SKIP() << "HAIRBENCH_KILLS says how often";
+    killAndResume(std::atoi(kills), 2);
+}
+
+}  // namespace
+}  // namespace benchmarks

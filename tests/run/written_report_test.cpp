@@ -1,0 +1,92 @@
+// What a real run writes.
+#include <set>
+
+#include "benchmarks/json_text.h"
+#include "tests/benchmarks/schema_errors.h"
+#include "tests/run/tiny_sweep.h"
+
+namespace benchmarks {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class WrittenReport : public TinySweep {
+protected:
+    static std::string schema() {
+        return textOf(std::filesystem::path(HAIRBENCH_SOURCE_DIR) / "results/report.schema.json");
+    }
+    // Of a run of the smoke scene, which must succeed.
+    Json smoke(const std::string& options) {
+        const Outcome outcome = hairbench(
+            "run '" HAIRBENCH_SCENES_DIR "/smoke.json' " + options + " -o '" + out_.string() + "'");
+        EXPECT_EQ(outcome.status, 0) << outcome.output;
+        return Json::parse(textOf(out_));
+    }
+
+    std::filesystem::path out_ = folder_.file("smoke.json");
+};
+
+TEST_F(WrittenReport, FitsTheSchema) {
+    smoke("");
+    EXPECT_THAT(schemaErrors(schema(), textOf(out_)), IsEmpty());
+    // What is not known is absent.
+    EXPECT_THAT(textOf(out_), testing::Not(HasSubstr("null")));
+}
+
+// That the other tests compare something: hair is to be seen, and it is another one in each case.
+TEST_F(WrittenReport, DiffersFromCaseToCase) {
+    std::set<std::string> images;
+    const Json report = whole();
+    for (const Json& each : report["cases"])
+        if (each["status"] == "ok") images.insert(each["image_hash"].get<std::string>());
+    EXPECT_GE(images.size(), 6u);
+}
+
+TEST_F(WrittenReport, FitsTheSchemaWhateverBecameOfCases) {
+    ASSERT_EQ(run(out_).status, 0);
+    EXPECT_THAT(schemaErrors(schema(), textOf(out_)), IsEmpty());
+}
+
+TEST_F(WrittenReport, HasItsPicturesBesideIt) {
+    const Json report = smoke("");
+    std::set<std::string> pictures;
+    for (const Json& each : report["cases"]) {
+        const auto picture = each["picture"].get<std::string>();
+        EXPECT_EQ(picture, "smoke.pictures/" + each["index"].dump() + ".png");
+        EXPECT_TRUE(std::filesystem::is_regular_file(folder_.file(picture)));
+        pictures.insert(picture);
+    }
+    EXPECT_EQ(pictures.size(), report["cases"].size());
+    folder_.write("smoke.pictures/mine.png", "");
+    smoke("-a /render/msaa=1");  // the pictures of cases that are no more go
+    EXPECT_TRUE(std::filesystem::exists(folder_.file("smoke.pictures/0.png")));
+    EXPECT_FALSE(std::filesystem::exists(folder_.file("smoke.pictures/1.png")));
+    EXPECT_TRUE(std::filesystem::exists(folder_.file("smoke.pictures/mine.png")));
+}
+
+TEST_F(WrittenReport, HasNoPicturesWhereNoneAreWanted) {
+    const Json report = smoke("--no-pictures");
+    for (const Json& each : report["cases"]) EXPECT_FALSE(each.contains("picture"));
+    EXPECT_FALSE(std::filesystem::exists(folder_.file("smoke.pictures")));
+}
+
+TEST_F(WrittenReport, MovesManySamplesIntoAFileOfTheirOwn) {
+    smoke("-a /render/msaa=1 --frames 2001 --set /render/width=32 --set /render/height=32 "
+          "--set /strands/density=1 --set /groom/guides=4");
+    EXPECT_THAT(schemaErrors(schema(), textOf(out_)), IsEmpty());
+    EXPECT_TRUE(std::filesystem::exists(folder_.file("smoke.samples.jsonl")));
+    const Json report = readReport(out_);
+    EXPECT_GE(report["cases"][0]["metrics"]["frame.time"]["samples"].size(), 2001u);
+}
+
+TEST_F(WrittenReport, GoesWhereThereIsNoFile) {
+    const Outcome outcome = runInShell(
+        "'" HAIRBENCH_PROGRAM "' run '" + scene_.string() + "' -o /dev/stdout 2>/dev/null");
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_THAT(outcome.output, testing::StartsWith("{\n  \"schema\": \"hairbench-report/1."));
+    EXPECT_FALSE(std::filesystem::exists("/dev/stdout.journal"));
+}
+
+}  // namespace
+}  // namespace benchmarks
