@@ -46,7 +46,8 @@ void addGateOptions(CLI::App& command, GateOptions& options) {
         ->required()
         ->type_name("CMD_OR_BUILD");
     command.add_option("--scene", options.scene.scene, "scene file")->required()->type_name("FILE");
-    addRepeated(command, "-a,--axis", options.scene.axes, "as for run")->type_name("POINTER=V1,V2");
+    // No -a beside --a: newer CLI11 takes them for one name.
+    addRepeated(command, "--axis", options.scene.axes, "as for run")->type_name("POINTER=V1,V2");
     addRepeated(command, "--set", options.scene.sets, "as for run")->type_name("POINTER=VALUE");
     addRepeated(command, "--set-a", options.a_sets, "the same for A alone")
         ->type_name("POINTER=VALUE");
