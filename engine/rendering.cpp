@@ -30,14 +30,17 @@ VkRenderingAttachmentInfo attachmentInfo(const Attachment& attachment) {
 void beginRendering(
     Commands& commands, std::span<const Attachment> colors, const std::optional<Attachment>& depth,
     const std::optional<VkRect2D>& area) {
-    assert(!colors.empty() || depth);
+    assert(!colors.empty() || depth || area);
     std::vector<VkRenderingAttachmentInfo> color_infos;
     for (const Attachment& color : colors) color_infos.push_back(attachmentInfo(color));
     VkRenderingAttachmentInfo depth_info{};
     if (depth) depth_info = attachmentInfo(*depth);
 
-    const Image& first = colors.empty() ? *depth->image : *colors.front().image;
-    const VkRect2D rendered = area.value_or(VkRect2D{{0, 0}, first.extent()});
+    VkRect2D rendered{};
+    if (area)
+        rendered = *area;
+    else
+        rendered.extent = (colors.empty() ? *depth : colors.front()).image->extent();
     VkRenderingInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
     info.renderArea = rendered;

@@ -17,7 +17,8 @@ struct Attachment {
     std::array<float, 4> clear{};  // color; of depth the first
 };
 
-// Begins rendering to attachments of one size. The viewport is `area`, all of them by default.
+// Begins rendering to attachments of one size. The viewport is `area`, all of them by default;
+// without attachments it has to be given.
 void beginRendering(
     Commands& commands, std::span<const Attachment> colors, const std::optional<Attachment>& depth,
     const std::optional<VkRect2D>& area = std::nullopt);

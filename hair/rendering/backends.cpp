@@ -74,7 +74,7 @@ engine::GraphicsDescription strandPipeline(const BackendContext& context) {
         .depth_format = output.depth_format,
         .samples = output.samples,
         .depth_write = output.depth_write,
-        .discard = stages.last < StrandStage::raster,
+        .discard = discards(stages),
         .sampled_images = output.sampled_images};
 }
 

@@ -33,6 +33,9 @@ std::unique_ptr<StrandBlend> makeWeightedBlend(const BlendContext& context);
 // All fragments in their order, from lists.
 std::unique_ptr<StrandBlend> makeListBlend(const BlendContext& context);
 
+// Nothing is seen: of StrandStages that end before raster.
+std::unique_ptr<StrandBlend> makeDiscardedBlend();
+
 // The pipeline of a pass that blends a fragment over every pixel of the target.
 engine::GraphicsDescription
 compositePipeline(const RenderSettings& render, const char* fragment_shader);

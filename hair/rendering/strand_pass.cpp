@@ -14,12 +14,17 @@ StrandOutput shaded(StrandOutput output, const Settings& settings) {
     return output;
 }
 
+std::unique_ptr<StrandBlend> blendOf(const BlendContext& context, const StrandStages& stages) {
+    return stages.last && discards(stages) ? makeDiscardedBlend() : makeBlend(context);
+}
+
 }  // namespace
 
 StrandPass::StrandPass(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan,
     const engine::Target& target, const StrandView& view, const StrandStages& stages)
-    : blend_(makeBlend({.device = device, .settings = settings, .target = target, .view = view})),
+    : blend_(blendOf(
+          {.device = device, .settings = settings, .target = target, .view = view}, stages)),
       backend_(makeBackend(
           settings.strands.backend, {.device = device,
                                      .plan = plan,

@@ -23,4 +23,7 @@ struct StrandStages {
     bool operator==(const StrandStages&) const = default;
 };
 
+// Whether primitives end before they are rasterised.
+inline bool discards(const StrandStages& stages) { return stages.last < StrandStage::raster; }
+
 }  // namespace hair

@@ -60,17 +60,17 @@ TEST(GateCommand, GivesBothBlocksOfAPairTheSameOrderOfCases) {
 
 TEST(GateCommand, HandsOptionsToTheRuns) {
     const FakeBuilds builds(FakeMachine(0.0));
-    builds.gate(
-        "-a /render/msaa=1,4 --set /seed=3 --set-a /seed=4 --set-b /seed=5 --filter x --frames 7 "
-        "--device soft");
+    builds.gate("--axis /render/msaa=1,4 --set /seed=3 --set-a /seed=4 --set-b /seed=5 --filter x "
+                "--frames 7 "
+                "--device soft");
     const std::vector<std::string> calls = builds.calls();
     const std::string both = "--axis /render/msaa=1,4 --set /seed=3 ";
-    EXPECT_THAT(calls[0], HasSubstr("run made.json --out "));
-    EXPECT_THAT(calls[0], HasSubstr(" --no-pictures "));
+    EXPECT_THAT(calls.at(0), HasSubstr("run made.json --out "));
+    EXPECT_THAT(calls.at(0), HasSubstr(" --no-pictures "));
     EXPECT_THAT(
-        calls[0],
+        calls.at(0),
         HasSubstr(both + "--set /seed=4 --filter x --device soft --frames 7 --max-time 0.5"));
-    EXPECT_THAT(calls[1], HasSubstr(both + "--set /seed=5 --filter x"));
+    EXPECT_THAT(calls.at(1), HasSubstr(both + "--set /seed=5 --filter x"));
 }
 
 TEST(GateCommand, GoesOnWhileItCannotTell) {
@@ -168,7 +168,7 @@ TEST(GateCommand, TakesACommandLine) {
         "gate --a '" + builds.program('A') + "' --b 'MORE=1 nice -n 1 " + builds.program('B') +
         "' --scene 'my made.json' -o " + builds.reportFile().string());
     EXPECT_EQ(gate.status, 0) << gate.output;
-    EXPECT_THAT(builds.calls()[1], HasSubstr("B run my made.json --out /"));
+    EXPECT_THAT(builds.calls().at(1), HasSubstr("B run my made.json --out /"));
 }
 
 TEST(GateCommand, TakesACommandWithPlacesAsItIs) {
@@ -179,7 +179,7 @@ TEST(GateCommand, TakesACommandWithPlacesAsItIs) {
         " --scene 'my made.json' -o " + builds.reportFile().string());
     EXPECT_EQ(gate.status, 0) << gate.output;
     EXPECT_THAT(builds.calls(), Each(Not(HasSubstr("--out"))));
-    EXPECT_THAT(builds.calls()[0], HasSubstr("A x my made.json y /"));
+    EXPECT_THAT(builds.calls().at(0), HasSubstr("A x my made.json y /"));
 }
 
 TEST(GateCommand, FindsAProgramInABuildFolder) {
