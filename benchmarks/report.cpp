@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/decide/median_interval.h"
+#include "benchmarks/hint.h"
 #include "benchmarks/statistics.h"
 
 namespace benchmarks {
@@ -69,18 +70,6 @@ Json toJson(const SceneRecord& scene) {
     return {{"path", scene.path}, {"hash", scene.hash}, {"document", Json::parse(scene.document)}};
 }
 
-// What is better of a quantity; empty: neither.
-std::string hintOf(const Metric& metric) {
-    const std::string& name = metric.name;
-    // One waits longer where others are faster.
-    if (name == "frame.overlap" || name.ends_with(".wait.time")) return {};
-    if (metric.unit == "B" || metric.unit == "ms" || name.ends_with(".instructions") ||
-        name == "image.rmse" || name == "image.flip")
-        return "lower";
-    if (metric.unit == "1/s" || metric.unit == "dB" || name == "image.ssim") return "higher";
-    return {};
-}
-
 // Null if there is no finite sample.
 Json toJson(const Metric& metric) {
     std::vector<double> samples = metric.samples;
@@ -90,7 +79,7 @@ Json toJson(const Metric& metric) {
     const Summary summary = summarize(samples);
     Json object = Json::object();
     object["unit"] = metric.unit;
-    put(object, "hint", hintOf(metric));
+    put(object, "hint", hintOf(metric.name, metric.unit));
     put(object, "mode", metric.mode);
     put(object, "median", summary.median);
     put(object, "mad", summary.mad);

@@ -1,7 +1,5 @@
 #include "benchmarks/report_file.h"
 
-#include <string_view>
-
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/json_text.h"
@@ -13,22 +11,17 @@
 
 namespace benchmarks {
 
-namespace {
-
-// "hairbench-report/1.": minor versions add members.
-std::string_view schemaOfThisMajor() {
-    const std::string_view schema = kReportSchema;
-    return schema.substr(0, schema.find('.') + 1);
+bool isReadable(std::string_view schema) {
+    const std::string_view mine = kReportSchema;
+    return schema.starts_with(mine.substr(0, mine.find('.') + 1));
 }
-
-}  // namespace
 
 Json readReport(const std::filesystem::path& path) {
     Json report = parseJson(engine::readFile(path), path.string());
     const auto schema = report.is_object() ? report.find("schema") : report.end();
     if (!report.is_object() || schema == report.end() || !schema->is_string())
         throw engine::Error(path.string(), "is no report of hairbench run");
-    if (!schema->get_ref<const std::string&>().starts_with(schemaOfThisMajor()))
+    if (!isReadable(schema->get_ref<const std::string&>()))
         throw engine::Error(
             path.string(), schema->get<std::string>() + " is not " + std::string(kReportSchema));
     try {

@@ -24,12 +24,6 @@ namespace benchmarks {
 
 namespace {
 
-int listCases(const RunPlan& plan) {
-    for (const PlannedCase& each : plan.cases) std::cout << each.spec.name << '\n';
-    std::cout << plan.cases.size() << (plan.cases.size() == 1 ? " case\n" : " cases\n");
-    return kOk;
-}
-
 // Shards of a sweep in one folder are not to take each other's place.
 std::filesystem::path reportFile(const RunOptions& options, const RunPlan& plan) {
     if (!options.out.empty()) return options.out;
@@ -133,7 +127,7 @@ int playCases(
 
 int runScene(const RunOptions& options) {
     const RunPlan plan = planRun(options.scene, options.filter, options.shard);
-    if (options.list) return listCases(plan);
+    if (options.list) return printNames(plan);
     if (options.dry_run) return estimateRun(plan, options.scene.device);
     if (plan.cases.empty()) {
         if (options.shard.empty())

@@ -9,8 +9,7 @@
 namespace benchmarks {
 
 ScratchFolder::ScratchFolder() {
-    std::string path =
-        (std::filesystem::temp_directory_path() / "hairbench-reference-XXXXXX").string();
+    std::string path = (std::filesystem::temp_directory_path() / "hairbench-XXXXXX").string();
     if (!mkdtemp(path.data())) throw engine::Error(path, "can't be made");
     path_ = path;
 }

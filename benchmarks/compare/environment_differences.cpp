@@ -1,18 +1,12 @@
 #include "benchmarks/compare/environment_differences.h"
 
-#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "benchmarks/text_at.h"
 
 namespace benchmarks {
 
 namespace {
-
-// The text at a pointer; empty if it is absent.
-std::string textAt(const Json& report, const char* pointer) {
-    const Json::json_pointer place(pointer);
-    if (!report.contains(place)) return {};
-    const Json& value = report.at(place);
-    return value.is_string() ? value.get<std::string>() : value.dump();
-}
 
 struct Place {
     const char* name;

@@ -5,18 +5,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/hint.h"
 #include "benchmarks/sweep.h"
 #include "engine/error.h"
 
 namespace benchmarks {
 
 namespace {
-
-std::string hintOfUnit(const std::string& name, const std::string& unit) {
-    if (name.ends_with(".wait.time")) return "";  // one waits longer where others are faster
-    if (unit == "B" || name.ends_with(".time") || name.ends_with(".instructions")) return "lower";
-    return unit == "1/s" || unit == "dB" ? "higher" : "";
-}
 
 std::function<bool(const std::string&)> matcher(const std::string& regex) {
     try {
@@ -37,7 +32,7 @@ MetricReading readMetric(const std::string& name, const Json& metric) {
     MetricReading reading{.name = name, .unit = {}, .mode = {}, .hint = {}};
     reading.unit = metric.at("unit").get<std::string>();
     reading.mode = metric.value("mode", "");
-    reading.hint = metric.value("hint", hintOfUnit(name, reading.unit));
+    reading.hint = metric.value("hint", hintOf(name, reading.unit));
     reading.median = metric.at("median").get<double>();
     if (const auto interval = metric.find("interval"); interval != metric.end()) {
         reading.lower = interval->at("lower").get<double>();

@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "benchmarks/doctor/planted_work.h"
 #include "benchmarks/doctor/own_gate.h"
 #include "benchmarks/doctor/pass_metric.h"
+#include "benchmarks/doctor/planted_work.h"
 #include "benchmarks/doctor/sensitivity.h"
 #include "benchmarks/gate/gate_session.h"
 #include "engine/error.h"

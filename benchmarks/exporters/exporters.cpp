@@ -7,6 +7,7 @@
 
 #include "benchmarks/names.h"
 #include "benchmarks/report.h"
+#include "benchmarks/report_file.h"
 #include "engine/error.h"
 
 namespace benchmarks {
@@ -22,12 +23,6 @@ constexpr Exporter kExporters[] = {
     {"perfetto", "Chrome's trace events: frames and passes", ".json", perfetto},
 };
 
-// "hairbench-report/1.": minor versions add members.
-std::string_view schemaOfThisMajor() {
-    const std::string_view schema = kReportSchema;
-    return schema.substr(0, schema.find('.') + 1);
-}
-
 }  // namespace
 
 std::span<const Exporter> exporters() { return kExporters; }
@@ -41,7 +36,7 @@ std::string exportReport(const Json& report, std::string_view format) {
     }
     try {
         const auto schema = report.at("schema").get<std::string>();
-        if (!schema.starts_with(schemaOfThisMajor()))
+        if (!isReadable(schema))
             throw engine::Error("/schema", schema + " is not " + kReportSchema);
         return exporter->write(report);
     } catch (const Json::exception& error) {

@@ -16,10 +16,10 @@ namespace benchmarks {
 
 namespace {
 
-// Overlapped and isolated; rounds by the CPU's clock, where there are any, take a part of max_time.
-constexpr double kModes = 2.5;
-// What tests the timestamps and counts with pipeline statistics.
-constexpr double kTestFrames = 9;
+// Overlapped, isolated, and by the CPU's clock where timestamps are not trusted.
+constexpr double kModes = 3;
+// 16 pairs that test the timestamps (measure/check_timestamps.h), and pipeline statistics.
+constexpr double kTestFrames = 33;
 
 struct Estimate {
     double frame = 0.0;  // ms
@@ -81,13 +81,13 @@ void print(const RunPlan& plan, const std::vector<Estimate>& estimates) {
               << " min\n";
 }
 
+}  // namespace
+
 int printNames(const RunPlan& plan) {
     for (const PlannedCase& each : plan.cases) std::cout << each.spec.name << '\n';
     std::cout << plan.cases.size() << (plan.cases.size() == 1 ? " case\n" : " cases\n");
     return kOk;
 }
-
-}  // namespace
 
 double mostSeconds(const hair::RunSettings& run, double frame_ms) {
     const double round = (run.warmup + run.frames + 1) * frame_ms / 1e3;

@@ -1,6 +1,6 @@
 #include "benchmarks/run/identity.h"
 
-#include <nlohmann/json.hpp>
+#include "benchmarks/text_at.h"
 
 namespace benchmarks {
 
@@ -24,26 +24,20 @@ constexpr Member kMembers[] = {
 // What a software device runs on.
 constexpr Member kProcessor = {"processor", "/environment/host/processor"};
 
-// "unknown" where it is absent.
-std::string text(const Json& report, const char* pointer) {
-    const Json::json_pointer place(pointer);
-    if (!report.contains(place)) return "unknown";
-    const Json& value = report.at(place);
-    return value.is_string() ? value.get<std::string>() : value.dump();
-}
+std::string known(std::string text) { return text.empty() ? "unknown" : text; }
 
 }  // namespace
 
 std::optional<std::string> identityDifference(const Json& a, const Json& b) {
     const auto difference = [&](const Member& member) -> std::optional<std::string> {
-        const std::string mine = text(a, member.pointer);
-        const std::string other = text(b, member.pointer);
+        const std::string mine = known(textAt(a, member.pointer));
+        const std::string other = known(textAt(b, member.pointer));
         if (mine == other) return std::nullopt;
         return std::string(member.name) + ": " + mine + " is not " + other;
     };
     for (const Member& member : kMembers)
         if (auto found = difference(member)) return found;
-    if (text(a, "/environment/device/type") == "cpu") return difference(kProcessor);
+    if (textAt(a, "/environment/device/type") == "cpu") return difference(kProcessor);
     return std::nullopt;
 }
 
