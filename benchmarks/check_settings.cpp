@@ -60,6 +60,19 @@ Broken keyframesAscend(const Settings& s) {
     return "entry " + std::to_string(index + 1) + " is not after entry " + std::to_string(index);
 }
 
+Broken pullKeysAscend(const Settings& s) {
+    for (std::size_t i = 0; i < s.simulation.pulls.size(); ++i) {
+        const auto& keys = s.simulation.pulls[i].path;
+        const auto late =
+            std::ranges::adjacent_find(keys, std::ranges::greater_equal{}, &hair::PullKey::time);
+        if (late == keys.end()) continue;
+        const auto index = late - keys.begin();
+        return "entry " + std::to_string(i) + "'s path/" + std::to_string(index + 1) +
+               " is not after path/" + std::to_string(index);
+    }
+    return {};
+}
+
 // Whether angles are whole turns apart, to a thousandth of a degree, which is what large ones are
 // rounded to.
 bool sameDirection(const glm::vec3& a, const glm::vec3& b) {
@@ -147,6 +160,7 @@ constexpr Rule kRules[] = {
     {"/strands/source", groomHasStrandsOfItsOwn},
     {"/simulation/wind/direction", windHasDirection},
     {"/simulation/motion/keyframes", keyframesAscend},
+    {"/simulation/pulls", pullKeysAscend},
     {"/simulation/motion/repeat", repeatedMotionCloses},
     {"/lod/near_distance", lodDistancesAscend},
     {"/camera/near_plane", planesAscend},

@@ -273,6 +273,44 @@ constexpr auto fields(const MotionSettings*) {
             "repeat", &S::repeat, "start again with the first keyframe at the time of the last"}};
 }
 
+// Where a hand is.
+struct PullKey {
+    float time = 0.0f;
+    glm::vec3 position{0.0f};
+};
+
+constexpr auto fields(const PullKey*) {
+    using S = PullKey;
+    return std::tuple{
+        Field{"time", &S::time, 0, 100000, "s", "simulated time; keys are in its order"},
+        Field{"position", &S::position, -100, 100, "m", "of the hand; straight between keys"}};
+}
+
+// A hand that pulls at hair: a damped spring between it and a vertex, whose acceleration the hair
+// round that vertex gets too. From the first key's time to the last key's.
+struct PullSettings {
+    std::uint32_t guide = 0;
+    std::uint32_t vertex = 1;
+    float radius = 0.02f;
+    float stiffness = 400.0f;
+    std::vector<PullKey> path;
+};
+
+constexpr auto fields(const PullSettings*) {
+    using S = PullSettings;
+    return std::tuple{
+        Field{"guide", &S::guide, 0, 4294967295.0, "1", "guide that is held"},
+        Field{"vertex", &S::vertex, 1, 65535, "1", "its vertex that is held; 0 is the root"},
+        Field{
+            "radius", &S::radius, 0, 10, "m",
+            "at this distance from the vertex, at rest, hair gets 1/e of the acceleration; 0: the "
+            "vertex alone"},
+        Field{
+            "stiffness", &S::stiffness, 0, 100000, "1/s^2",
+            "acceleration by distance from the vertex to the hand; damped critically"},
+        List<S, PullKey>{"path", &S::path, 10000, "where the hand is; none: it does not pull"}};
+}
+
 enum class Solver { none, shape, ftl, rod };
 enum class Parallelism { automatic, vertex, strand, serial };
 enum class StiffnessScaling { invariant, thesis };
@@ -298,6 +336,7 @@ struct SimulationSettings {
     std::vector<DistanceFieldSettings> distance_fields;
     HairHairSettings hair_hair;
     MotionSettings motion;
+    std::vector<PullSettings> pulls;
 };
 
 constexpr auto fields(const SimulationSettings*) {
@@ -352,7 +391,8 @@ constexpr auto fields(const SimulationSettings*) {
             "distance_fields", &S::distance_fields, 8, "closed meshes that push guides out"},
         Group<S, HairHairSettings>{
             "hair_hair", &S::hair_hair, "contact of hair with hair, on a grid of density"},
-        Group<S, MotionSettings>{"motion", &S::motion, "keyframed motion of the head"}};
+        Group<S, MotionSettings>{"motion", &S::motion, "keyframed motion of the head"},
+        List<S, PullSettings>{"pulls", &S::pulls, 64, "hands that pull at hair"}};
 }
 
 }  // namespace hair

@@ -31,6 +31,8 @@ public:
     Renderer(
         const engine::Device& device, const Settings& settings, const StrandView& view,
         const RenderAssets& assets, const StrandStages& stages = {});
+    Renderer(const Renderer&) = delete;  // its parts point at one another
+    Renderer& operator=(const Renderer&) = delete;
 
     void record(engine::Passes& passes, const StrandView& view);
 

@@ -63,18 +63,28 @@ fieldsOf(const SimulationSettings& settings, const std::vector<DistanceField>& f
 
 Bodies::Bodies(
     const engine::Device& device, const SimulationSettings& settings, std::span<const Mesh> meshes)
-    : distances_(bake(device, settings, meshes)),
-      capsules_(engine::makeBuffer(
-          device, std::span<const gpu::Capsule>(capsulesOf(settings)), "capsules")),
+    : distances_(bake(device, settings, meshes)), capsules_(makeCapsules(device, settings)),
       fields_(engine::makeBuffer(
           device, std::span<const gpu::BodyField>(fieldsOf(settings, distances_)),
           "distance fields")),
-      parameters_{
-          .capsules = capsules_.address(),
-          .fields = fields_.address(),
-          .capsule_count = static_cast<std::uint32_t>(settings.colliders.size()),
-          .field_count = static_cast<std::uint32_t>(distances_.size()),
-          .margin = settings.collision.margin,
-          .friction = settings.collision.friction} {}
+      margin_(settings.collision.margin), friction_(settings.collision.friction) {}
+
+gpu::Bodies Bodies::parametersWith(const Capsules& capsules) const {
+    return {
+        .capsules = capsules.buffer.address(),
+        .fields = fields_.address(),
+        .capsule_count = capsules.count,
+        .field_count = static_cast<std::uint32_t>(distances_.size()),
+        .margin = margin_,
+        .friction = friction_};
+}
+
+Bodies::Capsules
+Bodies::makeCapsules(const engine::Device& device, const SimulationSettings& settings) {
+    return {
+        .buffer = engine::makeBuffer(
+            device, std::span<const gpu::Capsule>(capsulesOf(settings)), "capsules"),
+        .count = static_cast<std::uint32_t>(settings.colliders.size())};
+}
 
 }  // namespace hair

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/buffer.h"
@@ -14,19 +16,30 @@ namespace hair {
 // What hair collides with, on the device: capsules and distance fields.
 class Bodies {
 public:
+    struct Capsules {
+        engine::Buffer buffer;  // gpu::Capsule [count]
+        std::uint32_t count;
+    };
+
     // `meshes[i]` is the mesh of settings.distance_fields[i]. Bakes the fields. Throws Error
     // (/simulation/distance_fields/N) for a mesh that is not closed.
     Bodies(
         const engine::Device& device, const SimulationSettings& settings,
         std::span<const Mesh> meshes);
 
-    gpu::Bodies parameters() const { return parameters_; }
+    gpu::Bodies parameters() const { return parametersWith(capsules_); }
+    // Those of the same fields with other capsules.
+    gpu::Bodies parametersWith(const Capsules& capsules) const;
+
+    static Capsules makeCapsules(const engine::Device& device, const SimulationSettings& settings);
+    void setCapsules(Capsules capsules) noexcept { capsules_ = std::move(capsules); }
 
 private:
     std::vector<DistanceField> distances_;
-    engine::Buffer capsules_;
+    Capsules capsules_;
     engine::Buffer fields_;
-    gpu::Bodies parameters_;
+    float margin_;
+    float friction_;
 };
 
 }  // namespace hair

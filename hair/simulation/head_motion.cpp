@@ -103,6 +103,15 @@ HeadMotion::HeadMotion(const MotionSettings& settings) : settings_(settings) {
                 "is not after the keyframe before");
 }
 
+Keyframe HeadMotion::keyframeAt(double time) const {
+    if (settings_.keyframes.empty()) return {.time = static_cast<float>(time)};
+    const Pose pose = poseAt(settings_, time);
+    return {
+        .time = static_cast<float>(time),
+        .rotation = pose.rotation,
+        .translation = pose.translation};
+}
+
 RigidMotion HeadMotion::at(double time) const {
     if (settings_.keyframes.empty()) return {};
     const Pose pose = poseAt(settings_, time);

@@ -21,6 +21,8 @@ public:
 
     // `time` in s.
     RigidMotion at(double time) const;
+    // The pose as a keyframe at that time; angles may be more than whole turns.
+    Keyframe keyframeAt(double time) const;
 
 private:
     MotionSettings settings_;

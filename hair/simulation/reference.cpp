@@ -4,6 +4,7 @@
 
 #include "hair/simulation/reference_constraints.h"
 #include "hair/simulation/reference_contact.h"
+#include "hair/simulation/reference_pull.h"
 #include "hair/simulation/reference_volume.h"
 #include "hair/simulation/reference_wind.h"
 #include "hair/simulation/solver.h"
@@ -72,6 +73,18 @@ void Reference::advance(std::span<const glm::dvec3> wind_accelerations, double t
                     .frame = motion_.at(then)});
     for (std::size_t i = 0; i < accelerations.size(); ++i)
         accelerations[i] += glm::dvec3(settings_.gravity) + contact_accelerations[i];
+    // While hair settles time stands still, and no hand pulls.
+    if (then > time())
+        reference::addPulls(
+            settings_.pulls,
+            {.vertices = vertices_,
+             .rest = rest_,
+             .positions = positions_,
+             .previous = previous_,
+             .substep = settingsOfSubstep(settings_).time_step,
+             .from = time(),
+             .to = then},
+            accelerations);
     const std::uint32_t substeps = substepsOf(settings_);
     const auto frameAfter = [&](std::uint32_t substep) {
         return motion_.at(time() + (then - time()) * substep / substeps);

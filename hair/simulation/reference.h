@@ -23,7 +23,7 @@ public:
     // Positions and those one substep earlier, [strand][vertex], m.
     void setState(std::span<const glm::dvec3> positions, std::span<const glm::dvec3> previous);
 
-    // One time step under gravity and the wind of the current time.
+    // One time step under gravity, the wind and the hands of the current time.
     void step();
     // One time step under gravity and in still air; time stands still.
     void settle();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -8,6 +9,9 @@
 #include "hair/settings.h"
 
 namespace hair {
+
+// Which of its constants says whether the `shape` solver looks for contact with bodies.
+inline constexpr std::size_t kCollidesConstant = 2;
 
 // How the `shape` solver's strands are dealt out to invocations.
 struct ShapePlan {

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstddef>
 #include <iterator>
+#include <utility>
 
 #include "engine/transfer.h"
 #include "hair/gpu_structs.h"
@@ -39,7 +40,7 @@ Simulation::Simulation(
     std::uint32_t seed, std::span<const Mesh> field_meshes)
     : device_(&device), settings_(settings), substep_(settingsOfSubstep(settings)),
       substeps_(substepsOf(settings)), strand_count_(groom.strand_count),
-      vertices_per_strand_(groom.vertices_per_strand), pinned_(groom.points.size()),
+      vertices_per_strand_(groom.vertices_per_strand), seed_(seed), pinned_(groom.points.size()),
       motion_(settings.motion), bodies_(device, settings, field_meshes),
       rest_positions_(engine::makeBuffer(
           device, std::span<const glm::vec4>(withMasses(groom.points)), "guide rest positions")),
@@ -48,21 +49,14 @@ Simulation::Simulation(
       accelerations_(device, stateOf(rest_positions_, "guide accelerations")),
       parameters_(engine::makeBuffer(
           device,
-          std::span<const gpu::GuideParameters>(std::array{gpu::GuideParameters{
-              .positions = positions_.address(),
-              .previous = previous_.address(),
-              .rest_positions = rest_positions_.address(),
-              .bodies = bodies_.parameters(),
-              .gravity = settings.gravity,
-              .time_step = substep_.time_step,
-              .velocity_kept = static_cast<float>(velocityKept(substep_)),
-              .strand_count = strand_count_,
-              .vertices_per_strand = vertices_per_strand_,
-              .seed = seed}}),
+          std::span<const gpu::GuideParameters>(std::array{parametersWith(bodies_.parameters())}),
           "guide parameters")),
-      wind_(device, groom, settings), solver_(makeSolver(device, groom, substep_)) {
+      wind_(device, strand_count_ * vertices_per_strand_, settings),
+      solver_(makeSolver(device, groom, substep_)) {
     assert(strand_count_ > 0 && vertices_per_strand_ > 1);
     assert(groom.points.size() == std::size_t{strand_count_} * vertices_per_strand_);
+    checkPulls(settings.pulls, strand_count_, vertices_per_strand_);
+    if (hasPulls()) pulls_.emplace(pullPassOf(settings));
     if (hairActsOnHair(settings))
         hair_hair_.emplace(device, groom, settings, substeps_, parameters_.address());
     std::vector<glm::vec3> start;
@@ -92,6 +86,52 @@ void Simulation::recordVolume(Commands& commands) const {
     commands.barrier(Access::compute_write, Access::compute_write);
     hair_hair_->record(
         commands, accelerations_.address(), motion_.at(time() + double{settings_.time_step}));
+}
+
+void Simulation::recordPulls(Commands& commands) const {
+    if (!solver_ || !pulls_) return;
+    pulls_->record(commands, parameters_.address(), accelerations_.address(), time());
+}
+
+// All that may throw comes first. The parameters stay where they are: others know their address.
+void Simulation::carryOn(const SimulationSettings& settings) {
+    SimulationSettings whole = settings;
+    SimulationSettings substep = settingsOfSubstep(settings);
+    HeadMotion motion(settings.motion);
+    Bodies::Capsules capsules = Bodies::makeCapsules(*device_, settings);
+    checkWind(settings.wind);
+    std::optional<WindPass> other_wind;
+    if (settings.wind.mode != settings_.wind.mode)
+        other_wind.emplace(*device_, strand_count_ * vertices_per_strand_, settings);
+    checkPulls(settings.pulls, strand_count_, vertices_per_strand_);
+    std::vector<PullSettings> pulls = settings.pulls;
+    std::optional<PullPass> first_pulls;
+    if (!pulls_ && !pulls.empty()) first_pulls.emplace(pullPassOf(settings));
+    std::unique_ptr<GuideSolver> solver;
+    if (solver_) {
+        if (capsules.count > 0) solver_->expectBodies(*device_);
+    } else {
+        // Of `none`, which needs no points.
+        solver = makeSolver(
+            *device_, {.strand_count = strand_count_, .vertices_per_strand = vertices_per_strand_},
+            substep);
+    }
+    const gpu::GuideParameters parameters = parametersWith(bodies_.parametersWith(capsules));
+    engine::upload(*device_, std::as_bytes(std::span(&parameters, 1)), parameters_);
+
+    settings_ = std::move(whole);
+    substep_ = std::move(substep);
+    motion_ = std::move(motion);
+    bodies_.setCapsules(std::move(capsules));
+    if (other_wind)
+        wind_ = std::move(*other_wind);
+    else
+        wind_.setWind(settings_.wind);
+    if (first_pulls)
+        pulls_ = std::move(first_pulls);
+    else if (pulls_)
+        pulls_->setPulls(std::move(pulls));
+    if (solver) solver_ = std::move(solver);
 }
 
 void Simulation::recordStep(Commands& commands) {
@@ -195,6 +235,24 @@ void Simulation::recordSubsteps(Commands& commands, double from, double to) cons
                        .frame_before = frameAfter(i)});
     }
     commands.barrier(Access::compute_write, Access::graphics_read);
+}
+
+PullPass Simulation::pullPassOf(const SimulationSettings& settings) const {
+    return {*device_, strand_count_, vertices_per_strand_, settings.time_step, settings.pulls};
+}
+
+gpu::GuideParameters Simulation::parametersWith(const gpu::Bodies& bodies) const {
+    return {
+        .positions = positions_.address(),
+        .previous = previous_.address(),
+        .rest_positions = rest_positions_.address(),
+        .bodies = bodies,
+        .gravity = settings_.gravity,
+        .time_step = substep_.time_step,
+        .velocity_kept = static_cast<float>(velocityKept(substep_)),
+        .strand_count = strand_count_,
+        .vertices_per_strand = vertices_per_strand_,
+        .seed = seed_};
 }
 
 // w: inverse mass over that of a free vertex.

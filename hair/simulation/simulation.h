@@ -17,16 +17,18 @@
 #include "hair/simulation/guide_view.h"
 #include "hair/simulation/hair_hair.h"
 #include "hair/simulation/head_motion.h"
+#include "hair/simulation/pull_pass.h"
 #include "hair/simulation/solver.h"
 #include "hair/simulation/wind_pass.h"
 
 namespace hair {
 
 // The guides on the device and the compute passes that move them. A time step is recordWind,
-// recordVolume where hasVolume, then recordStep. Simulated time is the number of recorded steps
-// times the time step: nothing depends on frames or clocks. Solver `none` keeps the guides at rest
-// on the head, and records nothing where that stands still. Between submissions the device's work
-// is ordered by the barriers that are recorded here. Borrows the device.
+// recordVolume where hasVolume, recordPulls where hasPulls, then recordStep. Simulated time is the
+// number of recorded steps times the time step: nothing depends on frames or clocks. Solver `none`
+// keeps the guides at rest on the head, and records nothing where that stands still. Between
+// submissions the device's work is ordered by the barriers that are recorded here. Borrows the
+// device.
 class Simulation {
 public:
     // The groom needs at least one strand and two vertices; `field_meshes[i]` is the mesh of
@@ -45,15 +47,27 @@ public:
     // Adds the accelerations that hair gives hair. After recordWind.
     void recordVolume(engine::Commands& commands) const;
 
+    // Whether a hand pulls at some time.
+    bool hasPulls() const { return !settings_.pulls.empty(); }
+    // Adds the accelerations of hands that pull now. After recordVolume.
+    void recordPulls(engine::Commands& commands) const;
+
     // One time step under gravity and the accelerations recorded last. Positions are then visible
     // to compute and to every graphics stage.
     void recordStep(engine::Commands& commands);
 
-    // Simulates steps without wind and waits for them; time stands still.
+    // Simulates steps without wind and hands and waits for them; time stands still.
     void settle(std::uint32_t steps);
 
     // Back to the state after construction, when the device is done with what was submitted before.
     void reset();
+
+    // Goes on from the present state with the wind, colliders, motion and pulls of `settings`,
+    // which are the same in everything else. The state that reset() goes back to stays as it is: it
+    // is of the old ones. The device must be done with what was submitted. Throws Error as the
+    // constructor; nothing has changed then. Makes only pipelines that are needed for the first
+    // time, so that it can be called for every frame.
+    void carryOn(const SimulationSettings& settings);
 
     // Positions and those one substep earlier, [strand][vertex], m.
     void setState(std::span<const glm::vec3> positions, std::span<const glm::vec3> previous);
@@ -77,6 +91,8 @@ public:
 
 private:
     void recordSubsteps(engine::Commands& commands, double from, double to) const;
+    PullPass pullPassOf(const SimulationSettings& settings) const;
+    gpu::GuideParameters parametersWith(const gpu::Bodies& bodies) const;
     std::vector<glm::vec4> withMasses(std::span<const glm::vec3> positions) const;
     std::vector<const engine::Buffer*> state() const;
 
@@ -86,6 +102,7 @@ private:
     std::uint32_t substeps_;
     std::uint32_t strand_count_;
     std::uint32_t vertices_per_strand_;
+    std::uint32_t seed_;
     std::vector<bool> pinned_;  // [strand][vertex]
     HeadMotion motion_;
     Bodies bodies_;
@@ -95,6 +112,7 @@ private:
     engine::Buffer accelerations_;
     engine::Buffer parameters_;  // gpu::GuideParameters
     WindPass wind_;
+    std::optional<PullPass> pulls_;  // from the first pull on
     std::optional<HairHair> hair_hair_;
     std::unique_ptr<GuideSolver> solver_;  // null: nothing moves
     std::vector<engine::Buffer> settled_;  // state() after construction

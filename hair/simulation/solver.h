@@ -25,6 +25,10 @@ public:
     // Derives the state of its own from positions and previous positions that someone else wrote.
     virtual void recordAdopt(engine::Commands&, gpu::StepPush) const {}
 
+    // From now on there may be bodies, also where the constructor's settings had none. Throws as
+    // the constructor.
+    virtual void expectBodies(const engine::Device&) {}
+
     // The state of its own, to save and restore.
     virtual std::vector<const engine::Buffer*> state() const { return {}; }
 };

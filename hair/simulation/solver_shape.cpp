@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 #include "engine/transfer.h"
 #include "hair/simulation/dispatch_groups.h"
@@ -20,6 +21,12 @@ std::vector<float> localStiffnesses(const Groom& groom, const SimulationSettings
     for (const double length : meanSegmentLengths(groom))
         factors.push_back(static_cast<float>(localStiffness(settings, length)));
     return factors;
+}
+
+engine::ComputePipeline pipelineOf(const engine::Device& device, const ShapePlan& plan) {
+    return {
+        device,
+        {.shader = plan.shader, .constants = plan.constants, .push_size = sizeof(gpu::StepPush)}};
 }
 
 }  // namespace
@@ -42,15 +49,20 @@ ShapeSolver::ShapeSolver(
               .local_iterations = settings.local.iterations,
               .length_iterations = settings.length.iterations}}),
           "shape parameters")),
-      pipeline_(
-          device, {.shader = plan_.shader,
-                   .constants = plan_.constants,
-                   .push_size = sizeof(gpu::StepPush)}) {}
+      pipeline_(pipelineOf(device, plan_)) {}
 
 void ShapeSolver::record(engine::Commands& commands, gpu::StepPush push) const {
     push.solver = parameters_.address();
     commands.bind(pipeline_, push);
     dispatchInvocations(commands, strand_count_, plan_.strands_per_group);
+}
+
+void ShapeSolver::expectBodies(const engine::Device& device) {
+    if (plan_.constants[kCollidesConstant] == 1) return;
+    ShapePlan plan = plan_;
+    plan.constants[kCollidesConstant] = 1;
+    pipeline_ = pipelineOf(device, plan);
+    plan_ = std::move(plan);
 }
 
 }  // namespace hair

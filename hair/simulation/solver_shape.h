@@ -15,6 +15,7 @@ public:
         const engine::Device& device, const Groom& groom, const SimulationSettings& settings);
 
     void record(engine::Commands& commands, gpu::StepPush push) const override;
+    void expectBodies(const engine::Device& device) override;
 
 private:
     std::uint32_t strand_count_;

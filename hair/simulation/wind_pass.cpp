@@ -38,12 +38,15 @@ gpu::uvec3 cellOf(const glm::dvec3& whole) {
 
 }  // namespace
 
+void checkWind(const WindSettings& settings) {
+    if (strengthOf(settings) > 0.0f) windDirection(settings);
+}
+
 WindPass::WindPass(
-    const engine::Device& device, const Groom& groom, const SimulationSettings& settings)
+    const engine::Device& device, std::uint32_t vertex_count, const SimulationSettings& settings)
     : settings_(settings.wind), material_(settings.material), time_step_(settings.time_step),
-      vertex_count_(groom.strand_count * groom.vertices_per_strand),
-      pipeline_(device, pipelineOf(settings.wind.mode)) {
-    if (strengthOf(settings_) > 0.0f) windDirection(settings_);
+      vertex_count_(vertex_count), pipeline_(device, pipelineOf(settings.wind.mode)) {
+    checkWind(settings_);
 }
 
 void WindPass::record(

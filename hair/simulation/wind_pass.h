@@ -4,17 +4,24 @@
 
 #include "engine/commands.h"
 #include "engine/pipeline.h"
-#include "hair/groom/groom.h"
 #include "hair/settings.h"
 
 namespace hair {
+
+// Throws Error for wind in a direction without length.
+void checkWind(const WindSettings& settings);
 
 // The acceleration that air gives every guide vertex, into a buffer of vec4 [strand][vertex],
 // m/s^2. It is for a whole time step.
 class WindPass {
 public:
-    // Throws Error for wind in a direction without length.
-    WindPass(const engine::Device& device, const Groom& groom, const SimulationSettings& settings);
+    // Throws what checkWind does.
+    WindPass(
+        const engine::Device& device, std::uint32_t vertex_count,
+        const SimulationSettings& settings);
+
+    // Other wind of the same mode, which checkWind has passed.
+    void setWind(const WindSettings& settings) noexcept { settings_ = settings; }
 
     // `guides` is the address of gpu::GuideParameters.
     void record(

@@ -97,6 +97,21 @@ struct DragPush {
     float time_step;  // s, for which the accelerations are held
 };
 
+// Push constants of simulation/pull_hold.comp and simulation/pull.comp.
+struct PullPush {
+    uint64_t guides;  // GuideParameters
+    uint64_t accelerations;  // m/s^2, added to
+    uint64_t held;  // vec4: the acceleration of the vertex that is held, m/s^2
+    vec3 hand;  // at the end of the time step, m
+    vec3 hand_velocity;  // m/s
+    uint held_vertex;  // of [strand][vertex]
+    float radius;  // m
+    float stiffness;  // 1/s^2
+    float damping;  // 1/s
+    float implicit;  // 1 / (1 + damping time_step + stiffness time_step^2)
+    float time_step;  // s, for which the accelerations are held
+};
+
 // Parameters of simulation/shape.comp.
 struct ShapeParameters {
     uint64_t rest_edges;  // hair/simulation/rest_shape.h

@@ -107,6 +107,7 @@ TEST_F(MemoryOfCasesTest, OfEverySolverHasAPurpose) {
         settings.simulation.settle_steps = 2;
         settings.simulation.colliders = {{.radius = 0.05f}};
         settings.simulation.distance_fields = {{.resolution = 8}};
+        settings.simulation.pulls = {{.path = {{.time = 0.0f}, {.time = 1.0f}}}};
         if (solver == hair::Solver::shape) settings.simulation.hair_hair.friction = 0.1f;
         expectAccounted("solver", settings);
     }

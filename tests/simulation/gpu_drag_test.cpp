@@ -52,7 +52,7 @@ protected:
             .seed = kSeed}};
         const engine::Buffer parameters = engine::makeBuffer(
             device(), std::span<const gpu::GuideParameters>(guides), "parameters");
-        const WindPass pass(device(), groom, settings);
+        const WindPass pass(device(), groom.strand_count * groom.vertices_per_strand, settings);
         device().runOnce([&](engine::Commands& commands) {
             commands.barrier(engine::Access::anything, engine::Access::compute_write);
             pass.record(commands, parameters.address(), result.address(), time);

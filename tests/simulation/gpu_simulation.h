@@ -8,12 +8,13 @@
 
 namespace hair {
 
-// Runs wind, hair against hair and step `steps` times and waits.
+// Runs wind, hair against hair, hands and step `steps` times and waits.
 inline void advance(const engine::Device& device, Simulation& simulation, int steps) {
     device.runOnce([&](engine::Commands& commands) {
         for (int i = 0; i < steps; ++i) {
             simulation.recordWind(commands);
             if (simulation.hasVolume()) simulation.recordVolume(commands);
+            if (simulation.hasPulls()) simulation.recordPulls(commands);
             simulation.recordStep(commands);
         }
     });

@@ -4,7 +4,7 @@
 #include "shared/distance_field_structs.h"
 #include "shared/simulation_structs.h"
 
-// Distance projection, thesis eq. 12; Müller et al. 2007, Position Based Dynamics.
+// Distance projection, thesis eq. 12; Mueller et al. 2007, Position Based Dynamics.
 // w are inverse masses. Points that coincide are parted along +y.
 void projectLength(inout vec4 a, inout vec4 b, float rest_length) {
     float mass = a.w + b.w;

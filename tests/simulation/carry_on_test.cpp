@@ -1,0 +1,200 @@
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "engine/error.h"
+#include "tests/gpu_fixture.h"
+#include "tests/simulation/closed_meshes.h"
+#include "tests/simulation/gpu_simulation.h"
+#include "tests/simulation/motions.h"
+#include "tests/simulation/pulls.h"
+
+// Simulation::carryOn: other wind, colliders, motion and pulls on the way.
+namespace hair {
+namespace {
+
+constexpr Solver kSolvers[] = {Solver::shape, Solver::ftl, Solver::rod};
+// Those whose whole state is positions and previous positions.
+constexpr Solver kSolversOfPositions[] = {Solver::shape, Solver::ftl};
+
+SimulationSettings plain(Solver solver) {
+    SimulationSettings settings;
+    settings.solver = solver;
+    settings.collision = {.margin = 0.002f, .friction = 0.3f};
+    return settings;
+}
+
+// Everything that carryOn takes, switched on.
+SimulationSettings busy(Solver solver) {
+    SimulationSettings settings = plain(solver);
+    settings.wind = {.mode = WindMode::drag, .speed = 5.0f, .turbulence = 0.5f};
+    settings.colliders = {{.a = {0, 0, 0}, .b = {0, 0.05f, 0}, .radius = 0.06f}};
+    settings.motion = nodding();
+    settings.pulls = manyPulls();
+    return settings;
+}
+
+// What takes `settings` from plain() to busy(), a thing at a time.
+using Change = std::function<void(SimulationSettings&, const SimulationSettings&)>;
+const Change kChanges[] = {
+    [](SimulationSettings& s, const SimulationSettings& other) { s.wind = other.wind; },
+    [](SimulationSettings& s, const SimulationSettings& other) { s.colliders = other.colliders; },
+    [](SimulationSettings& s, const SimulationSettings& other) { s.motion = other.motion; },
+    [](SimulationSettings& s, const SimulationSettings& other) { s.pulls = other.pulls; }};
+
+using CarryOn = GpuTest;
+
+TEST_F(CarryOn, WithTheSameSettingsChangesNothing) {
+    const Groom groom = wavyGroom(9, 8);
+    for (const Solver solver : kSolvers)
+        for (const SimulationSettings& settings : {plain(solver), busy(solver)}) {
+            Simulation straight(device(), groom, settings, 3);
+            Simulation stopped(device(), groom, settings, 3);
+            advance(device(), straight, 20);
+            for (int i = 0; i < 4; ++i) {
+                advance(device(), stopped, 5);
+                stopped.carryOn(settings);
+            }
+            EXPECT_EQ(straight.readPositions(), stopped.readPositions());
+            EXPECT_EQ(straight.readPrevious(), stopped.readPrevious());
+            EXPECT_EQ(straight.readContacts(), stopped.readContacts());
+            EXPECT_EQ(straight.time(), stopped.time());
+        }
+}
+
+// A simulation that has been other settings' for 7 steps and one that is made for the new ones and
+// put into its state at the same time go on alike, bit for bit: to each new thing and back.
+TEST_F(CarryOn, GoesOnLikeANewSimulationInItsState) {
+    const Groom groom = wavyGroom(9, 8);
+    for (const Solver solver : kSolversOfPositions)
+        for (const Change& change : kChanges)
+            for (const auto& [from, to] :
+                 {std::pair{plain(solver), busy(solver)}, std::pair{busy(solver), plain(solver)}}) {
+                SimulationSettings settings = from;
+                change(settings, to);
+                Simulation carried_on(device(), groom, from, 3);
+                advance(device(), carried_on, 7);
+                carried_on.carryOn(settings);
+                Simulation fresh(device(), groom, settings, 3);
+                advance(device(), fresh, 7);
+                fresh.setState(carried_on.readPositions(), carried_on.readPrevious());
+                Simulation unchanged(device(), groom, from, 3);
+                advance(device(), unchanged, 7);
+                ASSERT_EQ(carried_on.readPositions(), unchanged.readPositions());
+                advance(device(), carried_on, 10);
+                advance(device(), fresh, 10);
+                advance(device(), unchanged, 10);
+                EXPECT_EQ(carried_on.readPositions(), fresh.readPositions());
+                EXPECT_EQ(carried_on.readPrevious(), fresh.readPrevious());
+                EXPECT_NE(carried_on.readPositions(), unchanged.readPositions());
+            }
+}
+
+// The state of rods is more than positions; the wind must change all the same, and the first step
+// must go on from the velocities that there are.
+TEST_F(CarryOn, KeepsTheRodsVelocities) {
+    const Groom groom = wavyGroom(9, 8);
+    const SimulationSettings settings = plain(Solver::rod);
+    SimulationSettings windy = settings;
+    windy.wind.strength = 1e-30f;  // adds nothing that a float could hold
+    Simulation straight(device(), groom, settings, 3);
+    Simulation carried_on(device(), groom, settings, 3);
+    advance(device(), straight, 20);
+    advance(device(), carried_on, 10);
+    carried_on.carryOn(windy);
+    advance(device(), carried_on, 10);
+    EXPECT_EQ(carried_on.readPositions(), straight.readPositions());
+    windy.wind.strength = 15.0f;
+    carried_on.carryOn(windy);
+    advance(device(), carried_on, 1);
+    advance(device(), straight, 1);
+    EXPECT_NE(carried_on.readPositions(), straight.readPositions());
+}
+
+// Baked once, and still there beside other capsules.
+TEST_F(CarryOn, KeepsDistanceFields) {
+    const Groom groom = straightGroom(3, 8);
+    const std::vector<Mesh> meshes{makeSphere({0.05, -0.1, 0.02}, 0.05, 2)};
+    SimulationSettings settings = plain(Solver::shape);
+    settings.distance_fields = {{.resolution = 16}};
+    SimulationSettings both = settings;
+    both.colliders = {{.a = {0, -0.1f, 0}, .b = {0, -0.1f, 0.01f}, .radius = 0.03f}};
+    Simulation carried_on(device(), groom, settings, 3, meshes);
+    carried_on.carryOn(both);
+    Simulation fresh(device(), groom, both, 3, meshes);
+    Simulation capsule(
+        device(), groom,
+        [&] {
+            SimulationSettings alone = both;
+            alone.distance_fields.clear();
+            return alone;
+        }(),
+        3);
+    for (Simulation* simulation : {&carried_on, &fresh, &capsule})
+        advance(device(), *simulation, 10);
+    EXPECT_EQ(carried_on.readPositions(), fresh.readPositions());
+    EXPECT_NE(carried_on.readPositions(), capsule.readPositions());
+}
+
+TEST_F(CarryOn, TakesFrozenHairWithAHeadThatStartsToMove) {
+    const Groom groom = wavyGroom(3, 6);
+    SimulationSettings settings = plain(Solver::none);
+    Simulation simulation(device(), groom, settings, 3);
+    EXPECT_FALSE(simulation.moves());
+    settings.motion = posed({0, 40, 10}, {0.1f, 0, 0});
+    simulation.carryOn(settings);
+    EXPECT_TRUE(simulation.moves());
+    advance(device(), simulation, 1);
+    // Points within 1 m, each rounded a few times per turn.
+    constexpr double kCarried = 20 * 0x1p-24;
+    EXPECT_LT(
+        largestDistance(simulation.readPositions(), carried(simulation.pose(), groom.points)),
+        kCarried);
+    // Back where it was made, in the step after the one that says so.
+    settings.motion = {};
+    simulation.carryOn(settings);
+    advance(device(), simulation, 1);
+    EXPECT_LT(largestDistance(simulation.readPositions(), groom.points), kCarried);
+}
+
+TEST_F(CarryOn, LeavesTheStateThatResetGoesBackTo) {
+    const Groom groom = wavyGroom(5, 8);
+    SimulationSettings settings = plain(Solver::shape);
+    settings.settle_steps = 5;
+    Simulation simulation(device(), groom, settings, 3);
+    const auto start = simulation.readPositions();
+    advance(device(), simulation, 5);
+    SimulationSettings other = busy(Solver::shape);
+    other.settle_steps = 5;
+    simulation.carryOn(other);
+    advance(device(), simulation, 5);
+    simulation.reset();
+    EXPECT_EQ(simulation.time(), 0.0);
+    EXPECT_EQ(simulation.readPositions(), start);
+}
+
+TEST_F(CarryOn, ChangesNothingWhereItThrows) {
+    const Groom groom = wavyGroom(5, 8);
+    const SimulationSettings settings = busy(Solver::shape);
+    SimulationSettings still_wind = plain(Solver::shape);
+    still_wind.wind = {.strength = 1.0f, .direction = glm::vec3(0.0f)};
+    SimulationSettings other_mode = still_wind;
+    other_mode.wind = {.mode = WindMode::drag, .direction = glm::vec3(0.0f), .speed = 1.0f};
+    SimulationSettings backwards = plain(Solver::shape);
+    backwards.motion.keyframes = {{.time = 1.0f}, {.time = 0.0f}};
+    SimulationSettings nowhere = plain(Solver::shape);
+    nowhere.pulls = {{.guide = 5}};
+    Simulation untouched(device(), groom, settings, 3);
+    Simulation refused(device(), groom, settings, 3);
+    advance(device(), untouched, 5);
+    advance(device(), refused, 5);
+    for (const SimulationSettings& bad : {still_wind, other_mode, backwards, nowhere}) {
+        EXPECT_THROW(refused.carryOn(bad), engine::Error);
+        advance(device(), untouched, 5);
+        advance(device(), refused, 5);
+        EXPECT_EQ(refused.readPositions(), untouched.readPositions());
+    }
+}
+
+}  // namespace
+}  // namespace hair

@@ -1,0 +1,310 @@
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "engine/error.h"
+#include "engine/transfer.h"
+#include "hair/gpu_structs.h"
+#include "hair/simulation/pull_pass.h"
+#include "hair/simulation/reference.h"
+#include "hair/simulation/reference_pull.h"
+#include "tests/gpu_fixture.h"
+#include "tests/simulation/gpu_simulation.h"
+#include "tests/simulation/pulls.h"
+
+// Hands on the device, against theory and against the reference.
+namespace hair {
+namespace {
+
+constexpr Solver kSolvers[] = {Solver::shape, Solver::ftl, Solver::rod};
+
+class GpuPull : public GpuTest {
+protected:
+    static engine::Buffer bufferOf(const std::vector<glm::vec3>& vectors, const char* name) {
+        std::vector<glm::vec4> padded;
+        for (const glm::vec3& vector : vectors) padded.emplace_back(vector, 0.0f);
+        return engine::makeBuffer(device(), std::span<const glm::vec4>(padded), name);
+    }
+
+    // What `before` has become after the pass alone, m/s^2.
+    static std::vector<glm::vec4> accelerations(
+        const Groom& groom, const SimulationSettings& settings,
+        const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& previous,
+        const std::vector<glm::vec3>& before, float substep, double time) {
+        const engine::Buffer now = bufferOf(positions, "positions");
+        const engine::Buffer earlier = bufferOf(previous, "previous");
+        const engine::Buffer rest = bufferOf(groom.points, "rest");
+        const engine::Buffer result = bufferOf(before, "accelerations");
+        const std::array guides{gpu::GuideParameters{
+            .positions = now.address(),
+            .previous = earlier.address(),
+            .rest_positions = rest.address(),
+            .gravity = settings.gravity,
+            .time_step = substep,
+            .strand_count = groom.strand_count,
+            .vertices_per_strand = groom.vertices_per_strand}};
+        const engine::Buffer parameters = engine::makeBuffer(
+            device(), std::span<const gpu::GuideParameters>(guides), "parameters");
+        const PullPass pass(
+            device(), groom.strand_count, groom.vertices_per_strand, settings.time_step,
+            settings.pulls);
+        device().runOnce([&](engine::Commands& commands) {
+            commands.barrier(engine::Access::anything, engine::Access::compute_write);
+            pass.record(commands, parameters.address(), result.address(), time);
+            commands.barrier(engine::Access::compute_write, engine::Access::anything);
+        });
+        return engine::downloadAs<glm::vec4>(device(), result);
+    }
+};
+
+// At substeps shorter than the step, with accelerations there before, in the middle of every path
+// and where some hands don't pull. Velocities are differences of positions of 0.1 m over 4 ms, off
+// by 2^-25 of 0.1 m each: 1.5e-6 m/s, of which a stiff hand makes 1.5e-6 / dt = 1e-4 m/s^2.
+TEST_F(GpuPull, PullsLikeTheReferenceAtAnyTime) {
+    const Groom groom = wavyGroom(37, 6);
+    SimulationSettings settings;
+    settings.pulls = manyPulls();
+    const float substep = settings.time_step / 4.0f;
+    const auto positions = disturbed(groom, 0.01, 11);
+    const auto previous = disturbed(groom, 0.01, 12);
+    std::mt19937 random(13);
+    std::vector<glm::vec3> before;
+    for (std::size_t i = 0; i < groom.points.size(); ++i)
+        before.emplace_back(20.0 * randomVector(random));
+    const double dt = settings.time_step;
+    for (const double time : {0.0, 0.5, 0.99, 2.0, 500.5}) {
+        const auto result =
+            accelerations(groom, settings, positions, previous, before, substep, time);
+        auto expected = toDouble(before);
+        for (glm::dvec3& a : expected) a += glm::dvec3(settings.gravity);
+        const auto rest = toDouble(groom.points);
+        const auto now = toDouble(positions);
+        const auto earlier = toDouble(previous);
+        reference::addPulls(
+            settings.pulls,
+            {.vertices = groom.vertices_per_strand,
+             .rest = rest,
+             .positions = now,
+             .previous = earlier,
+             .substep = substep,
+             .from = time,
+             .to = time + dt},
+            expected);
+        double error = 0.0;
+        double largest = 0.0;
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            const glm::dvec3 wanted = expected[i] - glm::dvec3(settings.gravity);
+            largest = std::max(largest, glm::distance(wanted, glm::dvec3(before[i])));
+            error = std::max(error, glm::distance(glm::dvec3(result[i]), wanted));
+            if (i % groom.vertices_per_strand == 0) {
+                EXPECT_EQ(glm::vec3(result[i]), before[i]) << "root " << i;
+            }
+        }
+        EXPECT_GT(largest, 1.0) << time;
+        // 1e-4 m/s^2 as above, and ten roundings.
+        EXPECT_LT(error, 1e-4 + 10 * 0x1p-24 * largest) << time;
+    }
+}
+
+TEST_F(GpuPull, StepsLikeTheReference) {
+    for (const Solver solver : {Solver::shape, Solver::ftl})
+        for (const std::uint32_t substeps : {1u, 4u}) {
+            const Groom groom = wavyGroom(33, 9);
+            SimulationSettings settings;
+            settings.solver = solver;
+            settings.substeps = substeps;
+            settings.wind.strength = 5.0f;
+            settings.pulls = manyPulls();
+            const auto positions = disturbed(groom, 0.005, 11);
+            const auto previous = disturbed(groom, 0.005, 12);
+            Simulation simulation(device(), groom, settings, 3);
+            Reference solution(groom, settings, 3);
+            simulation.setState(positions, previous);
+            solution.setState(toDouble(positions), toDouble(previous));
+            advance(device(), simulation, 1);
+            solution.step();
+            // That of gpu_constraints_test.cpp for every substep.
+            EXPECT_LT(
+                largestDistance(simulation.readPositions(), solution.positions()),
+                substeps * 1e-5 * longestStrand(groom))
+                << substeps << " substeps";
+        }
+}
+
+// Positions up to 0.5 m are rounded by 2^-26 m and their difference, the velocity, by twice that. A
+// kick in step 0 has moved the vertex by up to n / (1 + s)^n kicks in step n, which sums to (1 + s)
+// / s^2 kicks over all steps before: 12 at s = 1/3. The hand's place is rounded, too.
+TEST_F(GpuPull, ApproachesTheHandAsCriticallyDamped) {
+    const Groom groom = straightGroom(1, 2);
+    const glm::vec3 hand(0.4f, 0.2f, -0.1f);
+    const float stiffness = 400.0f;
+    SimulationSettings settings = nothingActs();
+    settings.pulls = {{.stiffness = stiffness, .path = stays(hand)}};
+    Simulation simulation(device(), groom, settings, 1);
+    const glm::dvec3 start = glm::dvec3(groom.points[1]) - glm::dvec3(hand);
+    for (int n = 1; n <= 90; ++n) {
+        advance(device(), simulation, 1);
+        const glm::dvec3 expected =
+            glm::dvec3(hand) + approach(n, stiffness, settings.time_step) * start;
+        ASSERT_LT(
+            glm::distance(glm::dvec3(simulation.readPositions()[1]), expected), 12 * 4 * 0x1p-26)
+            << n;
+    }
+}
+
+// At a spring this soft the offset is large: 9.8 / 40 = 0.245 m. What is left of the step must be
+// more than half of the position's rounding, 2^-26 m below 0.5 m, to move it: the offset is found
+// to that times (1 + s)^2 / s^2, which is 110 at s = 0.105.
+TEST_F(GpuPull, BalancesGravity) {
+    const Groom groom = straightGroom(1, 2);
+    SimulationSettings settings = nothingActs();
+    settings.gravity = {0, -9.8f, 0};
+    settings.pulls = {{.stiffness = 40.0f, .path = stays({0, 0.25f, 0})}};
+    Simulation simulation(device(), groom, settings, 1);
+    advance(device(), simulation, 600);
+    EXPECT_NEAR(simulation.readPositions()[1].y, 0.25 - 9.8 / 40.0, 2 * 110 * 0x1p-26);
+}
+
+// Free tips 0, 5, 10 ... cm from the one that is held.
+TEST_F(GpuPull, FallsOffToOneOverEAtTheRadius) {
+    const Groom groom = straightGroom(5, 2);
+    SimulationSettings settings = nothingActs();
+    for (const float radius : {0.05f, 0.1f, 0.0f}) {
+        settings.pulls = {{.radius = radius, .stiffness = 1e5f, .path = stays({0, 0, 1})}};
+        Simulation simulation(device(), groom, settings, 1);
+        advance(device(), simulation, 1);
+        const auto points = simulation.readPositions();
+        const double whole = points[1].z;
+        EXPECT_GT(whole, 0.7);  // s^2 / (1 + s)^2 of 1 m, s = sqrt(1e5) / 60
+        for (std::size_t strand = 1; strand < 5; ++strand) {
+            const double radii = 0.05 * static_cast<double>(strand) / double{radius};
+            const double part = radius > 0.0f ? std::exp(-radii * radii) : 0.0;
+            // The radius and the places at rest are rounded, to 2^-24 of themselves.
+            EXPECT_NEAR(points[2 * strand + 1].z / whole, part, 1e-6) << radius;
+        }
+    }
+}
+
+TEST_F(GpuPull, ChangesNothingOutsideItsTime) {
+    const Groom groom = wavyGroom(9, 8);
+    for (const Solver solver : kSolvers) {
+        SimulationSettings settings;
+        settings.solver = solver;
+        settings.settle_steps = 3;
+        settings.wind.strength = 5.0f;
+        Simulation alone(device(), groom, settings, 3);
+        settings.pulls = {
+            {.radius = 1.0f, .path = {{.time = 0.5f, .position = {1, 1, 1}}, {.time = 0.75f}}}};
+        Simulation held(device(), groom, settings, 3);
+        advance(device(), alone, 30);
+        advance(device(), held, 30);
+        EXPECT_EQ(held.readPositions(), alone.readPositions());
+        advance(device(), alone, 1);
+        advance(device(), held, 1);
+        EXPECT_NE(held.readPositions(), alone.readPositions());
+    }
+}
+
+// A free vertex goes to the hand at once where the spring is stiff and the step is long, and stays
+// there; and when as many hands as there can be hold it, too. At n > 1 substeps a step goes less
+// far than implicit Euler thinks, and what is left of the error shrinks by the root of (1 - 1/n) /
+// 2 in a step: to a third after each third step.
+TEST_F(GpuPull, IsStableAtTheStiffest) {
+    const Groom groom = straightGroom(1, 2);
+    const glm::vec3 hand(0.4f, 0.2f, -0.1f);
+    for (const std::size_t hands : {1u, 64u})
+        for (const std::uint32_t substeps : {1u, 2u, 64u})
+            for (const float stiffness : {400.0f, 1e5f}) {
+                SimulationSettings settings = nothingActs();
+                settings.time_step = 0.1f;
+                settings.substeps = substeps;
+                settings.pulls.assign(hands, {.stiffness = stiffness, .path = stays(hand)});
+                Simulation simulation(device(), groom, settings, 1);
+                advance(device(), simulation, 60);
+                // In each of n substeps every coordinate is rounded by up to 2^-26 m, and the
+                // rounding goes on as velocity: n (n + 1) / 2 of it. Less than three steps' count.
+                const double rounding = std::sqrt(3.0) * 0x1p-26 * substeps * (substeps + 1) / 2;
+                EXPECT_LT(
+                    glm::distance(simulation.readPositions()[1], hand),
+                    3.0 * rounding + 4 * 0x1p-26)
+                    << hands << " hands, " << substeps << " substeps";
+            }
+}
+
+TEST_F(GpuPull, StaysFiniteWithEverySolver) {
+    const Groom groom = wavyGroom(20, 8);
+    for (const Solver solver : kSolvers)
+        for (const float step : {0.0005f, 1.0f / 60.0f, 0.1f})
+            for (const float stiffness : {0.0f, 1e5f})
+                for (const float radius : {0.0f, std::numeric_limits<float>::denorm_min(), 10.0f}) {
+                    SimulationSettings settings;
+                    settings.solver = solver;
+                    settings.time_step = step;
+                    settings.pulls = {
+                        {.guide = 19,
+                         .vertex = 7,
+                         .radius = radius,
+                         .stiffness = stiffness,
+                         .path = jerks({0, 0, 0})},
+                        {.guide = 3,
+                         .vertex = 1,
+                         .radius = radius,
+                         .stiffness = stiffness,
+                         .path = stays({100, 100, 100})}};
+                    Simulation simulation(device(), groom, settings, 1);
+                    advance(device(), simulation, 100);
+                    for (const glm::vec3& point : simulation.readPositions())
+                        ASSERT_TRUE(std::isfinite(point.x + point.y + point.z)) << step;
+                }
+}
+
+// The tip goes with the hand, back to the same bits after reset, and the roots stay.
+TEST_F(GpuPull, GivesTheSameBitsEveryTime) {
+    const Groom groom = straightGroom(20, 8);
+    const glm::vec3 hand = groom.points[0] + glm::vec3(0.1f, -0.05f, 0.0f);
+    for (const Solver solver : kSolvers) {
+        SimulationSettings settings;
+        settings.solver = solver;
+        Simulation alone(device(), groom, settings, 3);
+        settings.pulls = {
+            {.guide = 0, .vertex = 7, .radius = 0.06f, .stiffness = 5000.0f, .path = stays(hand)}};
+        Simulation first(device(), groom, settings, 3);
+        Simulation second(device(), groom, settings, 3);
+        advance(device(), first, 90);
+        for (int i = 0; i < 90; ++i) advance(device(), second, 1);
+        const auto points = first.readPositions();
+        EXPECT_EQ(points, second.readPositions());
+        // The hand is 11 cm from the root of hair of 15 cm: the tip has gone most of the 14 cm.
+        EXPECT_LT(glm::distance(points[7], hand), 0.035f);
+        // The neighbour's tip has 1/2 of the pull; the last strand's exp(-250), which is no float.
+        advance(device(), alone, 90);
+        const auto hanging = alone.readPositions();
+        EXPECT_GT(glm::distance(points[15], hanging[15]), 0.01f);
+        EXPECT_EQ(points[159], hanging[159]);
+        for (std::size_t root = 0; root < points.size(); root += 8)
+            EXPECT_EQ(points[root], groom.points[root]);
+        first.reset();
+        advance(device(), first, 90);
+        EXPECT_EQ(points, first.readPositions());
+    }
+}
+
+TEST_F(GpuPull, RefusesWhatTheGroomDoesNotHave) {
+    const Groom groom = straightGroom(3, 4);
+    SimulationSettings settings;
+    settings.pulls = {{.guide = 2, .vertex = 3}, {.guide = 3}};
+    try {
+        const Simulation simulation(device(), groom, settings, 1);
+        FAIL() << "was taken";
+    } catch (const engine::Error& error) {
+        EXPECT_EQ(
+            std::string(error.what()),
+            "/simulation/pulls/1/guide: 3 is none of the groom's 3 guides");
+    }
+}
+
+}  // namespace
+}  // namespace hair
