@@ -10,8 +10,10 @@
 #include "benchmarks/merge_patch.h"
 #include "benchmarks/pointer.h"
 #include "benchmarks/read_settings.h"
+#include "benchmarks/screenshot_scene.h"
 #include "benchmarks/write_settings.h"
 #include "engine/error.h"
+#include "engine/png_text.h"
 
 namespace benchmarks {
 namespace {
@@ -30,6 +32,14 @@ std::string readFile(const fs::path& path) {
         throw Error(path.string(), "cannot be read");
     }
     return std::move(text).str();
+}
+
+// Of a scene file, or of a screenshot that has one in it.
+std::string readScene(const fs::path& path) {
+    std::string text = readFile(path);
+    if (!engine::isPng(text)) return text;
+    if (auto scene = sceneOfScreenshot(path)) return *std::move(scene);
+    throw Error(path.string(), "is a picture without a scene in it");
 }
 
 // Calls `action` and puts the file's name in front of the reasons it throws.
@@ -117,7 +127,7 @@ Json everyMember() {
 
 // The document with its bases merged and all of it checked. `opened`: the files that led here.
 Json loadDocument(const fs::path& path, std::vector<fs::path> opened) {
-    const std::string text = readFile(path);
+    const std::string text = readScene(path);
     Json document = parseJson(text, path.string());
     return inFile(path, [&] {
         if (!document.is_object()) throw Error("expected an object, found " + described(document));

@@ -17,6 +17,7 @@ namespace benchmarks {
 //              merge patch (RFC 7386), so null takes a member of the base away
 //   "sweep"    JSON pointer -> array of values, and the members in read_sweep.h; one case for each
 //              combination, in the written order
+// A screenshot of the viewer is one too: a PNG with the text of a scene file in it.
 struct Scene {
     std::filesystem::path path;  // as given
     std::filesystem::path directory;  // what file names in the scene are relative to

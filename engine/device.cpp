@@ -5,6 +5,7 @@
 
 #include "engine/commands.h"
 #include "engine/memory.h"
+#include "engine/shader_library.h"
 
 namespace engine {
 
@@ -29,7 +30,8 @@ VmaAllocator createAllocator(VkInstance instance, const DeviceInfo& info, VkDevi
 }  // namespace
 
 Device::Device(const DeviceOptions& options)
-    : instance_(options.validation), info_(chooseDevice(instance_, options.wanted)) {
+    : instance_(options.validation, options.window_extensions),
+      info_(chooseDevice(instance_, options.wanted)) {
     RequiredFeatures features;
     enableOptionalFeatures(info_.handle, features.core.features);
     features_ = features.core.features;
@@ -42,7 +44,8 @@ Device::Device(const DeviceOptions& options)
         .queueFamilyIndex = info_.queue_family,
         .queueCount = 1,
         .pQueuePriorities = &priority};
-    const std::vector<const char*> extensions = requiredExtensions();
+    std::vector<const char*> extensions = requiredExtensions();
+    if (!options.window_extensions.empty()) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     const VkDeviceCreateInfo create{
         .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
         .pNext = &features.core,
@@ -59,6 +62,7 @@ Device::Device(const DeviceOptions& options)
     vkGetDeviceQueue(device_, info_.queue_family, 0, &queue_);
     allocator_ = createAllocator(instance_.get(), info_, device_);
     memory_ = std::make_unique<MemoryLedger>();
+    shaders_ = std::make_unique<ShaderLibrary>();
     cache_ = std::make_unique<PipelineCache>(device_, info_);
 
     const VkCommandPoolCreateInfo pool{

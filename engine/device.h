@@ -14,10 +14,13 @@ struct VmaAllocator_T;
 namespace engine {
 
 class Commands;
+class ShaderLibrary;
 
 struct DeviceOptions {
     std::string wanted;  // index or part of the name; empty: the best
     Validation validation = Validation::off;
+    // Window::instanceExtensions() where pictures are shown in one; empty: none are.
+    std::vector<std::string> window_extensions{};
 };
 
 // One logical device with one queue, its memory allocator and pipeline cache. Everything else
@@ -29,6 +32,7 @@ public:
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
+    VkInstance instance() const { return instance_.get(); }
     VkDevice get() const { return device_; }
     VkQueue queue() const { return queue_; }
     VmaAllocator_T* allocator() const { return allocator_; }
@@ -56,6 +60,8 @@ public:
 
     // Who holds what of the device's memory: buffers and images enter and leave themselves.
     const MemoryLedger& memory() const { return *memory_; }
+    // The code that pipelines are made of from now on.
+    ShaderLibrary& shaders() const { return *shaders_; }
     // What an allocation's owner keeps for as long as it lives.
     MemoryLedger::Line memoryLine(VmaAllocation_T* allocation, const std::string& name) const;
 
@@ -73,6 +79,7 @@ private:
     VkQueue queue_{};
     VmaAllocator_T* allocator_{};
     std::unique_ptr<MemoryLedger> memory_;
+    std::unique_ptr<ShaderLibrary> shaders_;
     std::unique_ptr<PipelineCache> cache_;
     Handle<VkCommandPool, &vkDestroyCommandPool> pool_;
     Handle<VkFence, &vkDestroyFence> fence_;

@@ -1,10 +1,10 @@
 #include "engine/image_file.h"
 
-#include <cassert>
 #include <limits>
 #include <memory>
 #include <string>
 
+#include "engine/encode_png.h"
 #include "engine/error.h"
 #include "engine/read_file.h"
 #include "engine/write_file.h"
@@ -17,11 +17,6 @@
 #define STBI_ONLY_TGA
 #define STBI_ONLY_BMP
 #include <stb/stb_image.h>
-
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STB_IMAGE_WRITE_STATIC
-#define STBI_WRITE_NO_STDIO
-#include <stb/stb_image_write.h>
 
 namespace engine {
 namespace {
@@ -67,16 +62,11 @@ Pixels readImage(const std::filesystem::path& path) {
 void writePng(
     const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
     std::span<const std::uint8_t> rgba) {
-    assert(rgba.size() == std::size_t{4} * width * height);
     std::string bytes;
-    const auto append = [](void* to, void* piece, int size) {
-        static_cast<std::string*>(to)->append(
-            static_cast<const char*>(piece), static_cast<std::size_t>(size));
-    };
-    if (!stbi_write_png_to_func(
-            append, &bytes, static_cast<int>(width), static_cast<int>(height), 4, rgba.data(),
-            static_cast<int>(width) * 4)) {
-        throw Error(path.string(), "can't be encoded");
+    try {
+        bytes = encodePng(width, height, rgba);
+    } catch (const Error& error) {
+        throw Error(path.string(), error.what());
     }
     writeFileAtomically(path, bytes);
 }

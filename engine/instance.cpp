@@ -63,7 +63,8 @@ std::vector<std::string> MessageLog::take() {
     return std::exchange(messages_, {});
 }
 
-Instance::Instance(Validation validation) : messages_(std::make_unique<MessageLog>()) {
+Instance::Instance(Validation validation, const std::vector<std::string>& window_extensions)
+    : messages_(std::make_unique<MessageLog>()) {
     if (volkInitialize() != VK_SUCCESS) {
         throw NoDevice("no Vulkan loader found (libvulkan.so.1): install libvulkan1 and a driver");
     }
@@ -82,6 +83,7 @@ Instance::Instance(Validation validation) : messages_(std::make_unique<MessageLo
 
     std::vector<const char*> layers;
     std::vector<const char*> extensions;
+    for (const std::string& extension : window_extensions) extensions.push_back(extension.c_str());
     if (hasExtension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME)) {
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     }

@@ -29,7 +29,9 @@ private:
 // The Vulkan loader and instance. Throws NoDevice where no loader or no Vulkan 1.3 instance exists.
 class Instance {
 public:
-    explicit Instance(Validation validation);
+    // `extensions`: those that windows need.
+    explicit Instance(
+        Validation validation, const std::vector<std::string>& window_extensions = {});
     ~Instance();
     Instance(const Instance&) = delete;
     Instance& operator=(const Instance&) = delete;

@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "engine/shader_code.h"
+#include "engine/shader_library.h"
 
 namespace engine {
 
@@ -30,7 +30,7 @@ VkShaderStageFlagBits stageOf(const std::string& path) {
 }
 
 ShaderModule loadModule(const Device& device, const std::string& path) {
-    const std::span<const std::uint32_t> code = shaderCode(path);
+    const std::span<const std::uint32_t> code = device.shaders().code(path);
     const VkShaderModuleCreateInfo create{
         .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
         .pNext = nullptr,

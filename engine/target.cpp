@@ -130,27 +130,8 @@ void Target::copyToOutput(Commands& commands) const {
         Access::transfer_write, Access::transfer_read);
 }
 
-namespace {
-
-// The bytes of an image in TRANSFER_SRC_OPTIMAL.
-Buffer readBack(const Device& device, const Image& image, std::size_t bytes_per_pixel) {
-    const VkExtent2D extent = image.extent();
-    Buffer staging(
-        device, {.size = bytes_per_pixel * extent.width * extent.height,
-                 .usage = Usage::readback,
-                 .name = "picture"});
-    device.runOnce([&](Commands& commands) {
-        commands.barrier(Access::anything, Access::transfer_read);
-        commands.copy(image, staging);
-        commands.barrier(Access::transfer_write, Access::host_read);
-    });
-    return staging;
-}
-
-}  // namespace
-
 std::vector<std::uint8_t> readOutput(const Device& device, const Target& target) {
-    const Buffer staging = readBack(device, target.output(), 4);
+    const Buffer staging = readImage(device, target.output(), 4);
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(staging.mapped().data());
     return {bytes, bytes + staging.size()};
 }
@@ -158,7 +139,7 @@ std::vector<std::uint8_t> readOutput(const Device& device, const Target& target)
 std::vector<float> readRadiance(const Device& device, const Target& target) {
     assert(target.hasRadiance());
     constexpr std::size_t kPixel = 4 * sizeof(float);
-    const Buffer staging = readBack(device, target.radiance(), kPixel);
+    const Buffer staging = readImage(device, target.radiance(), kPixel);
     std::vector<float> rgb(staging.size() / kPixel * 3);
     for (std::size_t i = 0; i < rgb.size() / 3; ++i)
         std::memcpy(&rgb[3 * i], &staging.mapped()[kPixel * i], 3 * sizeof(float));

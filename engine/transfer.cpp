@@ -28,4 +28,18 @@ std::vector<std::byte> download(const Device& device, const Buffer& source) {
     return {mapped.begin(), mapped.end()};
 }
 
+Buffer readImage(const Device& device, const Image& image, std::size_t bytes_per_pixel) {
+    const VkExtent2D extent = image.extent();
+    Buffer staging(
+        device, {.size = bytes_per_pixel * extent.width * extent.height,
+                 .usage = Usage::readback,
+                 .name = "picture"});
+    device.runOnce([&](Commands& commands) {
+        commands.barrier(Access::anything, Access::transfer_read);
+        commands.copy(image, staging);
+        commands.barrier(Access::transfer_write, Access::host_read);
+    });
+    return staging;
+}
+
 }  // namespace engine

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/buffer.h"
+#include "engine/image.h"
 
 namespace engine {
 
@@ -15,6 +16,10 @@ void upload(const Device& device, std::span<const std::byte> bytes, const Buffer
 
 // Returns a copy of the buffer's bytes, after all work submitted so far.
 std::vector<std::byte> download(const Device& device, const Buffer& source);
+
+// The tightly packed pixels of an image in TRANSFER_SRC_OPTIMAL, in a readback buffer, after all
+// work submitted so far.
+Buffer readImage(const Device& device, const Image& image, std::size_t bytes_per_pixel);
 
 // A device-local buffer that holds `values`. At least one element is allocated, so it has an
 // address.

@@ -3,6 +3,8 @@
 #include <array>
 #include <utility>
 
+#include "engine/device_lost.h"
+
 namespace engine {
 
 namespace {
@@ -35,6 +37,7 @@ std::string resultName(VkResult result) {
 }
 
 void check(VkResult result, const char* what) {
+    if (result == VK_ERROR_DEVICE_LOST) throw DeviceLost(what, resultName(result));
     if (result < VK_SUCCESS) throw Error(what, resultName(result));
 }
 

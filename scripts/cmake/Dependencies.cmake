@@ -62,6 +62,46 @@ endif()
 hairbench_header_only(vma vk_mem_alloc.h vma)
 target_link_libraries(hairbench::vma INTERFACE Vulkan::Headers)
 
+# ---- the viewer
+find_package(glfw3 CONFIG REQUIRED)
+# Dear ImGui is compiled here, of sources: a packaged library's Vulkan back end is linked with the
+# loader's functions, and with volk's in their place it crashes.
+find_path(IMGUI_DIR imgui.h PATHS "${HAIRBENCH_DEPS}/imgui" NO_DEFAULT_PATH)
+mark_as_advanced(IMGUI_DIR)
+if(NOT IMGUI_DIR)
+    message(FATAL_ERROR
+        "Dear ImGui was not found: run scripts/setup, or set IMGUI_DIR to a folder of its sources")
+endif()
+add_library(hairbench_imgui STATIC
+    ${IMGUI_DIR}/imgui.cpp
+    ${IMGUI_DIR}/imgui_draw.cpp
+    ${IMGUI_DIR}/imgui_tables.cpp
+    ${IMGUI_DIR}/imgui_widgets.cpp
+    ${IMGUI_DIR}/backends/imgui_impl_glfw.cpp
+    ${IMGUI_DIR}/backends/imgui_impl_vulkan.cpp)
+target_include_directories(hairbench_imgui SYSTEM PUBLIC ${IMGUI_DIR})
+target_compile_definitions(hairbench_imgui PRIVATE IMGUI_IMPL_VULKAN_NO_PROTOTYPES VK_NO_PROTOTYPES)
+# It then tells engine/ui_items.cpp of its widgets, while somebody asks.
+target_compile_definitions(hairbench_imgui PUBLIC IMGUI_ENABLE_TEST_ENGINE)
+target_compile_options(hairbench_imgui PRIVATE -w)
+target_link_libraries(hairbench_imgui PUBLIC glfw Vulkan::Headers)
+add_library(hairbench::imgui ALIAS hairbench_imgui)
+find_file(HAIRBENCH_UI_FONT DejaVuSans.ttf
+    PATHS /usr/share/fonts/truetype/dejavu /usr/share/fonts/TTF /usr/share/fonts/dejavu)
+mark_as_advanced(HAIRBENCH_UI_FONT)
+
+# glslang again, as a library: shaders are compiled while the viewer runs. Its package names
+# SPIRV-Tools' libraries as if they had been found, and later releases have fewer of its own.
+find_package(SPIRV-Tools-opt CONFIG QUIET)
+find_package(SPIRV-Tools-link CONFIG QUIET)
+find_package(glslang CONFIG REQUIRED)
+add_library(hairbench::glslang INTERFACE IMPORTED GLOBAL)
+foreach(part SPIRV glslang glslang-default-resource-limits)
+    if(TARGET glslang::${part})
+        target_link_libraries(hairbench::glslang INTERFACE glslang::${part})
+    endif()
+endforeach()
+
 # ---- everything else
 find_package(glm CONFIG REQUIRED)
 find_package(assimp CONFIG REQUIRED)
@@ -69,6 +109,7 @@ find_package(nlohmann_json CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
 find_package(OpenEXR CONFIG REQUIRED)
 find_package(Threads REQUIRED)
+find_package(ZLIB REQUIRED)
 hairbench_header_only(tinygltf tiny_gltf.h)
 hairbench_header_only(stb stb_image_write.h stb)
 

@@ -47,13 +47,19 @@ function(_hairbench_shader source_dir output_dir shader)
     if(SPIRV_VAL)
         set(validate COMMAND "${SPIRV_VAL}" --target-env vulkan1.3 --scalar-block-layout "${spirv}")
     endif()
-    # -g keeps names and source lines for captures and messages; -gVS would need an extension.
+    # -g keeps names and texts for captures, messages and reloading (engine/shader_sources.h); -gVS
+    # would need an extension. Files are named relative to shaders/, so that the code is the same
+    # wherever the project lies and engine/shader_compiler.h can make the same.
+    set(absolute "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/AbsoluteDepfile.cmake")
     add_custom_command(
         OUTPUT "${spirv}"
-        COMMAND "${GLSLANG_VALIDATOR}" --quiet --target-env vulkan1.3 -g "-I${source_dir}"
-            --depfile "${spirv}.d" -o "${spirv}" "${source_dir}/${shader}"
+        COMMAND "${GLSLANG_VALIDATOR}" --quiet --target-env vulkan1.3 -g -I.
+            --depfile "${spirv}.d" -o "${spirv}" "${shader}"
+        COMMAND "${CMAKE_COMMAND}" "-DDEPFILE=${spirv}.d" "-DOUTPUT=${spirv}"
+            "-DFOLDER=${source_dir}" -P "${absolute}"
         ${validate}
-        DEPENDS "${source_dir}/${shader}"
+        WORKING_DIRECTORY "${source_dir}"
+        DEPENDS "${source_dir}/${shader}" "${absolute}"
         DEPFILE "${spirv}.d"
         COMMENT "Compiling shader ${shader}"
         VERBATIM)

@@ -45,7 +45,7 @@ vec3 mixGuides(vec3 weights, vec3 a, vec3 b, vec3 c) {
     return weights.x * a + weights.y * b + weights.z * c;
 }
 
-// r(i-1) to r(i+2) of a strand in a segment. points: [guide of the triangle][r(i-1) … r(i+2)]
+// r(i-1) to r(i+2) of a strand in a segment. points: [guide of the triangle][r(i-1) .. r(i+2)]
 void strandControlPoints(PictureParameters picture, uvec3 guides, uint segment, vec3 weights,
                          vec3 points[12], vec4 single_shares, out vec3 r[4]) {
     for (int k = 0; k < 4; ++k) r[k] = mixGuides(weights, points[k], points[4 + k], points[8 + k]);

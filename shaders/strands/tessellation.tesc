@@ -10,7 +10,7 @@ layout(push_constant, scalar) uniform Push { StrandPush push; };
 layout(location = 0) in uint patch_index[];
 layout(location = 0) patch out uvec4 patch_ids;  // key, segment, first strand, isolines
 layout(location = 1) patch out vec4 patch_lod;   // level, density, width scale, morph
-layout(location = 2) patch out vec3 control_points[12];  // [guide of the triangle][r(i-1) … r(i+2)]
+layout(location = 2) patch out vec3 control_points[12];  // [guide of the triangle][r(i-1) .. r(i+2)]
 layout(location = 14) patch out vec3 root_lift[3];
 layout(location = 17) patch out uvec3 patch_guides;
 layout(location = 18) patch out vec4 single_shares;  // of the control points

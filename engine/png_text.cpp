@@ -1,0 +1,148 @@
+#include "engine/png_text.h"
+
+#include <array>
+#include <cassert>
+#include <cstdint>
+
+#include <zlib.h>
+
+#include "engine/error.h"
+
+namespace engine {
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr auto kSignature = "\x89PNG\r\n\x1a\n"sv;
+constexpr std::size_t kFrame = 12;  // bytes of a chunk beside its data: length, type, checksum
+constexpr std::size_t kHeaderChunk = kFrame + 13;          // IHDR with what is in it
+constexpr std::size_t kLongestText = std::size_t{64} << 20;  // bytes
+
+struct Chunk {
+    std::string_view type;
+    std::string_view data;
+};
+
+[[noreturn]] void fail(std::size_t byte, const std::string& reason) {
+    throw Error("byte " + std::to_string(byte), reason);
+}
+
+const Bytef* bytesOf(std::string_view text) { return reinterpret_cast<const Bytef*>(text.data()); }
+
+// Of a chunk's type and data, which lie one after the other.
+std::uint32_t checksum(std::string_view type_and_data) {
+    return static_cast<std::uint32_t>(
+        crc32_z(crc32_z(0, nullptr, 0), bytesOf(type_and_data), type_and_data.size()));
+}
+
+std::uint32_t bigEndian(std::string_view bytes) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes[i]);
+    return value;
+}
+
+std::string bigEndian(std::uint32_t value) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
+    return bytes;
+}
+
+// The chunk at `at`, which is moved behind it.
+Chunk readChunk(std::string_view file, std::size_t& at) {
+    const std::string_view rest = file.substr(at);
+    if (rest.size() < kFrame) fail(at, "the file ends before its last chunk");
+    const std::size_t length = bigEndian(rest);
+    if (length > rest.size() - kFrame) fail(at, "the file ends in the middle of a chunk");
+    if (checksum(rest.substr(4, 4 + length)) != bigEndian(rest.substr(8 + length)))
+        fail(at, "the checksum of the chunk is wrong");
+    at += kFrame + length;
+    return {rest.substr(4, 4), rest.substr(8, length)};
+}
+
+// What is in front of the next zero byte, which is taken off with it.
+std::string_view takeUpToZero(std::string_view& data, std::size_t at) {
+    const std::size_t zero = data.find('\0');
+    if (zero == std::string_view::npos) fail(at, "the chunk of text is cut off");
+    const std::string_view taken = data.substr(0, zero);
+    data.remove_prefix(zero + 1);
+    return taken;
+}
+
+// Ends an inflation in any case.
+struct Inflation {
+    z_stream stream{};
+    ~Inflation() { inflateEnd(&stream); }
+};
+
+std::string inflated(std::string_view data, std::size_t at) {
+    Inflation inflation;
+    z_stream& stream = inflation.stream;
+    if (inflateInit(&stream) != Z_OK) throw Error("zlib can't be started");
+    stream.next_in = const_cast<Bytef*>(bytesOf(data));  // zlib's type; it only reads
+    stream.avail_in = static_cast<uInt>(data.size());
+    std::string text;
+    std::array<char, 1 << 14> piece{};
+    for (int state = Z_OK; state != Z_STREAM_END;) {
+        stream.next_out = reinterpret_cast<Bytef*>(piece.data());
+        stream.avail_out = static_cast<uInt>(piece.size());
+        state = inflate(&stream, Z_NO_FLUSH);
+        if (state != Z_OK && state != Z_STREAM_END) fail(at, "the compressed text is damaged");
+        text.append(piece.data(), piece.size() - stream.avail_out);
+        if (text.size() > kLongestText) fail(at, "the compressed text is longer than 64 MiB");
+    }
+    return text;
+}
+
+// The text behind the keyword. `at` is where the chunk is, for errors.
+std::string textOf(std::string_view type, std::string_view data, std::size_t at) {
+    if (type == "tEXt") return std::string(data);
+    bool compressed = type == "zTXt";
+    char method = 0;
+    if (compressed) {
+        if (data.empty()) fail(at, "the chunk of text is cut off");
+        method = data[0];
+        data.remove_prefix(1);
+    } else {
+        if (data.size() < 2) fail(at, "the chunk of text is cut off");
+        compressed = data[0] != 0;
+        method = data[1];
+        data.remove_prefix(2);
+        takeUpToZero(data, at);  // the language
+        takeUpToZero(data, at);  // the keyword in it
+    }
+    if (!compressed) return std::string(data);
+    if (method != 0) fail(at, "the text is compressed in an unknown way");
+    return inflated(data, at);
+}
+
+}  // namespace
+
+bool isPng(std::string_view file) { return file.starts_with(kSignature); }
+
+std::string withPngText(std::string_view file, std::string_view keyword, std::string_view text) {
+    assert(isPng(file) && file.size() > kSignature.size() + kHeaderChunk);
+    assert(!keyword.empty() && keyword.size() < 80 && text.find('\0') == text.npos);
+    std::string chunk = "iTXt";
+    chunk.append(keyword).append("\0\0\0\0\0"sv).append(text);  // not compressed, no language
+    chunk += bigEndian(checksum(chunk));
+    const std::size_t place = kSignature.size() + kHeaderChunk;
+    std::string result(file.substr(0, place));
+    result += bigEndian(static_cast<std::uint32_t>(chunk.size() - 8));
+    return result.append(chunk).append(file.substr(place));
+}
+
+std::optional<std::string> pngText(std::string_view file, std::string_view keyword) {
+    if (!isPng(file)) fail(0, "is no PNG");
+    std::optional<std::string> found;
+    std::size_t at = kSignature.size();
+    for (std::string_view type; type != "IEND";) {
+        const std::size_t begin = at;
+        Chunk chunk = readChunk(file, at);
+        type = chunk.type;
+        if (found || (type != "iTXt" && type != "tEXt" && type != "zTXt")) continue;
+        if (takeUpToZero(chunk.data, begin) == keyword) found = textOf(type, chunk.data, begin);
+    }
+    return found;
+}
+
+}  // namespace engine

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/swapchain.h"
+#include "engine/timestamps.h"
+#include "engine/window.h"
+
+namespace engine {
+
+// Draws what a window shows. Pictures are drawn into an image of their own, whose format is always
+// the same and which can be read back, and then copied to the window's; the cost on the device is
+// measured by itself.
+class Presenter {
+public:
+    static constexpr VkFormat kFormat = VK_FORMAT_R8G8B8A8_UNORM;
+
+    // The device must have been made with Window::instanceExtensions().
+    Presenter(const Device& device, const Window& window, PresentMode mode = PresentMode::fifo);
+    ~Presenter();
+    Presenter(const Presenter&) = delete;
+    Presenter& operator=(const Presenter&) = delete;
+
+    // Draws one picture and shows it: `before` records what is no rendering, `draw` what renders
+    // into one attachment of kFormat and extent(), black at first. False, and nothing is called,
+    // while the window is minimised. A window that changed its size gets pictures of the new one.
+    bool
+    frame(const std::function<void(Commands&)>& before, const std::function<void(Commands&)>& draw);
+
+    // Of the next picture, px; 0 x 0 while the window is minimised.
+    VkExtent2D extent() const { return window_.pixels(); }
+    std::uint32_t imageCount() const;
+
+    PresentMode mode() const { return mode_; }
+    void setMode(PresentMode mode);
+    std::vector<PresentMode> modes() const;
+
+    // ms on the device that the last finished picture took, from `before` to the copy.
+    double milliseconds() const { return milliseconds_; }
+
+    struct Picture {
+        std::uint32_t width = 0;
+        std::uint32_t height = 0;
+        std::vector<std::uint8_t> pixels;  // [row][column] RGBA, top row first
+    };
+    // The last picture. Waits for the device.
+    Picture picture() const;
+
+private:
+    void wait();
+    void dropSwapchain();
+    bool prepare();
+    void record(
+        std::uint32_t index, const std::function<void(Commands&)>& before,
+        const std::function<void(Commands&)>& draw);
+    void submit(std::uint32_t index);
+
+    const Device& device_;
+    const Window& window_;
+    PresentMode mode_;
+    VkSurfaceKHR surface_;
+    Handle<VkCommandPool, &vkDestroyCommandPool> pool_;
+    VkCommandBuffer buffer_{};
+    Handle<VkFence, &vkDestroyFence> done_;
+    Handle<VkSemaphore, &vkDestroySemaphore> acquired_;
+    std::vector<Handle<VkSemaphore, &vkDestroySemaphore>> drawn_;  // one for each image
+    std::optional<Swapchain> swapchain_;
+    std::optional<Image> canvas_;
+    std::optional<Timestamps> timestamps_;
+    bool pending_ = false;
+    double milliseconds_ = 0.0;
+};
+
+}  // namespace engine

@@ -1,0 +1,143 @@
+#include "engine/ui.h"
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_vulkan.h>
+#include <imgui.h>
+
+namespace engine {
+
+namespace {
+
+constexpr float kFontSize = 15.0f;  // px at scale 1
+constexpr std::uint32_t kMostTextures = 64;
+
+// Vulkan 1.3 has dynamic rendering without the extension whose names Dear ImGui asks for.
+PFN_vkVoidFunction loadFunction(const char* name, void* instance) {
+    const char* wanted = name;
+    if (std::strcmp(name, "vkCmdBeginRenderingKHR") == 0) wanted = "vkCmdBeginRendering";
+    if (std::strcmp(name, "vkCmdEndRenderingKHR") == 0) wanted = "vkCmdEndRendering";
+    return vkGetInstanceProcAddr(static_cast<VkInstance>(instance), wanted);
+}
+
+void checkResult(VkResult result) { check(result, "draw the user interface"); }
+
+Handle<VkDescriptorPool, &vkDestroyDescriptorPool> makeDescriptors(VkDevice device) {
+    const VkDescriptorPoolSize size{
+        .type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, .descriptorCount = kMostTextures};
+    VkDescriptorPoolCreateInfo create{};
+    create.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    create.flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT;
+    create.maxSets = kMostTextures;
+    create.poolSizeCount = 1;
+    create.pPoolSizes = &size;
+    VkDescriptorPool pool{};
+    check(vkCreateDescriptorPool(device, &create, nullptr, &pool), "create a descriptor pool");
+    return {device, pool};
+}
+
+// `size`: height of letters, px.
+void addFont(float size) {
+    ImGuiIO& io = ImGui::GetIO();
+    if (std::filesystem::is_regular_file(HAIRBENCH_UI_FONT)) {
+        // Latin with its accents, and the signs of units and ranges.
+        static constexpr ImWchar kGlyphs[] = {0x20,   0x17f,  0x2010, 0x2030, 0x2070,
+                                              0x209f, 0x2190, 0x21ff, 0x2200, 0x22ff,
+                                              0x370,  0x3ff,  0};
+        io.Fonts->AddFontFromFileTTF(HAIRBENCH_UI_FONT, size, nullptr, kGlyphs);
+        return;
+    }
+    ImFontConfig config;
+    config.SizePixels = size;
+    io.Fonts->AddFontDefault(&config);
+}
+
+}  // namespace
+
+Ui::Ui(const Device& device, const Window& window, float scale)
+    : device_(device), window_(window), scale_(scale), descriptors_(makeDescriptors(device.get())) {
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.ConfigWindowsMoveFromTitleBarOnly = true;
+    makeLetters();
+    ImGui_ImplGlfw_InitForVulkan(window.get(), true);
+    ImGui_ImplVulkan_LoadFunctions(loadFunction, device.instance());
+    ImGui_ImplVulkan_InitInfo info{};
+    info.Instance = device.instance();
+    info.PhysicalDevice = device.info().handle;
+    info.Device = device.get();
+    info.QueueFamily = device.info().queue_family;
+    info.Queue = device.queue();
+    info.PipelineCache = device.pipelineCache();
+    info.DescriptorPool = descriptors_.get();
+    info.MinImageCount = 2;
+    info.ImageCount = 2;
+    info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
+    info.UseDynamicRendering = true;
+    info.ColorAttachmentFormat = Presenter::kFormat;
+    info.CheckVkResultFn = checkResult;
+    ImGui_ImplVulkan_Init(&info, VK_NULL_HANDLE);
+    ImGui_ImplVulkan_CreateFontsTexture();
+}
+
+// As fine as the window's pixels, where a screen coordinate is several of them.
+void Ui::makeLetters() {
+    ImGuiIO& io = ImGui::GetIO();
+    const float density = window_.density();
+    io.Fonts->Clear();
+    addFont(std::round(kFontSize * scale_ * density));
+    io.FontGlobalScale = 1.0f / density;
+}
+
+void Ui::setScale(float scale) {
+    scale_ = scale;
+    check(vkQueueWaitIdle(device_.queue()), "wait for the device");
+    makeLetters();
+    ImGui_ImplVulkan_DestroyFontsTexture();
+    ImGui_ImplVulkan_CreateFontsTexture();
+}
+
+Ui::~Ui() {
+    vkQueueWaitIdle(device_.queue());
+    ImGui_ImplVulkan_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+}
+
+void Ui::begin() {
+    ImGui_ImplVulkan_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+}
+
+void Ui::end() { ImGui::Render(); }
+
+void Ui::draw(Commands& commands) {
+    ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), commands.get());
+}
+
+Ui::Texture::Texture(const Device& device, const Image& image) : device_(device) {
+    VkSamplerCreateInfo create{};
+    create.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+    create.magFilter = VK_FILTER_NEAREST;  // a pixel of the picture stays one
+    create.minFilter = VK_FILTER_LINEAR;
+    create.addressModeU = create.addressModeV = create.addressModeW =
+        VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    VkSampler sampler{};
+    check(vkCreateSampler(device.get(), &create, nullptr, &sampler), "create a sampler");
+    sampler_ = {device.get(), sampler};
+    id_ = ImGui_ImplVulkan_AddTexture(
+        sampler, image.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
+Ui::Texture::~Texture() {
+    vkQueueWaitIdle(device_.queue());
+    ImGui_ImplVulkan_RemoveTexture(static_cast<VkDescriptorSet>(id_));
+}
+
+}  // namespace engine

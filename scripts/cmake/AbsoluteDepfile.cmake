@@ -1,0 +1,17 @@
+# cmake -DDEPFILE=shader.d -DOUTPUT=shader.spv -DFOLDER=shaders -P AbsoluteDepfile.cmake
+# Names the files of a depfile by absolute paths: those in it are relative to FOLDER, and CMake would
+# take them to be relative to the build.
+file(READ "${DEPFILE}" text)
+string(REGEX REPLACE "^.*: " "" files "${text}")  # what depends on them is OUTPUT
+string(REGEX REPLACE "[ \n]+" ";" files "${files}")
+set(line "${OUTPUT}:")
+foreach(file IN LISTS files)
+    if(file)
+        cmake_path(ABSOLUTE_PATH file BASE_DIRECTORY "${FOLDER}" NORMALIZE)
+        string(REPLACE " " "\\ " file "${file}")
+        string(APPEND line " ${file}")
+    endif()
+endforeach()
+string(REPLACE " " "\\ " output "${OUTPUT}")
+string(REPLACE "${OUTPUT}:" "${output}:" line "${line}")
+file(WRITE "${DEPFILE}" "${line}\n")

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "engine/shader_compiler.h"
+
+namespace engine {
+
+// The project's shaders, some of which may be others.
+inline ReadShader projectShaders(std::map<std::string, std::string> others = {}) {
+    return [others = std::move(others)](const std::string& file) -> std::optional<std::string> {
+        if (const auto other = others.find(file); other != others.end()) return other->second;
+        std::ifstream stream(
+            std::filesystem::path(HAIRBENCH_SOURCE_DIR) / "shaders" / file, std::ios::binary);
+        if (!stream) return std::nullopt;
+        return std::string(std::istreambuf_iterator<char>(stream), {});
+    };
+}
+
+}  // namespace engine
