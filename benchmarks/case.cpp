@@ -29,8 +29,32 @@ Case::Case(
           device, groom_, settings.simulation, settings.seed,
           loadFieldMeshes(settings, mesh_, directory)),
       fixed_step_(double{settings.simulation.time_step}),
-      groom_buffers_(device, groom_, settings, pointerTo(loadOffsets(settings, directory))),
-      renderer_(device, settings, view(), loadRenderAssets(settings, pointerTo(mesh_), directory)) {
+      groom_buffers_(std::make_unique<hair::GroomBuffers>(groomBuffers(settings))),
+      renderer_(std::make_unique<hair::Renderer>(
+          device, settings, view(), loadRenderAssets(settings, pointerTo(mesh_), directory))) {}
+
+hair::GroomBuffers Case::groomBuffers(const hair::Settings& settings) const {
+    return {device_, groom_, settings, pointerTo(loadOffsets(settings, directory_))};
+}
+
+void Case::setDrawing(const hair::Settings& settings) {
+    auto buffers = std::make_unique<hair::GroomBuffers>(groomBuffers(settings));
+    auto renderer = std::make_unique<hair::Renderer>(
+        device_, settings, viewOf(*buffers),
+        loadRenderAssets(settings, pointerTo(mesh_), directory_));
+    groom_buffers_ = std::move(buffers);
+    renderer_ = std::move(renderer);
+    settings_ = settings;
+}
+
+void Case::setCamera(const hair::CameraSettings& camera) {
+    settings_.camera = camera;
+    renderer_->setCamera(camera);
+}
+
+void Case::carryOn(const hair::SimulationSettings& settings) {
+    simulation_.carryOn(settings);
+    settings_.simulation = settings;
 }
 
 void Case::simulate(engine::Passes& passes) {
@@ -49,6 +73,11 @@ void Case::simulate(engine::Passes& passes) {
                 simulation_.recordVolume(commands);
             });
         }
+        if (blows && simulation_.hasPulls()) {
+            passes.pass("pull", PassKind::compute, [&](engine::Commands& commands) {
+                simulation_.recordPulls(commands);
+            });
+        }
         passes.pass("simulate", PassKind::compute, [&](engine::Commands& commands) {
             simulation_.recordStep(commands);
         });
@@ -57,8 +86,10 @@ void Case::simulate(engine::Passes& passes) {
 
 void Case::frame(engine::Passes& passes) {
     simulate(passes);
-    renderer_.record(passes, view());
+    draw(passes);
 }
+
+void Case::draw(engine::Passes& passes) { renderer_->record(passes, view()); }
 
 void Case::reset() {
     simulation_.reset();
@@ -66,7 +97,7 @@ void Case::reset() {
 }
 
 std::vector<std::uint8_t> Case::picture() const {
-    return engine::readOutput(device_, renderer_.target());
+    return engine::readOutput(device_, renderer_->target());
 }
 
 std::string Case::pictureHash() const {
@@ -75,7 +106,8 @@ std::string Case::pictureHash() const {
 }
 
 std::vector<float> Case::radiance() const {
-    if (renderer_.target().hasRadiance()) return engine::readRadiance(device_, renderer_.target());
+    if (renderer_->target().hasRadiance())
+        return engine::readRadiance(device_, renderer_->target());
     const std::vector<std::uint8_t> pixels = picture();
     std::vector<float> light;
     light.reserve(pixels.size() / 4 * 3);
@@ -114,8 +146,10 @@ std::vector<std::pair<std::string, std::uint64_t>> Case::counts() const {
     return counts;
 }
 
-hair::StrandView Case::view() const {
-    hair::StrandView view = groom_buffers_.view();
+hair::StrandView Case::view() const { return viewOf(*groom_buffers_); }
+
+hair::StrandView Case::viewOf(const hair::GroomBuffers& buffers) const {
+    hair::StrandView view = buffers.view();
     const hair::GuideView guides = simulation_.guides();
     view.guides = guides.positions;
     view.contacts = guides.contacts;

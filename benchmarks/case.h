@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -36,9 +37,27 @@ public:
     // Records the simulation of the next frame and no picture: what frame() does first.
     void simulate(engine::Passes& passes);
 
+    // Records a picture of the frame as it is: what frame() does last.
+    void draw(engine::Passes& passes);
+
+    // Draws the same hair otherwise from now on: `settings` may differ from the case's in anything
+    // but /groom, /simulation, /seed and /run. The device must be done with what was submitted. As
+    // the constructor throws; nothing has changed then.
+    void setDrawing(const hair::Settings& settings);
+    // The same for /camera alone, at no cost.
+    void setCamera(const hair::CameraSettings& camera);
+
+    // Goes on from here with the wind, colliders, motion and pulls of `settings`, which are the
+    // same in everything else. What is shown from now on is no frame of these settings until the
+    // case is made anew. The device must be done with what was submitted. As the constructor
+    // throws.
+    void carryOn(const hair::SimulationSettings& settings);
+
     // Back to the first frame. The device must be done with what was submitted.
     void reset();
 
+    // The picture of the last frame on the device, in TRANSFER_SRC_OPTIMAL.
+    const engine::Image& output() const { return renderer_->target().output(); }
     // The picture of the last frame, [row][column] RGBA, top row first.
     std::vector<std::uint8_t> picture() const;
     std::string pictureHash() const;
@@ -61,13 +80,16 @@ public:
     hair::Renderer rendererOf(const hair::Settings& settings) const;
     hair::StrandView view() const;
 
-    const hair::StrandPlan& plan() const { return renderer_.plan(); }
-    std::optional<hair::ExpectedCounts> expected() const { return renderer_.expected(); }
+    const hair::StrandPlan& plan() const { return renderer_->plan(); }
+    std::optional<hair::ExpectedCounts> expected() const { return renderer_->expected(); }
     std::vector<std::pair<std::string, std::uint64_t>> counts() const;
     // What becomes of the strands' fragments, and what of the last frame's.
-    const hair::StrandBlend& blend() const { return renderer_.blend(); }
+    const hair::StrandBlend& blend() const { return renderer_->blend(); }
 
 private:
+    hair::GroomBuffers groomBuffers(const hair::Settings& settings) const;
+    hair::StrandView viewOf(const hair::GroomBuffers& buffers) const;
+
     const engine::Device& device_;
     hair::Settings settings_;
     std::filesystem::path directory_;
@@ -75,8 +97,8 @@ private:
     hair::Groom groom_;
     hair::Simulation simulation_;
     hair::FixedStep fixed_step_;
-    hair::GroomBuffers groom_buffers_;
-    hair::Renderer renderer_;
+    std::unique_ptr<hair::GroomBuffers> groom_buffers_;
+    std::unique_ptr<hair::Renderer> renderer_;
 };
 
 }  // namespace benchmarks

@@ -57,6 +57,9 @@ constexpr Row kPurposes[] = {
     {"strand points", "measuring"},
     {"stage watch", "measuring"},
     {"busy work", "measuring"},
+    {"window", "window"},
+    {"shown picture", "window"},
+    {"difference ", "window"},
 };
 
 Metric bytes(std::string name, std::uint64_t count) {

@@ -13,6 +13,36 @@ of a square round the hair that it hides, without the head. Times: medians of is
 }  // namespace
 
 void addPictureCommands(const CommandLine& line) {
+    addCommand<ViewOptions>(
+        line, line.app, "view", "opens a scene in a window", viewScene,
+        [](CLI::App& command, ViewOptions& options) {
+            addSceneOptions(command, options.scene);
+            command.add_option("--width", options.width, "of the window (default 1600)");
+            command.add_option("--height", options.height, "of the window (default 900)");
+            command.add_option(
+                "--scale", options.scale, "of letters and widgets (default the screen's)");
+            command.add_option(
+                "--frames", options.frames,
+                "pictures of the window before it closes (default: never)");
+            command.add_option("--screenshot", options.screenshot, "of the last one (.png)")
+                ->type_name("FILE");
+            command
+                .add_option(
+                    "--script", options.script,
+                    "steps that drive the viewer as a user would (docs/viewer.md)")
+                ->type_name("FILE");
+            command
+                .add_option(
+                    "--shaders", options.shaders,
+                    "folder whose GLSL is watched and reloaded (default: where it was built)")
+                ->type_name("FOLDER");
+            command
+                .add_option(
+                    "--preferences", options.preferences,
+                    "file that remembers layout and theme (default: the user's own; with --script "
+                    "none)")
+                ->type_name("FILE");
+        });
     addCommand<RenderOptions>(
         line, line.app, "render", "writes pictures of one frame or several", renderScene,
         [](CLI::App& command, RenderOptions& options) {

@@ -31,12 +31,17 @@ void addStatistics(const Play& play, CaseResult& result) {
     Play plain = play;
     plain.busy = nullptr;
     playFrame(loop, plain);
-    const std::vector<engine::FrameRecord> frames = loop.finish();
-    const auto& passes = frames.front().statistics;
-    const auto strands = std::ranges::find(passes, "strands", &engine::PassStatistics::name);
-    if (strands == passes.end()) return;
+    addStatistics(loop.finish().front(), play.device, play.test_case, result);
+}
 
-    const std::optional<hair::ExpectedCounts> expected = play.test_case.expected();
+void addStatistics(
+    const engine::FrameRecord& frame, const engine::Device& device, const Case& test_case,
+    CaseResult& result) {
+    const auto strands =
+        std::ranges::find(frame.statistics, "strands", &engine::PassStatistics::name);
+    if (strands == frame.statistics.end()) return;
+
+    const std::optional<hair::ExpectedCounts> expected = test_case.expected();
     for (std::size_t i = 0; i < engine::kStatisticNames.size(); ++i) {
         Statistic statistic{
             .name = std::string(engine::kStatisticNames[i]),
@@ -44,7 +49,7 @@ void addStatistics(const Play& play, CaseResult& result) {
             .expected = expectedOf(expected, engine::kStatisticNames[i]),
             .note = ""};
         const bool fragments = statistic.name == "fragment_invocations";
-        if (fragments && play.device.fragmentCountsAreApproximate()) {
+        if (fragments && device.fragmentCountsAreApproximate()) {
             statistic.note = "approximate: this driver counts too many";
         }
         if (statistic.expected && *statistic.expected != statistic.measured) {

@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "benchmarks/measure/metrics.h"
+#include "benchmarks/table.h"
 #include "benchmarks/trust.h"
 
 namespace benchmarks {
@@ -43,6 +45,15 @@ void addPassTimes(
     std::span<const FrameRecord> frames, const std::string& mode, CaseResult& result) {
     for (const std::string& pass : passNames(frames))
         result.metrics.push_back({"pass." + pass + ".time", "ms", passTimes(frames, pass), mode});
+}
+
+void addPassSum(std::span<const FrameRecord> isolated, CaseResult& result) {
+    const double ratio = passSumOverWall(isolated);
+    result.trust.pass_sum_over_wall = ratio;
+    if (std::abs(ratio - 1.0) > kTrustTolerance) {
+        result.trust.warnings.push_back(
+            "the passes add up to " + shortNumber(ratio) + " of the frame's wall clock");
+    }
 }
 
 void addFrameUse(std::span<const FrameRecord> isolated, CaseResult& result) {

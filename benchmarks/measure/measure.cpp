@@ -1,7 +1,6 @@
 #include "benchmarks/measure.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -12,7 +11,6 @@
 #include "benchmarks/measure/sample_mode.h"
 #include "benchmarks/memory_metrics.h"
 #include "benchmarks/statistics.h"
-#include "benchmarks/table.h"
 #include "benchmarks/trust.h"
 
 namespace benchmarks {
@@ -37,15 +35,6 @@ void checkEnds(const RoundEnd& overlapped, const RoundEnd& isolated, CaseResult&
         result.trust.warnings.push_back("overlapped and isolated frames made different pictures");
     if (isolated.state_hash != overlapped.state_hash)
         result.trust.warnings.push_back("overlapped and isolated frames made different states");
-}
-
-void checkSum(const std::vector<FrameRecord>& isolated, CaseResult& result) {
-    const double ratio = passSumOverWall(isolated);
-    result.trust.pass_sum_over_wall = ratio;
-    if (std::abs(ratio - 1.0) > kTrustTolerance) {
-        result.trust.warnings.push_back(
-            "the passes add up to " + shortNumber(ratio) + " of the frame's wall clock");
-    }
 }
 
 // Adds the passes' times, by timestamps if they can be trusted and else by the CPU's clock; on a
@@ -97,7 +86,7 @@ std::vector<std::uint8_t> measure(
 
     addOverlappedMetrics(overlapped.frames, result);
     result.metrics.push_back({"frame.first.time", "ms", {overlapped.first_frame}, "overlapped"});
-    checkSum(isolated.frames, result);
+    addPassSum(isolated.frames, result);
     std::vector<Conditions> conditions = std::move(overlapped.conditions);
     std::ranges::copy(isolated.conditions, std::back_inserter(conditions));
     std::ranges::move(addPasses(play, isolated, watch, result), std::back_inserter(conditions));

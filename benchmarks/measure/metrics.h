@@ -22,6 +22,9 @@ void addIsolatedMetrics(std::span<const engine::FrameRecord> frames, CaseResult&
 void addPassTimes(
     std::span<const engine::FrameRecord> frames, const std::string& mode, CaseResult& result);
 
+// trust.pass_sum_over_wall, and a warning where it is too far from 1.
+void addPassSum(std::span<const engine::FrameRecord> isolated, CaseResult& result);
+
 // What whole frames used of the CPU, by the isolated frames: frame.cpu.time and, where
 // instructions are counted, frame.instructions.
 void addFrameUse(std::span<const engine::FrameRecord> isolated, CaseResult& result);

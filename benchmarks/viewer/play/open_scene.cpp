@@ -1,0 +1,111 @@
+#include "benchmarks/viewer/play/open_scene.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace benchmarks {
+
+namespace {
+
+bool sameCamera(const hair::CameraSettings& a, const hair::CameraSettings& b) {
+    bool same = true;
+    hair::forEachField<hair::CameraSettings>(
+        [&](const auto& row) { same = same && a.*row.member == b.*row.member; });
+    return same;
+}
+
+}  // namespace
+
+OpenScene::OpenScene(
+    const engine::Device& device, const SceneFile& file, const hair::Settings& settings)
+    : device_(device), file_(file), a_(std::make_unique<Side>(device, settings, file.directory)) {
+    a_->setOriginal(file.settings);
+}
+
+void OpenScene::open(const SceneFile& file) {
+    auto side = std::make_unique<Side>(device_, file.settings, file.directory);
+    b_.reset();
+    a_ = std::move(side);
+    file_ = file;
+    edited_ = 0;
+    was_saved_ = false;
+}
+
+std::vector<Side*> OpenScene::sides() {
+    std::vector<Side*> sides{a_.get()};
+    if (b_) sides.push_back(b_.get());
+    return sides;
+}
+
+void OpenScene::startComparing() {
+    if (b_) return;
+    a_->settle();
+    a_->follow();
+    auto side = std::make_unique<Side>(device_, a_->player().settings(), file_.directory);
+    side->seek(a_->player().frame());
+    side->setOriginal(file_.settings);
+    b_ = std::move(side);
+    edited_ = 1;
+}
+
+void OpenScene::stopComparing() {
+    b_.reset();
+    edited_ = 0;
+}
+
+void OpenScene::swapSides() {
+    if (!b_) return;
+    // What the file has stays the first side's to be compared with.
+    const hair::Settings original = a_->original();
+    std::swap(a_, b_);
+    a_->setOriginal(original);
+}
+
+const hair::Settings& OpenScene::reference() const {
+    return edited_ == 1 && b_ ? a_->wanted() : a_->original();
+}
+
+void OpenScene::edit(std::size_t index, const hair::Settings& settings, Edit edit) {
+    if (!edit.changed) return;
+    side(index).edit(settings, edit);
+    if (!b_ || cameras == Cameras::separate) return;
+    Side& other = side(1 - index);
+    if (sameCamera(other.wanted().camera, settings.camera)) return;
+    hair::Settings followed = other.wanted();
+    followed.camera = settings.camera;
+    other.edit(followed, edit);
+}
+
+bool OpenScene::play(PlayState& state, double seconds, Frames frames) {
+    const std::vector<Side*> all = sides();
+    for (Side* const each : all) each->follow();
+    const bool seeks = state.seek.has_value();
+    if (seeks)
+        for (Side* const each : all) each->seek(*state.seek);
+    std::uint32_t due = 0;
+    if (state.playing)
+        due =
+            pacer_.framesFor(seconds, double{a_->player().settings().run.frame_time}, state.speed);
+    else if (state.step)
+        due = 1;
+    if (frames == Frames::every_one) due = std::min(due, 1u);
+    if (due > 0) {
+        // In turns, so that the timings panel has both.
+        timing_ = timing_ == engine::Timing::isolated ? engine::Timing::overlapped
+                                                      : engine::Timing::isolated;
+        for (Side* const each : all) each->play(due, timing_);
+    }
+    state.seek.reset();
+    state.step = false;
+    return due > 0 || seeks;
+}
+
+void OpenScene::savedAs(const std::filesystem::path& path) {
+    file_.path = path;
+    file_.name = path.stem().string();
+    was_saved_ = true;
+    file_.settings = side(edited_).wanted();
+    for (Side* const each : sides()) each->setOriginal(file_.settings);
+}
+
+}  // namespace benchmarks

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+
+namespace benchmarks {
+
+// A panel in a column.
+enum class Tab { scene, files, timings, compare, shaders };
+
+const char* tabName(Tab tab);
+
+// The columns' own, and all of them for one that has both's.
+std::span<const Tab> leftTabs();
+std::span<const Tab> rightTabs();
+std::span<const Tab> allTabs();
+
+// Which panel each column shows, in wide windows and in those with one column.
+struct Tabs {
+    Tab left = Tab::scene;
+    Tab right = Tab::timings;
+    Tab only = Tab::scene;
+
+    // Brings a panel to the front, wherever it is.
+    void choose(Tab tab);
+};
+
+// Names to choose from within the current window of Dear ImGui, in as many lines as it takes; true
+// where another one was.
+bool tabStrip(std::span<const Tab> tabs, Tab& chosen);
+
+}  // namespace benchmarks

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "benchmarks/viewer/tools/picking.h"
+#include "benchmarks/viewer/tools/picture_view.h"
+#include "hair/simulation/rigid_motion.h"
+#include "hair/simulation_settings.h"
+
+namespace benchmarks {
+
+// What a capsule is held by. A sphere has no ends: its `stretch` makes it a capsule.
+enum class ColliderPart { middle, end_a, end_b, stretch, rim };
+
+// Where the parts of a collider are in the world; `head` is where the head is.
+struct ColliderHandle {
+    ColliderPart part = ColliderPart::middle;
+    glm::vec3 point{0.0f};
+};
+std::vector<ColliderHandle> colliderHandles(
+    const hair::Collider& collider, const hair::RigidMotion& head, const PictureView& view);
+
+// The ends of its axis in the world.
+struct ColliderAxis {
+    glm::vec3 a, b;
+};
+ColliderAxis axisOf(const hair::Collider& collider, const hair::RigidMotion& head);
+
+// The collider after one of its parts was moved through the world by so much.
+hair::Collider withMoved(
+    const hair::Collider& collider, const hair::RigidMotion& head, const PictureView& view,
+    ColliderPart part, const glm::vec3& by);
+
+// The one that is in front under a pixel.
+std::optional<std::size_t> pickCollider(
+    const PictureView& view, std::span<const hair::Collider> colliders,
+    const hair::RigidMotion& head, glm::vec2 pixel);
+
+// A sphere in front of the face of a groom, as it is on a head that has not moved (+z is where
+// faces look); it follows the head.
+hair::Collider colliderInFront(const Sphere& groom);
+
+}  // namespace benchmarks

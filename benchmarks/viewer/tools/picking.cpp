@@ -1,0 +1,151 @@
+#include "benchmarks/viewer/tools/picking.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+namespace benchmarks {
+
+namespace {
+
+// Möller and Trumbore 1997, Fast, minimum storage ray/triangle intersection: m along the ray.
+std::optional<double>
+hitTriangle(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const glm::dvec3 p = glm::cross(ray.direction, c - a);
+    const double determinant = glm::dot(b - a, p);
+    if (determinant == 0.0) return {};
+    const glm::dvec3 s = ray.from - a;
+    const glm::dvec3 q = glm::cross(s, b - a);
+    const double u = glm::dot(s, p) / determinant;
+    const double v = glm::dot(ray.direction, q) / determinant;
+    const double distance = glm::dot(c - a, q) / determinant;
+    if (u < 0.0 || v < 0.0 || u + v > 1.0 || distance <= 0.0) return {};
+    return distance;
+}
+
+// The smaller root of x^2 + 2 b x + c.
+std::optional<double> firstRoot(double b, double c) {
+    const double square = b * b - c;
+    if (square < 0.0) return {};
+    const double root = -b - std::sqrt(square);
+    if (root <= 0.0) return {};
+    return root;
+}
+
+std::optional<double> hitSphere(const Ray& ray, const glm::dvec3& center, double radius) {
+    const glm::dvec3 arm = ray.from - center;
+    return firstRoot(glm::dot(arm, ray.direction), glm::dot(arm, arm) - radius * radius);
+}
+
+std::optional<double>
+hitCylinder(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, double radius) {
+    const double length = glm::length(b - a);
+    if (length == 0.0) return {};
+    const glm::dvec3 axis = (b - a) / length;
+    const auto across = [&](const glm::dvec3& v) { return v - axis * glm::dot(v, axis); };
+    const glm::dvec3 direction = across(ray.direction), arm = across(ray.from - a);
+    const double square = glm::dot(direction, direction);
+    if (square < 1e-12) return {};  // along the axis: its ends are met first
+    const auto root = firstRoot(
+        glm::dot(arm, direction) / square, (glm::dot(arm, arm) - radius * radius) / square);
+    if (!root) return {};
+    const double along = glm::dot(ray.from + ray.direction * *root - a, axis);
+    if (along < 0.0 || along > length) return {};
+    return root;
+}
+
+double distanceToSegment(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b) {
+    const glm::dvec3 line = b - a;
+    const double square = glm::dot(line, line);
+    const double share =
+        square > 0.0 ? std::clamp(glm::dot(point - a, line) / square, 0.0, 1.0) : 0.0;
+    return glm::length(point - a - line * share);
+}
+
+}  // namespace
+
+Sphere sphereRound(std::span<const glm::vec3> points) {
+    glm::vec3 low = points.front(), high = points.front();
+    for (const glm::vec3& point : points) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+    Sphere sphere{(low + high) / 2.0f};
+    for (const glm::vec3& point : points)
+        sphere.radius = std::max(sphere.radius, glm::length(point - sphere.center));
+    return sphere;
+}
+
+std::optional<GuideVertex> pickVertex(
+    const PictureView& view, std::span<const glm::vec3> guides, std::uint32_t vertices_per_guide,
+    glm::vec2 pixel, float reach, float depth_scale) {
+    std::optional<GuideVertex> best;
+    float lowest = std::numeric_limits<float>::max();
+    for (std::size_t i = 0; i < guides.size(); ++i) {
+        const std::size_t vertex = i % vertices_per_guide;
+        if (vertex == 0) continue;
+        const auto shown = view.pixel(guides[i]);
+        if (!shown) continue;
+        const float distance = glm::length(*shown - pixel);
+        if (distance > reach) continue;
+        const float cost = distance / reach + view.depth(guides[i]) / depth_scale;
+        if (cost >= lowest) continue;
+        lowest = cost;
+        best = {
+            static_cast<std::uint32_t>(i / vertices_per_guide), static_cast<std::uint32_t>(vertex)};
+    }
+    return best;
+}
+
+std::optional<glm::vec3> pickHair(
+    const PictureView& view, std::span<const glm::vec3> guides, std::uint32_t vertices_per_guide,
+    glm::vec2 pixel, float reach) {
+    std::optional<glm::vec3> best;
+    for (std::size_t i = 0; i + 1 < guides.size(); ++i) {
+        if ((i + 1) % vertices_per_guide == 0) continue;  // the tip of one, the root of another
+        const auto a = view.pixel(guides[i]);
+        const auto b = view.pixel(guides[i + 1]);
+        if (!a || !b) continue;
+        const glm::vec2 line = *b - *a;
+        const float square = glm::dot(line, line);
+        const float share =
+            square > 0.0f ? std::clamp(glm::dot(pixel - *a, line) / square, 0.0f, 1.0f) : 0.0f;
+        if (glm::length(pixel - *a - line * share) > reach) continue;
+        // Equal steps along a line are shorter in the picture the farther off they are.
+        const float near = view.depth(guides[i]), far = view.depth(guides[i + 1]);
+        const float along = share * near / (share * near + (1.0f - share) * far);
+        const glm::vec3 point = glm::mix(guides[i], guides[i + 1], along);
+        if (!best || view.depth(point) < view.depth(*best)) best = point;
+    }
+    return best;
+}
+
+std::optional<double>
+pickMesh(const Ray& ray, const hair::Mesh& mesh, const hair::RigidMotion& moved) {
+    const glm::dquat back = glm::conjugate(moved.rotation);
+    const Ray local{back * (ray.from - moved.translation), back * ray.direction};
+    std::optional<double> nearest;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const auto hit =
+            hitTriangle(local, mesh.positions[a], mesh.positions[b], mesh.positions[c]);
+        if (hit && (!nearest || *hit < *nearest)) nearest = hit;
+    }
+    return nearest;
+}
+
+std::optional<double>
+pickCapsule(const Ray& ray, const glm::vec3& a, const glm::vec3& b, float radius) {
+    if (distanceToSegment(ray.from, a, b) <= double{radius}) return {};
+    std::optional<double> nearest;
+    for (const auto& hit :
+         {hitSphere(ray, a, double{radius}), hitSphere(ray, b, double{radius}),
+          hitCylinder(ray, a, b, double{radius})})
+        if (hit && (!nearest || *hit < *nearest)) nearest = hit;
+    return nearest;
+}
+
+}  // namespace benchmarks

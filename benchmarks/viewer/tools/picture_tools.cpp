@@ -1,0 +1,75 @@
+#include "benchmarks/viewer/tools/picture_tools.h"
+
+#include <imgui.h>
+
+#include "benchmarks/viewer/tools/picking.h"
+
+namespace benchmarks {
+
+namespace {
+
+float aspectOf(const hair::Settings& settings) {
+    return static_cast<float>(settings.render.width) / static_cast<float>(settings.render.height);
+}
+
+}  // namespace
+
+bool PictureTools::drags() const {
+    return wind_.drags() || grab_.drags() || head_.drags() || colliders_.drags();
+}
+
+Edit PictureTools::handle(
+    const Pointer& pointer, Handles& handles, hair::Settings& settings, const Player& player) {
+    const bool runs = clock_.runs(player, ImGui::GetTime());
+    switch (tool) {
+    case Tool::camera:
+        break;
+    case Tool::wind:
+        return wind_.update(pointer, handles, settings, player);
+    case Tool::grab:
+        return grab_.update(pointer, handles, settings, player, runs);
+    case Tool::head:
+        return head_.update(pointer, handles, settings, player, runs);
+    case Tool::colliders:
+        return colliders_.update(pointer, handles, settings, player);
+    }
+    return {};
+}
+
+Edit PictureTools::update(
+    const PictureRect& rect, const PictureRect& clip, bool hovered, bool held,
+    hair::Settings& settings, const Player& player) {
+    const ImGuiIO& io = ImGui::GetIO();
+    // Keys for the camera are not the handles'.
+    const bool is_plain = !io.KeyShift && !io.KeyCtrl && !io.KeyAlt;
+    // The camera and proportions of what is shown, which what is wanted can be ahead of.
+    const Pointer pointer{
+        .view = {player.settings().camera, player.settings().render, rect},
+        .at = {io.MousePos.x, io.MousePos.y},
+        .moved = {io.MouseDelta.x, io.MouseDelta.y},
+        .hovers = hovered,
+        .pressed = hovered && held && is_plain && ImGui::IsMouseClicked(ImGuiMouseButton_Left),
+        .holds = held && ImGui::IsMouseDown(ImGuiMouseButton_Left)};
+    Handles handles(clip);
+    const bool had = drags();
+    Edit edit = handle(pointer, handles, settings, player);
+    const bool has = had || drags();
+    edit |= camera_.update(
+        pointer, has ? CameraTool::Left::handle : CameraTool::Left::camera, held, settings, player);
+    return edit;
+}
+
+Edit PictureTools::frameGroom(hair::Settings& settings, const Player& player) const {
+    const Sphere groom = sphereRound(player.played().guides());
+    frameSphere(settings.camera, groom.center, groom.radius, aspectOf(settings));
+    return {.changed = true};
+}
+
+Edit PictureTools::look(
+    hair::Settings& settings, const Player& player, const CameraPreset& preset) const {
+    const Sphere groom = sphereRound(player.played().guides());
+    benchmarks::look(settings.camera, preset, groom.center, groom.radius, aspectOf(settings));
+    return {.changed = true};
+}
+
+}  // namespace benchmarks

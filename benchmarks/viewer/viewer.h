@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "benchmarks/commands.h"
+#include "benchmarks/viewer/play/play_state.h"
+#include "benchmarks/viewer/play/side.h"
+#include "benchmarks/viewer/shell/action.h"
+#include "engine/presenter.h"
+
+namespace benchmarks {
+
+// A window in which a scene plays, and in which everything about it can be changed.
+class Viewer {
+public:
+    explicit Viewer(const ViewOptions& options);
+    ~Viewer();
+    Viewer(const Viewer&) = delete;
+    Viewer& operator=(const Viewer&) = delete;
+
+    // Draws one picture of the window; false once it is closed.
+    bool frame();
+
+    // What users do, for scripts. Sides are counted from 0; there are two while it compares.
+    std::size_t sideCount() const;
+    const Side& side(std::size_t index) const;
+    void edit(std::size_t index, const hair::Settings& settings);
+    void perform(Action action);
+    void drop(const std::vector<std::filesystem::path>& files);
+    void resize(std::uint32_t width, std::uint32_t height);  // screen coordinates
+    PlayState& play();
+
+    // What the window shows.
+    engine::Presenter::Picture picture() const;
+    // The last thing that went wrong or that the user was told; may be empty.
+    const std::string& message() const;
+    float scale() const;  // of letters and widgets
+    engine::PresentMode presentMode() const;
+
+    // Warnings and errors of the validation layer, so far.
+    std::vector<std::string> takeMessages();
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace benchmarks

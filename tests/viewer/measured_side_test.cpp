@@ -1,0 +1,129 @@
+// What the viewer measures is what the runner measures, and what it shows is not touched by it.
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include <gmock/gmock.h>
+
+#include "benchmarks/viewer/play/player.h"
+#include "benchmarks/viewer/timings/count_statistics.h"
+#include "benchmarks/viewer/timings/side_measurement.h"
+#include "engine/buffer.h"
+#include "tests/golden/features.h"
+#include "tests/gpu_fixture.h"
+
+namespace benchmarks {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+// Hair that moves.
+hair::Settings tinySettings() {
+    hair::Settings settings = hair::plainSettings();
+    settings.simulation.solver = hair::Solver::shape;
+    settings.simulation.wind.strength = 2.0f;
+    settings.strands.density = 8;
+    settings.run.warmup = 2;
+    settings.run.frames = 2;
+    settings.run.max_time = 0.0f;  // one round a mode
+    return settings;
+}
+
+std::map<std::string, double> memoryOf(const CaseResult& result) {
+    std::map<std::string, double> memory;
+    for (const Metric& metric : result.metrics)
+        if (metric.name.starts_with("memory.")) memory[metric.name] = metric.samples.front();
+    return memory;
+}
+
+class MeasuredSide : public GpuTest {
+protected:
+    static SideMeasurement measured(const MeasureHooks& hooks) {
+        return measureSide(device(), tinySettings(), HAIRBENCH_SCENES_DIR, "tiny", hooks);
+    }
+    static bool goOn() { return false; }
+};
+
+TEST_F(MeasuredSide, EndsWithTheFrameThatTheViewerShowsThere) {
+    Player player(device(), tinySettings(), HAIRBENCH_SCENES_DIR);
+    player.seek(1);
+    const std::string picture = player.played().pictureHash();
+    const SideMeasurement side = measured({.stop = goOn});
+    EXPECT_EQ(player.played().pictureHash(), picture);
+    EXPECT_EQ(player.frame(), 1u);
+    // A round plays frame 0, warms up to frame 1, and draws one more than it measures.
+    player.seek(4);
+    EXPECT_EQ(side.result.image_hash, player.played().pictureHash());
+    EXPECT_EQ(side.result.state_hash, player.played().stateHash());
+    EXPECT_EQ(side.picture, player.played().picture());
+    EXPECT_NE(side.result.image_hash, picture);
+}
+
+TEST_F(MeasuredSide, HasTheMetricsOfARun) {
+    CaseResult run;
+    {
+        Case test_case(device(), tinySettings(), HAIRBENCH_SCENES_DIR);
+        const hair::RunSettings settings = tinySettings().run;
+        measure(device(), test_case, settings, {.stop = goOn}, run);
+    }
+    // Other things are on the device, and one more joins in the middle.
+    Player player(device(), tinySettings(), HAIRBENCH_SCENES_DIR);
+    std::optional<engine::Buffer> window;
+    std::vector<std::string> modes;
+    const SideMeasurement side =
+        measured({.stop = goOn, .progress = [&](const SamplingState& state) {
+                      modes.push_back(state.mode);
+                      window.emplace(
+                          device(), engine::BufferDescription{.size = 1u << 20, .name = "window"});
+                  }});
+    EXPECT_THAT(modes, testing::IsSupersetOf({"overlapped", "isolated"}));
+    EXPECT_EQ(memoryOf(side.result), memoryOf(run));
+    EXPECT_EQ(side.result.counts, run.counts);
+    const auto names = [](const CaseResult& result) {
+        std::vector<std::string> all;
+        for (const Metric& metric : result.metrics)
+            if (metric.mode != "wall_clock") all.push_back(metric.name);
+        std::ranges::sort(all);
+        return all;
+    };
+    // But for passes, which are by another clock where the device's timestamps were found wrong.
+    const auto whole = [&](const CaseResult& result) {
+        std::vector<std::string> all = names(result);
+        std::erase_if(all, [](const std::string& name) { return name.starts_with("pass."); });
+        return all;
+    };
+    EXPECT_EQ(whole(side.result), whole(run));
+    EXPECT_THAT(side.result.trust.warnings, testing::Contains(testing::HasSubstr("in the viewer")));
+}
+
+TEST_F(MeasuredSide, IsNoneWhereTheUserCancels) {
+    int asked = 0;
+    EXPECT_THROW(measured({.stop = [&] { return ++asked > 3; }}), Interrupted);
+}
+
+TEST_F(MeasuredSide, CountsWithoutTouchingTheFrame) {
+    if (!device().hasPipelineStatistics()) GTEST_SKIP() << "no pipeline statistics";
+    Player player(device(), tinySettings(), HAIRBENCH_SCENES_DIR);
+    player.seek(2);
+    const std::string picture = player.played().pictureHash();
+    const std::string state = player.played().stateHash();
+    const CaseResult counted = countStatistics(device(), player.played());
+    EXPECT_EQ(counted.statistics.size(), engine::kStatisticNames.size());
+    EXPECT_EQ(player.frame(), 2u);
+    EXPECT_EQ(player.played().pictureHash(), picture);
+    EXPECT_EQ(player.played().stateHash(), state);
+    // And the next frame is the one that it would have been.
+    player.next();
+    const std::string next = player.played().pictureHash();
+    player.seek(3);
+    EXPECT_EQ(player.played().pictureHash(), next);
+    // What follows from the settings.
+    EXPECT_THAT(counted.trust.warnings, IsEmpty());
+    const auto compared = std::ranges::count_if(
+        counted.statistics, [](const Statistic& each) { return each.expected.has_value(); });
+    EXPECT_GT(compared, 0);
+}
+
+}  // namespace
+}  // namespace benchmarks

@@ -1,0 +1,141 @@
+#include "benchmarks/viewer/play/open_scene.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/golden/features.h"
+#include "tests/gpu_fixture.h"
+
+namespace benchmarks {
+namespace {
+
+SceneFile fileOf(const hair::Settings& settings) {
+    return {
+        .path = "made_up.json",
+        .directory = HAIRBENCH_SCENES_DIR,
+        .name = "made_up",
+        .settings = settings};
+}
+
+class OpenScenes : public GpuTest {
+protected:
+    OpenScenes() : scene(device(), fileOf(hair::plainSettings()), hair::plainSettings()) {}
+
+    void play(int pictures) {
+        for (int i = 0; i < pictures; ++i) scene.play(state, 0.0, OpenScene::Frames::as_due);
+    }
+    hair::Settings denser(std::size_t side) {
+        hair::Settings settings = scene.side(side).wanted();
+        settings.strands.density += 1;
+        return settings;
+    }
+    void edit(std::size_t side, const hair::Settings& settings) {
+        scene.edit(side, settings, {.changed = true});
+    }
+
+    OpenScene scene;
+    PlayState state;
+};
+
+TEST_F(OpenScenes, PlayStepAndSeek) {
+    play(3);
+    EXPECT_EQ(scene.side(0).player().frame(), 3u);
+    state.playing = false;
+    play(2);
+    EXPECT_EQ(scene.side(0).player().frame(), 3u);
+    state.step = true;
+    play(2);
+    EXPECT_EQ(scene.side(0).player().frame(), 4u);
+    state.seek = 1;
+    play(2);
+    EXPECT_EQ(scene.side(0).player().frame(), 1u);
+}
+
+TEST_F(OpenScenes, TimeFramesInTurnsBothWays) {
+    play(6);
+    EXPECT_EQ(scene.side(0).timings().isolated().size(), 3u);
+    EXPECT_EQ(scene.side(0).timings().overlapped().size(), 3u);
+}
+
+TEST_F(OpenScenes, PlayEveryFrameForARecording) {
+    state.speed = 4.0;
+    const double second = 1.0;
+    scene.play(state, second, OpenScene::Frames::every_one);
+    EXPECT_EQ(scene.side(0).player().frame(), 1u);
+}
+
+TEST_F(OpenScenes, CompareFromTheFrameAndSettingsThatAreThere) {
+    edit(0, denser(0));
+    play(2);
+    scene.startComparing();
+    ASSERT_EQ(scene.sideCount(), 2u);
+    EXPECT_EQ(scene.edited(), 1u);
+    EXPECT_EQ(scene.side(1).player().frame(), 2u);
+    EXPECT_EQ(
+        scene.side(1).player().played().pictureHash(),
+        scene.side(0).player().played().pictureHash());
+    play(1);
+    EXPECT_EQ(scene.side(1).player().frame(), scene.side(0).player().frame());
+}
+
+TEST_F(OpenScenes, CompareASettingOfEachSide) {
+    scene.startComparing();
+    edit(1, denser(1));
+    EXPECT_NE(scene.side(1).wanted().strands.density, scene.side(0).wanted().strands.density);
+    // The second side's settings are set against the first's.
+    EXPECT_EQ(scene.reference().strands.density, scene.side(0).wanted().strands.density);
+    const std::uint32_t b = scene.side(1).wanted().strands.density;
+    scene.swapSides();
+    EXPECT_EQ(scene.side(0).wanted().strands.density, b);
+    scene.stopComparing();
+    EXPECT_EQ(scene.sideCount(), 1u);
+    EXPECT_EQ(scene.editedSide().wanted().strands.density, b);
+}
+
+TEST_F(OpenScenes, MoveBothCamerasWhileTheyAreLinked) {
+    scene.startComparing();
+    hair::Settings settings = denser(1);
+    settings.camera.position.x += 0.125f;
+    edit(1, settings);
+    EXPECT_EQ(scene.side(0).wanted().camera.position, settings.camera.position);
+    EXPECT_NE(scene.side(0).wanted().strands.density, settings.strands.density);
+    scene.cameras = Cameras::separate;
+    settings.camera.position.x += 0.125f;
+    edit(1, settings);
+    EXPECT_NE(scene.side(0).wanted().camera.position, settings.camera.position);
+}
+
+TEST_F(OpenScenes, ReplaceEachOther) {
+    scene.startComparing();
+    play(2);
+    hair::Settings other = hair::plainSettings();
+    other.strands.density = 3;
+    SceneFile file = fileOf(other);
+    file.name = "other";
+    scene.open(file);
+    EXPECT_EQ(scene.sideCount(), 1u);
+    EXPECT_EQ(scene.edited(), 0u);
+    EXPECT_EQ(scene.file().name, "other");
+    EXPECT_EQ(scene.side(0).player().frame(), 0u);
+    EXPECT_EQ(scene.side(0).player().settings().strands.density, 3u);
+}
+
+TEST_F(OpenScenes, StayWhereAnotherCantBeOpened) {
+    play(2);
+    hair::Settings broken = hair::plainSettings();
+    broken.groom.file = "there is no such file.hair";
+    EXPECT_THROW(scene.open(fileOf(broken)), engine::Error);
+    EXPECT_EQ(scene.file().settings.groom.file, hair::plainSettings().groom.file);
+    EXPECT_EQ(scene.side(0).player().frame(), 2u);
+}
+
+TEST_F(OpenScenes, AreMarkedAgainstWhatIsOnDisk) {
+    edit(0, denser(0));
+    EXPECT_NE(scene.reference().strands.density, scene.side(0).wanted().strands.density);
+    scene.savedAs("elsewhere/saved.json");
+    EXPECT_EQ(scene.reference().strands.density, scene.side(0).wanted().strands.density);
+    EXPECT_EQ(scene.file().name, "saved");
+    EXPECT_TRUE(scene.wasSaved());
+}
+
+}  // namespace
+}  // namespace benchmarks

@@ -1,0 +1,140 @@
+// What the panel shows of made-up frames whose medians are known.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "benchmarks/viewer/timings/frame_metrics.h"
+#include "benchmarks/viewer/timings/shown_side.h"
+#include "tests/viewer/made_up_frames.h"
+
+namespace benchmarks {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Optional;
+using testing::Pair;
+
+std::vector<std::string> names(const CaseResult& result) {
+    std::vector<std::string> all;
+    for (const Metric& metric : result.metrics) all.push_back(metric.name);
+    return all;
+}
+
+// The viewer draws one frame at a time: what the runner says of two in flight is not known.
+TEST(TimingsFigures, AreTheRunnersThatHoldForOneFrameAtATime) {
+    const CaseResult result = frameMetrics(madeUpHistory(), "discrete");
+    EXPECT_THAT(
+        names(result), ElementsAre(
+                           "frame.device.time", "cpu.record.time", "cpu.submit.time",
+                           "frame.isolated.time", "pass.wind.time", "pass.strands.time"));
+    const auto samples = [&](const char* name) { return metricOf(result, name)->samples; };
+    EXPECT_THAT(samples("frame.device.time"), ElementsAre(22.0, 17.0, 18.0));
+    EXPECT_THAT(samples("cpu.record.time"), ElementsAre(3.0, 3.0, 3.0));
+    EXPECT_THAT(samples("frame.isolated.time"), ElementsAre(12.0, 25.0, 63.0));
+    EXPECT_THAT(samples("pass.strands.time"), ElementsAre(10.0, 20.0, 60.0));
+    EXPECT_EQ(metricOf(result, "frame.device.time")->mode, "overlapped");
+    EXPECT_EQ(metricOf(result, "pass.wind.time")->mode, "isolated");
+    EXPECT_EQ(metricOf(result, "fps"), nullptr);
+}
+
+TEST(TimingsFigures, HaveCpuTimeOfSoftwareDevices) {
+    const CaseResult result = frameMetrics(madeUpHistory(), "cpu");
+    ASSERT_NE(metricOf(result, "frame.cpu.time"), nullptr);
+    EXPECT_THAT(metricOf(result, "frame.cpu.time")->samples, ElementsAre(24.0, 50.0, 126.0));
+}
+
+TEST(TimingsFigures, TellHowFastFramesAre) {
+    const auto rate = frameRate(frameMetrics(madeUpHistory(), "discrete"));
+    ASSERT_TRUE(rate);
+    EXPECT_DOUBLE_EQ(rate->fps, 30.0);  // three frames in 100 ms
+    EXPECT_EQ(rate->median, 25.0);
+    EXPECT_FALSE(rate->low);
+}
+
+// 98 frames of 10 ms and two of 40 ms: the two are the slowest 1 % by every definition.
+TEST(TimingsFigures, HaveLowsOfEnoughFrames) {
+    TimingHistory history;
+    for (std::uint32_t i = 0; i < 99; ++i)
+        history.add(isolatedFrame(1.0, i % 50 == 7 ? 39.0 : 9.0), engine::Timing::isolated, i);
+    EXPECT_FALSE(frameRate(frameMetrics(history, "discrete"))->low);
+    EXPECT_FALSE(passRows(history.isolated())->passes[1].high);
+    history.add(isolatedFrame(1.0, 9.0), engine::Timing::isolated, 99);
+    const auto rate = frameRate(frameMetrics(history, "discrete"));
+    ASSERT_TRUE(rate->low);
+    EXPECT_EQ(rate->low->percentile, 25.0);
+    EXPECT_EQ(rate->low->mean, 25.0);
+    EXPECT_EQ(rate->low->integral, 25.0);
+    // At position 98.01 of 0 ... 99, within the two longest.
+    EXPECT_THAT(passRows(history.isolated())->passes[1].high, Optional(39.0));
+}
+
+TEST(TimingsFigures, TellPassesApart) {
+    const auto rows = passRows(madeUpHistory().isolated());
+    ASSERT_TRUE(rows);
+    ASSERT_EQ(rows->passes.size(), 2u);
+    const TimeSeries& strands = rows->passes[1];
+    EXPECT_EQ(strands.name, "strands");
+    EXPECT_THAT(strands.times, ElementsAre(10.0, 20.0, 60.0));
+    EXPECT_THAT(strands.numbers, ElementsAre(4, 6, 8));
+    EXPECT_EQ(strands.summary.median, 20.0);
+    EXPECT_EQ(strands.summary.mad, 10.0);
+    EXPECT_EQ(rows->sum.summary.median, 23.0);
+    EXPECT_DOUBLE_EQ(rows->share(strands), 20.0 / 23.0);
+    EXPECT_EQ(rows->find("strands"), &strands);
+    EXPECT_EQ(rows->find("resolve"), nullptr);
+}
+
+// A time belongs to the frame that ran the pass.
+TEST(TimingsFigures, KnowWhichFramesRanAPass) {
+    TimingHistory history = madeUpHistory();
+    engine::FrameRecord shadowed = isolatedFrame(1.0, 1.0);
+    shadowed.passes.push_back({"hair_shadow", 5.0, {}});
+    history.add(shadowed, engine::Timing::isolated, 10);
+    history.add(isolatedFrame(1.0, 1.0), engine::Timing::isolated, 12);
+    const auto rows = passRows(history.isolated());
+    const TimeSeries* const shadow = rows->find("hair_shadow");
+    ASSERT_NE(shadow, nullptr);
+    EXPECT_THAT(shadow->times, ElementsAre(5.0));
+    EXPECT_THAT(shadow->numbers, ElementsAre(10));
+}
+
+TEST(TimingsFigures, SplitAFrame) {
+    const ShownSide shown = shownTimings(madeUpHistory(), "cpu");
+    ASSERT_TRUE(shown.split);
+    EXPECT_EQ(shown.split->record, 2.0);
+    EXPECT_EQ(shown.split->submit, 1.0);
+    EXPECT_EQ(shown.split->wait, 24.0);
+    EXPECT_THAT(shown.split->cpu, Optional(50.0));
+    EXPECT_EQ(shown.split->device, 23.0);
+    EXPECT_EQ(shown.split->pass_sum, 23.0);
+    EXPECT_THAT(shown.split->device_overlapped, Optional(18.0));
+    EXPECT_THAT(shown.split->saved(), Optional(5.0));
+    EXPECT_EQ(shown.isolated, 3u);
+    EXPECT_EQ(shown.overlapped, 3u);
+    EXPECT_THAT(shown.range, Optional(Pair(4u, 9u)));
+}
+
+// 11/12, 23/25 and 62/63: the median is 23/25.
+TEST(TimingsFigures, SayHowFarPassesAreTheFrame) {
+    const CaseResult good = frameMetrics(madeUpHistory(), "discrete");
+    EXPECT_THAT(good.trust.pass_sum_over_wall, Optional(0.92));
+    EXPECT_THAT(good.trust.warnings, IsEmpty());
+    TimingHistory history;
+    history.add(isolatedFrame(1.0, 4.0, 5.0), engine::Timing::isolated, 0);
+    const CaseResult bad = frameMetrics(history, "discrete");
+    EXPECT_THAT(bad.trust.warnings, Contains(HasSubstr("add up to 0.500 of")));
+}
+
+TEST(TimingsFigures, OfNothingAreNone) {
+    const ShownSide shown = shownTimings(TimingHistory(), "cpu");
+    EXPECT_THAT(shown.metrics.metrics, IsEmpty());
+    EXPECT_FALSE(shown.rate);
+    EXPECT_FALSE(shown.passes);
+    EXPECT_FALSE(shown.split);
+    EXPECT_FALSE(shown.range);
+}
+
+}  // namespace
+}  // namespace benchmarks

@@ -1,0 +1,107 @@
+// What is frozen is exported as a report that everything which reads reports can read.
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/commands.h"
+#include "benchmarks/exit_codes.h"
+#include "benchmarks/report_file.h"
+#include "benchmarks/table.h"
+#include "benchmarks/viewer/timings/frozen_side.h"
+#include "benchmarks/viewer/timings/viewer_report.h"
+#include "tests/benchmarks/schema_errors.h"
+#include "tests/gpu_fixture.h"
+#include "tests/temporary_folder.h"
+#include "tests/viewer/made_up_frames.h"
+
+namespace benchmarks {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using Samples = std::vector<double>;
+
+class TimingsReport : public GpuTest {
+protected:
+    Json saved(const CaseResult& result) {
+        hair::Settings settings;
+        settings.seed = 7;
+        const ReportOrigin origin{
+            .scene = "scenes/made_up.json",
+            .name = "made_up",
+            .command = {"hairbench", "view", "scenes/made_up.json"}};
+        saveReport(viewerReport(device(), origin, settings, result), settings.render, {}, file_);
+        return readReport(file_);
+    }
+
+    static CaseResult frozen(const CaseResult& statistics = {}) {
+        return frozenResult(
+            {.shown = shownTimings(madeUpHistory(), "cpu"), .settings = {}}, statistics);
+    }
+
+    TemporaryFolder folder_;
+    std::filesystem::path file_ = folder_.file("results/made_up-frozen.json");
+};
+
+TEST_F(TimingsReport, FitsTheSchema) {
+    CaseResult statistics;
+    statistics.statistics = {
+        {.name = "geometry_primitives", .measured = 6, .expected = 6, .note = ""}};
+    saved(frozen(statistics));
+    const std::string schema =
+        textOf(std::filesystem::path(HAIRBENCH_SOURCE_DIR) / "results/report.schema.json");
+    EXPECT_THAT(schemaErrors(schema, textOf(file_)), IsEmpty());
+}
+
+TEST_F(TimingsReport, HasTheSamplesThatWentIn) {
+    const Json report = saved(frozen());
+    const Json& metrics = report.at("cases").at(0).at("metrics");
+    EXPECT_EQ(metrics.at("pass.wind.time").at("samples").get<Samples>(), (Samples{1, 3, 2}));
+    EXPECT_EQ(metrics.at("pass.wind.time").at("mode"), "isolated");
+    EXPECT_EQ(
+        metrics.at("frame.isolated.time").at("samples").get<Samples>(), (Samples{12, 25, 63}));
+    EXPECT_EQ(metrics.at("frame.device.time").at("samples").get<Samples>(), (Samples{22, 17, 18}));
+    EXPECT_EQ(metrics.at("frame.device.time").at("mode"), "overlapped");
+    EXPECT_EQ(metrics.at("frame.device.time").at("median"), 18.0);
+    EXPECT_EQ(metrics.size(), 7u);
+    EXPECT_EQ(report.at("scene").at("document").at("seed"), 7);
+    EXPECT_EQ(report.at("environment").at("seed"), 7);
+    EXPECT_EQ(report.at("environment").at("device").at("name"), device().info().name);
+    EXPECT_EQ(report.at("cases").at(0).at("name"), "made_up");
+}
+
+TEST_F(TimingsReport, SaysThatItIsTheViewers) {
+    CaseResult statistics;
+    statistics.trust.warnings = {"geometry_primitives: measured 6, expected 7"};
+    const CaseResult result = frozen(statistics);
+    EXPECT_THAT(
+        result.trust.warnings,
+        Contains(HasSubstr(
+            "taken in the viewer: 3 isolated frames and 3 overlapped frames between 4 and 9")));
+    EXPECT_THAT(result.trust.warnings, Contains(statistics.trust.warnings.front()));
+}
+
+TEST_F(TimingsReport, IsReadByTheOtherCommands) {
+    EXPECT_THAT(table(saved(frozen())), HasSubstr("made_up"));
+    testing::internal::CaptureStdout();  // they print what they did
+    EXPECT_EQ(compareReports({.a = file_, .b = file_, .baseline = {}, .verdict = {}}), kOk);
+    EXPECT_EQ(writeReportPage({.reports = {file_}, .out = folder_.file("page.html")}), kOk);
+    EXPECT_THAT(testing::internal::GetCapturedStdout(), testing::Not(IsEmpty()));
+    EXPECT_THAT(textOf(folder_.file("page.html")), HasSubstr("made_up"));
+}
+
+TEST_F(TimingsReport, SaysWhereItCantBeWritten) {
+    const auto folder = folder_.write("file", "");
+    file_ = folder / "report.json";
+    EXPECT_THROW(saved(frozen()), engine::Error);
+}
+
+TEST(TimingsReportPath, IsBesideTheRunners) {
+    const ReportOrigin origin{.scene = "a/rest.json", .name = "rest", .command = {}};
+    EXPECT_EQ(reportPath(origin, "viewer"), "results/local/rest-viewer.json");
+}
+
+}  // namespace
+}  // namespace benchmarks

@@ -1,0 +1,57 @@
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/viewer/view_test.h"
+
+namespace {
+
+using ViewLayout = ViewTest;
+
+const std::string kGood = R"({"expect": {"nothing_clipped": true, "nothing_outside": true}})";
+
+// Every panel that a column can show, in both themes, and two sides.
+std::string panels() {
+    std::string steps = R"({"frames": 1}, )" + kGood;
+    for (const char* theme : {"Light", "Dark"}) {
+        steps += R"(, {"perform": ")" + std::string(theme) + "\"}";
+        for (const char* panel : {"Scene", "Files", "Timings", "Compare", "Shaders"})
+            steps += R"(, {"perform": ")" + std::string(panel) + "\"}, " + kGood;
+    }
+    return steps + R"(, {"perform": "Compare two settings"}, {"perform": "Timings"}, )" + kGood;
+}
+
+// What opens over the panels, and every setting: those with an "e" in them are all but a few.
+std::string popupsAndSettings() {
+    std::string steps;
+    for (const char* menu : {"File", "Camera", "Tools", "View", "Window"})
+        steps += R"({"click": {"item": ")" + std::string(menu) +
+                 R"(", "window": "##MainMenuBar"}}, )" + kGood + R"(, {"key": "escape"}, )";
+    steps += R"({"perform": "Save scene as"}, )" + kGood + R"(, {"click": "Cancel"}, )" +
+             R"({"click": "##search"}, {"type": "e"})";
+    for (int i = 0; i < 8; ++i)
+        steps += R"(, {"scroll": {"window": "Left/Scene/fields", "by": [0, -12]}}, )" + kGood;
+    // It floats: it lies on the others.
+    steps += R"(, {"perform": "Keys and mouse"}, {"expect": {"nothing_clipped": true}})";
+    return steps;
+}
+
+std::string scriptOf(const std::string& steps) { return R"({"steps": [)" + steps + "]}"; }
+
+TEST_F(ViewLayout, FitsIntoAUsualWindow) {
+    const std::string window = "--width 1280 --height 720 --scale 1";
+    expectGood(scriptOf(panels()), window);
+    expectGood(scriptOf(popupsAndSettings()), window);
+}
+
+TEST_F(ViewLayout, FitsIntoAFineScreen) {
+    expectGood(scriptOf(panels()), "--width 2560 --height 1440 --scale 2");
+}
+
+TEST_F(ViewLayout, FitsIntoASmallWindowWithLargeLetters) {
+    const std::string window = "--width 1280 --height 720 --scale 2";
+    expectGood(scriptOf(panels()), window);
+    expectGood(scriptOf(popupsAndSettings()), window);
+}
+
+}  // namespace

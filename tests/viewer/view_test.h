@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_hairbench.h"
+#include "tests/temporary_folder.h"
+#include "tests/viewer/virtual_display.h"
+
+// The viewer as a user starts it, in a folder of the test's own and driven by a script.
+class ViewTest : public testing::Test {
+protected:
+    void SetUp() override {
+        if (!display_.variables()) GTEST_SKIP() << "there is neither Xvfb nor a display";
+        // A few strands and few pixels: lavapipe draws all of it on the processor.
+        folder_.write("small.json", R"({
+            "base": ")" HAIRBENCH_SCENES_DIR R"(/thesis.json",
+            "simulation": {"settle_steps": 30},
+            "strands": {"density": 4, "tessellation": 2},
+            "render": {"width": 160, "height": 90},
+            "run": {"warmup": 2, "frames": 1, "max_time": 0},
+            "sweep": {"/groom/guides": null, "/strands/density": null,
+                      "/strands/tessellation": null, "/render/msaa": null, "/lod/level": null}})");
+    }
+
+    // What `hairbench view small.json` says on stderr, and how it ends.
+    Outcome view(const std::string& script, const std::string& arguments = "") {
+        const std::filesystem::path file = folder_.write("script.json", script);
+        Outcome outcome = hairbenchErrors(
+            "view small.json --script script.json --validate " + arguments,
+            "cd '" + folder_.path().string() + "' && " + *display_.variables());
+        outcome.output = folder_.relative(outcome.output);
+        return outcome;
+    }
+
+    void expectGood(const std::string& script, const std::string& arguments = "") {
+        const Outcome outcome = view(script, arguments);
+        EXPECT_EQ(outcome.status, 0) << arguments;
+        EXPECT_EQ(outcome.output, "") << arguments;
+    }
+
+    // The program's other commands in the same folder.
+    Outcome run(const std::string& arguments) const {
+        return hairbench(arguments, "cd '" + folder_.path().string() + "' && ");
+    }
+
+    // What the step "state" wrote.
+    nlohmann::json state(const std::string& name) const {
+        return nlohmann::json::parse(textOf(folder_.file(name)));
+    }
+
+    TemporaryFolder folder_;
+
+private:
+    VirtualDisplay display_;
+};
