@@ -6,6 +6,10 @@ namespace benchmarks {
 
 namespace {
 
+constexpr const char* kBar = "|";
+
+float spacing() { return ImGui::GetStyle().ItemSpacing.x; }
+
 float buttonWidth(const char* name) {
     return ImGui::CalcTextSize(name, nullptr, true).x + 2.0f * ImGui::GetStyle().FramePadding.x;
 }
@@ -15,9 +19,15 @@ float buttonWidth(const char* name) {
 void OptionsLine::place(float width) {
     if (!is_empty_) {
         ImGui::SameLine();
-        if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+        const float bar = separates_ ? ImGui::CalcTextSize(kBar).x + spacing() : 0.0f;
+        if (ImGui::GetContentRegionAvail().x < bar + width) {
+            ImGui::NewLine();
+        } else if (separates_) {
+            ImGui::TextDisabled("%s", kBar);
+            ImGui::SameLine();
+        }
     }
-    is_empty_ = false;
+    is_empty_ = separates_ = false;
 }
 
 bool OptionsLine::button(const char* name, bool enabled, const char* tooltip) {
@@ -49,9 +59,6 @@ bool OptionsLine::slider(
     return ImGui::SliderFloat(name, &value, minimum, maximum, format);
 }
 
-void OptionsLine::separator() {
-    place(ImGui::GetFontSize());
-    ImGui::TextDisabled("|");
-}
+void OptionsLine::separator() { separates_ = true; }
 
 }  // namespace benchmarks

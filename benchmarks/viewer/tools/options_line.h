@@ -15,7 +15,7 @@ public:
     // True while it is another value. Ctrl+click takes a number beyond the slider's ends.
     bool slider(const char* name, float& value, float minimum, float maximum, const char* format);
 
-    // Between groups of widgets.
+    // Between groups of widgets that are in one line.
     void separator();
 
 private:
@@ -23,6 +23,7 @@ private:
     void place(float width);
 
     bool is_empty_ = true;
+    bool separates_ = false;  // what is placed next from what is there
 };
 
 }  // namespace benchmarks
