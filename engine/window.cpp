@@ -1,5 +1,6 @@
 #include "engine/window.h"
 
+#include <cstdlib>
 #include <utility>
 
 #define GLFW_INCLUDE_NONE
@@ -15,12 +16,22 @@ std::string reason() {
     return text ? text : "no reason is given";
 }
 
+// GLFW 3.4 looks for a Wayland compositor first, and where there is none libwayland says so on
+// stderr in its own words.
+void chooseDesktop() {
+#if defined(GLFW_PLATFORM) && defined(__unix__) && !defined(__APPLE__)
+    if (!std::getenv("WAYLAND_DISPLAY") && !std::getenv("WAYLAND_SOCKET"))
+        glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
+}
+
 // One line that GLFW's own reason is a part of.
 std::string noDisplay() { return "no display to open a window on (" + reason() + ")"; }
 
 }  // namespace
 
 Window::Window(const WindowDescription& description) {
+    chooseDesktop();
     if (glfwInit() != GLFW_TRUE) throw NoDisplay(noDisplay());
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
