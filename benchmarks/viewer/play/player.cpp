@@ -62,10 +62,7 @@ void Player::apply(const hair::Settings& settings) {
         replace(std::make_unique<Case>(device_, settings, directory_), settings);
         return;
     }
-    if (effect == Effect::camera) case_->setCamera(settings.camera);
-    if (effect == Effect::drawing) case_->setDrawing(settings);
-    settings_ = settings;
-    redraw();
+    drawWith(settings);
 }
 
 void Player::preview(const hair::Settings& settings) {
@@ -78,8 +75,15 @@ void Player::preview(const hair::Settings& settings) {
         previews_ = true;
         return;
     }
-    if (effect == Effect::camera) case_->setCamera(settings.camera);
-    if (effect == Effect::drawing) case_->setDrawing(settings);
+    drawWith(settings);
+}
+
+// Draws the same frame otherwise.
+void Player::drawWith(const hair::Settings& settings) {
+    if (effectOf(settings_, settings) == Effect::camera)
+        case_->setCamera(settings.camera);
+    else
+        case_->setDrawing(settings);
     settings_ = settings;
     redraw();
 }
@@ -98,7 +102,6 @@ void Player::play(engine::Timing timing, const std::function<void(engine::Passes
     engine::FrameLoop& loop = timing == engine::Timing::overlapped ? overlapped_ : isolated_;
     loop.frame(record);
     record_ = loop.finish().back();
-    timing_ = timing;
 }
 
 void Player::next(engine::Timing timing) {

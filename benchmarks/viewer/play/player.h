@@ -49,12 +49,12 @@ public:
     const std::filesystem::path& directory() const { return directory_; }
     const Case& played() const { return *case_; }
     Case& played() { return *case_; }
-    // What the last drawn frame took, and how it was timed.
+    // What the last drawn frame took.
     const engine::FrameRecord& record() const { return record_; }
-    engine::Timing timing() const { return timing_; }
 
 private:
     void play(engine::Timing timing, const std::function<void(engine::Passes&)>& record);
+    void drawWith(const hair::Settings& settings);
     void replace(std::unique_ptr<Case> other, const hair::Settings& settings);
 
     const engine::Device& device_;
@@ -64,7 +64,6 @@ private:
     engine::FrameLoop isolated_;
     engine::FrameLoop overlapped_;
     engine::FrameRecord record_;
-    engine::Timing timing_ = engine::Timing::isolated;
     std::uint32_t frame_ = 0;
     bool previews_ = false;
 };

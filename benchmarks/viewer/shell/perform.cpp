@@ -3,7 +3,6 @@
 #include <imgui.h>
 
 #include "benchmarks/viewer/shell/setting_actions.h"
-#include "benchmarks/viewer/tools/picking.h"
 #include "benchmarks/viewer/viewer_parts.h"
 
 namespace benchmarks {
@@ -43,13 +42,6 @@ std::optional<Tab> tabOf(Action action) {
     }
 }
 
-void lookFrom(const CameraPreset& preset, hair::Settings& settings, const Player& player) {
-    const Sphere groom = sphereRound(player.played().guides());
-    look(
-        settings.camera, preset, groom.center, groom.radius,
-        static_cast<float>(settings.render.width) / static_cast<float>(settings.render.height));
-}
-
 }  // namespace
 
 void Viewer::Parts::compare() {
@@ -74,7 +66,7 @@ bool Viewer::Parts::changeSetting(Action action) {
     if (bool* const value = switchOf(action, settings))
         *value = !*value;
     else if (const CameraPreset* const preset = presetOf(action))
-        lookFrom(*preset, settings, player);
+        edit = tools.look(settings, player, *preset);
     else if (action == Action::frame_groom)
         edit = tools.frameGroom(settings, player);
     else
@@ -121,10 +113,10 @@ bool Viewer::Parts::changeWindow(Action action) {
         zoomTo(now.zoom / kZoomStep);
         return true;
     case Action::left_column:
-        now.left.shown = !now.left.shown;
+        toggleColumn(now.left);
         return true;
     case Action::right_column:
-        now.right.shown = !now.right.shown;
+        toggleColumn(now.right);
         return true;
     case Action::help:
         help = !help;
@@ -222,9 +214,9 @@ ActionState Viewer::Parts::stateOf(Action action) const {
     case Action::light_theme:
         return {.checked = now.theme == Theme::light};
     case Action::left_column:
-        return {.checked = now.left.shown};
+        return {.checked = now.left.shown || (merged && now.right.shown)};
     case Action::right_column:
-        return {.checked = now.right.shown};
+        return {.checked = now.right.shown || (merged && now.left.shown)};
     case Action::help:
         return {.checked = help};
     default:
