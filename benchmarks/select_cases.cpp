@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/assets.h"
-#include "benchmarks/commands.h"
+#include "benchmarks/select_cases.h"
 #include "benchmarks/decimal_text.h"
 #include "engine/error.h"
 

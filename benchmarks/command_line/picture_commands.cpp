@@ -1,4 +1,5 @@
 #include "benchmarks/command_line/command_line.h"
+#include "benchmarks/viewer/viewer.h"
 
 namespace benchmarks {
 

@@ -1,15 +1,25 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "benchmarks/commands.h"
+#include "benchmarks/decide/verdict.h"
 #include "benchmarks/compare/change.h"
 #include "benchmarks/compare/mismatch.h"
 #include "benchmarks/json_fwd.h"
 
 // Two reports of one process each, held against each other.
 namespace benchmarks {
+
+struct CompareOptions {
+    std::filesystem::path a;  // empty where `baseline` is given
+    std::filesystem::path b;
+    std::string baseline;
+    VerdictOptions verdict;
+    bool all = false;  // rows of what stayed the same too
+    bool json = false;
+};
 
 struct ReportComparison {
     std::vector<std::string> warnings;  // why the two may not be comparable

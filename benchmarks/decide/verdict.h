@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -8,6 +9,13 @@
 
 // Whether B is slower than A, from pairs of process blocks.
 namespace benchmarks {
+
+// When a comparison fails.
+struct VerdictOptions {
+    double threshold = 0.02;  // a change of this share matters to nobody
+    bool fail_on_inconclusive = false;
+    std::string metrics;  // regex of the metrics that count; empty: all times
+};
 
 enum class Verdict { regressed, improved, same, inconclusive, mismatch };
 

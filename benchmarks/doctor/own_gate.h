@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/commands.h"
+#include "benchmarks/gate/side.h"
 #include "benchmarks/scratch_folder.h"
 
 namespace benchmarks {

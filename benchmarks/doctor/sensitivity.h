@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/commands.h"
+#include "benchmarks/gate/side.h"
 
 namespace benchmarks {
 

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/commands.h"
 #include "benchmarks/compare/change.h"
 #include "benchmarks/compare/mismatch.h"
 #include "benchmarks/decide/gate.h"

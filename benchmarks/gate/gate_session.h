@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "benchmarks/commands.h"
+#include "benchmarks/gate/side.h"
 #include "benchmarks/gate/block_runner.h"
 #include "benchmarks/gate/gate_run.h"
 #include "benchmarks/progress.h"

@@ -5,9 +5,24 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/commands.h"
+#include "benchmarks/select_cases.h"
+#include "benchmarks/decide/verdict.h"
 
 namespace benchmarks {
+
+struct GateOptions {
+    std::string a;  // build folder, program, or command line
+    std::string b;
+    SceneOptions scene;
+    std::string filter;
+    std::vector<std::string> a_sets;  // "POINTER=VALUE" for A's or B's runs alone
+    std::vector<std::string> b_sets;
+    std::uint32_t pairs = 12;
+    std::uint32_t calibration = 0;  // A/A pairs before the gate; 0: none
+    VerdictOptions verdict;
+    std::filesystem::path out;  // report of the gate; empty: results/local/gate-<scene>.json
+    std::vector<std::string> command;
+};
 
 // One of the two that a gate compares: what is run for each of its blocks.
 struct Side {

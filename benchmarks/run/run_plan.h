@@ -1,16 +1,35 @@
 #pragma once
 
+#include <optional>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "benchmarks/commands.h"
+#include "benchmarks/select_cases.h"
+#include "benchmarks/decide/verdict.h"
 #include "benchmarks/report.h"
 #include "benchmarks/sweep.h"
 
 namespace benchmarks {
+
+struct RunOptions {
+    SceneOptions scene;
+    std::string filter;
+    // Empty: results/local/<scene>.json, of a shard <scene>.2of8.json.
+    std::filesystem::path out;
+    bool dry_run = false;  // say what would run
+    bool list = false;  // print the cases' names
+    std::optional<std::uint32_t> order_seed;  // absent: one that differs every time
+    bool resume = false;  // go on with the journal beside `out`
+    std::string shard;  // "2/8": the second of eight parts; empty: all
+    bool pictures = true;  // a picture of each case beside the report
+    std::string save_baseline;  // name; empty: none
+    std::string baseline;  // name of what to compare with; empty: nothing
+    VerdictOptions verdict;
+    std::vector<std::string> command;  // as the report quotes it
+};
 
 struct PlannedCase {
     CaseSpec spec;

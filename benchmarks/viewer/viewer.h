@@ -7,13 +7,27 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/commands.h"
+#include "benchmarks/select_cases.h"
 #include "benchmarks/viewer/play/play_state.h"
 #include "benchmarks/viewer/play/side.h"
 #include "benchmarks/viewer/shell/action.h"
 #include "engine/presenter.h"
 
 namespace benchmarks {
+
+struct ViewOptions {
+    SceneOptions scene;
+    std::uint32_t width = 1600;  // of the window, screen coordinates
+    std::uint32_t height = 900;
+    double scale = 0.0;  // of widgets; 0: the screen's
+    std::uint32_t frames = 0;  // of the window, after which it closes; 0: never
+    std::filesystem::path screenshot;  // of the last one; empty: none
+    std::filesystem::path script;  // steps that drive it; empty: none
+    std::filesystem::path shaders;  // watched for changes; empty: those it was built from
+    // What it remembers, a file; empty: the user's own, or nothing where a script drives it.
+    std::filesystem::path preferences;
+    std::vector<std::string> command;  // as reports quote it
+};
 
 // A window in which a scene plays, and in which everything about it can be changed.
 class Viewer {

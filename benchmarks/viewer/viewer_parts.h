@@ -4,7 +4,6 @@
 #include <span>
 #include <string>
 
-#include "benchmarks/commands.h"
 #include "benchmarks/viewer/files/recorder.h"
 #include "benchmarks/viewer/files/scene_list.h"
 #include "benchmarks/viewer/picture/compare_panel.h"

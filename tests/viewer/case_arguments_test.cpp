@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/check_settings.h"
-#include "benchmarks/commands.h"
+#include "benchmarks/select_cases.h"
 #include "benchmarks/sweep.h"
 #include "benchmarks/write_settings.h"
 #include "tests/error_text.h"
