@@ -14,9 +14,9 @@ namespace benchmarks::physics {
 
 namespace {
 
-constexpr std::uint32_t kSegments = 64;
+constexpr std::uint32_t kCantileverSegments = 64;
 constexpr std::uint32_t kThesisSegments = 7;
-constexpr double kPatience = 20.0;  // s
+constexpr double kCantileverPatience = 20.0;  // s
 
 struct Sag {
     double ratio;  // H / W: drop over reach; not a number if it hangs straight down
@@ -36,7 +36,7 @@ Sag sagOf(
     const double heavy = 2.0 * kPi / hangingChainPeriod(length, kGravity);
     settings.friction = frictionOf(2.0 * std::hypot(stiff, heavy));
     Experiment experiment(device, straightStrand(segments, length, {1.0, 0.0, 0.0}), settings);
-    const bool still = experiment.settle(1e-5 * length, kPatience);
+    const bool still = experiment.settle(1e-5 * length, kCantileverPatience);
     const glm::dvec3 tip = experiment.positions().back();
     const bool hangs = tip.x < 1e-3 * length;
     return {hangs ? std::numeric_limits<double>::quiet_NaN() : -tip.y / tip.x, hangs, still};
@@ -64,7 +64,7 @@ void checkCantilever(
     if (const auto why = lack(solver, Need::bending)) return findings.skip(*why);
     const hair::SimulationSettings settings = freeHair(solver);
     // The thesis's stiffness is for its own few segments; with more, iterations don't get far.
-    std::vector<std::uint32_t> segment_counts{kSegments};
+    std::vector<std::uint32_t> segment_counts{kCantileverSegments};
     if (lack(solver, Need::material)) segment_counts.push_back(kThesisSegments);
     for (const std::uint32_t segments : segment_counts) {
         std::vector<std::vector<double>> rows;

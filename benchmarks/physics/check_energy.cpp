@@ -14,23 +14,25 @@ namespace benchmarks::physics {
 
 namespace {
 
-constexpr std::uint32_t kSegments = 16;
-constexpr double kLength = 0.15;  // m
-constexpr double kWindow = 0.25;  // s
+constexpr std::uint32_t kEnergySegments = 16;
+constexpr double kEnergyLength = 0.15;  // m
+constexpr double kEnergyWindow = 0.25;  // s
 // The sampled energy of one window may pass that of the one before by rounding and by what the
 // samples miss of the true maximum.
-constexpr double kTolerance = 1e-3;
+constexpr double kEnergyTolerance = 1e-3;
 
 std::vector<double>
 energies(const engine::Device& device, const hair::SimulationSettings& settings, double seconds) {
-    Experiment experiment(device, straightStrand(kSegments, kLength, {1.0, 0.0, 0.0}), settings);
-    const double scale = lineDensity(settings.material) * kGravity * kLength * kLength / 2.0;
+    Experiment experiment(
+        device, straightStrand(kEnergySegments, kEnergyLength, {1.0, 0.0, 0.0}), settings);
+    const double scale =
+        lineDensity(settings.material) * kGravity * kEnergyLength * kEnergyLength / 2.0;
     std::vector<double> samples;
     std::vector<glm::dvec3> before = experiment.positions();
     for (std::uint32_t i = 0; i < experiment.stepsIn(seconds); ++i) {
         experiment.advance(1);
         std::vector<glm::dvec3> after = experiment.positions();
-        samples.push_back(energyOf(before, after, settings, kLength) / scale);
+        samples.push_back(energyOf(before, after, settings, kEnergyLength) / scale);
         before = std::move(after);
     }
     return samples;
@@ -82,8 +84,9 @@ void checkEnergy(const engine::Device& device, hair::Solver solver, Findings& fi
     findings.deviation(
         {"growth from window to window with friction", "1", parameters},
         greatestGrowth(
-            energies(device, settings, 4.0), static_cast<std::size_t>(std::lround(kWindow / step))),
-        kTolerance);
+            energies(device, settings, 4.0),
+            static_cast<std::size_t>(std::lround(kEnergyWindow / step))),
+        kEnergyTolerance);
 }
 
 }  // namespace benchmarks::physics

@@ -9,37 +9,40 @@ namespace benchmarks::physics {
 
 namespace {
 
-constexpr std::uint32_t kSegments = 64;
-constexpr double kLength = 0.3;       // m
-constexpr float kTimeStep = 0.001f;   // s
-constexpr glm::dvec3 kDown{0.0, -1.0, 0.0};
-constexpr glm::dvec3 kSideways{1.0, 0.0, 0.0};
+constexpr std::uint32_t kHangingSegments = 64;
+constexpr double kHangingLength = 0.3;       // m
+constexpr float kHangingTimeStep = 0.001f;   // s
+constexpr glm::dvec3 kHangingDown{0.0, -1.0, 0.0};
+constexpr glm::dvec3 kHangingSideways{1.0, 0.0, 0.0};
 
 // 64 equal masses swing 0.4 % slower than a chain does; a rod of Gamma = 10^6 swings 0.1 % faster.
-constexpr double kTolerance = 0.01;
+constexpr double kHangingTolerance = 0.01;
 
 }  // namespace
 
 void checkHangingChain(const engine::Device& device, hair::Solver solver, Findings& findings) {
-    hair::SimulationSettings settings = chain(solver, kLength);
-    settings.time_step = kTimeStep;
+    hair::SimulationSettings settings = chain(solver, kHangingLength);
+    settings.time_step = kHangingTimeStep;
     settings.substeps = 1;
-    const double segment = kLength / kSegments;
-    std::vector<double> shape = pendulumModes(kSegments, segment, kGravity).front().shape;
+    const double segment = kHangingLength / kHangingSegments;
+    std::vector<double> shape = pendulumModes(kHangingSegments, segment, kGravity).front().shape;
     shape.insert(shape.begin(), 0.0);  // the root
-    const double period = hangingChainPeriod(kLength, kGravity);
+    const double period = hangingChainPeriod(kHangingLength, kGravity);
 
-    Experiment experiment(device, straightStrand(kSegments, kLength, kDown), settings);
+    Experiment experiment(
+        device, straightStrand(kHangingSegments, kHangingLength, kHangingDown), settings);
     const auto frequency = measureFrequency(
         experiment, {.shape = shape,
                      .segment = segment,
-                     .direction = kDown,
-                     .sideways = kSideways,
+                     .direction = kHangingDown,
+                     .sideways = kHangingSideways,
                      .expected_frequency = 1.0 / period});
     std::optional<double> tolerance;
-    if (solver != hair::Solver::ftl) tolerance = kTolerance;
+    if (solver != hair::Solver::ftl) tolerance = kHangingTolerance;
     Outcome& outcome = findings.compare(
-        {"first period", "s", {{"segments", double{kSegments}, "count"}, {"length", kLength, "m"}}},
+        {"first period",
+         "s",
+         {{"segments", double{kHangingSegments}, "count"}, {"length", kHangingLength, "m"}}},
         frequency ? 1.0 / *frequency : std::numeric_limits<double>::quiet_NaN(), period, tolerance);
     if (!frequency) outcome.reason = "it does not swing";
 }

@@ -8,8 +8,8 @@ namespace benchmarks::physics {
 
 namespace {
 
-constexpr double kTolerance = 0.02;  // between 1/60 s and 1/480 s, promised of `rod`
-constexpr std::uint32_t kSegments = 16;
+constexpr double kInvarianceTolerance = 0.02;  // between 1/60 s and 1/480 s, promised of `rod`
+constexpr std::uint32_t kInvarianceSegments = 16;
 
 // Differences from the last run, as a curve and a value each.
 void reportDifferences(
@@ -40,11 +40,11 @@ void checkStepInvariance(const engine::Device& device, hair::Solver solver, Find
         hair::SimulationSettings settings = defaultHair(solver);
         settings.time_step = static_cast<float>(1.0 / rate);
         steps.push_back(1.0 / rate);
-        runs.push_back(playRelease(device, settings, kSegments));
+        runs.push_back(playRelease(device, settings, kInvarianceSegments));
     }
     reportDifferences(findings, {.name = "time_step", .unit = "s"}, steps, runs);
     std::optional<double> tolerance;
-    if (solver == hair::Solver::rod) tolerance = kTolerance;
+    if (solver == hair::Solver::rod) tolerance = kInvarianceTolerance;
     findings.deviation(
         {"difference / length",
          "1",
@@ -56,7 +56,7 @@ void checkStepInvariance(const engine::Device& device, hair::Solver solver, Find
         hair::SimulationSettings settings = defaultHair(solver);
         settings.time_step = static_cast<float>(step);
         settings.wind.mode = hair::WindMode::drag;
-        return playRelease(device, settings, kSegments);
+        return playRelease(device, settings, kInvarianceSegments);
     };
     findings.deviation(
         {"difference in still air / length",
@@ -73,7 +73,7 @@ void checkSubstepInvariance(const engine::Device& device, hair::Solver solver, F
         hair::SimulationSettings settings = defaultHair(solver);
         settings.substeps = substeps;
         counts.push_back(substeps);
-        runs.push_back(playRelease(device, settings, kSegments));
+        runs.push_back(playRelease(device, settings, kInvarianceSegments));
     }
     reportDifferences(findings, {.name = "substeps", .unit = "count"}, counts, runs);
 }
@@ -97,7 +97,7 @@ void checkIterationInvariance(
         hair::SimulationSettings settings = defaultHair(solver);
         setIterations(settings, iterations);
         counts.push_back(iterations);
-        runs.push_back(playRelease(device, settings, kSegments));
+        runs.push_back(playRelease(device, settings, kInvarianceSegments));
     }
     reportDifferences(findings, {.name = "iterations", .unit = "count"}, counts, runs);
 }

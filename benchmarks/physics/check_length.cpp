@@ -11,7 +11,7 @@ namespace benchmarks::physics {
 
 namespace {
 
-constexpr double kTolerance = 0.01;  // of the worst segment, promised of `rod`
+constexpr double kStretchTolerance = 0.01;  // of the worst segment, promised of `rod`
 
 }  // namespace
 
@@ -36,7 +36,7 @@ void checkLength(const engine::Device& device, hair::Solver solver, Findings& fi
     }
     const std::vector<Parameter> parameters{{"time_step", experiment.timeStep(), "s"}};
     std::optional<double> tolerance;
-    if (solver == hair::Solver::rod) tolerance = kTolerance;
+    if (solver == hair::Solver::rod) tolerance = kStretchTolerance;
     findings.deviation(
         {"greatest error of a segment's length", "1", parameters}, greatest, tolerance);
     findings.deviation(

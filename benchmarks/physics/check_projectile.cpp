@@ -12,7 +12,7 @@ namespace {
 
 // n steps of Verlet in single precision at up to 4 m add up to about 1.5e-4 m of rounding, or 3e-5
 // of the drop (a random walk of velocity, 0.3 ulp a step); three times that.
-constexpr double kTolerance = 1e-4;
+constexpr double kProjectileTolerance = 1e-4;
 
 }  // namespace
 
@@ -39,7 +39,7 @@ void checkProjectile(const engine::Device& device, hair::Solver solver, Findings
     const double drop = 0.5 * kGravity;  // in 1 s
     findings.deviation(
         {"deviation from the parabola / drop", "1", {{"time_step", experiment.timeStep(), "s"}}},
-        farthest / drop, kTolerance);
+        farthest / drop, kProjectileTolerance);
 }
 
 }  // namespace benchmarks::physics

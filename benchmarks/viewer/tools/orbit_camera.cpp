@@ -61,7 +61,7 @@ float fittingDistance(const hair::CameraSettings& camera, float radius, float as
 }
 
 // Within what the picture shows at all.
-float allowed(const hair::CameraSettings& camera, float distance) {
+float allowedDistance(const hair::CameraSettings& camera, float distance) {
     return std::clamp(
         distance, 2.0f * camera.near_plane,
         std::max(2.0f * camera.near_plane, 0.5f * camera.far_plane));
@@ -92,7 +92,7 @@ void pan(hair::CameraSettings& camera, glm::vec2 pixels, float height) {
 }
 
 void zoom(hair::CameraSettings& camera, float steps) {
-    const float wanted = allowed(camera, distanceOf(camera) * std::pow(0.9f, steps));
+    const float wanted = allowedDistance(camera, distanceOf(camera) * std::pow(0.9f, steps));
     camera.position = camera.target + frameOf(camera).back * wanted;
 }
 
@@ -108,7 +108,7 @@ void fly(hair::CameraSettings& camera, glm::vec3 distances) {
 void frameSphere(hair::CameraSettings& camera, glm::vec3 center, float radius, float aspect) {
     const glm::vec3 back = frameOf(camera).back;
     camera.target = center;
-    camera.position = center + back * allowed(camera, fittingDistance(camera, radius, aspect));
+    camera.position = center + back * allowedDistance(camera, fittingDistance(camera, radius, aspect));
 }
 
 void look(
@@ -118,7 +118,7 @@ void look(
     camera.up = {0, 1, 0};
     camera.target = center;
     camera.position = center + glm::normalize(preset.direction) *
-                                   allowed(camera, radius + height * preset.height);
+                                   allowedDistance(camera, radius + height * preset.height);
 }
 
 void focus(hair::CameraSettings& camera, glm::vec3 point) {
