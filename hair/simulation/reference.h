@@ -28,7 +28,7 @@ public:
     // One time step under gravity and in still air; time stands still.
     void settle();
 
-    double time() const { return steps_ * double{settings_.time_step}; }
+    double time() const { return steps_ * step_.whole; }
     std::span<const glm::dvec3> positions() const { return positions_; }
     std::span<const glm::dvec3> previous() const { return previous_; }
 
@@ -44,6 +44,7 @@ private:
     }
 
     SimulationSettings settings_;
+    reference::Step step_;
     std::uint32_t seed_;
     HeadMotion motion_;
     std::size_t vertices_;  // per strand

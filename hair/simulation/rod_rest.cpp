@@ -77,12 +77,11 @@ Strand restOfStrand(std::span<const glm::vec3> points, double bending, double tw
 
 }  // namespace
 
-RodRest restOfRods(const Groom& groom, const SimulationSettings& settings) {
+RodRest restOfRods(const Groom& groom, const MaterialSettings& material, const gpu::Step& step) {
     // I / A = R^2 / 4 and J = 2 I of a round section.
-    const MaterialSettings& material = settings.material;
     const double radius = material.radius;
-    const double step = settings.time_step;
-    const double bending = step * step * double{material.youngs_modulus} * radius * radius /
+    const double substep = step.sub;
+    const double bending = substep * substep * double{material.youngs_modulus} * radius * radius /
                            (4.0 * double{material.density});
     const double twisting = std::clamp(
         2.0 * double{material.shear_modulus} / double{material.youngs_modulus},

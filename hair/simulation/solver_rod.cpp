@@ -32,8 +32,9 @@ std::uint32_t strandsInDispatch(const Groom& groom) {
 }  // namespace
 
 RodSolver::RodSolver(
-    const engine::Device& device, const Groom& groom, const SimulationSettings& settings)
-    : RodSolver(device, groom, settings, restOfRods(groom, settings)) {}
+    const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
+    const gpu::Step& step)
+    : RodSolver(device, groom, settings, restOfRods(groom, settings.material, step)) {}
 
 RodSolver::RodSolver(
     const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
@@ -54,10 +55,11 @@ RodSolver::RodSolver(
               .most_strands = most_strands_,
               .iterations = settings.rod.iterations}}),
           "rod parameters")),
-      step_(device, {.shader = "simulation/rod.comp", .push_size = sizeof(gpu::StepPush)}),
-      adopt_(device, {.shader = "simulation/rod_adopt.comp", .push_size = sizeof(gpu::StepPush)}) {}
+      step_(device, {.shader = "simulation/rod.comp", .push_size = sizeof(gpu::SubstepPush)}),
+      adopt_(
+          device, {.shader = "simulation/rod_adopt.comp", .push_size = sizeof(gpu::SubstepPush)}) {}
 
-void RodSolver::record(engine::Commands& commands, gpu::StepPush push) const {
+void RodSolver::record(engine::Commands& commands, gpu::SubstepPush push) const {
     push.solver = parameters_.address();
     for (std::uint32_t first = 0; first < strand_count_; first += most_strands_) {
         // The scratch memory of the strands before.
@@ -69,7 +71,7 @@ void RodSolver::record(engine::Commands& commands, gpu::StepPush push) const {
     }
 }
 
-void RodSolver::recordAdopt(engine::Commands& commands, gpu::StepPush push) const {
+void RodSolver::recordAdopt(engine::Commands& commands, gpu::SubstepPush push) const {
     push.solver = parameters_.address();
     commands.bind(adopt_, push);
     dispatchInvocations(commands, strand_count_, kGroup);

@@ -42,7 +42,6 @@ private:
 
     WindSettings settings_;
     MaterialSettings material_;
-    float time_step_;
     std::uint32_t vertex_count_;
     engine::ComputePipeline pipeline_;
 };

@@ -8,7 +8,7 @@
 
 layout(local_size_x = 64) in;
 
-layout(push_constant, scalar) uniform Push { StepPush push; };
+layout(push_constant, scalar) uniform Push { SubstepPush push; };
 
 void main() {
     GuideParameters guides = GuideReference(push.guides).parameters;

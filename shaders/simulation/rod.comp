@@ -14,7 +14,7 @@
 
 layout(local_size_x = 32) in;
 
-layout(push_constant, scalar) uniform Push { StepPush push; };
+layout(push_constant, scalar) uniform Push { SubstepPush push; };
 
 const float kMostTurn = 1.0;  // rad in an iteration; a Newton step from far away can overshoot
 const float kPinMass = 100.0;  // of a pinned vertex, over the strand's: a stiff spring to its place
@@ -56,7 +56,7 @@ void predict() {
     root_now = toWorld(push.frame, Vectors(guides.rest_positions).at[root].xyz);
     vec3 root_moved = (root_now - positions.at[root].xyz) / unit;
     positions.at[root].xyz = root_now;
-    float scale = guides.time_step * guides.time_step / unit;
+    float scale = guides.step.sub * guides.step.sub / unit;
     vec3 edges = vec3(0.0);    // from the root to here
     vec3 misfits = vec3(0.0);  // likewise
     vec3 moved = vec3(0.0);    // by segments that turn

@@ -27,7 +27,7 @@ layout(constant_id = 2) const bool kCollides = true;
 // Even where a strand has more than one chunk, so that all segments between chunks are black.
 layout(constant_id = 3) const uint kVerticesPerChunk = 8;
 
-layout(push_constant, scalar) uniform Push { StepPush push; };
+layout(push_constant, scalar) uniform Push { SubstepPush push; };
 
 layout(buffer_reference, scalar) readonly buffer ShapeReference { ShapeParameters parameters; };
 
@@ -142,7 +142,7 @@ void load(GuideParameters guides, ShapeParameters params, uint first) {
             acceleration += loadVector(push.accelerations, first + j).xyz;
         vec3 moved = integrate(
             point.xyz, previous, acceleration, guides.velocity_kept,
-            guides.time_step * guides.time_step);
+            guides.step.sub * guides.step.sub);
         if (point.w > 0.0) point.xyz = pullToRest(moved, rest, params.global_stiffness);
         if (j == 0 && chunk == 0) point.xyz = rest;
         points[j + 1] = point;

@@ -17,7 +17,7 @@ layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint kVerticesPerStrand = 8;
 layout(constant_id = 2) const bool kCollides = true;
 
-layout(push_constant, scalar) uniform Push { StepPush push; };
+layout(push_constant, scalar) uniform Push { SubstepPush push; };
 
 layout(buffer_reference, scalar) readonly buffer ShapeReference { ShapeParameters parameters; };
 
@@ -43,7 +43,7 @@ void main() {
                 acceleration += Vectors(push.accelerations).at[root + v].xyz;
             point.xyz = integrate(
                 before, previous.at[root + v].xyz, acceleration, guides.velocity_kept,
-                guides.time_step * guides.time_step);
+                guides.step.sub * guides.step.sub);
             point.xyz = pullToRest(point.xyz, rest, params.global_stiffness);
         }
         positions.at[root + v] = point;
