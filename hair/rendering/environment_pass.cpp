@@ -57,7 +57,7 @@ EnvironmentPass::EnvironmentPass(
     background_.emplace(
         device, engine::GraphicsDescription{
                     .shaders = {"environment/background.vert", "environment/background.frag"},
-                    .constants = {hasLinearLight(render) ? 1u : 0u},
+                    .constants = {{gpu::kBackgroundLinearLightConstant, hasLinearLight(render)}},
                     .push_size = sizeof(gpu::EnvironmentPush),
                     .colors = {{colorFormat(render)}},
                     .depth_format = engine::Target::kDepthFormat,

@@ -25,11 +25,11 @@ localStiffnesses(const Groom& groom, const SimulationSettings& settings, const g
 }
 
 engine::ComputePipeline pipelineOf(const engine::Device& device, const ShapePlan& plan) {
+    engine::Constants constants = plan.constants;
+    constants.emplace_back(gpu::kShapeCollidesConstant, plan.collides);
     return {
         device,
-        {.shader = plan.shader,
-         .constants = plan.constants,
-         .push_size = sizeof(gpu::SubstepPush)}};
+        {.shader = plan.shader, .constants = constants, .push_size = sizeof(gpu::SubstepPush)}};
 }
 
 }  // namespace
@@ -62,9 +62,9 @@ void ShapeSolver::record(engine::Commands& commands, gpu::SubstepPush push) cons
 }
 
 void ShapeSolver::expectBodies(const engine::Device& device) {
-    if (plan_.constants[kCollidesConstant] == 1) return;
+    if (plan_.collides) return;
     ShapePlan plan = plan_;
-    plan.constants[kCollidesConstant] = 1;
+    plan.collides = true;
     pipeline_ = pipelineOf(device, plan);
     plan_ = std::move(plan);
 }

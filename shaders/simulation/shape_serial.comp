@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "common/rigid_frame.glsl"
+#include "shared/options.h"
 #include "simulation/constraints/global.glsl"
 #include "simulation/constraints/length.glsl"
 #include "simulation/constraints/local.glsl"
@@ -13,9 +14,9 @@
 #include "simulation/guides.glsl"
 #include "simulation/integrate.glsl"
 
-layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint kVerticesPerStrand = 8;
-layout(constant_id = 2) const bool kCollides = true;
+layout(local_size_x_id = kShapeGroupSizeConstant) in;
+layout(constant_id = kShapeVerticesPerStrandConstant) const uint kVerticesPerStrand = 8;
+layout(constant_id = kShapeCollidesConstant) const bool kCollides = true;
 
 layout(push_constant, scalar) uniform Push { SubstepPush push; };
 
