@@ -9,8 +9,8 @@
 
 namespace engine {
 
-// A specialization constant: the id that shaders declare it with, and its value's 32 bits. Only
-// values of just these types: a constant's type is the shader's.
+// A specialization constant: the id that shaders declare it with, and its value's 32 bits. A value
+// of a type other than these is ambiguous and does not compile.
 struct Constant {
     constexpr Constant(std::uint32_t constant, std::uint32_t value) : id(constant), bits(value) {}
     constexpr Constant(std::uint32_t constant, bool value) : id(constant), bits(value ? 1 : 0) {}

@@ -12,8 +12,6 @@ namespace hair {
 
 namespace {
 
-constexpr std::uint32_t kGroupSide = 8;  // local size in post/resolve.glsl and post/develop.glsl
-
 engine::ComputeDescription
 pipelineFor(const RenderSettings& render, const engine::TargetDescription& target) {
     const std::string variant = target.msaa > 1 ? "_multisample.comp" : ".comp";
@@ -57,7 +55,8 @@ void ResolvePass::record(engine::Commands& commands, const engine::Target& targe
     commands.images(*pipeline_, sampled, storage);
     const auto [width, height] = target.output().extent();
     commands.dispatch(
-        (width + kGroupSide - 1) / kGroupSide, (height + kGroupSide - 1) / kGroupSide);
+        (width + gpu::kResolveGroupSide - 1) / gpu::kResolveGroupSide,
+        (height + gpu::kResolveGroupSide - 1) / gpu::kResolveGroupSide);
     target.endResolve(commands);
 }
 

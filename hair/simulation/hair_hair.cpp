@@ -25,13 +25,12 @@ static_assert(sizeof(gpu::VolumeSample) == 32);
 static_assert(sizeof(gpu::VolumeParameters) == 80 && offsetof(gpu::VolumeParameters, origin) == 40);
 static_assert(sizeof(gpu::VolumePush) == 48);
 
-constexpr std::uint32_t kGroup = 64;  // invocations, as in volume_*.comp
-
-// Of the strands' length: the thesis's length constraint lets them stretch.
+// How far from the roots the grids reach, over the longest strand's length: the thesis's length
+// constraint lets strands stretch.
 constexpr double kReach = 1.1;
-// Cells that repulsion may move a vertex by in a time step.
+// Cells that repulsion may move a vertex by in a step.
 constexpr double kGreatestPush = 1.0;
-// Of (cell / time step)^2, the greatest repulsion that is used.
+// The greatest repulsion that is used, over (cell / step)^2.
 constexpr double kGreatestRepulsion = 0.5;
 
 double strandLength(std::span<const glm::vec3> strand) {
@@ -41,7 +40,7 @@ double strandLength(std::span<const glm::vec3> strand) {
     return length;
 }
 
-// Of a point in three cells in a row, the middle one around it.
+// B-spline weights of a point in three cells in a row, the middle one around it.
 std::array<double, 3> weightsAlong(double point) {
     const double offset = point - std::floor(point) - 0.5;
     return {
@@ -196,7 +195,7 @@ void HairHair::record(
     for (const engine::ComputePipeline* pass : {&sample_, &splat_, &force_}) {
         if (pass != &sample_) commands.barrier(Access::compute_write, Access::compute_write);
         commands.bind(*pass, push);
-        dispatchInvocations(commands, vertex_count_, kGroup);
+        dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
     }
 }
 

@@ -16,8 +16,6 @@ using engine::Access;
 
 static_assert(sizeof(gpu::PullPush) == 72 && offsetof(gpu::PullPush, held_vertex) == 48);
 
-constexpr std::uint32_t kGroup = 64;  // invocations, as in pull.comp
-
 engine::ComputePipeline pipeline(const engine::Device& device, const char* shader) {
     return {device, {.shader = shader, .push_size = sizeof(gpu::PullPush)}};
 }
@@ -58,7 +56,7 @@ void PullPass::record(
         commands.dispatch(1);
         commands.barrier(Access::compute_write, Access::compute_write);
         commands.bind(spread_, push);
-        dispatchInvocations(commands, vertex_count_, kGroup);
+        dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
     }
 }
 

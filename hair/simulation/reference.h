@@ -33,9 +33,9 @@ public:
     std::span<const glm::dvec3> previous() const { return previous_; }
 
 private:
-    // Of every vertex now, m/s^2.
+    // What air does to every vertex now, [strand][vertex], m/s^2.
     std::vector<glm::dvec3> airAccelerations(const SimulationSettings& settings) const;
-    // One time step that takes the head from where it is now to where it is then.
+    // One step, in which the head goes from where it is now to where it is at the time `then`.
     void advance(std::span<const glm::dvec3> wind_accelerations, double then);
 
     template <class Points>

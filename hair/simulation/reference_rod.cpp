@@ -18,11 +18,12 @@ namespace {
 
 constexpr double kShortest = 1e-9;  // m
 constexpr double kPi = 3.14159265358979323846;
-// Of mean length and of mean mass: what a segment turns as if it had, and a vertex weighs at least.
-// Only coincident points fall below, and what they would divide by is then not 0.
+// Lower bounds, over the strand's mean segment, of the length that a segment's inertia is worked
+// out with and of a vertex's mass. Only coincident points fall below; the bounds keep divisors from
+// 0.
 constexpr double kLeastLength = 0.1;
 constexpr double kLeastMass = 0.01;
-// In one iteration: a Newton step from far away can overshoot. rad
+// Largest rotation of a segment in an iteration, rad: a Newton step from far away can overshoot.
 constexpr double kMostTurn = 1.0;
 
 const glm::dmat3 kIdentity(1.0);

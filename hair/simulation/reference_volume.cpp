@@ -97,7 +97,7 @@ glm::dvec3 weightGradient(const Cell& cell, const glm::dvec3& point) {
         spline(t.x) * spline(t.y) * splineSlope(t.z)};
 }
 
-// Of both grids: all whose middle is within one and a half cells.
+// The cells of both grids whose middle is within one and a half cells of the point.
 std::vector<Cell> cellsRound(const glm::dvec3& point) {
     std::vector<Cell> cells;
     for (const int parity : {1, 0}) {

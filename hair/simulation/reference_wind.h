@@ -30,7 +30,7 @@ windAccelerations(ConstPoints positions, const glm::dvec3& wind, double magnitud
 glm::dvec3
 airVelocity(const WindSettings& settings, std::uint32_t seed, const glm::dvec3& point, double time);
 
-// Of a free hair in air that flows across it with `speed`, m/s^2.
+// The drag's acceleration of a free hair in air that flows across it with `speed`, m/s^2.
 double
 dragAcceleration(const WindSettings& settings, const MaterialSettings& material, double speed);
 
@@ -41,7 +41,7 @@ std::vector<glm::dvec3> dragAccelerations(
     ConstPoints positions, ConstPoints previous, const SimulationSettings& settings,
     std::uint32_t seed, const Step& step, double time);
 
-// Those of the settings' mode.
+// windAccelerations or dragAccelerations, as the settings' mode says.
 std::vector<glm::dvec3> airAccelerations(
     ConstPoints positions, ConstPoints previous, const SimulationSettings& settings,
     std::uint32_t seed, std::uint32_t strand, const Step& step, double time);

@@ -19,8 +19,8 @@ constexpr double kShortest = 1e-9;       // m
 constexpr double kShortestUnit = 1e-6;   // m, for strands without length
 constexpr double kLeastMass = 0.01;      // of a vertex, over the mean
 constexpr double kMostStiffness = 1e15;  // rigid beside any inertia; its square is a float
-// Of bending over twisting and the other way round, far beyond any material: where they differ by
-// 10^7, 32 bits lose the lesser one.
+// Bound of the ratio of bending to twisting stiffness and of its inverse, far beyond any material:
+// where the two differ by 10^7, 32 bits lose the lesser one.
 constexpr double kMostAnisotropy = 1e3;
 
 glm::dquat halfOf(glm::dquat rotation) {

@@ -111,7 +111,7 @@ void Simulation::carryOn(const SimulationSettings& settings) {
     if (solver_) {
         if (capsules.count > 0) solver_->expectBodies(*device_);
     } else {
-        // Of `none`, which needs no points.
+        // There was solver `none` without keyframes; its solver needs no points.
         solver = makeSolver(
             *device_, {.strand_count = strand_count_, .vertices_per_strand = vertices_per_strand_},
             settings, step_);

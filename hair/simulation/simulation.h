@@ -85,7 +85,7 @@ public:
     // Whether a step records anything: `none` does so only where the head moves.
     bool moves() const { return solver_ != nullptr; }
     double time() const { return static_cast<double>(steps_) * double{step_.whole}; }
-    // Of the head, now.
+    // The head's rigid motion now.
     RigidMotion pose() const { return motion_.at(time()); }
     GuideView guides() const;
 

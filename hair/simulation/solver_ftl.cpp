@@ -9,12 +9,6 @@
 
 namespace hair {
 
-namespace {
-
-constexpr std::uint32_t kGroup = 64;  // invocations, as in ftl.comp
-
-}  // namespace
-
 FtlSolver::FtlSolver(
     const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
     const gpu::Step& step)
@@ -30,7 +24,7 @@ FtlSolver::FtlSolver(
 void FtlSolver::record(engine::Commands& commands, gpu::SubstepPush push) const {
     push.solver = parameters_.address();
     commands.bind(pipeline_, push);
-    dispatchInvocations(commands, strand_count_, kGroup);
+    dispatchInvocations(commands, strand_count_, gpu::kGuideGroupSize);
 }
 
 }  // namespace hair

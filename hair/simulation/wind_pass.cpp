@@ -15,8 +15,6 @@ namespace {
 static_assert(sizeof(gpu::WindPush) == 72 && offsetof(gpu::WindPush, directions) == 16);
 static_assert(sizeof(gpu::DragPush) == 72 && offsetof(gpu::DragPush, cell) == 32);
 
-constexpr std::uint32_t kGroup = 64;  // invocations, as in wind.comp and wind_drag.comp
-
 engine::ComputeDescription pipelineOf(WindMode mode) {
     if (mode == WindMode::drag)
         return {.shader = "simulation/wind_drag.comp", .push_size = sizeof(gpu::DragPush)};
@@ -80,7 +78,7 @@ void WindPass::recordThesis(
             push.directions[i] = glm::vec3(double{settings_.strength} * cone[i]);
     }
     commands.bind(pipeline_, push);
-    dispatchInvocations(commands, vertex_count_, kGroup);
+    dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
 }
 
 // The mean wind has carried the lattice from its start at the world's origin by speed times time:
@@ -105,7 +103,7 @@ void WindPass::recordDrag(
                        .octaves = settings_.turbulence_octaves,
                        .inertial_drag = static_cast<float>(factors.inertial),
                        .viscous_drag = static_cast<float>(factors.viscous)});
-    dispatchInvocations(commands, vertex_count_, kGroup);
+    dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
 }
 
 }  // namespace hair

@@ -4,7 +4,7 @@
 #include "post/tone_map_agx.glsl"
 #include "shared/options.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = kResolveGroupSide, local_size_y = kResolveGroupSide) in;
 // Per rendered pixel
 layout(constant_id = kResolveSamplesConstant) const int kSamples = 1;
 // Rendered pixels per pixel, along each side

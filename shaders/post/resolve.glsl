@@ -2,7 +2,7 @@
 // is the mean, as fixed-function resolve of such images does it.
 #include "shared/options.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = kResolveGroupSide, local_size_y = kResolveGroupSide) in;
 // Per rendered pixel
 layout(constant_id = kResolveSamplesConstant) const int kSamples = 1;
 // Rendered pixels per pixel, along each side

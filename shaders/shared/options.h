@@ -97,6 +97,9 @@ const uint kResolveFactorConstant = 1u;
 const uint kResolveToneMapConstant = 2u;
 const uint kResolveExposureConstant = 3u;
 
+// Invocations along each side of a workgroup of post/resolve.glsl and post/develop.glsl.
+const uint kResolveGroupSide = 8u;
+
 // Constants of simulation/shape.comp and, but for the last, simulation/shape_serial.comp.
 const uint kShapeGroupSizeConstant = 0u;
 const uint kShapeVerticesPerStrandConstant = 1u;

@@ -8,7 +8,12 @@
 // Shorter segments, at rest or now, have no direction of their own. m
 const float kShortestSegment = 1.0e-9f;
 
-// Purpose of the random numbers that a strand weighs the wind with; the next three are taken too.
+// Invocations in a workgroup of the passes over all guides or guide vertices; rods and shape
+// constraints have their own.
+const uint kGuideGroupSize = 64u;
+
+// Purposes kWindWeightPurpose to kWindWeightPurpose + 3 are of the random numbers by which a strand
+// weighs the wind's four directions.
 const uint kWindWeightPurpose = 0x57494e44u;
 
 // A rigid motion from where the groom was made to where it is now: x -> rotation x + translation.

@@ -10,7 +10,7 @@
 #include "simulation/guides.glsl"
 #include "simulation/integrate.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kGuideGroupSize) in;
 
 layout(push_constant, scalar) uniform Push { SubstepPush push; };
 

@@ -12,7 +12,7 @@
 #include "simulation/rod/state.glsl"
 #include "simulation/rod/symmetric.glsl"
 
-layout(local_size_x = 32) in;
+layout(local_size_x = kRodGroupSize) in;
 
 layout(push_constant, scalar) uniform Push { SubstepPush push; };
 
@@ -58,7 +58,7 @@ void predict() {
     positions.at[root].xyz = root_now;
     float scale = guides.step.sub * guides.step.sub / unit;
     vec3 edges = vec3(0.0);    // from the root to here
-    vec3 misfits = vec3(0.0);  // likewise
+    vec3 misfits = vec3(0.0);  // from the root to here
     vec3 moved = vec3(0.0);    // by segments that turn
     for (uint i = 1; i < guides.vertices_per_strand; ++i) {
         RodMotion motion = motions.at[segmentIndex(i)];

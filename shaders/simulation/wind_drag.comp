@@ -21,7 +21,7 @@
 #include "simulation/guides.glsl"
 #include "simulation/turbulence.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kGuideGroupSize) in;
 
 layout(push_constant, scalar) uniform Push { DragPush push; };
 
