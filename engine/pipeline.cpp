@@ -1,6 +1,9 @@
 #include "engine/pipeline.h"
 
+#include <algorithm>
 #include <array>
+#include <cassert>
+#include <cstddef>
 #include <span>
 #include <utility>
 
@@ -42,14 +45,21 @@ ShaderModule loadModule(const Device& device, const std::string& path) {
     return {device.get(), module};
 }
 
-// Constants with the ids 0, 1, 2 … Keeps what `info` points to.
+// Keeps what `info` points to but the constants themselves.
 struct Specialization {
-    explicit Specialization(const Constants& constants) : entries(constants.size()) {
-        for (std::uint32_t i = 0; i < entries.size(); ++i) entries[i] = {i, 4 * i, 4};
+    explicit Specialization(const Constants& constants) {
+        for (const Constant& constant : constants) {
+            assert(std::ranges::count(constants, constant.id, &Constant::id) == 1);
+            const std::size_t offset = entries.size() * sizeof(Constant) + offsetof(Constant, bits);
+            entries.push_back(
+                {.constantID = constant.id,
+                 .offset = static_cast<std::uint32_t>(offset),
+                 .size = sizeof(Constant::bits)});
+        }
         info = {
             .mapEntryCount = static_cast<std::uint32_t>(entries.size()),
             .pMapEntries = entries.data(),
-            .dataSize = 4 * constants.size(),
+            .dataSize = sizeof(Constant) * constants.size(),
             .pData = constants.data()};
     }
 

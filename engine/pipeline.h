@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -8,8 +9,21 @@
 
 namespace engine {
 
-// A specialization constant's 32 bits, in the order of the constant ids from 0. Floats by bit_cast.
-using Constants = std::vector<std::uint32_t>;
+// A specialization constant: the id that shaders declare it with, and its value's 32 bits. A value
+// of a type other than these is ambiguous and does not compile.
+struct Constant {
+    constexpr Constant(std::uint32_t constant, std::uint32_t value) : id(constant), bits(value) {}
+    constexpr Constant(std::uint32_t constant, bool value) : id(constant), bits(value ? 1 : 0) {}
+    constexpr Constant(std::uint32_t constant, float value)
+        : id(constant), bits(std::bit_cast<std::uint32_t>(value)) {}
+
+    std::uint32_t id;
+    std::uint32_t bits;
+};
+
+// Constants of different ids, in any order. Those that a shader does not declare are no error;
+// those that are missing keep the shader's default.
+using Constants = std::vector<Constant>;
 
 struct ComputeDescription {
     std::string shader;  // path under shaders/, e.g. "simulation/wind.comp"

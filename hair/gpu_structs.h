@@ -7,7 +7,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-// The structs that C++ and GLSL share. Scalar layout on both sides: no padding but what is written.
+// The structs and constants that C++ and GLSL share. Scalar layout on both sides: no padding but
+// what is written.
 namespace hair::gpu {
 
 using glm::mat4;
@@ -24,6 +25,7 @@ using uint = std::uint32_t;
 #include "shaders/shared/mesh_structs.h"
 #include "shaders/shared/model_probe_structs.h"
 #include "shaders/shared/optics_structs.h"
+#include "shaders/shared/options.h"
 #include "shaders/shared/overlay_structs.h"
 #include "shaders/shared/rod_structs.h"
 #include "shaders/shared/shadow_structs.h"

@@ -69,7 +69,9 @@ double greatestGrowth(std::span<const double> samples, std::size_t window) {
 
 void checkEnergy(const engine::Device& device, hair::Solver solver, Findings& findings) {
     // A solver step at a time, or what happens between two looks would be averaged.
-    hair::SimulationSettings settings = hair::settingsOfSubstep(freeHair(solver));
+    hair::SimulationSettings settings = freeHair(solver);
+    settings.time_step = hair::stepOf(settings).sub;
+    settings.substeps = 1;
     // Shape constraints have no energy that could be counted, nor has what segments are too long
     // by.
     settings.local.stiffness = 0.0f;

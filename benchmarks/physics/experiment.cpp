@@ -57,7 +57,7 @@ Experiment::Experiment(
     const engine::Device& device, const hair::Groom& groom,
     const hair::SimulationSettings& settings)
     : device_(&device), settings_(settings),
-      substep_(double{settings.time_step} / hair::substepsOf(settings)),
+      substep_(double{settings.time_step} / hair::stepOf(settings).count),
       simulation_(device, groom, settings, kSeed) {}
 
 void Experiment::advance(std::uint32_t steps) {

@@ -8,6 +8,7 @@
 #include "engine/target.h"
 #include "hair/gpu_structs.h"
 #include "hair/rendering/strand_offsets.h"
+#include "hair/shader_codes.h"
 
 namespace hair {
 
@@ -29,9 +30,6 @@ constexpr std::uint32_t pushSize(const StrandStages& stages) {
                           : std::uint32_t{sizeof(gpu::StrandPush)};
 }
 
-constexpr std::size_t kSamplesConstant = 15;  // in strands/pixel_samples.glsl
-constexpr std::size_t kFirstShadingConstant = 16;  // in shading/options.glsl
-
 }  // namespace
 
 std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext& context) {
@@ -44,16 +42,17 @@ std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext
 }
 
 engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan) {
-    return {static_cast<std::uint32_t>(strands.curve),
-            static_cast<std::uint32_t>(strands.taper),
-            static_cast<std::uint32_t>(plan.lod_mode),
-            static_cast<std::uint32_t>(strands.source),
-            static_cast<std::uint32_t>(strands.width),
-            hasOffsets(strands) ? 1u : 0u,
-            static_cast<std::uint32_t>(strands.interpolation),
-            strands.collision_rule ? 1u : 0u,
-            static_cast<std::uint32_t>(strands.randomness),
-            plan.morphs ? 1u : 0u};
+    return {
+        {gpu::kCurveConstant, shaderCode(strands.curve)},
+        {gpu::kTaperConstant, shaderCode(strands.taper)},
+        {gpu::kLodModeConstant, shaderCode(plan.lod_mode)},
+        {gpu::kSourceConstant, shaderCode(strands.source)},
+        {gpu::kWidthConstant, shaderCode(strands.width)},
+        {gpu::kOffsetsConstant, hasOffsets(strands)},
+        {gpu::kInterpolationConstant, shaderCode(strands.interpolation)},
+        {gpu::kCollisionRuleConstant, strands.collision_rule},
+        {gpu::kRandomnessConstant, shaderCode(strands.randomness)},
+        {gpu::kLodMorphConstant, plan.morphs}};
 }
 
 engine::GraphicsDescription strandPipeline(const BackendContext& context) {
@@ -63,9 +62,7 @@ engine::GraphicsDescription strandPipeline(const BackendContext& context) {
     if (stages.last != StrandStage::fragment)
         for (engine::ColorTarget& color : colors) color.blend = engine::Blend::keep;
     engine::Constants constants = strandConstants(context.strands, context.plan);
-    assert(constants.size() <= kSamplesConstant);
-    constants.resize(kFirstShadingConstant);
-    constants[kSamplesConstant] = output.samples;
+    constants.emplace_back(gpu::kPixelSamplesConstant, output.samples);
     constants.insert(constants.end(), output.shading.begin(), output.shading.end());
     return {
         .constants = constants,

@@ -16,7 +16,7 @@ std::vector<gpu::BodyLine> capsuleLines(const Collider& capsule);
 // The edges of a mesh, each once.
 std::vector<gpu::BodyLine> meshLines(const Mesh& mesh, Follows follows);
 
-// Of all that hair collides with; `meshes` are those of settings.distance_fields.
+// Wire frames of all that hair collides with; `meshes` are those of settings.distance_fields.
 std::vector<gpu::BodyLine>
 bodyLines(const SimulationSettings& settings, std::span<const Mesh> meshes);
 

@@ -18,10 +18,10 @@ namespace {
 static_assert(offsetof(gpu::EnvironmentParameters, irradiance) == 20);
 static_assert(sizeof(gpu::EnvironmentParameters) == 128);
 
-// Of a sun in a picture, 65504 is what half-precision files can hold.
+// Radiance is clamped here. A half-precision file holds a sun of up to 65504.
 constexpr float kBrightest = 1e6f;
 
-// With the strength, and without what light can't be.
+// The picture's radiance times the strength, clamped to [0, kBrightest]; 0 where it is no number.
 engine::FloatPixels soundLight(engine::FloatPixels picture, float strength) {
     for (float& value : picture.rgb) {
         value *= strength;
@@ -57,7 +57,7 @@ EnvironmentPass::EnvironmentPass(
     background_.emplace(
         device, engine::GraphicsDescription{
                     .shaders = {"environment/background.vert", "environment/background.frag"},
-                    .constants = {hasLinearLight(render) ? 1u : 0u},
+                    .constants = {{gpu::kBackgroundLinearLightConstant, hasLinearLight(render)}},
                     .push_size = sizeof(gpu::EnvironmentPush),
                     .colors = {{colorFormat(render)}},
                     .depth_format = engine::Target::kDepthFormat,

@@ -19,7 +19,7 @@ public:
     EnvironmentPass(
         const engine::Device& device, const Settings& settings, const RenderAssets& assets);
 
-    // Of gpu::EnvironmentParameters; 0 where there is no environment.
+    // Address of gpu::EnvironmentParameters; 0 where there is no environment.
     std::uint64_t address() const { return parameters_.address(); }
 
     // Into the target that is being rendered to, behind everything: where nothing is drawn yet.

@@ -10,8 +10,6 @@ namespace {
 
 static_assert(sizeof(gpu::FramesPush) == 96 && offsetof(gpu::FramesPush, guides) == 64);
 
-constexpr std::uint32_t kGroup = 64;  // invocations, as in frames.comp
-
 }  // namespace
 
 FramesPass::FramesPass(const engine::Device& device, const StrandView& view)
@@ -34,7 +32,7 @@ void FramesPass::record(engine::Commands& commands, const StrandView& view) cons
                        .normals = normals_.address(),
                        .guide_count = view.guide_count,
                        .vertices_per_guide = view.vertices_per_guide});
-    commands.dispatch((view.guide_count + kGroup - 1) / kGroup);
+    commands.dispatch((view.guide_count + gpu::kFramesGroupSize - 1) / gpu::kFramesGroupSize);
     commands.barrier(Access::compute_write, Access::anything);
 }
 

@@ -20,7 +20,7 @@ public:
         const engine::Device& device, const Groom& groom, const Settings& settings,
         const StrandSet* model);
 
-    // Of everything but the guides' address and the head.
+    // Lacks the guides' address and the head's motion.
     const StrandView& view() const { return view_; }
 
 private:

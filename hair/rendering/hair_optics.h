@@ -15,7 +15,7 @@ gpu::HairOptics makeHairOptics(const ShadingSettings& shading);
 // The averages that dual scattering looks up, over cos theta_i.
 std::vector<gpu::FiberAverage> makeFiberAverages(const ShadingSettings& shading);
 
-// The same on the device; the averages only where the model needs them.
+// HairOptics and FiberAverages on the device; the averages only where the model needs them.
 class HairOpticsBuffers {
 public:
     HairOpticsBuffers(const engine::Device& device, const Settings& settings);

@@ -13,7 +13,7 @@ Mesh placed(Mesh mesh, const MeshSettings& settings);
 
 // A mesh's triangles on the device, sorted by material.
 struct MeshGeometry {
-    // Of one material.
+    // The triangles of one material.
     struct Part {
         std::uint32_t material;
         std::uint32_t first_index;

@@ -1,13 +1,12 @@
 #include "hair/rendering/mesh_materials.h"
 
+#include "hair/gpu_structs.h"
 #include "hair/rendering/shading_constants.h"
 #include "hair/rendering/working_color.h"
 
 namespace hair {
 
 namespace {
-
-constexpr std::size_t kFirstShadingConstant = 16;  // in shading/options.glsl
 
 VkSamplerAddressMode addressMode(Wrap wrap) {
     switch (wrap) {
@@ -35,9 +34,11 @@ MeshLook lookOf(const Mesh& mesh, const Material& material) {
 
 engine::Constants meshConstants(const MeshLook& look, const Settings& settings) {
     engine::Constants constants{
-        look.base_color_texture ? 1u : 0u, look.metallic_roughness_texture ? 1u : 0u,
-        look.normal_texture ? 1u : 0u, look.mask ? 1u : 0u, look.double_sided ? 1u : 0u};
-    constants.resize(kFirstShadingConstant);
+        {gpu::kBaseColorTextureConstant, look.base_color_texture},
+        {gpu::kMetallicRoughnessTextureConstant, look.metallic_roughness_texture},
+        {gpu::kNormalTextureConstant, look.normal_texture},
+        {gpu::kMaskConstant, look.mask},
+        {gpu::kDoubleSidedConstant, look.double_sided}};
     const engine::Constants shading = shadingConstants(settings);
     constants.insert(constants.end(), shading.begin(), shading.end());
     return constants;

@@ -1,33 +1,34 @@
 #include "hair/rendering/resolve_pass.h"
 
-#include <bit>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "hair/gpu_structs.h"
 #include "hair/rendering/working_color.h"
+#include "hair/shader_codes.h"
 
 namespace hair {
 
 namespace {
 
-constexpr std::uint32_t kGroupSide = 8;  // local size in post/resolve.glsl and post/develop.glsl
-
 engine::ComputeDescription
 pipelineFor(const RenderSettings& render, const engine::TargetDescription& target) {
     const std::string variant = target.msaa > 1 ? "_multisample.comp" : ".comp";
+    engine::Constants constants{
+        {gpu::kResolveSamplesConstant, target.msaa}, {gpu::kResolveFactorConstant, target.ssaa}};
     if (!hasLinearLight(render)) {
         return {
             .shader = "post/resolve" + variant,
-            .constants = {target.msaa, target.ssaa},
+            .constants = constants,
             .sampled_images = 1,
             .storage_images = 1};
     }
+    constants.emplace_back(gpu::kResolveToneMapConstant, shaderCode(render.tone_map));
+    constants.emplace_back(gpu::kResolveExposureConstant, std::exp2(render.exposure));
     return {
         .shader = "post/develop" + variant,
-        .constants =
-            {target.msaa, target.ssaa, static_cast<std::uint32_t>(render.tone_map),
-             std::bit_cast<std::uint32_t>(std::exp2(render.exposure))},
+        .constants = constants,
         .sampled_images = 1,
         .storage_images = 2};
 }
@@ -54,7 +55,8 @@ void ResolvePass::record(engine::Commands& commands, const engine::Target& targe
     commands.images(*pipeline_, sampled, storage);
     const auto [width, height] = target.output().extent();
     commands.dispatch(
-        (width + kGroupSide - 1) / kGroupSide, (height + kGroupSide - 1) / kGroupSide);
+        (width + gpu::kResolveGroupSide - 1) / gpu::kResolveGroupSide,
+        (height + gpu::kResolveGroupSide - 1) / gpu::kResolveGroupSide);
     target.endResolve(commands);
 }
 

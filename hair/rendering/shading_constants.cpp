@@ -2,6 +2,7 @@
 
 #include "hair/rendering/lights.h"
 #include "hair/rendering/working_color.h"
+#include "hair/shader_codes.h"
 
 namespace hair {
 
@@ -9,16 +10,17 @@ engine::Constants shadingConstants(const Settings& settings) {
     const ShadingSettings& shading = settings.shading;
     const RenderSettings& render = settings.render;
     return {
-        static_cast<std::uint32_t>(shading.model),
-        static_cast<std::uint32_t>(shading.lights.size()),
-        shading.shadows.meshes ? 1u : 0u,
-        shading.shadows.hair != HairShadows::none ? 1u : 0u,
-        !render.environment.empty() ? 1u : 0u,
-        hasLinearLight(render) ? 1u : 0u,
-        render.coverage == Coverage::analytic && render.show == Show::shading ? 1u : 0u,
-        !settings.strands.texture.empty() ? 1u : 0u,
-        static_cast<std::uint32_t>(render.show),
-        lightKinds(settings)};
+        {gpu::kModelConstant, shaderCode(shading.model)},
+        {gpu::kLightCountConstant, static_cast<std::uint32_t>(shading.lights.size())},
+        {gpu::kMeshShadowsConstant, shading.shadows.meshes},
+        {gpu::kHairShadowsConstant, shading.shadows.hair != HairShadows::none},
+        {gpu::kEnvironmentConstant, !render.environment.empty()},
+        {gpu::kLinearLightConstant, hasLinearLight(render)},
+        {gpu::kAnalyticCoverageConstant,
+         render.coverage == Coverage::analytic && render.show == Show::shading},
+        {gpu::kStrandTextureConstant, !settings.strands.texture.empty()},
+        {gpu::kShowConstant, shaderCode(render.show)},
+        {gpu::kLightKindsConstant, lightKinds(settings)}};
 }
 
 }  // namespace hair

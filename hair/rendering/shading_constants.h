@@ -5,7 +5,7 @@
 
 namespace hair {
 
-// The specialization constants of shaders/shading/options.glsl, from its first id on.
+// The specialization constants of shaders/shading/options.glsl.
 engine::Constants shadingConstants(const Settings& settings);
 
 }  // namespace hair

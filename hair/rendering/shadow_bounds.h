@@ -13,7 +13,7 @@ Sphere enclosing(const Sphere& a, const Sphere& b);
 // What lights look at.
 struct ShadowBounds {
     Sphere seen;  // a light's map shows all of it: the hair and the head
-    Sphere range;  // and reaches from its near to its far end: other meshes too
+    Sphere range;  // a light's map reaches from its near to its far end: all that is drawn
 };
 
 // Where things are in a picture.

@@ -36,7 +36,7 @@ public:
         engine::Passes& passes, const SceneMeshes& meshes, const StrandView& view,
         const gpu::PictureParameters& picture);
 
-    // Of gpu::ShadowParameters, once recorded.
+    // Address of gpu::ShadowParameters, once recorded.
     std::uint64_t address(std::uint32_t slot) const { return parameters_[slot].address(); }
 
     // Depth of meshes, depth of hair, opacity of hair, in this order; in SHADER_READ_ONLY_OPTIMAL

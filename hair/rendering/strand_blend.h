@@ -10,7 +10,7 @@
 
 namespace hair {
 
-// Of a picture's fragments that lists have room for, and of those that there were.
+// How many of a picture's fragments the lists have room for, and how many there were.
 struct ListedFragments {
     std::uint64_t capacity = 0;
     std::uint64_t wanted = 0;
@@ -37,7 +37,7 @@ public:
     // Memory that transparency takes beside the target.
     virtual std::uint64_t bytes() const { return 0; }
 
-    // Of the last picture; waits for the device. Absent where fragments are not listed.
+    // The last picture's; waits for the device. Absent where fragments are not listed.
     virtual std::optional<ListedFragments> listed() const { return std::nullopt; }
 };
 

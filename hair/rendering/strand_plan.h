@@ -55,8 +55,8 @@ StrandPlan planStrands(
     std::uint32_t triangles, std::uint32_t segments, const StrandSettings& strands,
     const LodSettings& lod, std::uint32_t isoline_limit);
 
-// Of the strands that the settings ask for. Throws engine::Error "<JSON pointer>: <reason>" where
-// the view lacks what they need.
+// The plan of the strands that the settings ask for. Throws engine::Error "<JSON pointer>:
+// <reason>" where the view lacks what they need.
 StrandPlan
 planStrands(const StrandView& view, const Settings& settings, std::uint32_t isoline_limit);
 

@@ -23,7 +23,6 @@ using Record = gpu::StrandPointRecord;
 static_assert(sizeof(Record) == 32 && offsetof(Record, tangent) == 16);
 static_assert(offsetof(gpu::StrandPointsPush, count) == 16);
 
-constexpr std::uint32_t kGroup = 64;               // invocations, as in evaluate.comp
 constexpr std::uint32_t kMostGroupsInRow = 65535;  // what every device has
 
 // Shaders number points in 32 bits.
@@ -38,7 +37,8 @@ std::uint32_t pointCount(const StrandPlan& plan) {
 }
 
 void dispatchFor(engine::Commands& commands, std::uint32_t invocations) {
-    const std::uint32_t groups = (invocations + kGroup - 1) / kGroup;
+    const std::uint32_t groups =
+        (invocations + gpu::kStrandPointsGroupSize - 1) / gpu::kStrandPointsGroupSize;
     const std::uint32_t columns = std::min(groups, kMostGroupsInRow);
     commands.dispatch(columns, (groups + columns - 1) / columns);
 }

@@ -6,7 +6,7 @@
 
 namespace hair {
 
-// Of what a picture is rendered to.
+// Format of the colors that a picture is rendered to.
 inline VkFormat colorFormat(const RenderSettings& render) {
     return hasLinearLight(render) ? VK_FORMAT_R16G16B16A16_SFLOAT : VK_FORMAT_R8G8B8A8_UNORM;
 }

@@ -28,7 +28,7 @@ public:
         std::span<const Mesh> meshes);
 
     gpu::Bodies parameters() const { return parametersWith(capsules_); }
-    // Those of the same fields with other capsules.
+    // The parameters of the same distance fields with other capsules.
     gpu::Bodies parametersWith(const Capsules& capsules) const;
 
     static Capsules makeCapsules(const engine::Device& device, const SimulationSettings& settings);

@@ -11,11 +11,11 @@ constexpr std::int64_t kPartsPerStep = 720720;  // the least common multiple of 
 
 }  // namespace
 
-FixedStep::FixedStep(double time_step) : time_step_(time_step) { assert(time_step > 0.0); }
+FixedStep::FixedStep(double step) : step_(step) { assert(step > 0.0); }
 
 std::uint32_t FixedStep::stepsFor(double frame_time) {
     assert(frame_time >= 0.0);
-    parts_ += std::llround(frame_time / time_step_ * double{kPartsPerStep});
+    parts_ += std::llround(frame_time / step_ * double{kPartsPerStep});
     const std::int64_t steps = parts_ / kPartsPerStep;
     parts_ -= steps * kPartsPerStep;
     return static_cast<std::uint32_t>(steps);

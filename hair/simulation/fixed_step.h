@@ -9,8 +9,8 @@ namespace hair {
 // with q <= 16 is exact and no error builds up; any other is off by less than 1e-6 steps a frame.
 class FixedStep {
 public:
-    // time_step > 0, s.
-    explicit FixedStep(double time_step);
+    // step > 0, s.
+    explicit FixedStep(double step);
 
     // Steps to simulate for a frame that advances `frame_time` >= 0, s.
     std::uint32_t stepsFor(double frame_time);
@@ -18,7 +18,7 @@ public:
     void reset() { parts_ = 0; }
 
 private:
-    double time_step_;
+    double step_;
     std::int64_t parts_ = 0;  // time that waits for the next step
 };
 

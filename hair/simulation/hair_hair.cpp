@@ -25,13 +25,12 @@ static_assert(sizeof(gpu::VolumeSample) == 32);
 static_assert(sizeof(gpu::VolumeParameters) == 80 && offsetof(gpu::VolumeParameters, origin) == 40);
 static_assert(sizeof(gpu::VolumePush) == 48);
 
-constexpr std::uint32_t kGroup = 64;  // invocations, as in volume_*.comp
-
-// Of the strands' length: the thesis's length constraint lets them stretch.
+// How far from the roots the grids reach, over the longest strand's length: the thesis's length
+// constraint lets strands stretch.
 constexpr double kReach = 1.1;
-// Cells that repulsion may move a vertex by in a time step.
+// Cells that repulsion may move a vertex by in a step.
 constexpr double kGreatestPush = 1.0;
-// Of (cell / time step)^2, the greatest repulsion that is used.
+// The greatest repulsion that is used, over (cell / step)^2.
 constexpr double kGreatestRepulsion = 0.5;
 
 double strandLength(std::span<const glm::vec3> strand) {
@@ -41,7 +40,7 @@ double strandLength(std::span<const glm::vec3> strand) {
     return length;
 }
 
-// Of a point in three cells in a row, the middle one around it.
+// B-spline weights of a point in three cells in a row, the middle one around it.
 std::array<double, 3> weightsAlong(double point) {
     const double offset = point - std::floor(point) - 0.5;
     return {
@@ -75,12 +74,12 @@ std::vector<float> toFloat(std::span<const double> values) {
 
 // Without the addresses.
 gpu::VolumeParameters
-parametersOf(const Groom& groom, const SimulationSettings& settings, std::uint32_t substeps) {
+parametersOf(const Groom& groom, const SimulationSettings& settings, const gpu::Step& step) {
     const HairHairSettings& contact = settings.hair_hair;
     const VolumeGrid grid = volumeGrid(groom, contact.resolution);
-    const double step = settings.time_step;
-    const double friction = 1.0 - std::pow(1.0 - double{contact.friction}, step / kReferenceStep);
-    const double fastest = grid.cell / step;  // m/s, that stays within a cell
+    const double whole = step.whole;
+    const double friction = 1.0 - std::pow(1.0 - double{contact.friction}, whole / kReferenceStep);
+    const double fastest = grid.cell / whole;  // m/s, that stays within a cell
     const double repulsion =
         std::min(double{contact.repulsion}, kGreatestRepulsion * fastest * fastest);
     return {
@@ -92,11 +91,10 @@ parametersOf(const Groom& groom, const SimulationSettings& settings, std::uint32
         .origin = grid.origin,
         .cell = static_cast<float>(grid.cell),
         .resolution = grid.resolution,
-        .prediction = static_cast<float>(substeps),
         .crowded = static_cast<float>(double{contact.crowding} * meanRestDensity(groom, grid)),
-        .friction = static_cast<float>(friction / step),
+        .friction = static_cast<float>(friction / whole),
         .repulsion = static_cast<float>(repulsion / grid.cell),
-        .greatest_repulsion = static_cast<float>(kGreatestPush * fastest / step)};
+        .greatest_repulsion = static_cast<float>(kGreatestPush * fastest / whole)};
 }
 
 std::size_t cellCount(const SimulationSettings& settings) {
@@ -163,7 +161,7 @@ double meanRestDensity(const Groom& groom, const VolumeGrid& grid) {
 
 HairHair::HairHair(
     const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
-    std::uint32_t substeps, std::uint64_t guides)
+    const gpu::Step& step, std::uint64_t guides)
     : vertex_count_(static_cast<std::uint32_t>(groom.points.size())),
       shares_(engine::makeBuffer(
           device, std::span<const float>(toFloat(lengthShares(groom))), "volume shares")),
@@ -176,7 +174,7 @@ HairHair::HairHair(
       sample_(pipeline(device, "simulation/volume_sample.comp")),
       splat_(pipeline(device, "simulation/volume_splat.comp")),
       force_(pipeline(device, "simulation/volume_force.comp")) {
-    gpu::VolumeParameters parameters = parametersOf(groom, settings, substeps);
+    gpu::VolumeParameters parameters = parametersOf(groom, settings, step);
     parameters.guides = guides;
     parameters.shares = shares_.address();
     parameters.samples = samples_.address();
@@ -197,7 +195,7 @@ void HairHair::record(
     for (const engine::ComputePipeline* pass : {&sample_, &splat_, &force_}) {
         if (pass != &sample_) commands.barrier(Access::compute_write, Access::compute_write);
         commands.bind(*pass, push);
-        dispatchInvocations(commands, vertex_count_, kGroup);
+        dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
     }
 }
 

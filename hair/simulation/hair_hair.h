@@ -8,6 +8,7 @@
 #include "engine/buffer.h"
 #include "engine/commands.h"
 #include "engine/pipeline.h"
+#include "hair/gpu_structs.h"
 #include "hair/groom/groom.h"
 #include "hair/settings.h"
 #include "hair/simulation/rigid_motion.h"
@@ -55,7 +56,7 @@ double meanRestDensity(const Groom& groom, const VolumeGrid& grid);
 // two are opposite, and one to two hundredths are left (interlacing; Hockney and Eastwood 1988,
 // Computer simulation using particles).
 //
-// A vertex counts where it will be at the end of the time step by its velocity: this takes energy
+// A vertex counts where it will be at the end of the step by its velocity: this takes energy
 // from pressure waves instead of adding some. All of it is continuous in the vertices' places.
 //
 // Sums are integers (kVolumeOne is all of the groom, and all of it at the speed of the fastest
@@ -63,13 +64,12 @@ double meanRestDensity(const Groom& groom, const VolumeGrid& grid);
 // cell is rounded to 2^-30 of the groom.
 class HairHair {
 public:
-    // `settings` are of the time step; `substeps` of it make one. `guides` is the address of
-    // gpu::GuideParameters.
+    // `guides` is the address of gpu::GuideParameters.
     HairHair(
         const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
-        std::uint32_t substeps, std::uint64_t guides);
+        const gpu::Step& step, std::uint64_t guides);
 
-    // Adds to the accelerations, vec4 [strand][vertex], m/s^2, what acts over the next time step;
+    // Adds to the accelerations, vec4 [strand][vertex], m/s^2, what acts over the next step;
     // `later` is the head's place at its end. The caller orders the work before and after.
     void
     record(engine::Commands& commands, std::uint64_t accelerations, const RigidMotion& later) const;

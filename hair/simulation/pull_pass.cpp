@@ -6,7 +6,6 @@
 
 #include <glm/vec4.hpp>
 
-#include "hair/gpu_structs.h"
 #include "hair/simulation/dispatch_groups.h"
 
 namespace hair {
@@ -17,8 +16,6 @@ using engine::Access;
 
 static_assert(sizeof(gpu::PullPush) == 72 && offsetof(gpu::PullPush, held_vertex) == 48);
 
-constexpr std::uint32_t kGroup = 64;  // invocations, as in pull.comp
-
 engine::ComputePipeline pipeline(const engine::Device& device, const char* shader) {
     return {device, {.shader = shader, .push_size = sizeof(gpu::PullPush)}};
 }
@@ -27,9 +24,9 @@ engine::ComputePipeline pipeline(const engine::Device& device, const char* shade
 
 PullPass::PullPass(
     const engine::Device& device, std::uint32_t strand_count, std::uint32_t vertices_per_strand,
-    float time_step, std::vector<PullSettings> pulls)
+    const gpu::Step& step, std::vector<PullSettings> pulls)
     : vertex_count_(strand_count * vertices_per_strand), vertices_per_strand_(vertices_per_strand),
-      time_step_(time_step), pulls_(std::move(pulls)),
+      step_(step), pulls_(std::move(pulls)),
       held_(device, {.size = sizeof(glm::vec4), .name = "guide pull"}),
       hold_(pipeline(device, "simulation/pull_hold.comp")),
       spread_(pipeline(device, "simulation/pull.comp")) {}
@@ -37,7 +34,7 @@ PullPass::PullPass(
 void PullPass::record(
     engine::Commands& commands, std::uint64_t guides, std::uint64_t accelerations,
     double time) const {
-    const double dt = time_step_;
+    const double dt = step_.whole;
     for (const PullSettings& pull : pulls_) {
         const std::optional<Hand> hand = handIn(pull, time, time + dt);
         if (!hand) continue;
@@ -53,14 +50,13 @@ void PullPass::record(
             .radius = pull.radius,
             .stiffness = static_cast<float>(stiffness),
             .damping = static_cast<float>(damping),
-            .implicit = static_cast<float>(1.0 / (1.0 + damping * dt + stiffness * dt * dt)),
-            .time_step = time_step_};
+            .implicit = static_cast<float>(1.0 / (1.0 + damping * dt + stiffness * dt * dt))};
         commands.barrier(Access::compute_write, Access::compute_write);
         commands.bind(hold_, push);
         commands.dispatch(1);
         commands.barrier(Access::compute_write, Access::compute_write);
         commands.bind(spread_, push);
-        dispatchInvocations(commands, vertex_count_, kGroup);
+        dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
     }
 }
 

@@ -7,6 +7,7 @@
 #include "engine/buffer.h"
 #include "engine/commands.h"
 #include "engine/pipeline.h"
+#include "hair/gpu_structs.h"
 #include "hair/settings.h"
 #include "hair/simulation/hand.h"
 
@@ -30,10 +31,10 @@ namespace hair {
 // that many hold goes where all of them together would have it, and no further.
 class PullPass {
 public:
-    // `pulls` are those that checkPulls has passed. `time_step` in s.
+    // `pulls` are those that checkPulls has passed.
     PullPass(
         const engine::Device& device, std::uint32_t strand_count, std::uint32_t vertices_per_strand,
-        float time_step, std::vector<PullSettings> pulls);
+        const gpu::Step& step, std::vector<PullSettings> pulls);
 
     // Other pulls, which checkPulls has passed.
     void setPulls(std::vector<PullSettings> pulls) noexcept { pulls_ = std::move(pulls); }
@@ -47,7 +48,7 @@ public:
 private:
     std::uint32_t vertex_count_;
     std::uint32_t vertices_per_strand_;
-    float time_step_;
+    gpu::Step step_;
     std::vector<PullSettings> pulls_;
     engine::Buffer held_;  // vec4, the acceleration of the vertex that is held
     engine::ComputePipeline hold_;

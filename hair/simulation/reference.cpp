@@ -12,9 +12,10 @@
 namespace hair {
 
 Reference::Reference(const Groom& groom, const SimulationSettings& settings, std::uint32_t seed)
-    : settings_(settings), seed_(seed), motion_(settings.motion),
-      vertices_(groom.vertices_per_strand), rest_(groom.points.begin(), groom.points.end()),
-      solver_(reference::makeSolver(groom, settingsOfSubstep(settings))) {
+    : settings_(settings), step_(reference::inDouble(stepOf(settings))), seed_(seed),
+      motion_(settings.motion), vertices_(groom.vertices_per_strand),
+      rest_(groom.points.begin(), groom.points.end()),
+      solver_(reference::makeSolver(groom, settings, step_)) {
     std::vector<glm::dvec3> start;
     for (const glm::dvec3& point : rest_) start.push_back(motion_.at(0.0)(point));
     setState(start, start);
@@ -38,7 +39,7 @@ void Reference::setState(
 }
 
 void Reference::step() {
-    advance(airAccelerations(settings_), (steps_ + 1) * double{settings_.time_step});
+    advance(airAccelerations(settings_), (steps_ + 1) * step_.whole);
     ++steps_;
 }
 
@@ -50,12 +51,11 @@ void Reference::settle() {
 }
 
 std::vector<glm::dvec3> Reference::airAccelerations(const SimulationSettings& settings) const {
-    const double substep = settingsOfSubstep(settings).time_step;
     std::vector<glm::dvec3> accelerations;
     for (std::size_t strand = 0; strand < rest_.size() / vertices_; ++strand) {
         const auto of_strand = reference::airAccelerations(
             ofStrand(positions_, strand), ofStrand(previous_, strand), settings, seed_,
-            static_cast<std::uint32_t>(strand), substep, time());
+            static_cast<std::uint32_t>(strand), step_, time());
         accelerations.insert(accelerations.end(), of_strand.begin(), of_strand.end());
     }
     return accelerations;
@@ -69,7 +69,7 @@ void Reference::advance(std::span<const glm::dvec3> wind_accelerations, double t
                     .rest = rest_,
                     .positions = positions_,
                     .previous = previous_,
-                    .substep = settingsOfSubstep(settings_).time_step,
+                    .step = step_,
                     .frame = motion_.at(then)});
     for (std::size_t i = 0; i < accelerations.size(); ++i)
         accelerations[i] += glm::dvec3(settings_.gravity) + contact_accelerations[i];
@@ -81,15 +81,14 @@ void Reference::advance(std::span<const glm::dvec3> wind_accelerations, double t
              .rest = rest_,
              .positions = positions_,
              .previous = previous_,
-             .substep = settingsOfSubstep(settings_).time_step,
+             .substep = step_.sub,
              .from = time(),
              .to = then},
             accelerations);
-    const std::uint32_t substeps = substepsOf(settings_);
     const auto frameAfter = [&](std::uint32_t substep) {
-        return motion_.at(time() + (then - time()) * substep / substeps);
+        return motion_.at(time() + (then - time()) * substep / step_.count);
     };
-    for (std::uint32_t i = 0; i < substeps; ++i) {
+    for (std::uint32_t i = 0; i < step_.count; ++i) {
         const reference::Contact contact{
             .settings = settings_, .frame = frameAfter(i + 1), .frame_before = frameAfter(i)};
         for (std::size_t strand = 0; strand < rest_.size() / vertices_; ++strand)

@@ -28,14 +28,14 @@ public:
     // One time step under gravity and in still air; time stands still.
     void settle();
 
-    double time() const { return steps_ * double{settings_.time_step}; }
+    double time() const { return steps_ * step_.whole; }
     std::span<const glm::dvec3> positions() const { return positions_; }
     std::span<const glm::dvec3> previous() const { return previous_; }
 
 private:
-    // Of every vertex now, m/s^2.
+    // What air does to every vertex now, [strand][vertex], m/s^2.
     std::vector<glm::dvec3> airAccelerations(const SimulationSettings& settings) const;
-    // One time step that takes the head from where it is now to where it is then.
+    // One step, in which the head goes from where it is now to where it is at the time `then`.
     void advance(std::span<const glm::dvec3> wind_accelerations, double then);
 
     template <class Points>
@@ -44,6 +44,7 @@ private:
     }
 
     SimulationSettings settings_;
+    reference::Step step_;
     std::uint32_t seed_;
     HeadMotion motion_;
     std::size_t vertices_;  // per strand

@@ -52,11 +52,11 @@ void redBlack(std::size_t vertices, Correct correct) {
 
 void integrate(
     Points positions, Points previous, ConstPoints accelerations, double velocity_kept,
-    double time_step) {
+    double substep) {
     for (std::size_t i = 1; i < positions.size(); ++i) {
         const glm::dvec3 now = positions[i];
         positions[i] =
-            now + velocity_kept * (now - previous[i]) + accelerations[i] * (time_step * time_step);
+            now + velocity_kept * (now - previous[i]) + accelerations[i] * (substep * substep);
         previous[i] = now;
     }
 }

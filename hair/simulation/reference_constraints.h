@@ -24,7 +24,7 @@ using ConstPoints = std::span<const glm::dvec3>;
 // call.
 void integrate(
     Points positions, Points previous, ConstPoints accelerations, double velocity_kept,
-    double time_step);
+    double substep);
 
 // Thesis eq. 10.
 void pullToRest(Points positions, ConstPoints rest, double stiffness);

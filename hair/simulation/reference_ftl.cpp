@@ -8,7 +8,7 @@ void stepFtl(
     Points positions, Points previous, ConstPoints rest, const FtlStep& step,
     const PushOut& push_out) {
     const std::vector<glm::dvec3> start(positions.begin(), positions.end());
-    const double h = step.time_step;
+    const double h = step.substep;
     std::vector<glm::dvec3> corrections(positions.size(), glm::dvec3(0.0));  // d_i of the paper
 
     positions[0] = rest[0];

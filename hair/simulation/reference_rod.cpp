@@ -18,11 +18,12 @@ namespace {
 
 constexpr double kShortest = 1e-9;  // m
 constexpr double kPi = 3.14159265358979323846;
-// Of mean length and of mean mass: what a segment turns as if it had, and a vertex weighs at least.
-// Only coincident points fall below, and what they would divide by is then not 0.
+// Lower bounds, over the strand's mean segment, of the length that a segment's inertia is worked
+// out with and of a vertex's mass. Only coincident points fall below; the bounds keep divisors from
+// 0.
 constexpr double kLeastLength = 0.1;
 constexpr double kLeastMass = 0.01;
-// In one iteration: a Newton step from far away can overshoot. rad
+// Largest rotation of a segment in an iteration, rad: a Newton step from far away can overshoot.
 constexpr double kMostTurn = 1.0;
 
 const glm::dmat3 kIdentity(1.0);
@@ -53,7 +54,7 @@ Joint jointAt(const RodState& state, const RodRest& rest, std::size_t i) {
 struct Step {
     RodState& state;
     const RodRest& rest;
-    double time_step;
+    double substep;
     std::vector<glm::dvec3> displacements;  // of vertices, m
     std::vector<glm::dvec3> rotations;  // of segments, rad
 
@@ -73,7 +74,7 @@ struct Step {
 void Step::predict(
     std::span<const glm::dvec3> accelerations, const RodRoot& root, double velocity_kept) {
     const glm::dvec3 root_now = root.rotation * rest.points[0] + root.translation;
-    state.velocities[0] = (root_now - state.root) / time_step;
+    state.velocities[0] = (root_now - state.root) / substep;
     state.root = root_now;
     state.orientations[0] = root.rotation * rest.orientations[0];
     // The prediction itself stretches segments: it is what displacements are against.
@@ -81,18 +82,18 @@ void Step::predict(
     glm::dvec3 position = state.root;
     std::vector<glm::dvec3> turns{glm::dvec3(0.0)};
     for (std::size_t i = 1; i < size(); ++i) {
-        state.velocities[i] = velocity_kept * state.velocities[i] + time_step * accelerations[i];
+        state.velocities[i] = velocity_kept * state.velocities[i] + substep * accelerations[i];
         state.angular_velocities[i] *= velocity_kept;
         const glm::dvec3 edge = rest.lengths[i] * axisOf(state.orientations[i]);
         stretched += state.edges[i] - edge;
-        displacements[i] = time_step * (state.velocities[0] - state.velocities[i]) - stretched;
+        displacements[i] = substep * (state.velocities[0] - state.velocities[i]) - stretched;
         state.edges[i] = edge;
         position += edge;
         if (const auto pin = state.pins.find(i); pin != state.pins.end()) {
             state.velocities[i] = glm::dvec3(0.0);
             displacements[i] = position - pin->second;
         }
-        turns.push_back(time_step * state.angular_velocities[i]);
+        turns.push_back(substep * state.angular_velocities[i]);
     }
     turn(turns);
 }
@@ -121,7 +122,7 @@ void Step::iterate() {
         glm::dvec3 by_itself;
     };
     std::vector<Turn> answers(size());
-    const double per_square = 1.0 / (time_step * time_step);
+    const double per_square = 1.0 / (substep * substep);
     glm::dvec3 force{0.0};  // through the segment on the vertex where it ends
     Below below;
     for (std::size_t i = size() - 1; i > 0; --i) {
@@ -178,8 +179,8 @@ void Step::iterate() {
 
 void Step::finish() {
     for (std::size_t i = 1; i < size(); ++i) {
-        if (!state.pins.contains(i)) state.velocities[i] += displacements[i] / time_step;
-        state.angular_velocities[i] += rotations[i] / time_step;
+        if (!state.pins.contains(i)) state.velocities[i] += displacements[i] / substep;
+        state.angular_velocities[i] += rotations[i] / substep;
     }
 }
 
@@ -248,14 +249,14 @@ RodState rodAtRest(const RodRest& rest, const RodRoot& root) {
 
 RodState rodFrom(
     const RodRest& rest, std::span<const glm::dvec3> positions,
-    std::span<const glm::dvec3> previous, double time_step, const RodRoot& root) {
+    std::span<const glm::dvec3> previous, double substep, const RodRoot& root) {
     RodState state = rodAtRest(rest, root);
     state.root = positions[0];
     const std::vector<glm::dmat3> frames =
         segmentFrames(positions, rest.points, glm::mat3_cast(root.rotation));
     for (std::size_t i = 1; i < positions.size(); ++i) {
         state.edges[i] = positions[i] - positions[i - 1];
-        state.velocities[i] = (positions[i] - previous[i]) / time_step;
+        state.velocities[i] = (positions[i] - previous[i]) / substep;
         state.orientations[i] = glm::normalize(glm::quat_cast(frames[i]) * rest.orientations[i]);
         const glm::dvec3 edge_before = previous[i] - previous[i - 1];
         if (glm::length(edge_before) < kShortest || glm::length(state.edges[i]) < kShortest)
@@ -263,19 +264,19 @@ RodState rodFrom(
         const glm::dquat turn =
             rotationBetween(glm::normalize(edge_before), glm::normalize(state.edges[i]));
         state.angular_velocities[i] =
-            2.0 / time_step * glm::dvec3(turn.x, turn.y, turn.z);  // bounded by the sine
+            2.0 / substep * glm::dvec3(turn.x, turn.y, turn.z);  // bounded by the sine
     }
     return state;
 }
 
 void stepRod(
     RodState& state, const RodRest& rest, std::span<const glm::dvec3> accelerations,
-    const RodRoot& root, double time_step, double velocity_kept, std::uint32_t iterations) {
+    const RodRoot& root, double substep, double velocity_kept, std::uint32_t iterations) {
     assert(accelerations.size() == rest.lengths.size());
     Step step{
         .state = state,
         .rest = rest,
-        .time_step = time_step,
+        .substep = substep,
         .displacements = std::vector(rest.lengths.size(), glm::dvec3(0.0)),
         .rotations = std::vector(rest.lengths.size(), glm::dvec3(0.0))};
     step.predict(accelerations, root, velocity_kept);
@@ -284,17 +285,17 @@ void stepRod(
 }
 
 void pushRod(
-    RodState& state, const RodRest& rest, std::span<const glm::dvec3> positions, double time_step) {
+    RodState& state, const RodRest& rest, std::span<const glm::dvec3> positions, double substep) {
     const std::vector<glm::dvec3> before = state.positions();
     for (std::size_t i = 1; i < before.size(); ++i) {
-        state.velocities[i] += (positions[i] - before[i]) / time_step;
+        state.velocities[i] += (positions[i] - before[i]) / substep;
         const glm::dvec3 edge = positions[i] - positions[i - 1];
         state.edges[i] = edge;
         if (rest.lengths[i] < kShortest || glm::length(edge) < kShortest) continue;
         const glm::dquat turn =
             rotationBetween(axisOf(state.orientations[i]), glm::normalize(edge));
         state.orientations[i] = glm::normalize(turn * state.orientations[i]);
-        state.angular_velocities[i] += 2.0 / time_step * glm::dvec3(turn.x, turn.y, turn.z);
+        state.angular_velocities[i] += 2.0 / substep * glm::dvec3(turn.x, turn.y, turn.z);
     }
 }
 

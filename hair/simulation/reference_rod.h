@@ -65,11 +65,11 @@ RodRest makeRodRest(std::span<const glm::dvec3> points, const RodMaterial& mater
 
 RodState rodAtRest(const RodRest& rest, const RodRoot& root = {});
 
-// The state at these positions that has come from `previous` in `time_step`. Orientations at rest
+// The state at these positions that has come from `previous` in `substep`. Orientations at rest
 // go along by segmentFrames of reference_constraints.h.
 RodState rodFrom(
     const RodRest& rest, std::span<const glm::dvec3> positions,
-    std::span<const glm::dvec3> previous, double time_step, const RodRoot& root = {});
+    std::span<const glm::dvec3> previous, double substep, const RodRoot& root = {});
 
 // A pin is a spring on its vertex, as if the mass of a hundred rods had to come back in one step.
 constexpr double kPinMass = 100.0;
@@ -78,12 +78,12 @@ constexpr double kPinMass = 100.0;
 // at the step's end. Velocities are multiplied by `velocity_kept` first.
 void stepRod(
     RodState& state, const RodRest& rest, std::span<const glm::dvec3> accelerations,
-    const RodRoot& root, double time_step, double velocity_kept, std::uint32_t iterations);
+    const RodRoot& root, double substep, double velocity_kept, std::uint32_t iterations);
 
 // Moves the vertices to `positions`, as collisions do: velocities change by as much, and segments
 // turn along. Lengths come back in the next step.
 void pushRod(
-    RodState& state, const RodRest& rest, std::span<const glm::dvec3> positions, double time_step);
+    RodState& state, const RodRest& rest, std::span<const glm::dvec3> positions, double substep);
 
 // Kinetic energy and that of bending and twist, J. Weight is the caller's.
 double rodEnergy(const RodState& state, const RodRest& rest);

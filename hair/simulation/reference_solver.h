@@ -7,6 +7,7 @@
 #include "hair/groom/groom.h"
 #include "hair/settings.h"
 #include "hair/simulation/reference_constraints.h"
+#include "hair/simulation/reference_factors.h"
 #include "hair/simulation/rigid_motion.h"
 
 namespace hair::reference {
@@ -35,8 +36,8 @@ public:
     virtual void adopt(const Substep&) {}
 };
 
-// The settings' solver; null where nothing moves: `none` without keyframes. `settings.time_step` is
-// a substep.
-std::unique_ptr<Solver> makeSolver(const Groom& groom, const SimulationSettings& settings);
+// The settings' solver; null where nothing moves: `none` without keyframes.
+std::unique_ptr<Solver>
+makeSolver(const Groom& groom, const SimulationSettings& settings, const Step& step);
 
 }  // namespace hair::reference

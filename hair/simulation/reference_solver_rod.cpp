@@ -14,7 +14,8 @@ RodRoot rootOf(const RigidMotion& motion) {
 
 }  // namespace
 
-RodSolver::RodSolver(const Groom& groom, const SimulationSettings& settings) : settings_(settings) {
+RodSolver::RodSolver(const Groom& groom, const SimulationSettings& settings, const Step& step)
+    : settings_(settings), step_(step) {
     const MaterialSettings& material = settings.material;
     for (std::uint32_t i = 0; i < groom.strand_count; ++i) {
         const auto points = groom.strand(i);
@@ -33,19 +34,19 @@ void RodSolver::step(const Substep& substep) {
     const RodRest& rest = rests_[substep.strand];
     const std::vector<glm::dvec3> before(substep.positions.begin(), substep.positions.end());
     stepRod(
-        state, rest, substep.accelerations, rootOf(substep.frame), double{settings_.time_step},
-        keptFactor(settings_), settings_.rod.iterations);
+        state, rest, substep.accelerations, rootOf(substep.frame), step_.sub,
+        keptFactor(settings_, step_), settings_.rod.iterations);
     std::vector<glm::dvec3> positions = state.positions();
     for (std::size_t i = 1; i < positions.size(); ++i)
         positions[i] = substep.push_out(positions[i], before[i]);
-    pushRod(state, rest, positions, double{settings_.time_step});
+    pushRod(state, rest, positions, step_.sub);
     std::ranges::copy(before, substep.previous.begin());
     std::ranges::copy(positions, substep.positions.begin());
 }
 
 void RodSolver::adopt(const Substep& substep) {
     states_[substep.strand] = rodFrom(
-        rests_[substep.strand], substep.positions, substep.previous, double{settings_.time_step},
+        rests_[substep.strand], substep.positions, substep.previous, step_.sub,
         rootOf(substep.frame));
 }
 

@@ -27,7 +27,7 @@ void pushOutAll(const Substep& substep, ConstPoints before) {
 }
 
 // `none`: the head carries every vertex.
-void stepRest(const Substep& substep, const SimulationSettings&) {
+void stepRest(const Substep& substep, const SimulationSettings&, const Step&) {
     for (std::size_t i = 0; i < substep.rest.size(); ++i) {
         substep.previous[i] = substep.positions[i];
         substep.positions[i] = substep.frame(substep.rest[i]);
@@ -35,7 +35,7 @@ void stepRest(const Substep& substep, const SimulationSettings&) {
 }
 
 // The order of thesis section 3.2, then collisions.
-void stepShape(const Substep& substep, const SimulationSettings& settings) {
+void stepShape(const Substep& substep, const SimulationSettings& settings, const Step& step) {
     const std::size_t vertices = substep.rest.size();
     const Points positions = substep.positions;
     const auto rest = moved(substep.rest, substep.frame);
@@ -43,15 +43,14 @@ void stepShape(const Substep& substep, const SimulationSettings& settings) {
     double length = 0.0;
     for (std::size_t i = 1; i < vertices; ++i)
         length += glm::distance(substep.rest[i], substep.rest[i - 1]);
-    const double local = localFactor(settings, length / static_cast<double>(vertices - 1));
+    const double local = localFactor(settings, step, length / static_cast<double>(vertices - 1));
 
     const std::vector<glm::dvec3> before(positions.begin(), positions.end());
     substep.previous[0] = positions[0];
     positions[0] = rest[0];
     integrate(
-        positions, substep.previous, substep.accelerations, keptFactor(settings),
-        double{settings.time_step});
-    pullToRest(positions, rest, globalFactor(settings));
+        positions, substep.previous, substep.accelerations, keptFactor(settings, step), step.sub);
+    pullToRest(positions, rest, globalFactor(settings, step));
     for (std::uint32_t i = 0; i < settings.local.iterations; ++i)
         pullToShape(positions, substep.rest, local, root_frame);
     for (std::uint32_t i = 0; i < settings.length.iterations; ++i) projectLengths(positions, rest);
@@ -59,39 +58,42 @@ void stepShape(const Substep& substep, const SimulationSettings& settings) {
 }
 
 // Follow the leader.
-void stepFtl(const Substep& substep, const SimulationSettings& settings) {
+void stepFtl(const Substep& substep, const SimulationSettings& settings, const Step& step) {
     reference::stepFtl(
         substep.positions, substep.previous, moved(substep.rest, substep.frame),
         {.accelerations = substep.accelerations,
-         .time_step = double{settings.time_step},
-         .velocity_kept = keptFactor(settings),
-         .global_stiffness = globalFactor(settings),
+         .substep = step.sub,
+         .velocity_kept = keptFactor(settings, step),
+         .global_stiffness = globalFactor(settings, step),
          .velocity_correction = double{settings.ftl.velocity_correction}},
         substep.push_out);
 }
 
-using Function = void (*)(const Substep&, const SimulationSettings&);
+using Function = void (*)(const Substep&, const SimulationSettings&, const Step&);
 
 // A solver without a state of its own.
 template <Function kFunction>
 class Stateless : public Solver {
 public:
-    Stateless(const Groom&, const SimulationSettings& settings) : settings_(settings) {}
+    Stateless(const Groom&, const SimulationSettings& settings, const Step& step)
+        : settings_(settings), step_(step) {}
 
-    void step(const Substep& substep) override { kFunction(substep, settings_); }
+    void step(const Substep& substep) override { kFunction(substep, settings_, step_); }
 
 private:
     SimulationSettings settings_;
+    Step step_;
 };
 
 template <class Made>
-std::unique_ptr<Solver> make(const Groom& groom, const SimulationSettings& settings) {
-    return std::make_unique<Made>(groom, settings);
+std::unique_ptr<Solver>
+make(const Groom& groom, const SimulationSettings& settings, const Step& step) {
+    return std::make_unique<Made>(groom, settings, step);
 }
 
 struct Row {
     hair::Solver solver;
-    std::unique_ptr<Solver> (*make)(const Groom&, const SimulationSettings&);
+    std::unique_ptr<Solver> (*make)(const Groom&, const SimulationSettings&, const Step&);
 };
 
 constexpr Row kSolvers[] = {
@@ -103,11 +105,12 @@ constexpr Row kSolvers[] = {
 
 }  // namespace
 
-std::unique_ptr<Solver> makeSolver(const Groom& groom, const SimulationSettings& settings) {
+std::unique_ptr<Solver>
+makeSolver(const Groom& groom, const SimulationSettings& settings, const Step& step) {
     if (settings.solver == hair::Solver::none && settings.motion.keyframes.empty()) return nullptr;
     const Row* row = std::ranges::find(kSolvers, settings.solver, &Row::solver);
     assert(row != std::end(kSolvers));
-    return row->make(groom, settings);
+    return row->make(groom, settings, step);
 }
 
 }  // namespace hair::reference

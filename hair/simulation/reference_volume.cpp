@@ -97,7 +97,7 @@ glm::dvec3 weightGradient(const Cell& cell, const glm::dvec3& point) {
         spline(t.x) * spline(t.y) * splineSlope(t.z)};
 }
 
-// Of both grids: all whose middle is within one and a half cells.
+// The cells of both grids whose middle is within one and a half cells of the point.
 std::vector<Cell> cellsRound(const glm::dvec3& point) {
     std::vector<Cell> cells;
     for (const int parity : {1, 0}) {
@@ -149,7 +149,7 @@ volumeAccelerations(const SimulationSettings& settings, const VolumeState& state
     std::vector<glm::dvec3> accelerations(state.positions.size(), glm::dvec3(0.0));
     if (contact.friction == 0.0f && contact.repulsion == 0.0f) return accelerations;
 
-    const double step = settings.time_step;
+    const double step = state.step.whole;
     const Box box = boxOf(state, contact.resolution);
     const std::vector<double> shares = sharesOf(state);
     const double crowded = contact.crowding * meanDensityAtRest(state.rest, box, shares);
@@ -160,7 +160,7 @@ volumeAccelerations(const SimulationSettings& settings, const VolumeState& state
     std::vector<glm::dvec3> points;
     std::vector<glm::dvec3> velocities;
     for (std::size_t i = 0; i < state.positions.size(); ++i) {
-        velocities.push_back((state.positions[i] - state.previous[i]) / state.substep);
+        velocities.push_back((state.positions[i] - state.previous[i]) / state.step.sub);
         const glm::dvec3 later = state.positions[i] + step * velocities[i];
         const glm::dvec3 on_head =
             glm::inverse(state.frame.rotation) * (later - state.frame.translation);

@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "hair/settings.h"
+#include "hair/simulation/reference_factors.h"
 #include "hair/simulation/rigid_motion.h"
 
 namespace hair::reference {
@@ -16,12 +17,12 @@ struct VolumeState {
     std::span<const glm::dvec3> rest;        // [strand][vertex], m
     std::span<const glm::dvec3> positions;   // m
     std::span<const glm::dvec3> previous;    // m, a substep earlier
-    double substep;                          // s
-    RigidMotion frame;                       // of the head at the end of the time step
+    Step step;
+    RigidMotion frame;                       // of the head at the end of the step
 };
 
-// What hair gives hair over the next time step, [strand][vertex], m/s^2: the equations of
-// hair_hair.h on sparse grids in double. `settings` are of the time step. Zero where
+// What hair gives hair over the next step, [strand][vertex], m/s^2: the equations of
+// hair_hair.h on sparse grids in double. Zero where
 // settings.hair_hair is off.
 std::vector<glm::dvec3>
 volumeAccelerations(const SimulationSettings& settings, const VolumeState& state);

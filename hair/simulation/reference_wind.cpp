@@ -107,15 +107,15 @@ dragAcceleration(const WindSettings& settings, const MaterialSettings& material,
 // an equation for v', of which drag is what gravity leaves.
 std::vector<glm::dvec3> dragAccelerations(
     ConstPoints positions, ConstPoints previous, const SimulationSettings& settings,
-    std::uint32_t seed, double substep, double time) {
-    const double dt = settings.time_step;
+    std::uint32_t seed, const Step& step, double time) {
+    const double dt = step.whole;
     std::vector<glm::dvec3> accelerations(positions.size(), glm::dvec3(0.0));
     for (std::size_t i = 1; i < positions.size(); ++i) {
         const glm::dvec3 t = tangentAt(positions, i);
         if (t == glm::dvec3(0.0)) continue;
         const auto across = [&](const glm::dvec3& v) { return glm::cross(glm::cross(t, v), t); };
         const glm::dvec3 g = across(settings.gravity);
-        const glm::dvec3 v = across((positions[i] - previous[i]) / substep);
+        const glm::dvec3 v = across((positions[i] - previous[i]) / step.sub);
         const glm::dvec3 air = across(airVelocity(settings.wind, seed, positions[i], time));
         const double speed = glm::length(air - v);
         if (speed == 0.0) continue;
@@ -128,9 +128,9 @@ std::vector<glm::dvec3> dragAccelerations(
 
 std::vector<glm::dvec3> airAccelerations(
     ConstPoints positions, ConstPoints previous, const SimulationSettings& settings,
-    std::uint32_t seed, std::uint32_t strand, double substep, double time) {
+    std::uint32_t seed, std::uint32_t strand, const Step& step, double time) {
     if (settings.wind.mode == WindMode::drag)
-        return dragAccelerations(positions, previous, settings, seed, substep, time);
+        return dragAccelerations(positions, previous, settings, seed, step, time);
     const double wave = std::sin(double{settings.wind.gust_rate} * time);
     return windAccelerations(
         positions, strandWind(settings.wind, windWeights(seed, strand)), wave * wave + 0.5);

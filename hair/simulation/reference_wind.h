@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "hair/settings.h"
+#include "hair/simulation/reference_factors.h"
 
 // What air does to hair, in double and straight from the equations. Every span is the vertices of
 // one strand, root first, in m; accelerations are in m/s^2 and zero at the root.
@@ -29,20 +30,20 @@ windAccelerations(ConstPoints positions, const glm::dvec3& wind, double magnitud
 glm::dvec3
 airVelocity(const WindSettings& settings, std::uint32_t seed, const glm::dvec3& point, double time);
 
-// Of a free hair in air that flows across it with `speed`, m/s^2.
+// The drag's acceleration of a free hair in air that flows across it with `speed`, m/s^2.
 double
 dragAcceleration(const WindSettings& settings, const MaterialSettings& material, double speed);
 
-// For one time step of settings.time_step under gravity and drag, where the vertices' velocity is
-// (positions - previous) / substep, m/s. The tangent is halfway between those of the segments at
+// For one whole step under gravity and drag, where the vertices' velocity is
+// (positions - previous) / step.sub, m/s. The tangent is halfway between those of the segments at
 // the vertex; that of the segment above where these lie on each other.
 std::vector<glm::dvec3> dragAccelerations(
     ConstPoints positions, ConstPoints previous, const SimulationSettings& settings,
-    std::uint32_t seed, double substep, double time);
+    std::uint32_t seed, const Step& step, double time);
 
-// Those of the settings' mode.
+// windAccelerations or dragAccelerations, as the settings' mode says.
 std::vector<glm::dvec3> airAccelerations(
     ConstPoints positions, ConstPoints previous, const SimulationSettings& settings,
-    std::uint32_t seed, std::uint32_t strand, double substep, double time);
+    std::uint32_t seed, std::uint32_t strand, const Step& step, double time);
 
 }  // namespace hair::reference

@@ -19,8 +19,8 @@ constexpr double kShortest = 1e-9;       // m
 constexpr double kShortestUnit = 1e-6;   // m, for strands without length
 constexpr double kLeastMass = 0.01;      // of a vertex, over the mean
 constexpr double kMostStiffness = 1e15;  // rigid beside any inertia; its square is a float
-// Of bending over twisting and the other way round, far beyond any material: where they differ by
-// 10^7, 32 bits lose the lesser one.
+// Bound of the ratio of bending to twisting stiffness and of its inverse, far beyond any material:
+// where the two differ by 10^7, 32 bits lose the lesser one.
 constexpr double kMostAnisotropy = 1e3;
 
 glm::dquat halfOf(glm::dquat rotation) {
@@ -77,12 +77,11 @@ Strand restOfStrand(std::span<const glm::vec3> points, double bending, double tw
 
 }  // namespace
 
-RodRest restOfRods(const Groom& groom, const SimulationSettings& settings) {
+RodRest restOfRods(const Groom& groom, const MaterialSettings& material, const gpu::Step& step) {
     // I / A = R^2 / 4 and J = 2 I of a round section.
-    const MaterialSettings& material = settings.material;
     const double radius = material.radius;
-    const double step = settings.time_step;
-    const double bending = step * step * double{material.youngs_modulus} * radius * radius /
+    const double substep = step.sub;
+    const double bending = substep * substep * double{material.youngs_modulus} * radius * radius /
                            (4.0 * double{material.density});
     const double twisting = std::clamp(
         2.0 * double{material.shear_modulus} / double{material.youngs_modulus},

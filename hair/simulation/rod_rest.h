@@ -15,7 +15,6 @@ struct RodRest {
     std::vector<float> units;               // [strand], m
 };
 
-// `settings.time_step` is a substep.
-RodRest restOfRods(const Groom& groom, const SimulationSettings& settings);
+RodRest restOfRods(const Groom& groom, const MaterialSettings& material, const gpu::Step& step);
 
 }  // namespace hair

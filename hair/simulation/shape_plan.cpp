@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/error.h"
+#include "hair/gpu_structs.h"
 
 namespace hair {
 
@@ -42,12 +43,14 @@ std::uint32_t verticesPerChunk(std::uint32_t vertices, std::uint32_t wanted) {
 ShapePlan planShape(
     const engine::DeviceInfo& device, const SimulationSettings& settings,
     std::uint32_t strand_count, std::uint32_t vertices_per_strand) {
-    const std::uint32_t collides =
-        settings.colliders.empty() && settings.distance_fields.empty() ? 0 : 1;
+    const bool collides = !settings.colliders.empty() || !settings.distance_fields.empty();
     if (settings.parallelism == Parallelism::serial)
         return {
             .shader = "simulation/shape_serial.comp",
-            .constants = {kGroup, vertices_per_strand, collides},
+            .constants =
+                {{gpu::kShapeGroupSizeConstant, kGroup},
+                 {gpu::kShapeVerticesPerStrandConstant, vertices_per_strand}},
+            .collides = collides,
             .strands_per_group = kGroup};
 
     const std::uint32_t most_chunks = device.limits.maxComputeWorkGroupInvocations;
@@ -64,7 +67,11 @@ ShapePlan planShape(
     const std::uint32_t strands = std::max(1u, kGroup / chunks);
     return {
         .shader = "simulation/shape.comp",
-        .constants = {strands * chunks, vertices_per_strand, collides, per_chunk},
+        .constants =
+            {{gpu::kShapeGroupSizeConstant, strands * chunks},
+             {gpu::kShapeVerticesPerStrandConstant, vertices_per_strand},
+             {gpu::kShapeVerticesPerChunkConstant, per_chunk}},
+        .collides = collides,
         .strands_per_group = strands};
 }
 

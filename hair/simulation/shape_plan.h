@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -10,13 +9,11 @@
 
 namespace hair {
 
-// Which of its constants says whether the `shape` solver looks for contact with bodies.
-inline constexpr std::size_t kCollidesConstant = 2;
-
 // How the `shape` solver's strands are dealt out to invocations.
 struct ShapePlan {
     std::string shader;
-    engine::Constants constants;
+    engine::Constants constants;  // but kShapeCollidesConstant
+    bool collides = false;        // whether it looks for contact with bodies
     std::uint32_t strands_per_group = 0;
 };
 

@@ -19,8 +19,9 @@ using engine::Access;
 using engine::Commands;
 
 static_assert(sizeof(gpu::Bodies) == 32);
-static_assert(sizeof(gpu::GuideParameters) == 88 && offsetof(gpu::GuideParameters, gravity) == 56);
-static_assert(sizeof(gpu::StepPush) == 88 && offsetof(gpu::StepPush, frame_before) == 52);
+static_assert(sizeof(gpu::GuideParameters) == 96 && offsetof(gpu::GuideParameters, gravity) == 56);
+static_assert(offsetof(gpu::GuideParameters, step) == 68);
+static_assert(sizeof(gpu::SubstepPush) == 88 && offsetof(gpu::SubstepPush, frame_before) == 52);
 
 constexpr std::uint32_t kSettleBatch = 64;  // substeps per submission
 
@@ -38,10 +39,10 @@ bool hairActsOnHair(const SimulationSettings& settings) {
 Simulation::Simulation(
     const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
     std::uint32_t seed, std::span<const Mesh> field_meshes)
-    : device_(&device), settings_(settings), substep_(settingsOfSubstep(settings)),
-      substeps_(substepsOf(settings)), strand_count_(groom.strand_count),
-      vertices_per_strand_(groom.vertices_per_strand), seed_(seed), pinned_(groom.points.size()),
-      motion_(settings.motion), bodies_(device, settings, field_meshes),
+    : device_(&device), settings_(settings), step_(stepOf(settings)),
+      strand_count_(groom.strand_count), vertices_per_strand_(groom.vertices_per_strand),
+      seed_(seed), pinned_(groom.points.size()), motion_(settings.motion),
+      bodies_(device, settings, field_meshes),
       rest_positions_(engine::makeBuffer(
           device, std::span<const glm::vec4>(withMasses(groom.points)), "guide rest positions")),
       positions_(device, stateOf(rest_positions_, "guide positions")),
@@ -52,13 +53,13 @@ Simulation::Simulation(
           std::span<const gpu::GuideParameters>(std::array{parametersWith(bodies_.parameters())}),
           "guide parameters")),
       wind_(device, strand_count_ * vertices_per_strand_, settings),
-      solver_(makeSolver(device, groom, substep_)) {
+      solver_(makeSolver(device, groom, settings_, step_)) {
     assert(strand_count_ > 0 && vertices_per_strand_ > 1);
     assert(groom.points.size() == std::size_t{strand_count_} * vertices_per_strand_);
     checkPulls(settings.pulls, strand_count_, vertices_per_strand_);
     if (hasPulls()) pulls_.emplace(pullPassOf(settings));
     if (hairActsOnHair(settings))
-        hair_hair_.emplace(device, groom, settings, substeps_, parameters_.address());
+        hair_hair_.emplace(device, groom, settings, step_, parameters_.address());
     std::vector<glm::vec3> start;
     for (const glm::vec3& point : groom.points) start.emplace_back(pose()(point));
     setState(start, start);
@@ -85,7 +86,7 @@ void Simulation::recordVolume(Commands& commands) const {
     if (!hair_hair_) return;
     commands.barrier(Access::compute_write, Access::compute_write);
     hair_hair_->record(
-        commands, accelerations_.address(), motion_.at(time() + double{settings_.time_step}));
+        commands, accelerations_.address(), motion_.at(time() + double{step_.whole}));
 }
 
 void Simulation::recordPulls(Commands& commands) const {
@@ -96,7 +97,6 @@ void Simulation::recordPulls(Commands& commands) const {
 // All that may throw comes first. The parameters stay where they are: others know their address.
 void Simulation::carryOn(const SimulationSettings& settings) {
     SimulationSettings whole = settings;
-    SimulationSettings substep = settingsOfSubstep(settings);
     HeadMotion motion(settings.motion);
     Bodies::Capsules capsules = Bodies::makeCapsules(*device_, settings);
     checkWind(settings.wind);
@@ -111,16 +111,15 @@ void Simulation::carryOn(const SimulationSettings& settings) {
     if (solver_) {
         if (capsules.count > 0) solver_->expectBodies(*device_);
     } else {
-        // Of `none`, which needs no points.
+        // There was solver `none` without keyframes; its solver needs no points.
         solver = makeSolver(
             *device_, {.strand_count = strand_count_, .vertices_per_strand = vertices_per_strand_},
-            substep);
+            settings, step_);
     }
     const gpu::GuideParameters parameters = parametersWith(bodies_.parametersWith(capsules));
     engine::upload(*device_, std::as_bytes(std::span(&parameters, 1)), parameters_);
 
     settings_ = std::move(whole);
-    substep_ = std::move(substep);
     motion_ = std::move(motion);
     bodies_.setCapsules(std::move(capsules));
     if (other_wind)
@@ -143,7 +142,7 @@ void Simulation::recordStep(Commands& commands) {
 
 void Simulation::settle(std::uint32_t steps) {
     if (!solver_) return;
-    const std::uint32_t most = std::max(1u, kSettleBatch / substeps_);
+    const std::uint32_t most = std::max(1u, kSettleBatch / step_.count);
     while (steps > 0) {
         const std::uint32_t batch = std::min(steps, most);
         device_->runOnce([&](Commands& commands) {
@@ -221,12 +220,12 @@ GuideView Simulation::guides() const {
 // The frames of the head divide the time evenly.
 void Simulation::recordSubsteps(Commands& commands, double from, double to) const {
     const auto frameAfter = [&](std::uint32_t substep) {
-        const double part = static_cast<double>(substep) / substeps_;
+        const double part = static_cast<double>(substep) / step_.count;
         return toGpu(motion_.at(from + part * (to - from)));
     };
     // After the forces, an earlier step, and whoever still draws what is overwritten.
     commands.barrier(Access::anything, Access::compute_write);
-    for (std::uint32_t i = 0; i < substeps_; ++i) {
+    for (std::uint32_t i = 0; i < step_.count; ++i) {
         if (i > 0) commands.barrier(Access::compute_write, Access::compute_write);
         solver_->record(
             commands, {.guides = parameters_.address(),
@@ -238,7 +237,7 @@ void Simulation::recordSubsteps(Commands& commands, double from, double to) cons
 }
 
 PullPass Simulation::pullPassOf(const SimulationSettings& settings) const {
-    return {*device_, strand_count_, vertices_per_strand_, settings.time_step, settings.pulls};
+    return {*device_, strand_count_, vertices_per_strand_, step_, settings.pulls};
 }
 
 gpu::GuideParameters Simulation::parametersWith(const gpu::Bodies& bodies) const {
@@ -248,8 +247,8 @@ gpu::GuideParameters Simulation::parametersWith(const gpu::Bodies& bodies) const
         .rest_positions = rest_positions_.address(),
         .bodies = bodies,
         .gravity = settings_.gravity,
-        .time_step = substep_.time_step,
-        .velocity_kept = static_cast<float>(velocityKept(substep_)),
+        .step = step_,
+        .velocity_kept = static_cast<float>(velocityKept(settings_, step_)),
         .strand_count = strand_count_,
         .vertices_per_strand = vertices_per_strand_,
         .seed = seed_};

@@ -84,8 +84,8 @@ public:
 
     // Whether a step records anything: `none` does so only where the head moves.
     bool moves() const { return solver_ != nullptr; }
-    double time() const { return static_cast<double>(steps_) * double{settings_.time_step}; }
-    // Of the head, now.
+    double time() const { return static_cast<double>(steps_) * double{step_.whole}; }
+    // The head's rigid motion now.
     RigidMotion pose() const { return motion_.at(time()); }
     GuideView guides() const;
 
@@ -98,8 +98,7 @@ private:
 
     const engine::Device* device_;
     SimulationSettings settings_;
-    SimulationSettings substep_;
-    std::uint32_t substeps_;
+    gpu::Step step_;
     std::uint32_t strand_count_;
     std::uint32_t vertices_per_strand_;
     std::uint32_t seed_;

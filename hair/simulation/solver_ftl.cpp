@@ -9,27 +9,22 @@
 
 namespace hair {
 
-namespace {
-
-constexpr std::uint32_t kGroup = 64;  // invocations, as in ftl.comp
-
-}  // namespace
-
 FtlSolver::FtlSolver(
-    const engine::Device& device, const Groom& groom, const SimulationSettings& settings)
+    const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
+    const gpu::Step& step)
     : strand_count_(groom.strand_count),
       parameters_(engine::makeBuffer(
           device,
           std::span<const gpu::FtlParameters>(std::array{gpu::FtlParameters{
-              .global_stiffness = static_cast<float>(globalStiffness(settings)),
+              .global_stiffness = static_cast<float>(globalStiffness(settings, step)),
               .velocity_correction = settings.ftl.velocity_correction}}),
           "ftl parameters")),
-      pipeline_(device, {.shader = "simulation/ftl.comp", .push_size = sizeof(gpu::StepPush)}) {}
+      pipeline_(device, {.shader = "simulation/ftl.comp", .push_size = sizeof(gpu::SubstepPush)}) {}
 
-void FtlSolver::record(engine::Commands& commands, gpu::StepPush push) const {
+void FtlSolver::record(engine::Commands& commands, gpu::SubstepPush push) const {
     push.solver = parameters_.address();
     commands.bind(pipeline_, push);
-    dispatchInvocations(commands, strand_count_, kGroup);
+    dispatchInvocations(commands, strand_count_, gpu::kGuideGroupSize);
 }
 
 }  // namespace hair

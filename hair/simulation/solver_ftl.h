@@ -13,9 +13,11 @@ namespace hair {
 // positions.
 class FtlSolver : public GuideSolver {
 public:
-    FtlSolver(const engine::Device& device, const Groom& groom, const SimulationSettings& settings);
+    FtlSolver(
+        const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
+        const gpu::Step& step);
 
-    void record(engine::Commands& commands, gpu::StepPush push) const override;
+    void record(engine::Commands& commands, gpu::SubstepPush push) const override;
 
 private:
     std::uint32_t strand_count_;

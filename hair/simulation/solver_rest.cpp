@@ -4,19 +4,14 @@
 
 namespace hair {
 
-namespace {
-
-constexpr std::uint32_t kGroup = 64;  // invocations, as in rest.comp
-
-}  // namespace
-
 RestSolver::RestSolver(const engine::Device& device, const Groom& groom)
     : vertex_count_(groom.strand_count * groom.vertices_per_strand),
-      pipeline_(device, {.shader = "simulation/rest.comp", .push_size = sizeof(gpu::StepPush)}) {}
+      pipeline_(device, {.shader = "simulation/rest.comp", .push_size = sizeof(gpu::SubstepPush)}) {
+}
 
-void RestSolver::record(engine::Commands& commands, gpu::StepPush push) const {
+void RestSolver::record(engine::Commands& commands, gpu::SubstepPush push) const {
     commands.bind(pipeline_, push);
-    dispatchInvocations(commands, vertex_count_, kGroup);
+    dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
 }
 
 }  // namespace hair

@@ -10,7 +10,7 @@ class RestSolver : public GuideSolver {
 public:
     RestSolver(const engine::Device& device, const Groom& groom);
 
-    void record(engine::Commands& commands, gpu::StepPush push) const override;
+    void record(engine::Commands& commands, gpu::SubstepPush push) const override;
 
 private:
     std::uint32_t vertex_count_;

@@ -15,7 +15,6 @@ namespace {
 static_assert(sizeof(gpu::RodSegment) == 32 && sizeof(gpu::RodMotion) == 52);
 static_assert(offsetof(gpu::RodParameters, most_strands) == 32);
 
-constexpr std::uint32_t kGroup = 32;  // invocations, as in rod.comp
 constexpr std::size_t kMostScratch = std::size_t{64} << 20;  // B, for more than one group
 
 std::size_t scratchOfStrand(const Groom& groom) {
@@ -24,16 +23,17 @@ std::size_t scratchOfStrand(const Groom& groom) {
 
 // Whole groups whose scratch memory fits, at least one.
 std::uint32_t strandsInDispatch(const Groom& groom) {
-    const std::size_t groups = kMostScratch / (kGroup * scratchOfStrand(groom));
-    const std::size_t most = kGroup * std::max<std::size_t>(groups, 1);
+    const std::size_t groups = kMostScratch / (gpu::kRodGroupSize * scratchOfStrand(groom));
+    const std::size_t most = gpu::kRodGroupSize * std::max<std::size_t>(groups, 1);
     return static_cast<std::uint32_t>(std::min<std::size_t>(most, groom.strand_count));
 }
 
 }  // namespace
 
 RodSolver::RodSolver(
-    const engine::Device& device, const Groom& groom, const SimulationSettings& settings)
-    : RodSolver(device, groom, settings, restOfRods(groom, settings)) {}
+    const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
+    const gpu::Step& step)
+    : RodSolver(device, groom, settings, restOfRods(groom, settings.material, step)) {}
 
 RodSolver::RodSolver(
     const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
@@ -54,10 +54,11 @@ RodSolver::RodSolver(
               .most_strands = most_strands_,
               .iterations = settings.rod.iterations}}),
           "rod parameters")),
-      step_(device, {.shader = "simulation/rod.comp", .push_size = sizeof(gpu::StepPush)}),
-      adopt_(device, {.shader = "simulation/rod_adopt.comp", .push_size = sizeof(gpu::StepPush)}) {}
+      step_(device, {.shader = "simulation/rod.comp", .push_size = sizeof(gpu::SubstepPush)}),
+      adopt_(
+          device, {.shader = "simulation/rod_adopt.comp", .push_size = sizeof(gpu::SubstepPush)}) {}
 
-void RodSolver::record(engine::Commands& commands, gpu::StepPush push) const {
+void RodSolver::record(engine::Commands& commands, gpu::SubstepPush push) const {
     push.solver = parameters_.address();
     for (std::uint32_t first = 0; first < strand_count_; first += most_strands_) {
         // The scratch memory of the strands before.
@@ -65,14 +66,15 @@ void RodSolver::record(engine::Commands& commands, gpu::StepPush push) const {
             commands.barrier(engine::Access::compute_write, engine::Access::compute_write);
         push.first_strand = first;
         commands.bind(step_, push);
-        dispatchInvocations(commands, std::min(most_strands_, strand_count_ - first), kGroup);
+        dispatchInvocations(
+            commands, std::min(most_strands_, strand_count_ - first), gpu::kRodGroupSize);
     }
 }
 
-void RodSolver::recordAdopt(engine::Commands& commands, gpu::StepPush push) const {
+void RodSolver::recordAdopt(engine::Commands& commands, gpu::SubstepPush push) const {
     push.solver = parameters_.address();
     commands.bind(adopt_, push);
-    dispatchInvocations(commands, strand_count_, kGroup);
+    dispatchInvocations(commands, strand_count_, gpu::kRodGroupSize);
 }
 
 }  // namespace hair

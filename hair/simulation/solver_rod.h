@@ -14,10 +14,12 @@ namespace hair {
 // the follicle as it does at rest, turned with the head.
 class RodSolver : public GuideSolver {
 public:
-    RodSolver(const engine::Device& device, const Groom& groom, const SimulationSettings& settings);
+    RodSolver(
+        const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
+        const gpu::Step& step);
 
-    void record(engine::Commands& commands, gpu::StepPush push) const override;
-    void recordAdopt(engine::Commands& commands, gpu::StepPush push) const override;
+    void record(engine::Commands& commands, gpu::SubstepPush push) const override;
+    void recordAdopt(engine::Commands& commands, gpu::SubstepPush push) const override;
     std::vector<const engine::Buffer*> state() const override { return {&motion_}; }
 
 private:

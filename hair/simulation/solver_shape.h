@@ -12,9 +12,10 @@ class ShapeSolver : public GuideSolver {
 public:
     // Throws what planShape does.
     ShapeSolver(
-        const engine::Device& device, const Groom& groom, const SimulationSettings& settings);
+        const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
+        const gpu::Step& step);
 
-    void record(engine::Commands& commands, gpu::StepPush push) const override;
+    void record(engine::Commands& commands, gpu::SubstepPush push) const override;
     void expectBodies(const engine::Device& device) override;
 
 private:

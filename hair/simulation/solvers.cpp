@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <limits>
 
@@ -14,31 +15,36 @@ namespace hair {
 
 namespace {
 
+static_assert(sizeof(gpu::Step) == 12 && offsetof(gpu::Step, sub) == 4);
+static_assert(offsetof(gpu::Step, count) == 8);
+
 struct Row {
     Solver solver;
     double longest_substep;  // of its own choice, s
     std::unique_ptr<GuideSolver> (*make)(
-        const engine::Device&, const Groom&, const SimulationSettings&);
+        const engine::Device&, const Groom&, const SimulationSettings&, const gpu::Step&);
 };
 
 template <class Made>
-std::unique_ptr<GuideSolver>
-make(const engine::Device& device, const Groom& groom, const SimulationSettings& settings) {
-    return std::make_unique<Made>(device, groom, settings);
+std::unique_ptr<GuideSolver> make(
+    const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
+    const gpu::Step& step) {
+    return std::make_unique<Made>(device, groom, settings, step);
 }
 
-std::unique_ptr<GuideSolver>
-makeNone(const engine::Device& device, const Groom& groom, const SimulationSettings& settings) {
+std::unique_ptr<GuideSolver> makeNone(
+    const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
+    const gpu::Step&) {
     if (settings.motion.keyframes.empty()) return nullptr;
     return std::make_unique<RestSolver>(device, groom);
 }
 
-constexpr double kTimeStep = std::numeric_limits<double>::infinity();  // however long
+constexpr double kWholeStep = std::numeric_limits<double>::infinity();  // however long
 
 constexpr Row kSolvers[] = {
-    {Solver::none, kTimeStep, makeNone},
-    {Solver::shape, kTimeStep, make<ShapeSolver>},
-    {Solver::ftl, kTimeStep, make<FtlSolver>},
+    {Solver::none, kWholeStep, makeNone},
+    {Solver::shape, kWholeStep, make<ShapeSolver>},
+    {Solver::ftl, kWholeStep, make<FtlSolver>},
     {Solver::rod, 1.0 / 480.0, make<RodSolver>},
 };
 
@@ -48,13 +54,6 @@ const Row& rowOf(Solver solver) {
     return *row;
 }
 
-}  // namespace
-
-std::unique_ptr<GuideSolver>
-makeSolver(const engine::Device& device, const Groom& groom, const SimulationSettings& settings) {
-    return rowOf(settings.solver).make(device, groom, settings);
-}
-
 std::uint32_t substepsOf(const SimulationSettings& settings) {
     if (settings.substeps > 0) return settings.substeps;
     const double substeps = double{settings.time_step} / rowOf(settings.solver).longest_substep;
@@ -62,12 +61,20 @@ std::uint32_t substepsOf(const SimulationSettings& settings) {
     return static_cast<std::uint32_t>(std::max(1.0, std::ceil(substeps - 1e-4)));
 }
 
-SimulationSettings settingsOfSubstep(SimulationSettings settings) {
-    const std::uint32_t substeps = substepsOf(settings);
-    settings.time_step =
-        static_cast<float>(double{settings.time_step} / static_cast<double>(substeps));
-    settings.substeps = 1;
-    return settings;
+}  // namespace
+
+std::unique_ptr<GuideSolver> makeSolver(
+    const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
+    const gpu::Step& step) {
+    return rowOf(settings.solver).make(device, groom, settings, step);
+}
+
+gpu::Step stepOf(const SimulationSettings& settings) {
+    const std::uint32_t count = substepsOf(settings);
+    return {
+        .whole = settings.time_step,
+        .sub = static_cast<float>(double{settings.time_step} / static_cast<double>(count)),
+        .count = count};
 }
 
 }  // namespace hair

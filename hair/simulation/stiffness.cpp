@@ -7,33 +7,32 @@ namespace hair {
 
 namespace {
 
-double stepRatio(const SimulationSettings& settings) {
-    return double{settings.time_step} / kReferenceStep;
-}
+double substepRatio(const gpu::Step& step) { return double{step.sub} / kReferenceStep; }
 
 }  // namespace
 
-double velocityKept(const SimulationSettings& settings) {
+double velocityKept(const SimulationSettings& settings, const gpu::Step& step) {
     const double kept = 1.0 - double{settings.friction};
     if (settings.stiffness_scaling == StiffnessScaling::thesis) return kept;
-    return std::pow(kept, stepRatio(settings));
+    return std::pow(kept, substepRatio(step));
 }
 
-double globalStiffness(const SimulationSettings& settings) {
+double globalStiffness(const SimulationSettings& settings, const gpu::Step& step) {
     const double k = settings.global.stiffness;
     if (settings.stiffness_scaling == StiffnessScaling::thesis || k >= 1.0) return k;
-    const double c = k / (1.0 - k) * std::pow(stepRatio(settings), 2.0);
+    const double c = k / (1.0 - k) * std::pow(substepRatio(step), 2.0);
     return c / (1.0 + c);
 }
 
-double localStiffness(const SimulationSettings& settings, double segment_length) {
+double
+localStiffness(const SimulationSettings& settings, const gpu::Step& step, double segment_length) {
     const double k = std::min(double{settings.local.stiffness}, kGreatestLocalStiffness);
     if (k == 0.0 || settings.local.iterations == 0) return 0.0;
     if (settings.stiffness_scaling == StiffnessScaling::thesis) return k;
     if (segment_length <= 0.0) return kGreatestLocalStiffness;
 
     const double scale =
-        std::pow(stepRatio(settings), 2.0) * std::pow(kReferenceSegment / segment_length, 4.0);
+        std::pow(substepRatio(step), 2.0) * std::pow(kReferenceSegment / segment_length, 4.0);
     const double exponent = kReferenceIterations / settings.local.iterations * scale;
     return std::min(-std::expm1(exponent * std::log1p(-k)), kGreatestLocalStiffness);
 }

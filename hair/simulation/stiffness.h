@@ -1,8 +1,9 @@
 #pragma once
 
+#include "hair/gpu_structs.h"
 #include "hair/settings.h"
 
-// From the settings to the factors that a step applies.
+// From the settings to the factors that a solver applies in a substep, which is the step dt here.
 //
 // StiffnessScaling::thesis applies the settings' numbers as they are, so a smaller step, more
 // iterations or shorter segments make stiffer hair. StiffnessScaling::invariant reads them as the
@@ -29,14 +30,15 @@ inline constexpr double kReferenceSegment = 0.15 / 7.0;  // l0, m
 // Per iteration, as in the thesis's program.
 inline constexpr double kGreatestLocalStiffness = 0.95;
 
-// Fraction of the velocity left after a step.
-double velocityKept(const SimulationSettings& settings);
+// Fraction of the velocity left after a substep.
+double velocityKept(const SimulationSettings& settings, const gpu::Step& step);
 
-// k_G of thesis eq. 10 for one step, in [0, 1].
-double globalStiffness(const SimulationSettings& settings);
+// k_G of thesis eq. 10 for one substep, in [0, 1].
+double globalStiffness(const SimulationSettings& settings, const gpu::Step& step);
 
 // k_L of thesis eq. 11 for one iteration, in [0, kGreatestLocalStiffness]. `segment_length` is the
 // mean rest length of the strand's segments, m; a strand without length is as stiff as can be.
-double localStiffness(const SimulationSettings& settings, double segment_length);
+double
+localStiffness(const SimulationSettings& settings, const gpu::Step& step, double segment_length);
 
 }  // namespace hair

@@ -13,9 +13,7 @@ namespace hair {
 namespace {
 
 static_assert(sizeof(gpu::WindPush) == 72 && offsetof(gpu::WindPush, directions) == 16);
-static_assert(sizeof(gpu::DragPush) == 80 && offsetof(gpu::DragPush, cell) == 32);
-
-constexpr std::uint32_t kGroup = 64;  // invocations, as in wind.comp and wind_drag.comp
+static_assert(sizeof(gpu::DragPush) == 72 && offsetof(gpu::DragPush, cell) == 32);
 
 engine::ComputeDescription pipelineOf(WindMode mode) {
     if (mode == WindMode::drag)
@@ -44,8 +42,8 @@ void checkWind(const WindSettings& settings) {
 
 WindPass::WindPass(
     const engine::Device& device, std::uint32_t vertex_count, const SimulationSettings& settings)
-    : settings_(settings.wind), material_(settings.material), time_step_(settings.time_step),
-      vertex_count_(vertex_count), pipeline_(device, pipelineOf(settings.wind.mode)) {
+    : settings_(settings.wind), material_(settings.material), vertex_count_(vertex_count),
+      pipeline_(device, pipelineOf(settings.wind.mode)) {
     checkWind(settings_);
 }
 
@@ -80,7 +78,7 @@ void WindPass::recordThesis(
             push.directions[i] = glm::vec3(double{settings_.strength} * cone[i]);
     }
     commands.bind(pipeline_, push);
-    dispatchInvocations(commands, vertex_count_, kGroup);
+    dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
 }
 
 // The mean wind has carried the lattice from its start at the world's origin by speed times time:
@@ -104,9 +102,8 @@ void WindPass::recordDrag(
                        .cells_per_metre = static_cast<float>(1.0 / cell),
                        .octaves = settings_.turbulence_octaves,
                        .inertial_drag = static_cast<float>(factors.inertial),
-                       .viscous_drag = static_cast<float>(factors.viscous),
-                       .time_step = time_step_});
-    dispatchInvocations(commands, vertex_count_, kGroup);
+                       .viscous_drag = static_cast<float>(factors.viscous)});
+    dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
 }
 
 }  // namespace hair

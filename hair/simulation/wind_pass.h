@@ -28,7 +28,7 @@ public:
         engine::Commands& commands, std::uint64_t guides, std::uint64_t accelerations,
         double time) const;
 
-    // Of air that stands still: in thesis mode none, in drag mode it brakes.
+    // The acceleration in air that stands still: none in thesis mode; in drag mode air brakes hair.
     void
     recordCalm(engine::Commands& commands, std::uint64_t guides, std::uint64_t accelerations) const;
 
@@ -42,7 +42,6 @@ private:
 
     WindSettings settings_;
     MaterialSettings material_;
-    float time_step_;
     std::uint32_t vertex_count_;
     engine::ComputePipeline pipeline_;
 };

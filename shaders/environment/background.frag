@@ -4,9 +4,11 @@
 #include "common/display_color.glsl"
 #include "common/picture.glsl"
 #include "environment/radiance.glsl"
+#include "shared/options.h"
 
 layout(push_constant, scalar) uniform Push { EnvironmentPush push; };
-layout(constant_id = 0) const uint kLinearLight = 0;  // 1: working colours are linear
+// 1: working colours are linear
+layout(constant_id = kBackgroundLinearLightConstant) const uint kLinearLight = 0;
 
 layout(location = 0) in vec3 direction;
 layout(location = 0) out vec4 color;

@@ -2,15 +2,16 @@
 #include "common/display_color.glsl"
 #include "post/tone_map_aces.glsl"
 #include "post/tone_map_agx.glsl"
+#include "shared/options.h"
 
-const uint kToneMapAces = 2;
-const uint kToneMapAgx = 3;
-
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const int kSamples = 1;  // per rendered pixel
-layout(constant_id = 1) const int kFactor = 1;   // rendered pixels per pixel, along each side
-layout(constant_id = 2) const uint kToneMap = 1;
-layout(constant_id = 3) const float kExposure = 1.0;  // factor of the light
+layout(local_size_x = kResolveGroupSide, local_size_y = kResolveGroupSide) in;
+// Per rendered pixel
+layout(constant_id = kResolveSamplesConstant) const int kSamples = 1;
+// Rendered pixels per pixel, along each side
+layout(constant_id = kResolveFactorConstant) const int kFactor = 1;
+layout(constant_id = kResolveToneMapConstant) const uint kToneMap = kToneMapSrgb;
+// Factor of the light
+layout(constant_id = kResolveExposureConstant) const float kExposure = 1.0;
 layout(binding = 1, rgba32f) uniform writeonly image2D radiance;
 layout(binding = 2, rgba8) uniform writeonly image2D picture;
 

@@ -6,7 +6,7 @@
 #include "common/extensions.glsl"
 #include "shared/difference_structs.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = kDifferenceGroupSide, local_size_y = kDifferenceGroupSide) in;
 layout(binding = 0) uniform texture2D picture_a;
 layout(binding = 1) uniform texture2D picture_b;
 layout(binding = 2, rgba8) uniform writeonly image2D difference;
@@ -17,7 +17,7 @@ layout(buffer_reference, scalar) buffer CountsReference { DifferenceCounts count
 
 const uint kMost = 255;  // steps of a channel
 
-shared DifferenceCounts group;  // its sum stays below 8 x 8 x 3 x kMost
+shared DifferenceCounts group;  // its sum stays below kDifferenceGroupSide^2 x 3 x kMost
 
 uvec3 stepsOf(vec4 color) { return uvec3(round(color.rgb * float(kMost))); }
 

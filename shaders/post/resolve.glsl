@@ -1,8 +1,12 @@
 // Averages the rendered samples of each pixel of the picture. Colours are display-referred, and so
 // is the mean, as fixed-function resolve of such images does it.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const int kSamples = 1;  // per rendered pixel
-layout(constant_id = 1) const int kFactor = 1;   // rendered pixels per pixel, along each side
+#include "shared/options.h"
+
+layout(local_size_x = kResolveGroupSide, local_size_y = kResolveGroupSide) in;
+// Per rendered pixel
+layout(constant_id = kResolveSamplesConstant) const int kSamples = 1;
+// Rendered pixels per pixel, along each side
+layout(constant_id = kResolveFactorConstant) const int kFactor = 1;
 layout(binding = 1, rgba8) uniform writeonly image2D picture;
 
 void main() {

@@ -89,8 +89,8 @@ LightPath filteredPath(ShadowMap map, ShadowPoint point, float half_width) {
     return path;
 }
 
-// Of a point of a surface. `normal` is that of the triangle (its sign doesn't matter); 0: of a
-// strand.
+// The path of light to a point of a surface. `normal` is that of the triangle (its sign doesn't
+// matter); 0 for a point of a strand.
 LightPath lightPath(PictureParameters picture, uint light, vec3 position, vec3 normal) {
     LightPath free = LightPath(1.0, 0.0);
     if (kMeshShadows == 0 && kHairShadows == 0) return free;
@@ -124,7 +124,7 @@ LightPath lightPath(PictureParameters picture, uint light, vec3 position, vec3 n
     return filteredPath(map, point, half_width);
 }
 
-// Of a point of a strand.
+// The path of light to a point of a strand.
 LightPath lightPath(PictureParameters picture, uint light, vec3 position) {
     return lightPath(picture, light, position, vec3(0.0));
 }

@@ -1,12 +1,15 @@
 #ifndef HAIRBENCH_DIFFERENCE_STRUCTS_H
 #define HAIRBENCH_DIFFERENCE_STRUCTS_H
 
+// Invocations along each side of a workgroup of post/difference.comp.
+const uint kDifferenceGroupSide = 8u;
+
 // How much two pictures differ; 0 at first.
 struct DifferenceCounts {
-    uint pixels;  // that differ
-    uint most;  // of one channel, in steps of 1/255
-    uint sum;  // of all channels of all pixels, in steps: the low 32 bits
-    uint carry;  // and the high ones
+    uint pixels;  // pixels that differ
+    uint most;  // largest difference of a channel, in steps of 1/255
+    uint sum;  // low 32 bits of the sum over all channels of all pixels, in steps of 1/255
+    uint carry;  // high 32 bits of the same sum
 };
 
 // Push constants of post/difference.comp.

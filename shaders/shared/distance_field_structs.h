@@ -54,9 +54,9 @@ struct BakeDistancePush {
 struct DistanceProbe {
     vec3 position;  // m
     vec3 before;  // m: where friction holds it
-    float distance;  // m, written, as the next two
-    vec3 gradient;
-    vec3 pushed;  // m
+    float distance;  // m; written
+    vec3 gradient;  // of the distance; written
+    vec3 pushed;  // m: where contact puts the position; written
 };
 
 // Push constants of simulation/probe_distance.comp.

@@ -4,18 +4,18 @@
 // What becomes of a picture's transparent fragments: PictureParameters::fragments is the address of
 // the struct that the picture's transparency needs.
 
-// Of the random numbers that choose the samples of alpha_to_coverage.
+// Purpose of the random numbers that choose the samples of alpha_to_coverage.
 const uint kSamplesPurpose = 0x53414d50u;
-// The end of a list.
+// The index that ends a list of fragments.
 const uint kNoFragment = 0xffffffffu;
 
-// Of weighted_blended: a sphere that the strands can't leave, before the head moved.
+// What weighted_blended needs: a sphere that the strands can't leave, before the head moved.
 struct BlendRange {
     vec3 centre;  // m
     float radius;  // m
 };
 
-// Of fragment_list: lists per rendered pixel.
+// What fragment_list needs: a linked list of fragments for each rendered pixel.
 struct FragmentLists {
     uint64_t heads;  // uint [pixel], index of the newest fragment or kNoFragment
     uint64_t nodes;  // FragmentNode

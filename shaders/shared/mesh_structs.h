@@ -16,7 +16,7 @@ struct MeshPush {
     uint is_moving;  // 1: with the head
 };
 
-// What shading/probe_surface.comp is asked, and its answer.
+// What shading/probe_surface.comp is asked and what it answers.
 struct SurfaceProbe {
     vec3 base_color;
     float metallic;

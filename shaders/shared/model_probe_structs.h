@@ -5,11 +5,12 @@
 struct ModelProbe {
     vec3 position;  // m
     uint light;
-    vec3 normal;  // unit length, as the next two
+    vec3 normal;  // unit length
     float exponent;
-    vec3 tangent;
-    vec3 to_eye;
-    vec3 to_light;  // written, as all that follows
+    vec3 tangent;  // unit length
+    vec3 to_eye;   // unit length
+    // The shader writes to_light and all members below it.
+    vec3 to_light;  // unit length
     vec3 color;
     float angular_radius;  // rad
     float matt;  // mattResponse()

@@ -6,10 +6,10 @@ struct HairOptics {
     vec3 absorption;  // sigma_a, per fibre radius
     float eta;  // refractive index
     vec4 variances;  // v_p, longitudinal, rad^2
-    vec4 sin_tilts;  // of what is added to theta_o in lobe p
-    vec4 cos_tilts;
+    vec4 sin_tilts;  // sine of the angle that lobe p adds to theta_o
+    vec4 cos_tilts;  // cosine of that angle
     float inverse_azimuthal_scale;  // 1 / s of the logistic distribution
-    float trimmed;  // 1 over what that has in [-pi, pi]
+    float trimmed;  // 1 over the logistic distribution's integral over [-pi, pi]
     float density_factor;  // d_f = d_b of dual scattering
     float unused;
     uint64_t averages;  // FiberAverage [kFiberAverages]; read by dual_scattering
@@ -31,8 +31,8 @@ struct FiberProbe {
     float h;
     vec3 to_light;
     float strands;
-    vec3 bsdf;  // f |cos theta_i|, written, as the next
-    vec3 dual_scattering;
+    vec3 bsdf;  // f |cos theta_i|; written
+    vec3 dual_scattering;  // written
 };
 
 // Push constants of shading/probe_fiber.comp.

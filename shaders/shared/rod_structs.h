@@ -7,6 +7,10 @@
 // are [vertex][strand], so that neighbouring invocations touch neighbouring addresses; segment i
 // ends in vertex i, and entry 0 of what segments have is the follicle's.
 
+// Invocations, each with a strand, in a workgroup of simulation/rod.comp and
+// simulation/rod_adopt.comp.
+const uint kRodGroupSize = 32u;
+
 struct RodSegment {
     vec4 half_rotation;  // at rest, half of the way from the segment above to this one; entry 0:
                          // the follicle's orientation at rest
@@ -16,7 +20,7 @@ struct RodSegment {
     float twist_stiffness;
 };
 
-// Of a segment and the vertex where it ends.
+// How a segment and the vertex where it ends move.
 struct RodMotion {
     vec4 orientation;       // unit quaternion; takes z to the segment's direction
     vec3 angular_velocity;  // axes of space

@@ -11,9 +11,9 @@ const uint kHairCasts = 2u;
 struct ShadowMap {
     mat4 view_projection;  // world -> clip space of the light
     vec4 depth_terms;  // (a, b, c, d): depth = (a z + b) / (c z + d), z metres along the view
-    vec2 corner;  // of its part of the atlas, texels
+    vec2 corner;  // of the light's part of the atlas, texels
     float texel_near;  // m: a texel's side at the light; above 0 in parallel projections
-    float texel_slope;  // and what it grows by per metre along the view
+    float texel_slope;  // what texel_near grows by per metre along the view
     float layer_depth;  // m: see shadows/layers.glsl
     uint casters;  // kMeshesCast | kHairCasts; 0: the light throws no shadows
 };

@@ -8,7 +8,12 @@
 // Shorter segments, at rest or now, have no direction of their own. m
 const float kShortestSegment = 1.0e-9f;
 
-// Purpose of the random numbers that a strand weighs the wind with; the next three are taken too.
+// Invocations in a workgroup of the passes over all guides or guide vertices; rods and shape
+// constraints have their own.
+const uint kGuideGroupSize = 64u;
+
+// Purposes kWindWeightPurpose to kWindWeightPurpose + 3 are of the random numbers by which a strand
+// weighs the wind's four directions.
 const uint kWindWeightPurpose = 0x57494e44u;
 
 // A rigid motion from where the groom was made to where it is now: x -> rotation x + translation.
@@ -45,7 +50,16 @@ struct Bodies {
     float friction;  // Coulomb's coefficient
 };
 
-// Of a simulation for its whole life.
+// The fixed step of simulated time, and the substeps that a solver takes in it. Accelerations are
+// worked out at a step's start and held until its end; a velocity is a position less the one a
+// substep earlier, over the substep.
+struct Step {
+    float whole;  // s
+    float sub;    // s, whole / count
+    uint count;   // substeps in a step
+};
+
+// What a simulation knows of its guides for its whole life.
 struct GuideParameters {
     uint64_t positions;  // m; w = inverse mass over a vertex's: 0 where pinned (the root), else 1
     uint64_t previous;  // m, one substep earlier; w = 1 at vertices in contact with a body and all
@@ -53,7 +67,7 @@ struct GuideParameters {
     uint64_t rest_positions;  // m
     Bodies bodies;
     vec3 gravity;  // m/s^2
-    float time_step;  // of a substep, s
+    Step step;
     float velocity_kept;  // fraction of the velocity that is left after a substep
     uint strand_count;
     uint vertices_per_strand;
@@ -61,7 +75,7 @@ struct GuideParameters {
 };
 
 // Push constants of a solver's substep.
-struct StepPush {
+struct SubstepPush {
     uint64_t guides;  // GuideParameters
     uint64_t solver;  // the solver's own parameters
     uint64_t accelerations;  // m/s^2, beside gravity; address 0: none
@@ -94,7 +108,6 @@ struct DragPush {
     uint octaves;
     float inertial_drag;  // 1/m, hair/simulation/wind.h
     float viscous_drag;  // m^(-1/3) s^(-2/3)
-    float time_step;  // s, for which the accelerations are held
 };
 
 // Push constants of simulation/pull_hold.comp and simulation/pull.comp.
@@ -108,8 +121,7 @@ struct PullPush {
     float radius;  // m
     float stiffness;  // 1/s^2
     float damping;  // 1/s
-    float implicit;  // 1 / (1 + damping time_step + stiffness time_step^2)
-    float time_step;  // s, for which the accelerations are held
+    float implicit;  // 1 / (1 + damping step.whole + stiffness step.whole^2)
 };
 
 // Parameters of simulation/shape.comp.

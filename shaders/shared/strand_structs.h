@@ -3,15 +3,15 @@
 
 // What the renderer's host and shader code share. Scalar layout; addresses are device addresses.
 
-// Purpose of the random numbers that place strands in their root triangle.
-const uint kRootPurpose = 0x524f4f54u;
-// Of those that order the strands of a groom.
-const uint kOrderPurpose = 0x4f524452u;
-// Of those that choose a strand's offsets.
-const uint kOffsetPurpose = 0x4f464653u;
+// Purposes of random numbers (common/random.glsl).
+const uint kRootPurpose = 0x524f4f54u;    // where strands lie in their root triangle
+const uint kOrderPurpose = 0x4f524452u;   // the order of a groom's strands
+const uint kOffsetPurpose = 0x4f464653u;  // which profile of offsets a strand has
+const uint kColorPurpose = 0x434f4c52u;   // the colors by which a picture tells strands apart
 
-// Of those that tell strands apart by color.
-const uint kColorPurpose = 0x434f4c52u;
+// Invocations in a workgroup of strands/frames.comp and of strands/evaluate.comp.
+const uint kFramesGroupSize = 64u;
+const uint kStrandPointsGroupSize = 64u;
 
 // Everything that a picture's draws read; one per frame in flight.
 struct PictureParameters {
@@ -23,7 +23,7 @@ struct PictureParameters {
     float lod_far;         // m: maximum level from here on
     float lod_maximum_level;
     float pixel_near;  // m: a rendered pixel's side at the eye; above 0 in parallel projections
-    float pixel_slope;  // and what it grows by per metre of distance
+    float pixel_slope;  // what pixel_near grows by per metre of distance
     vec3 hair_color;  // in working colours: display RGB, or linear where there is a tone map
     float ambient;
     float diffuse;
@@ -54,7 +54,7 @@ struct PictureParameters {
     uint offset_profiles;
     uint offset_samples;  // along a strand, from root to tip
     uint vertices_per_guide;
-    uint density;  // strands per root triangle at level 0; of the groom: all its strands
+    uint density;  // strands per root triangle at level 0, or all strands of the groom
     uint tessellation;  // segments per guide segment at level 0
     uint patches_per_triangle;  // per guide segment: density beyond the device's isolines is split
     uint strands_per_patch;

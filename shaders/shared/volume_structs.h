@@ -17,7 +17,7 @@ const uint kVolumeMargin = 2u;
 
 // A guide vertex as the grid sees it.
 struct VolumeSample {
-    vec3 point;     // where it is at the end of the time step if it keeps its velocity, cells
+    vec3 point;     // where it is at the end of the step if it keeps its velocity, cells
     float share;    // of the groom's length; the mass that weighs it here
     vec3 velocity;  // m/s, axes of the world
     float unused;
@@ -33,7 +33,6 @@ struct VolumeParameters {
     vec3 origin;       // corner of the first grid on the head, m
     float cell;        // m
     uint resolution;   // cells a side
-    float prediction;  // substeps in a time step
     float crowded;     // share per cell from which hair repels hair
     float friction;    // 1/s
     float repulsion;   // m/s^2
@@ -44,7 +43,7 @@ struct VolumeParameters {
 struct VolumePush {
     uint64_t volume;         // VolumeParameters
     uint64_t accelerations;  // m/s^2, added to
-    RigidFrame frame;        // of the head at the end of the time step
+    RigidFrame frame;        // of the head at the end of the step
 };
 
 #endif

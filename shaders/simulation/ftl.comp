@@ -10,9 +10,9 @@
 #include "simulation/guides.glsl"
 #include "simulation/integrate.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kGuideGroupSize) in;
 
-layout(push_constant, scalar) uniform Push { StepPush push; };
+layout(push_constant, scalar) uniform Push { SubstepPush push; };
 
 layout(buffer_reference, scalar) readonly buffer FtlReference { FtlParameters parameters; };
 
@@ -39,7 +39,7 @@ void main() {
             if (push.accelerations != 0) acceleration += Vectors(push.accelerations).at[i].xyz;
             vec3 predicted = integrate(
                 before, previous.at[i].xyz, acceleration, guides.velocity_kept,
-                guides.time_step * guides.time_step);
+                guides.step.sub * guides.step.sub);
             predicted = pullToRest(
                 predicted, toWorld(push.frame, rest.at[i].xyz), params.global_stiffness);
             float rest_length = distance(rest.at[i].xyz, rest.at[i - 1].xyz);

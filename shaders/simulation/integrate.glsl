@@ -3,8 +3,8 @@
 
 // Verlet integration without velocities, thesis eq. 9, with friction.
 vec3 integrate(
-    vec3 position, vec3 previous, vec3 acceleration, float velocity_kept, float time_step_squared) {
-    return position + velocity_kept * (position - previous) + acceleration * time_step_squared;
+    vec3 position, vec3 previous, vec3 acceleration, float velocity_kept, float substep_squared) {
+    return position + velocity_kept * (position - previous) + acceleration * substep_squared;
 }
 
 #endif

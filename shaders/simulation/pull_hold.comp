@@ -12,9 +12,9 @@ layout(push_constant, scalar) uniform Push { PullPush push; };
 void main() {
     GuideParameters guides = GuideReference(push.guides).parameters;
     uint held = push.held_vertex;
-    float dt = push.time_step;
+    float dt = guides.step.whole;
     vec3 position = Vectors(guides.positions).at[held].xyz;
-    vec3 velocity = (position - Vectors(guides.previous).at[held].xyz) / guides.time_step;
+    vec3 velocity = (position - Vectors(guides.previous).at[held].xyz) / guides.step.sub;
     // At the step's end without this hand.
     vec3 others = guides.gravity + Vectors(push.accelerations).at[held].xyz;
     vec3 velocity_then = velocity + dt * others;

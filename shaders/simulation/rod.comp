@@ -12,9 +12,9 @@
 #include "simulation/rod/state.glsl"
 #include "simulation/rod/symmetric.glsl"
 
-layout(local_size_x = 32) in;
+layout(local_size_x = kRodGroupSize) in;
 
-layout(push_constant, scalar) uniform Push { StepPush push; };
+layout(push_constant, scalar) uniform Push { SubstepPush push; };
 
 const float kMostTurn = 1.0;  // rad in an iteration; a Newton step from far away can overshoot
 const float kPinMass = 100.0;  // of a pinned vertex, over the strand's: a stiff spring to its place
@@ -56,9 +56,9 @@ void predict() {
     root_now = toWorld(push.frame, Vectors(guides.rest_positions).at[root].xyz);
     vec3 root_moved = (root_now - positions.at[root].xyz) / unit;
     positions.at[root].xyz = root_now;
-    float scale = guides.time_step * guides.time_step / unit;
+    float scale = guides.step.sub * guides.step.sub / unit;
     vec3 edges = vec3(0.0);    // from the root to here
-    vec3 misfits = vec3(0.0);  // likewise
+    vec3 misfits = vec3(0.0);  // from the root to here
     vec3 moved = vec3(0.0);    // by segments that turn
     for (uint i = 1; i < guides.vertices_per_strand; ++i) {
         RodMotion motion = motions.at[segmentIndex(i)];

@@ -6,9 +6,9 @@
 #include "common/rigid_frame.glsl"
 #include "simulation/rod/state.glsl"
 
-layout(local_size_x = 32) in;
+layout(local_size_x = kRodGroupSize) in;
 
-layout(push_constant, scalar) uniform Push { StepPush push; };
+layout(push_constant, scalar) uniform Push { SubstepPush push; };
 
 void main() {
     GuideParameters guides = GuideReference(push.guides).parameters;

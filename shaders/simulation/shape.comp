@@ -10,6 +10,7 @@
 #extension GL_EXT_control_flow_attributes : require
 
 #include "common/rigid_frame.glsl"
+#include "shared/options.h"
 #include "simulation/constraints/global.glsl"
 #include "simulation/constraints/length.glsl"
 #include "simulation/constraints/local.glsl"
@@ -20,14 +21,14 @@
 #include "simulation/packed_vectors.glsl"
 
 // A multiple of kChunks.
-layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint kVerticesPerStrand = 8;
+layout(local_size_x_id = kShapeGroupSizeConstant) in;
+layout(constant_id = kShapeVerticesPerStrandConstant) const uint kVerticesPerStrand = 8;
 // Whether there are bodies.
-layout(constant_id = 2) const bool kCollides = true;
+layout(constant_id = kShapeCollidesConstant) const bool kCollides = true;
 // Even where a strand has more than one chunk, so that all segments between chunks are black.
-layout(constant_id = 3) const uint kVerticesPerChunk = 8;
+layout(constant_id = kShapeVerticesPerChunkConstant) const uint kVerticesPerChunk = 8;
 
-layout(push_constant, scalar) uniform Push { StepPush push; };
+layout(push_constant, scalar) uniform Push { SubstepPush push; };
 
 layout(buffer_reference, scalar) readonly buffer ShapeReference { ShapeParameters parameters; };
 
@@ -142,7 +143,7 @@ void load(GuideParameters guides, ShapeParameters params, uint first) {
             acceleration += loadVector(push.accelerations, first + j).xyz;
         vec3 moved = integrate(
             point.xyz, previous, acceleration, guides.velocity_kept,
-            guides.time_step * guides.time_step);
+            guides.step.sub * guides.step.sub);
         if (point.w > 0.0) point.xyz = pullToRest(moved, rest, params.global_stiffness);
         if (j == 0 && chunk == 0) point.xyz = rest;
         points[j + 1] = point;

@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "common/rigid_frame.glsl"
+#include "shared/options.h"
 #include "simulation/constraints/global.glsl"
 #include "simulation/constraints/length.glsl"
 #include "simulation/constraints/local.glsl"
@@ -13,11 +14,11 @@
 #include "simulation/guides.glsl"
 #include "simulation/integrate.glsl"
 
-layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint kVerticesPerStrand = 8;
-layout(constant_id = 2) const bool kCollides = true;
+layout(local_size_x_id = kShapeGroupSizeConstant) in;
+layout(constant_id = kShapeVerticesPerStrandConstant) const uint kVerticesPerStrand = 8;
+layout(constant_id = kShapeCollidesConstant) const bool kCollides = true;
 
-layout(push_constant, scalar) uniform Push { StepPush push; };
+layout(push_constant, scalar) uniform Push { SubstepPush push; };
 
 layout(buffer_reference, scalar) readonly buffer ShapeReference { ShapeParameters parameters; };
 
@@ -43,7 +44,7 @@ void main() {
                 acceleration += Vectors(push.accelerations).at[root + v].xyz;
             point.xyz = integrate(
                 before, previous.at[root + v].xyz, acceleration, guides.velocity_kept,
-                guides.time_step * guides.time_step);
+                guides.step.sub * guides.step.sub);
             point.xyz = pullToRest(point.xyz, rest, params.global_stiffness);
         }
         positions.at[root + v] = point;

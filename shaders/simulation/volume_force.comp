@@ -5,13 +5,13 @@
 
 #include "simulation/volume.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kGuideGroupSize) in;
 
 layout(push_constant, scalar) uniform Push { VolumePush push; };
 
 float shareOf(int fixed_point) { return float(fixed_point) / float(kVolumeOne); }
 
-// Of a cell with that share in it, over the repulsion's setting.
+// The pressure's potential in a cell with that share in it, over the repulsion's setting.
 float potential(int fixed_point, float crowded) {
     return log(max(shareOf(fixed_point) / crowded, 1.0));
 }

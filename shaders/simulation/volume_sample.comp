@@ -5,7 +5,7 @@
 
 #include "simulation/volume.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kGuideGroupSize) in;
 
 layout(push_constant, scalar) uniform Push { VolumePush push; };
 
@@ -20,8 +20,8 @@ void main() {
     if (index < guides.strand_count * guides.vertices_per_strand) {
         vec3 position = State(guides.positions).at[index].xyz;
         vec3 moved = position - State(guides.previous).at[index].xyz;
-        vec3 later = fromWorld(push.frame, position + volume.prediction * moved);
-        vec3 velocity = moved / guides.time_step;
+        vec3 later = fromWorld(push.frame, position + float(guides.step.count) * moved);
+        vec3 velocity = moved / guides.step.sub;
 
         VolumeSample vertex;
         // Hair that is stretched beyond its reach counts at the grid's edge.

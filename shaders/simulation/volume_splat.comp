@@ -5,7 +5,7 @@
 
 #include "simulation/volume.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kGuideGroupSize) in;
 
 layout(push_constant, scalar) uniform Push { VolumePush push; };
 

@@ -5,7 +5,7 @@
 #include "common/random.glsl"
 #include "simulation/guides.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kGuideGroupSize) in;
 
 layout(push_constant, scalar) uniform Push { WindPush push; };
 

@@ -21,7 +21,7 @@
 #include "simulation/guides.glsl"
 #include "simulation/turbulence.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kGuideGroupSize) in;
 
 layout(push_constant, scalar) uniform Push { DragPush push; };
 
@@ -64,12 +64,12 @@ void main() {
                    turbulence(
                        push.cell, push.cells_per_metre * position + push.fraction, push.octaves,
                        guides.seed);
-        vec3 velocity = (position - State(guides.previous).at[index].xyz) / guides.time_step;
+        vec3 velocity = (position - State(guides.previous).at[index].xyz) / guides.step.sub;
         vec3 u = across(tangent, air - velocity);
         float speed = length(u);
         float k = push.inertial_drag * speed + push.viscous_drag * pow(speed, 1.0 / 3.0);
-        vec3 fallen = push.time_step * across(tangent, guides.gravity);
-        acceleration = k / (1.0 + k * push.time_step) * (u - fallen);
+        vec3 fallen = guides.step.whole * across(tangent, guides.gravity);
+        acceleration = k / (1.0 + k * guides.step.whole) * (u - fallen);
     }
     State(push.accelerations).at[index] = vec4(acceleration, 0.0);
 }

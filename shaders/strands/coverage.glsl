@@ -35,7 +35,7 @@ float filterBelow(PixelFilter pixel, float x) {
     return dot(kTrapezoid, beyond * beyond) / (2.0 * pixel.widths.x * pixel.widths.y);
 }
 
-// And that integral's.
+// The integral of filterBelow from -infinity to x.
 float filterBelowIntegral(PixelFilter pixel, float x) {
     vec4 beyond = beyondCorners(pixel, x);
     float inside = dot(kTrapezoid, beyond * beyond * beyond);

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "strands/strand.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kStrandPointsGroupSize) in;
 
 layout(push_constant, scalar) uniform Push { StrandPointsPush push; };
 

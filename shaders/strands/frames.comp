@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/picture.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kFramesGroupSize) in;
 layout(push_constant, scalar) uniform Push { FramesPush push; };
 
 layout(buffer_reference, scalar) readonly buffer RootFrames { RootFrame frames[]; };

@@ -81,12 +81,12 @@ StrandLod forcedLod(PictureParameters picture) {
 
 uint drawnStrands(StrandLod lod) { return uint(ceil(lod.density)); }
 
-// Of a strand's width: 1, but for the last strand, which fades in.
+// The part of its width that a strand is drawn with: 1, but for the last strand, which fades in.
 float strandShare(StrandLod lod, uint strand) {
     return clamp(lod.density - float(strand), 0.0, 1.0);
 }
 
-// Along the guide segment, 0 to 1.
+// Where an end of a piece lies along the guide segment, 0 to 1.
 float pieceEnd(StrandLod lod, uint index) { return float(index) / float(lod.pieces); }
 
 #endif

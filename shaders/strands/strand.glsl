@@ -114,7 +114,8 @@ StrandPoint drawnPoint(PictureParameters picture, StrandPatch strand_patch, Patc
     return point;
 }
 
-// The same for who evaluates one point at a time, from the guides themselves.
+// A point of a strand, evaluated from the guides themselves: for stages that work on one point at a
+// time.
 StrandPoint pointFromGuides(PictureParameters picture, StrandPatch strand_patch, uvec3 guides,
                             uint index, uint piece_end) {
     PatchStrand strand;

@@ -42,12 +42,11 @@ protected:
         RenderAssets assets;
         assets.environment = std::move(picture);
         const EnvironmentPass environment(device(), settings, assets);
-        engine::Constants constants(26, 0);
-        constants[21] = settings.render.tone_map != ToneMap::none;  // kLinearLight
         const engine::ComputePipeline pipeline(
-            device(), {.shader = "environment/probe.comp",
-                       .constants = constants,
-                       .push_size = sizeof(gpu::EnvironmentProbePush)});
+            device(),
+            {.shader = "environment/probe.comp",
+             .constants = {{gpu::kLinearLightConstant, settings.render.tone_map != ToneMap::none}},
+             .push_size = sizeof(gpu::EnvironmentProbePush)});
         const engine::Buffer directions = engine::makeBuffer(device(), std::span(at), "directions");
         const engine::Buffer radiance = engine::makeBuffer(device(), std::span(at), "radiance");
         const engine::Buffer light = engine::makeBuffer(device(), std::span(at), "light");

@@ -30,13 +30,10 @@ inline std::vector<FoundPath> findPaths(
     const engine::Device& device, const Settings& settings, const StrandView& view,
     const RenderAssets& assets, std::span<const gpu::ShadowProbe> probes) {
     static_assert(sizeof(gpu::ShadowProbe) == 28 && sizeof(gpu::ShadowProbePush) == 24);
-    constexpr std::size_t kShadingConstants = 16;  // the first, in shading/options.glsl
-    engine::Constants constants(kShadingConstants);
-    for (const std::uint32_t constant : shadingConstants(settings)) constants.push_back(constant);
     constexpr VkFormat kFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
     const engine::GraphicsPipeline pipeline(
         device, {.shaders = {"composite/screen.vert", "shadows/probe.frag"},
-                 .constants = constants,
+                 .constants = shadingConstants(settings),
                  .push_size = sizeof(gpu::ShadowProbePush),
                  .colors = {{kFormat}},
                  .sampled_images = 3});

@@ -6,6 +6,7 @@
 
 #include "hair/simulation/reference.h"
 #include "hair/simulation/reference_wind.h"
+#include "hair/simulation/solver.h"
 #include "hair/simulation/wind.h"
 #include "tests/simulation/drag.h"
 #include "tests/simulation/strands.h"
@@ -19,7 +20,7 @@ glm::dvec3 dragAtTip(const SimulationSettings& settings, const glm::dvec3& v) {
     std::vector<glm::dvec3> previous = positions;
     for (glm::dvec3& point : previous) point -= v * double{settings.time_step};
     return reference::dragAccelerations(
-        positions, previous, settings, 1, double{settings.time_step}, 0.0)[1];
+        positions, previous, settings, 1, reference::inDouble(stepOf(settings)), 0.0)[1];
 }
 
 // Drag over weight of a hair of 70 um that flies across air: 3.9 at 1 m/s, 47 at 5 m/s, as
@@ -137,7 +138,8 @@ TEST(Drag, IsNoneAlongTheHair) {
     const glm::dvec3 along = glm::normalize(glm::dvec3(settings.wind.direction));
     std::vector<glm::dvec3> points;
     for (int i = 0; i < 5; ++i) points.push_back(0.02 * i * along);
-    for (const glm::dvec3& a : reference::dragAccelerations(points, points, settings, 1, 0.01, 0.0))
+    for (const glm::dvec3& a : reference::dragAccelerations(
+             points, points, settings, 1, reference::inDouble(stepOf(settings)), 0.0))
         // k is at most 4000/s; rounding gives a speed of 1e-16 of 30 m/s.
         EXPECT_LT(glm::length(a), 1e-10);
 }
@@ -150,7 +152,8 @@ TEST(Drag, TakesTheTangentOfTheCurveThroughTheVertices) {
     settings.wind.speed = 5.0f;
     for (std::size_t i = 1; i < 3; ++i) {
         settings.wind.direction = {-points[i].y, points[i].x, 0.0};
-        const auto a = reference::dragAccelerations(points, points, settings, 1, 0.01, 0.0);
+        const auto a = reference::dragAccelerations(
+            points, points, settings, 1, reference::inDouble(stepOf(settings)), 0.0);
         // The direction is a float: 6e-8 of 5 m/s and k below 100/s at 1e-6 m/s.
         EXPECT_LT(glm::length(a[i]), 1e-5) << i;
         EXPECT_GT(glm::length(a[3]), 1.0);  // the tip has only the side above
@@ -161,7 +164,8 @@ TEST(Drag, StandsSegmentsWithoutADirectionAndFolds) {
     SimulationSettings settings = inAir(0.01f);
     settings.wind.speed = 5.0f;
     const std::vector<glm::dvec3> points{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, 0, 0}};
-    const auto a = reference::dragAccelerations(points, points, settings, 1, 0.01, 0.0);
+    const auto a = reference::dragAccelerations(
+        points, points, settings, 1, reference::inDouble(stepOf(settings)), 0.0);
     EXPECT_EQ(a[1], glm::dvec3(0.0));  // no direction above or below
     EXPECT_GT(a[2].x, 0.0);  // one below
     EXPECT_GT(a[3].x, 0.0);  // folded: the one above

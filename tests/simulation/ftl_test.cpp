@@ -22,7 +22,7 @@ struct Strand {
         const std::vector accelerations(rest.size(), acceleration);
         reference::stepFtl(
             positions, previous, rest,
-            {.accelerations = accelerations, .time_step = h, .velocity_correction = correction},
+            {.accelerations = accelerations, .substep = h, .velocity_correction = correction},
             stays);
     }
 };

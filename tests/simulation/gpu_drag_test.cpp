@@ -7,6 +7,7 @@
 #include "hair/gpu_structs.h"
 #include "hair/simulation/reference.h"
 #include "hair/simulation/reference_wind.h"
+#include "hair/simulation/solver.h"
 #include "hair/simulation/wind_pass.h"
 #include "tests/gpu_fixture.h"
 #include "tests/simulation/drag.h"
@@ -46,7 +47,7 @@ protected:
             .positions = now.address(),
             .previous = before.address(),
             .gravity = settings.gravity,
-            .time_step = settings.time_step,
+            .step = stepOf(settings),
             .strand_count = groom.strand_count,
             .vertices_per_strand = groom.vertices_per_strand,
             .seed = kSeed}};
@@ -82,7 +83,7 @@ TEST_F(GpuDrag, BlowsLikeTheReferenceAtAnyTime) {
             for (std::size_t first = 0; first < now.size(); first += 8) {
                 const auto expected = reference::dragAccelerations(
                     std::span(now).subspan(first, 8), std::span(before).subspan(first, 8), settings,
-                    kSeed, double{settings.time_step}, time);
+                    kSeed, reference::inDouble(stepOf(settings)), time);
                 for (std::size_t i = 0; i < 8; ++i) {
                     largest = std::max(largest, glm::length(expected[i]));
                     error =
@@ -169,7 +170,7 @@ TEST_F(GpuDrag, StandsHairWithoutDirections) {
     const auto result = accelerations(groom, settings, groom.points, groom.points, 0.0);
     const auto points = toDouble(groom.points);
     const auto expected = reference::dragAccelerations(
-        points, points, settings, kSeed, double{settings.time_step}, 0.0);
+        points, points, settings, kSeed, reference::inDouble(stepOf(settings)), 0.0);
     for (std::size_t i = 0; i < points.size(); ++i)
         EXPECT_LT(
             glm::distance(glm::dvec3(result[i]), expected[i]),

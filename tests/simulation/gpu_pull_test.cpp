@@ -11,6 +11,7 @@
 #include "hair/simulation/pull_pass.h"
 #include "hair/simulation/reference.h"
 #include "hair/simulation/reference_pull.h"
+#include "hair/simulation/solver.h"
 #include "tests/gpu_fixture.h"
 #include "tests/simulation/gpu_simulation.h"
 #include "tests/simulation/pulls.h"
@@ -33,7 +34,7 @@ protected:
     static std::vector<glm::vec4> accelerations(
         const Groom& groom, const SimulationSettings& settings,
         const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& previous,
-        const std::vector<glm::vec3>& before, float substep, double time) {
+        const std::vector<glm::vec3>& before, const gpu::Step& step, double time) {
         const engine::Buffer now = bufferOf(positions, "positions");
         const engine::Buffer earlier = bufferOf(previous, "previous");
         const engine::Buffer rest = bufferOf(groom.points, "rest");
@@ -43,14 +44,13 @@ protected:
             .previous = earlier.address(),
             .rest_positions = rest.address(),
             .gravity = settings.gravity,
-            .time_step = substep,
+            .step = step,
             .strand_count = groom.strand_count,
             .vertices_per_strand = groom.vertices_per_strand}};
         const engine::Buffer parameters = engine::makeBuffer(
             device(), std::span<const gpu::GuideParameters>(guides), "parameters");
         const PullPass pass(
-            device(), groom.strand_count, groom.vertices_per_strand, settings.time_step,
-            settings.pulls);
+            device(), groom.strand_count, groom.vertices_per_strand, step, settings.pulls);
         device().runOnce([&](engine::Commands& commands) {
             commands.barrier(engine::Access::anything, engine::Access::compute_write);
             pass.record(commands, parameters.address(), result.address(), time);
@@ -67,7 +67,8 @@ TEST_F(GpuPull, PullsLikeTheReferenceAtAnyTime) {
     const Groom groom = wavyGroom(37, 6);
     SimulationSettings settings;
     settings.pulls = manyPulls();
-    const float substep = settings.time_step / 4.0f;
+    settings.substeps = 4;
+    const gpu::Step step = stepOf(settings);
     const auto positions = disturbed(groom, 0.01, 11);
     const auto previous = disturbed(groom, 0.01, 12);
     std::mt19937 random(13);
@@ -76,8 +77,7 @@ TEST_F(GpuPull, PullsLikeTheReferenceAtAnyTime) {
         before.emplace_back(20.0 * randomVector(random));
     const double dt = settings.time_step;
     for (const double time : {0.0, 0.5, 0.99, 2.0, 500.5}) {
-        const auto result =
-            accelerations(groom, settings, positions, previous, before, substep, time);
+        const auto result = accelerations(groom, settings, positions, previous, before, step, time);
         auto expected = toDouble(before);
         for (glm::dvec3& a : expected) a += glm::dvec3(settings.gravity);
         const auto rest = toDouble(groom.points);
@@ -89,7 +89,7 @@ TEST_F(GpuPull, PullsLikeTheReferenceAtAnyTime) {
              .rest = rest,
              .positions = now,
              .previous = earlier,
-             .substep = substep,
+             .substep = step.sub,
              .from = time,
              .to = time + dt},
             expected);

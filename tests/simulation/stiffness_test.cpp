@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "hair/simulation/solver.h"
+
 namespace hair {
 namespace {
 
@@ -15,10 +17,12 @@ TEST(Stiffness, IsTheThesissNumberAtTheThesissParameters) {
     for (const float k : {0.0f, 0.002f, 0.01f, 0.3f, 0.95f}) {
         settings.global.stiffness = k;
         settings.local.stiffness = k;
-        EXPECT_NEAR(globalStiffness(settings), double{k}, kStepRounding);
-        EXPECT_NEAR(localStiffness(settings, kReferenceSegment), double{k}, kStepRounding);
+        EXPECT_NEAR(globalStiffness(settings, stepOf(settings)), double{k}, kStepRounding);
+        EXPECT_NEAR(
+            localStiffness(settings, stepOf(settings), kReferenceSegment), double{k},
+            kStepRounding);
     }
-    EXPECT_NEAR(velocityKept(settings), 0.95, kStepRounding);
+    EXPECT_NEAR(velocityKept(settings, stepOf(settings)), 0.95, kStepRounding);
 }
 
 TEST(Stiffness, IsRawInThesisScaling) {
@@ -28,9 +32,9 @@ TEST(Stiffness, IsRawInThesisScaling) {
     settings.local = {.stiffness = 0.25f, .iterations = 3};
     settings.global.stiffness = 0.5f;
     settings.friction = 0.25f;
-    EXPECT_EQ(globalStiffness(settings), 0.5);
-    EXPECT_EQ(localStiffness(settings, 1.0), 0.25);
-    EXPECT_EQ(velocityKept(settings), 0.75);
+    EXPECT_EQ(globalStiffness(settings, stepOf(settings)), 0.5);
+    EXPECT_EQ(localStiffness(settings, stepOf(settings), 1.0), 0.25);
+    EXPECT_EQ(velocityKept(settings, stepOf(settings)), 0.75);
 }
 
 // (1 - friction)^(dt / h0): 0.81 per 1/60 s is 0.9 per 1/120 s and 0.81^2 per 1/30 s.
@@ -38,9 +42,9 @@ TEST(Stiffness, KeepsTheSameVelocityPerSecond) {
     SimulationSettings settings;
     settings.friction = 0.19f;
     settings.time_step = 1.0f / 120.0f;
-    EXPECT_NEAR(velocityKept(settings), 0.9, kStepRounding);
+    EXPECT_NEAR(velocityKept(settings, stepOf(settings)), 0.9, kStepRounding);
     settings.time_step = 1.0f / 30.0f;
-    EXPECT_NEAR(velocityKept(settings), 0.81 * 0.81, kStepRounding);
+    EXPECT_NEAR(velocityKept(settings, stepOf(settings)), 0.81 * 0.81, kStepRounding);
 }
 
 // k = 1/2 is c = 1; half the step c = 1/4, k = 1/5; twice the step c = 4, k = 4/5.
@@ -48,11 +52,11 @@ TEST(Stiffness, ScalesTheGlobalFactorWithTheSquareOfTheStep) {
     SimulationSettings settings;
     settings.global.stiffness = 0.5f;
     settings.time_step = 1.0f / 120.0f;
-    EXPECT_NEAR(globalStiffness(settings), 0.2, kStepRounding);
+    EXPECT_NEAR(globalStiffness(settings, stepOf(settings)), 0.2, kStepRounding);
     settings.time_step = 1.0f / 30.0f;
-    EXPECT_NEAR(globalStiffness(settings), 0.8, kStepRounding);
+    EXPECT_NEAR(globalStiffness(settings, stepOf(settings)), 0.8, kStepRounding);
     settings.global.stiffness = 1.0f;
-    EXPECT_EQ(globalStiffness(settings), 1.0);
+    EXPECT_EQ(globalStiffness(settings, stepOf(settings)), 1.0);
 }
 
 // However many iterations, what they leave of an error together is what ten at k leave.
@@ -61,7 +65,8 @@ TEST(Stiffness, ComposesToTheSameLocalFactorAtAnyIterationCount) {
     settings.local.stiffness = 0.05f;
     for (const std::uint32_t iterations : {1u, 2u, 7u, 10u, 64u}) {
         settings.local.iterations = iterations;
-        const double left = std::pow(1.0 - localStiffness(settings, kReferenceSegment), iterations);
+        const double left = std::pow(
+            1.0 - localStiffness(settings, stepOf(settings), kReferenceSegment), iterations);
         EXPECT_NEAR(left, std::pow(0.95, 10.0), kStepRounding);
     }
 }
@@ -72,12 +77,13 @@ TEST(Stiffness, ScalesTheLocalFactorWithStepAndSegmentLength) {
     SimulationSettings settings;
     settings.local.stiffness = static_cast<float>(1.0 - std::pow(0.5, 0.1));  // ten leave one half
     settings.local.iterations = 1;
-    EXPECT_NEAR(localStiffness(settings, kReferenceSegment), 0.5, 1e-6);
+    EXPECT_NEAR(localStiffness(settings, stepOf(settings), kReferenceSegment), 0.5, 1e-6);
     const double sixteenth = 1.0 - std::pow(0.5, 1.0 / 16.0);
-    EXPECT_NEAR(localStiffness(settings, 2.0 * kReferenceSegment), sixteenth, 1e-6);
+    EXPECT_NEAR(
+        localStiffness(settings, stepOf(settings), 2.0 * kReferenceSegment), sixteenth, 1e-6);
     settings.time_step = 1.0f / 240.0f;
-    EXPECT_NEAR(localStiffness(settings, kReferenceSegment), sixteenth, 1e-6);
-    EXPECT_NEAR(localStiffness(settings, 0.5 * kReferenceSegment), 0.5, 1e-6);
+    EXPECT_NEAR(localStiffness(settings, stepOf(settings), kReferenceSegment), sixteenth, 1e-6);
+    EXPECT_NEAR(localStiffness(settings, stepOf(settings), 0.5 * kReferenceSegment), 0.5, 1e-6);
 }
 
 TEST(Stiffness, StaysInRangeAtTheEndsOfEveryParameter) {
@@ -89,8 +95,8 @@ TEST(Stiffness, StaysInRangeAtTheEndsOfEveryParameter) {
                     settings.time_step = step;
                     settings.global.stiffness = k;
                     settings.local = {.stiffness = k, .iterations = iterations};
-                    const double local = localStiffness(settings, length);
-                    const double global = globalStiffness(settings);
+                    const double local = localStiffness(settings, stepOf(settings), length);
+                    const double global = globalStiffness(settings, stepOf(settings));
                     EXPECT_TRUE(local >= 0.0 && local <= kGreatestLocalStiffness) << local;
                     EXPECT_TRUE(global >= 0.0 && global <= 1.0) << global;
                 }

@@ -34,13 +34,13 @@ public:
                   .rest_positions = 0,
                   .bodies = {},
                   .gravity = {},
-                  .time_step = settingsOfSubstep(settings).time_step,
+                  .step = stepOf(settings),
                   .velocity_kept = 1.0f,
                   .strand_count = groom.strand_count,
                   .vertices_per_strand = groom.vertices_per_strand,
                   .seed = 0}}),
               "guide parameters")),
-          hair_hair_(device, groom, settings, substepsOf(settings), parameters_.address()) {}
+          hair_hair_(device, groom, settings, stepOf(settings), parameters_.address()) {}
 
     // m/s^2. `previous` is a substep earlier.
     std::vector<glm::vec3> accelerations(
@@ -69,7 +69,7 @@ public:
                         .rest = rest,
                         .positions = now,
                         .previous = before,
-                        .substep = settingsOfSubstep(settings_).time_step,
+                        .step = reference::inDouble(stepOf(settings_)),
                         .frame = frame});
     }
 

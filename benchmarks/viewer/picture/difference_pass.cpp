@@ -15,12 +15,6 @@ static_assert(sizeof(DifferenceCounts) == 16);
 static_assert(offsetof(DifferencePush, gain) == 8);
 }  // namespace gpu
 
-namespace {
-
-constexpr std::uint32_t kGroupSide = 8;  // local size in post/difference.comp
-
-}  // namespace
-
 DifferencePass::DifferencePass(const engine::Device& device)
     : pipeline_(
           device, {.shader = "post/difference.comp",
@@ -45,7 +39,8 @@ void DifferencePass::record(
     commands.bind(pipeline_, gpu::DifferencePush{.counts = counts_.address(), .gain = gain});
     commands.images(pipeline_, std::array{&a, &b}, std::array{&difference});
     commands.dispatch(
-        (width + kGroupSide - 1) / kGroupSide, (height + kGroupSide - 1) / kGroupSide);
+        (width + gpu::kDifferenceGroupSide - 1) / gpu::kDifferenceGroupSide,
+        (height + gpu::kDifferenceGroupSide - 1) / gpu::kDifferenceGroupSide);
     commands.barrier(Access::compute_write, Access::transfer_read);
     commands.copy(counts_, readback_, sizeof(gpu::DifferenceCounts));
     commands.barrier(Access::transfer_write, Access::host_read);

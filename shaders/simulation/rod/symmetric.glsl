@@ -8,7 +8,8 @@ mat3 crossMatrix(vec3 a) { return mat3(0.0, a.z, -a.y, -a.z, 0.0, a.x, a.y, -a.x
 // elimination.
 mat3 symmetric(mat3 m) { return 0.5 * (m + transpose(m)); }
 
-// Of a symmetric positive definite matrix, by L D L^T. Pivots below rounding are lifted to it.
+// The inverse of a symmetric positive definite matrix, by L D L^T. Pivots below rounding are lifted
+// to it.
 mat3 inverseOfSymmetric(mat3 m) {
     float least = 1.0e-7 * (m[0][0] + m[1][1] + m[2][2]) + 1.0e-30;
     float d0 = max(m[0][0], least);

@@ -1,0 +1,109 @@
+#ifndef HAIRBENCH_OPTIONS_H
+#define HAIRBENCH_OPTIONS_H
+
+// What pipelines are specialized for: the ids of the shaders' specialization constants, and the
+// numbers by which shaders know the settings' choices. hair/shader_codes.h holds the numbers
+// against the settings.
+
+// Curves of strands (Curve).
+const uint kCurveBspline = 0u;
+const uint kCurveBsplineUnpinned = 1u;
+const uint kCurveCatmullRom = 2u;
+
+// What a strand's width tapers along (Taper).
+const uint kTaperStrand = 0u;
+const uint kTaperSegment = 1u;
+
+// What chooses levels of detail (LodMode).
+const uint kLodForced = 0u;
+const uint kLodDistance = 1u;
+
+// Where strands come from (StrandSource).
+const uint kSourceRootTriangles = 0u;
+const uint kSourceGroom = 1u;
+
+// Where widths come from (WidthSource).
+const uint kWidthScene = 0u;
+const uint kWidthGroom = 1u;
+
+// How strands follow guides (Interpolation).
+const uint kInterpolationMulti = 0u;
+const uint kInterpolationSingle = 1u;
+const uint kInterpolationMixed = 2u;
+
+// How strands are spread over root triangles (Randomness).
+const uint kRandomnessHashed = 0u;
+const uint kRandomnessThesis = 1u;
+
+// Models of the light that hair scatters (ShadingModel).
+const uint kModelPhong = 0u;
+const uint kModelKajiyaKay = 1u;
+const uint kModelMarschner = 2u;
+const uint kModelDualScattering = 3u;
+
+// What a picture shows (Show).
+const uint kShowShading = 0u;
+const uint kShowTangents = 1u;
+const uint kShowNormals = 2u;
+const uint kShowLod = 3u;
+const uint kShowStrands = 4u;
+
+// From linear light to display colours (ToneMap).
+const uint kToneMapNone = 0u;
+const uint kToneMapSrgb = 1u;
+const uint kToneMapAces = 2u;
+const uint kToneMapAgx = 3u;
+
+// Constants of all that includes strands/strand.glsl: strands/options.glsl.
+const uint kCurveConstant = 0u;
+const uint kTaperConstant = 1u;
+const uint kLodModeConstant = 2u;
+const uint kSourceConstant = 3u;
+const uint kWidthConstant = 4u;
+const uint kOffsetsConstant = 5u;
+const uint kInterpolationConstant = 6u;
+const uint kCollisionRuleConstant = 7u;
+const uint kRandomnessConstant = 8u;
+const uint kLodMorphConstant = 9u;
+
+// Constant of strands' fragment and geometry stages: strands/pixel_samples.glsl.
+const uint kPixelSamplesConstant = 15u;
+
+// Constants of a mesh's material: scene/options.glsl.
+const uint kBaseColorTextureConstant = 0u;
+const uint kMetallicRoughnessTextureConstant = 1u;
+const uint kNormalTextureConstant = 2u;
+const uint kMaskConstant = 3u;
+const uint kDoubleSidedConstant = 4u;
+
+// Constants of light, which strands and meshes have beside their own: shading/options.glsl.
+const uint kModelConstant = 16u;
+const uint kLightCountConstant = 17u;
+const uint kMeshShadowsConstant = 18u;
+const uint kHairShadowsConstant = 19u;
+const uint kEnvironmentConstant = 20u;
+const uint kLinearLightConstant = 21u;
+const uint kAnalyticCoverageConstant = 22u;
+const uint kStrandTextureConstant = 23u;
+const uint kShowConstant = 24u;
+const uint kLightKindsConstant = 25u;
+
+// Constant of environment/background.frag.
+const uint kBackgroundLinearLightConstant = 0u;
+
+// Constants of post/resolve.glsl and, all four of them, post/develop.glsl.
+const uint kResolveSamplesConstant = 0u;
+const uint kResolveFactorConstant = 1u;
+const uint kResolveToneMapConstant = 2u;
+const uint kResolveExposureConstant = 3u;
+
+// Invocations along each side of a workgroup of post/resolve.glsl and post/develop.glsl.
+const uint kResolveGroupSide = 8u;
+
+// Constants of simulation/shape.comp and, but for the last, simulation/shape_serial.comp.
+const uint kShapeGroupSizeConstant = 0u;
+const uint kShapeVerticesPerStrandConstant = 1u;
+const uint kShapeCollidesConstant = 2u;
+const uint kShapeVerticesPerChunkConstant = 3u;
+
+#endif
