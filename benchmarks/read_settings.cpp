@@ -10,6 +10,7 @@
 #include "benchmarks/names.h"
 #include "benchmarks/pointer.h"
 #include "engine/error.h"
+#include "hair/fields.h"
 
 namespace benchmarks {
 namespace {
@@ -29,80 +30,54 @@ std::string shown(double number) {
 // " m", but nothing for a plain ratio.
 std::string withUnit(std::string_view unit) { return unit == "1" ? "" : ' ' + std::string(unit); }
 
-template <class Value, class Row>
-Value readNumber(const Json& value, const std::string& pointer, const Row& row) {
-    constexpr bool kWhole = std::is_integral_v<Value>;
-    if (!value.is_number()) throw mismatch(pointer, kWhole ? "an integer" : "a number", value);
+enum class Numbers { whole, real };
+
+// Throws where the range does not allow it.
+void checkNumber(
+    const Json& value, const std::string& pointer, Numbers allowed, const hair::Range& range) {
+    const bool whole = allowed == Numbers::whole;
+    if (!value.is_number()) throw mismatch(pointer, whole ? "an integer" : "a number", value);
     const double number = value.get<double>();
     if (!std::isfinite(number)) throw engine::Error(pointer, shown(number) + " is not finite");
-    if (kWhole && std::trunc(number) != number)
+    if (whole && std::trunc(number) != number)
         throw engine::Error(pointer, shown(number) + " is not an integer");
-    if (number < row.minimum || number > row.maximum)
+    if (number < range.minimum || number > range.maximum)
         throw engine::Error(
-            pointer, shown(number) + " is outside [" + shown(row.minimum) + ", " +
-                         shown(row.maximum) + "]" + withUnit(row.unit));
-    return value.get<Value>();
+            pointer, shown(number) + " is outside [" + shown(range.minimum) + ", " +
+                         shown(range.maximum) + "]" + withUnit(range.unit));
 }
 
-template <class Settings>
 void readFields(
-    const Json& object, const std::string& pointer, Settings& settings,
+    const Json& object, const std::string& pointer, hair::SettingsRef settings,
     std::span<const std::string_view> passed_over = {});
 
-template <class Owner, class Value>
+template <class Value>
 void read(
-    const Json& value, const std::string& pointer, const hair::Field<Owner, Value>& row,
-    Value& target) {
-    if constexpr (std::is_same_v<Value, glm::vec3>) {
-        if (!value.is_array() || value.size() != 3)
-            throw mismatch(pointer, "an array of 3 numbers", value);
-        for (int i = 0; i < 3; ++i)
-            target[i] = readNumber<float>(
-                value[static_cast<std::size_t>(i)], pointer + '/' + std::to_string(i), row);
-    } else {
-        target = readNumber<Value>(value, pointer, row);
+    const Json& value, const std::string& pointer, const hair::Number<Value>& row,
+    hair::SettingsRef settings) {
+    checkNumber(value, pointer, std::is_integral_v<Value> ? Numbers::whole : Numbers::real, row);
+    row.in(settings) = value.get<Value>();
+}
+
+void read(
+    const Json& value, const std::string& pointer, const hair::Number<glm::vec3>& row,
+    hair::SettingsRef settings) {
+    if (!value.is_array() || value.size() != 3)
+        throw mismatch(pointer, "an array of 3 numbers", value);
+    for (int i = 0; i < 3; ++i) {
+        const Json& component = value[static_cast<std::size_t>(i)];
+        checkNumber(component, pointer + '/' + std::to_string(i), Numbers::real, row);
+        row.in(settings)[i] = component.get<float>();
     }
 }
 
-template <class Owner>
 void read(
-    const Json& value, const std::string& pointer, const hair::Text<Owner>&, std::string& target) {
-    if (!value.is_string()) throw mismatch(pointer, "a string", value);
-    target = value.get<std::string>();
-}
-
-template <class Owner>
-void read(const Json& value, const std::string& pointer, const hair::Toggle<Owner>&, bool& target) {
-    if (!value.is_boolean()) throw mismatch(pointer, "true or false", value);
-    target = value.get<bool>();
-}
-
-template <class Owner, class Enum, std::size_t Count>
-void read(
-    const Json& value, const std::string& pointer, const hair::Choice<Owner, Enum, Count>& row,
-    Enum& target) {
-    if (!value.is_string()) throw mismatch(pointer, "a name", value);
-    const auto& name = value.get_ref<const std::string&>();
-    std::vector<std::string> known;
-    for (const auto& named : row.names) {
-        if (named.name == name) {
-            target = named.value;
-            return;
-        }
-        known.emplace_back(named.name);
-    }
-    throw engine::Error(
-        pointer, unknownName("unknown name \"" + escapedToken(name) + '"', name, known));
-}
-
-template <class Owner, std::size_t Count>
-void read(
-    const Json& value, const std::string& pointer, const hair::OneOf<Owner, Count>& row,
-    std::uint32_t& target) {
+    const Json& value, const std::string& pointer, const hair::OneOf& row,
+    hair::SettingsRef settings) {
     std::string known;
     for (const std::uint32_t allowed : row.values) {
         if (value.is_number() && value.get<double>() == allowed) {
-            target = allowed;
+            row.in(settings) = allowed;
             return;
         }
         known += (known.empty() ? "" : ", ") + std::to_string(allowed);
@@ -112,32 +87,62 @@ void read(
         pointer, shown(value.get<double>()) + " is not one of " + known + withUnit(row.unit));
 }
 
-template <class Owner, class Settings>
 void read(
-    const Json& value, const std::string& pointer, const hair::Group<Owner, Settings>&,
-    Settings& target) {
-    readFields(value, pointer, target);
+    const Json& value, const std::string& pointer, const hair::Text& row,
+    hair::SettingsRef settings) {
+    if (!value.is_string()) throw mismatch(pointer, "a string", value);
+    row.in(settings) = value.get<std::string>();
 }
 
-template <class Owner, class Element>
 void read(
-    const Json& value, const std::string& pointer, const hair::List<Owner, Element>& row,
-    std::vector<Element>& target) {
+    const Json& value, const std::string& pointer, const hair::Toggle& row,
+    hair::SettingsRef settings) {
+    if (!value.is_boolean()) throw mismatch(pointer, "true or false", value);
+    row.in(settings) = value.get<bool>();
+}
+
+void read(
+    const Json& value, const std::string& pointer, const hair::Choice& row,
+    hair::SettingsRef settings) {
+    if (!value.is_string()) throw mismatch(pointer, "a name", value);
+    const auto& name = value.get_ref<const std::string&>();
+    std::vector<std::string> known;
+    for (std::size_t i = 0; i < row.names.size(); ++i) {
+        if (row.names[i].name == name) {
+            row.choose(settings, i);
+            return;
+        }
+        known.emplace_back(row.names[i].name);
+    }
+    throw engine::Error(
+        pointer, unknownName("unknown name \"" + escapedToken(name) + '"', name, known));
+}
+
+void read(
+    const Json& value, const std::string& pointer, const hair::Group& row,
+    hair::SettingsRef settings) {
+    readFields(value, pointer, row.in(settings));
+}
+
+void read(
+    const Json& value, const std::string& pointer, const hair::List& row,
+    hair::SettingsRef settings) {
     if (!value.is_array()) throw mismatch(pointer, "an array", value);
     if (value.size() > row.maximum_count)
         throw engine::Error(
             pointer, std::to_string(value.size()) + " elements are more than " +
                          std::to_string(row.maximum_count));
-    target.assign(value.size(), {});
+    row.resize(settings, 0);  // what is absent in an element is as in a new one
+    row.resize(settings, value.size());
     for (std::size_t i = 0; i < value.size(); ++i)
-        readFields(value[i], pointer + '/' + std::to_string(i), target[i]);
+        readFields(value[i], pointer + '/' + std::to_string(i), row.at(settings, i));
 }
 
-template <class Settings>
 void requireKnownKeys(
-    const Json& object, const std::string& pointer, std::span<const std::string_view> passed_over) {
+    const Json& object, const std::string& pointer, const std::vector<hair::Field>& fields,
+    std::span<const std::string_view> passed_over) {
     std::vector<std::string> known;
-    hair::forEachField<Settings>([&](const auto& row) { known.emplace_back(row.name); });
+    for (const hair::Field& field : fields) known.emplace_back(field.name);
     known.insert(known.end(), passed_over.begin(), passed_over.end());
     for (const auto& [key, value] : object.items())
         if (std::ranges::find(known, key) == known.end())
@@ -145,17 +150,18 @@ void requireKnownKeys(
                 pointer + '/' + escapedToken(key), unknownName("unknown key", key, known));
 }
 
-template <class Settings>
 void readFields(
-    const Json& object, const std::string& pointer, Settings& settings,
+    const Json& object, const std::string& pointer, hair::SettingsRef settings,
     std::span<const std::string_view> passed_over) {
     if (!object.is_object())
         throw mismatch(pointer.empty() ? "the document" : pointer, "an object", object);
-    requireKnownKeys<Settings>(object, pointer, passed_over);
-    hair::forEachField<Settings>([&](const auto& row) {
-        if (const auto member = object.find(row.name); member != object.end())
-            read(*member, pointer + '/' + row.name, row, settings.*row.member);
-    });
+    requireKnownKeys(object, pointer, settings.fields(), passed_over);
+    for (const hair::Field& field : settings.fields()) {
+        const auto member = object.find(field.name);
+        if (member == object.end()) continue;
+        const std::string here = pointer + '/' + field.name;
+        std::visit([&](const auto& row) { read(*member, here, row, settings); }, field.kind);
+    }
 }
 
 }  // namespace

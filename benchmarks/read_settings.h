@@ -12,7 +12,7 @@ namespace benchmarks {
 inline constexpr std::array<std::string_view, 3> kSceneKeys{"$schema", "base", "sweep"};
 
 // The settings that a scene's document describes; an absent member keeps its default, and
-// kSceneKeys are passed over. What the tables in hair/settings.h do not allow is an engine::Error
+// kSceneKeys are passed over. What the tables of hair/settings.h do not allow is an engine::Error
 // "<JSON pointer>: <reason>": an unknown key or name, another type, a number out of range, not
 // whole or not finite, a list too long. Members are checked one by one: check_settings.h has the
 // rules between them.

@@ -14,6 +14,7 @@
 #include "benchmarks/write_settings.h"
 #include "engine/error.h"
 #include "engine/png_text.h"
+#include "hair/fields.h"
 
 namespace benchmarks {
 namespace {
@@ -78,45 +79,41 @@ Scene makeScene(const fs::path& path, Json document) {
     return scene;
 }
 
-template <class Settings>
-void moveFileNames(Json& object, const fs::path& folder, const Settings& settings);
+void moveFileNames(Json& object, const fs::path& folder, hair::SettingsView settings);
 
-template <class Owner, class Row>
-void moveFileName(Json&, const fs::path&, const Row&, const Owner&) {}
+void moveFileName(Json&, const char*, const fs::path&, const hair::Place&, hair::SettingsView) {}
 
-template <class Owner>
 void moveFileName(
-    Json& object, const fs::path& folder, const hair::FileName<Owner>& row, const Owner& owner) {
-    const fs::path file = owner.*row.member;
+    Json& object, const char* name, const fs::path& folder, const hair::FileName& row,
+    hair::SettingsView settings) {
+    const fs::path file = row.in(settings);
     if (!file.empty() && file.is_relative())
-        object[row.name] = (folder / file).lexically_normal().string();
+        object[name] = (folder / file).lexically_normal().string();
 }
 
-template <class Owner, class Settings>
 void moveFileName(
-    Json& object, const fs::path& folder, const hair::Group<Owner, Settings>& row,
-    const Owner& owner) {
-    Json member = object.contains(row.name) ? object[row.name] : Json::object();
-    moveFileNames(member, folder, owner.*row.member);
-    if (!member.empty()) object[row.name] = std::move(member);
+    Json& object, const char* name, const fs::path& folder, const hair::Group& row,
+    hair::SettingsView settings) {
+    Json member = object.contains(name) ? object[name] : Json::object();
+    moveFileNames(member, folder, row.in(settings));
+    if (!member.empty()) object[name] = std::move(member);
 }
 
-template <class Owner, class Element>
 void moveFileName(
-    Json& object, const fs::path& folder, const hair::List<Owner, Element>& row,
-    const Owner& owner) {
-    if (!object.contains(row.name)) return;  // defaults of lists name no files
-    const auto& list = owner.*row.member;
-    for (std::size_t i = 0; i < list.size(); ++i)
-        moveFileNames(object[row.name][i], folder, list[i]);
+    Json& object, const char* name, const fs::path& folder, const hair::List& row,
+    hair::SettingsView settings) {
+    if (!object.contains(name)) return;  // defaults of lists name no files
+    for (std::size_t i = 0; i < row.size(settings); ++i)
+        moveFileNames(object[name][i], folder, row.at(settings, i));
 }
 
 // File names are relative to the scene that is opened, so a base in another folder has its own
 // rewritten, those that it takes from the defaults too.
-template <class Settings>
-void moveFileNames(Json& object, const fs::path& folder, const Settings& settings) {
-    hair::forEachField<Settings>(
-        [&](const auto& row) { moveFileName(object, folder, row, settings); });
+void moveFileNames(Json& object, const fs::path& folder, hair::SettingsView settings) {
+    for (const hair::Field& field : settings.fields())
+        std::visit(
+            [&](const auto& row) { moveFileName(object, field.name, folder, row, settings); },
+            field.kind);
 }
 
 Json everyMember() {

@@ -1,6 +1,9 @@
 #include "benchmarks/schema.h"
 
-#include "benchmarks/field_json.h"
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/write_settings.h"
+#include "hair/fields.h"
 #include "hair/settings.h"
 
 namespace benchmarks {
@@ -10,70 +13,64 @@ namespace {
 // a whole.
 enum class Removal { possible, impossible };
 
-template <class Settings>
-Json objectSchema(const Json& defaults, Removal removal);
+Json objectSchema(hair::SettingsView defaults, Removal removal);
 
 std::string helpWithUnit(const char* help, std::string_view unit) {
     return unit == "1" ? help : std::string(help) + " [" + std::string(unit) + ']';
 }
 
-template <class Value>
-Json numberSchema(double minimum, double maximum) {
+Json numberSchema(const char* type, const hair::Range& range) {
     return {
-        {"type", std::is_integral_v<Value> ? "integer" : "number"},
-        {"minimum", cleanNumber(minimum)},
-        {"maximum", cleanNumber(maximum)}};
+        {"type", type},
+        {"minimum", cleanNumber(range.minimum)},
+        {"maximum", cleanNumber(range.maximum)}};
 }
 
-template <class Owner, class Value>
-Json fieldSchema(const hair::Field<Owner, Value>& row, const Json&) {
-    Json schema = {{"description", helpWithUnit(row.help, row.unit)}};
-    if constexpr (std::is_same_v<Value, glm::vec3>)
-        schema.update(
-            {{"type", "array"},
-             {"items", numberSchema<float>(row.minimum, row.maximum)},
-             {"minItems", 3},
-             {"maxItems", 3}});
-    else
-        schema.update(numberSchema<Value>(row.minimum, row.maximum));
+template <class Value>
+Json fieldSchema(const char* help, const hair::Number<Value>& row, hair::SettingsView) {
+    Json schema = {{"description", helpWithUnit(help, row.unit)}};
+    schema.update(numberSchema(std::is_integral_v<Value> ? "integer" : "number", row));
     return schema;
 }
 
-template <class Owner>
-Json fieldSchema(const hair::Text<Owner>& row, const Json&) {
-    return {{"description", row.help}, {"type", "string"}};
+Json fieldSchema(const char* help, const hair::Number<glm::vec3>& row, hair::SettingsView) {
+    return {
+        {"description", helpWithUnit(help, row.unit)},
+        {"type", "array"},
+        {"items", numberSchema("number", row)},
+        {"minItems", 3},
+        {"maxItems", 3}};
 }
 
-template <class Owner>
-Json fieldSchema(const hair::Toggle<Owner>& row, const Json&) {
-    return {{"description", row.help}, {"type", "boolean"}};
+Json fieldSchema(const char* help, const hair::OneOf& row, hair::SettingsView) {
+    return {{"description", helpWithUnit(help, row.unit)}, {"enum", row.values}};
 }
 
-template <class Owner, class Enum, std::size_t Count>
-Json fieldSchema(const hair::Choice<Owner, Enum, Count>& row, const Json&) {
+Json fieldSchema(const char* help, const hair::Text&, hair::SettingsView) {
+    return {{"description", help}, {"type", "string"}};
+}
+
+Json fieldSchema(const char* help, const hair::Toggle&, hair::SettingsView) {
+    return {{"description", help}, {"type", "boolean"}};
+}
+
+Json fieldSchema(const char* help, const hair::Choice& row, hair::SettingsView) {
     Json names = Json::array();
     for (const auto& named : row.names) names.push_back(named.name);
-    return {{"description", row.help}, {"enum", names}};
+    return {{"description", help}, {"enum", names}};
 }
 
-template <class Owner, std::size_t Count>
-Json fieldSchema(const hair::OneOf<Owner, Count>& row, const Json&) {
-    return {{"description", helpWithUnit(row.help, row.unit)}, {"enum", row.values}};
-}
-
-template <class Owner, class Settings>
-Json fieldSchema(const hair::Group<Owner, Settings>& row, const Json& defaults) {
-    Json schema = {{"description", row.help}};
-    schema.update(objectSchema<Settings>(defaults, Removal::possible));
+Json fieldSchema(const char* help, const hair::Group& row, hair::SettingsView defaults) {
+    Json schema = {{"description", help}};
+    schema.update(objectSchema(row.in(defaults), Removal::possible));
     return schema;
 }
 
-template <class Owner, class Element>
-Json fieldSchema(const hair::List<Owner, Element>& row, const Json&) {
+Json fieldSchema(const char* help, const hair::List& row, hair::SettingsView) {
     return {
-        {"description", row.help},
+        {"description", help},
         {"type", "array"},
-        {"items", objectSchema<Element>(writeFields(Element{}), Removal::impossible)},
+        {"items", objectSchema(row.newElement(), Removal::impossible)},
         {"maxItems", row.maximum_count}};
 }
 
@@ -84,16 +81,17 @@ void allowNull(Json& schema) {
         schema["type"] = Json::array({schema["type"], "null"});
 }
 
-template <class Settings>
-Json objectSchema(const Json& defaults, Removal removal) {
+Json objectSchema(hair::SettingsView defaults, Removal removal) {
+    const Json values = writeFields(defaults);
     Json members = Json::object();
-    hair::forEachField<Settings>([&](const auto& row) {
-        const Json& value = defaults.at(row.name);
-        Json schema = fieldSchema(row, value);
+    for (const hair::Field& field : defaults.fields()) {
+        Json schema = std::visit(
+            [&](const auto& row) { return fieldSchema(field.help, row, defaults); }, field.kind);
         if (removal == Removal::possible) allowNull(schema);
+        const Json& value = values.at(field.name);
         if (!value.is_object()) schema["default"] = value;
-        members[row.name] = std::move(schema);
-    });
+        members[field.name] = std::move(schema);
+    }
     return {
         {"type", "object"}, {"additionalProperties", false}, {"properties", std::move(members)}};
 }
@@ -154,7 +152,7 @@ Json sweepSchema(const Json& members) {
 std::string sceneSchema() {
     Json schema = {
         {"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "hairbench scene"}};
-    schema.update(objectSchema<hair::Settings>(writeFields(hair::Settings{}), Removal::possible));
+    schema.update(objectSchema(hair::Settings{}, Removal::possible));
     Json sweep = sweepSchema(schema["properties"]);
     Json& members = schema["properties"];
     members["$schema"] = {{"description", "this schema, for editors"}, {"type", "string"}};

@@ -1,97 +1,217 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
-#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
-// Descriptions of settings members. One row of a settings struct's `fields()` tuple gives JSON
-// reading, range check, JSON Schema, report echo and (later) the UI widget: see settings.h for the
-// tables.
+// The members of settings structs at run time. A row of a struct's table gives JSON reading, range
+// check, JSON Schema, report echo and the viewer's widget, by code that knows the kinds of rows
+// below and no struct. The tables are beside the structs: settings.cpp has that of settings.h.
 namespace hair {
 
-// A number, or a vector of three numbers with the same range per component.
-// Value: float, std::uint32_t, std::int32_t, std::uint64_t or glm::vec3.
-template <class Owner, class Value>
-struct Field {
-    const char* name;
-    Value Owner::* member;
+class Table;
+struct Field;
+
+template <class Settings>
+concept HasTable = requires(const Settings* settings) { tableOf(settings); };
+
+// A settings struct of any type, with its table. It refers to the struct and does not own it.
+class SettingsView {
+public:
+    template <HasTable Settings>
+    SettingsView(const Settings& settings) : SettingsView(tableOf(&settings), &settings) {}
+    SettingsView(const Table& table, const void* settings) : table_(&table), settings_(settings) {}
+
+    const std::vector<Field>& fields() const;
+
+private:
+    friend class Place;
+    const Table* table_;
+    const void* settings_;
+};
+
+// One that can be changed.
+class SettingsRef : public SettingsView {
+public:
+    template <HasTable Settings>
+        requires(!std::is_const_v<Settings>)
+    SettingsRef(Settings& settings) : SettingsRef(tableOf(&settings), &settings) {}
+    SettingsRef(const Table& table, void* settings)
+        : SettingsView(table, settings), settings_(settings) {}
+
+private:
+    friend class Place;
+    void* settings_;
+};
+
+// ---- Kinds of rows ------------------------------------------------------------------------------
+
+// Where a member is within its struct.
+class Place {
+public:
+    // Both in the same struct.
+    Place(const void* settings, const void* member)
+        : offset_(static_cast<std::size_t>(
+              static_cast<const std::byte*>(member) - static_cast<const std::byte*>(settings))) {}
+
+    const void* address(SettingsView settings) const {
+        return static_cast<const std::byte*>(settings.settings_) + offset_;
+    }
+    void* address(SettingsRef settings) const {
+        return static_cast<std::byte*>(settings.settings_) + offset_;
+    }
+
+private:
+    std::size_t offset_;
+};
+
+template <class Value>
+struct Member : Place {
+    const Value& in(SettingsView settings) const {
+        return *static_cast<const Value*>(address(settings));
+    }
+    Value& in(SettingsRef settings) const { return *static_cast<Value*>(address(settings)); }
+};
+
+struct Range {
     double minimum;  // inclusive
     double maximum;  // inclusive
     const char* unit;  // SI symbol, "1" for a ratio, "count" for whole things
-    const char* help;
 };
 
-template <class Owner>
-struct Text {
-    const char* name;
-    std::string Owner::* member;
-    const char* help;
+// A number, or a vector of three numbers with the same range per component.
+template <class Value>
+struct Number : Member<Value>, Range {};
+
+// A number of which only some values exist, such as a sample count.
+struct OneOf : Member<std::uint32_t> {
+    std::vector<std::uint32_t> values;
+    const char* unit;
 };
+
+struct Text : Member<std::string> {};
 
 // The path of a file, relative to the scene file; empty where there is none.
-template <class Owner>
-struct FileName : Text<Owner> {};
+struct FileName : Text {};
 
-template <class Owner>
-struct Toggle {
-    const char* name;
-    bool Owner::* member;
-    const char* help;
-};
+struct Toggle : Member<bool> {};
 
-// An enum written in JSON by name. Unknown names are an error that lists the known ones.
 template <class Enum>
 struct Named {
     Enum value;
     const char* name;
 };
 
-template <class Owner, class Enum, std::size_t Count>
-struct Choice {
-    const char* name;
-    Enum Owner::* member;
-    std::array<Named<Enum>, Count> names;
-    const char* help;
-};
+// An enum written in JSON by name. Unknown names are an error that lists the known ones.
+class Choice : public Place {
+public:
+    struct Access {
+        int (*get)(const void* member);
+        void (*set)(void* member, int value);
+    };
+    Choice(Place place, const Access& access, std::vector<Named<int>> known)
+        : Place(place), names(std::move(known)), access_(&access) {}
 
-// A number of which only some values exist, such as a sample count.
-template <class Owner, std::size_t Count>
-struct OneOf {
-    const char* name;
-    std::uint32_t Owner::* member;
-    std::array<std::uint32_t, Count> values;
-    const char* unit;
-    const char* help;
+    // Index of the member's name; none for an enumerator that the row does not name.
+    std::optional<std::size_t> chosen(SettingsView settings) const;
+    void choose(SettingsRef settings, std::size_t index) const;
+
+    std::vector<Named<int>> names;
+
+private:
+    const Access* access_;
 };
 
 // A nested settings struct: a JSON object with its own table.
-template <class Owner, class Settings>
-struct Group {
-    const char* name;
-    Settings Owner::* member;
-    const char* help;
+class Group : public Place {
+public:
+    Group(Place place, const Table& table) : Place(place), table_(&table) {}
+
+    SettingsView in(SettingsView settings) const { return {*table_, address(settings)}; }
+    SettingsRef in(SettingsRef settings) const { return {*table_, address(settings)}; }
+
+private:
+    const Table* table_;
 };
 
-// A JSON array of nested settings structs.
-template <class Owner, class Element>
-struct List {
-    const char* name;
-    std::vector<Element> Owner::* member;
+// A vector of settings structs: a JSON array of objects.
+class List : public Place {
+public:
+    struct Access {
+        std::size_t (*size)(const void* list);
+        const void* (*at)(const void* list, std::size_t index);
+        void* (*change)(void* list, std::size_t index);
+        void (*resize)(void* list, std::size_t size);
+        void (*erase)(void* list, std::size_t index);
+    };
+    List(Place place, const Access& access, const Table& elements, std::size_t most)
+        : Place(place), maximum_count(most), access_(&access), elements_(&elements) {}
+
+    std::size_t size(SettingsView settings) const { return access_->size(address(settings)); }
+    SettingsView at(SettingsView settings, std::size_t index) const {
+        return {*elements_, access_->at(address(settings), index)};
+    }
+    SettingsRef at(SettingsRef settings, std::size_t index) const {
+        return {*elements_, access_->change(address(settings), index)};
+    }
+    // An element as it is when it is new.
+    SettingsView newElement() const;
+    // New elements come last.
+    void resize(SettingsRef settings, std::size_t size) const {
+        access_->resize(address(settings), size);
+    }
+    void erase(SettingsRef settings, std::size_t index) const {
+        access_->erase(address(settings), index);
+    }
+
     std::size_t maximum_count;
-    const char* help;
+
+private:
+    const Access* access_;
+    const Table* elements_;
 };
 
-// Calls `visit(row)` for every row of Settings' table, in the table's order.
-template <class Settings, class Visitor>
-void forEachField(Visitor&& visit) {
-    std::apply(
-        [&](const auto&... row) { (visit(row), ...); },
-        fields(static_cast<const Settings*>(nullptr)));
-}
+// ---- Tables -------------------------------------------------------------------------------------
+
+using Kind = std::variant<
+    Number<float>, Number<std::uint32_t>, Number<std::int32_t>, Number<std::uint64_t>,
+    Number<glm::vec3>, OneOf, Text, FileName, Toggle, Choice, Group, List>;
+
+struct Field {
+    const char* name;
+    const char* help;
+    Kind kind;
+};
+
+class Table {
+public:
+    // `defaults` lives as long as the table.
+    Table(const void* defaults, std::vector<Field> fields)
+        : defaults_(defaults), fields_(std::move(fields)) {}
+    Table(const Table&) = delete;
+    Table& operator=(const Table&) = delete;
+
+    const std::vector<Field>& fields() const { return fields_; }
+    // The struct as it is when it is new.
+    SettingsView defaults() const { return {*this, defaults_}; }
+
+private:
+    const void* defaults_;
+    std::vector<Field> fields_;
+};
+
+// The row of a member, by its address.
+const Field& fieldAt(SettingsView settings, const void* member);
+
+// Whether two structs of the same type differ in a field, or in any.
+bool differ(const Field& field, SettingsView a, SettingsView b);
+bool differ(SettingsView a, SettingsView b);
 
 }  // namespace hair

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 namespace benchmarks::physics {
 
@@ -22,13 +21,15 @@ const char* verdictName(Verdict verdict) {
 
 const std::vector<hair::Named<hair::Solver>>& checkedSolvers() {
     static const auto solvers = [] {
+        hair::SimulationSettings settings;
+        const hair::Field& field = hair::fieldAt(settings, &settings.solver);
+        const auto& row = std::get<hair::Choice>(field.kind);
         std::vector<hair::Named<hair::Solver>> named;
-        hair::forEachField<hair::SimulationSettings>([&](const auto& row) {
-            if constexpr (std::is_same_v<
-                              decltype(row.member), hair::Solver hair::SimulationSettings::*>)
-                for (const auto& each : row.names)
-                    if (each.value != hair::Solver::none) named.push_back(each);
-        });
+        for (std::size_t i = 0; i < row.names.size(); ++i) {
+            row.choose(settings, i);
+            if (settings.solver != hair::Solver::none)
+                named.push_back({settings.solver, row.names[i].name});
+        }
         return named;
     }();
     return solvers;

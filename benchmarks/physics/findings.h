@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "benchmarks/physics/outcome.h"
+#include "hair/fields.h"
 #include "hair/settings.h"
 
 namespace benchmarks::physics {

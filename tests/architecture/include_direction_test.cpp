@@ -151,7 +151,7 @@ TEST(IncludeDirection, RuleCatchesABreachAndKnowsItsException) {
     EXPECT_TRUE(breaks(rule, "hair/settings.h", "nlohmann/json.hpp"));
     EXPECT_FALSE(breaks(rule, "hair/groom/mesh/gltf_model.cpp", "nlohmann/json.hpp"));
     EXPECT_FALSE(breaks(rule, "benchmarks/scene.cpp", "nlohmann/json.hpp"));
-    EXPECT_FALSE(breaks(rule, "hair/settings.h", "hair/fields.h"));
+    EXPECT_FALSE(breaks(rule, "hair/settings.cpp", "hair/fields.h"));
 }
 
 }  // namespace

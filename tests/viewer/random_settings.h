@@ -7,6 +7,7 @@
 #include <random>
 #include <string>
 
+#include "hair/fields.h"
 #include "hair/settings.h"
 
 // Settings of which a few members are others than the defaults, each with a value that its row of
@@ -27,9 +28,9 @@ private:
         return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_);
     }
 
-    template <class Settings>
-    void change(Settings& settings) {
-        hair::forEachField<Settings>([&](const auto& row) { changeRow(row, settings); });
+    void change(hair::SettingsRef settings) {
+        for (const hair::Field& field : settings.fields())
+            std::visit([&](const auto& row) { changeRow(row, settings); }, field.kind);
     }
 
     float numberIn(double minimum, double maximum) {
@@ -80,10 +81,10 @@ private:
         return kTexts[below(std::size(kTexts))];
     }
 
-    template <class Owner, class Value>
-    void changeRow(const hair::Field<Owner, Value>& row, Owner& owner) {
+    template <class Value>
+    void changeRow(const hair::Number<Value>& row, hair::SettingsRef settings) {
         if (!chance(share_)) return;
-        Value& value = owner.*row.member;
+        Value& value = row.in(settings);
         if constexpr (std::integral<Value>) {
             value = static_cast<Value>(
                 row.minimum + std::floor(
@@ -96,36 +97,29 @@ private:
         }
     }
 
-    template <class Owner>
-    void changeRow(const hair::Text<Owner>& row, Owner& owner) {
-        if (chance(share_)) owner.*row.member = text();
+    void changeRow(const hair::OneOf& row, hair::SettingsRef settings) {
+        if (chance(share_)) row.in(settings) = row.values[below(row.values.size())];
     }
 
-    template <class Owner>
-    void changeRow(const hair::Toggle<Owner>& row, Owner& owner) {
-        if (chance(share_)) owner.*row.member = !(owner.*row.member);
+    void changeRow(const hair::Text& row, hair::SettingsRef settings) {
+        if (chance(share_)) row.in(settings) = text();
     }
 
-    template <class Owner, class Enum, std::size_t Count>
-    void changeRow(const hair::Choice<Owner, Enum, Count>& row, Owner& owner) {
-        if (chance(share_)) owner.*row.member = row.names[below(Count)].value;
+    void changeRow(const hair::Toggle& row, hair::SettingsRef settings) {
+        if (chance(share_)) row.in(settings) = !row.in(settings);
     }
 
-    template <class Owner, std::size_t Count>
-    void changeRow(const hair::OneOf<Owner, Count>& row, Owner& owner) {
-        if (chance(share_)) owner.*row.member = row.values[below(Count)];
+    void changeRow(const hair::Choice& row, hair::SettingsRef settings) {
+        if (chance(share_)) row.choose(settings, below(row.names.size()));
     }
 
-    template <class Owner, class Settings>
-    void changeRow(const hair::Group<Owner, Settings>& row, Owner& owner) {
-        change(owner.*row.member);
-    }
+    void changeRow(const hair::Group& row, hair::SettingsRef settings) { change(row.in(settings)); }
 
-    template <class Owner, class Element>
-    void changeRow(const hair::List<Owner, Element>& row, Owner& owner) {
+    void changeRow(const hair::List& row, hair::SettingsRef settings) {
         if (!chance(share_)) return;
-        (owner.*row.member).assign(below(4), {});
-        for (Element& element : owner.*row.member) change(element);
+        row.resize(settings, 0);
+        row.resize(settings, below(4));
+        for (std::size_t i = 0; i < row.size(settings); ++i) change(row.at(settings, i));
     }
 
     std::mt19937 random_;

@@ -1,4 +1,3 @@
-#include "benchmarks/viewer/settings/field_difference.h"
 #include "benchmarks/viewer/settings/list_pages.h"
 #include "benchmarks/viewer/settings/names.h"
 #include "benchmarks/viewer/settings/number_text.h"
@@ -7,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hair/fields.h"
 #include "hair/settings.h"
 
 namespace benchmarks {

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include <nlohmann/json.hpp>
+
 #include "benchmarks/axis.h"
 #include "benchmarks/pointer.h"
 #include "benchmarks/sweep.h"
-#include "benchmarks/viewer/files/changed_fields.h"
+#include "benchmarks/write_settings.h"
 #include "engine/error.h"
 
 namespace benchmarks {
@@ -81,7 +83,7 @@ void addChanges(
 
 // Lists without the members that are as in a new element.
 void shorten(std::vector<Argument>& arguments, const hair::Settings& settings) {
-    const Json changed = changedFields(settings, hair::Settings{});
+    const Json changed = changedFields(settings);
     for (Argument& argument : arguments) {
         if (argument.in_name) continue;
         const Json::json_pointer pointer(argument.pointer);
@@ -99,21 +101,21 @@ void check(Scene scene, const std::vector<Argument>& arguments, const Json& want
             setField(scene, argument.pointer, argument.value.dump());
     }
     const std::vector<CaseSpec> cases = expand(scene, axes);
-    if (cases.size() != 1 || writeFields(cases.front().settings).dump() != wanted.dump())
+    if (cases.size() != 1 || writeSettings(cases.front().settings).dump() != wanted.dump())
         throw Error(scene.path.string(), "a command line can't say it; save a scene instead");
 }
 
 }  // namespace
 
 std::string caseArguments(const Scene& scene, const hair::Settings& settings) {
-    Json wanted = writeFields(settings);
+    Json wanted = writeSettings(settings);
     std::vector<Argument> arguments;
     try {
         arguments = axisArguments(scene, wanted);
     } catch (const Error& error) {
         throw Error(scene.path.string(), error.what());
     }
-    addChanges(writeFields(scene.settings), wanted, "", scene.axes, arguments);
+    addChanges(writeSettings(scene.settings), wanted, "", scene.axes, arguments);
     shorten(arguments, settings);
     check(scene, arguments, wanted);
     std::string text;

@@ -1,9 +1,13 @@
 #include "benchmarks/viewer/files/save_scene.h"
 
-#include "benchmarks/viewer/files/changed_fields.h"
-#include "benchmarks/viewer/files/file_names.h"
+#include <functional>
+
+#include <nlohmann/json.hpp>
+
 #include "benchmarks/viewer/files/readable_json.h"
+#include "benchmarks/write_settings.h"
 #include "engine/write_file.h"
+#include "hair/fields.h"
 
 namespace benchmarks {
 
@@ -16,6 +20,34 @@ constexpr const char* kSchema = "scene.schema.json";
 // Without links, so that ".." leads where it says.
 fs::path folderOf(const fs::path& folder) {
     return fs::weakly_canonical(fs::absolute(folder.empty() ? fs::path(".") : folder));
+}
+
+using FileNameVisitor = std::function<void(std::string& name)>;
+
+// Calls `visit` for every member that names a file, also within lists.
+void forEachFileName(hair::SettingsRef settings, const FileNameVisitor& visit);
+
+void visitFileNames(const hair::Place&, hair::SettingsRef, const FileNameVisitor&) {}
+
+void visitFileNames(
+    const hair::FileName& row, hair::SettingsRef settings, const FileNameVisitor& visit) {
+    visit(row.in(settings));
+}
+
+void visitFileNames(
+    const hair::Group& row, hair::SettingsRef settings, const FileNameVisitor& visit) {
+    forEachFileName(row.in(settings), visit);
+}
+
+void visitFileNames(
+    const hair::List& row, hair::SettingsRef settings, const FileNameVisitor& visit) {
+    for (std::size_t i = 0; i < row.size(settings); ++i)
+        forEachFileName(row.at(settings, i), visit);
+}
+
+void forEachFileName(hair::SettingsRef settings, const FileNameVisitor& visit) {
+    for (const hair::Field& field : settings.fields())
+        std::visit([&](const auto& row) { visitFileNames(row, settings, visit); }, field.kind);
 }
 
 }  // namespace
@@ -38,7 +70,7 @@ std::string sceneText(const hair::Settings& settings, const fs::path& from, cons
     Json document = Json::object();
     std::error_code error;
     if (fs::exists(to / kSchema, error)) document["$schema"] = kSchema;
-    document.update(changedFields(movedFiles(settings, from, to), hair::Settings{}));
+    document.update(changedFields(movedFiles(settings, from, to)));
     return readableJson(document);
 }
 

@@ -7,6 +7,7 @@
 #include "benchmarks/viewer/files/strands_or_triangles.h"
 #include "engine/error.h"
 #include "engine/image_file.h"
+#include "hair/fields.h"
 #include "hair/groom/file_extension.h"
 #include "hair/groom/formats/utf8.h"
 #include "hair/groom/importers.h"
@@ -56,10 +57,8 @@ std::string nameIn(const fs::path& directory, const fs::path& file) {
 }
 
 void addMesh(hair::RenderSettings& render, const fs::path& file, const std::string& name) {
-    std::size_t most = 0;
-    hair::forEachField<hair::RenderSettings>([&](const auto& row) {
-        if constexpr (requires { row.maximum_count; }) most = row.maximum_count;
-    });
+    const hair::Field& field = hair::fieldAt(render, &render.meshes);
+    const std::size_t most = std::get<hair::List>(field.kind).maximum_count;
     if (render.meshes.size() >= most)
         throw Error(
             file.string(), "there are " + std::to_string(most) + " meshes already, the most");

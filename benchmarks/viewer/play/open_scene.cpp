@@ -3,18 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "hair/fields.h"
+
 namespace benchmarks {
-
-namespace {
-
-bool sameCamera(const hair::CameraSettings& a, const hair::CameraSettings& b) {
-    bool same = true;
-    hair::forEachField<hair::CameraSettings>(
-        [&](const auto& row) { same = same && a.*row.member == b.*row.member; });
-    return same;
-}
-
-}  // namespace
 
 OpenScene::OpenScene(
     const engine::Device& device, const SceneFile& file, const hair::Settings& settings)
@@ -70,7 +61,7 @@ void OpenScene::edit(std::size_t index, const hair::Settings& settings, Edit edi
     side(index).edit(settings, edit);
     if (!b_ || cameras == Cameras::separate) return;
     Side& other = side(1 - index);
-    if (sameCamera(other.wanted().camera, settings.camera)) return;
+    if (!hair::differ(other.wanted().camera, settings.camera)) return;
     hair::Settings followed = other.wanted();
     followed.camera = settings.camera;
     other.edit(followed, edit);

@@ -7,7 +7,7 @@
 
 namespace benchmarks {
 
-// Every parameter as a widget, made from the tables in hair/settings.h: within the current window
+// Every parameter as a widget, made from the tables of hair/settings.h: within the current window
 // of Dear ImGui. Fields whose pointer or help has `search` in it are shown, all for an empty one.
 // Those that differ from `original` are marked, and can be set back.
 Edit settingsPanel(

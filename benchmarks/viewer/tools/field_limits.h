@@ -21,32 +21,21 @@ inline float within(float value, double minimum, double maximum) {
 // The value that is nearest to `value` among those that the table of `Owner` allows for a member.
 template <class Owner, class Value>
 Value allowed(Value Owner::* member, Value value) {
-    hair::forEachField<Owner>([&](const auto& row) {
-        if constexpr (requires { row.minimum; }) {
-            if constexpr (std::is_same_v<decltype(row.member), Value Owner::*>) {
-                if (row.member != member) return;
-                if constexpr (std::is_same_v<Value, glm::vec3>)
-                    for (int i = 0; i < 3; ++i)
-                        value[i] = within(value[i], row.minimum, row.maximum);
-                else
-                    value = within(value, row.minimum, row.maximum);
-            }
-        }
-    });
+    const Owner owner;
+    const hair::Field& field = hair::fieldAt(owner, &(owner.*member));
+    const hair::Range& range = std::get<hair::Number<Value>>(field.kind);
+    if constexpr (std::is_same_v<Value, glm::vec3>)
+        for (int i = 0; i < 3; ++i) value[i] = within(value[i], range.minimum, range.maximum);
+    else
+        value = within(value, range.minimum, range.maximum);
     return value;
 }
 
 // How many entries the table allows for a list.
 template <class Owner, class Element>
 std::size_t mostOf(std::vector<Element> Owner::* member) {
-    std::size_t most = 0;
-    hair::forEachField<Owner>([&](const auto& row) {
-        if constexpr (requires { row.maximum_count; }) {
-            if constexpr (std::is_same_v<decltype(row.member), std::vector<Element> Owner::*>)
-                if (row.member == member) most = row.maximum_count;
-        }
-    });
-    return most;
+    const Owner owner;
+    return std::get<hair::List>(hair::fieldAt(owner, &(owner.*member)).kind).maximum_count;
 }
 
 }  // namespace benchmarks

@@ -1,0 +1,62 @@
+#include "hair/fields.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace hair {
+namespace {
+
+template <class Value>
+bool differsIn(const Member<Value>& row, SettingsView a, SettingsView b) {
+    return row.in(a) != row.in(b);
+}
+
+bool differsIn(const Choice& row, SettingsView a, SettingsView b) {
+    return row.chosen(a) != row.chosen(b);
+}
+
+bool differsIn(const Group& row, SettingsView a, SettingsView b) {
+    return differ(row.in(a), row.in(b));
+}
+
+bool differsIn(const List& row, SettingsView a, SettingsView b) {
+    if (row.size(a) != row.size(b)) return true;
+    for (std::size_t i = 0; i < row.size(a); ++i)
+        if (differ(row.at(a, i), row.at(b, i))) return true;
+    return false;
+}
+
+}  // namespace
+
+const std::vector<Field>& SettingsView::fields() const { return table_->fields(); }
+
+std::optional<std::size_t> Choice::chosen(SettingsView settings) const {
+    const auto row = std::ranges::find(names, access_->get(address(settings)), &Named<int>::value);
+    if (row == names.end()) return {};
+    return static_cast<std::size_t>(row - names.begin());
+}
+
+void Choice::choose(SettingsRef settings, std::size_t index) const {
+    access_->set(address(settings), names[index].value);
+}
+
+SettingsView List::newElement() const { return elements_->defaults(); }
+
+const Field& fieldAt(SettingsView settings, const void* member) {
+    const auto row = std::ranges::find_if(settings.fields(), [&](const Field& field) {
+        return member ==
+               std::visit([&](const Place& place) { return place.address(settings); }, field.kind);
+    });
+    assert(row != settings.fields().end());
+    return *row;
+}
+
+bool differ(const Field& field, SettingsView a, SettingsView b) {
+    return std::visit([&](const auto& row) { return differsIn(row, a, b); }, field.kind);
+}
+
+bool differ(SettingsView a, SettingsView b) {
+    return std::ranges::any_of(a.fields(), [&](const Field& field) { return differ(field, a, b); });
+}
+
+}  // namespace hair

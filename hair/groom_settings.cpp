@@ -1,0 +1,203 @@
+#include "hair/groom_settings.h"
+
+#include "hair/field_rows.h"
+
+namespace hair {
+
+const Table& tableOf(const WhorlSettings*) {
+    using S = WhorlSettings;
+    static const Table table = tableWith<S>(
+        {number("position", &S::position, -100, 100, "m", "centre, on or near the scalp"),
+         number(
+             "strength", &S::strength, -10, 10, "1",
+             "length, at the radius, of the vector round the centre that is added to the "
+             "direction; "
+             "positive is counter-clockwise seen from outside"),
+         number("radius", &S::radius, 0.001, 10, "m", "distance at which it is strongest")});
+    return table;
+}
+
+const Table& tableOf(const PartingSettings*) {
+    using S = PartingSettings;
+    static const Table table = tableWith<S>(
+        {number("from", &S::from, -100, 100, "m", "one end of the line, on or near the scalp"),
+         number("to", &S::to, -100, 100, "m", "its other end"),
+         number(
+             "strength", &S::strength, 0, 10, "1",
+             "length, at the line, of the vector away from it that is added to the direction; 0 is "
+             "no parting"),
+         number(
+             "reach", &S::reach, 0.001, 10, "m",
+             "distance from the line over which the vector falls to 1/e")});
+    return table;
+}
+
+const Table& tableOf(const GrowSettings*) {
+    using S = GrowSettings;
+    static const Table table = tableWith<S>(
+        {fileName("mesh", &S::mesh, "the mesh; the path is relative to the scene file"),
+         text(
+             "scalp", &S::scalp,
+             "where hair grows: the name of a material, part (mesh, object, group) or vertex group "
+             "of the mesh; \"*\": everywhere"),
+         fileName(
+             "mask", &S::mask,
+             "picture over the mesh's texture coordinates: how likely a root is, black never; "
+             "empty: everywhere alike"),
+         choice(
+             "placement", &S::placement,
+             {{RootPlacement::poisson_disc, "poisson_disc"}, {RootPlacement::random, "random"}},
+             "poisson_disc: roots keep a distance from each other; random: independent, uniform in "
+             "area"),
+         number("vertices", &S::vertices, 2, 256, "count", "vertices per guide, root included"),
+         number("length", &S::length, 0.001, 2, "m", "length of a guide"),
+         fileName(
+             "length_map", &S::length_map,
+             "picture over the mesh's texture coordinates whose brightness, 0 to 1, is a factor of "
+             "the length; empty: 1"),
+         number(
+             "length_variation", &S::length_variation, 0, 0.99, "1",
+             "a guide is shorter by a random fraction up to this"),
+         number(
+             "comb", &S::comb, -10, 10, "1",
+             "vector added to the unit surface normal before a guide's direction is normalised"),
+         number(
+             "droop", &S::droop, 0, 100, "1/m",
+             "how fast the direction turns toward gravity along the guide; 0 is straight"),
+         group("whorl", &S::whorl, "hair turning round a point"),
+         group("parting", &S::parting, "hair combed away from a line")});
+    return table;
+}
+
+// ---- Styling, in the order in which it is applied -----------------------------------------------
+
+const Table& tableOf(const ClumpSettings*) {
+    using S = ClumpSettings;
+    static const Table table = tableWith<S>(
+        {number(
+             "strength", &S::strength, 0, 1, "1",
+             "how far a tip is drawn to its clump's centre strand; 1 is all the way"),
+         number(
+             "spacing", &S::spacing, 0.0001, 10, "m", "distance between the roots of two clumps"),
+         number(
+             "start", &S::start, 0, 1, "1", "fraction of the length up to which nothing moves")});
+    return table;
+}
+
+const Table& tableOf(const WaveSettings*) {
+    using S = WaveSettings;
+    static const Table table = tableWith<S>(
+        {number(
+             "amplitude", &S::amplitude, 0, 1, "m", "amplitude of a plane sine across the strand"),
+         number("frequency", &S::frequency, 0, 10000, "1/m", "waves per metre of strand"),
+         number(
+             "phase_variation", &S::phase_variation, 0, 1, "1",
+             "random phase of a strand, up to this part of a wave"),
+         number(
+             "start", &S::start, 0, 1, "1",
+             "fraction of the length over which the amplitude grows from 0")});
+    return table;
+}
+
+const Table& tableOf(const CurlSettings*) {
+    using S = CurlSettings;
+    static const Table table = tableWith<S>(
+        {number("radius", &S::radius, 0, 1, "m", "radius of a helix round the strand"),
+         number("frequency", &S::frequency, 0, 10000, "1/m", "turns per metre of strand"),
+         number(
+             "phase_variation", &S::phase_variation, 0, 1, "1",
+             "random phase of a strand, up to this part of a turn"),
+         number(
+             "start", &S::start, 0, 1, "1",
+             "fraction of the length over which the radius grows from 0")});
+    return table;
+}
+
+const Table& tableOf(const FrizzSettings*) {
+    using S = FrizzSettings;
+    static const Table table = tableWith<S>(
+        {number(
+             "amplitude", &S::amplitude, 0, 1, "m",
+             "largest random displacement, different for every strand"),
+         number("frequency", &S::frequency, 0, 10000, "1/m", "changes of direction per metre"),
+         number(
+             "start", &S::start, 0, 1, "1",
+             "fraction of the length over which the amplitude grows from 0")});
+    return table;
+}
+
+const Table& tableOf(const CutSettings*) {
+    using S = CutSettings;
+    static const Table table = tableWith<S>(
+        {number("length", &S::length, 0, 10, "m", "longer strands are cut to this; 0 cuts none"),
+         number("point", &S::point, -100, 100, "m", "a point of a plane"),
+         number(
+             "normal", &S::normal, -1, 1, "1",
+             "direction in which nothing is left beyond the plane; without length there is no "
+             "plane")});
+    return table;
+}
+
+const Table& tableOf(const TaperSettings*) {
+    using S = TaperSettings;
+    static const Table table = tableWith<S>(
+        {number(
+             "root_width", &S::root_width, 0, 0.1, "m",
+             "width that the groom gets, up to the start; 0 leaves its widths as they are"),
+         number("tip_width", &S::tip_width, 0, 0.1, "m", "width at the tip"),
+         number("start", &S::start, 0, 1, "1", "fraction of the length at which the width falls")});
+    return table;
+}
+
+const Table& tableOf(const StyleSettings*) {
+    using S = StyleSettings;
+    static const Table table = tableWith<S>(
+        {group("clump", &S::clump, "strands drawn together"),
+         group("wave", &S::wave, "waves in a plane"), group("curl", &S::curl, "helices"),
+         group("frizz", &S::frizz, "disorder"), group("cut", &S::cut, "scissors"),
+         group("taper", &S::taper, "widths")});
+    return table;
+}
+
+// ---- Where guides come from ---------------------------------------------------------------------
+
+const Table& tableOf(const FilePlacementSettings*) {
+    using S = FilePlacementSettings;
+    static const Table table = tableWith<S>(
+        {number(
+             "scale", &S::scale, 1e-6, 1e6, "1",
+             "metres in the file's unit of length; formats that state their unit are already in "
+             "metres"),
+         number("rotation", &S::rotation, -360, 360, "deg", "about x, then y, then z"),
+         number("translation", &S::translation, -1000, 1000, "m", "after scale and rotation")});
+    return table;
+}
+
+const Table& tableOf(const GroomSettings*) {
+    using S = GroomSettings;
+    static const Table table = tableWith<S>(
+        {fileName(
+             "file", &S::file,
+             "strands (.hair, .tfx, .hgl, .ply, .obj, .gltf, .glb, .usd), relative to the scene "
+             "file; empty: guides are grown"),
+         fileName(
+             "mesh", &S::mesh,
+             "what the strands of the file grow on; empty: nothing, they float. Grown guides have "
+             "/groom/grow/mesh"),
+         group("placement", &S::placement, "where the strands of the file go"),
+         number(
+             "vertices", &S::vertices, 0, 256, "count",
+             "vertices per strand that the file is resampled to, 0 or at least 2; 0: as many as "
+             "its "
+             "longest list has"),
+         number(
+             "guides", &S::guides, 0, 200000, "count",
+             "guides to grow, or to choose from the file; 0: all of the file's strands, or 86 "
+             "grown "
+             "ones"),
+         group("grow", &S::grow, "guides grown on a scalp"),
+         group("style", &S::style, "what is done to the guides then")});
+    return table;
+}
+
+}  // namespace hair

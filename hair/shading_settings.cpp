@@ -1,0 +1,100 @@
+#include "hair/shading_settings.h"
+
+#include "hair/field_rows.h"
+
+namespace hair {
+
+const Table& tableOf(const LightSettings*) {
+    using S = LightSettings;
+    static const Table table = tableWith<S>(
+        {choice(
+             "type", &S::type,
+             {{LightType::point, "point"},
+              {LightType::directional, "directional"},
+              {LightType::sphere, "sphere"}},
+             "point; directional: from infinity; sphere: a point light with a radius"),
+         number("position", &S::position, -1000, 1000, "m", "of points and spheres"),
+         number(
+             "direction", &S::direction, -1, 1, "1",
+             "in which the light of a directional one goes"),
+         number(
+             "color", &S::color, 0, 100, "1",
+             "what a white matt surface that faces it shows, display RGB"),
+         number("strength", &S::strength, 0, 10000, "1", "factor of color"),
+         number(
+             "reference_distance", &S::reference_distance, 0, 1000, "m",
+             "distance at which it has its color and beyond which it is weaker; 0: it is the same "
+             "everywhere"),
+         number("radius", &S::radius, 0, 100, "m", "of spheres"),
+         toggle("shadows", &S::shadows, "whether what is between stops it: /shading/shadows")});
+    return table;
+}
+
+const Table& tableOf(const ShadowSettings*) {
+    using S = ShadowSettings;
+    static const Table table = tableWith<S>(
+        {toggle("meshes", &S::meshes, "meshes throw shadows on meshes and hair"),
+         choice(
+             "hair", &S::hair,
+             {{HairShadows::none, "none"}, {HairShadows::deep_opacity, "deep_opacity"}},
+             "what hair throws on hair and meshes; deep_opacity: Yuksel and Keyser 2008"),
+         number("resolution", &S::resolution, 64, 4096, "px", "side of a light's map"),
+         number(
+             "layer_depth", &S::layer_depth, 0.0001, 10, "m",
+             "of the first layer of opacity; each of the next is twice as deep"),
+         number(
+             "stopped", &S::stopped, 0, 1, "1",
+             "of phong, kajiya_kay and meshes: part of the light that a strand stops"),
+         number(
+             "softness", &S::softness, 0, 16, "px",
+             "radius in the map over which it is averaged")});
+    return table;
+}
+
+const Table& tableOf(const ShadingSettings*) {
+    using S = ShadingSettings;
+    static const Table table = tableWith<S>(
+        {choice(
+             "model", &S::model,
+             {{ShadingModel::phong, "phong"},
+              {ShadingModel::kajiya_kay, "kajiya_kay"},
+              {ShadingModel::marschner, "marschner"},
+              {ShadingModel::dual_scattering, "dual_scattering"}},
+             "how a strand is lit; phong: thesis (5), (6); kajiya_kay: Kajiya and Kay 1989; "
+             "marschner: light that a fibre reflects and lets through once (R, TT, TRT), d'Eon et "
+             "al. 2011 and Chiang et al. 2016; dual_scattering: the same and what other strands "
+             "scatter, Zinke et al. 2008"),
+         choice(
+             "color_from", &S::color_from,
+             {{ColorSource::rgb, "rgb"}, {ColorSource::melanin, "melanin"}},
+             "rgb: color; melanin: the two pigments"),
+         number("color", &S::color, 0, 1, "1", "hair colour, display RGB"),
+         number(
+             "eumelanin", &S::eumelanin, 0, 100, "1",
+             "brown pigment; absorption (0.419, 0.697, 1.37) per fibre radius"),
+         number(
+             "pheomelanin", &S::pheomelanin, 0, 100, "1",
+             "red pigment; absorption (0.187, 0.4, 1.05) per fibre radius"),
+         number("ambient", &S::ambient, 0, 10, "1", "ambient factor"),
+         number("diffuse", &S::diffuse, 0, 10, "1", "k_d of phong and kajiya_kay"),
+         number("specular", &S::specular, 0, 10, "1", "k_s of phong and kajiya_kay"),
+         number("exponent", &S::exponent, 1, 10000, "1", "n of their specular term"),
+         number(
+             "longitudinal_roughness", &S::longitudinal_roughness, 0.05, 1, "1",
+             "beta_m of marschner and dual_scattering (Chiang et al. 2016)"),
+         number(
+             "azimuthal_roughness", &S::azimuthal_roughness, 0.05, 1, "1",
+             "beta_n of marschner and dual_scattering"),
+         number(
+             "cuticle_tilt", &S::cuticle_tilt, 0, 10, "deg",
+             "alpha: how far cuticle scales stand off; lobes are shifted by -2, 1 and 4 times it"),
+         number("refractive_index", &S::refractive_index, 1.01, 3, "1", "eta of the fibre"),
+         number(
+             "density_factor", &S::density_factor, 0, 1, "1",
+             "d_f = d_b of dual_scattering: how much of its surroundings hair fills"),
+         list("lights", &S::lights, 16, "the lights"),
+         group("shadows", &S::shadows, "what is between a light and what it lights")});
+    return table;
+}
+
+}  // namespace hair

@@ -1,0 +1,254 @@
+#include "hair/simulation_settings.h"
+
+#include "hair/field_rows.h"
+
+namespace hair {
+
+const Table& tableOf(const GlobalSettings*) {
+    using S = GlobalSettings;
+    static const Table table = tableWith<S>({number(
+        "stiffness", &S::stiffness, 0, 1, "1",
+        "fraction of the way to the rest position, per 1/60 s")});
+    return table;
+}
+
+const Table& tableOf(const LocalSettings*) {
+    using S = LocalSettings;
+    static const Table table = tableWith<S>(
+        {number(
+             "stiffness", &S::stiffness, 0, 1, "1",
+             "k_L per iteration at 10 iterations, 1/60 s and segments of 21.4285 mm; used up to "
+             "0.95"),
+         number("iterations", &S::iterations, 0, 64, "count", "iterations per step")});
+    return table;
+}
+
+const Table& tableOf(const LengthSettings*) {
+    using S = LengthSettings;
+    static const Table table = tableWith<S>(
+        {number("iterations", &S::iterations, 0, 256, "count", "red-black iterations per step")});
+    return table;
+}
+
+const Table& tableOf(const FtlSettings*) {
+    using S = FtlSettings;
+    static const Table table = tableWith<S>({number(
+        "velocity_correction", &S::velocity_correction, 0, 1, "1",
+        "part of the projection of the vertex below that a velocity gets back")});
+    return table;
+}
+
+const Table& tableOf(const RodSettings*) {
+    using S = RodSettings;
+    static const Table table = tableWith<S>(
+        {number("iterations", &S::iterations, 1, 64, "count", "Newton iterations per substep")});
+    return table;
+}
+
+const Table& tableOf(const MaterialSettings*) {
+    using S = MaterialSettings;
+    static const Table table = tableWith<S>(
+        {number("density", &S::density, 1, 20000, "kg/m^3", "mass per volume"),
+         number(
+             "radius", &S::radius, 1e-6, 0.01, "m",
+             "radius of the round cross-section; stiffness of `rod`, drag of the wind"),
+         number("youngs_modulus", &S::youngs_modulus, 1, 1e12, "Pa", "E: resists bending"),
+         number("shear_modulus", &S::shear_modulus, 1, 1e12, "Pa", "G: resists twist")});
+    return table;
+}
+
+const Table& tableOf(const WindSettings*) {
+    using S = WindSettings;
+    static const Table table = tableWith<S>(
+        {choice(
+             "mode", &S::mode, {{WindMode::thesis, "thesis"}, {WindMode::drag, "drag"}},
+             "thesis: acceleration by strength, cone and gusts; drag: air drag by speed and "
+             "turbulence, which also brakes hair in still air"),
+         number(
+             "strength", &S::strength, 0, 1500, "m/s^2",
+             "thesis mode: acceleration at magnitude 1; the thesis uses 0 to 15"),
+         number(
+             "direction", &S::direction, -1, 1, "1",
+             "where the wind blows to; any length but zero"),
+         number(
+             "cone_angle", &S::cone_angle, 0, 89, "deg",
+             "thesis mode: half-angle of the cone of four wind vectors round the direction"),
+         number(
+             "gust_rate", &S::gust_rate, 0, 100, "rad/s",
+             "thesis mode: w in magnitude = sin^2(w t) + 0.5; the thesis's 0.05 per frame at 60 Hz "
+             "is 3"),
+         number("speed", &S::speed, 0, 100, "m/s", "drag mode: mean speed of the wind"),
+         number(
+             "turbulence", &S::turbulence, 0, 2, "1",
+             "drag mode: root mean square of each component of the fluctuation over the speed"),
+         number(
+             "turbulence_scale", &S::turbulence_scale, 0.01, 100, "m",
+             "drag mode: size of the largest eddies, which are the gusts"),
+         number(
+             "turbulence_octaves", &S::turbulence_octaves, 1, 8, "count",
+             "drag mode: sizes of eddies, each half of the one before"),
+         number("air_density", &S::air_density, 0, 1000, "kg/m^3", "drag mode: density of the air"),
+         number(
+             "air_viscosity", &S::air_viscosity, 1e-7, 1, "Pa s",
+             "drag mode: dynamic viscosity of the air")});
+    return table;
+}
+
+const Table& tableOf(const Collider*) {
+    using S = Collider;
+    static const Table table = tableWith<S>(
+        {number("a", &S::a, -100, 100, "m", "one end of the axis"),
+         number("b", &S::b, -100, 100, "m", "other end of the axis"),
+         number("radius", &S::radius, 0.0001, 10, "m", "radius"),
+         choice(
+             "follows", &S::follows, {{Follows::head, "head"}, {Follows::world, "world"}},
+             "head: moves with /simulation/motion; world: stands still")});
+    return table;
+}
+
+const Table& tableOf(const DistanceFieldSettings*) {
+    using S = DistanceFieldSettings;
+    static const Table table = tableWith<S>(
+        {fileName(
+             "mesh", &S::mesh,
+             "closed mesh, relative to the scene file; empty: the mesh that the hair grows on"),
+         number(
+             "resolution", &S::resolution, 8, 256, "count",
+             "cells along the longest side of the mesh"),
+         choice(
+             "follows", &S::follows, {{Follows::head, "head"}, {Follows::world, "world"}},
+             "head: moves with /simulation/motion; world: stands still")});
+    return table;
+}
+
+const Table& tableOf(const CollisionSettings*) {
+    using S = CollisionSettings;
+    static const Table table = tableWith<S>(
+        {number("margin", &S::margin, 0, 1, "m", "distance that guides keep from colliders"),
+         number(
+             "friction", &S::friction, 0, 10, "1",
+             "Coulomb's coefficient of friction on colliders")});
+    return table;
+}
+
+const Table& tableOf(const HairHairSettings*) {
+    using S = HairHairSettings;
+    static const Table table = tableWith<S>(
+        {number(
+             "friction", &S::friction, 0, 1, "1",
+             "part of the difference to the other strands' mean velocity that hair loses per 1/60 "
+             "s; 0.05 for loose hair to 0.5 for hair that moves as one"),
+         number(
+             "repulsion", &S::repulsion, 0, 1000, "m^2/s^2",
+             "square of the speed of sound in crowded hair: its pressure over the density beyond "
+             "the crowding; 0.1 to 0.6 for hair of 15 cm; used up to half of (cell / time "
+             "step)^2"),
+         number(
+             "crowding", &S::crowding, 0.1, 100, "1",
+             "density from which hair repels hair, over the mean density at rest"),
+         number(
+             "resolution", &S::resolution, 8, 128, "count",
+             "cells along each side of the grid round the hair; cells much smaller than guide "
+             "segments miss hair")});
+    return table;
+}
+
+const Table& tableOf(const Keyframe*) {
+    using S = Keyframe;
+    static const Table table = tableWith<S>(
+        {number("time", &S::time, 0, 100000, "s", "simulated time; keyframes are in its order"),
+         number(
+             "rotation", &S::rotation, -36000, 36000, "deg",
+             "pitch (nod, about +x), yaw (turn, about +y) and roll (about +z), applied roll first"),
+         number("translation", &S::translation, -100, 100, "m", "displacement")});
+    return table;
+}
+
+const Table& tableOf(const MotionSettings*) {
+    using S = MotionSettings;
+    static const Table table = tableWith<S>(
+        {list(
+             "keyframes", &S::keyframes, 10000,
+             "poses of the head, with smooth motion between them; none: it stands still"),
+         number("pivot", &S::pivot, -100, 100, "m", "point that rotations turn about"),
+         toggle(
+             "repeat", &S::repeat, "start again with the first keyframe at the time of the last")});
+    return table;
+}
+
+const Table& tableOf(const PullKey*) {
+    using S = PullKey;
+    static const Table table = tableWith<S>(
+        {number("time", &S::time, 0, 100000, "s", "simulated time; keys are in its order"),
+         number("position", &S::position, -100, 100, "m", "of the hand; straight between keys")});
+    return table;
+}
+
+const Table& tableOf(const PullSettings*) {
+    using S = PullSettings;
+    static const Table table = tableWith<S>(
+        {number("guide", &S::guide, 0, 4294967295.0, "1", "guide that is held"),
+         number("vertex", &S::vertex, 1, 65535, "1", "its vertex that is held; 0 is the root"),
+         number(
+             "radius", &S::radius, 0, 10, "m",
+             "at this distance from the vertex, at rest, hair gets 1/e of the acceleration; 0: the "
+             "vertex alone"),
+         number(
+             "stiffness", &S::stiffness, 0, 100000, "1/s^2",
+             "acceleration by distance from the vertex to the hand; damped critically"),
+         list("path", &S::path, 10000, "where the hand is; none: it does not pull")});
+    return table;
+}
+
+const Table& tableOf(const SimulationSettings*) {
+    using S = SimulationSettings;
+    static const Table table = tableWith<S>(
+        {choice(
+             "solver", &S::solver,
+             {{Solver::none, "none"},
+              {Solver::shape, "shape"},
+              {Solver::ftl, "ftl"},
+              {Solver::rod, "rod"}},
+             "none: frozen at rest; shape: the thesis's Verlet with shape constraints; ftl: follow "
+             "the leader; rod: Cosserat rods with SI material"),
+         choice(
+             "parallelism", &S::parallelism,
+             {{Parallelism::automatic, "automatic"},
+              {Parallelism::vertex, "vertex"},
+              {Parallelism::strand, "strand"},
+              {Parallelism::serial, "serial"}},
+             "what an invocation of `shape` moves. vertex: two vertices; strand: up to 32, in "
+             "registers; automatic: strand on a CPU, by the number of guides on a GPU; serial: a "
+             "strand, vertex by vertex in memory, to compare with"),
+         number("time_step", &S::time_step, 0.0005, 0.1, "s", "fixed step of simulated time"),
+         number(
+             "substeps", &S::substeps, 0, 64, "count",
+             "solver steps per time step; 0: one, for rod as many as keep a substep to 1/480 s"),
+         number(
+             "settle_steps", &S::settle_steps, 0, 100000, "count",
+             "steps simulated without wind before the first frame"),
+         number("gravity", &S::gravity, -100, 100, "m/s^2", "acceleration of gravity"),
+         number("friction", &S::friction, 0, 1, "1", "fraction of the velocity lost per 1/60 s"),
+         choice(
+             "stiffness_scaling", &S::stiffness_scaling,
+             {{StiffnessScaling::invariant, "invariant"}, {StiffnessScaling::thesis, "thesis"}},
+             "invariant: stiffness means the same at any time step, iteration count and segment "
+             "length; "
+             "thesis: the raw factor, applied once per iteration"),
+         group("global", &S::global, "pull toward the rest position"),
+         group("local", &S::local, "pull toward the rest shape"),
+         group("length", &S::length, "inextensible segments"),
+         group("ftl", &S::ftl, "follow the leader"),
+         group("rod", &S::rod, "Cosserat rods"),
+         group("material", &S::material, "of a hair, for `rod` and the drag of the wind"),
+         group("wind", &S::wind, "wind"),
+         group("collision", &S::collision, "contact with bodies"),
+         list("colliders", &S::colliders, 65536, "capsules that push guides out"),
+         list("distance_fields", &S::distance_fields, 8, "closed meshes that push guides out"),
+         group("hair_hair", &S::hair_hair, "contact of hair with hair, on a grid of density"),
+         group("motion", &S::motion, "keyframed motion of the head"),
+         list("pulls", &S::pulls, 64, "hands that pull at hair")});
+    return table;
+}
+
+}  // namespace hair

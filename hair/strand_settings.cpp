@@ -1,0 +1,112 @@
+#include "hair/strand_settings.h"
+
+#include "hair/field_rows.h"
+
+namespace hair {
+
+const Table& tableOf(const StrandCurlSettings*) {
+    using S = StrandCurlSettings;
+    static const Table table = tableWith<S>(
+        {number("radius", &S::radius, 0, 1, "m", "radius of a helix round the smooth strand"),
+         number(
+             "frequency", &S::frequency, 0, 10000, "1/m",
+             "turns per metre of a strand of mean length"),
+         number(
+             "frequency_variation", &S::frequency_variation, 0, 1, "1",
+             "largest random change of a strand's frequency, as a fraction"),
+         number(
+             "start", &S::start, 0, 1, "1",
+             "fraction of the length over which the radius grows from 0")});
+    return table;
+}
+
+const Table& tableOf(const StrandVariationSettings*) {
+    using S = StrandVariationSettings;
+    static const Table table = tableWith<S>(
+        {number("amplitude", &S::amplitude, 0, 1, "m", "largest offset from the smooth strand"),
+         number("frequency", &S::frequency, 0, 10000, "1/m", "changes of direction per metre"),
+         number("share", &S::share, 0, 1, "1", "part of the strands that is offset"),
+         number(
+             "start", &S::start, 0, 1, "1",
+             "fraction of the length over which the offset grows from 0")});
+    return table;
+}
+
+const Table& tableOf(const StrandSettings*) {
+    using S = StrandSettings;
+    static const Table table = tableWith<S>(
+        {choice(
+             "backend", &S::backend,
+             {{Backend::tessellation, "tessellation"},
+              {Backend::pulling_geometry, "pulling_geometry"}},
+             "tessellation: control, isolines, evaluation, geometry; pulling_geometry: points "
+             "evaluated in "
+             "the vertex stage, the same geometry stage"),
+         choice(
+             "source", &S::source,
+             {{StrandSource::root_triangles, "root_triangles"}, {StrandSource::groom, "groom"}},
+             "root_triangles: strands at random places between guides; groom: the strands of the "
+             "groom's file, each moved by the three guides that it is bound to"),
+         choice(
+             "interpolation", &S::interpolation,
+             {{Interpolation::multi, "multi"},
+              {Interpolation::single, "single"},
+              {Interpolation::mixed, "mixed"}},
+             "multi: the weighted mean of the three guides; single: the guide that weighs most, "
+             "moved to the strand's root; mixed: between the two"),
+         number("blend", &S::blend, 0, 1, "1", "mixed is single at 0 and multi at 1"),
+         toggle(
+             "collision_rule", &S::collision_rule,
+             "from where one of its guides touches a body down to the tip, a strand is single"),
+         choice(
+             "randomness", &S::randomness,
+             {{Randomness::hashed, "hashed"}, {Randomness::thesis, "thesis"}},
+             "places of strands between guides; hashed: other ones in every root triangle; thesis: "
+             "one pattern for all, from a sine"),
+         number(
+             "density", &S::density, 1, 4096, "count",
+             "strands per root triangle; the source groom has its own"),
+         number(
+             "tessellation", &S::tessellation, 1, 64, "count", "drawn segments per guide segment"),
+         choice(
+             "width", &S::width, {{WidthSource::scene, "scene"}, {WidthSource::groom, "groom"}},
+             "scene: root_width to tip_width; groom: the widths that the groom has"),
+         number("root_width", &S::root_width, 0, 0.1, "m", "width at the root"),
+         number("tip_width", &S::tip_width, 0, 0.1, "m", "width at the tip"),
+         group("curl", &S::curl, "curls of the strands between guides"),
+         group("variation", &S::variation, "disorder of the strands between guides"),
+         fileName(
+             "offsets", &S::offsets,
+             "strands whose offsets from their own smooth shape are added to drawn ones, relative "
+             "to the scene file; empty: none"),
+         number(
+             "opacity", &S::opacity, 0, 1, "1",
+             "of a strand; /render/transparency makes use of it"),
+         fileName(
+             "texture", &S::texture,
+             "picture (.png, ...) on strands: across them and, downward, from root to tip; its "
+             "colour is a factor, its alpha one of the opacity; relative to the scene file; empty: "
+             "none"),
+         choice(
+             "curve", &S::curve,
+             {{Curve::bspline, "bspline"},
+              {Curve::bspline_unpinned, "bspline_unpinned"},
+              {Curve::catmull_rom, "catmull_rom"}},
+             "bspline: uniform cubic B-spline through root and tip; bspline_unpinned: the "
+             "thesis's, which floats off the scalp; catmull_rom: through every vertex"),
+         choice(
+             "taper", &S::taper, {{Taper::strand, "strand"}, {Taper::segment, "segment"}},
+             "strand: width falls along the whole strand; segment: the published program's, "
+             "which restarts in every guide segment"),
+         number(
+             "taper_start", &S::taper_start, 0, 1, "1",
+             "part of the taper over which the width stays root_width"),
+         choice(
+             "submission", &S::submission,
+             {{Submission::instanced, "instanced"}, {Submission::batched, "batched"}},
+             "instanced: a root triangle is an instance; batched: patches in draws that fit the "
+             "device")});
+    return table;
+}
+
+}  // namespace hair
