@@ -1,11 +1,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 // Which folder includes what. CMake orders the libraries; it can't see an include that links by
@@ -26,6 +29,11 @@ constexpr Rule kRules[] = {
     {"engine/", "shaders/"},
     {"hair/", "benchmarks/"},
     {"", "tests/", "tests/"},
+    {"shaders/", "engine/"},
+    {"shaders/", "hair/"},
+    {"shaders/", "benchmarks/"},
+    // What the device's results are checked against is no part of the program.
+    {"", "hair/reference/", "tests/", "hair/reference/"},
 
     // Rendering knows of the simulation only the strand view that it is given.
     {"hair/rendering/", "hair/simulation/"},
@@ -101,6 +109,41 @@ std::vector<std::string> includes(const std::filesystem::path& file) {
     return found;
 }
 
+using Graph = std::map<std::string, std::vector<std::string>>;  // file -> what it includes
+
+// The files of a cycle in the order in which they include each other, the first also at the end;
+// empty where there is none.
+class CycleSearch {
+public:
+    explicit CycleSearch(const Graph& graph) : graph_(graph) {}
+
+    std::vector<std::string> cycle() {
+        for (const auto& [file, included] : graph_)
+            if (visit(file)) return path_;
+        return {};
+    }
+
+private:
+    bool visit(const std::string& file) {
+        if (done_.contains(file)) return false;
+        const auto before = std::ranges::find(path_, file);
+        const bool closed = before != path_.end();
+        if (closed) path_.erase(path_.begin(), before);
+        path_.push_back(file);
+        if (closed) return true;
+        if (const auto found = graph_.find(file); found != graph_.end())
+            for (const std::string& included : found->second)
+                if (visit(included)) return true;
+        path_.pop_back();
+        done_.insert(file);
+        return false;
+    }
+
+    const Graph& graph_;
+    std::vector<std::string> path_;
+    std::set<std::string> done_;  // in no cycle
+};
+
 TEST(IncludeDirection, HoldsInEverySource) {
     const std::filesystem::path root = HAIRBENCH_SOURCE_DIR;
     for (const std::string_view folder : kFolders) {
@@ -146,12 +189,46 @@ TEST(IncludeDirection, RulesNameWhatExists) {
     }
 }
 
+TEST(IncludeDirection, HasNoCycle) {
+    const std::filesystem::path root = HAIRBENCH_SOURCE_DIR;
+    Graph graph;
+    for (const std::string_view folder : kFolders)
+        for (const std::string& file : sources(root, folder)) graph[file] = includes(root / file);
+    EXPECT_THAT(CycleSearch(graph).cycle(), testing::IsEmpty());
+}
+
+TEST(IncludeDirection, FindsACycle) {
+    const auto cycle = [](const Graph& graph) { return CycleSearch(graph).cycle(); };
+    using testing::ElementsAre;
+    EXPECT_THAT(
+        cycle({{"a.h", {"b.h", "d.h"}}, {"b.h", {"c.h"}}, {"c.h", {"d.h", "b.h"}}, {"d.h", {}}}),
+        ElementsAre("b.h", "c.h", "b.h"));
+    EXPECT_THAT(cycle({{"a.h", {"a.h"}}}), ElementsAre("a.h", "a.h"));
+    // Two ways to one file are none.
+    EXPECT_THAT(
+        cycle({{"a.h", {"b.h", "c.h"}}, {"b.h", {"d.h"}}, {"c.h", {"d.h", "vector"}}, {"d.h", {}}}),
+        testing::IsEmpty());
+}
+
 TEST(IncludeDirection, RuleCatchesABreachAndKnowsItsException) {
     const Rule rule{"hair/", "nlohmann/", "hair/groom/mesh/gltf_model.cpp"};
     EXPECT_TRUE(breaks(rule, "hair/settings.h", "nlohmann/json.hpp"));
     EXPECT_FALSE(breaks(rule, "hair/groom/mesh/gltf_model.cpp", "nlohmann/json.hpp"));
     EXPECT_FALSE(breaks(rule, "benchmarks/scene.cpp", "nlohmann/json.hpp"));
     EXPECT_FALSE(breaks(rule, "hair/settings.cpp", "hair/fields.h"));
+}
+
+TEST(IncludeDirection, LeavesReferencesToTests) {
+    const auto broken = [](std::string_view file) {
+        return std::ranges::any_of(
+            kRules, [&](const Rule& rule) { return breaks(rule, file, "hair/reference/rod.h"); });
+    };
+    EXPECT_TRUE(broken("hair/simulation/solver_rod.cpp"));
+    EXPECT_TRUE(broken("hair/settings.h"));
+    EXPECT_TRUE(broken("benchmarks/physics/theory.cpp"));
+    EXPECT_TRUE(broken("engine/device.h"));
+    EXPECT_FALSE(broken("hair/reference/ftl.cpp"));
+    EXPECT_FALSE(broken("tests/simulation/gpu_rod_test.cpp"));
 }
 
 }  // namespace

@@ -98,6 +98,28 @@ TEST_F(FrameLoopTest, SharesOutTheTimeOfTheCpu) {
         }
 }
 
+// A frame's device time runs from its first stamp to its last. In an overlapped frame a pass begins
+// with the stamp that ends the one before, so the passes share the whole of it out; isolated passes
+// have barriers between them, which belong to none. No time is shared out twice.
+TEST_F(FrameLoopTest, SharesOutTheTimeOfTheDevice) {
+    constexpr double kRounding = 1e-6;  // 1 ns: of sums in ms
+    const auto passSum = [](const FrameRecord& frame) {
+        double sum = 0.0;
+        for (const PassTime& pass : frame.passes) sum += pass.milliseconds;
+        return sum;
+    };
+    for (const FrameRecord& frame : play(Timing::overlapped, 4)) {
+        EXPECT_GT(frame.device, 0.0);
+        EXPECT_NEAR(passSum(frame), frame.device, kRounding);
+    }
+    for (const FrameRecord& frame : play(Timing::isolated, 4)) {
+        EXPECT_GT(frame.device, 0.0);
+        EXPECT_LE(passSum(frame), frame.device + kRounding);
+    }
+    for (const FrameRecord& frame : play(Timing::wall_clock, 2))
+        EXPECT_NEAR(passSum(frame), frame.wall, kRounding);
+}
+
 // What a frame uses is its passes' and what is done between them.
 TEST_F(FrameLoopTest, TellsWhatFramesAndPassesUseOfTheCpu) {
     double all = 0.0;

@@ -121,6 +121,28 @@ TEST(GateReport, CancelsADriftInTheCalibration) {
         EXPECT_NEAR(calibration[i], i % 2 == 0 ? 0.01 : -0.01, 1e-12);
 }
 
+// A rate falls where its cost rises: by 1 % from process to process, and B's by a quarter more. In
+// the calibration, too, only differences of the cost are above 0 where the second is worse.
+TEST(GateReport, TurnsRatesRoundInEveryDifference) {
+    const FakeBuilds builds([](char side, int n) {
+        Json report = madeReport();
+        const double rate = 100.0 * std::exp(-0.01 * n) / (side == 'B' ? 1.25 : 1.0);
+        report["cases"].push_back(madeCase("x", {{"fps", {rate}, "1/s", "higher"}}));
+        return report;
+    });
+    builds.gate("--calibrate 12 --metrics fps");
+    const Json time = builds.report()["times"][0];
+    const auto calibration = time["calibration"].get<std::vector<double>>();
+    const auto differences = time["differences"].get<std::vector<double>>();
+    ASSERT_EQ(calibration.size(), 12u);
+    ASSERT_GE(differences.size(), 12u);
+    // Pairs come in both orders: A B, B A ...
+    for (std::size_t i = 0; i < calibration.size(); ++i)
+        EXPECT_NEAR(calibration[i], i % 2 == 0 ? 0.01 : -0.01, 1e-12);
+    for (std::size_t i = 0; i < differences.size(); ++i)
+        EXPECT_NEAR(differences[i], std::log(1.25) + (i % 2 == 0 ? 0.01 : -0.01), 1e-12);
+}
+
 // The software itself, as plumbing: what it decides of times is the machine's affair.
 TEST(GateReport, IsOfItsSchemaForARealGate) {
     const TemporaryFolder folder;

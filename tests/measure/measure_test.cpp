@@ -1,11 +1,15 @@
 #include "benchmarks/measure.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <span>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "benchmarks/hash.h"
+#include "benchmarks/measure/round_player.h"
 #include "tests/error_text.h"
 #include "tests/gpu_fixture.h"
 
@@ -29,6 +33,12 @@ hair::Settings smallCase() {
 const Metric* find(const CaseResult& result, const std::string& name) {
     const auto found = std::ranges::find(result.metrics, name, &Metric::name);
     return found == result.metrics.end() ? nullptr : &*found;
+}
+
+double onlySample(const CaseResult& result, const std::string& name) {
+    const Metric* metric = find(result, name);
+    EXPECT_TRUE(metric && metric->samples.size() == 1) << name;
+    return metric && !metric->samples.empty() ? metric->samples.front() : 0.0;
 }
 
 std::size_t samplesOf(const CaseResult& result, const std::string& name) {
@@ -59,6 +69,69 @@ TEST_F(MeasureTest, PlaysOneRoundOfEachModeWithoutTime) {
     EXPECT_EQ(result.sampling[0].mode, "overlapped");
     EXPECT_EQ(result.sampling[1].mode, "isolated");
     for (const Sampling& mode : result.sampling) EXPECT_EQ(mode.rounds, 1u);
+}
+
+// A round of five frames: the middle one of the times that are reported is what was judged.
+TEST_F(MeasureTest, JudgesEachModeByTheTimeThatItReports) {
+    std::map<std::string, double> medians;
+    const CaseResult result = measured(
+        smallCase(),
+        {.stop = [] { return false; },
+         .progress = [&](const SamplingState& state) { medians[state.mode] = state.median; }});
+    for (const auto& [mode, name] :
+         {std::pair{"overlapped", "frame.time"}, std::pair{"isolated", "frame.isolated.time"}}) {
+        ASSERT_EQ(samplesOf(result, name), 5u);
+        std::vector<double> times = find(result, name)->samples;
+        std::ranges::sort(times);
+        EXPECT_GT(times.front(), 0.0) << name;
+        EXPECT_EQ(medians[mode], times[2]) << mode;
+    }
+}
+
+// Of one frame every median is its only sample: the passes add up to their share of its wall clock,
+// and what they take less when they overlap is saved.
+TEST_F(MeasureTest, TellsWhatOverlapSaves) {
+    hair::Settings settings = smallCase();
+    settings.run.frames = 1;
+    const CaseResult result = measured(settings);
+    const double frame = onlySample(result, "frame.time");
+    const double passes =
+        result.trust.pass_sum_over_wall.value() * onlySample(result, "frame.isolated.time");
+    EXPECT_GT(passes, 0.0);
+    EXPECT_NEAR(
+        onlySample(result, "frame.overlap"), passes - frame, 1e-9 * (passes + frame));  // rounding
+}
+
+TEST_F(MeasureTest, TellsHowLongTheDeviceWasAtWork) {
+    const CaseResult result = measured(smallCase());
+    ASSERT_EQ(samplesOf(result, "frame.device.time"), 5u);
+    for (const double time : find(result, "frame.device.time")->samples) EXPECT_GT(time, 0.0);
+}
+
+// 2 frames to warm up, 5 that count and the one that ends the last of them, played by hand.
+TEST_F(MeasureTest, HashesWhatTheLastFrameLeaves) {
+    const hair::Settings settings = smallCase();
+    Case by_hand(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
+    engine::FrameLoop loop(device(), engine::Timing::isolated);
+    std::set<std::string> earlier_states;
+    for (int i = 0; i < 2 + 5 + 1; ++i) {
+        earlier_states.insert(by_hand.stateHash());
+        loop.frame([&](engine::Passes& passes) { by_hand.frame(passes); });
+        loop.finish();
+    }
+    const std::vector<std::uint8_t> last = by_hand.picture();
+    ASSERT_EQ(earlier_states.size(), 8u);  // so that one frame more or less would show
+    ASSERT_FALSE(earlier_states.contains(by_hand.stateHash()));
+
+    Case test_case(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
+    CaseResult result;
+    const std::vector<std::uint8_t> picture =
+        measure(device(), test_case, settings.run, {.stop = [] { return false; }}, result);
+    ASSERT_EQ(picture.size(), 64u * 36u * 4u);
+    EXPECT_EQ(picture, last);
+    EXPECT_EQ(result.image_hash, hashBytes(std::as_bytes(std::span(last))));
+    const std::vector<glm::vec3> guides = by_hand.guides();
+    EXPECT_EQ(result.state_hash, hashBytes(std::as_bytes(std::span(guides))));
 }
 
 // Every sample of every round is kept, and the hooks are told of each round.
@@ -149,6 +222,72 @@ TEST_F(MeasureTest, StopsWhenAsked) {
     settings.run.precision = 0.0f;
     EXPECT_THROW(measured(settings, {.stop = [&] { return ++asked > 30; }}), Interrupted);
     EXPECT_EQ(asked, 31);
+}
+
+class RoundPlayerTest : public GpuTest {
+protected:
+    // Frames advance by a third of a step, so that every third frame simulates and no other does.
+    // Which frames these are is in their passes then, whatever they took.
+    static hair::Settings thirdsOfSteps() {
+        hair::Settings settings = smallCase();
+        settings.simulation.time_step = 1.0f / 60.0f;
+        settings.run.frame_time = 1.0f / 180.0f;
+        return settings;
+    }
+
+    static std::vector<bool> simulating(const std::vector<engine::FrameRecord>& frames) {
+        std::vector<bool> all;
+        for (const engine::FrameRecord& frame : frames)
+            all.push_back(
+                std::ranges::find(frame.passes, "simulate", &engine::PassTime::name) !=
+                frame.passes.end());
+        return all;
+    }
+};
+
+TEST_F(RoundPlayerTest, GivesTheFramesAfterTheWarmUpInEveryRound) {
+    const hair::Settings settings = thirdsOfSteps();
+    Case test_case(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
+    std::uint32_t played = 0;
+    const MeasureHooks hooks{.stop = [&] {
+        ++played;
+        return false;
+    }};
+    for (const engine::Timing timing :
+         {engine::Timing::overlapped, engine::Timing::isolated, engine::Timing::wall_clock})
+        for (const auto& [warmup, frames] :
+             {std::pair{2u, 5u}, std::pair{3u, 4u}, std::pair{6u, 1u}}) {
+            const hair::RunSettings run{.warmup = warmup, .frames = frames};
+            RoundPlayer player({device(), test_case, run, hooks}, timing);
+            std::vector<bool> expected;
+            for (std::uint32_t frame = warmup + 1; frame <= warmup + frames; ++frame)
+                expected.push_back(frame % 3 == 0);
+            for (int round = 0; round < 3; ++round) {
+                played = 0;
+                EXPECT_EQ(simulating(player.round()), expected)
+                    << warmup << " to warm up, " << frames << ", round " << round;
+                EXPECT_EQ(played, warmup + frames + 1);  // the one that ends the last of them
+            }
+        }
+}
+
+TEST_F(RoundPlayerTest, HashesEveryRowAndEveryGuide) {
+    const hair::Settings settings = smallCase();
+    Case test_case(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
+    const MeasureHooks hooks{.stop = [] { return false; }};
+    RoundPlayer player({device(), test_case, settings.run, hooks}, engine::Timing::isolated);
+    player.round();
+    const RoundEnd& end = player.firstEnd();
+    ASSERT_EQ(end.picture.size(), 64u * 36u * 4u);
+    EXPECT_EQ(end.picture, test_case.picture());
+    const std::string picture = hashBytes(std::as_bytes(std::span(end.picture)));
+    EXPECT_EQ(end.picture_hash, picture);
+    EXPECT_EQ(test_case.pictureHash(), picture);
+    const std::vector<glm::vec3> guides = test_case.guides();
+    ASSERT_EQ(
+        guides.size(),
+        std::size_t{test_case.groom().strand_count} * test_case.groom().vertices_per_strand);
+    EXPECT_EQ(end.state_hash, hashBytes(std::as_bytes(std::span(guides))));
 }
 
 }  // namespace

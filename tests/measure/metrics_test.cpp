@@ -46,6 +46,10 @@ TEST(Metrics, OfOverlappedFramesSayWhoWaitsForWhom) {
                            "fps", "frame.time", "frame.device.time", "cpu.record.time",
                            "cpu.submit.time", "cpu.wait.time", "gpu.wait.time"));
     EXPECT_THAT(metricOf(result, "fps").samples, ElementsAre(100.0));
+    EXPECT_THAT(metricOf(result, "frame.time").samples, ElementsAre(10.0, 10.0));
+    EXPECT_THAT(metricOf(result, "frame.device.time").samples, ElementsAre(8.0, 13.0));
+    EXPECT_THAT(metricOf(result, "cpu.record.time").samples, ElementsAre(2.0, 2.0));
+    EXPECT_THAT(metricOf(result, "cpu.submit.time").samples, ElementsAre(1.0, 1.0));
     EXPECT_THAT(metricOf(result, "cpu.wait.time").samples, ElementsAre(6.5, 6.5));
     EXPECT_THAT(metricOf(result, "gpu.wait.time").samples, ElementsAre(2.0, 0.0));
     for (const Metric& metric : result.metrics) EXPECT_EQ(metric.mode, "overlapped");

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "benchmarks/measure/sample_mode.h"
 #include "tests/decide/noise.h"
 #include "tests/error_text.h"
 
@@ -17,10 +18,16 @@ using testing::SizeIs;
 
 constexpr double kBaseClock = 1000.0;
 
+using FrameTime = double engine::FrameRecord::*;
+
+constexpr FrameTime kFrameTimes[] = {
+    &engine::FrameRecord::interval, &engine::FrameRecord::wall, &engine::FrameRecord::device};
+
 // A machine whose clock only advances as rounds are played and pauses made.
 struct Machine {
     std::function<double(int round, int frame)> time;                       // ms
     std::function<double(int round)> clock = [](int) { return kBaseClock; };  // MHz
+    FrameTime judged = &engine::FrameRecord::wall;  // the others are of a machine that gets slower
     int frames = 10;
     double now = 100.0;  // s
     int rounds = 0;
@@ -29,13 +36,16 @@ struct Machine {
 
     SampledRounds sample(SamplingRule rule) {
         rule.mode = "isolated";
-        rule.time = &engine::FrameRecord::wall;
+        rule.time = judged;
         return sampleRounds(
             rule, {.play =
                        [&] {
                            std::vector<engine::FrameRecord> round(static_cast<std::size_t>(frames));
                            for (int i = 0; i < frames; ++i) {
-                               round[static_cast<std::size_t>(i)].wall = time(rounds, i);
+                               engine::FrameRecord& frame = round[static_cast<std::size_t>(i)];
+                               for (const FrameTime each : kFrameTimes)
+                                   frame.*each = 1000.0 + 100.0 * rounds;
+                               frame.*judged = time(rounds, i);
                                now += time(rounds, i) * 1e-3;
                            }
                            ++rounds;
@@ -76,6 +86,38 @@ TEST(SampleRounds, PlaysOneWithoutTime) {
     EXPECT_EQ(sampled.sampling.steady, std::nullopt);
     EXPECT_NEAR(sampled.sampling.seconds, 0.095, 1e-9);
     EXPECT_THAT(sampled.conditions, SizeIs(1));
+}
+
+// Rounds of 0.1 s until 32 times of 10 ms are steady: whichever time it is, nothing else is judged.
+TEST(SampleRounds, JudgesTheTimeThatTheRuleNames) {
+    for (const FrameTime judged : kFrameTimes) {
+        Machine machine{.time = [](int, int) { return 10.0; }, .judged = judged};
+        const SampledRounds sampled = machine.sample({.precision = 0.01, .max_time = 60.0});
+        EXPECT_EQ(sampled.sampling.steady, true);
+        EXPECT_EQ(sampled.sampling.precision, 0.0);
+        EXPECT_EQ(machine.rounds, 4);
+        EXPECT_EQ(machine.told.back().median, 10.0);
+        for (const engine::FrameRecord& frame : sampled.frames) EXPECT_EQ(frame.*judged, 10.0);
+    }
+}
+
+// An overlapped frame has no wall clock of its own, and the interval of another is the wait for it
+// and whatever the CPU does between frames.
+TEST(SamplingRule, NamesTheTimeOfTheMode) {
+    engine::FrameRecord frame;
+    frame.interval = 1.0;
+    frame.wall = 2.0;
+    frame.device = 3.0;
+    const hair::RunSettings run{.precision = 0.25f, .max_time = 7.0f};
+    const auto rule = [&](engine::Timing timing) { return samplingRule(timing, run); };
+    EXPECT_EQ(frame.*rule(engine::Timing::overlapped).time, 1.0);
+    EXPECT_EQ(frame.*rule(engine::Timing::isolated).time, 2.0);
+    EXPECT_EQ(frame.*rule(engine::Timing::wall_clock).time, 2.0);
+    EXPECT_EQ(rule(engine::Timing::overlapped).mode, "overlapped");
+    EXPECT_EQ(rule(engine::Timing::isolated).mode, "isolated");
+    EXPECT_EQ(rule(engine::Timing::wall_clock).mode, "wall_clock");
+    EXPECT_EQ(rule(engine::Timing::isolated).precision, 0.25);
+    EXPECT_EQ(rule(engine::Timing::isolated).max_time, 7.0);
 }
 
 // Noise of 1 %: its median is known to 1 % long before 60 s, and all of it is kept.
