@@ -7,6 +7,7 @@
 #include "engine/target.h"
 #include "tests/gpu_fixture.h"
 #include "tests/largest_difference.h"
+#include "tests/required.h"
 
 namespace engine {
 namespace {
@@ -15,7 +16,7 @@ class FrameLoopTest : public GpuTest {
 protected:
     void SetUp() override {
         GpuTest::SetUp();
-        if (IsSkipped()) return;
+        if (isOver()) return;
         big_.emplace(device(), BufferDescription{.size = 64 << 20, .name = "big"});
         small_.emplace(device(), BufferDescription{.size = 1 << 10, .name = "small"});
     }
