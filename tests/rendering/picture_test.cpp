@@ -156,7 +156,7 @@ TEST_F(PictureTest, APixelIsTheMeanOfItsSamples) {
         std::uint32_t msaa;
         std::uint32_t ssaa;
     };
-    for (const Row& row : {Row{1, 2}, {1, 4}, {4, 1}, {4, 2}, {4, 4}})
+    for (const Row& row : {Row{1, 2}, {1, 4}, {4, 1}, {4, 2}})
         for (const ToneMap tone_map : {ToneMap::none, ToneMap::srgb}) {
             if (!device().supportsSamples(row.msaa)) continue;
             const std::uint32_t parts = row.msaa * row.ssaa;
