@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/device.h"
+#include "tests/required.h"
 
 // One validated device for all GPU tests of a program, made for the first and gone before main()
 // returns: later, the validation layer's own globals are gone.
@@ -41,7 +42,7 @@ inline testing::Environment* const gpu_environment =
 class GpuTest : public testing::Test {
 protected:
     void SetUp() override {
-        if (!GpuEnvironment::device()) GTEST_SKIP() << GpuEnvironment::missing();
+        if (!GpuEnvironment::device()) return skipWithout(Need::device, GpuEnvironment::missing());
         device().messages().take();
     }
 

@@ -7,7 +7,7 @@
 #include "tests/cli/run_hairbench.h"
 
 // The interpreter of scripts/setup --python, for tests that hold the program against other
-// people's libraries. Empty where there is none: such tests are skipped.
+// people's libraries. Empty where there is none: skipWithout(Need::python, kNoPython).
 inline std::string pythonInterpreter() {
     const char* wanted = std::getenv("HAIRBENCH_PYTHON");
     if (wanted && *wanted) return wanted;

@@ -4,6 +4,7 @@
 
 #include "tests/benchmarks/schema_errors.h"
 #include "tests/cli/run_hairbench.h"
+#include "tests/required.h"
 #include "tests/temporary_folder.h"
 
 namespace {
@@ -14,7 +15,7 @@ using testing::IsEmpty;
 class AblateCli : public testing::Test {
 protected:
     void SetUp() override {
-        if (hairbench("devices").status != 0) GTEST_SKIP() << "no Vulkan device";
+        if (hairbench("devices").status != 0) return skipWithout(Need::device, "no Vulkan device");
         folder_.write("small.json", R"({
             "base": ")" HAIRBENCH_SCENES_DIR R"(/smoke.json",
             "render": {"width": 64, "height": 48},

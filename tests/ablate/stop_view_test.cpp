@@ -11,6 +11,7 @@
 #include "engine/samples_query.h"
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/pictures.h"
+#include "tests/required.h"
 
 namespace benchmarks {
 namespace {
@@ -23,7 +24,7 @@ class StopViewTest : public GpuTest {
 protected:
     void SetUp() override {
         GpuTest::SetUp();
-        if (IsSkipped()) return;
+        if (isOver()) return;
         settings_ = hair::thesisAtRest();
         settings_.strands.density = 16;
         settings_.strands.root_width = 0.002f;  // m: in a small picture there is more to see

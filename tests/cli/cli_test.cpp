@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_hairbench.h"
+#include "tests/required.h"
 #include "tests/temporary_folder.h"
 
 namespace {
@@ -58,7 +59,7 @@ TEST(Cli, ListsTheWholeSweep) {
 }
 
 TEST(Cli, DryRunEstimatesAndWritesNothing) {
-    if (!hasDevice()) GTEST_SKIP() << "no Vulkan device";
+    if (!hasDevice()) return skipWithout(Need::device, "no Vulkan device");
     const TemporaryFolder folder;
     const fs::path out = folder.path() / "report.json";
     const Outcome outcome =
@@ -174,7 +175,7 @@ TEST(Cli, NoDriverIsStatus77) {
 class CliRun : public testing::Test {
 protected:
     void SetUp() override {
-        if (!hasDevice()) GTEST_SKIP() << "no Vulkan device";
+        if (!hasDevice()) return skipWithout(Need::device, "no Vulkan device");
     }
 
     nlohmann::json run(const std::string& name, const std::string& options) {

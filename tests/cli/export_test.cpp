@@ -14,6 +14,7 @@
 
 #include "tests/cli/reference_python.h"
 #include "tests/cli/run_hairbench.h"
+#include "tests/required.h"
 #include "tests/temporary_folder.h"
 
 namespace {
@@ -55,7 +56,7 @@ double distance(const Point& a, const Point& b) {
 class ExportCli : public testing::Test {
 protected:
     void SetUp() override {
-        if (hairbench("devices").status != 0) GTEST_SKIP() << "no Vulkan device";
+        if (hairbench("devices").status != 0) return skipWithout(Need::device, "no Vulkan device");
     }
 
     std::string quoted(std::string_view name) const {

@@ -8,6 +8,7 @@
 
 #include "tests/cli/reference_python.h"
 #include "tests/cli/run_hairbench.h"
+#include "tests/required.h"
 #include "tests/temporary_folder.h"
 
 namespace {
@@ -18,7 +19,7 @@ using testing::Not;
 class RunReferenceCli : public testing::Test {
 protected:
     void SetUp() override {
-        if (hairbench("devices").status != 0) GTEST_SKIP() << "no Vulkan device";
+        if (hairbench("devices").status != 0) return skipWithout(Need::device, "no Vulkan device");
         folder_.write("still.json", R"({
             "base": ")" HAIRBENCH_SCENES_DIR R"(/smoke.json",
             "render": {"width": 64, "height": 48},

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/cli/run_hairbench.h"
+#include "tests/required.h"
 #include "tests/temporary_folder.h"
 
 namespace {
@@ -17,7 +18,7 @@ using testing::HasSubstr;
 class SequenceCli : public testing::Test {
 protected:
     void SetUp() override {
-        if (hairbench("devices").status != 0) GTEST_SKIP() << "no Vulkan device";
+        if (hairbench("devices").status != 0) return skipWithout(Need::device, "no Vulkan device");
     }
 
     std::string quoted(std::string_view name) const {

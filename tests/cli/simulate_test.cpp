@@ -8,6 +8,7 @@
 
 #include "tests/cli/run_hairbench.h"
 #include "tests/python.h"
+#include "tests/required.h"
 #include "tests/temporary_folder.h"
 
 namespace {
@@ -18,7 +19,7 @@ using testing::HasSubstr;
 class SimulateCli : public testing::Test {
 protected:
     void SetUp() override {
-        if (hairbench("devices").status != 0) GTEST_SKIP() << "no Vulkan device";
+        if (hairbench("devices").status != 0) return skipWithout(Need::device, "no Vulkan device");
     }
 
     std::string quoted(std::string_view name) const {
@@ -43,7 +44,7 @@ TEST_F(SimulateCli, WritesTheSameStrandsInEveryFormat) {
         EXPECT_EQ(last.status, 0) << last.output;
         EXPECT_THAT(last.output, HasSubstr("32640 points, frame 2, the last, of smoke"));
     }
-    if (pythonInterpreter().empty()) GTEST_SKIP() << kNoPython;
+    if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
     const Outcome compared = runPython(
         "tests/cli/compare_frames.py",
         "3 " + quoted("hair.usda") + ' ' + quoted("hair.hair") + ' ' + quoted("hair.obj"));

@@ -6,6 +6,7 @@
 #include "benchmarks/doctor/checks.h"
 #include "tests/benchmarks/schema_errors.h"
 #include "tests/cli/run_hairbench.h"
+#include "tests/required.h"
 #include "tests/temporary_folder.h"
 
 namespace benchmarks {
@@ -23,7 +24,7 @@ TEST(DoctorCommand, SaysTheSameInItsTableItsReportAndItsStatus) {
     const std::string out = folder.file("new/doctor.json").string();
     const Outcome outcome =
         hairbench("doctor -o '" + out + "'", "cd '" + folder.path().string() + "' && ");
-    if (outcome.status == kNoDevice) GTEST_SKIP() << outcome.output;
+    if (outcome.status == kNoDevice) return skipWithout(Need::device, outcome.output);
     ASSERT_TRUE(outcome.status == 0 || outcome.status == 3) << outcome.output;
     const std::string text = textOf(out);
     EXPECT_THAT(
@@ -48,9 +49,9 @@ TEST(DoctorCommand, SaysTheSameInItsTableItsReportAndItsStatus) {
 
 TEST(DoctorCommand, FindsTheValidationLayerBad) {
     const Outcome outcome = hairbench("doctor --validate");
-    if (outcome.status == kNoDevice) GTEST_SKIP() << outcome.output;
+    if (outcome.status == kNoDevice) return skipWithout(Need::device, outcome.output);
     if (outcome.output.find("is not installed") != std::string::npos)
-        GTEST_SKIP() << outcome.output;
+        return skipWithout(Need::validation, outcome.output);
     EXPECT_EQ(outcome.status, 3);
     EXPECT_THAT(outcome.output, HasSubstr("the validation layer is on"));
 }

@@ -5,6 +5,7 @@
 
 #include "tests/exporters/exported.h"
 #include "tests/python.h"
+#include "tests/required.h"
 #include "tests/temporary_folder.h"
 
 namespace benchmarks {
@@ -33,7 +34,8 @@ std::string interpreter() {
 TEST(Gbench, IsReadByGoogleBenchmarksComparePy) {
     const std::string script = comparePy();
     const std::string python = interpreter();
-    if (script.empty()) GTEST_SKIP() << "no compare.py: install libbenchmark-tools";
+    if (script.empty())
+        return skipWithout(Need::gbench, "no compare.py: install libbenchmark-tools");
     if (python.empty()) GTEST_SKIP() << "no Python with numpy and scipy";
     const TemporaryFolder folder;
     Report slower = sampleReport();

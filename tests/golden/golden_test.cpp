@@ -9,6 +9,7 @@
 #include "tests/golden/features.h"
 #include "tests/gpu_fixture.h"
 #include "tests/python.h"
+#include "tests/required.h"
 #include "tests/temporary_folder.h"
 
 // Pictures of features against those that people have looked at: tests/golden/README.md.
@@ -48,17 +49,17 @@ class GoldenTest : public GpuTest {
 protected:
     void SetUp() override {
         GpuTest::SetUp();
-        if (IsSkipped()) return;
+        if (isOver()) return;
         if (device().info().driver_id != VK_DRIVER_ID_MESA_LLVMPIPE)
             GTEST_SKIP() << "the pictures are lavapipe's";
-        if (pythonInterpreter().empty()) GTEST_SKIP() << kNoPython;
+        if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
     }
 };
 
-// What was drawn stays in golden/ beside the program, to look at, and to take over where a change
-// is meant.
+// What was drawn stays in golden/ beside the program, wherever that was started, to look at, and to
+// take over where a change is meant.
 TEST_F(GoldenTest, FeaturesLookAsTheyDid) {
-    const fs::path drawn = fs::current_path() / "golden";
+    const fs::path drawn = HAIRBENCH_DRAWN_DIR;
     std::vector<std::pair<fs::path, fs::path>> pairs;
     for (const Feature& feature : features()) {
         Settings settings = plainSettings();

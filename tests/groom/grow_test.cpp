@@ -15,6 +15,7 @@
 #include "tests/error_text.h"
 #include "tests/groom/surface_meshes.h"
 #include "tests/groom/test_meshes.h"
+#include "tests/largest_difference.h"
 #include "tests/temporary_folder.h"
 
 namespace hair {
@@ -49,15 +50,14 @@ double distanceToTriangle(
 }
 
 double distanceToScalp(const Mesh& mesh, const glm::vec3& point) {
-    double nearest = std::numeric_limits<double>::infinity();
+    Extremes distances;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         if (mesh.materials[mesh.triangle_materials[i]].name != "scalp") continue;
         const auto& [a, b, c] = mesh.triangles[i];
-        nearest = std::min(
-            nearest,
+        distances.add(
             distanceToTriangle(point, mesh.positions[a], mesh.positions[b], mesh.positions[c]));
     }
-    return nearest;
+    return distances.least();
 }
 
 std::vector<glm::vec3> rootsOf(const Groom& groom) {
@@ -157,17 +157,17 @@ TEST(Grow, SpreadsRootsWell) {
         for (const std::uint32_t guides : {86u, 344u}) {
             for (std::uint32_t seed = 0; seed < 4; ++seed) {
                 const std::vector<glm::vec3> roots = rootsOf(grow(mesh, {}, guides, seed));
-                float smallest = std::numeric_limits<float>::infinity();
-                float sum = 0.0f;
+                Extremes all_nearest;
+                double sum = 0.0;
                 for (std::size_t i = 0; i < roots.size(); ++i) {
-                    float nearest = std::numeric_limits<float>::infinity();
+                    Extremes distances;
                     for (std::size_t j = 0; j < roots.size(); ++j) {
-                        if (i != j) nearest = std::min(nearest, glm::distance(roots[i], roots[j]));
+                        if (i != j) distances.add(double{glm::distance(roots[i], roots[j])});
                     }
-                    smallest = std::min(smallest, nearest);
-                    sum += nearest;
+                    all_nearest.add(distances.least());
+                    sum += distances.least();
                 }
-                EXPECT_GT(smallest, 0.5f * sum / static_cast<float>(guides));
+                EXPECT_GT(all_nearest.least(), 0.5 * sum / guides);
             }
         }
     }
@@ -369,7 +369,7 @@ TEST(Grow, VariesLengths) {
     const Groom groom =
         grow(makeCap(), {.length = 1.0f, .length_variation = 0.6f, .droop = 2.0f}, 1000, 1);
     double sum = 0.0;
-    double least = 1.0;
+    Extremes lengths;
     for (std::uint32_t i = 0; i < 1000; ++i) {
         const auto strand = groom.strand(i);
         const double length = lengthOf(strand);
@@ -378,10 +378,10 @@ TEST(Grow, VariesLengths) {
         for (std::size_t v = 1; v < strand.size(); ++v)
             EXPECT_NEAR(double{glm::distance(strand[v - 1], strand[v])}, length / 7.0, 1e-6);
         sum += length;
-        least = std::min(least, length);
+        lengths.add(length);
     }
     EXPECT_NEAR(sum / 1000.0, 0.7, 5.0 * 0.6 / std::sqrt(12000.0));
-    EXPECT_LT(least, 0.41);
+    EXPECT_LT(lengths.least(), 0.41);
 }
 
 // Everything, on a mesh without any name.

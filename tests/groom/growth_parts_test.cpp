@@ -12,6 +12,7 @@
 #include "hair/groom/growth/triangle_net.h"
 #include "hair/random.h"
 #include "tests/groom/surface_meshes.h"
+#include "tests/largest_difference.h"
 
 namespace hair {
 namespace {
@@ -32,14 +33,14 @@ double windingNumber(const std::vector<glm::dvec2>& polygon, const glm::dvec2& p
 }
 
 double distanceTo(const std::vector<glm::dvec2>& polygon, const glm::dvec2& p) {
-    double nearest = std::numeric_limits<double>::infinity();  // in lengths of the edge
+    Extremes distances;  // in lengths of the edge
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         const glm::dvec2 a = polygon[i];
         const glm::dvec2 edge = polygon[(i + 1) % polygon.size()] - a;
         const double t = std::clamp(glm::dot(p - a, edge) / glm::dot(edge, edge), 0.0, 1.0);
-        nearest = std::min(nearest, glm::distance(p, a + t * edge) / glm::length(edge));
+        distances.add(glm::distance(p, a + t * edge) / glm::length(edge));
     }
-    return nearest;
+    return distances.least();
 }
 
 TEST(Outline, ContainsWhatItGoesRound) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "hair/random.h"
+#include "tests/largest_difference.h"
 
 namespace hair {
 namespace {
@@ -20,12 +21,14 @@ std::vector<glm::vec3> unitSquare(std::uint32_t count, std::uint32_t seed) {
     return points;
 }
 
-std::vector<float> nearestDistances(const std::vector<glm::vec3>& points) {
-    std::vector<float> nearest(points.size(), std::numeric_limits<float>::infinity());
+std::vector<double> nearestDistances(const std::vector<glm::vec3>& points) {
+    std::vector<double> nearest;
     for (std::size_t i = 0; i < points.size(); ++i) {
+        Extremes distances;
         for (std::size_t j = 0; j < points.size(); ++j) {
-            if (i != j) nearest[i] = std::min(nearest[i], glm::distance(points[i], points[j]));
+            if (i != j) distances.add(double{glm::distance(points[i], points[j])});
         }
+        nearest.push_back(distances.least());
     }
     return nearest;
 }

@@ -7,6 +7,7 @@
 #include "engine/frame_loop.h"
 #include "tests/error_text.h"
 #include "tests/gpu_fixture.h"
+#include "tests/required.h"
 
 namespace benchmarks {
 namespace {
@@ -62,7 +63,7 @@ class BusyPassesTest : public GpuTest {
 protected:
     void SetUp() override {
         GpuTest::SetUp();
-        if (!IsSkipped()) buffer_.emplace(device(), engine::BufferDescription{.size = 64});
+        if (!isOver()) buffer_.emplace(device(), engine::BufferDescription{.size = 64});
     }
     void TearDown() override {
         buffer_.reset();

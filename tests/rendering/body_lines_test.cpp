@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/largest_difference.h"
+
 namespace hair {
 namespace {
 
@@ -18,18 +20,18 @@ float distanceToAxis(const glm::vec3& p, const Collider& c) {
 TEST(BodyLines, LieOnTheCapsuleAndReachItsEnds) {
     const Collider capsule{.a = {0.1f, 0.2f, 0.0f}, .b = {0.3f, -0.1f, 0.2f}, .radius = 0.05f};
     const glm::vec3 axis = glm::normalize(capsule.b - capsule.a);
-    float lowest = 1.0f;
-    float highest = -1.0f;
+    Extremes from_a;
+    Extremes from_b;
     for (const gpu::BodyLine& line : capsuleLines(capsule)) {
         EXPECT_EQ(line.moves, 1u);
         for (const glm::vec3& end : {line.from, line.to}) {
             EXPECT_NEAR(distanceToAxis(end, capsule), 0.05f, 1e-6f);
-            lowest = std::min(lowest, glm::dot(end - capsule.a, axis));
-            highest = std::max(highest, glm::dot(end - capsule.b, axis));
+            from_a.add(double{glm::dot(end - capsule.a, axis)});
+            from_b.add(double{glm::dot(end - capsule.b, axis)});
         }
     }
-    EXPECT_NEAR(lowest, -0.05f, 1e-6f);
-    EXPECT_NEAR(highest, 0.05f, 1e-6f);
+    EXPECT_NEAR(from_a.least(), -0.05, 1e-6);
+    EXPECT_NEAR(from_b.greatest(), 0.05, 1e-6);
 }
 
 TEST(BodyLines, ASphereHasThreeGreatCircles) {

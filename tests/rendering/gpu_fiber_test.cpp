@@ -13,6 +13,7 @@
 #include "hair/simulation/dispatch_groups.h"
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/fiber_rig.h"
+#include "tests/rendering/published_fiber.h"
 
 namespace hair {
 namespace {
@@ -130,6 +131,53 @@ TEST_F(GpuFiberTest, AgreesWithTheReferenceOfDualScattering) {
                 dualScattering(
                     fiber, double{shading.density_factor}, answer.to_eye, answer.to_light,
                     double{answer.h}, double{answer.strands}),
+                5e-3, 1e-4, i);
+        }
+    }
+}
+
+// As AgreesWithTheReference, from the papers' equations and not from what made the device's
+// parameters; their sums are right to 1e-6 of a value at least.
+TEST_F(GpuFiberTest, AgreesWithThePublishedEquations) {
+    for (const float m : kRoughnesses) {
+        for (const float n : {0.1f, 0.3f, 0.9f}) {
+            ShadingSettings shading = brownFiber();
+            shading.longitudinal_roughness = m;
+            shading.azimuthal_roughness = n;
+            shading.pheomelanin = 0.1f;
+            shading.cuticle_tilt = 3.0f;
+            const published::Fiber fiber = published::makeFiber(shading);
+            const auto answers = probe(shading, randomProbes(makeFiber(shading), 300));
+            ASSERT_EQ(answers.size(), 300u);
+            for (std::size_t i = 0; i < answers.size(); ++i) {
+                const gpu::FiberProbe& answer = answers[i];
+                const auto view = published::viewOf(answer.to_eye, answer.to_light);
+                expectNear(
+                    answer.bsdf, published::scattering(fiber, view, double{answer.h}), 1e-3, 1e-5,
+                    i);
+            }
+        }
+    }
+}
+
+// As AgreesWithTheReferenceOfDualScattering. Sums over half turns end within a part of 0.008 rad
+// of N_p, which is 0.12 wide: the middles of parts are wrong there by its square over 24, 2e-4.
+TEST_F(GpuFiberTest, AgreesWithThePublishedEquationsOfDualScattering) {
+    for (const float m : {0.1f, 0.3f, 0.7f}) {
+        ShadingSettings shading = brownFiber();
+        shading.model = ShadingModel::dual_scattering;
+        shading.longitudinal_roughness = m;
+        const published::Fiber fiber = published::makeFiber(shading);
+        const auto answers = probe(shading, randomProbes(makeFiber(shading), 64));
+        ASSERT_EQ(answers.size(), 64u);
+        for (std::size_t i = 0; i < answers.size(); ++i) {
+            const gpu::FiberProbe& answer = answers[i];
+            const auto view = published::viewOf(answer.to_eye, answer.to_light);
+            expectNear(
+                answer.dual_scattering,
+                published::dualScattering(
+                    fiber, double{shading.density_factor}, view, double{answer.h},
+                    double{answer.strands}),
                 5e-3, 1e-4, i);
         }
     }

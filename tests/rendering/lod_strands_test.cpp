@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -8,6 +9,7 @@
 #include "hair/rendering/lod_levels.h"
 #include "hair/rendering/strand_points.h"
 #include "tests/gpu_fixture.h"
+#include "tests/largest_difference.h"
 #include "tests/rendering/device_hair.h"
 
 // Levels of detail of strands as points: thesis 2.3.8.1, but without jumps.
@@ -51,7 +53,7 @@ protected:
     // The greatest change of any strand's line, over lengths of about 1, and of its width, over
     // the full width there: a strand that isn't drawn has no width.
     static double greatestChange(const StrandPoints& a, const StrandPoints& b) {
-        double change = 0.0;
+        Extremes changes;
         const std::uint32_t strands = std::max(a.plan.forced_density, b.plan.forced_density);
         for (std::uint32_t strand = 0; strand < strands; ++strand) {
             for (int i = 0; i <= 24; ++i) {
@@ -60,13 +62,13 @@ protected:
                 const auto to = placeOnLine(b, 1, strand, 3, t);
                 const auto width = [](const auto& p) { return p ? double{p->width} : 0.0; };
                 const double full = width(placeOnLine(a, 1, 0, 3, t));
-                change = std::max(change, std::abs(width(from) - width(to)) / full);
+                changes.add(std::abs(width(from) - width(to)) / full);
                 if (!from || !to) continue;
-                change = std::max<double>(change, glm::distance(from->position, to->position));
-                change = std::max<double>(change, glm::distance(from->tangent, to->tangent));
+                changes.add(double{glm::distance(from->position, to->position)});
+                changes.add(double{glm::distance(from->tangent, to->tangent)});
             }
         }
-        return change;
+        return changes.greatest();
     }
 };
 
@@ -129,6 +131,74 @@ TEST_F(LodStrandsTest, EndsMoveFromTheCurveToTheLine) {
             // The level in 24 bits puts the wanted pieces off by some 1e-6.
             EXPECT_LT(glm::distance(glm::dvec3(points.at(2, 0, 4, i).position), expected), 1e-6)
                 << row.wanted << " " << i;
+        }
+    }
+}
+
+// The slope of a segment at i / 6 from its points at 0, 2/6, 4/6 and 1: a cubic's exactly, as the
+// derivative of Lagrange's polynomial through four of its points.
+glm::dvec3 slopeOfCubic(const std::array<glm::dvec3, 7>& points, std::uint32_t i) {
+    constexpr std::array<std::uint32_t, 4> kNodes{0, 2, 4, 6};
+    const auto at = [](std::uint32_t place) { return place / 6.0; };
+    glm::dvec3 slope(0.0);
+    for (const std::uint32_t j : kNodes) {
+        double weight = 0.0;
+        for (const std::uint32_t m : kNodes) {
+            if (m == j) continue;
+            double product = 1.0 / (at(j) - at(m));
+            for (const std::uint32_t l : kNodes)
+                if (l != j && l != m) product *= (at(i) - at(l)) / (at(j) - at(l));
+            weight += product;
+        }
+        slope += weight * points[j];
+    }
+    return slope;
+}
+
+// As above for tangents: those of ends that stay are the curve's slopes, and on the way to the line
+// a tangent goes to what is between those of the line's ends.
+TEST_F(LodStrandsTest, TangentsMoveWithTheirEnds) {
+    const StrandSettings strands{.density = 4, .tessellation = 6};
+    const StrandPoints fine = evaluateAt(strands, 0.0f);
+    std::array<glm::dvec3, 7> curve;
+    for (std::uint32_t i = 0; i <= 6; ++i) curve[i] = fine.at(2, 0, 4, i).position;
+    // Points of up to 0.75 m with some 20 roundings, of which slopeOfCubic() takes up to
+    // (11 + 18 + 9 + 2) / (6 / 3) = 20 times each.
+    constexpr double kTolerance = 20 * 20 * 0x1p-24 * 0.75;
+    struct Row {
+        float wanted;
+        std::uint32_t pieces;
+        std::uint32_t step;
+        double morph;
+    };
+    for (const Row& row :
+         {Row{6.0f, 6, 1, 1.0},
+          {4.5f, 6, 2, 0.5},
+          {3.0f, 3, 3, 1.0},
+          {2.0f, 3, 3, 0.5},
+          {1.5f, 3, 3, 0.25}}) {
+        const StrandPoints points = evaluateAt(strands, std::log2(6.0f / row.wanted));
+        ASSERT_EQ(points.plan.forced_tessellation, row.pieces);
+        const auto slopeAt = [&](std::uint32_t i) {
+            return slopeOfCubic(curve, 6 / row.pieces * i);
+        };
+        Extremes morphed;
+        for (std::uint32_t i = 0; i <= row.pieces; ++i) {
+            const std::uint32_t past = i % row.step;
+            glm::dvec3 expected = slopeAt(i);
+            if (past != 0) {
+                const double part = static_cast<double>(past) / row.step;
+                const glm::dvec3 line =
+                    glm::mix(slopeAt(i - past), slopeAt(i - past + row.step), part);
+                expected = glm::mix(line, expected, row.morph);
+            }
+            morphed.add(glm::distance(expected, slopeAt(i)));
+            EXPECT_LT(
+                glm::distance(glm::dvec3(points.at(2, 0, 4, i).tangent), expected), kTolerance)
+                << row.wanted << " " << i;
+        }
+        if (row.morph < 1.0) {
+            EXPECT_GT(morphed.greatest(), 5.0 * kTolerance) << row.wanted;  // it can tell
         }
     }
 }

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "tests/gpu_fixture.h"
@@ -104,6 +107,79 @@ TEST_F(PictureTest, HairThroughAMeshIsCutByIt) {
     }
     EXPECT_EQ(left, 0u);
     EXPECT_GT(right, 50u);
+}
+
+// A straight strand of this width that faces the camera and is longer than the picture is high, on
+// black. It has the colour of its tangent, (0, 1, 0): all of green. 64 px are 0.1 m there.
+Pixels drawStraightStrand(const engine::Device& device, double pixels, Settings settings = {}) {
+    settings.camera.position = {0.0f, 0.0f, 0.05f};
+    settings.camera.field_of_view = 90.0f;
+    settings.render.width = 64;
+    settings.render.height = 64;
+    settings.render.background = glm::vec3(0.0f);
+    settings.render.show = Show::tangents;
+    settings.strands.density = 1;
+    settings.strands.tessellation = 2;
+    settings.strands.root_width = static_cast<float>(pixels * 0.1 / 64.0);
+    settings.strands.tip_width = settings.strands.root_width;
+    const Groom groom = oneTriangle(
+        std::vector<glm::vec3>{{0.0f, -0.3f, 0.0f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.3f, 0.0f}});
+    return drawGroom(device, settings, groom, nullptr);
+}
+
+int greenOf(const Pixels& pixels, std::size_t row, std::size_t column) {
+    return pixels.at(4 * (64 * row + column) + 1);
+}
+
+// An even number of pixels, half of them on either side of the picture's middle: edges are half a
+// pixel from where pixels are sampled.
+TEST_F(PictureTest, QuadsAreAsWideAsTheirStrands) {
+    for (const Backend backend : {Backend::tessellation, Backend::pulling_geometry})
+        for (const std::size_t width : {2u, 8u, 20u}) {
+            const Pixels pixels = drawStraightStrand(
+                device(), static_cast<double>(width), {.strands = {.backend = backend}});
+            for (std::size_t row = 0; row < 64; ++row)
+                for (std::size_t column = 0; column < 64; ++column) {
+                    const bool is_hair = column >= 32 - width / 2 && column < 32 + width / 2;
+                    ASSERT_NEAR(greenOf(pixels, row, column), is_hair ? 255 : 0, 1)
+                        << width << " px, row " << row << ", column " << column;
+                }
+        }
+}
+
+// Samples of a pixel lie at distinct places across it, at the middles of equal parts (four of
+// Vulkan's standard ones at 1/8, 3/8, 5/8 and 7/8), so an edge between two parts leaves exactly the
+// part of the pixel that it cuts off. The mean is of display colours, or of linear light where
+// there is a tone map.
+TEST_F(PictureTest, APixelIsTheMeanOfItsSamples) {
+    struct Row {
+        std::uint32_t msaa;
+        std::uint32_t ssaa;
+    };
+    for (const Row& row : {Row{1, 2}, {1, 4}, {4, 1}, {4, 2}})
+        for (const ToneMap tone_map : {ToneMap::none, ToneMap::srgb}) {
+            if (!device().supportsSamples(row.msaa)) continue;
+            const std::uint32_t parts = row.msaa * row.ssaa;
+            for (std::uint32_t covered = 1; covered < parts; ++covered) {
+                const double part = static_cast<double>(covered) / parts;
+                Settings settings;
+                settings.render.msaa = row.msaa;
+                settings.render.ssaa = row.ssaa;
+                settings.render.tone_map = tone_map;
+                const Pixels pixels = drawStraightStrand(device(), 2.0 * (5.0 + part), settings);
+                // IEC 61966-2-1; no part here is below its straight piece.
+                const double shown =
+                    tone_map == ToneMap::none ? part : 1.055 * std::pow(part, 1.0 / 2.4) - 0.055;
+                for (const std::size_t column : {26u, 37u})
+                    EXPECT_NEAR(greenOf(pixels, 20, column), 255.0 * shown, 1.0)
+                        << row.msaa << " x " << row.ssaa << "^2 samples, " << covered << " of "
+                        << parts << " parts, column " << column;
+                EXPECT_NEAR(greenOf(pixels, 20, 27), 255, 1);
+                EXPECT_NEAR(greenOf(pixels, 20, 36), 255, 1);
+                EXPECT_EQ(greenOf(pixels, 20, 25), 0);
+                EXPECT_EQ(greenOf(pixels, 20, 38), 0);
+            }
+        }
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "benchmarks/case.h"
@@ -12,8 +14,12 @@ namespace hair {
 
 using Pixels = std::vector<std::uint8_t>;  // [row][column] RGBA, top row first
 
+// Of two pictures of one size.
 inline std::size_t differingPixels(const Pixels& a, const Pixels& b) {
-    if (a.size() != b.size()) return std::max(a.size(), b.size()) / 4;
+    if (a.size() != b.size() || a.empty())
+        throw std::invalid_argument(
+            "cannot compare pictures of " + std::to_string(a.size() / 4) + " and " +
+            std::to_string(b.size() / 4) + " pixels");
     std::size_t count = 0;
     for (std::size_t i = 0; i < a.size(); i += 4) {
         count += a[i] != b[i] || a[i + 1] != b[i + 1] || a[i + 2] != b[i + 2];

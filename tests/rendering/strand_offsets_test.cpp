@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/error_text.h"
+#include "tests/largest_difference.h"
 #include "tests/rendering/device_hair.h"
 
 // The table of offsets: thesis 2.3.8.2 and 2.3.8.3.
@@ -84,13 +85,11 @@ TEST(StrandOffsets, CurlsDifferInPhaseAndFrequency) {
              {.radius = 0.01f, .frequency = 100.0f, .frequency_variation = 0.25f, .start = 0.0f}},
         0.2);
     glm::dvec2 mean_phase(0.0);
-    double least = 1e9;
-    double most = 0.0;
+    Extremes all_turns;
     for (std::uint32_t p = 0; p < offsets.profiles; ++p) {
         const auto samples = offsets.profile(p);
         const double turns = turnsOf(samples, 1) * (offsets.samples - 1) / (offsets.samples - 2);
-        least = std::min(least, turns);
-        most = std::max(most, turns);
+        all_turns.add(turns);
         // Back from the first sample to the root.
         const double phase =
             std::atan2(samples[1].y, samples[1].x) - kTurn * turns / (offsets.samples - 1);
@@ -98,10 +97,10 @@ TEST(StrandOffsets, CurlsDifferInPhaseAndFrequency) {
     }
     // 20 turns within a quarter; of 64 uniform numbers the least and the greatest are within a
     // tenth of the ends but for 2 * 0.9^64 = 0.2 %.
-    EXPECT_GE(least, 15.0 - 1e-4);
-    EXPECT_LE(most, 25.0 + 1e-4);
-    EXPECT_LT(least, 16.0);
-    EXPECT_GT(most, 24.0);
+    EXPECT_GE(all_turns.least(), 15.0 - 1e-4);
+    EXPECT_LE(all_turns.greatest(), 25.0 + 1e-4);
+    EXPECT_LT(all_turns.least(), 16.0);
+    EXPECT_GT(all_turns.greatest(), 24.0);
     EXPECT_LT(glm::length(mean_phase), 4.0 / std::sqrt(64.0));  // 4 deviations of a random walk
 }
 
@@ -114,23 +113,23 @@ TEST(StrandOffsets, VariationIsBoundedSmoothAndOnAShareOfTheProfiles) {
     // a slope of 1.5.
     const double longest_step = 1.5 * 2.0 * kAmplitude * 10.0 / (offsets.samples - 1);
     std::uint32_t varied = 0;
-    double greatest = 0.0;
+    Extremes sizes;
     for (std::uint32_t p = 0; p < offsets.profiles; ++p) {
         const auto samples = offsets.profile(p);
         EXPECT_EQ(samples[0], glm::vec3(0.0f));
-        double size = 0.0;
+        Extremes of_profile;
         for (std::size_t i = 1; i < samples.size(); ++i) {
-            size = std::max(size, glm::length(glm::dvec3(samples[i])));
+            of_profile.add(glm::length(glm::dvec3(samples[i])));
             if (i > 1) {
                 ASSERT_LT(glm::distance(samples[i - 1], samples[i]), longest_step);
             }
         }
-        varied += size > 0.0;
-        greatest = std::max(greatest, size);
+        varied += of_profile.greatest() > 0.0;
+        sizes.add(of_profile.greatest());
     }
     EXPECT_EQ(varied, 16u);  // 64 / 4
-    EXPECT_LE(greatest, kAmplitude * (1.0 + 1e-6));
-    EXPECT_GT(greatest, 0.9 * kAmplitude);
+    EXPECT_LE(sizes.greatest(), kAmplitude * (1.0 + 1e-6));
+    EXPECT_GT(sizes.greatest(), 0.9 * kAmplitude);
 }
 
 TEST(StrandOffsets, CurlAndVariationAddUp) {
@@ -139,17 +138,13 @@ TEST(StrandOffsets, CurlAndVariationAddUp) {
     settings.variation = {.amplitude = 0.002f, .frequency = 20.0f, .share = 0.5f};
     const StrandOffsets both = make(settings, 0.3);
     ASSERT_EQ(both.samples, curl.samples);  // the curl's turns need more
-    double most = 0.0;
+    Extremes differences;
     for (std::uint32_t p = 0; p < 64; ++p) {
-        double difference = 0.0;
-        for (std::size_t i = 0; i < both.samples; ++i) {
-            difference =
-                std::max(difference, double{glm::distance(both.profile(p)[i], curl.profile(p)[i])});
-        }
+        const double difference = largestDifference(both.profile(p), curl.profile(p));
         EXPECT_LE(difference, p < 32 ? 0.002 * (1.0 + 1e-5) : 0.0) << p;
-        most = std::max(most, difference);
+        differences.add(difference);
     }
-    EXPECT_GT(most, 0.001);
+    EXPECT_GT(differences.greatest(), 0.001);
 }
 
 // On parabolas: third differences are 0.

@@ -14,6 +14,7 @@
 #include "benchmarks/report_page/page_data.h"
 #include "engine/error.h"
 #include "tests/report_page/sample_reports.h"
+#include "tests/required.h"
 #include "tests/temporary_folder.h"
 
 namespace benchmarks {
@@ -108,7 +109,8 @@ TEST(ReportPage, SaysWhatToRunWherePlotlyIsMissing) {
 }
 
 TEST(ReportPage, IsOneFileWithTheWholeOfPlotly) {
-    if (!findPlotly()) GTEST_SKIP() << "no Plotly; scripts/setup --report installs it";
+    if (!findPlotly())
+        return skipWithout(Need::report, "no Plotly; scripts/setup --report installs it");
     const TemporaryFolder folder;
     const auto report = writeWithPictures(knownReport(), folder.path() / "a.json", 200);
     const auto page = folder.path() / "new/page.html";

@@ -5,14 +5,17 @@
 #include "benchmarks/report_page/page_parts.h"
 #include "tests/report_page/browser.h"
 #include "tests/report_page/sample_reports.h"
+#include "tests/required.h"
 
 namespace report_page {
 
 using benchmarks::Json;
 
 void PageInBrowser::SetUp() {
-    if (!benchmarks::findPlotly()) GTEST_SKIP() << "no Plotly; scripts/setup --report installs it";
-    if (!findBrowser()) GTEST_SKIP() << "no Chromium; scripts/setup --browser installs it";
+    if (!benchmarks::findPlotly())
+        return skipWithout(Need::report, "no Plotly; scripts/setup --report installs it");
+    if (!findBrowser())
+        return skipWithout(Need::browser, "no Chromium; scripts/setup --browser installs it");
 }
 
 Json PageInBrowser::one(const std::string& steps, int width) {

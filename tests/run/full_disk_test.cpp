@@ -6,6 +6,7 @@
 
 #include <sys/mount.h>
 
+#include "tests/required.h"
 #include "tests/run/tiny_sweep.h"
 
 namespace benchmarks {
@@ -25,7 +26,7 @@ class FullDisk : public TinySweep {
 protected:
     void SetUp() override {
         TinySweep::SetUp();
-        if (IsSkipped()) return;
+        if (isOver()) return;
         // Sizes to choose limits by, in bytes. Times have more or fewer digits: by less than that.
         const fs::path out = folder_.file("sized.json");
         ASSERT_EQ(run(out, {"--no-pictures"}).status, 0);

@@ -12,6 +12,7 @@
 #include "benchmarks/report_file.h"
 #include "benchmarks/run/run_record.h"
 #include "tests/cli/run_hairbench.h"
+#include "tests/required.h"
 #include "tests/run/child_process.h"
 #include "tests/temporary_folder.h"
 
@@ -25,7 +26,7 @@ protected:
 
     void SetUp() override {
         static const bool has_device = hairbench("devices").status == 0;
-        if (!has_device) GTEST_SKIP() << "no Vulkan device";
+        if (!has_device) return skipWithout(Need::device, "no Vulkan device");
         scene_ = folder_.write("tiny.json", R"({
             "base": ")" HAIRBENCH_SCENES_DIR R"(/smoke.json",
             "groom": {"guides": 40},

@@ -11,6 +11,7 @@
 #include "hair/groom/mesh/import_mesh.h"
 #include "tests/error_text.h"
 #include "tests/gpu_fixture.h"
+#include "tests/largest_difference.h"
 #include "tests/simulation/closed_meshes.h"
 #include "tests/simulation/surface_reference.h"
 
@@ -112,11 +113,12 @@ TEST_F(DistanceFieldTest, OfABoxFarFromTheOriginIsAsExactAsFloats) {
 TEST_F(DistanceFieldTest, OfASphereLiesBetweenThoseOfTheSpheresRoundAndInIt) {
     const glm::dvec3 centre{0.02, -0.01, 0.03};
     const Mesh mesh = makeSphere(centre, 0.1, 3);
-    double inner = 0.1;
+    Extremes planes;
     for (const auto& triangle : mesh.triangles) {
         const auto [a, b, c] = reference::corners(mesh, triangle);
-        inner = std::min(inner, glm::dot(glm::normalize(glm::cross(b - a, c - a)), a - centre));
+        planes.add(glm::dot(glm::normalize(glm::cross(b - a, c - a)), a - centre));
     }
+    const double inner = planes.least();
     const Baked baked(mesh, 33, 0.04f);
     const double rounding = roundingOf(baked.size());
     ASSERT_GT(inner, 0.0985);

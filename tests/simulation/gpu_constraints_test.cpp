@@ -39,7 +39,7 @@ protected:
             solver.setState(toDouble(positions), toDouble(previous));
             advance(device(), simulation, 1);
             solver.step();
-            const double error = largestDistance(simulation.readPositions(), solver.positions()) /
+            const double error = largestDifference(simulation.readPositions(), solver.positions()) /
                                  longestStrand(groom);
             EXPECT_LT(error, kTolerance) << shape.strands << " strands of " << shape.vertices;
         }

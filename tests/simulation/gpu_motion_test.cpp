@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/gpu_fixture.h"
+#include "tests/largest_difference.h"
 #include "tests/simulation/gpu_simulation.h"
 #include "tests/simulation/motions.h"
 #include "tests/simulation/rounding.h"
@@ -63,11 +64,12 @@ TEST_F(GpuMotion, TakesAStepLikeTheReference) {
                     solution.step();
                     const double tolerance = substeps * 1e-5 * longestStrand(groom);
                     EXPECT_LT(
-                        largestDistance(simulation.readPositions(), solution.positions()),
+                        largestDifference(simulation.readPositions(), solution.positions()),
                         tolerance)
                         << vertices << " vertices, " << substeps << " substeps";
                     EXPECT_LT(
-                        largestDistance(simulation.readPrevious(), solution.previous()), tolerance)
+                        largestDifference(simulation.readPrevious(), solution.previous()),
+                        tolerance)
                         << vertices << " vertices, " << substeps << " substeps";
                 }
 }
@@ -87,7 +89,7 @@ TEST_F(GpuMotion, StaysNearTheReferenceForAHundredSteps) {
                 const Rounding rounding = roundingAfter(100, groom, settings, 3);
                 // Substeps round, too.
                 EXPECT_LT(
-                    largestDistance(simulation.readPositions(), solution.positions()),
+                    largestDifference(simulation.readPositions(), solution.positions()),
                     std::sqrt(substeps) * rounding.bound())
                     << vertices << " vertices, " << substeps << " substeps";
                 EXPECT_LT(rounding.spread, 1e-3 * longestStrand(groom))
@@ -118,7 +120,7 @@ TEST_F(GpuMotion, StartsAndSettlesInTheFirstPose) {
     const Simulation unsettled(device(), groom, settings, 3);
     // Rotating and moving points within 0.3 m takes some five roundings.
     const auto expected = carried(HeadMotion(settings.motion).at(0.0), groom.points);
-    EXPECT_LT(largestDistance(unsettled.readPositions(), expected), 5 * 0.3 * 0x1p-24);
+    EXPECT_LT(largestDifference(unsettled.readPositions(), expected), 5 * 0.3 * 0x1p-24);
 
     settings.settle_steps = 50;
     const Simulation settled(device(), groom, settings, 3);
@@ -141,7 +143,7 @@ TEST_F(GpuMotion, CarriesFrozenHairWithTheHead) {
     for (int i = 0; i < 60; ++i) {
         advance(device(), simulation, 1);
         ASSERT_LT(
-            largestDistance(simulation.readPositions(), carried(simulation.pose(), groom.points)),
+            largestDifference(simulation.readPositions(), carried(simulation.pose(), groom.points)),
             kCarried);
     }
 }
@@ -159,7 +161,7 @@ TEST_F(GpuMotion, NoneIsCarriedWithTheHead) {
         advance(device(), simulation, 1);
         EXPECT_DOUBLE_EQ(simulation.time(), i * double{settings.time_step});
         ASSERT_LT(
-            largestDistance(simulation.readPositions(), carried(simulation.pose(), groom.points)),
+            largestDifference(simulation.readPositions(), carried(simulation.pose(), groom.points)),
             kCarried);
         ASSERT_EQ(simulation.readPrevious(), before);
     }
@@ -191,7 +193,7 @@ TEST(ReferenceMotion, DoesTheSameInAnyPose) {
         std::vector<glm::dvec3> expected;
         for (const glm::dvec3& point : upright.positions()) expected.push_back(pose(point));
         // 2^-53 against the 2^-24 of the device, which spreads to less than 1e-4 m.
-        EXPECT_LT(largestDistance(turned.positions(), expected), 1e-12);
+        EXPECT_LT(largestDifference(turned.positions(), expected), 1e-12);
     }
 }
 
@@ -211,7 +213,7 @@ TEST_F(GpuMotion, DoesTheSameInAnyPose) {
         // Both round, the one that is moved away from the origin by twice as much. And turned
         // gravity is rounded: by 6e-7 m/s^2, which in 100 steps makes 8e-7 m.
         EXPECT_LT(
-            largestDistance(turned.readPositions(), carried(pose, upright.readPositions())),
+            largestDifference(turned.readPositions(), carried(pose, upright.readPositions())),
             3.0 * rounding.bound() + 8e-7);
     }
 }
@@ -228,8 +230,8 @@ TEST_F(GpuMotion, TurnsStrandsWithoutARootSegment) {
     Reference solution(groom, settings, 3);
     advance(device(), simulation, 10);
     for (int i = 0; i < 10; ++i) solution.step();
-    EXPECT_LT(largestDistance(solution.positions(), expected), 1e-14);
-    EXPECT_LT(largestDistance(simulation.readPositions(), expected), 1e-7);
+    EXPECT_LT(largestDifference(solution.positions(), expected), 1e-14);
+    EXPECT_LT(largestDifference(simulation.readPositions(), expected), 1e-7);
 }
 
 // The head carries a strand through a sphere of the world: the sphere stays, and the strand leaves
@@ -240,16 +242,16 @@ TEST_F(GpuMotion, LeavesTheWorldsBodiesWhereTheyAre) {
     const glm::vec3 centre{0.05f, -0.1f, 0.2f};
     settings.colliders = {{.a = centre, .b = centre, .radius = 0.05f, .follows = Follows::world}};
     settings.motion.keyframes = {{.time = 0.0f}, {.time = 0.5f, .translation = {0, 0, 0.25f}}};
-    double nearest = 1.0;
+    Extremes distances;
     Simulation simulation(device(), groom, settings, 3);
     for (int i = 0; i < 60; ++i) {
         advance(device(), simulation, 1);
         const auto points = simulation.readPositions();
         for (std::size_t v = 0; v < points.size(); ++v)
-            if (v % 8 != 0) nearest = std::min(nearest, double{glm::distance(points[v], centre)});
+            if (v % 8 != 0) distances.add(double{glm::distance(points[v], centre)});
     }
-    EXPECT_GT(nearest, 0.05 - 1e-7);  // two roundings of points 0.5 m away
-    EXPECT_LT(nearest, 0.05 + 1e-7);  // they did meet
+    EXPECT_GT(distances.least(), 0.05 - 1e-7);  // two roundings of points 0.5 m away
+    EXPECT_LT(distances.least(), 0.05 + 1e-7);  // they did meet
 }
 
 }  // namespace

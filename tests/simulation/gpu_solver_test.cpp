@@ -85,10 +85,10 @@ TEST_P(GpuShapeSolver, StaysNearTheReferenceForAHundredSteps) {
                     positions, std::vector(rounded.previous().begin(), rounded.previous().end()));
             }
             advance(device(), simulation, 100);
-            const double spread = largestDistance(rounded.positions(), solver.positions());
+            const double spread = largestDifference(rounded.positions(), solver.positions());
             const double roundings =
                 2.0 + 2.0 * (settings.local.iterations + settings.length.iterations);
-            const double error = largestDistance(simulation.readPositions(), solver.positions());
+            const double error = largestDifference(simulation.readPositions(), solver.positions());
             EXPECT_LT(error, 2.0 * std::sqrt(roundings) * spread) << vertices << " vertices";
             EXPECT_LT(spread, 1e-4 * longestStrand(groom)) << vertices << " vertices";
         }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/error_text.h"
+#include "tests/largest_difference.h"
 
 namespace hair {
 namespace {
@@ -40,10 +41,7 @@ std::vector<glm::dvec3> marks(const RigidMotion& motion) {
 }
 
 double difference(const RigidMotion& a, const RigidMotion& b) {
-    double largest = 0.0;
-    for (std::size_t i = 0; i < 3; ++i)
-        largest = std::max(largest, glm::distance(marks(a)[i], marks(b)[i]));
-    return largest;
+    return largestDifference(marks(a), marks(b));
 }
 
 double rad(double degrees) { return degrees * std::acos(-1.0) / 180.0; }
@@ -133,13 +131,13 @@ constexpr double kStep = 1e-5;
 constexpr double kVelocityStep = 2.0 * 2.0 * 2000.0 * kStep;
 
 double velocityJump(const HeadMotion& motion, double time) {
-    double largest = 0.0;
+    Extremes jumps;
     const auto before = marks(motion.at(time - kStep));
     const auto now = marks(motion.at(time));
     const auto after = marks(motion.at(time + kStep));
     for (std::size_t i = 0; i < 3; ++i)
-        largest = std::max(largest, glm::length((after[i] - now[i]) - (now[i] - before[i])));
-    return largest / kStep;
+        jumps.add(glm::length((after[i] - now[i]) - (now[i] - before[i])));
+    return jumps.greatest() / kStep;
 }
 
 TEST(HeadMotion, VelocityNeverJumps) {

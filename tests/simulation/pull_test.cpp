@@ -142,7 +142,7 @@ TEST(ReferencePull, LetsHairSettleWithoutHands) {
         alone.settle();
         held.settle();
     }
-    EXPECT_EQ(largestDistance(alone.positions(), held.positions()), 0.0);
+    EXPECT_EQ(largestDifference(alone.positions(), held.positions()), 0.0);
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ TEST_P(GpuRobustness, TakesBadSegmentsLikeTheReference) {
         // Directions of segments that are as short as rounding are anyone's guess: 1e-6 m is of
         // that order.
         EXPECT_LT(
-            largestDistance(simulation.readPositions(), solver.positions()),
+            largestDifference(simulation.readPositions(), solver.positions()),
             1e-5 * longestStrand(groom));
     }
 }

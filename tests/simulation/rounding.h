@@ -40,7 +40,7 @@ inline Rounding roundingAfter(
     const double pulls = settings.solver == Solver::ftl
                              ? groom.vertices_per_strand
                              : settings.local.iterations + settings.length.iterations;
-    return {largestDistance(rounded.positions(), solver.positions()), 2.0 + 2.0 * pulls};
+    return {largestDifference(rounded.positions(), solver.positions()), 2.0 + 2.0 * pulls};
 }
 
 }  // namespace hair

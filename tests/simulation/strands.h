@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <random>
 #include <span>
@@ -12,6 +11,7 @@
 #include "hair/groom/groom.h"
 #include "hair/settings.h"
 #include "hair/simulation/stiffness.h"
+#include "tests/largest_difference.h"
 
 // Grooms and states for the simulation's tests. Everything is deterministic on every platform.
 namespace hair {
@@ -70,24 +70,15 @@ inline std::vector<glm::dvec3> toDouble(std::span<const glm::vec3> points) {
 
 // Length of the groom's longest strand, m: what errors are relative to.
 inline double longestStrand(const Groom& groom) {
-    double longest = 0.0;
+    Extremes lengths;
     for (std::uint32_t s = 0; s < groom.strand_count; ++s) {
         double length = 0.0;
         for (std::uint32_t v = 1; v < groom.vertices_per_strand; ++v)
             length +=
                 glm::distance(glm::dvec3(groom.strand(s)[v]), glm::dvec3(groom.strand(s)[v - 1]));
-        longest = std::max(longest, length);
+        lengths.add(length);
     }
-    return longest;
-}
-
-// Largest distance between points of the same index.
-template <class A, class B>
-double largestDistance(const A& a, const B& b) {
-    double largest = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        largest = std::max(largest, glm::distance(glm::dvec3(a[i]), glm::dvec3(b[i])));
-    return largest;
+    return lengths.greatest();
 }
 
 // Settings with every force and constraint switched off; a test switches on what it is about.

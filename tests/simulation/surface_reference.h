@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "hair/groom/mesh/mesh.h"
+#include "tests/largest_difference.h"
 
 // What is true of a triangle mesh, in double and by going through all of its triangles.
 namespace hair::reference {
@@ -40,10 +41,10 @@ inline glm::dvec3 closestPoint(const glm::dvec3& p, const std::array<glm::dvec3,
 }
 
 inline double distance(const Mesh& mesh, const glm::dvec3& p) {
-    double nearest = std::numeric_limits<double>::max();
+    Extremes distances;
     for (const auto& triangle : mesh.triangles)
-        nearest = std::min(nearest, glm::distance(p, closestPoint(p, corners(mesh, triangle))));
-    return nearest;
+        distances.add(glm::distance(p, closestPoint(p, corners(mesh, triangle))));
+    return distances.least();
 }
 
 // How often the surface goes round p: 1 inside a closed one, 0 outside. Jacobson et al. 2013,

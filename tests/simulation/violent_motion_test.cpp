@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/gpu_fixture.h"
+#include "tests/largest_difference.h"
 #include "tests/simulation/gpu_simulation.h"
 #include "tests/simulation/motions.h"
 #include "tests/simulation/strands.h"
@@ -42,26 +43,24 @@ double lengthOf(std::span<const glm::vec3> strand) {
 
 // By which a strand is longer than at rest, at most, m.
 double greatestStretch(const Groom& groom, std::span<const glm::vec3> points) {
-    double greatest = 0.0;
+    Extremes stretches;
     for (std::uint32_t s = 0; s < groom.strand_count; ++s) {
         const std::size_t vertices = groom.vertices_per_strand;
-        greatest = std::max(
-            greatest, lengthOf(points.subspan(s * vertices, vertices)) - lengthOf(groom.strand(s)));
+        stretches.add(lengthOf(points.subspan(s * vertices, vertices)) - lengthOf(groom.strand(s)));
     }
-    return greatest;
+    return stretches.greatest();
 }
 
 // How far the violent motion takes a root in a step, at most, m.
 double longestWay(const Groom& groom, double time_step) {
     const HeadMotion motion(violent());
-    double longest = 0.0;
+    Extremes ways;
     for (double time = 0.0; time < kMoving; time += time_step)
         for (std::uint32_t s = 0; s < groom.strand_count; ++s) {
             const glm::dvec3 root = groom.strand(s)[0];
-            longest = std::max(
-                longest, glm::distance(motion.at(time)(root), motion.at(time + time_step)(root)));
+            ways.add(glm::distance(motion.at(time)(root), motion.at(time + time_step)(root)));
         }
-    return longest;
+    return ways.greatest();
 }
 
 // By how much a strand of the `shape` solver may be longer than at rest where its root moves `way`
@@ -108,23 +107,23 @@ TEST_F(ViolentMotion, LeavesHairWholeAndComesToRest) {
                 const auto rest = still.readPositions();
                 settings.motion = violent();
                 Simulation simulation(device(), groom, settings, 1);
-                double stretch = 0.0;
-                double lag = 0.0;
+                Extremes stretches;
+                Extremes lags;
                 for (int i = 0; i < 1.2 * kMoving * rate; ++i) {
                     advance(device(), simulation, 1);
                     const auto points = simulation.readPositions();
                     for (const glm::vec3& point : points) ASSERT_TRUE(finite(point));
-                    lag = std::max(lag, largestDistance(points, carried(simulation.pose(), rest)));
-                    stretch = std::max(stretch, greatestStretch(groom, points));
+                    lags.add(largestDifference(points, carried(simulation.pose(), rest)));
+                    stretches.add(greatestStretch(groom, points));
                 }
                 EXPECT_LT(
-                    stretch,
+                    stretches.greatest(),
                     row.stretch(groom, settings, longestWay(groom, 1.0 / rate)) + kRounding);
 
                 // Friction halves a swing every 0.45 s: 12 s leave 1e-8 of it.
-                EXPECT_GT(lag, 0.1 * length);
+                EXPECT_GT(lags.greatest(), 0.1 * length);
                 simulation.settle(static_cast<std::uint32_t>(12.0 * rate));
-                EXPECT_LT(largestDistance(simulation.readPositions(), rest), 1e-4 * length);
+                EXPECT_LT(largestDifference(simulation.readPositions(), rest), 1e-4 * length);
             }
 }
 
@@ -137,12 +136,13 @@ TEST_F(ViolentMotion, SweepsKeepLengths) {
     for (const std::uint32_t iterations : {5u, 20u, 50u, 100u, 200u}) {
         settings.length.iterations = iterations;
         Simulation simulation(device(), groom, settings, 1);
-        double stretch = 0.0;
+        Extremes stretches;
         for (int i = 0; i < 60; ++i) {
             advance(device(), simulation, 1);
-            stretch = std::max(stretch, greatestStretch(groom, simulation.readPositions()));
+            stretches.add(greatestStretch(groom, simulation.readPositions()));
         }
-        EXPECT_LT(stretch, shapeStretch(groom, settings, way) + kRounding) << iterations;
+        EXPECT_LT(stretches.greatest(), shapeStretch(groom, settings, way) + kRounding)
+            << iterations;
     }
 }
 

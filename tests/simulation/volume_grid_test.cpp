@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/gpu_fixture.h"
+#include "tests/largest_difference.h"
 #include "tests/simulation/volume_rig.h"
 
 // The grid of hair on hair: its place, and what is summed up in it.
@@ -101,7 +102,7 @@ TEST_F(GpuVolume, SumsUpShareAndMomentum) {
     const VolumeGrid grid = rig.grid();
     const double step = withFriction().time_step;
     Totals expected;
-    double fastest = 0.0;
+    Extremes speeds;
     for (std::size_t i = 0; i < shares.size(); ++i) {
         const glm::dvec3 now = positions[i];
         const glm::dvec3 velocity = (now - glm::dvec3(previous[i])) / step;
@@ -109,13 +110,14 @@ TEST_F(GpuVolume, SumsUpShareAndMomentum) {
         expected.share += shares[i];
         expected.momentum += shares[i] * velocity;
         expected.moment += shares[i] * (later - grid.origin) / grid.cell;
-        fastest = std::max(fastest, glm::length(velocity));
+        speeds.add(glm::length(velocity));
     }
     const double rounding = 2e-7 + 27.0 * double(shares.size()) * 0x1p-31;
     for (const Totals& totals : ofGrids(rig)) {
         EXPECT_NEAR(totals.share, expected.share, rounding);
         EXPECT_NEAR(totals.share, 1.0, rounding);
-        EXPECT_LT(glm::distance(totals.momentum, expected.momentum), 4.0 * rounding * fastest);
+        EXPECT_LT(
+            glm::distance(totals.momentum, expected.momentum), 4.0 * rounding * speeds.greatest());
         EXPECT_LT(glm::distance(totals.moment, expected.moment), 24.0 * 4.0 * rounding);
     }
 }
@@ -159,8 +161,9 @@ TEST_F(GpuVolume, MovesWithTheHead) {
     };
     const auto turned = rig.accelerations(moved(positions), moved(previous), motion);
     const auto sums_there = rig.sums();
-    double greatest = 0.0;
-    for (const glm::vec3& a : accelerations) greatest = std::max(greatest, double(glm::length(a)));
+    Extremes sizes;
+    for (const glm::vec3& a : accelerations) sizes.add(double{glm::length(a)});
+    const double greatest = sizes.greatest();
     ASSERT_GT(greatest, 1.0);
     for (std::size_t i = 0; i < sums.size(); ++i)
         EXPECT_NEAR(sums[i].share, sums_there[i].share, 2e-7);

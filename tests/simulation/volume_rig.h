@@ -42,14 +42,15 @@ public:
               "guide parameters")),
           hair_hair_(device, groom, settings, stepOf(settings), parameters_.address()) {}
 
-    // m/s^2. `previous` is a substep earlier.
+    // m/s^2. `previous` is a substep earlier; every vertex has `others` from elsewhere, which
+    // hair on hair is added to.
     std::vector<glm::vec3> accelerations(
         std::span<const glm::vec3> positions, std::span<const glm::vec3> previous,
-        const RigidMotion& frame = {}) const {
+        const RigidMotion& frame = {}, const glm::vec3& others = glm::vec3(0.0f)) const {
         upload(positions, positions_);
         upload(previous, previous_);
+        upload(std::vector(groom_.points.size(), others), accelerations_);
         device_.runOnce([&](engine::Commands& commands) {
-            commands.fill(accelerations_, 0);
             commands.barrier(engine::Access::anything, engine::Access::compute_write);
             hair_hair_.record(commands, accelerations_.address(), frame);
         });

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_hairbench.h"
+#include "tests/required.h"
 #include "tests/temporary_folder.h"
 #include "tests/viewer/virtual_display.h"
 
@@ -15,7 +16,8 @@
 class ViewTest : public testing::Test {
 protected:
     void SetUp() override {
-        if (!display_.variables()) GTEST_SKIP() << "there is neither Xvfb nor a display";
+        if (!display_.variables())
+            return skipWithout(Need::display, "there is neither Xvfb nor a display");
         // A few strands and few pixels: lavapipe draws all of it on the processor.
         folder_.write("small.json", R"({
             "base": ")" HAIRBENCH_SCENES_DIR R"(/thesis.json",

@@ -12,6 +12,7 @@
 #include "hair/groom/formats/usda_animation.h"
 #include "hair/random.h"
 #include "tests/python.h"
+#include "tests/required.h"
 #include "tests/temporary_folder.h"
 
 namespace hair {
@@ -70,7 +71,7 @@ std::string dump(const std::filesystem::path& path) {
 class UsdExportTest : public testing::Test {
 protected:
     void SetUp() override {
-        if (pythonInterpreter().empty()) GTEST_SKIP() << kNoPython;
+        if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
     }
 
     std::filesystem::path exported(const StrandSet& set) {

@@ -10,6 +10,7 @@
 
 #include "hair/groom/formats/import_usd.h"
 #include "tests/python.h"
+#include "tests/required.h"
 #include "tests/temporary_folder.h"
 
 // points() of make_usd.py.
@@ -19,7 +20,7 @@ inline glm::dvec3 madePoint(int k) { return {(k + 1) / 3.0, -k / 7.0, 1e-3 * k *
 class UsdFiles : public testing::Test {
 protected:
     void SetUp() override {
-        if (pythonInterpreter().empty()) GTEST_SKIP() << kNoPython;
+        if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
     }
 
     static const std::filesystem::path& folder() {

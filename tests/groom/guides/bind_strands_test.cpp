@@ -12,6 +12,7 @@
 #include "hair/groom/guides/nearest_mean.h"
 #include "hair/random.h"
 #include "tests/groom/style/sample_strands.h"
+#include "tests/largest_difference.h"
 
 namespace hair {
 namespace {
@@ -215,12 +216,12 @@ TEST(NearestMean, IsTheNearestOfAll) {
                             seed % 3 == 0 ? 0.0 : random01(seed, i, 3)) -
                         glm::dvec3(0.3);
         Products products{.count = points.size()};
-        double greatest = 0.0;
+        Extremes squares;
         for (std::size_t i = 0; i < 5; ++i) {
-            greatest = std::max(greatest, glm::dot(points[i], points[i]));
+            squares.add(glm::dot(points[i], points[i]));
             for (std::size_t j = 0; j < 5; ++j) products.of[i][j] = glm::dot(points[i], points[j]);
         }
-        double least = greatest;
+        Extremes tried;
         constexpr int steps = 20;
         for (std::size_t i = 0; i < 5; ++i)
             for (std::size_t j = 0; j < i; ++j)
@@ -230,12 +231,12 @@ TEST(NearestMean, IsTheNearestOfAll) {
                             const glm::dvec3 mean = (double(a) * points[i] + double(b) * points[j] +
                                                      double(steps - a - b) * points[k]) /
                                                     double(steps);
-                            least = std::min(least, glm::dot(mean, mean));
+                            tried.add(glm::dot(mean, mean));
                         }
         const Mean mean = nearestMean(products);
         glm::dvec3 found(0.0);
         for (std::size_t i = 0; i < 3; ++i) found += mean.weights[i] * points[mean.members[i]];
-        EXPECT_LE(glm::dot(found, found), least + 1e-6 * greatest);
+        EXPECT_LE(glm::dot(found, found), tried.least() + 1e-6 * squares.greatest());
         EXPECT_TRUE(std::ranges::is_sorted(mean.weights, std::greater<>()));
         EXPECT_GE(mean.weights[2], 0.0);
         EXPECT_NEAR(mean.weights[0] + mean.weights[1] + mean.weights[2], 1.0, 1e-12);

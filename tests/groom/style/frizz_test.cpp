@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/groom/style/sample_strands.h"
+#include "tests/largest_difference.h"
 
 namespace hair {
 namespace {
@@ -20,9 +21,7 @@ double offset(const Groom& after, const Groom& before, std::size_t point) {
 TEST(Frizz, MovesNoPointFurtherThanItsAmplitudeAndNoRoot) {
     const Groom before = verticalStrands(1000, 64, 0.2, 0.001);
     const Groom after = frizz(before, kFrizz, 1);
-    double greatest = 0.0;
-    for (std::size_t i = 0; i < after.points.size(); ++i)
-        greatest = std::max(greatest, offset(after, before, i));
+    const double greatest = largestDifference(after.points, before.points);
     EXPECT_LE(greatest, 0.01 + kRounding);
     EXPECT_GT(greatest, 0.009);  // of 12,000 random vectors some are near the limit
     for (std::uint32_t i = 0; i < 1000; ++i) EXPECT_EQ(after.strand(i)[0], before.strand(i)[0]);
