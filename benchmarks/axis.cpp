@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -33,8 +34,7 @@ std::vector<std::string> splitAtTopLevelCommas(std::string_view text) {
     return parts;
 }
 
-std::optional<std::vector<std::string>>
-rangeOf(std::string_view argument, const std::string& text) {
+std::optional<std::vector<Document>> rangeOf(std::string_view argument, const std::string& text) {
     try {
         return rangeValues(text);
     } catch (const engine::Error& error) {
@@ -55,6 +55,13 @@ std::string joinedTail(const std::vector<std::string>& tokens, std::size_t count
 
 }  // namespace
 
+Document parseValue(const std::string& text) {
+    Json value = Json::parse(text, nullptr, false);
+    if (!value.is_discarded()) return Document(std::move(value));
+    // Settings are UTF-8, and a command line need not be.
+    return Document(Json::parse(Document(text).text()));
+}
+
 Axis parseAxis(std::string_view argument) {
     const std::size_t equals = argument.find('=');
     if (equals == std::string_view::npos || equals == 0)
@@ -67,9 +74,7 @@ Axis parseAxis(std::string_view argument) {
             axis.values.insert(axis.values.end(), values->begin(), values->end());
             continue;
         }
-        const Json value = Json::parse(text, nullptr, false);
-        axis.values.push_back((value.is_discarded() ? Json(text) : value)
-                                  .dump(-1, ' ', false, Json::error_handler_t::replace));
+        axis.values.push_back(parseValue(text));
     }
     return axis;
 }
@@ -77,21 +82,22 @@ Axis parseAxis(std::string_view argument) {
 Axis echoedAxis(const Axis& axis, const Json& resolved) {
     if (axis.values.empty()) throw engine::Error(axis.pointer, "an axis needs at least one value");
     Axis echoed{.pointer = axis.pointer, .values = {}, .tied = {}};
-    for (const std::string& text : axis.values) {
+    for (const Document& value : axis.values) {
         Json document = resolved;
-        const Json value = Json::parse(text);
-        patch(document, axis.pointer, value);
+        patch(document, axis.pointer, value.json());
         Json echo = writeSettings(readSettings(document));
-        echoed.values.push_back(value.is_object() ? text : valueAt(echo, axis.pointer).dump());
+        echoed.values.push_back(
+            value.json().is_object() ? value : Document(std::move(valueAt(echo, axis.pointer))));
     }
     return echoed;
 }
 
 Axis checkedAxis(const Axis& axis, const Json& resolved) {
-    const Axis echoed = echoedAxis(axis, resolved);
-    for (auto value = echoed.values.begin(); value != echoed.values.end(); ++value)
-        if (std::find(echoed.values.begin(), value, *value) != value)
-            throw engine::Error(axis.pointer, valueLabel(*value) + " is there twice");
+    Axis echoed = echoedAxis(axis, resolved);
+    std::set<std::string> texts;
+    for (const Document& value : echoed.values)
+        if (!texts.insert(value.text()).second)
+            throw engine::Error(axis.pointer, valueLabel(value.json()) + " is there twice");
     return echoed;
 }
 
@@ -113,9 +119,8 @@ std::vector<std::string> axisLabels(const std::vector<std::string>& pointers) {
     return labels;
 }
 
-std::string valueLabel(const std::string& value) {
-    if (!value.starts_with('"')) return value;
-    return Json::parse(value).get<std::string>();
+std::string valueLabel(const Json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
 }  // namespace benchmarks

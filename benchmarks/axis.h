@@ -4,26 +4,28 @@
 #include <string_view>
 #include <vector>
 
-#include "benchmarks/json_fwd.h"
+#include "benchmarks/json_text.h"
 
 namespace benchmarks {
 
-// A field that a sweep varies, with those that change with it. Values are compact JSON texts: 64,
-// "lines", [0,0,1].
+// A field that a sweep varies, with those that change with it.
 struct Axis {
     std::string pointer;  // JSON pointer of a field, such as /strands/density
-    std::vector<std::string> values;
+    std::vector<Document> values;  // 64, "lines", [0,0,1]
     std::vector<Axis> tied{};  // as many values each; the i-th ones go together
 };
 
 // The value of one axis in one case.
 struct AxisValue {
     std::string pointer;
-    std::string value;  // compact JSON text
+    Document value;
 };
 
-// "POINTER=V1,V2" of the command line. A value is JSON if it reads as such, otherwise a string;
-// commas inside brackets and quotes belong to the value: /camera/position=[0,0,1],[0,0,2] has two.
+// A value of the command line: JSON if it reads as such, otherwise a string.
+Document parseValue(const std::string& text);
+
+// "POINTER=V1,V2" of the command line. Commas inside brackets and quotes belong to the value:
+// /camera/position=[0,0,1],[0,0,2] has two.
 // Ranges (axis_range.h) stand for their values: /groom/guides=pow2:6:12,86. Throws engine::Error.
 Axis parseAxis(std::string_view argument);
 
@@ -41,6 +43,6 @@ Axis echoedAxis(const Axis& axis, const Json& resolved);
 std::vector<std::string> axisLabels(const std::vector<std::string>& pointers);
 
 // The value as names and tables show it: a string without its quotes.
-std::string valueLabel(const std::string& value);
+std::string valueLabel(const Json& value);
 
 }  // namespace benchmarks

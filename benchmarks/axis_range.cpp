@@ -5,7 +5,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/json_fwd.h"
 #include "benchmarks/sweep.h"
 #include "engine/error.h"
 
@@ -32,16 +31,16 @@ std::optional<std::vector<double>> numbers(std::string_view text) {
     return found;
 }
 
-std::string numberText(double number) {
+Json wholeIfItIs(double number) {
     const double limit = std::ldexp(1.0, static_cast<int>(kLargestExponent));
     if (number == std::trunc(number) && std::abs(number) <= limit)
-        return Json(static_cast<std::int64_t>(number)).dump();
-    return Json(number).dump();
+        return static_cast<std::int64_t>(number);
+    return number;
 }
 
 }  // namespace
 
-std::optional<std::vector<std::string>> rangeValues(std::string_view text) {
+std::optional<std::vector<Document>> rangeValues(std::string_view text) {
     const bool powers = text.starts_with(kPowersOfTwo);
     const auto parts = numbers(powers ? text.substr(kPowersOfTwo.size()) : text);
     if (!parts || parts->size() < 2 || parts->size() > 3) return std::nullopt;
@@ -58,9 +57,9 @@ std::optional<std::vector<std::string>> rangeValues(std::string_view text) {
     if (count > static_cast<double>(kMaximumCases))
         throw engine::Error(
             std::string(text), "has more than " + std::to_string(kMaximumCases) + " values");
-    std::vector<std::string> values;
+    std::vector<Document> values;
     for (double i = 0.0; i < count; ++i)
-        values.push_back(numberText(powers ? std::exp2(first + i * step) : first + i * step));
+        values.emplace_back(wholeIfItIs(powers ? std::exp2(first + i * step) : first + i * step));
     return values;
 }
 

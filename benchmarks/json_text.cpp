@@ -1,6 +1,7 @@
 #include "benchmarks/json_text.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -109,6 +110,26 @@ private:
 };
 
 }  // namespace
+
+Document::Document() = default;
+Document::Document(Json value) : value_(std::make_unique<const Json>(std::move(value))) {}
+Document::Document(const Document& other)
+    : value_(other.value_ ? std::make_unique<const Json>(*other.value_) : nullptr) {}
+Document::Document(Document&& other) noexcept = default;
+Document& Document::operator=(const Document& other) { return *this = Document(other); }
+Document& Document::operator=(Document&& other) noexcept = default;
+Document::~Document() = default;
+
+const Json& Document::json() const {
+    static const Json null;
+    return value_ ? *value_ : null;
+}
+
+std::string Document::text() const {
+    return json().dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+bool operator==(const Document& a, const Document& b) { return a.text() == b.text(); }
 
 Json parseJson(std::string_view text, const std::string& name) {
     if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)

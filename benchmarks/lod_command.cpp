@@ -52,7 +52,7 @@ int walkLod(const LodOptions& options) {
             device, options.command, scene.settings.seed, options.scene.device.validation),
         .scene =
             {.path = scene.path.string(),
-             .hash = hashText(scene.resolved),
+             .hash = hashText(scene.resolved.text()),
              .document = scene.resolved},
         .frame = options.frame};
     Progress progress(path.steps);

@@ -67,7 +67,7 @@ std::string lodReportText(const LodReport& report) {
     object["scene"] = {
         {"path", report.scene.path},
         {"hash", report.scene.hash},
-        {"document", Json::parse(report.scene.document)}};
+        {"document", report.scene.document.json()}};
     object["frame"] = report.frame;
     object["interrupted"] = report.interrupted;
     Json& steps = object["steps"] = Json::array();

@@ -26,7 +26,7 @@ Axis writtenAxis(const std::string& pointer, const Json& values) {
     if (!values.is_array())
         throw Error(pointer, "expected an array of values, found " + described(values));
     Axis axis{.pointer = pointer, .values = {}, .tied = {}};
-    for (const Json& value : values) axis.values.push_back(value.dump());
+    for (const Json& value : values) axis.values.emplace_back(value);
     return axis;
 }
 
@@ -67,7 +67,7 @@ Axis listed(const Json& rows, const Json& resolved) {
     std::vector<Axis> fields;
     readObjects("cases", rows, [&](const Json& row) {
         for (const auto& [pointer, value] : row.items()) {
-            echoedAxis({.pointer = pointer, .values = {value.dump()}, .tied = {}}, resolved);
+            echoedAxis({.pointer = pointer, .values = {Document(value)}, .tied = {}}, resolved);
             if (std::ranges::find(fields, pointer, &Axis::pointer) == fields.end())
                 fields.push_back({.pointer = pointer, .values = {}, .tied = {}});
         }
@@ -75,10 +75,10 @@ Axis listed(const Json& rows, const Json& resolved) {
     if (fields.empty()) throw Error("/sweep/cases", "a list needs at least one case");
     Json own = resolved;
     for (Axis& field : fields) {
-        const std::string scene_value = valueAt(own, field.pointer).dump();
+        const Json& scene_value = valueAt(own, field.pointer);
         for (const Json& row : rows)
-            field.values.push_back(
-                row.contains(field.pointer) ? row[field.pointer].dump() : scene_value);
+            field.values.emplace_back(
+                row.contains(field.pointer) ? row[field.pointer] : scene_value);
         field = echoedAxis(field, resolved);
     }
     return tied(std::move(fields));

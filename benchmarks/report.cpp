@@ -67,7 +67,7 @@ Json toJson(const BuildRecord& build) {
 }
 
 Json toJson(const SceneRecord& scene) {
-    return {{"path", scene.path}, {"hash", scene.hash}, {"document", Json::parse(scene.document)}};
+    return {{"path", scene.path}, {"hash", scene.hash}, {"document", scene.document.json()}};
 }
 
 // Null if there is no finite sample.
@@ -165,8 +165,7 @@ void putMeasured(Json& object, const CaseResult& result) {
 
 Json toJson(const CaseResult& result) {
     Json object = {{"name", result.name}, {"axes", Json::object()}};
-    for (const AxisValue& axis : result.axes)
-        object["axes"][axis.pointer] = Json::parse(axis.value);
+    for (const AxisValue& axis : result.axes) object["axes"][axis.pointer] = axis.value.json();
     put(object, "index", result.index);
     put(object, "order", result.order);
     object["status"] = statusName(result.status);

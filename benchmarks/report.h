@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "benchmarks/axis.h"
-#include "benchmarks/json_fwd.h"
+#include "benchmarks/json_text.h"
 
 // What a run found out, as plain values, and its JSON: the contract with everyone who reads
 // reports, described by results/report.schema.json. What is not known is absent there, never 0 or
@@ -60,8 +60,8 @@ Json environmentJson(const Environment& environment);
 
 struct SceneRecord {
     std::string path;
-    std::string hash;  // hashText(document)
-    std::string document;  // JSON text: every field, no axis applied
+    std::string hash;  // of the document's text
+    Document document;  // every field, no axis applied
 };
 
 // Samples of one quantity; its median, MAD and the rest are worked out when it is written. One
@@ -161,7 +161,7 @@ Json reportJson(const Report& report);
 
 const char* statusName(Status status);
 
-// The report as indented JSON. A scene document or an axis value that is no JSON is our own bug.
+// The report as indented JSON.
 std::string reportText(const Report& report);
 
 }  // namespace benchmarks

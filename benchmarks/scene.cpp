@@ -1,12 +1,10 @@
 #include "benchmarks/scene.h"
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/json_text.h"
 #include "benchmarks/merge_patch.h"
 #include "benchmarks/pointer.h"
 #include "benchmarks/read_settings.h"
@@ -14,6 +12,7 @@
 #include "benchmarks/write_settings.h"
 #include "engine/error.h"
 #include "engine/png_text.h"
+#include "engine/read_file.h"
 #include "hair/fields.h"
 
 namespace benchmarks {
@@ -21,27 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using engine::Error;
-
-std::string readFile(const fs::path& path) {
-    std::error_code error;
-    if (!fs::exists(path, error)) throw Error(path.string(), "no such file");
-    if (fs::is_directory(path, error)) throw Error(path.string(), "is a folder, not a scene file");
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    if (!file || !(text << file.rdbuf()).good()) {
-        if (file && file.peek() == std::ifstream::traits_type::eof()) return {};  // an empty file
-        throw Error(path.string(), "cannot be read");
-    }
-    return std::move(text).str();
-}
-
-// Of a scene file, or of a screenshot that has one in it.
-std::string readScene(const fs::path& path) {
-    std::string text = readFile(path);
-    if (!engine::isPng(text)) return text;
-    if (auto scene = sceneOfScreenshot(path)) return *std::move(scene);
-    throw Error(path.string(), "is a picture without a scene in it");
-}
 
 // Calls `action` and puts the file's name in front of the reasons it throws.
 template <class Action>
@@ -51,6 +29,17 @@ auto inFile(const fs::path& path, Action&& action) {
     } catch (const Error& error) {
         throw Error(path.string(), error.what());
     }
+}
+
+// Of a scene file, or of a screenshot that has one in it.
+std::string readScene(const fs::path& path) {
+    if (std::error_code error; fs::is_directory(path, error))
+        throw Error(path.string(), "is a folder, not a scene file");
+    std::string text = engine::readFile(path);
+    if (!engine::isPng(text)) return text;
+    auto scene = inFile(path, [&] { return engine::pngText(text, kSceneKeyword); });
+    if (scene) return *std::move(scene);
+    throw Error(path.string(), "is a picture without a scene in it");
 }
 
 const std::string* stringMember(const Json& document, const char* key) {
@@ -67,15 +56,15 @@ Scene makeScene(const fs::path& path, Json document) {
     scene.directory = path.parent_path();
     scene.name = path.stem().string();
     scene.settings = readSettings(document);
-    const Json resolved = writeSettings(scene.settings);
+    Json resolved = writeSettings(scene.settings);
     if (const auto member = document.find("sweep"); member != document.end()) {
         SweepMember sweep = readSweep(*member, resolved);
         scene.axes = std::move(sweep.axes);
         scene.exclusions = std::move(sweep.exclusions);
     }
     for (const std::string_view key : kSceneKeys) document.erase(std::string(key));
-    scene.document = document.dump();
-    scene.resolved = resolved.dump();
+    scene.document = Document(std::move(document));
+    scene.resolved = Document(std::move(resolved));
     return scene;
 }
 
@@ -122,8 +111,13 @@ Json everyMember() {
     return known;
 }
 
-// The document with its bases merged and all of it checked. `opened`: the files that led here.
-Json loadDocument(const fs::path& path, std::vector<fs::path> opened) {
+struct Loaded {
+    Scene scene;
+    Json document;  // what the scene is made from: bases merged, with the reader's own members
+};
+
+// `opened`: the files that led here.
+Loaded load(const fs::path& path, std::vector<fs::path> opened) {
     const std::string text = readScene(path);
     Json document = parseJson(text, path.string());
     return inFile(path, [&] {
@@ -136,33 +130,34 @@ Json loadDocument(const fs::path& path, std::vector<fs::path> opened) {
             opened.push_back(fs::weakly_canonical(path));
             if (std::ranges::find(opened, fs::weakly_canonical(base_path)) != opened.end())
                 throw Error("/base", base_path.string() + " is built on this file: a cycle");
-            Json merged;
+            Loaded loaded;
             try {
-                merged = loadDocument(base_path, opened);
+                loaded = load(base_path, opened);
             } catch (const Error& error) {
                 throw Error("/base", error.what());
             }
+            Json& merged = loaded.document;
             if (const fs::path folder = fs::path(*base).parent_path(); !folder.empty())
-                moveFileNames(merged, folder, readSettings(merged));
+                moveFileNames(merged, folder, loaded.scene.settings);
             document.erase("base");
             mergePatch(merged, document, everyMember());
             document = std::move(merged);
         }
-        makeScene(path, document);
-        return document;
+        Scene scene = makeScene(path, document);
+        return Loaded{.scene = std::move(scene), .document = std::move(document)};
     });
 }
 
 }  // namespace
 
-Scene loadScene(const fs::path& path) { return makeScene(path, loadDocument(path, {})); }
+Scene loadScene(const fs::path& path) { return load(path, {}).scene; }
 
-void setField(Scene& scene, const std::string& pointer, const std::string& value) {
-    Json document = Json::parse(scene.document);
-    document[Json::json_pointer(pointer)] = Json::parse(value);
+void setField(Scene& scene, const std::string& pointer, const Json& value) {
+    Json document = scene.document.json();
+    document[Json::json_pointer(pointer)] = value;
     scene.settings = readSettings(document);
-    scene.document = document.dump();
-    scene.resolved = writeSettings(scene.settings).dump();
+    scene.document = Document(std::move(document));
+    scene.resolved = Document(writeSettings(scene.settings));
 }
 
 }  // namespace benchmarks

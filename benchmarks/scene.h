@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "benchmarks/axis.h"
-#include "benchmarks/json_fwd.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/read_sweep.h"
 #include "hair/settings.h"
 
@@ -22,9 +22,8 @@ struct Scene {
     std::filesystem::path path;  // as given
     std::filesystem::path directory;  // what file names in the scene are relative to
     std::string name;  // file name without its extension
-    // JSON text: what is written, bases merged, without the three members above.
-    std::string document;
-    std::string resolved;  // JSON text: every field, absent ones with their defaults
+    Document document;  // what is written, bases merged, without the three members above
+    Document resolved;  // every field, absent ones with their defaults
     hair::Settings settings;  // of `resolved`: no axis applied
     std::vector<Axis> axes;
     std::vector<Exclusion> exclusions;  // of what the axes make: without axes they mean nothing
@@ -35,8 +34,8 @@ struct Scene {
 // base is reported as "<file>: /base: <base file>: ...".
 Scene loadScene(const std::filesystem::path& path);
 
-// Sets one field of every case, as if the file had it. `value` is JSON text.
-// Throws engine::Error "<JSON pointer>: <reason>".
-void setField(Scene& scene, const std::string& pointer, const std::string& value);
+// Sets one field of every case, as if the file had it. Throws engine::Error "<JSON pointer>:
+// <reason>".
+void setField(Scene& scene, const std::string& pointer, const Json& value);
 
 }  // namespace benchmarks

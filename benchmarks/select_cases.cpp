@@ -11,31 +11,32 @@ namespace benchmarks {
 
 namespace {
 
-// "POINTER=VALUE": a value is JSON if it reads as such, otherwise a string.
+// "POINTER=VALUE".
 void setField(Scene& scene, const std::string& argument) {
     const std::size_t equals = argument.find('=');
     try {
         if (equals == std::string::npos || equals == 0)
             throw engine::Error("expected POINTER=VALUE, as in /strands/density=16");
-        const Json value = Json::parse(argument.substr(equals + 1), nullptr, false);
         const Axis field = checkedAxis(
             {.pointer = argument.substr(0, equals),
-             .values = {(value.is_discarded() ? Json(argument.substr(equals + 1)) : value)
-                            .dump(-1, ' ', false, Json::error_handler_t::replace)}},
-            Json::parse(scene.resolved));
-        setField(scene, field.pointer, field.values.front());
+             .values = {parseValue(argument.substr(equals + 1))}},
+            scene.resolved.json());
+        setField(scene, field.pointer, field.values.front().json());
     } catch (const engine::Error& error) {
         throw engine::Error("--set " + argument, error.what());
     }
 }
 
+// The number as a scene file would have it: 0.02, though settings are floats.
+Json decimal(double number) { return Json::parse(decimalText(number)); }
+
 }  // namespace
 
 std::vector<CaseSpec> selectCases(Scene& scene, const SceneOptions& options) {
-    if (options.frames) setField(scene, "/run/frames", std::to_string(*options.frames));
-    if (options.warmup) setField(scene, "/run/warmup", std::to_string(*options.warmup));
-    if (options.precision) setField(scene, "/run/precision", decimalText(*options.precision));
-    if (options.max_time) setField(scene, "/run/max_time", decimalText(*options.max_time));
+    if (options.frames) setField(scene, "/run/frames", *options.frames);
+    if (options.warmup) setField(scene, "/run/warmup", *options.warmup);
+    if (options.precision) setField(scene, "/run/precision", decimal(*options.precision));
+    if (options.max_time) setField(scene, "/run/max_time", decimal(*options.max_time));
     for (const std::string& set : options.sets) setField(scene, set);
     std::vector<Axis> overrides;
     for (const std::string& axis : options.axes) overrides.push_back(parseAxis(axis));

@@ -25,13 +25,12 @@ std::vector<std::string> fields(const Axis& axis) {
     return pointers;
 }
 
-std::vector<Axis>
-withOverrides(const Scene& scene, const Json& resolved, std::span<const Axis> overrides) {
+std::vector<Axis> withOverrides(const Scene& scene, std::span<const Axis> overrides) {
     std::vector<Axis> axes = scene.axes;
     for (const Axis& override_axis : overrides) {
         Axis axis;
         try {
-            axis = checkedAxis(override_axis, resolved);
+            axis = checkedAxis(override_axis, scene.resolved.json());
         } catch (const Error& error) {
             throw Error("-a", error.what());
         }
@@ -86,7 +85,7 @@ bool isExcluded(const hair::Settings& settings, const std::vector<Exclusion>& ex
     if (exclusions.empty()) return false;
     Json document = writeSettings(settings);
     const auto meets = [&](const Axis& condition) {
-        const std::string value = valueAt(document, condition.pointer).dump();
+        const Document value(valueAt(document, condition.pointer));
         return std::ranges::count(condition.values, value) > 0;
     };
     return std::ranges::any_of(exclusions, [&](const Exclusion& exclusion) {
@@ -99,15 +98,24 @@ std::string caseName(
     const std::vector<AxisValue>& values) {
     std::string name = scene;
     for (std::size_t i = 0; i < values.size(); ++i)
-        name += '/' + labels[i] + ':' + valueLabel(values[i].value);
+        name += '/' + labels[i] + ':' + valueLabel(values[i].value.json());
     return name;
+}
+
+Json patched(const Scene& scene, std::span<const AxisValue> axes) {
+    Json document = scene.resolved.json();
+    for (const AxisValue& axis : axes) patch(document, axis.pointer, axis.value.json());
+    return document;
 }
 
 }  // namespace
 
+Document caseDocument(const Scene& scene, std::span<const AxisValue> axes) {
+    return Document(patched(scene, axes));
+}
+
 std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides) {
-    const Json resolved = Json::parse(scene.resolved);
-    const std::vector<Axis> axes = withOverrides(scene, resolved, overrides);
+    const std::vector<Axis> axes = withOverrides(scene, overrides);
     std::vector<std::string> pointers;
     for (const Axis& axis : axes) std::ranges::move(fields(axis), std::back_inserter(pointers));
     const std::vector<std::string> labels = axisLabels(pointers);
@@ -122,12 +130,8 @@ std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides
             spec.axes = combination(axes, i);
             spec.name = caseName(scene.name, labels, spec.axes);
             context = scene.path.string() + (axes.empty() ? "" : ": " + spec.name);
-            Json document = resolved;
-            for (const AxisValue& axis : spec.axes)
-                patch(document, axis.pointer, Json::parse(axis.value));
-            spec.settings = readSettings(document);
+            spec.settings = axes.empty() ? scene.settings : readSettings(patched(scene, spec.axes));
             if (!axes.empty() && isExcluded(spec.settings, scene.exclusions)) continue;
-            spec.document = document.dump();
             checkSettings(spec.settings);
             if (!names.insert(spec.name).second) throw Error("two cases have this name");
             cases.push_back(std::move(spec));

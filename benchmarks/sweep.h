@@ -17,7 +17,6 @@ inline constexpr std::size_t kMaximumCases = 100000;
 struct CaseSpec {
     std::string name;  // "thesis/guides:86/msaa:4", distinct; the scene's name if nothing is swept
     std::vector<AxisValue> axes;  // in the sweep's order
-    std::string document;  // JSON text: every field
     hair::Settings settings;
 };
 
@@ -28,6 +27,9 @@ struct CaseSpec {
 // another, more than kMaximumCases combinations or all of them excluded, a case that breaks a rule
 // between fields ("<file>: <case>: <pointer>: ...").
 std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides = {});
+
+// The scene's resolved document with the values of a case: what the case's settings are read from.
+Document caseDocument(const Scene& scene, std::span<const AxisValue> axes);
 
 // Whether the ECMAScript regular expression is found in a name; an empty one is in all. A malformed
 // one is an engine::Error.

@@ -112,7 +112,7 @@ std::vector<Column> columns(const Json& report) {
     for (std::size_t i = 0; i < pointers.size(); ++i)
         all.push_back(column(labels[i], cases, [&](const Json& result) {
             const Json& value = member(member(result, "axes"), pointers[i]);
-            return value.is_null() ? std::string("-") : valueLabel(value.dump());
+            return value.is_null() ? std::string("-") : valueLabel(value);
         }));
     if (pointers.empty()) {
         all.push_back(

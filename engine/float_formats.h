@@ -4,7 +4,7 @@
 
 #include "engine/image_file.h"
 
-// The formats of readFloatImage. Their errors don't name the file.
+// The formats of readFloatImage, and what all pictures have in common. Errors don't name the file.
 namespace engine {
 
 FloatPixels decodeExr(std::string_view file);

@@ -6,6 +6,7 @@
 
 #include "engine/encode_png.h"
 #include "engine/error.h"
+#include "engine/float_formats.h"
 #include "engine/read_file.h"
 #include "engine/write_file.h"
 
@@ -19,11 +20,6 @@
 #include <stb/stb_image.h>
 
 namespace engine {
-namespace {
-
-constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 26;
-
-}  // namespace
 
 Pixels decodeImage(std::string_view file) {
     if (file.size() > std::size_t{std::numeric_limits<int>::max()})
@@ -35,12 +31,8 @@ Pixels decodeImage(std::string_view file) {
     int channels = 0;
     if (!stbi_info_from_memory(data, size, &width, &height, &channels))
         throw Error("not a PNG, JPEG, TGA or BMP");
-    const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-    if (width <= 0 || height <= 0 || pixels > kMostPixels) {
-        throw Error(
-            std::to_string(width) + " by " + std::to_string(height) +
-            " pixels are outside [1, 2^26] in all");
-    }
+    checkPictureSize(width, height);
+    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(
         stbi_load_from_memory(data, size, &width, &height, &channels, 4), stbi_image_free);
     if (!decoded) throw Error(std::string("can't be decoded: ") + stbi_failure_reason());

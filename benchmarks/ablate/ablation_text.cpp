@@ -107,8 +107,7 @@ void putMeasured(Json& object, const CaseAblation& result) {
 
 Json toJson(const CaseAblation& result) {
     Json object = {{"name", result.name}, {"axes", Json::object()}};
-    for (const AxisValue& axis : result.axes)
-        object["axes"][axis.pointer] = Json::parse(axis.value);
+    for (const AxisValue& axis : result.axes) object["axes"][axis.pointer] = axis.value.json();
     object["status"] = statusName(result.status);
     putText(object, "reason", result.reason);
     if (result.status == Status::ok) putMeasured(object, result);
@@ -123,7 +122,7 @@ std::string ablationText(const AblationReport& report) {
     object["scene"] = {
         {"path", report.scene.path},
         {"hash", report.scene.hash},
-        {"document", Json::parse(report.scene.document)}};
+        {"document", report.scene.document.json()}};
     object["notes"] = report.notes;
     object["laps"] = report.laps;
     object["interrupted"] = report.interrupted;

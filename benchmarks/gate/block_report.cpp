@@ -11,10 +11,6 @@ namespace benchmarks {
 
 namespace {
 
-std::string jsonText(const Json& json) {
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 BlockCase readCase(const Json& result) {
     BlockCase read{.outcome = caseOutcome(result), .metrics = {}};
     if (read.outcome.status != "ok") return read;
@@ -29,9 +25,9 @@ BlockReport readBlock(const std::filesystem::path& path) {
     const Json report = readReport(path);
     try {
         BlockReport block{
-            .environment = jsonText(report.at("environment")),
-            .scene = jsonText(
-                {{"path", report.at("scene").at("path")}, {"hash", report.at("scene").at("hash")}}),
+            .environment = Document(report.at("environment")),
+            .scene = Document(Json{
+                {"path", report.at("scene").at("path")}, {"hash", report.at("scene").at("hash")}}),
             .software_device = isSoftwareDevice(report.at("environment")),
             .cases = {}};
         for (const Json& each : report.at("cases")) block.cases.push_back(readCase(each));

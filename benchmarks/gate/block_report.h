@@ -6,6 +6,7 @@
 
 #include "benchmarks/compare/judged_metrics.h"
 #include "benchmarks/compare/mismatch.h"
+#include "benchmarks/json_text.h"
 
 namespace benchmarks {
 
@@ -16,8 +17,8 @@ struct BlockCase {
 
 // What a gate takes from the report of one process.
 struct BlockReport {
-    std::string environment;  // JSON text
-    std::string scene;        // JSON text: path and hash
+    Document environment;
+    Document scene;  // path and hash
     bool software_device = false;
     std::vector<BlockCase> cases;
 };

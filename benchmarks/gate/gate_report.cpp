@@ -59,8 +59,8 @@ Json sideJson(const GateRun& run, const Side& side, const std::optional<BlockRep
     Json object = {{"given", side.text}};
     object["command"] = blockCommand(side, run.scene, "{out}", 0);
     if (first) {
-        object["environment"] = Json::parse(first->environment);
-        object["scene"] = Json::parse(first->scene);
+        object["environment"] = first->environment.json();
+        object["scene"] = first->scene.json();
         object["cases"] = outcomesJson(*first);
     }
     return object;

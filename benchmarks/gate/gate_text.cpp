@@ -14,7 +14,7 @@ namespace {
 std::string sideText(const Side& side, const std::optional<BlockReport>& first) {
     std::string text = std::string{side.name} + ": " + side.text;
     if (!first) return text + '\n';
-    const Json environment = Json::parse(first->environment);
+    const Json& environment = first->environment.json();
     if (const auto build = environment.find("build"); build != environment.end()) {
         text += ", hairbench " + build->value("version", "");
         if (const std::string commit = build->value("commit", ""); !commit.empty())
@@ -27,8 +27,8 @@ std::string sideText(const Side& side, const std::optional<BlockReport>& first) 
 std::string differencesText(const GateRun& run) {
     if (!run.first_a || !run.first_b) return {};
     std::string text;
-    const Json a = {{"environment", Json::parse(run.first_a->environment)}};
-    const Json b = {{"environment", Json::parse(run.first_b->environment)}};
+    const Json a = {{"environment", run.first_a->environment.json()}};
+    const Json b = {{"environment", run.first_b->environment.json()}};
     for (const std::string& each : environmentDifferences(a, b)) text += "warning: " + each + '\n';
     return text;
 }

@@ -16,10 +16,9 @@ namespace benchmarks {
 
 namespace {
 
-SceneRecord recordOf(const std::filesystem::path& path, std::string document) {
-    SceneRecord record{.path = path.string(), .hash = hashText(document), .document = {}};
-    record.document = std::move(document);
-    return record;
+SceneRecord recordOf(const std::filesystem::path& path, Document document) {
+    std::string hash = hashText(document.text());
+    return {.path = path.string(), .hash = std::move(hash), .document = std::move(document)};
 }
 
 bool readNumber(std::string_view text, std::uint32_t& number) {
@@ -53,15 +52,16 @@ planRun(const SceneOptions& options, const std::string& filter, const std::strin
     std::vector<PlannedCase> cases;
     for (Scene& scene : scenes) {
         for (CaseSpec& spec : selectCases(scene, options)) {
-            all_documents += spec.name + '\n' + spec.document + '\n';
+            all_documents += spec.name + '\n' + caseDocument(scene, spec.axes).text() + '\n';
             const std::size_t index = cases.size();
             cases.push_back(
                 {.spec = std::move(spec), .directory = scene.directory, .index = index});
         }
-        documents[scene.name] = Json::parse(scene.resolved);
+        documents[scene.name] = scene.resolved.json();
     }
-    plan.scene = isSuite(options.scene) ? recordOf(options.scene, Json{{"suite", documents}}.dump())
-                                        : recordOf(options.scene, scenes.front().resolved);
+    plan.scene = isSuite(options.scene)
+                     ? recordOf(options.scene, Document(Json{{"suite", documents}}))
+                     : recordOf(options.scene, scenes.front().resolved);
     plan.case_count = cases.size();
     plan.cases_hash = hashText(all_documents);
     const auto matches = nameMatcher(filter);

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <memory>
 #include <string>
 
 #include "engine/error.h"
+#include "engine/read_file.h"
 #include "hair/groom/file_extension.h"
 #include "hair/groom/formats/import_gltf_strands.h"
 #include "hair/groom/formats/import_hair.h"
@@ -45,35 +45,9 @@ constexpr StrandImporter kImporters[] = {
     {"USD", kUsd, "", importUsd},
 };
 
-// A file that is there and can be read.
-class OpenFile {
-public:
-    explicit OpenFile(const fs::path& path) {
-        std::error_code error;
-        if (!fs::exists(path, error)) throw engine::Error("no such file");
-        if (!fs::is_regular_file(path, error)) throw engine::Error("not a file");
-        size_ = fs::file_size(path, error);
-        file_.open(path, std::ios::binary);
-        if (error || !file_) throw engine::Error("can't be read");
-    }
-
-    std::uintmax_t size() const { return size_; }
-
-    // The first of its bytes.
-    void read(char* bytes, std::uintmax_t count) {
-        file_.seekg(0);
-        file_.read(bytes, static_cast<std::streamsize>(count));
-        if (!file_) throw engine::Error("can't be read");
-    }
-
-private:
-    std::ifstream file_;
-    std::uintmax_t size_ = 0;
-};
-
-const StrandImporter& importerOf(const fs::path& path, OpenFile& file) {
+const StrandImporter& importerOf(const fs::path& path, engine::OpenFile& file) {
     std::array<char, 8> bytes{};  // longer than every magic
-    file.read(bytes.data(), std::min<std::uintmax_t>(file.size(), bytes.size()));
+    file.read(std::span(bytes).first(std::min<std::uintmax_t>(file.size(), bytes.size())));
     const std::string_view head(bytes.data(), bytes.size());
     const std::string extension = lowerCaseExtension(path);
     for (const StrandImporter& importer : kImporters)
@@ -85,7 +59,8 @@ const StrandImporter& importerOf(const fs::path& path, OpenFile& file) {
         for (const std::string_view name : importer.extensions)
             known.append(known.empty() ? "" : ", ").append(name);
     }
-    throw engine::Error("unknown format of strands \"" + extension + "\"; known are " + known);
+    throw engine::Error(
+        path.string(), "unknown format of strands \"" + extension + "\"; known are " + known);
 }
 
 }  // namespace
@@ -93,23 +68,19 @@ const StrandImporter& importerOf(const fs::path& path, OpenFile& file) {
 std::span<const StrandImporter> strandImporters() { return kImporters; }
 
 const StrandImporter& strandImporterOf(const fs::path& path) {
-    try {
-        OpenFile file(path);
-        return importerOf(path, file);
-    } catch (const engine::Error& error) {
-        throw engine::Error(path.string(), error.what());
-    }
+    engine::OpenFile file(path);
+    return importerOf(path, file);
 }
 
 StrandSet importStrands(const fs::path& path) {
+    engine::OpenFile file(path);
+    const StrandImporter& importer = importerOf(path, file);
+    // Not filled with zeros first: grooms have hundreds of megabytes.
+    const auto storage = std::make_unique_for_overwrite<char[]>(file.size());
+    const std::span bytes(storage.get(), file.size());
+    file.read(bytes);
     try {
-        OpenFile file(path);
-        const StrandImporter& importer = importerOf(path, file);
-        // Not filled with zeros first: grooms have hundreds of megabytes.
-        const auto bytes = std::make_unique_for_overwrite<char[]>(file.size());
-        file.read(bytes.get(), file.size());
-        return importer.read(
-            {.bytes = std::as_bytes(std::span(bytes.get(), file.size())), .path = path});
+        return importer.read({.bytes = std::as_bytes(bytes), .path = path});
     } catch (const engine::Error& error) {
         throw engine::Error(path.string(), error.what());
     }

@@ -23,7 +23,7 @@ const std::filesystem::path kSchemaFile =
 CaseAblation sampleCase(std::size_t laps) {
     CaseAblation result{
         .name = "rest",
-        .axes = {{"/render/msaa", "4"}},
+        .axes = {{"/render/msaa", Document(4)}},
         .frame = 13,
         .timing = "isolated",
         .counts = {{"strands", 8704}},
@@ -52,7 +52,7 @@ AblationReport sampleAblation(std::size_t laps = 8) {
         .cases =
             {sampleCase(laps),
              {.name = "rest/backend:pulling",
-              .axes = {{"/strands/backend", "\"pulling_geometry\""}},
+              .axes = {{"/strands/backend", Document("pulling_geometry")}},
               .status = Status::skipped,
               .reason = "/strands/backend: only tessellation"}},
         .notes = {"stages overlap"}};

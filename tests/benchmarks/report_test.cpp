@@ -126,7 +126,7 @@ TEST(Report, LeavesOutWhatIsNotKnown) {
         R"("index":2,"order":0,)"
         R"("status":"skipped","reason":"the device has no VK_EXT_mesh_shader, which the back end needs"})");
     Report bare;
-    bare.scene.document = "{}";
+    bare.scene.document = Document(Json::object());
     bare.cases.push_back(
         {.name = "x", .trust = {.pass_sum_over_wall = std::nan(""), .warnings = {}}});
     const Json empty = Json::parse(reportText(bare));

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include <nlohmann/json.hpp>
+
 #include "benchmarks/report.h"
 
 namespace benchmarks {
@@ -26,7 +28,7 @@ inline Report sampleReport() {
         .started = "2030-01-02T03:04:05Z",
         .seed = 7,
         .validation = false};
-    report.scene = {"scenes/thesis.json", "0123456789abcdef", R"({"seed":7})"};
+    report.scene = {"scenes/thesis.json", "0123456789abcdef", Document(Json{{"seed", 7}})};
     report.case_count = 6;
     report.order_seed = 11;
     report.shard = {.index = 1, .count = 2};
@@ -35,7 +37,8 @@ inline Report sampleReport() {
         {.name = "thesis/density:64/backend:tessellation",
          .index = 0,
          .order = 2,
-         .axes = {{"/strands/density", "64"}, {"/strands/backend", "\"tessellation\""}},
+         .axes =
+             {{"/strands/density", Document(64)}, {"/strands/backend", Document("tessellation")}},
          .metrics =
              {{"frame.time", "ms", {2.0, 4.0, 3.0, nan}, "overlapped"},
               {"fps", "1/s", {333.25}, "overlapped"},
@@ -72,14 +75,14 @@ inline Report sampleReport() {
         {.name = "thesis/density:64/backend:mesh",
          .index = 2,
          .order = 0,
-         .axes = {{"/strands/density", "64"}, {"/strands/backend", "\"mesh\""}},
+         .axes = {{"/strands/density", Document(64)}, {"/strands/backend", Document("mesh")}},
          .status = Status::skipped,
          .reason = "the device has no VK_EXT_mesh_shader, which the back end needs"});
     report.cases.push_back(
         {.name = "thesis/density:64/backend:lines",
          .index = 4,
          .order = 1,
-         .axes = {{"/strands/density", "64"}, {"/strands/backend", "\"lines\""}},
+         .axes = {{"/strands/density", Document(64)}, {"/strands/backend", Document("lines")}},
          .status = Status::failed,
          .reason = "device lost"});
     return report;

@@ -1,6 +1,7 @@
 #include "benchmarks/scene.h"
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
@@ -19,7 +20,7 @@ TEST(Scene, KnowsWhereItIs) {
     EXPECT_EQ(scene.path, path);
     EXPECT_EQ(scene.directory, folder.path());
     EXPECT_EQ(scene.name, "curl");
-    EXPECT_EQ(scene.document, "{}");
+    EXPECT_EQ(scene.document.text(), "{}");
     EXPECT_TRUE(scene.axes.empty());
 }
 
@@ -28,13 +29,13 @@ TEST(Scene, SeparatesSettingsFromTheReadersMembers) {
     const Scene scene = loadScene(folder.write(
         "s.json",
         R"({"$schema": "x", "seed": 7, "sweep": {"/strands/density": [64.0, 16], "/render/msaa": [1]}})"));
-    EXPECT_EQ(scene.document, R"({"seed":7})");
-    EXPECT_THAT(scene.resolved, HasSubstr(R"("seed":7,"groom":{"file":"","mesh":"",)"));
-    EXPECT_THAT(scene.resolved, Not(HasSubstr("sweep")));
+    EXPECT_EQ(scene.document.text(), R"({"seed":7})");
+    EXPECT_THAT(scene.resolved.text(), HasSubstr(R"("seed":7,"groom":{"file":"","mesh":"",)"));
+    EXPECT_THAT(scene.resolved.text(), Not(HasSubstr("sweep")));
     EXPECT_EQ(scene.settings.seed, 7u);
     ASSERT_EQ(scene.axes.size(), 2u);
     EXPECT_EQ(scene.axes[0].pointer, "/strands/density");
-    EXPECT_THAT(scene.axes[0].values, ElementsAre("64", "16"));
+    EXPECT_THAT(scene.axes[0].values, ElementsAre(Document(64), Document(16)));
 }
 
 TEST(Scene, IsAppliedToItsBase) {
@@ -44,7 +45,7 @@ TEST(Scene, IsAppliedToItsBase) {
     const Scene scene = loadScene(folder.write(
         "s.json", R"({"base": "base.json", "strands": {"density": 9, "tessellation": null},
                       "sweep": {"/strands/density": null}})"));
-    EXPECT_EQ(scene.document, R"({"seed":7,"strands":{"density":9}})");
+    EXPECT_EQ(scene.document.text(), R"({"seed":7,"strands":{"density":9}})");
     ASSERT_EQ(scene.axes.size(), 1u);
     EXPECT_EQ(scene.axes[0].pointer, "/render/msaa");
 }
@@ -80,12 +81,12 @@ TEST(Scene, FindsTheFilesOfABaseInAnotherFolder) {
 TEST(SetField, IsAsIfTheFileHadIt) {
     const TemporaryFolder folder;
     Scene scene = loadScene(folder.write("s.json", R"({"seed": 7})"));
-    setField(scene, "/run/frames", "64");
-    EXPECT_EQ(scene.document, R"({"seed":7,"run":{"frames":64}})");
+    setField(scene, "/run/frames", 64);
+    EXPECT_EQ(scene.document.text(), R"({"seed":7,"run":{"frames":64}})");
     EXPECT_EQ(scene.settings.run.frames, 64u);
-    EXPECT_THAT(scene.resolved, HasSubstr(R"("frames":64)"));
+    EXPECT_THAT(scene.resolved.text(), HasSubstr(R"("frames":64)"));
     EXPECT_EQ(
-        errorText([&] { setField(scene, "/run/frames", "0"); }),
+        errorText([&] { setField(scene, "/run/frames", 0); }),
         "/run/frames: 0 is outside [1, 1000000] count");
 }
 

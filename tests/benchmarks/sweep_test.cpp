@@ -41,11 +41,12 @@ TEST_F(Sweep, IsTheProductWithTheLastAxisFastest) {
 TEST_F(Sweep, OfNothingIsOneCase) { EXPECT_THAT(names("{}"), ElementsAre("s")); }
 
 TEST_F(Sweep, SetsTheFieldsOfEachCase) {
-    const auto cases = expand(load(R"({
+    const Scene scene = load(R"({
         "strands": {"tessellation": 2},
         "simulation": {"colliders": [{"radius": 1}]},
         "sweep": {"/simulation/colliders/0/radius": [2, 3], "/camera/position/2": [1],
-                  "/strands/backend": ["pulling_geometry"], "/camera/target": [[1, 2, 3]]}})"));
+                  "/strands/backend": ["pulling_geometry"], "/camera/target": [[1, 2, 3]]}})");
+    const auto cases = expand(scene);
     ASSERT_EQ(cases.size(), 2u);
     const CaseSpec& last = cases[1];
     EXPECT_EQ(last.name, "s/radius:3/position.2:1/backend:pulling_geometry/target:[1,2,3]");
@@ -55,9 +56,9 @@ TEST_F(Sweep, SetsTheFieldsOfEachCase) {
     EXPECT_EQ(last.settings.strands.backend, hair::Backend::pulling_geometry);
     EXPECT_EQ(last.settings.strands.tessellation, 2u);
     EXPECT_EQ(last.axes[0].pointer, "/simulation/colliders/0/radius");
-    EXPECT_EQ(last.axes[0].value, "3");
-    EXPECT_EQ(last.axes[2].value, "\"pulling_geometry\"");
-    EXPECT_THAT(last.document, HasSubstr(R"("target":[1,2,3])"));
+    EXPECT_EQ(last.axes[0].value.text(), "3");
+    EXPECT_EQ(last.axes[2].value.text(), "\"pulling_geometry\"");
+    EXPECT_THAT(caseDocument(scene, last.axes).text(), HasSubstr(R"("target":[1,2,3])"));
 }
 
 TEST_F(Sweep, VariesSeveralFieldsTogetherByAGroup) {

@@ -67,7 +67,7 @@ TEST(Table, ShowsHowFarPicturesAreFromTheReference) {
 // What varies in one scene of a suite is not there in another.
 TEST(Table, NamesTheCasesOfASuite) {
     Report report = sampleReport();
-    report.scene.document = R"({"suite": {"thesis": {}}})";
+    report.scene.document = Document(Json{{"suite", {{"thesis", Json::object()}}}});
     EXPECT_NE(
         table(reportJson(report)).find("\nthesis/density:64/backend:mesh "), std::string::npos);
 }

@@ -46,7 +46,7 @@ TEST_F(TiedSweep, ZipsFieldsInStep) {
     EXPECT_EQ(spec.settings.strands.density, 16u);
     ASSERT_EQ(spec.axes.size(), 3u);
     EXPECT_EQ(spec.axes[2].pointer, "/strands/density");
-    EXPECT_EQ(spec.axes[2].value, "16");
+    EXPECT_EQ(spec.axes[2].value.text(), "16");
 }
 
 TEST_F(TiedSweep, HasAnAxisForEachZip) {

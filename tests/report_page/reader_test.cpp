@@ -99,10 +99,12 @@ TEST_F(PageInBrowser, ShowsTheSamplesOfTheCaseThatIsAskedFor) {
 // Names, values, reasons and descriptions are texts, whatever is in them.
 TEST_F(PageInBrowser, RunsNothingThatIsInAReport) {
     const std::string evil = "</script><img src=x onerror=window.pwned=1><b>\"\u6f22\u00fc\"</b>";
-    benchmarks::Report report = oneCaseReport(evil, {{"/a<i>/" + evil, Json(evil).dump()}});
-    report.cases.push_back(oneCaseReport("other", {{"/a<i>/" + evil, "\"plain\""}}).cases[0]);
+    benchmarks::Report report =
+        oneCaseReport(evil, {{"/a<i>/" + evil, benchmarks::Document(evil)}});
+    report.cases.push_back(
+        oneCaseReport("other", {{"/a<i>/" + evil, benchmarks::Document("plain")}}).cases[0]);
     report.cases[0].trust.warnings = {evil};
-    report.scene.document = Json{{"description", evil}}.dump();
+    report.scene.document = benchmarks::Document(Json{{"description", evil}});
     const auto file = folder_.write("evil.json", reportText(report));
     const Json said = open(
         {file}, R"(

@@ -4,6 +4,8 @@
 #include <fstream>
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 #include "engine/image_file.h"
 
 namespace report_page {
@@ -30,8 +32,8 @@ benchmarks::CaseResult emptyCase(const Known& known) {
     benchmarks::CaseResult result;
     result.name = caseName(known);
     result.axes = {
-        {"/strands/density", std::to_string(known.density)},
-        {"/render/msaa", std::to_string(known.msaa)}};
+        {"/strands/density", benchmarks::Document(known.density)},
+        {"/render/msaa", benchmarks::Document(known.msaa)}};
     return result;
 }
 
@@ -56,7 +58,8 @@ benchmarks::Report emptyReport(const std::string& scene) {
     report.environment.device = {"Sample device", "discrete", "sample", "1.0", "1.3.0", 1.0};
     report.environment.command = {"hairbench", "run", "scenes/" + scene + ".json"};
     report.scene = {
-        "scenes/" + scene + ".json", "0123456789abcdef", R"({"description": "Known."})"};
+        "scenes/" + scene + ".json", "0123456789abcdef",
+        benchmarks::Document(benchmarks::Json{{"description", "Known."}})};
     return report;
 }
 

@@ -113,10 +113,10 @@ TEST_F(Plan, OfASuiteHasAllScenesCases) {
     for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(both.cases[i].index, i);
     EXPECT_EQ(both.cases[0].spec.name, "b/density:1");
     EXPECT_EQ(both.cases[9].spec.name, "a/density:5");
-    const Json document = Json::parse(both.scene.document);
+    const Json& document = both.scene.document.json();
     EXPECT_EQ(document["suite"]["b"]["seed"], 2);
     EXPECT_EQ(document["suite"]["a"]["seed"], 1);
-    EXPECT_EQ(both.scene.hash, hashText(both.scene.document));
+    EXPECT_EQ(both.scene.hash, hashText(both.scene.document.text()));
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ TEST_F(CaseArguments, GiveTheSettingsBackWhateverTheyAre) {
         for (const std::string& set : given.sets) {
             const Axis field = parseAxis(set);
             ASSERT_EQ(field.values.size(), 1u) << set;
-            setField(changed, field.pointer, field.values.front());
+            setField(changed, field.pointer, field.values.front().json());
         }
         std::vector<Axis> axes;
         for (const std::string& axis : given.axes) axes.push_back(parseAxis(axis));

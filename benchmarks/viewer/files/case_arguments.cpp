@@ -98,7 +98,7 @@ void check(Scene scene, const std::vector<Argument>& arguments, const Json& want
         if (argument.in_name)
             axes.push_back(parseAxis(argument.pointer + '=' + valueText(argument.value)));
         else
-            setField(scene, argument.pointer, argument.value.dump());
+            setField(scene, argument.pointer, argument.value);
     }
     const std::vector<CaseSpec> cases = expand(scene, axes);
     if (cases.size() != 1 || writeSettings(cases.front().settings).dump() != wanted.dump())

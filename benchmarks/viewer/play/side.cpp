@@ -10,7 +10,7 @@ namespace benchmarks {
 
 namespace {
 
-std::string documentOf(const hair::Settings& settings) { return writeSettings(settings).dump(); }
+Document documentOf(const hair::Settings& settings) { return Document(writeSettings(settings)); }
 
 bool sameButCamera(hair::Settings a, const hair::Settings& b) {
     a.camera = b.camera;
@@ -41,12 +41,12 @@ void Side::settle() {
 }
 
 void Side::undo() {
-    wanted_ = readSettings(Json::parse(history_.undo()));
+    wanted_ = readSettings(history_.undo().json());
     continues_ = follows_ = false;
 }
 
 void Side::redo() {
-    wanted_ = readSettings(Json::parse(history_.redo()));
+    wanted_ = readSettings(history_.redo().json());
     continues_ = follows_ = false;
 }
 

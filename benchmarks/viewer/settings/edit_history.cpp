@@ -4,9 +4,9 @@
 
 namespace benchmarks {
 
-EditHistory::EditHistory(std::string document) { documents_.push_back(std::move(document)); }
+EditHistory::EditHistory(Document document) { documents_.push_back(std::move(document)); }
 
-void EditHistory::edit(std::string document, bool continues) {
+void EditHistory::edit(Document document, bool continues) {
     const bool replaces = continues && continuing_;
     if (!replaces && document == current()) return;
     continuing_ = continues;
@@ -19,13 +19,13 @@ void EditHistory::edit(std::string document, bool continues) {
     ++index_;
 }
 
-const std::string& EditHistory::undo() {
+const Document& EditHistory::undo() {
     if (canUndo()) --index_;
     continuing_ = false;
     return current();
 }
 
-const std::string& EditHistory::redo() {
+const Document& EditHistory::redo() {
     if (canRedo()) ++index_;
     continuing_ = false;
     return current();

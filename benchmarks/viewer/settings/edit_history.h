@@ -1,30 +1,31 @@
 #pragma once
 
-#include <string>
 #include <vector>
+
+#include "benchmarks/json_text.h"
 
 namespace benchmarks {
 
 // The documents that a scene has been, for undo and redo.
 class EditHistory {
 public:
-    explicit EditHistory(std::string document);
+    explicit EditHistory(Document document);
 
-    const std::string& current() const { return documents_[index_]; }
+    const Document& current() const { return documents_[index_]; }
 
     // A new state; what was undone is gone. One that `continues` the last, as while a slider is
     // dragged, replaces it.
-    void edit(std::string document, bool continues);
+    void edit(Document document, bool continues);
     // What comes next continues nothing: the slider was let go.
     void settle() { continuing_ = false; }
 
     bool canUndo() const { return index_ > 0; }
     bool canRedo() const { return index_ + 1 < documents_.size(); }
-    const std::string& undo();
-    const std::string& redo();
+    const Document& undo();
+    const Document& redo();
 
 private:
-    std::vector<std::string> documents_;
+    std::vector<Document> documents_;
     std::size_t index_ = 0;
     bool continuing_ = false;
 };

@@ -15,12 +15,12 @@ namespace benchmarks {
 Report viewerReport(
     const engine::Device& device, const ReportOrigin& origin, const hair::Settings& settings,
     CaseResult result) {
-    std::string document = writeSettings(settings).dump();
+    Document document(writeSettings(settings));
     Report report;
     report.environment =
         describeEnvironment(device, origin.command, settings.seed, origin.validation);
     report.scene.path = origin.scene.string();
-    report.scene.hash = hashText(document);
+    report.scene.hash = hashText(document.text());
     report.scene.document = std::move(document);
     report.case_count = 1;
     result.name = origin.name;
