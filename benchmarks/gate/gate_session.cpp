@@ -141,7 +141,7 @@ bool GateSession::play() {
              step = gate.next()) {
             const Side& side = step == Gate::Step::run_a ? run_.a : run_.b;
             if (!block(side, Phase::gate, gate.pairs())) return false;
-            gate.add({costsOf(run_.times, run_.blocks.back().medians), {""}});
+            gate.add(costsOf(run_.times, run_.blocks.back().medians));
             judge(gate);
         }
     }
