@@ -42,7 +42,8 @@ void checkEnds(const RoundEnd& overlapped, const RoundEnd& isolated, CaseResult&
 // conditions of the rounds that it played.
 std::vector<Conditions>
 addPasses(const Play& play, const SampledMode& isolated, MachineWatch& watch, CaseResult& result) {
-    const std::vector<std::string> faults = checkTimestamps(play);
+    const std::vector<std::string> faults =
+        checkTimestamps(play.device, [&](engine::FrameLoop& loop) { playFrame(loop, play); });
     const bool software = play.device.info().type == "cpu";
     if (faults.empty()) addPassTimes(isolated.frames, "isolated", result);
     if (faults.empty() && !software) return {};
