@@ -62,8 +62,8 @@ constexpr Row kPurposes[] = {
     {"difference ", "window"},
 };
 
-Metric bytes(std::string name, std::uint64_t count) {
-    return {std::move(name), "B", {static_cast<double>(count)}, ""};
+Metric bytes(Measured what, std::string part, std::uint64_t count) {
+    return {ofMemory(what, std::move(part)), {static_cast<double>(count)}};
 }
 
 }  // namespace
@@ -83,9 +83,9 @@ std::vector<Metric> memoryMetrics(const engine::MemoryLedger& ledger) {
     }
     std::vector<Metric> metrics;
     for (const auto& [heap, size] : heaps)
-        metrics.push_back(bytes("memory.heap." + std::to_string(heap), size));
+        metrics.push_back(bytes(Measured::heap, std::to_string(heap), size));
     for (const auto& [purpose, size] : purposes)
-        metrics.push_back(bytes("memory.purpose." + std::string(purpose), size));
+        metrics.push_back(bytes(Measured::purpose, std::string(purpose), size));
     return metrics;
 }
 

@@ -37,10 +37,13 @@ void ReferenceComparison::add(
     const std::filesystem::path picture = folder_.path() / "picture.png";
     engine::writePng(picture, width, height, rgba);
     const PictureErrors errors = comparePictures(reference, picture, {});
-    result.metrics.push_back({"image.rmse", "1", {errors.rmse}, ""});
-    if (errors.psnr) result.metrics.push_back({"image.psnr", "dB", {*errors.psnr}, ""});
-    result.metrics.push_back({"image.ssim", "1", {errors.ssim}, ""});
-    result.metrics.push_back({"image.flip", "1", {errors.flip}, ""});
+    const auto add_metric = [&](Measured what, double value) {
+        result.metrics.push_back({ofImage(what), {value}});
+    };
+    add_metric(Measured::rmse, errors.rmse);
+    if (errors.psnr) add_metric(Measured::psnr, *errors.psnr);
+    add_metric(Measured::ssim, errors.ssim);
+    add_metric(Measured::flip, errors.flip);
 }
 
 bool ReferenceComparison::isPossible(CaseResult& result) {

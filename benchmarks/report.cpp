@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/decide/median_interval.h"
-#include "benchmarks/hint.h"
 #include "benchmarks/statistics.h"
 
 namespace benchmarks {
@@ -79,8 +78,8 @@ Json toJson(const Metric& metric) {
     const Summary summary = summarize(samples);
     Json object = Json::object();
     object["unit"] = metric.unit;
-    put(object, "hint", hintOf(metric.name, metric.unit));
-    put(object, "mode", metric.mode);
+    put(object, "hint", std::string(betterName(metric.better)));
+    put(object, "mode", std::string(modeName(metric.mode)));
     put(object, "median", summary.median);
     put(object, "mad", summary.mad);
     put(object, "mean", summary.mean);
@@ -148,7 +147,8 @@ Json toJson(const Trust& trust) {
 void putMeasured(Json& object, const CaseResult& result) {
     Json& metrics = object["metrics"] = Json::object();
     for (const Metric& metric : result.metrics)
-        if (Json value = toJson(metric); !value.is_null()) metrics[metric.name] = std::move(value);
+        if (Json value = toJson(metric); !value.is_null())
+            metrics[metric.name()] = std::move(value);
     Json& statistics = object["statistics"] = Json::object();
     for (const Statistic& statistic : result.statistics)
         statistics[statistic.name] = toJson(statistic);

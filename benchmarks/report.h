@@ -8,6 +8,7 @@
 
 #include "benchmarks/axis.h"
 #include "benchmarks/json_text.h"
+#include "benchmarks/metric.h"
 
 // What a run found out, as plain values, and its JSON: the contract with everyone who reads
 // reports, described by results/report.schema.json. What is not known is absent there, never 0 or
@@ -64,16 +65,6 @@ struct SceneRecord {
     Document document;  // every field, no axis applied
 };
 
-// Samples of one quantity; its median, MAD and the rest are worked out when it is written. One
-// without a finite sample is left out.
-struct Metric {
-    std::string name;  // "frame.time", "pass.strands.time", "fps", "memory.device"
-    std::string unit;  // "ms", "1/s", "B"
-    std::vector<double> samples;
-    // "overlapped", "isolated" or "wall_clock" if it was timed in one; never compared across them.
-    std::string mode;
-};
-
 // A pipeline statistic, and the count that the scene implies.
 struct Statistic {
     std::string name;
@@ -121,6 +112,8 @@ struct CaseResult {
     std::vector<AxisValue> axes;
     Status status = Status::ok;
     std::string reason;  // why it was skipped or failed
+    // Medians, MAD and the rest are worked out when they are written; those without a finite sample
+    // are left out then.
     std::vector<Metric> metrics;
     std::vector<Statistic> statistics;
     std::vector<std::pair<std::string, std::uint64_t>>

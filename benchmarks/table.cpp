@@ -5,13 +5,13 @@
 #include <cstdio>
 #include <map>
 #include <set>
-#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/axis.h"
 #include "benchmarks/columns.h"
+#include "benchmarks/metric.h"
 
 namespace benchmarks {
 namespace {
@@ -33,8 +33,8 @@ std::string text(const Json& object, const std::string& name) {
     return value.is_string() ? value.get<std::string>() : std::string();
 }
 
-std::string medianCell(const Json& result, const std::string& name) {
-    const Json& median = member(member(member(result, "metrics"), name), "median");
+std::string medianCell(const Json& result, const MetricId& metric) {
+    const Json& median = member(member(member(result, "metrics"), metric.name()), "median");
     return median.is_number() ? shortNumber(median.get<double>()) : "-";
 }
 
@@ -75,23 +75,14 @@ std::vector<std::string> varyingAxes(const Json& cases) {
     return pointers;
 }
 
-// "pass.strands.time" -> "strands"; empty for other metrics.
-std::string passOf(std::string_view metric) {
-    constexpr std::string_view kBefore = "pass.", kAfter = ".time";
-    if (!metric.starts_with(kBefore) || !metric.ends_with(kAfter)) return {};
-    const std::string_view pass =
-        metric.substr(kBefore.size(), metric.size() - kBefore.size() - kAfter.size());
-    return pass.find('.') == pass.npos ? std::string(pass) : std::string();  // not pass.*.cpu.time
-}
-
-std::vector<std::string> passes(const Json& cases) {
-    std::vector<std::string> names;
+std::vector<MetricId> passTimes(const Json& cases) {
+    std::vector<MetricId> times;
     for (const Json& result : cases)
         for (const auto& [name, metric] : member(result, "metrics").items())
-            if (const std::string pass = passOf(name);
-                !pass.empty() && std::ranges::find(names, pass) == names.end())
-                names.push_back(pass);
-    return names;
+            if (const MetricId id = metricNamed(name);
+                isPassTime(id) && std::ranges::find(times, id) == times.end())
+                times.push_back(id);
+    return times;
 }
 
 template <class Cell>
@@ -119,18 +110,19 @@ std::vector<Column> columns(const Json& report) {
             column("case", cases, [](const Json& result) { return text(result, "name"); }));
         all.back().numeric = false;
     }
-    const auto addMedian = [&](std::string title, const std::string& metric) {
+    const auto addMedian = [&](std::string title, const MetricId& metric) {
         all.push_back(column(std::move(title), cases, [&](const Json& result) {
             return medianCell(result, metric);
         }));
     };
-    addMedian("fps", "fps");
-    addMedian("frame ms", "frame.time");
-    for (const std::string& pass : passes(cases)) addMedian(pass + " ms", "pass." + pass + ".time");
-    if (std::ranges::any_of(cases, [](const Json& result) {
-            return !member(member(result, "metrics"), "image.flip").is_null();
+    addMedian("fps", ofFrame(Measured::rate));
+    addMedian("frame ms", ofFrame(Measured::time));
+    for (const MetricId& time : passTimes(cases)) addMedian(time.pass() + " ms", time);
+    const MetricId flip = ofImage(Measured::flip);
+    if (std::ranges::any_of(cases, [&](const Json& result) {
+            return !member(member(result, "metrics"), flip.name()).is_null();
         }))
-        addMedian("FLIP", "image.flip");
+        addMedian("FLIP", flip);
     all.push_back(
         column("strands", cases, [](const Json& result) { return countCell(result, "strands"); }));
     all.push_back(column("status", cases, statusCell));

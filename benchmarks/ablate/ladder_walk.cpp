@@ -7,7 +7,7 @@
 
 #include "benchmarks/ablate/coverage_check.h"
 #include "benchmarks/hash.h"
-#include "benchmarks/trust.h"
+#include "benchmarks/measure/check_timestamps.h"
 
 namespace benchmarks {
 
@@ -15,25 +15,12 @@ namespace {
 
 constexpr std::uint32_t kVisitFrames = 3;  // their median is the visit's time
 constexpr std::uint32_t kWarmUps = 2;  // frames of a pipeline before it is timed
-// Pairs of an isolated and a wall-clock frame that timestamps are tested with: a fault of the
-// device stays, a disturbance passes.
-constexpr std::size_t kMostTrustPairs = 16;
 
 // Isolated, or by the CPU's clock where timestamps are wrong.
 engine::Timing
 trustedTiming(const engine::Device& device, StopView& pass, std::vector<std::string>& warnings) {
-    engine::FrameLoop stamped(device, engine::Timing::isolated);
-    engine::FrameLoop clocked(device, engine::Timing::wall_clock);
-    std::vector<engine::FrameRecord> stamped_frames;
-    std::vector<engine::FrameRecord> clocked_frames;
-    std::vector<std::string> faults;
-    do {
-        pass.draw(stamped);
-        pass.draw(clocked);
-        std::ranges::move(stamped.finish(), std::back_inserter(stamped_frames));
-        std::ranges::move(clocked.finish(), std::back_inserter(clocked_frames));
-        faults = timestampFaults(stamped_frames, clocked_frames);
-    } while (!faults.empty() && stamped_frames.size() < kMostTrustPairs);
+    const std::vector<std::string> faults =
+        checkTimestamps(device, [&](engine::FrameLoop& loop) { pass.draw(loop); });
     if (faults.empty()) return engine::Timing::isolated;
     warnings.push_back("timestamps are not trusted: times are by the CPU's clock");
     warnings.insert(warnings.end(), faults.begin(), faults.end());

@@ -34,7 +34,8 @@ std::string quantityText(double value, const std::string& unit) {
 
 Json changeJson(const Change& change) {
     const Comparison& comparison = change.comparison;
-    Json object = {{"case", change.case_name}, {"metric", change.metric}, {"unit", change.unit}};
+    Json object = {
+        {"case", change.case_name}, {"metric", change.metric.name()}, {"unit", change.unit}};
     putFinite(object, "a", change.a);
     putFinite(object, "b", change.b);
     putFinite(object, "change", comparison.change);
@@ -57,7 +58,7 @@ std::string changesTable(std::span<const Change> changes, ShowCases show_cases) 
         const Comparison& comparison = each.comparison;
         const std::array cells{
             each.case_name,
-            each.metric,
+            each.metric.name(),
             quantityText(each.a, each.unit),
             quantityText(each.b, each.unit),
             percentText(comparison.change),

@@ -6,13 +6,14 @@
 
 #include "benchmarks/decide/verdict.h"
 #include "benchmarks/json_fwd.h"
+#include "benchmarks/metric.h"
 
 namespace benchmarks {
 
 // What a comparison says of one metric of one case.
 struct Change {
     std::string case_name;
-    std::string metric;
+    MetricId metric;
     std::string unit;
     double a = 0.0;  // medians, in the unit
     double b = 0.0;

@@ -1,28 +1,14 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <span>
 #include <string>
 
 #include "benchmarks/json_fwd.h"
+#include "benchmarks/metric.h"
 
 // Which metrics of a report a comparison passes a verdict on.
 namespace benchmarks {
-
-// A metric of a case in one report.
-struct MetricReading {
-    std::string name;  // "pass.strands.time"
-    std::string unit;
-    std::string mode;  // how it was timed; may be empty
-    std::string hint;  // "lower" or "higher" is better; empty: neither
-    double median = 0.0;
-    std::optional<double> lower{};  // the median's 95 % interval; absent: too few samples
-    std::optional<double> upper{};
-};
-
-// Of a metric's object in a report. Reports of 1.0 say no hint: it then follows from the unit.
-MetricReading readMetric(const std::string& name, const Json& metric);
 
 // Whether the report's device is the processor itself, where CPU time is what passes cost.
 bool isSoftwareDevice(const Json& environment);
@@ -40,32 +26,24 @@ enum class Clock {
                 // work on the machine; it does not see that threads wait for each other
 };
 
-// Whether a frame's or pass's metric is of Clock::processor: its CPU time or instructions.
-bool isOfProcessor(const std::string& metric);
-
 // What is judged unless --metrics says otherwise: the processor's time on a software device whose
-// reports have it. Names are those of metrics that both reports have.
-Clock judgedClock(bool software_device, std::span<const std::string> names);
+// reports have it. `metrics` are those that both reports have.
+Clock judgedClock(bool software_device, std::span<const MetricId> metrics);
 
-// A regex of names chooses metrics, of those of which less or more is better. An empty one stands
-// for the times of frames and passes by the wall clock, or for their CPU time and their
-// instructions. Throws engine::Error "--metrics: ..." for a malformed one.
-class JudgedMetrics {
-public:
-    JudgedMetrics(const std::string& regex, Clock clock);
+// Which metrics count.
+using MetricChoice = std::function<bool(const MetricId&)>;
 
-    // `a` and `b` are the same metric in two reports.
-    Judgement judge(const MetricReading& a, const MetricReading& b) const;
+// Those in whose name a regex is found; an empty function for an empty one. Throws engine::Error
+// "--metrics: ..." for a malformed one.
+MetricChoice metricsNamed(const std::string& regex);
 
-private:
-    bool wants(const std::string& name) const;
+// The times of frames and passes by the wall clock, or their CPU time and their instructions.
+MetricChoice timesBy(Clock clock);
 
-    bool chosen_;
-    Clock clock_;
-    std::function<bool(const std::string&)> matches_;
-};
+// Of the same metric in two reports. One of which neither less nor more is better is not judged.
+Judgement judgementOf(const MetricChoice& chosen, const MetricReading& a, const MetricReading& b);
 
-// Larger is worse: the median, or 1 / median where higher is better.
-double costOf(const MetricReading& metric);
+// Larger is worse: a value in the metric's unit, or 1 / value where higher is better.
+double costOf(const Metric& metric, double value);
 
 }  // namespace benchmarks

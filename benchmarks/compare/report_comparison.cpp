@@ -22,11 +22,12 @@ const Json* findCase(const Json& report, const std::string& name) {
     return nullptr;
 }
 
-// Costs: larger is worse.
-std::vector<double> costs(const Json& metric, const MetricReading& reading) {
-    auto values = metric.at("samples").get<std::vector<double>>();
-    if (reading.hint == "higher")
-        for (double& value : values) value = 1.0 / value;
+std::vector<double> costs(const MetricReading& metric) {
+    if (metric.samples.empty())
+        throw engine::Error(
+            "the reports can't be compared", metric.name() + " has no samples in one");
+    std::vector<double> values;
+    for (const double sample : metric.samples) values.push_back(costOf(metric, sample));
     return values;
 }
 
@@ -46,21 +47,23 @@ Comparison exactComparison(double a, double b, double decisive_change) {
 }
 
 Clock clockFor(const Json& a, const Json& b) {
-    std::vector<std::string> names;
+    std::vector<MetricId> metrics;
     for (const Json& each : a.at("cases")) {
         const Json* const other = findCase(b, each.at("name"));
         if (!other || !each.contains("metrics") || !other->contains("metrics")) continue;
         for (const auto& [name, metric] : each.at("metrics").items())
-            if (other->at("metrics").contains(name)) names.push_back(name);
+            if (other->at("metrics").contains(name)) metrics.push_back(metricNamed(name));
     }
     return judgedClock(
-        isSoftwareDevice(a.at("environment")) && isSoftwareDevice(b.at("environment")), names);
+        isSoftwareDevice(a.at("environment")) && isSoftwareDevice(b.at("environment")), metrics);
 }
 
 class Comparer {
 public:
     Comparer(const Json& a, const Json& b, const VerdictOptions& options)
-        : options_(options), judged_(options.metrics, clockFor(a, b)) {}
+        : options_(options), judged_(metricsNamed(options.metrics)) {
+        if (!judged_) judged_ = timesBy(clockFor(a, b));
+    }
 
     void addCase(const Json& a, const Json& b) {
         ++found_.common_cases;
@@ -68,9 +71,10 @@ public:
         found_.mismatches.insert(found_.mismatches.end(), differing.begin(), differing.end());
         if (!differing.empty() || a.at("status") != "ok") return;
         const std::string name = a.at("name");
-        for (const auto& [metric, of_a] : a.at("metrics").items())
-            if (const auto of_b = b.at("metrics").find(metric); of_b != b.at("metrics").end())
-                addMetric(name, metric, of_a, *of_b);
+        const std::vector<MetricReading> metrics_of_b = readMetrics(b);
+        for (const MetricReading& of_a : readMetrics(a))
+            if (const MetricReading* const of_b = findMetric(metrics_of_b, of_a.id))
+                addMetric(name, of_a, *of_b);
     }
 
     ReportComparison finish() && {
@@ -85,32 +89,28 @@ public:
     ReportComparison& found() { return found_; }
 
 private:
-    void addMetric(
-        const std::string& case_name, const std::string& metric, const Json& a, const Json& b) {
-        const MetricReading of_a = readMetric(metric, a);
-        const MetricReading of_b = readMetric(metric, b);
-        const Judgement judgement = judged_.judge(of_a, of_b);
+    void addMetric(const std::string& case_name, const MetricReading& a, const MetricReading& b) {
+        const Judgement judgement = judgementOf(judged_, a, b);
         if (judgement == Judgement::not_wanted) return;
-        Change change{case_name, metric, of_a.unit, of_a.median, of_b.median, {}};
+        Change change{case_name, a.id, a.unit, a.median, b.median, {}};
         if (judgement == Judgement::too_short) {
             found_.too_short.push_back(std::move(change));
             return;
         }
-        if (of_a.mode != of_b.mode) {
+        if (!a.isTimedAs(b)) {
             found_.warnings.push_back(
-                case_name + ": " + metric +
-                " is timed in two ways, and not compared: " + of_a.mode + " and " + of_b.mode);
+                case_name + ": " + a.name() + " is timed in two ways, and not compared: " +
+                modeName(a.mode) + " and " + modeName(b.mode));
             return;
         }
-        change.comparison =
-            isExact(of_a)
-                ? exactComparison(of_a.median, of_b.median, options_.threshold)
-                : compareMedians(costs(a, of_a), costs(b, of_b), options_.threshold, kLevel);
+        change.comparison = isExact(a)
+                                ? exactComparison(a.median, b.median, options_.threshold)
+                                : compareMedians(costs(a), costs(b), options_.threshold, kLevel);
         found_.changes.push_back(std::move(change));
     }
 
     const VerdictOptions& options_;
-    JudgedMetrics judged_;
+    MetricChoice judged_;
     ReportComparison found_;
 };
 
@@ -155,7 +155,7 @@ Json comparisonJson(
     for (const Change& each : comparison.changes) changes.push_back(changeJson(each));
     Json& too_short = object["too_short"] = Json::array();
     for (const Change& each : comparison.too_short)
-        too_short.push_back({{"case", each.case_name}, {"metric", each.metric}});
+        too_short.push_back({{"case", each.case_name}, {"metric", each.metric.name()}});
     object["caveat"] = kOneProcessCaveat;
     return object;
 }

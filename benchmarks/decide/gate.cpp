@@ -12,12 +12,6 @@
 namespace benchmarks {
 namespace {
 
-std::size_t caseCount(const std::vector<GateMetric>& metrics) {
-    std::size_t count = 0;
-    for (const GateMetric& metric : metrics) count = std::max(count, metric.case_index + 1);
-    return count;
-}
-
 constexpr Comparison kNothingKnown{
     .verdict = Verdict::inconclusive,
     .change = std::numeric_limits<double>::quiet_NaN(),
@@ -30,7 +24,7 @@ constexpr Comparison kNothingKnown{
 
 Gate::Gate(std::vector<GateMetric> metrics, const VerdictRule& rule)
     : metrics_(std::move(metrics)), rule_(rule), differences_(metrics_.size()),
-      comparable_(metrics_.size(), 1), mismatches_(caseCount(metrics_), 0) {
+      comparable_(metrics_.size(), 1) {
     assert(std::ranges::count(kStages, rule_.first_pairs) == 1);
 }
 
@@ -39,7 +33,6 @@ bool Gate::isStage(std::size_t pairs) const {
 }
 
 Gate::Step Gate::next() const {
-    if (std::ranges::count(mismatches_, 1) > 0) return Step::decided;
     const bool a_first = pairs_ % 2 == 0;
     if (waiting_) return a_first ? Step::run_b : Step::run_a;
     if (isStage(pairs_)) {
@@ -53,29 +46,26 @@ Gate::Step Gate::next() const {
     return a_first ? Step::run_a : Step::run_b;
 }
 
-void Gate::add(Block block) {
+void Gate::add(std::vector<double> medians) {
     const Step step = next();
     assert(step != Step::decided);
-    if (block.medians.size() != metrics_.size() || block.results.size() != mismatches_.size())
+    if (medians.size() != metrics_.size())
         throw engine::Error("gate", "a process measured something else than the others");
-    if (results_.empty()) results_ = block.results;
-    for (std::size_t i = 0; i < results_.size(); ++i)
-        if (block.results[i] != results_[i]) mismatches_[i] = 1;
     if (!waiting_) {
-        waiting_ = std::move(block);
+        waiting_ = std::move(medians);
         return;
     }
     if (step == Step::run_b)
-        addPair(*waiting_, block);
+        addPair(*waiting_, medians);
     else
-        addPair(block, *waiting_);
+        addPair(medians, *waiting_);
     waiting_.reset();
 }
 
-void Gate::addPair(const Block& a, const Block& b) {
+void Gate::addPair(const std::vector<double>& a, const std::vector<double>& b) {
     for (std::size_t i = 0; i < metrics_.size(); ++i) {
-        const double difference = std::log(b.medians[i] / a.medians[i]);
-        if (a.medians[i] > 0.0 && std::isfinite(difference))
+        const double difference = std::log(b[i] / a[i]);
+        if (a[i] > 0.0 && std::isfinite(difference))
             differences_[i].push_back(difference);
         else
             comparable_[i] = 0;
@@ -105,7 +95,6 @@ std::vector<Comparison> Gate::comparisons() const {
         if (comparable_[i] && pairs_ > 0) comparisons[i] = known[next_known++];
         comparisons[i].decisive_change = decisiveChange(rule_.threshold, metrics_[i].calibration);
         if (!isStage(pairs_)) comparisons[i].verdict = Verdict::inconclusive;
-        if (isMismatch(metrics_[i])) comparisons[i].verdict = Verdict::mismatch;
     }
     return comparisons;
 }

@@ -2,29 +2,21 @@
 
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "benchmarks/decide/verdict.h"
 
 namespace benchmarks {
 
-// What one process measured and made.
-struct Block {
-    std::vector<double> medians;       // of each metric's samples, larger is worse
-    std::vector<std::string> results;  // of each case: hashes of its picture and state
-};
-
 struct GateMetric {
-    std::size_t case_index = 0;  // into Block::results
     std::vector<double> calibration{};  // ln(A2/A1) of pairs of one build; may be empty
 };
 
 // Says which build to run next and when enough is known, and judges: whoever has it runs processes.
 // Pairs of blocks go A B, B A, A B ..., so that a drift of the machine raises as many differences
 // as it lowers. After 12, 24 and 48 pairs (from the rule's first_pairs on) it is over if no metric
-// is inconclusive; at 48 whatever is inconclusive stays so. Results that differ end it at once:
-// times of different work say nothing.
+// is inconclusive; at 48 whatever is inconclusive stays so. It takes all blocks to be of the same
+// work: whoever has it ends where pictures or states differ.
 class Gate {
 public:
     enum class Step { run_a, run_b, decided };
@@ -33,9 +25,9 @@ public:
 
     Step next() const;
 
-    // The block of the build that next() asked for. Other numbers of medians or results than those
-    // of the first block are an engine::Error.
-    void add(Block block);
+    // A block of the build that next() asked for: the median of each metric's samples, larger is
+    // worse. Another number of medians than of metrics is an engine::Error.
+    void add(std::vector<double> medians);
 
     std::size_t pairs() const { return pairs_; }
 
@@ -45,21 +37,18 @@ public:
     // One for each metric. A verdict is passed at 12, 24 and 48 pairs only: between them all are
     // inconclusive, so that stopping at a lucky moment decides nothing. A metric with a median that
     // is not above 0 in some block cannot be compared: it is inconclusive, asks for no more pairs
-    // and leaves the rest alone. `mismatch` for the metrics of a case whose results differ.
+    // and leaves the rest alone.
     std::vector<Comparison> comparisons() const;
 
 private:
-    void addPair(const Block& a, const Block& b);
+    void addPair(const std::vector<double>& a, const std::vector<double>& b);
     bool isStage(std::size_t pairs) const;
-    bool isMismatch(const GateMetric& metric) const { return mismatches_[metric.case_index]; }
 
     std::vector<GateMetric> metrics_;
     VerdictRule rule_;
     std::vector<std::vector<double>> differences_;  // [metric][pair], ln(B/A)
     std::vector<char> comparable_;  // [metric]
-    std::vector<std::string> results_;  // [case], of the first block
-    std::vector<char> mismatches_;  // [case]
-    std::optional<Block> waiting_;  // the first block of the next pair
+    std::optional<std::vector<double>> waiting_;  // the first block of the next pair
     std::size_t pairs_ = 0;
 };
 

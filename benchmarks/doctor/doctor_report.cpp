@@ -17,7 +17,7 @@ Json toJson(const Finding& finding) {
 }
 
 Json toJson(const Sensitivity& each) {
-    Json object = {{"metric", each.metric}};
+    Json object = {{"metric", each.metric.name()}};
     if (std::isfinite(each.decisive_change)) object["decisive_change"] = each.decisive_change;
     if (std::isfinite(each.smallest_slowdown)) object["smallest_slowdown"] = each.smallest_slowdown;
     return object;

@@ -30,7 +30,7 @@ std::string findingsTable(const std::vector<Finding>& findings) {
 std::string sensitivityTable(const std::vector<Sensitivity>& sensitivities) {
     std::vector<Column> columns{{"metric", false}, {"changes count from"}, {"48 pairs find"}};
     for (const Sensitivity& each : sensitivities) {
-        columns[0].cells.push_back(each.metric);
+        columns[0].cells.push_back(each.metric.name());
         columns[1].cells.push_back(shareCell(each.decisive_change));
         columns[2].cells.push_back(shareCell(each.smallest_slowdown));
     }

@@ -16,14 +16,13 @@ constexpr const char* kThisProgram = "/proc/self/exe";
 OwnGate::OwnGate(const engine::DeviceOptions& device)
     : device_(device), scene_(writeDoctorScene(folder_.path())) {}
 
-GateOptions OwnGate::options(const std::string& metrics, std::vector<std::string> b_sets) const {
+GateOptions OwnGate::options(std::vector<std::string> b_sets) const {
     GateOptions options;
     options.a = options.b = kThisProgram;
     options.scene.scene = scene_;
     options.scene.device = device_;
     options.scene.max_time = 0.0;
     options.b_sets = std::move(b_sets);
-    options.verdict.metrics = metrics;
     return options;
 }
 

@@ -15,7 +15,7 @@ public:
 
     // `b_sets`: "POINTER=VALUE" for B's runs alone. Blocks are of one round, some tenths of a
     // second on a software device.
-    GateOptions options(const std::string& metrics, std::vector<std::string> b_sets = {}) const;
+    GateOptions options(std::vector<std::string> b_sets = {}) const;
 
 private:
     ScratchFolder folder_;

@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "benchmarks/doctor/own_gate.h"
-#include "benchmarks/doctor/pass_metric.h"
 #include "benchmarks/doctor/planted_work.h"
 #include "benchmarks/doctor/sensitivity.h"
 #include "benchmarks/gate/gate_session.h"
@@ -19,7 +18,7 @@ bool canBeBusy(const std::string& pass) { return pass == "strands" || pass == "s
 const Sensitivity& mostPrecise(const std::vector<Sensitivity>& all) {
     const Sensitivity* best = nullptr;
     for (const Sensitivity& each : all)
-        if (canBeBusy(passOf(each.metric)) &&
+        if (canBeBusy(each.metric.pass()) &&
             (!best || each.smallest_slowdown < best->smallest_slowdown))
             best = &each;
     if (!best) throw engine::Error("planted slowdown", "no pass here is long enough");
@@ -29,13 +28,15 @@ const Sensitivity& mostPrecise(const std::vector<Sensitivity>& all) {
 void useCalibration(GateRun& run, const std::vector<Sensitivity>& sensitivities) {
     for (GateTime& time : run.times)
         for (const Sensitivity& each : sensitivities)
-            if (each.metric == time.metric.name) time.calibration = each.differences;
+            if (each.metric == time.metric.id) time.calibration = each.differences;
 }
 
 PlantedGate gateOf(
-    const OwnGate& own, const PlantedWork& busy, const std::string& metric,
+    const OwnGate& own, const PlantedWork& busy, const MetricId& metric,
     const std::vector<Sensitivity>& sensitivities) {
-    GateSession session(own.options(sameOfAllPasses(metric), busySets(busy.pass, busy.work)));
+    GateSession session(own.options(busySets(busy.pass, busy.work)), [&](const MetricId& each) {
+        return isSameOfFrameOrPass(each, metric);
+    });
     if (session.warmUp()) {
         useCalibration(session.run(), sensitivities);
         session.play();
@@ -45,7 +46,7 @@ PlantedGate gateOf(
     PlantedGate gate{.pass = busy.pass, .planted = busy.planted};
     for (const Change& change : session.run().changes) {
         if (change.comparison.verdict != Verdict::regressed) continue;
-        const std::string pass = passOf(change.metric);
+        const std::string pass = change.metric.pass();
         if (pass == busy.pass) gate.found = true;
         if (!pass.empty() && pass != busy.pass) gate.elsewhere = true;
     }

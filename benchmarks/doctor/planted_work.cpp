@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmarks/doctor/pass_metric.h"
 #include "benchmarks/gate/gate_session.h"
 #include "benchmarks/statistics.h"
 #include "engine/error.h"
@@ -22,16 +21,16 @@ constexpr double kPlain = 1.0;
 
 // The share that the work adds to the metric, the median over pairs of processes.
 double
-measureShare(const OwnGate& own, const std::string& metric, std::uint32_t work, std::size_t pairs) {
-    const GateOptions options = own.options("", busySets(passOf(metric), work));
+measureShare(const OwnGate& own, const MetricId& metric, std::uint32_t work, std::size_t pairs) {
+    const GateOptions options = own.options(busySets(metric.pass(), work));
     BlockRunner runner(options.scene.scene);
     const Side plain = parseSide('A', options);
     const Side busy = parseSide('B', options);
     const auto medianOf = [&](const Side& side) {
         const BlockReport block = runner.run(side, 0);
         const MetricReading* const reading =
-            block.cases.empty() ? nullptr : findMetric(block.cases.front(), metric);
-        if (!reading) throw engine::Error("planted slowdown", metric + " was not measured");
+            block.cases.empty() ? nullptr : findMetric(block.cases.front().metrics, metric);
+        if (!reading) throw engine::Error("planted slowdown", metric.name() + " was not measured");
         return reading->median;
     };
     std::vector<double> ratios;
@@ -53,7 +52,7 @@ std::vector<std::string> busySets(const std::string& pass, std::uint32_t work) {
     return {"/run/busy_pass=" + pass, "/run/busy_work=" + std::to_string(work)};
 }
 
-PlantedWork findBusyWork(const OwnGate& own, const std::string& metric, double share) {
+PlantedWork findBusyWork(const OwnGate& own, const MetricId& metric, double share) {
     const double plain = std::max(kPlain, 2.0 * share);
     std::uint32_t work = kFirstWork;
     double found = measureShare(own, metric, work, 1);
@@ -62,11 +61,11 @@ PlantedWork findBusyWork(const OwnGate& own, const std::string& metric, double s
         found = measureShare(own, metric, work, 1);
     }
     if (found < plain)
-        throw engine::Error("planted slowdown", "busy work does not show in " + metric);
+        throw engine::Error("planted slowdown", "busy work does not show in " + metric.name());
     found = measureShare(own, metric, work, kRoughPairs);
     // It is proportional but for what starting it costs, so near the end a second estimate is
     // needed.
-    PlantedWork busy{.pass = passOf(metric), .work = clampedWork(work * share / found)};
+    PlantedWork busy{.pass = metric.pass(), .work = clampedWork(work * share / found)};
     const double near = measureShare(own, metric, busy.work, kPairs);
     const double slope =
         (found - near) / (static_cast<double>(work) - static_cast<double>(busy.work));

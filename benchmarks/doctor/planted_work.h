@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "benchmarks/doctor/own_gate.h"
+#include "benchmarks/metric.h"
 
 namespace benchmarks {
 
@@ -20,6 +21,6 @@ std::vector<std::string> busySets(const std::string& pass, std::uint32_t work);
 
 // Finds the work that adds this share to a pass's metric, by pairs of processes with and without.
 // Throws engine::Error where no amount of it shows, Interrupted.
-PlantedWork findBusyWork(const OwnGate& own, const std::string& metric, double share);
+PlantedWork findBusyWork(const OwnGate& own, const MetricId& metric, double share);
 
 }  // namespace benchmarks

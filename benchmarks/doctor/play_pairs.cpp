@@ -50,7 +50,7 @@ PassFacts examinePasses(const engine::Device& device, const MeasureHooks& hooks)
         nearest = std::abs(ratio - 1.0);
         facts.sum_over_wall = ratio;
     }
-    facts.faults = checkTimestamps(play);
+    facts.faults = checkTimestamps(device, [&](engine::FrameLoop& loop) { playFrame(loop, play); });
     return facts;
 }
 

@@ -4,7 +4,6 @@
 
 #include "benchmarks/compare/judged_metrics.h"
 #include "benchmarks/doctor/own_gate.h"
-#include "benchmarks/doctor/pass_metric.h"
 #include "benchmarks/doctor/smallest_slowdown.h"
 #include "benchmarks/gate/gate_session.h"
 #include "engine/error.h"
@@ -14,7 +13,7 @@ namespace benchmarks {
 std::vector<Sensitivity>
 measureSensitivity(const engine::DeviceOptions& device, std::uint32_t pairs) {
     const OwnGate own(device);
-    GateSession session(own.options(kEveryTime));
+    GateSession session(own.options(), isFrameOrPassCost);
     try {
         const bool calibrated = session.warmUp() && session.calibrate(pairs);
         if (!session.run().mismatches.empty())
@@ -30,12 +29,12 @@ measureSensitivity(const engine::DeviceOptions& device, std::uint32_t pairs) {
         if (time.calibration.size() < 2) continue;  // not known in some process
         // A gate judges either by the wall clock or by the processor's.
         const auto metrics = static_cast<std::size_t>(
-            std::ranges::count(times, isOfProcessor(time.metric.name), [](const GateTime& each) {
-                return isOfProcessor(each.metric.name);
+            std::ranges::count(times, isOfProcessor(time.metric.id), [](const GateTime& each) {
+                return isOfProcessor(each.metric.id);
             }));
         const double tau = decisiveChange(session.run().rule.threshold, time.calibration);
         found.push_back(
-            {.metric = time.metric.name,
+            {.metric = time.metric.id,
              .decisive_change = tau,
              .smallest_slowdown = smallestSlowdown(time.calibration, tau, metrics),
              .differences = time.calibration});

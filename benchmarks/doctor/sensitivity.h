@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "benchmarks/gate/side.h"
+#include "benchmarks/metric.h"
 
 namespace benchmarks {
 
 // How small a slowdown of one metric a gate can find on this machine.
 struct Sensitivity {
-    std::string metric;  // of the doctor's scene
+    MetricId metric;  // of the doctor's scene
     // Tau, a share: three standard deviations of an A/A pair, at least 2 %.
     double decisive_change = 0.0;
     double smallest_slowdown = 0.0;  // share that 48 pairs find in nine of ten gates

@@ -13,11 +13,11 @@ struct Measure {
     double scale;
 };
 
-Measure measureOf(const Reading& reading) {
-    if (isTime(reading)) return {"latency", 1e6};
-    if (reading.unit == "1/s") return {"throughput", 1.0};
-    if (reading.unit == "B") return {"bytes", 1.0};
-    return {reading.name, 1.0};
+Measure measureOf(const Metric& metric) {
+    if (metric.isTime()) return {"latency", 1e6};
+    if (metric.unit == "1/s") return {"throughput", 1.0};
+    if (metric.unit == "B") return {"bytes", 1.0};
+    return {metric.name(), 1.0};
 }
 
 }  // namespace
@@ -25,12 +25,12 @@ Measure measureOf(const Reading& reading) {
 std::string bmf(const Json& report) {
     Json document = Json::object();
     for (const Reading& reading : readings(report)) {
-        const Measure measure = measureOf(reading);
-        Json value = {{"value", reading.median * measure.scale}};
-        const Json& metric = *reading.metric;
-        if (metric.contains("first_quartile") && metric.contains("third_quartile")) {
-            value["lower_value"] = metric["first_quartile"].get<double>() * measure.scale;
-            value["upper_value"] = metric["third_quartile"].get<double>() * measure.scale;
+        const Measure measure = measureOf(reading.metric);
+        Json value = {{"value", reading.metric.median * measure.scale}};
+        const Json& statistics = *reading.statistics;
+        if (statistics.contains("first_quartile") && statistics.contains("third_quartile")) {
+            value["lower_value"] = statistics["first_quartile"].get<double>() * measure.scale;
+            value["upper_value"] = statistics["third_quartile"].get<double>() * measure.scale;
         }
         document[benchmarkName(reading)] = {{measure.name, std::move(value)}};
     }

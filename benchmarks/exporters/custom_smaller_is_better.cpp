@@ -8,11 +8,12 @@ namespace benchmarks {
 std::string customSmallerIsBetter(const Json& report) {
     Json entries = Json::array();
     for (const Reading& reading : readings(report)) {
-        if (!isTime(reading) && reading.unit != "B") continue;
+        const MetricReading& metric = reading.metric;
+        if (!metric.isTime() && metric.unit != "B") continue;
         Json entry = {
-            {"name", benchmarkName(reading)}, {"unit", reading.unit}, {"value", reading.median}};
-        if (reading.metric->at("samples").size() > 1)
-            entry["range"] = "± " + reading.metric->at("mad").dump();
+            {"name", benchmarkName(reading)}, {"unit", metric.unit}, {"value", metric.median}};
+        if (reading.statistics->at("samples").size() > 1)
+            entry["range"] = "± " + reading.statistics->at("mad").dump();
         entries.push_back(std::move(entry));
     }
     return documentText(entries);

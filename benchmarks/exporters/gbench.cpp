@@ -32,9 +32,9 @@ Json context(const Json& report) {
 std::string gbench(const Json& report) {
     Json benchmarks = Json::array();
     for (const Reading& reading : readings(report)) {
-        if (!isTime(reading)) continue;
+        if (!reading.metric.isTime()) continue;
         const std::string name = benchmarkName(reading);
-        const double time = reading.median * kMicrosecondsPerMillisecond;
+        const double time = reading.metric.median * kMicrosecondsPerMillisecond;
         benchmarks.push_back(
             {{"name", name},
              {"family_index", benchmarks.size()},
@@ -44,7 +44,7 @@ std::string gbench(const Json& report) {
              {"repetitions", 1},
              {"repetition_index", 0},
              {"threads", 1},
-             {"iterations", reading.metric->at("samples").size()},
+             {"iterations", reading.statistics->at("samples").size()},
              {"real_time", time},
              {"cpu_time", time},
              {"time_unit", "us"}});

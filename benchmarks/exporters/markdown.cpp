@@ -22,24 +22,23 @@ std::string escaped(const std::string& text) {
 
 void addCell(std::string& line, const std::string& text) { line += ' ' + text + " |"; }
 
-// "fps" and the times of the frame and of each pass, in the order in which they first occur.
-std::vector<std::string> columnMetrics(const Json& report) {
-    std::vector<std::string> names;
+const MetricId kRate = ofFrame(Measured::rate);
+
+// Frames per second and the times of the frame and of each pass, in the order in which they first
+// occur.
+std::vector<MetricId> columnMetrics(const Json& report) {
+    std::vector<MetricId> metrics;
     for (const Reading& reading : readings(report)) {
-        const bool shown =
-            reading.name == "fps" || reading.name == "frame.time" || isPassTime(reading.name);
-        if (shown && std::ranges::find(names, reading.name) == names.end())
-            names.push_back(reading.name);
+        const MetricId& id = reading.metric.id;
+        const bool shown = id == kRate || isFrameOrPassTime(id);
+        if (shown && std::ranges::find(metrics, id) == metrics.end()) metrics.push_back(id);
     }
-    return names;
+    return metrics;
 }
 
-// "frame.time" -> "frame (ms)", "pass.strands.time" -> "strands (ms)".
-std::string columnTitle(std::string name) {
-    if (name == "fps") return "FPS";
-    if (name.starts_with("pass.")) name.erase(0, 5);
-    if (name.ends_with(".time")) name.erase(name.size() - 5);
-    return name + " (ms)";
+std::string columnTitle(const MetricId& metric) {
+    if (metric == kRate) return "FPS";
+    return (isPassTime(metric) ? metric.pass() : "frame") + " (ms)";
 }
 
 std::string aboutTheRun(const Json& report) {
@@ -60,11 +59,11 @@ std::string aboutTheRun(const Json& report) {
 
 std::string markdown(const Json& report) {
     const std::vector<std::string> pointers = axisPointers(report);
-    const std::vector<std::string> metrics = columnMetrics(report);
+    const std::vector<MetricId> metrics = columnMetrics(report);
     std::string titles = "|";
     std::string rule = "|";
     for (const std::string& label : axisLabels(pointers)) addCell(titles, escaped(label));
-    for (const std::string& name : metrics) addCell(titles, escaped(columnTitle(name)));
+    for (const MetricId& metric : metrics) addCell(titles, escaped(columnTitle(metric)));
     addCell(titles, "status");
     for (std::size_t i = 0; i < pointers.size(); ++i) rule += " --- |";
     for (std::size_t i = 0; i < metrics.size(); ++i) rule += " ---: |";
@@ -73,12 +72,12 @@ std::string markdown(const Json& report) {
         std::string line = "|";
         for (const std::string& pointer : pointers)
             addCell(line, escaped(cellText(result.at("axes"), pointer)));
-        const Json measured = result.value("metrics", Json::object());
-        for (const std::string& name : metrics)
-            addCell(
-                line, measured.contains(name)
-                          ? shortNumber(measured.at(name).at("median").get<double>())
-                          : "");
+        std::vector<MetricReading> measured;
+        if (result.contains("metrics")) measured = readMetrics(result);
+        for (const MetricId& metric : metrics) {
+            const MetricReading* const reading = findMetric(measured, metric);
+            addCell(line, reading ? shortNumber(reading->median) : "");
+        }
         const std::string reason = cellText(result, "reason");
         addCell(line, escaped(cellText(result, "status") + (reason.empty() ? "" : ": " + reason)));
         text += line + '\n';

@@ -25,13 +25,6 @@ struct Series {
     std::vector<Nanoseconds> samples;  // by frame
 };
 
-// "pass.strands.time" -> "strands", "cpu.record.time" -> "cpu.record".
-std::string sliceName(std::string metric) {
-    if (metric.starts_with("pass.")) metric.erase(0, 5);
-    if (metric.ends_with(".time")) metric.erase(metric.size() - 5);
-    return metric;
-}
-
 class Trace {
 public:
     void name(int process, int track, const char* what, const std::string& name) {
@@ -84,35 +77,40 @@ void layFrames(
     }
 }
 
-std::vector<Nanoseconds> samplesOf(const Json& metrics, const std::string& name) {
+std::vector<Nanoseconds> samplesOf(const MetricReading& metric) {
     std::vector<Nanoseconds> samples;
-    if (!metrics.contains(name)) return samples;
-    for (const Json& sample : metrics.at(name).at("samples"))
-        samples.push_back(std::llround(sample.get<double>() * kNanosecondsPerMillisecond));
+    for (const double sample : metric.samples)
+        samples.push_back(std::llround(sample * kNanosecondsPerMillisecond));
     return samples;
 }
 
+// None where there is no such metric.
+std::vector<Nanoseconds> samplesOf(const std::vector<MetricReading>& metrics, const MetricId& id) {
+    const MetricReading* const metric = findMetric(metrics, id);
+    return metric ? samplesOf(*metric) : std::vector<Nanoseconds>();
+}
+
 void addCase(Trace& trace, int process, const Json& result) {
-    const Json& metrics = result.at("metrics");
+    const std::vector<MetricReading> metrics = readMetrics(result);
     std::vector<Series> passes;
-    std::string clock = "isolated";
-    for (const auto& [name, metric] : metrics.items()) {
-        if (!isPassTime(name)) continue;
-        passes.push_back({sliceName(name), samplesOf(metrics, name)});
-        clock = metric.value("mode", clock);
+    Mode clock = Mode::isolated;
+    for (const MetricReading& metric : metrics) {
+        if (!isPassTime(metric.id)) continue;
+        passes.push_back({metric.id.pass(), samplesOf(metric)});
+        if (metric.mode != Mode::none) clock = metric.mode;
     }
-    std::vector<Nanoseconds> frames = samplesOf(metrics, "frame.isolated.time");
+    std::vector<Nanoseconds> frames = samplesOf(metrics, ofFrame(Measured::isolated_time));
     for (const Series& pass : passes) frames.resize(std::max(frames.size(), pass.samples.size()));
     trace.name(process, 0, "process_name", result.at("name"));
     trace.name(
         process, isolated, "thread_name",
-        clock == "wall_clock" ? "passes by the CPU's clock" : "isolated passes");
+        clock == Mode::wall_clock ? "passes by the CPU's clock" : "isolated passes");
     layFrames(trace, process, isolated, frames, passes);
-    std::vector<Series> work;
-    for (const char* name : {"cpu.record.time", "cpu.submit.time"})
-        work.push_back({sliceName(name), samplesOf(metrics, name)});
+    const std::vector<Series> work{
+        {"cpu.record", samplesOf(metrics, ofCpu(Measured::record_time))},
+        {"cpu.submit", samplesOf(metrics, ofCpu(Measured::submit_time))}};
     trace.name(process, overlapped, "thread_name", "CPU of overlapped frames");
-    layFrames(trace, process, overlapped, samplesOf(metrics, "frame.time"), work);
+    layFrames(trace, process, overlapped, samplesOf(metrics, ofFrame(Measured::time)), work);
 }
 
 }  // namespace

@@ -13,25 +13,15 @@ std::vector<Reading> readings(const Json& report) {
         for (const auto& [name, metric] : result.at("metrics").items())
             found.push_back(
                 {.case_name = result.at("name"),
-                 .name = name,
-                 .unit = metric.at("unit"),
-                 .median = metric.at("median"),
-                 .metric = &metric});
+                 .metric = MetricReading::fromReport(name, metric),
+                 .statistics = &metric});
     }
     return found;
 }
 
-bool isTime(const Reading& reading) {
-    return reading.unit == "ms" && reading.name.ends_with(".time") &&
-           !reading.name.ends_with(".wait.time");
+std::string benchmarkName(const Reading& reading) {
+    return reading.case_name + '/' + reading.metric.name();
 }
-
-bool isPassTime(const std::string& metric) {
-    return metric.starts_with("pass.") && metric.ends_with(".time") &&
-           std::ranges::count(metric, '.') == 2;
-}
-
-std::string benchmarkName(const Reading& reading) { return reading.case_name + '/' + reading.name; }
 
 std::vector<std::string> axisPointers(const Json& report) {
     std::vector<std::string> pointers;

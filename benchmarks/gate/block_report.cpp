@@ -14,8 +14,7 @@ namespace {
 BlockCase readCase(const Json& result) {
     BlockCase read{.outcome = caseOutcome(result), .metrics = {}};
     if (read.outcome.status != "ok") return read;
-    for (const auto& [name, metric] : result.at("metrics").items())
-        read.metrics.push_back(readMetric(name, metric));
+    read.metrics = readMetrics(result);
     return read;
 }
 
@@ -43,18 +42,13 @@ const BlockCase* findCase(const BlockReport& block, const std::string& name) {
     return found == block.cases.end() ? nullptr : &*found;
 }
 
-const MetricReading* findMetric(const BlockCase& block_case, const std::string& name) {
-    const auto found = std::ranges::find(block_case.metrics, name, &MetricReading::name);
-    return found == block_case.metrics.end() ? nullptr : &*found;
-}
-
 std::vector<CommonMetric> commonMetrics(const BlockReport& a, const BlockReport& b) {
     std::vector<CommonMetric> common;
     for (const BlockCase& each : a.cases) {
         const BlockCase* const other = findCase(b, each.outcome.name);
         if (!other) continue;
         for (const MetricReading& metric : each.metrics)
-            if (const MetricReading* const same = findMetric(*other, metric.name))
+            if (const MetricReading* const same = findMetric(other->metrics, metric.id))
                 common.push_back({each.outcome.name, &metric, same});
     }
     return common;

@@ -27,7 +27,6 @@ struct BlockReport {
 BlockReport readBlock(const std::filesystem::path& report);
 
 const BlockCase* findCase(const BlockReport& block, const std::string& name);
-const MetricReading* findMetric(const BlockCase& block_case, const std::string& name);
 
 // A metric of a case that both blocks have; they have to outlive it.
 struct CommonMetric {

@@ -73,10 +73,10 @@ Json timesJson(const GateRun& run) {
         const GateTime& time = run.times[i];
         Json object = {
             {"case", time.case_name},
-            {"metric", time.metric.name},
+            {"metric", time.metric.name()},
             {"unit", time.metric.unit},
-            {"hint", time.metric.hint}};
-        if (!time.metric.mode.empty()) object["mode"] = time.metric.mode;
+            {"hint", betterName(time.metric.better)}};
+        if (time.metric.mode != Mode::none) object["mode"] = modeName(time.metric.mode);
         if (!time.calibration.empty()) object["calibration"] = time.calibration;
         object["differences"] = numbers(differences[i]);
         list.push_back(std::move(object));
@@ -117,7 +117,7 @@ Json gateReport(
     object["times"] = timesJson(run);
     Json& too_short = object["too_short"] = Json::array();
     for (const GateTime& each : run.too_short)
-        too_short.push_back({{"case", each.case_name}, {"metric", each.metric.name}});
+        too_short.push_back({{"case", each.case_name}, {"metric", each.metric.name()}});
     object["blocks"] = blocksJson(run);
     Json& differing = object["mismatches"] = Json::array();
     for (const Mismatch& each : run.mismatches) differing.push_back(mismatchJson(each));

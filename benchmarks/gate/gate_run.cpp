@@ -26,12 +26,8 @@ std::vector<PairOfBlocks> completePairs(const GateRun& run, Phase phase) {
     return pairs;
 }
 
-double costOf(const GateTime& time, double median) {
-    return time.metric.hint == "higher" ? 1.0 / median : median;
-}
-
 double difference(const GateTime& time, double a, double b) {
-    const double ratio = std::log(costOf(time, b) / costOf(time, a));
+    const double ratio = std::log(costOf(time.metric, b) / costOf(time.metric, a));
     return std::isfinite(ratio) ? ratio : std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -24,17 +24,16 @@ std::vector<double> mediansOf(const std::vector<GateTime>& times, const BlockRep
     for (const GateTime& time : times) {
         const BlockCase* const block_case = findCase(block, time.case_name);
         const MetricReading* const metric =
-            block_case ? findMetric(*block_case, time.metric.name) : nullptr;
+            block_case ? findMetric(block_case->metrics, time.metric.id) : nullptr;
         const bool comparable =
-            metric && metric->unit == time.metric.unit && metric->mode == time.metric.mode;
+            metric && metric->unit == time.metric.unit && metric->isTimedAs(time.metric);
         medians.push_back(comparable ? metric->median : kNotMeasured);
     }
     return medians;
 }
 
 std::vector<double> costsOf(const std::vector<GateTime>& times, std::vector<double> medians) {
-    for (std::size_t i = 0; i < times.size(); ++i)
-        if (times[i].metric.hint == "higher") medians[i] = 1.0 / medians[i];
+    for (std::size_t i = 0; i < times.size(); ++i) medians[i] = costOf(times[i].metric, medians[i]);
     return medians;
 }
 
@@ -58,15 +57,15 @@ void addUnmatched(const BlockReport& block, const BlockReport& other, char side,
 
 }  // namespace
 
-GateSession::GateSession(const GateOptions& options)
-    : metrics_(options.verdict.metrics), runner_(options.scene.scene),
+GateSession::GateSession(const GateOptions& options, MetricChoice judged)
+    : regex_(options.verdict.metrics), judged_(std::move(judged)), runner_(options.scene.scene),
       seed_(std::random_device()()) {
     run_.a = parseSide('A', options);
     run_.b = parseSide('B', options);
     run_.scene = options.scene.scene.string();
     run_.rule.threshold = options.verdict.threshold;
     run_.rule.first_pairs = options.pairs;
-    JudgedMetrics(metrics_, Clock::wall);  // a malformed regex ends it before anything runs
+    if (!judged_) judged_ = metricsNamed(regex_);  // a malformed one ends it before anything runs
 }
 
 GateSession::~GateSession() {
@@ -92,18 +91,18 @@ bool GateSession::warmUp() {
 
 void GateSession::chooseTimes() {
     const std::vector<CommonMetric> common = commonMetrics(*run_.first_a, *run_.first_b);
-    std::vector<std::string> names;
-    for (const CommonMetric& each : common) names.push_back(each.a->name);
+    std::vector<MetricId> metrics;
+    for (const CommonMetric& each : common) metrics.push_back(each.a->id);
     const bool software = run_.first_a->software_device && run_.first_b->software_device;
-    const JudgedMetrics judged(metrics_, judgedClock(software, names));
+    const MetricChoice judged = judged_ ? judged_ : timesBy(judgedClock(software, metrics));
     for (const CommonMetric& each : common) {
-        const Judgement judgement = judged.judge(*each.a, *each.b);
+        const Judgement judgement = judgementOf(judged, *each.a, *each.b);
         if (judgement == Judgement::not_wanted) continue;
         (judgement == Judgement::judged ? run_.times : run_.too_short)
             .push_back({.case_name = each.case_name, .metric = *each.a});
     }
-    if (run_.times.empty() && run_.too_short.empty() && !metrics_.empty() && !common.empty())
-        throw engine::Error("--metrics", "'" + metrics_ + "' is in no metric's name");
+    if (run_.times.empty() && run_.too_short.empty() && !regex_.empty() && !common.empty())
+        throw engine::Error("--metrics", "'" + regex_ + "' is in no metric's name");
 }
 
 bool GateSession::block(const Side& side, Phase phase, std::size_t pair) {
@@ -141,7 +140,7 @@ bool GateSession::play() {
              step = gate.next()) {
             const Side& side = step == Gate::Step::run_a ? run_.a : run_.b;
             if (!block(side, Phase::gate, gate.pairs())) return false;
-            gate.add({costsOf(run_.times, run_.blocks.back().medians), {""}});
+            gate.add(costsOf(run_.times, run_.blocks.back().medians));
             judge(gate);
         }
     }
@@ -156,7 +155,7 @@ void GateSession::judge(const Gate& gate) {
     for (std::size_t i = 0; i < run_.times.size(); ++i)
         run_.changes.push_back(
             {.case_name = run_.times[i].case_name,
-             .metric = run_.times[i].metric.name,
+             .metric = run_.times[i].metric.id,
              .unit = run_.times[i].metric.unit,
              .a = medianOfBlocks(run_, 'A', i),
              .b = medianOfBlocks(run_, 'B', i),

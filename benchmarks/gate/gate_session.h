@@ -16,7 +16,8 @@ namespace benchmarks {
 // throw Interrupted, BlockFailed, engine::Error; what was done until then is in run().
 class GateSession {
 public:
-    explicit GateSession(const GateOptions& options);
+    // Judges the metrics of `judged`; of an empty one those that options.verdict.metrics finds.
+    explicit GateSession(const GateOptions& options, MetricChoice judged = {});
     GateSession(const GateSession&) = delete;
     GateSession& operator=(const GateSession&) = delete;
     ~GateSession();
@@ -39,7 +40,8 @@ private:
     void chooseTimes();
     void judge(const Gate& gate);
 
-    std::string metrics_;
+    std::string regex_;  // of the metrics that were asked for; may be empty
+    MetricChoice judged_;  // empty: the times by the clock that tells most
     BlockRunner runner_;
     std::uint32_t seed_;  // of the first pair: both blocks of a pair have the same order of cases
     GateRun run_;

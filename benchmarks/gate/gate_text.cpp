@@ -52,7 +52,7 @@ std::string tooShortText(const GateRun& run) {
     if (run.too_short.empty()) return {};
     std::string text = "shorter than 0.05 ms, not judged:";
     std::set<std::string> names;
-    for (const GateTime& each : run.too_short) names.insert(each.metric.name);
+    for (const GateTime& each : run.too_short) names.insert(each.metric.name());
     for (const std::string& name : names) text += ' ' + name;
     return text + '\n';
 }
@@ -60,7 +60,7 @@ std::string tooShortText(const GateRun& run) {
 std::string incomparableText(const GateRun& run) {
     std::string text;
     for (const Change& each : run.changes)
-        if (!std::isfinite(each.comparison.change)) text += ' ' + each.metric;
+        if (!std::isfinite(each.comparison.change)) text += ' ' + each.metric.name();
     return text.empty() ? text : "missing, or timed in another way, in some process:" + text + '\n';
 }
 

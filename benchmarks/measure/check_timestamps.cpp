@@ -14,16 +14,17 @@ constexpr std::uint32_t kMostPairs = 16;
 
 }  // namespace
 
-std::vector<std::string> checkTimestamps(const Play& play) {
-    engine::FrameLoop stamped(play.device, engine::Timing::isolated);
-    engine::FrameLoop clocked(play.device, engine::Timing::wall_clock);
+std::vector<std::string> checkTimestamps(
+    const engine::Device& device, const std::function<void(engine::FrameLoop&)>& play_frame) {
+    engine::FrameLoop stamped(device, engine::Timing::isolated);
+    engine::FrameLoop clocked(device, engine::Timing::wall_clock);
     std::vector<engine::FrameRecord> stamped_frames;
     std::vector<engine::FrameRecord> clocked_frames;
     std::vector<std::string> faults;
     do {
         for (std::uint32_t i = 0; i < kPairs; ++i) {
-            playFrame(stamped, play);
-            playFrame(clocked, play);
+            play_frame(stamped);
+            play_frame(clocked);
         }
         std::ranges::move(stamped.finish(), std::back_inserter(stamped_frames));
         std::ranges::move(clocked.finish(), std::back_inserter(clocked_frames));

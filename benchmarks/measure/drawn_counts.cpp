@@ -65,7 +65,7 @@ void addTransparency(const Case& test_case, CaseResult& result) {
     const hair::StrandBlend& blend = test_case.blend();
     if (blend.bytes() == 0) return;
     result.metrics.push_back(
-        {"memory.transparency", "B", {static_cast<double>(blend.bytes())}, ""});
+        {ofMemory(Measured::transparency), {static_cast<double>(blend.bytes())}});
     const std::optional<hair::ListedFragments> listed = blend.listed();
     if (!listed) return;
     result.counts.emplace_back("fragment_list_capacity", listed->capacity);

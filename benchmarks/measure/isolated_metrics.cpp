@@ -16,11 +16,10 @@ using engine::FrameRecord;
 using engine::PassTime;
 using engine::ProcessUse;
 
-// "frame" -> frame.cpu.time and frame.instructions. A count that some of the frames lack is left
-// out: samples of different frames would be none of one quantity.
-void addUse(
-    const std::string& name, const std::vector<ProcessUse>& uses, const char* mode,
-    CaseResult& result) {
+// CPU time and instructions of what `metric_of` makes metrics of. A count that some of the frames
+// lack is left out: samples of different frames would be none of one quantity.
+template <class MakeId>
+void addUse(MakeId metric_of, const std::vector<ProcessUse>& uses, Mode mode, CaseResult& result) {
     std::vector<double> times;
     std::vector<double> instructions;
     for (const ProcessUse& use : uses) {
@@ -28,9 +27,10 @@ void addUse(
         if (use.instructions) instructions.push_back(*use.instructions);
     }
     const bool counted = instructions.size() == uses.size();
-    result.metrics.push_back({name + ".cpu.time", "ms", std::move(times), mode});
+    result.metrics.push_back({metric_of(Measured::cpu_time), std::move(times), mode});
     if (counted)
-        result.metrics.push_back({name + ".instructions", "1", std::move(instructions), mode});
+        result.metrics.push_back(
+            {metric_of(Measured::instructions), std::move(instructions), mode});
 }
 
 }  // namespace
@@ -38,13 +38,12 @@ void addUse(
 void addIsolatedMetrics(std::span<const FrameRecord> frames, CaseResult& result) {
     std::vector<double> walls;
     for (const FrameRecord& frame : frames) walls.push_back(frame.wall);
-    result.metrics.push_back({"frame.isolated.time", "ms", std::move(walls), "isolated"});
+    result.metrics.push_back({ofFrame(Measured::isolated_time), std::move(walls), Mode::isolated});
 }
 
-void addPassTimes(
-    std::span<const FrameRecord> frames, const std::string& mode, CaseResult& result) {
+void addPassTimes(std::span<const FrameRecord> frames, Mode mode, CaseResult& result) {
     for (const std::string& pass : passNames(frames))
-        result.metrics.push_back({"pass." + pass + ".time", "ms", passTimes(frames, pass), mode});
+        result.metrics.push_back({ofPass(pass, Measured::time), passTimes(frames, pass), mode});
 }
 
 void addPassSum(std::span<const FrameRecord> isolated, CaseResult& result) {
@@ -59,7 +58,7 @@ void addPassSum(std::span<const FrameRecord> isolated, CaseResult& result) {
 void addFrameUse(std::span<const FrameRecord> isolated, CaseResult& result) {
     std::vector<ProcessUse> uses;
     for (const FrameRecord& frame : isolated) uses.push_back(frame.use);
-    addUse("frame", uses, "isolated", result);
+    addUse(ofFrame, uses, Mode::isolated, result);
 }
 
 void addPassUse(std::span<const FrameRecord> wall_clock, CaseResult& result) {
@@ -69,7 +68,7 @@ void addPassUse(std::span<const FrameRecord> wall_clock, CaseResult& result) {
             const auto found = std::ranges::find(frame.passes, name, &PassTime::name);
             if (found != frame.passes.end()) uses.push_back(found->use);
         }
-        addUse("pass." + name, uses, "wall_clock", result);
+        addUse([&](Measured what) { return ofPass(name, what); }, uses, Mode::wall_clock, result);
     }
 }
 

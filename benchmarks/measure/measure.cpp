@@ -42,9 +42,10 @@ void checkEnds(const RoundEnd& overlapped, const RoundEnd& isolated, CaseResult&
 // conditions of the rounds that it played.
 std::vector<Conditions>
 addPasses(const Play& play, const SampledMode& isolated, MachineWatch& watch, CaseResult& result) {
-    const std::vector<std::string> faults = checkTimestamps(play);
+    const std::vector<std::string> faults =
+        checkTimestamps(play.device, [&](engine::FrameLoop& loop) { playFrame(loop, play); });
     const bool software = play.device.info().type == "cpu";
-    if (faults.empty()) addPassTimes(isolated.frames, "isolated", result);
+    if (faults.empty()) addPassTimes(isolated.frames, Mode::isolated, result);
     if (faults.empty() && !software) return {};
 
     SamplingRule rule = samplingRule(Timing::wall_clock, play.run);
@@ -57,7 +58,7 @@ addPasses(const Play& play, const SampledMode& isolated, MachineWatch& watch, Ca
         result.trust.warnings.insert(result.trust.warnings.end(), faults.begin(), faults.end());
     }
     SampledMode clocked = sampleMode(play, Timing::wall_clock, rule, watch, result);
-    if (!faults.empty()) addPassTimes(clocked.frames, "wall_clock", result);
+    if (!faults.empty()) addPassTimes(clocked.frames, Mode::wall_clock, result);
     if (software) addPassUse(clocked.frames, result);
     return std::move(clocked.conditions);
 }
@@ -85,7 +86,8 @@ std::vector<std::uint8_t> measure(
     addStatistics(play, result);
 
     addOverlappedMetrics(overlapped.frames, result);
-    result.metrics.push_back({"frame.first.time", "ms", {overlapped.first_frame}, "overlapped"});
+    result.metrics.push_back(
+        {ofFrame(Measured::first_time), {overlapped.first_frame}, Mode::overlapped});
     addPassSum(isolated.frames, result);
     std::vector<Conditions> conditions = std::move(overlapped.conditions);
     std::ranges::copy(isolated.conditions, std::back_inserter(conditions));
@@ -96,9 +98,9 @@ std::vector<std::uint8_t> measure(
     // What passing side by side saves: the isolated passes' sum less the overlapped frame.
     const double sum = medianOf(isolated.frames, passSum);
     const double frame = medianOf(overlapped.frames, [](auto& f) { return f.interval; });
-    result.metrics.push_back({"frame.overlap", "ms", {sum - frame}, ""});
+    result.metrics.push_back({ofFrame(Measured::overlap), {sum - frame}});
     result.metrics.push_back(
-        {"memory.device", "B", {static_cast<double>(device.allocatedBytes())}, ""});
+        {ofMemory(Measured::allocated), {static_cast<double>(device.allocatedBytes())}});
     std::ranges::move(memoryMetrics(device.memory()), std::back_inserter(result.metrics));
     return std::move(overlapped.end.picture);
 }

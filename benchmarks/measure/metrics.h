@@ -19,8 +19,7 @@ void addOverlappedMetrics(std::span<const engine::FrameRecord> frames, CaseResul
 void addIsolatedMetrics(std::span<const engine::FrameRecord> frames, CaseResult& result);
 
 // pass.*.time, in the mode that they were timed in.
-void addPassTimes(
-    std::span<const engine::FrameRecord> frames, const std::string& mode, CaseResult& result);
+void addPassTimes(std::span<const engine::FrameRecord> frames, Mode mode, CaseResult& result);
 
 // trust.pass_sum_over_wall, and a warning where it is too far from 1.
 void addPassSum(std::span<const engine::FrameRecord> isolated, CaseResult& result);

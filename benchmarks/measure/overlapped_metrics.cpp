@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "benchmarks/measure/metrics.h"
@@ -19,17 +19,28 @@ std::vector<double> collect(std::span<const FrameRecord> frames, Get get) {
     return values;
 }
 
+// By the three definitions.
+struct LowMetrics {
+    Measured percentile;
+    Measured mean;
+    Measured integral;
+};
+constexpr LowMetrics kLow1{
+    Measured::low_1_percentile, Measured::low_1_mean, Measured::low_1_integral};
+constexpr LowMetrics kLow01{
+    Measured::low_0_1_percentile, Measured::low_0_1_mean, Measured::low_0_1_integral};
+
 void addLows(
-    const std::vector<double>& intervals, const std::string& name, double fraction,
+    const std::vector<double>& intervals, double fraction, const LowMetrics& lows,
     CaseResult& result) {
     if (intervals.size() < fewestForLow(fraction)) return;
     const LowRates low = lowRates(intervals, fraction);
-    const auto add = [&](const char* definition, double rate) {
-        result.metrics.push_back({name + definition, "1/s", {rate}, "overlapped"});
+    const auto add = [&](Measured what, double rate) {
+        result.metrics.push_back({ofFrame(what), {rate}, Mode::overlapped});
     };
-    add(".percentile", low.percentile);
-    add(".mean", low.mean);
-    add(".integral", low.integral);
+    add(lows.percentile, low.percentile);
+    add(lows.mean, low.mean);
+    add(lows.integral, low.integral);
 }
 
 }  // namespace
@@ -40,20 +51,22 @@ std::size_t fewestForLow(double fraction) {
 
 void addOverlappedMetrics(std::span<const FrameRecord> frames, CaseResult& result) {
     const std::vector<double> intervals = collect(frames, [](auto& f) { return f.interval; });
-    result.metrics.push_back({"fps", "1/s", {framesPerSecond(intervals)}, "overlapped"});
-    addLows(intervals, "fps.low_1", 0.01, result);
-    addLows(intervals, "fps.low_0_1", 0.001, result);
-    const auto addTimes = [&](const char* name, auto get) {
-        result.metrics.push_back({name, "ms", collect(frames, get), "overlapped"});
+    result.metrics.push_back(
+        {ofFrame(Measured::rate), {framesPerSecond(intervals)}, Mode::overlapped});
+    addLows(intervals, 0.01, kLow1, result);
+    addLows(intervals, 0.001, kLow01, result);
+    const auto addTimes = [&](MetricId id, auto get) {
+        result.metrics.push_back({std::move(id), collect(frames, get), Mode::overlapped});
     };
-    addTimes("frame.time", [](auto& f) { return f.interval; });
-    addTimes("frame.device.time", [](auto& f) { return f.device; });
-    addTimes("cpu.record.time", [](auto& f) { return f.record; });
-    addTimes("cpu.submit.time", [](auto& f) { return f.submit; });
-    addTimes("cpu.wait.time", [](auto& f) { return f.wait; });
+    addTimes(ofFrame(Measured::time), [](auto& f) { return f.interval; });
+    addTimes(ofFrame(Measured::device_time), [](auto& f) { return f.device; });
+    addTimes(ofCpu(Measured::record_time), [](auto& f) { return f.record; });
+    addTimes(ofCpu(Measured::submit_time), [](auto& f) { return f.submit; });
+    addTimes(ofCpu(Measured::wait_time), [](auto& f) { return f.wait; });
     // A frame whose work began before the last one's was done takes the device longer than its
     // interval, and then the device waited for nobody.
-    addTimes("gpu.wait.time", [](auto& f) { return std::max(f.interval - f.device, 0.0); });
+    addTimes(
+        ofGpu(Measured::wait_time), [](auto& f) { return std::max(f.interval - f.device, 0.0); });
 }
 
 }  // namespace benchmarks

@@ -11,25 +11,25 @@ using engine::FrameRecord;
 using engine::Timing;
 using Seconds = std::chrono::duration<double>;
 
-const char* modeName(Timing timing) {
+Mode modeOf(Timing timing) {
     switch (timing) {
     case Timing::overlapped:
-        return "overlapped";
+        return Mode::overlapped;
     case Timing::isolated:
-        return "isolated";
+        return Mode::isolated;
     case Timing::wall_clock:
-        return "wall_clock";
+        return Mode::wall_clock;
     case Timing::statistics:
         break;
     }
-    return "statistics";
+    return Mode::other;
 }
 
 }  // namespace
 
 SamplingRule samplingRule(Timing timing, const hair::RunSettings& run) {
     return {
-        .mode = modeName(timing),
+        .mode = modeName(modeOf(timing)),
         .time = timing == Timing::overlapped ? &FrameRecord::interval : &FrameRecord::wall,
         .precision = double{run.precision},
         .max_time = double{run.max_time}};

@@ -8,6 +8,7 @@
 
 #include "benchmarks/compare/report_comparison.h"
 #include "benchmarks/hash.h"
+#include "benchmarks/metric.h"
 #include "benchmarks/report_file.h"
 #include "benchmarks/report_page/picture_uri.h"
 #include "engine/error.h"
@@ -37,6 +38,19 @@ void addPictures(Json& report, const std::filesystem::path& file, Json& pictures
     }
 }
 
+// Which metrics are of passes and of pictures.
+void addMetrics(const Json& report, Json& pass_times, Json& image_metrics) {
+    for (const Json& each : report.at("cases")) {
+        const auto metrics = each.find("metrics");
+        if (metrics == each.end()) continue;
+        for (const auto& [name, metric] : metrics->items()) {
+            const MetricId id = metricNamed(name);
+            if (isPassTime(id)) pass_times[name] = id.pass();
+            if (id.of == MetricOf::image) image_metrics[name] = true;
+        }
+    }
+}
+
 // The scene's name, or the scenes' if there are several.
 std::string titleOf(const Json& reports) {
     std::vector<std::string> names;
@@ -55,11 +69,14 @@ std::string titleOf(const Json& reports) {
 Json pageData(std::span<const std::filesystem::path> files) {
     Json reports = Json::array();
     Json pictures = Json::object();
+    Json pass_times = Json::object();
+    Json image_metrics = Json::object();
     for (const std::filesystem::path& file : files) try {
             Json report = readReport(file);
             report["label"] = labelOf(reports.size());
             report["file"] = file.filename().string();
             addPictures(report, file, pictures);
+            addMetrics(report, pass_times, image_metrics);
             reports.push_back(std::move(report));
         } catch (const Json::exception& error) {
             throw engine::Error(file.string(), error.what());
@@ -73,6 +90,8 @@ Json pageData(std::span<const std::filesystem::path> files) {
     return {
         {"title", title},
         {"reports", std::move(reports)},
+        {"pass_times", std::move(pass_times)},
+        {"image_metrics", std::move(image_metrics)},
         {"pictures", std::move(pictures)},
         {"comparisons", std::move(comparisons)}};
 }

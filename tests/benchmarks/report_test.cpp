@@ -91,17 +91,17 @@ TEST(Report, SummarizesTheFiniteSamples) {
 
 TEST(Report, SaysWhatIsBetter) {
     const std::pair<Metric, const char*> hints[] = {
-        {{"frame.time", "ms", {1.0}, ""}, "lower"},
-        {{"frame.overlap", "ms", {1.0}, ""}, ""},
-        {{"fps", "1/s", {1.0}, ""}, "higher"},
-        {{"memory.device", "B", {1.0}, ""}, "lower"},
-        {{"pass.strands.instructions", "1", {1.0}, ""}, "lower"},
-        {{"image.flip", "1", {1.0}, ""}, "lower"},
-        {{"image.ssim", "1", {1.0}, ""}, "higher"},
-        {{"image.psnr", "dB", {1.0}, ""}, "higher"}};
+        {{ofFrame(Measured::time), {1.0}}, "lower"},
+        {{ofFrame(Measured::overlap), {1.0}}, ""},
+        {{ofFrame(Measured::rate), {1.0}}, "higher"},
+        {{ofMemory(Measured::allocated), {1.0}}, "lower"},
+        {{ofPass("strands", Measured::instructions), {1.0}}, "lower"},
+        {{ofImage(Measured::flip), {1.0}}, "lower"},
+        {{ofImage(Measured::ssim), {1.0}}, "higher"},
+        {{ofImage(Measured::psnr), {1.0}}, "higher"}};
     for (const auto& [metric, hint] : hints) {
         const Json written = caseJson({.name = "x", .metrics = {metric}});
-        EXPECT_EQ(written["metrics"][metric.name].value("hint", ""), hint) << metric.name;
+        EXPECT_EQ(written["metrics"][metric.name()].value("hint", ""), hint) << metric.name();
     }
 }
 

@@ -40,12 +40,12 @@ inline Report sampleReport() {
          .axes =
              {{"/strands/density", Document(64)}, {"/strands/backend", Document("tessellation")}},
          .metrics =
-             {{"frame.time", "ms", {2.0, 4.0, 3.0, nan}, "overlapped"},
-              {"fps", "1/s", {333.25}, "overlapped"},
-              {"pass.wind.time", "ms", {0.0125}, "isolated"},
-              {"pass.strands.time", "ms", {2.5}, "isolated"},
-              {"pass.ui.time", "ms", {nan}, "isolated"},
-              {"memory.device", "B", {1048576.0}, ""}},
+             {{ofFrame(Measured::time), {2.0, 4.0, 3.0, nan}, Mode::overlapped},
+              {ofFrame(Measured::rate), {333.25}, Mode::overlapped},
+              {ofPass("wind", Measured::time), {0.0125}, Mode::isolated},
+              {ofPass("strands", Measured::time), {2.5}, Mode::isolated},
+              {ofPass("ui", Measured::time), {nan}, Mode::isolated},
+              {ofMemory(Measured::allocated), {1048576.0}}},
          .statistics =
              {{"tessellation_control_patches", 952, 952, ""},
               {"geometry_primitives", 5, {}, "no count is known"}},

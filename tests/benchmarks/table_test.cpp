@@ -46,15 +46,17 @@ TEST(Table, NamesTheCaseWhereNothingVaries) {
 
 TEST(Table, HasAColumnForEachPassAlone) {
     Report report = sampleReport();
-    report.cases[0].metrics.push_back({"pass.strands.cpu.time", "ms", {7.25}, "wall_clock"});
-    report.cases[0].metrics.push_back({"pass.strands.instructions", "1", {7.0}, "wall_clock"});
+    report.cases[0].metrics.push_back(
+        {ofPass("strands", Measured::cpu_time), {7.25}, Mode::wall_clock});
+    report.cases[0].metrics.push_back(
+        {ofPass("strands", Measured::instructions), {7.0}, Mode::wall_clock});
     EXPECT_EQ(table(reportJson(report)), table(reportJson(sampleReport())));
 }
 
 TEST(Table, ShowsHowFarPicturesAreFromTheReference) {
     Report report = sampleReport();
     report.cases.resize(1);
-    report.cases[0].metrics = {{"image.flip", "1", {0.12345}, ""}};
+    report.cases[0].metrics = {{ofImage(Measured::flip), {0.12345}}};
     report.environment.device = {};
     report.scene.path.clear();
     EXPECT_EQ(

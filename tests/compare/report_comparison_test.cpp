@@ -119,7 +119,7 @@ TEST(ReportComparison, JudgesWhatIsAskedFor) {
     const ReportComparison found = compareReports(
         report(10.0, 100.0, 1000.0), report(20.0, 50.0, 1030.0), {.metrics = "fps|memory"});
     ASSERT_EQ(found.changes.size(), 2u);
-    EXPECT_EQ(found.changes[0].metric, "fps");
+    EXPECT_EQ(found.changes[0].metric.name(), "fps");
     EXPECT_EQ(found.changes[0].comparison.verdict, Verdict::regressed);
     EXPECT_NEAR(found.changes[0].comparison.change, 1.0, 1e-9);  // a frame takes twice as long
     // Bytes are counted: one sample is enough to know that there are 3 % more.
@@ -137,7 +137,7 @@ TEST(ReportComparison, LeavesOutWhatIsTooShort) {
     };
     const ReportComparison found = compareReports(report(0.02, 0.02), report(0.04, 0.2), {});
     ASSERT_EQ(found.too_short.size(), 1u);
-    EXPECT_EQ(found.too_short[0].metric, "pass.a.time");
+    EXPECT_EQ(found.too_short[0].metric.name(), "pass.a.time");
     EXPECT_EQ(found.changes[0].comparison.verdict, Verdict::regressed);  // long in B
 }
 

@@ -57,7 +57,7 @@ Outcome play(
     Gate gate(std::vector<GateMetric>{{.calibration = calibration}}, rule);
     const double cost = std::log1p(slowdown);
     for (auto step = gate.next(); step != Gate::Step::decided; step = gate.next())
-        gate.add({{machine.run(step == Gate::Step::run_b ? cost : 0.0)}, {""}});
+        gate.add({machine.run(step == Gate::Step::run_b ? cost : 0.0)});
     return {gate.comparisons()[0].verdict, gate.pairs()};
 }
 
@@ -151,13 +151,13 @@ TEST(SimulatedGates, KeepTheRateOfFalseDiscoveries) {
         std::vector<Machine> machines(kMetrics, Machine(noise));
         Gate gate{std::vector<GateMetric>(kMetrics)};
         for (auto step = gate.next(); step != Gate::Step::decided; step = gate.next()) {
-            Block block{.medians = {}, .results = {""}};
+            std::vector<double> medians;
             for (std::size_t m = 0; m < kMetrics; ++m) {
                 const double slowdown = m < kSlower ? 0.04 : 0.02;
-                block.medians.push_back(
+                medians.push_back(
                     machines[m].run(step == Gate::Step::run_b ? std::log1p(slowdown) : 0.0));
             }
-            gate.add(std::move(block));
+            gate.add(std::move(medians));
         }
         const std::vector<Comparison> compared = gate.comparisons();
         double wrong = 0.0;

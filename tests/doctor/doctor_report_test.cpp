@@ -26,8 +26,8 @@ DoctorReport sampleDoctor() {
              {"power", Health::unknown, "no power supply is listed", ""},
              {"clocks", Health::warn, "1500 MHz", "lock them"}},
         .sensitivities =
-            {{"frame.time", 0.02, 0.031},
-             {"pass.wind.time", 0.2, std::numeric_limits<double>::infinity()}},
+            {{ofFrame(Measured::time), 0.02, 0.031},
+             {ofPass("wind", Measured::time), 0.2, std::numeric_limits<double>::infinity()}},
         .planted = {{"strands", 0.05, true, false}, {"strands", 0.05, false, true}}};
 }
 

@@ -109,7 +109,7 @@ TEST(Gbench, HasTimesOnly) {
 
 TEST(Gbench, LeavesOutADifferenceOfTimes) {
     Report report = sampleReport();
-    report.cases[0].metrics.push_back({"frame.overlap", "ms", {-1.5}, ""});
+    report.cases[0].metrics.push_back({ofFrame(Measured::overlap), {-1.5}});
     EXPECT_THAT(exportReport(Json::parse(reportText(report)), "gbench"), Not(HasSubstr("overlap")));
 }
 

@@ -62,8 +62,10 @@ TEST(Markdown, HasARowForEachCase) {
 TEST(Markdown, HasOneColumnForAPass) {
     Report report = sampleReport();
     const std::string before = exportReport(Json::parse(reportText(report)), "markdown");
-    report.cases[0].metrics.push_back({"pass.strands.cpu.time", "ms", {1.5}, "wall_clock"});
-    report.cases[0].metrics.push_back({"pass.strands.instructions", "1", {1e6}, "wall_clock"});
+    report.cases[0].metrics.push_back(
+        {ofPass("strands", Measured::cpu_time), {1.5}, Mode::wall_clock});
+    report.cases[0].metrics.push_back(
+        {ofPass("strands", Measured::instructions), {1e6}, Mode::wall_clock});
     EXPECT_EQ(exportReport(Json::parse(reportText(report)), "markdown"), before);
 }
 

@@ -13,14 +13,14 @@ Report framesAndPasses() {
     Report report = sampleReport();
     report.cases.resize(1);
     report.cases[0].metrics = {
-        {"frame.time", "ms", {2.0, 4.0}, "overlapped"},
-        {"cpu.record.time", "ms", {0.5, 0.25}, "overlapped"},
-        {"cpu.submit.time", "ms", {0.125, 0.5}, "overlapped"},
-        {"pass.scene.time", "ms", {1.0, 1.5}, "isolated"},
-        {"pass.strands.time", "ms", {2.0, 2.5}, "isolated"},
-        {"pass.strands.cpu.time", "ms", {1.75, 2.25}, "wall_clock"},
-        {"pass.strands.instructions", "1", {1e6, 1e6}, "wall_clock"},
-        {"frame.isolated.time", "ms", {3.5, 3.75}, "isolated"}};
+        {ofFrame(Measured::time), {2.0, 4.0}, Mode::overlapped},
+        {ofCpu(Measured::record_time), {0.5, 0.25}, Mode::overlapped},
+        {ofCpu(Measured::submit_time), {0.125, 0.5}, Mode::overlapped},
+        {ofPass("scene", Measured::time), {1.0, 1.5}, Mode::isolated},
+        {ofPass("strands", Measured::time), {2.0, 2.5}, Mode::isolated},
+        {ofPass("strands", Measured::cpu_time), {1.75, 2.25}, Mode::wall_clock},
+        {ofPass("strands", Measured::instructions), {1e6, 1e6}, Mode::wall_clock},
+        {ofFrame(Measured::isolated_time), {3.5, 3.75}, Mode::isolated}};
     return report;
 }
 

@@ -16,13 +16,13 @@ using engine::MemoryLedger;
 double sumOf(const std::vector<Metric>& metrics, std::string_view beginning) {
     double sum = 0.0;
     for (const Metric& metric : metrics)
-        if (metric.name.starts_with(beginning)) sum += metric.samples.at(0);
+        if (metric.name().starts_with(beginning)) sum += metric.samples.at(0);
     return sum;
 }
 
 double valueOf(const std::vector<Metric>& metrics, std::string_view name) {
     for (const Metric& metric : metrics)
-        if (metric.name == name) return metric.samples.at(0);
+        if (metric.name() == name) return metric.samples.at(0);
     return 0.0;
 }
 
@@ -46,7 +46,7 @@ TEST(MemoryMetrics, AddUpByHeapAndByPurpose) {
     EXPECT_EQ(valueOf(metrics, "memory.purpose.shading"), 30.0);
     EXPECT_EQ(valueOf(metrics, "memory.purpose.other"), 4.0);
     EXPECT_EQ(metrics.size(), 5u);
-    for (const Metric& metric : metrics) EXPECT_EQ(metric.unit, "B") << metric.name;
+    for (const Metric& metric : metrics) EXPECT_EQ(metric.unit, "B") << metric.name();
 }
 
 TEST(MemoryMetrics, OfNothingAreNone) { EXPECT_TRUE(memoryMetrics(MemoryLedger()).empty()); }

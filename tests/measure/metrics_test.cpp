@@ -13,7 +13,7 @@ using testing::ElementsAre;
 
 std::vector<std::string> names(const CaseResult& result) {
     std::vector<std::string> all;
-    for (const Metric& metric : result.metrics) all.push_back(metric.name);
+    for (const Metric& metric : result.metrics) all.push_back(metric.name());
     return all;
 }
 
@@ -52,7 +52,7 @@ TEST(Metrics, OfOverlappedFramesSayWhoWaitsForWhom) {
     EXPECT_THAT(metricOf(result, "cpu.submit.time").samples, ElementsAre(1.0, 1.0));
     EXPECT_THAT(metricOf(result, "cpu.wait.time").samples, ElementsAre(6.5, 6.5));
     EXPECT_THAT(metricOf(result, "gpu.wait.time").samples, ElementsAre(2.0, 0.0));
-    for (const Metric& metric : result.metrics) EXPECT_EQ(metric.mode, "overlapped");
+    for (const Metric& metric : result.metrics) EXPECT_EQ(metric.mode, Mode::overlapped);
 }
 
 // 98 frames of 10 ms and two of 40 ms, 1,060 ms in all. Percentile: quantile 0.99 lies at position
@@ -75,7 +75,7 @@ TEST(Metrics, HaveLowsOfEnoughFramesOnly) {
         CaseResult result;
         addOverlappedMetrics(framesOf(frames), result);
         return std::ranges::count_if(result.metrics, [](const Metric& metric) {
-            return metric.name.starts_with("fps.low");
+            return metric.name().starts_with("fps.low");
         });
     };
     EXPECT_EQ(lows(99), 0);
@@ -111,7 +111,7 @@ TEST(Metrics, TellWhatPassesUsed) {
         ElementsAre("pass.wind.cpu.time", "pass.wind.instructions", "pass.strands.cpu.time"));
     EXPECT_THAT(metricOf(result, "pass.wind.cpu.time").samples, ElementsAre(2.0, 3.0));
     EXPECT_THAT(metricOf(result, "pass.strands.cpu.time").samples, ElementsAre(4.0, 6.0));
-    EXPECT_EQ(metricOf(result, "pass.strands.cpu.time").mode, "wall_clock");
+    EXPECT_EQ(metricOf(result, "pass.strands.cpu.time").mode, Mode::wall_clock);
 }
 
 }  // namespace

@@ -41,13 +41,18 @@ benchmarks::CaseResult measuredCase(const Known& known, double slower) {
     benchmarks::CaseResult result = emptyCase(known);
     const double ms = known.frame_ms * slower;
     result.metrics = {
-        {"fps", "1/s", {1000.0 / ms}, "overlapped"},
-        {"frame.time", "ms", around(ms), "overlapped"},
-        {"pass.simulate.time", "ms", around(0.2 * ms), "isolated"},
-        {"pass.strands.time", "ms", around(0.7 * ms), "isolated"},
-        {"pass.resolve.time", "ms", around(0.1 * ms), "isolated"},
-        {"image.flip", "1", {1.0 / known.density}, ""},
-        {"memory.device", "B", {1048576.0 * known.density}, ""}};
+        {benchmarks::ofFrame(benchmarks::Measured::rate),
+         {1000.0 / ms},
+         benchmarks::Mode::overlapped},
+        {benchmarks::ofFrame(benchmarks::Measured::time), around(ms), benchmarks::Mode::overlapped},
+        {benchmarks::ofPass("simulate", benchmarks::Measured::time), around(0.2 * ms),
+         benchmarks::Mode::isolated},
+        {benchmarks::ofPass("strands", benchmarks::Measured::time), around(0.7 * ms),
+         benchmarks::Mode::isolated},
+        {benchmarks::ofPass("resolve", benchmarks::Measured::time), around(0.1 * ms),
+         benchmarks::Mode::isolated},
+        {benchmarks::ofImage(benchmarks::Measured::flip), {1.0 / known.density}},
+        {benchmarks::ofMemory(benchmarks::Measured::allocated), {1048576.0 * known.density}}};
     if (known.density == 16 && known.msaa == 1) result.trust.warnings = {kWarning};
     result.image_hash = result.state_hash = "0123456789abcdef";
     return result;
@@ -81,9 +86,12 @@ benchmarks::Report oneCaseReport(const std::string& name, std::vector<benchmarks
     result.name = name;
     result.axes = std::move(axes);
     result.metrics = {
-        {"frame.time", "ms", around(1.0), "overlapped"},
-        {"pass.strands.time", "ms", around(0.5), "isolated"},
-        {"pass.strands.cpu.time", "ms", around(0.75), "wall_clock"}};
+        {benchmarks::ofFrame(benchmarks::Measured::time), around(1.0),
+         benchmarks::Mode::overlapped},
+        {benchmarks::ofPass("strands", benchmarks::Measured::time), around(0.5),
+         benchmarks::Mode::isolated},
+        {benchmarks::ofPass("strands", benchmarks::Measured::cpu_time), around(0.75),
+         benchmarks::Mode::wall_clock}};
     report.cases.push_back(result);
     return report;
 }

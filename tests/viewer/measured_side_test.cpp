@@ -33,7 +33,7 @@ hair::Settings tinySettings() {
 std::map<std::string, double> memoryOf(const CaseResult& result) {
     std::map<std::string, double> memory;
     for (const Metric& metric : result.metrics)
-        if (metric.name.starts_with("memory.")) memory[metric.name] = metric.samples.front();
+        if (metric.name().starts_with("memory.")) memory[metric.name()] = metric.samples.front();
     return memory;
 }
 
@@ -83,7 +83,7 @@ TEST_F(MeasuredSide, HasTheMetricsOfARun) {
     const auto names = [](const CaseResult& result) {
         std::vector<std::string> all;
         for (const Metric& metric : result.metrics)
-            if (metric.mode != "wall_clock") all.push_back(metric.name);
+            if (metric.mode != Mode::wall_clock) all.push_back(metric.name());
         std::ranges::sort(all);
         return all;
     };

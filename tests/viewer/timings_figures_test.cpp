@@ -18,7 +18,7 @@ using testing::Pair;
 
 std::vector<std::string> names(const CaseResult& result) {
     std::vector<std::string> all;
-    for (const Metric& metric : result.metrics) all.push_back(metric.name);
+    for (const Metric& metric : result.metrics) all.push_back(metric.name());
     return all;
 }
 
@@ -29,20 +29,21 @@ TEST(TimingsFigures, AreTheRunnersThatHoldForOneFrameAtATime) {
         names(result), ElementsAre(
                            "frame.device.time", "cpu.record.time", "cpu.submit.time",
                            "frame.isolated.time", "pass.wind.time", "pass.strands.time"));
-    const auto samples = [&](const char* name) { return metricOf(result, name)->samples; };
-    EXPECT_THAT(samples("frame.device.time"), ElementsAre(22.0, 17.0, 18.0));
-    EXPECT_THAT(samples("cpu.record.time"), ElementsAre(3.0, 3.0, 3.0));
-    EXPECT_THAT(samples("frame.isolated.time"), ElementsAre(12.0, 25.0, 63.0));
-    EXPECT_THAT(samples("pass.strands.time"), ElementsAre(10.0, 20.0, 60.0));
-    EXPECT_EQ(metricOf(result, "frame.device.time")->mode, "overlapped");
-    EXPECT_EQ(metricOf(result, "pass.wind.time")->mode, "isolated");
-    EXPECT_EQ(metricOf(result, "fps"), nullptr);
+    const auto samples = [&](const MetricId& id) { return metricOf(result, id)->samples; };
+    EXPECT_THAT(samples(ofFrame(Measured::device_time)), ElementsAre(22.0, 17.0, 18.0));
+    EXPECT_THAT(samples(ofCpu(Measured::record_time)), ElementsAre(3.0, 3.0, 3.0));
+    EXPECT_THAT(samples(ofFrame(Measured::isolated_time)), ElementsAre(12.0, 25.0, 63.0));
+    EXPECT_THAT(samples(ofPass("strands", Measured::time)), ElementsAre(10.0, 20.0, 60.0));
+    EXPECT_EQ(metricOf(result, ofFrame(Measured::device_time))->mode, Mode::overlapped);
+    EXPECT_EQ(metricOf(result, ofPass("wind", Measured::time))->mode, Mode::isolated);
+    EXPECT_EQ(metricOf(result, ofFrame(Measured::rate)), nullptr);
 }
 
 TEST(TimingsFigures, HaveCpuTimeOfSoftwareDevices) {
     const CaseResult result = frameMetrics(madeUpHistory(), "cpu");
-    ASSERT_NE(metricOf(result, "frame.cpu.time"), nullptr);
-    EXPECT_THAT(metricOf(result, "frame.cpu.time")->samples, ElementsAre(24.0, 50.0, 126.0));
+    ASSERT_NE(metricOf(result, ofFrame(Measured::cpu_time)), nullptr);
+    EXPECT_THAT(
+        metricOf(result, ofFrame(Measured::cpu_time))->samples, ElementsAre(24.0, 50.0, 126.0));
 }
 
 TEST(TimingsFigures, TellHowFastFramesAre) {

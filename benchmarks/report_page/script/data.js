@@ -62,11 +62,11 @@ const metricUnits = new Map();
 for (const row of rows)
     for (const [name, metric] of Object.entries(row.metrics)) metricUnits.set(name, metric.unit);
 const metricNames = [...metricUnits.keys()];
-const passMetrics = metricNames.filter((name) => /^pass\.[^.]+\.time$/.test(name));
-const imageMetrics = metricNames.filter((name) => name.startsWith("image."));
+const passMetrics = metricNames.filter((name) => Object.hasOwn(page.pass_times, name));
+const imageMetrics = metricNames.filter((name) => Object.hasOwn(page.image_metrics, name));
 const timeMetrics = metricNames.filter((name) => metricUnits.get(name) === "ms");
 
-function passName(metric) { return metric.slice("pass.".length, -".time".length); }
+function passName(metric) { return page.pass_times[metric]; }
 
 function median(row, metric) { return row.metrics[metric]?.median; }
 

@@ -10,8 +10,9 @@ namespace benchmarks {
 namespace {
 
 // Of an overlapped frame that has the device to itself.
-bool holdsForOneFrame(std::string_view name) {
-    return name == "frame.device.time" || name == "cpu.record.time" || name == "cpu.submit.time";
+bool holdsForOneFrame(const MetricId& id) {
+    return id == ofFrame(Measured::device_time) || id == ofCpu(Measured::record_time) ||
+           id == ofCpu(Measured::submit_time);
 }
 
 void addOverlapped(const TimedFrames& frames, CaseResult& result) {
@@ -19,14 +20,14 @@ void addOverlapped(const TimedFrames& frames, CaseResult& result) {
     CaseResult all;
     addOverlappedMetrics(frames.records, all);
     std::ranges::copy_if(all.metrics, std::back_inserter(result.metrics), [](const Metric& metric) {
-        return holdsForOneFrame(metric.name);
+        return holdsForOneFrame(metric.id);
     });
 }
 
 void addIsolated(const TimedFrames& frames, std::string_view device_type, CaseResult& result) {
     if (frames.size() == 0) return;
     addIsolatedMetrics(frames.records, result);
-    addPassTimes(frames.records, "isolated", result);
+    addPassTimes(frames.records, Mode::isolated, result);
     // What a software device costs is CPU time; of others it says little.
     if (device_type == "cpu") addFrameUse(frames.records, result);
     addPassSum(frames.records, result);
@@ -41,9 +42,9 @@ CaseResult frameMetrics(const TimingHistory& history, std::string_view device_ty
     return result;
 }
 
-const Metric* metricOf(const CaseResult& result, std::string_view name) {
-    const auto found = std::ranges::find(result.metrics, name, &Metric::name);
-    return found == result.metrics.end() || found->samples.empty() ? nullptr : &*found;
+const Metric* metricOf(const CaseResult& result, const MetricId& id) {
+    const Metric* const found = findMetric(result.metrics, id);
+    return found && !found->samples.empty() ? found : nullptr;
 }
 
 }  // namespace benchmarks

@@ -13,7 +13,7 @@ namespace benchmarks {
 // `device_type` as in DeviceRecord.
 CaseResult frameMetrics(const TimingHistory& history, std::string_view device_type);
 
-// The metric of that name; null where there is none or it has no sample.
-const Metric* metricOf(const CaseResult& result, std::string_view name);
+// Null where there is no such metric or it has no sample.
+const Metric* metricOf(const CaseResult& result, const MetricId& id);
 
 }  // namespace benchmarks

@@ -19,8 +19,8 @@ double medianOf(const TimedFrames& frames, Get get) {
     return summarize(values).median;
 }
 
-std::optional<double> medianOf(const CaseResult& metrics, const char* name) {
-    const Metric* const metric = metricOf(metrics, name);
+std::optional<double> medianOf(const CaseResult& metrics, const MetricId& id) {
+    const Metric* const metric = metricOf(metrics, id);
     if (!metric) return std::nullopt;
     return summarize(metric->samples).median;
 }
@@ -28,7 +28,7 @@ std::optional<double> medianOf(const CaseResult& metrics, const char* name) {
 }  // namespace
 
 std::optional<FrameRate> frameRate(const CaseResult& metrics) {
-    const Metric* const walls = metricOf(metrics, "frame.isolated.time");
+    const Metric* const walls = metricOf(metrics, ofFrame(Measured::isolated_time));
     if (!walls) return std::nullopt;
     FrameRate rate{
         .fps = framesPerSecond(walls->samples),
@@ -50,10 +50,10 @@ std::optional<FrameSplit> frameSplit(const TimingHistory& history, const CaseRes
         .record = medianOf(frames, [](auto& frame) { return frame.record; }),
         .submit = medianOf(frames, [](auto& frame) { return frame.submit; }),
         .wait = medianOf(frames, [](auto& frame) { return frame.wait; }),
-        .cpu = medianOf(metrics, "frame.cpu.time"),
+        .cpu = medianOf(metrics, ofFrame(Measured::cpu_time)),
         .device = medianOf(frames, [](auto& frame) { return frame.device; }),
         .pass_sum = medianOf(frames, passSum),
-        .device_overlapped = medianOf(metrics, "frame.device.time")};
+        .device_overlapped = medianOf(metrics, ofFrame(Measured::device_time))};
 }
 
 }  // namespace benchmarks

@@ -48,10 +48,11 @@ void measuredTable(const CaseResult& result) {
         FigureTable table("##measured", FigureTable::Columns::one);
         for (const Metric& metric : result.metrics) {
             if (metric.samples.empty() || (metric.unit != "ms" && metric.unit != "1/s")) continue;
-            const std::string help = (metric.mode.empty() ? "" : metric.mode + ", ") +
-                                     std::string("median in ") + metric.unit + " of " +
-                                     countText(metric.samples.size(), "sample");
-            table.row(metric.name.c_str(), help.c_str(), medianText(metric));
+            std::string help = modeName(metric.mode);
+            if (!help.empty()) help += ", ";
+            help +=
+                "median in " + metric.unit + " of " + countText(metric.samples.size(), "sample");
+            table.row(metric.name().c_str(), help.c_str(), medianText(metric));
         }
     }
     for (const std::string& warning : result.trust.warnings)

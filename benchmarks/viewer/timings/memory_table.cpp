@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <string_view>
 
 #include <imgui.h>
 
@@ -14,8 +13,6 @@
 namespace benchmarks {
 
 namespace {
-
-constexpr std::string_view kPurpose = "memory.purpose.";
 
 double bytesOf(const Metric& metric) { return metric.samples.front(); }
 
@@ -36,8 +33,8 @@ void memoryTable(const engine::MemoryLedger& ledger) {
     std::vector<Metric> purposes = memoryMetrics(ledger);
     double window = 0.0, scene = 0.0;
     std::erase_if(purposes, [&](const Metric& metric) {
-        if (!metric.name.starts_with(kPurpose)) return true;
-        const bool is_window = metric.name.substr(kPurpose.size()) == "window";
+        if (metric.id.what != Measured::purpose) return true;
+        const bool is_window = metric.id.part == "window";
         (is_window ? window : scene) += bytesOf(metric);
         return is_window;
     });
@@ -45,7 +42,7 @@ void memoryTable(const engine::MemoryLedger& ledger) {
     if (!ImGui::BeginTable("##memory", 2, ImGuiTableFlags_SizingFixedFit)) return;
     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
     for (const Metric& metric : purposes)
-        line(metric.name.substr(kPurpose.size()), "", bytesOf(metric), bytesOf(metric) / scene);
+        line(metric.id.part, "", bytesOf(metric), bytesOf(metric) / scene);
     line(
         "all of these",
         "Device memory that buffers and images hold, of both sides where two are compared", scene);

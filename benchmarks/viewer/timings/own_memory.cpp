@@ -25,7 +25,7 @@ std::vector<Metric> OwnMemory::metrics() const {
         if (rest > 0) lines.emplace_back(own, entry, rest);
         sum += rest;
     }
-    std::vector<Metric> metrics{{"memory.device", "B", {static_cast<double>(sum)}, ""}};
+    std::vector<Metric> metrics{{ofMemory(Measured::allocated), {static_cast<double>(sum)}}};
     std::ranges::move(memoryMetrics(own), std::back_inserter(metrics));
     return metrics;
 }

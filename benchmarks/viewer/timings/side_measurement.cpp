@@ -25,8 +25,8 @@ SideMeasurement measureSide(
     Case test_case(device, settings, directory);
     measured.picture = measure(device, test_case, settings.run, own_hooks, result);
     std::erase_if(result.metrics, [](const Metric& metric) {
-        return metric.name == "memory.device" || metric.name.starts_with("memory.heap.") ||
-               metric.name.starts_with("memory.purpose.");
+        const Measured what = metric.id.what;
+        return what == Measured::allocated || what == Measured::heap || what == Measured::purpose;
     });
     std::ranges::move(memory.metrics(), std::back_inserter(result.metrics));
     if (!settings.run.reference.empty()) {

@@ -1,0 +1,184 @@
+#include "benchmarks/metric.h"
+
+#include <map>
+#include <regex>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/read_file.h"
+
+namespace benchmarks {
+namespace {
+
+using testing::ElementsAre;
+
+// "pass.x.time" for "pass.*.time" and "memory.heap.x" for "memory.heap.<index>".
+std::string withPart(const std::string& pattern) {
+    return std::regex_replace(pattern, std::regex(R"(\*|<\w+>)"), "x");
+}
+
+// Name and unit of each metric in the table of results/README.md. ".mean" after
+// "fps.low_1.percentile" is "fps.low_1.mean"; of passes' times the table names the first and last.
+std::map<std::string, std::string> documented() {
+    const std::string text = engine::readFile(HAIRBENCH_SOURCE_DIR "/results/README.md");
+    std::istringstream table(
+        text.substr(text.find("| metric | unit |"), text.find("## Physics reports")));
+    const std::regex row(R"(^\| (`.*`) \| ([^|]+) \| .*)");
+    const std::regex code("`([^`]+)`");
+    std::map<std::string, std::string> units;
+    for (std::string line; std::getline(table, line) && !line.starts_with("## ");) {
+        std::smatch cells;
+        if (!std::regex_match(line, cells, row)) continue;
+        const std::string names = cells[1];
+        std::istringstream unit_list(cells[2].str());  // "ms, 1": one for each name
+        std::string unit, last;
+        for (std::sregex_iterator each(names.begin(), names.end(), code), end; each != end;
+             ++each) {
+            std::string name = (*each)[1];
+            if (name.starts_with('.')) name = last.substr(0, last.rfind('.')) + name;
+            last = name;
+            if (std::string next; std::getline(unit_list >> std::ws, next, ',')) unit = next;
+            units[withPart(name)] = unit;
+        }
+    }
+    return units;
+}
+
+// Of each kind one, of the part "x" where there is one.
+std::map<std::string, std::string> made() {
+    std::map<std::string, std::string> units;
+    for (const MetricKind& kind : metricKinds()) {
+        const bool has_part = kind.name.find('*') != kind.name.npos;
+        const Metric metric({kind.of, kind.what, has_part ? "x" : ""}, {1.0});
+        units[metric.name()] = metric.unit;
+    }
+    return units;
+}
+
+TEST(Metric, HasTheNamesAndUnitsThatAreDocumented) {
+    std::map<std::string, std::string> expected = documented();
+    // The row of all passes.
+    EXPECT_EQ(expected.erase("pass.wind.time") + expected.erase("pass.resolve.time"), 2u);
+    expected["pass.x.time"] = "ms";
+    EXPECT_EQ(made(), expected);
+}
+
+TEST(Metric, IsFoundAgainByItsName) {
+    for (const MetricKind& kind : metricKinds()) {
+        const bool has_part = kind.name.find('*') != kind.name.npos;
+        const MetricId id{kind.of, kind.what, has_part ? "mesh_shadow" : ""};
+        EXPECT_EQ(metricNamed(id.name()), id) << id.name();
+    }
+    EXPECT_EQ(metricNamed("pass.strands.time"), ofPass("strands", Measured::time));
+    EXPECT_EQ(metricNamed("pass.strands.cpu.time"), ofPass("strands", Measured::cpu_time));
+    EXPECT_EQ(metricNamed("pass.cpu.time"), ofPass("cpu", Measured::time));
+    EXPECT_EQ(metricNamed("memory.heap.0"), ofMemory(Measured::heap, "0"));
+    EXPECT_EQ(metricNamed("memory.purpose.targets"), ofMemory(Measured::purpose, "targets"));
+}
+
+TEST(Metric, IsAnotherWhereNoKindHasItsName) {
+    for (const char* const name :
+         {"", "frame", "frame.times", "pass.time", "pass..time", "pass.a.b.time",
+          "pass.strands.bytes", "memory.heap.", "fps.low_1"}) {
+        const MetricId id = metricNamed(name);
+        EXPECT_EQ(id.of, MetricOf::other) << name;
+        EXPECT_EQ(id.name(), name);
+        EXPECT_EQ(id.pass(), "");
+    }
+    EXPECT_NE(metricNamed("a"), metricNamed("b"));
+}
+
+TEST(Metric, NamesItsPass) {
+    EXPECT_EQ(metricNamed("pass.strands.time").pass(), "strands");
+    EXPECT_EQ(metricNamed("pass.strands.cpu.time").pass(), "strands");
+    EXPECT_EQ(metricNamed("pass.mesh_shadow.instructions").pass(), "mesh_shadow");
+    EXPECT_EQ(metricNamed("frame.cpu.time").pass(), "");
+    EXPECT_EQ(metricNamed("memory.heap.0").pass(), "");
+}
+
+// Of rates, the signal-to-noise ratio and the structural similarity more is better. An overlap is a
+// difference of two times, and who waits longer does so because others are faster.
+TEST(Metric, KnowsWhatIsBetter) {
+    for (const MetricKind& kind : metricKinds()) {
+        const std::string name(kind.name);
+        Better expected = Better::lower;
+        if (name.starts_with("fps") || name == "image.psnr" || name == "image.ssim")
+            expected = Better::higher;
+        if (name == "frame.overlap" || name.ends_with(".wait.time")) expected = Better::neither;
+        EXPECT_EQ(kind.better, expected) << name;
+        EXPECT_EQ(Metric(metricNamed(name), {}).better, expected) << name;
+    }
+    EXPECT_EQ(Metric(metricNamed("frame.times"), {}).better, Better::neither);
+}
+
+TEST(Metric, TellsTimesFromDifferencesAndWaits) {
+    for (const char* const name :
+         {"frame.time", "frame.first.time", "cpu.record.time", "pass.wind.cpu.time"})
+        EXPECT_TRUE(Metric(metricNamed(name), {}).isTime()) << name;
+    for (const char* const name :
+         {"frame.overlap", "gpu.wait.time", "fps", "memory.device", "frame.instructions"})
+        EXPECT_FALSE(Metric(metricNamed(name), {}).isTime()) << name;
+}
+
+TEST(Metric, FindsTheSameOfAllPasses) {
+    const auto is_same = [](const char* name, const char* other) {
+        return isSameOfFrameOrPass(metricNamed(name), metricNamed(other));
+    };
+    EXPECT_TRUE(is_same("pass.wind.cpu.time", "pass.strands.cpu.time"));
+    EXPECT_TRUE(is_same("frame.cpu.time", "pass.strands.cpu.time"));
+    EXPECT_FALSE(is_same("pass.wind.time", "pass.strands.cpu.time"));
+    EXPECT_TRUE(is_same("pass.wind.time", "pass.strands.time"));
+    EXPECT_TRUE(is_same("frame.time", "pass.strands.time"));
+    EXPECT_FALSE(is_same("pass.wind.cpu.time", "pass.strands.time"));
+    EXPECT_FALSE(is_same("frame.first.time", "pass.strands.time"));
+}
+
+TEST(Metric, KnowsEveryCost) {
+    for (const char* const name :
+         {"frame.time", "frame.cpu.time", "frame.instructions", "pass.wind.time",
+          "pass.wind.cpu.time", "pass.wind.instructions"})
+        EXPECT_TRUE(isFrameOrPassCost(metricNamed(name))) << name;
+    for (const char* const name :
+         {"frame.first.time", "frame.overlap", "cpu.record.time", "fps", "memory.device"})
+        EXPECT_FALSE(isFrameOrPassCost(metricNamed(name))) << name;
+}
+
+TEST(Metric, IsReadFromAReport) {
+    const Json result = Json::parse(R"({"metrics": {
+        "pass.wind.time": {"unit": "ms", "hint": "lower", "mode": "wall_clock", "median": 2.0,
+                           "mad": 1.0, "samples": [1.0, 2.0, 3.0]},
+        "fps": {"unit": "1/s", "median": 60.0, "mad": 0.0, "samples": [60.0]},
+        "frame.overlap": {"unit": "ms", "median": 1.0, "mad": 0.0, "samples": [1.0]}}})");
+    const std::vector<MetricReading> metrics = readMetrics(result);
+    ASSERT_EQ(metrics.size(), 3u);
+    EXPECT_EQ(metrics[0].id, ofPass("wind", Measured::time));
+    EXPECT_EQ(metrics[0].unit, "ms");
+    EXPECT_EQ(metrics[0].better, Better::lower);
+    EXPECT_EQ(metrics[0].mode, Mode::wall_clock);
+    EXPECT_EQ(metrics[0].median, 2.0);
+    EXPECT_THAT(metrics[0].samples, ElementsAre(1.0, 2.0, 3.0));
+    // As reports of 1.0 are, which say no direction.
+    EXPECT_EQ(metrics[1].better, Better::higher);
+    EXPECT_EQ(metrics[1].mode, Mode::none);
+    EXPECT_EQ(metrics[2].better, Better::neither);
+    EXPECT_EQ(findMetric(metrics, ofFrame(Measured::rate)), &metrics[1]);
+    EXPECT_EQ(findMetric(metrics, ofFrame(Measured::time)), nullptr);
+}
+
+TEST(Metric, IsAsTheReportSaysWhereItIsNotKnownHere) {
+    const Json said = Json::parse(
+        R"({"unit": "J", "hint": "lower", "mode": "asleep", "median": 2.0, "samples": [2.0]})");
+    const MetricReading energy = MetricReading::fromReport("frame.energy", said);
+    EXPECT_EQ(energy.name(), "frame.energy");
+    EXPECT_EQ(energy.unit, "J");
+    EXPECT_EQ(energy.better, Better::lower);
+    EXPECT_EQ(energy.mode, Mode::other);
+    EXPECT_FALSE(energy.isTimedAs(energy));  // two modes of which nothing is known may differ
+    const Json silent = Json::parse(R"({"unit": "ms", "median": 2.0, "samples": [2.0]})");
+    EXPECT_EQ(MetricReading::fromReport("frame.times", silent).better, Better::neither);
+}
+
+}  // namespace
+}  // namespace benchmarks
