@@ -51,7 +51,7 @@ Joint jointAt(const RodState& state, const RodRest& rest, std::size_t i) {
 // change. The step minimises
 //   sum over i of  m_i / (2 h^2) |displacement_i|^2 + j_i / (2 h^2) |rotation_i|^2 + U_i,
 // both from the prediction, U_i the energy of joint i. All of this in N m.
-struct Step {
+struct RodSubstep {
     RodState& state;
     const RodRest& rest;
     double substep;
@@ -71,7 +71,7 @@ struct Step {
     void finish();
 };
 
-void Step::predict(
+void RodSubstep::predict(
     std::span<const glm::dvec3> accelerations, const RodRoot& root, double velocity_kept) {
     const glm::dvec3 root_now = root.rotation * rest.points[0] + root.translation;
     state.velocities[0] = (root_now - state.root) / substep;
@@ -98,7 +98,7 @@ void Step::predict(
     turn(turns);
 }
 
-void Step::turn(std::span<const glm::dvec3> turns) {
+void RodSubstep::turn(std::span<const glm::dvec3> turns) {
     glm::dvec3 moved{0.0};
     for (std::size_t i = 1; i < size(); ++i) {
         state.orientations[i] = turned(state.orientations[i], turns[i]);
@@ -112,7 +112,7 @@ void Step::turn(std::span<const glm::dvec3> turns) {
 // One Newton step. `Below` is the least energy of all below a vertex as a quadratic function of how
 // the vertex moves (x) and the segment that ends there turns (t): x A x / 2 + x B t + t C t / 2 +
 // a x + b t; going up, the turn of each segment is eliminated.
-void Step::iterate() {
+void RodSubstep::iterate() {
     struct Below {
         glm::dmat3 A{0.0}, B{0.0}, C{0.0};
         glm::dvec3 a{0.0}, b{0.0};
@@ -177,7 +177,7 @@ void Step::iterate() {
     turn(turns);
 }
 
-void Step::finish() {
+void RodSubstep::finish() {
     for (std::size_t i = 1; i < size(); ++i) {
         if (!state.pins.contains(i)) state.velocities[i] += displacements[i] / substep;
         state.angular_velocities[i] += rotations[i] / substep;
@@ -273,7 +273,7 @@ void stepRod(
     RodState& state, const RodRest& rest, std::span<const glm::dvec3> accelerations,
     const RodRoot& root, double substep, double velocity_kept, std::uint32_t iterations) {
     assert(accelerations.size() == rest.lengths.size());
-    Step step{
+    RodSubstep step{
         .state = state,
         .rest = rest,
         .substep = substep,
