@@ -1,8 +1,8 @@
 #include <iostream>
 
-#include "benchmarks/command_line/command_line.h"
-#include "benchmarks/environment.h"
-#include "benchmarks/exit_codes.h"
+#include "benchmarks/commands/command_line.h"
+#include "benchmarks/report/change.h"
+#include "benchmarks/report/environment.h"
 #include "engine/instance.h"
 
 namespace {
@@ -35,22 +35,22 @@ done is saved) or merged with cases missing.)";
 
 int dispatch(int argc, char** argv) {
     CLI::App app("hairbench: measures simulated and rendered hair on Vulkan devices", "hairbench");
-    app.set_version_flag("--version", versionText());
+    app.set_version_flag("--version", report::versionText());
     app.require_subcommand(1);
     app.footer(kExamples);
 
     const std::vector<std::string> arguments(argv, argv + argc);
-    Command chosen;
-    const CommandLine line{.app = app, .chosen = chosen, .arguments = arguments};
-    addMeasuringCommands(line);
-    addReportCommands(line);
-    addPictureCommands(line);
-    addGroomCommands(line);
-    addCheckCommands(line);
+    commands::Command chosen;
+    const commands::CommandLine line{.app = app, .chosen = chosen, .arguments = arguments};
+    commands::addMeasuringCommands(line);
+    commands::addReportCommands(line);
+    commands::addPictureCommands(line);
+    commands::addGroomCommands(line);
+    commands::addCheckCommands(line);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? kOk : kUsageError;
+        return app.exit(error) == 0 ? report::kOk : report::kUsageError;
     }
     return chosen();
 }
@@ -62,12 +62,12 @@ int main(int argc, char** argv) {
         return dispatch(argc, argv);
     } catch (const engine::NoDevice& error) {
         std::cerr << "hairbench: " << error.what() << '\n';
-        return kNoDevice;
+        return report::kNoDevice;
     } catch (const engine::Error& error) {
         std::cerr << "hairbench: " << error.what() << '\n';
-        return kUsageError;
+        return report::kUsageError;
     } catch (const std::exception& error) {
         std::cerr << "hairbench: internal error: " << error.what() << '\n';
-        return kInternalError;
+        return report::kInternalError;
     }
 }

@@ -4,11 +4,10 @@
 #include <array>
 #include <vector>
 
+#include "engine/buffer_image.h"
 #include "engine/pipeline.h"
-#include "engine/sampler.h"
 
 namespace engine {
-
 namespace {
 
 struct Scope {

@@ -5,8 +5,7 @@
 #include <string>
 #include <type_traits>
 
-#include "engine/buffer.h"
-#include "engine/image.h"
+#include "engine/buffer_image.h"
 
 namespace engine {
 

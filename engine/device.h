@@ -1,12 +1,88 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "engine/handle.h"
-#include "engine/memory_ledger.h"
-#include "engine/physical_device.h"
-#include "engine/pipeline_cache.h"
+#include "engine/error.h"
+#include "engine/instance.h"
+
+namespace engine {
+
+// Bytes of device memory by the names of the buffers and images that hold them and by the memory
+// heap that they lie in. Live allocations only.
+class MemoryLedger {
+public:
+    struct Entry {
+        std::uint32_t heap = 0;  // of VkPhysicalDeviceMemoryProperties
+        bool device_local = false;
+        std::string name;  // of the buffer or image
+
+        auto operator<=>(const Entry&) const = default;
+    };
+
+    const std::map<Entry, std::uint64_t>& bytes() const { return bytes_; }
+
+    // Once on the ledger, off it again when the entry's owner goes; move-only.
+    class Line {
+    public:
+        Line() = default;
+        Line(MemoryLedger& ledger, Entry entry, std::uint64_t bytes)
+            : ledger_(&ledger), entry_(std::move(entry)), bytes_(bytes) {
+            ledger_->enter(entry_, bytes_);
+        }
+        Line(Line&& other) noexcept { swap(other); }
+        Line& operator=(Line&& other) noexcept {
+            swap(other);
+            return *this;
+        }
+        ~Line() {
+            if (ledger_) ledger_->leave(entry_, bytes_);
+        }
+
+    private:
+        void swap(Line& other) noexcept {
+            std::swap(ledger_, other.ledger_);
+            std::swap(entry_, other.entry_);
+            std::swap(bytes_, other.bytes_);
+        }
+
+        MemoryLedger* ledger_ = nullptr;
+        Entry entry_;
+        std::uint64_t bytes_ = 0;
+    };
+
+private:
+    void enter(const Entry& entry, std::uint64_t bytes) { bytes_[entry] += bytes; }
+    void leave(const Entry& entry, std::uint64_t bytes);
+
+    std::map<Entry, std::uint64_t> bytes_;
+};
+
+// A VkPipelineCache kept on disk between runs, in a file of its own per device and driver build
+// under $XDG_CACHE_HOME/hairbench (or ~/.cache/hairbench). A file that is unreadable or of another
+// driver is ignored, one that can't be written is not an error: the cache only saves time.
+class PipelineCache {
+public:
+    PipelineCache(VkDevice device, const DeviceInfo& info);
+    ~PipelineCache();
+    PipelineCache(const PipelineCache&) = delete;
+    PipelineCache& operator=(const PipelineCache&) = delete;
+
+    VkPipelineCache get() const { return cache_; }
+
+private:
+    VkDevice device_;
+    std::filesystem::path file_;  // empty: no home to keep it in
+    std::vector<char> loaded_;
+    VkPipelineCache cache_{};
+};
+
+}  // namespace engine
 
 struct VmaAllocation_T;
 struct VmaAllocator_T;
@@ -83,6 +159,12 @@ private:
     std::unique_ptr<PipelineCache> cache_;
     Handle<VkCommandPool, &vkDestroyCommandPool> pool_;
     Handle<VkFence, &vkDestroyFence> fence_;
+};
+
+// The device stopped working (VK_ERROR_DEVICE_LOST), and so did everything made from it.
+class DeviceLost : public Error {
+public:
+    using Error::Error;
 };
 
 }  // namespace engine

@@ -5,7 +5,6 @@
 #include <optional>
 
 namespace engine {
-
 namespace {
 
 using Clock = std::chrono::steady_clock;

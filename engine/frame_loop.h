@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "engine/commands.h"
-#include "engine/pipeline_statistics.h"
-#include "engine/process_use.h"
-#include "engine/timestamps.h"
+#include "engine/process.h"
+#include "engine/queries.h"
 
 namespace engine {
 

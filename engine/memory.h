@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/vulkan.h"
+#include "engine/instance.h"
 
 // VulkanMemoryAllocator, set up for volk. Only engine's own .cpp files include this.
 #define VMA_STATIC_VULKAN_FUNCTIONS 0

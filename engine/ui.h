@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include "engine/presenter.h"
 
 typedef void* ImTextureID;
@@ -49,6 +53,66 @@ private:
     const Window& window_;
     float scale_ = 1.0f;
     Handle<VkDescriptorPool, &vkDestroyDescriptorPool> descriptors_;
+};
+
+// A part of the window's picture, px from its top left corner.
+struct UiRect {
+    float left = 0.0f;
+    float top = 0.0f;
+    float right = 0.0f;
+    float bottom = 0.0f;
+
+    float width() const { return right - left; }
+    float height() const { return bottom - top; }
+};
+
+// A widget, or a whole panel.
+struct UiItem {
+    std::uint32_t id = 0;
+    std::string window;  // that it is in, with those around it: "Scene/fields"; a panel's own name
+    std::string label;  // as it was given to Dear ImGui, "##" included; empty: it has none
+    UiRect rect;  // where the mouse finds it
+    UiRect whole;  // with its label, which may stand beside it
+    UiRect clip;  // what is seen of it lies in here
+    bool is_window = false;
+    bool visible = false;  // in part at least
+    bool scrolls = false;  // its window does, up and down
+    bool enabled = true;
+    bool inputable = false;  // with letters or numbers
+    bool checkable = false;
+    bool checked = false;
+    bool openable = false;
+    bool open = false;
+
+    // The label as people read it: what is before "##".
+    std::string text() const { return label.substr(0, label.find("##")); }
+};
+
+// What widgets the last picture of Dear ImGui's current context had, in the order in which they
+// were made: for scripts that look for them as users do. It costs nothing while there is none.
+// Must not outlive the context.
+class UiItems {
+public:
+    UiItems();
+    ~UiItems();
+    UiItems(const UiItems&) = delete;
+    UiItems& operator=(const UiItems&) = delete;
+
+    // Widgets that are scrolled out of sight have no label.
+    const std::vector<UiItem>& items() const { return items_; }
+
+    // Dear ImGui's calls.
+    void add(int frame, UiItem item);
+    UiItem* find(std::uint32_t id);
+    int frame() const { return frame_; }
+
+    // What is told of one before it is there.
+    UiItem& early(std::uint32_t id);
+
+private:
+    int frame_ = -1;
+    std::vector<UiItem> items_;
+    UiItem early_;
 };
 
 }  // namespace engine

@@ -7,7 +7,6 @@
 #include <GLFW/glfw3.h>
 
 namespace engine {
-
 namespace {
 
 std::string reason() {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/vulkan.h"
+#include "engine/instance.h"
 
 struct GLFWwindow;
 

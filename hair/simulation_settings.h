@@ -41,7 +41,7 @@ struct FtlSettings {
 
 const Table& tableOf(const FtlSettings*);
 
-// Inextensible elastic rods, a direct solve per strand: hair/simulation/reference_rod.h.
+// Inextensible elastic rods, a direct solve per strand: hair/reference/rod.h.
 struct RodSettings {
     std::uint32_t iterations = 2;
 };

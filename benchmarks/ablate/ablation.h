@@ -9,24 +9,23 @@
 #include <vector>
 
 #include "benchmarks/ablate/attribution.h"
-#include "benchmarks/ablate/unit_costs.h"
-#include "benchmarks/report.h"
+#include "benchmarks/report/report.h"
 
-namespace benchmarks {
+namespace benchmarks::ablate {
 
 // A stop as it was measured.
 struct StopRecord {
     StopTimes times;
     std::uint32_t tessellation = 0;  // drawn segments per guide segment, at most
     std::uint32_t samples = 1;  // of a rendered pixel
-    std::vector<Statistic> statistics;  // of the strands pass, in untimed frames
+    std::vector<report::Statistic> statistics;  // of the strands pass, in untimed frames
 };
 
 // What was found out of one case.
 struct CaseAblation {
     std::string name;
-    std::vector<AxisValue> axes;
-    Status status = Status::ok;
+    std::vector<scene::AxisValue> axes;
+    report::Status status = report::Status::ok;
     std::string reason;  // why it was skipped or failed
     std::uint32_t frame = 0;  // whose hair is drawn, from 0
     std::string timing;  // "isolated", or "wall_clock" where timestamps can't be trusted
@@ -39,8 +38,8 @@ struct CaseAblation {
 };
 
 struct AblationReport {
-    Environment environment;
-    SceneRecord scene;
+    report::Environment environment;
+    report::SceneRecord scene;
     std::uint32_t laps = 0;  // asked for
     std::vector<CaseAblation> cases;
     bool interrupted = false;  // stopped by the user: cases and laps are those that were done
@@ -51,4 +50,12 @@ struct AblationReport {
 std::optional<std::uint64_t>
 measuredCount(std::span<const StopRecord> stops, Stop stop, std::string_view name);
 
-}  // namespace benchmarks
+inline constexpr const char* kAblationSchema = "hairbench-ablation/1.0.0";
+
+// Indented JSON: results/ablation.schema.json describes it. What is not known is absent.
+std::string ablationText(const AblationReport& report);
+
+// For a terminal: the rungs with their costs, what they leave open, and the warnings.
+std::string ablationTable(const CaseAblation& ablation);
+
+}  // namespace benchmarks::ablate

@@ -1,14 +1,16 @@
 #include "benchmarks/ablate/attribution.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "benchmarks/decide/signed_rank.h"
-#include "benchmarks/statistics.h"
+#include "benchmarks/report/statistics.h"
+#include "benchmarks/report/text.h"
 
-namespace benchmarks {
-
+namespace benchmarks::ablate {
 namespace {
+
+// ---- Attribution --------------------------------------------------------------------------------
 
 constexpr double kAlpha = 0.05;
 
@@ -55,7 +57,7 @@ Residual residualOf(std::span<const StopTimes> stops) {
 }  // namespace
 
 Cost costOf(std::span<const double> differences) {
-    const MedianInterval interval = signedRankInterval(differences, kAlpha);
+    const report::MedianInterval interval = report::signedRankInterval(differences, kAlpha);
     Cost cost{.estimate = interval.estimate, .interval = {}};
     if (std::isfinite(interval.lower) && std::isfinite(interval.upper))
         cost.interval = {interval.lower, interval.upper, interval.confidence};
@@ -65,15 +67,15 @@ Cost costOf(std::span<const double> differences) {
 Attribution attribute(std::span<const StopTimes> stops) {
     Attribution attribution{
         .rungs = {},
-        .pass_time = summarize(lapTimes(stops, Stop::pass)).median,
-        .clipped_time = summarize(lapTimes(stops, Stop::clipped)).median,
+        .pass_time = report::summarize(lapTimes(stops, Stop::pass)).median,
+        .clipped_time = report::summarize(lapTimes(stops, Stop::clipped)).median,
         .residual = residualOf(stops),
         .watching = {}};
     std::optional<Stop> below;
     for (const StopTimes& each : stops) {
         if (!isRung(each.stop)) continue;
         const std::vector<double> times = lapTimes(stops, each.stop);
-        RungCost rung{.stop = each.stop, .time = summarize(times).median, .marginal = {}};
+        RungCost rung{.stop = each.stop, .time = report::summarize(times).median, .marginal = {}};
         rung.marginal = below ? difference(stops, each.stop, *below) : costOf(times);
         rung.share = rung.marginal.estimate / attribution.pass_time;
         attribution.rungs.push_back(rung);
@@ -84,4 +86,122 @@ Attribution attribute(std::span<const StopTimes> stops) {
     return attribution;
 }
 
-}  // namespace benchmarks
+namespace {
+
+// ---- Attribution warnings -----------------------------------------------------------------------
+
+constexpr double kDiscardTolerance = 0.1;  // of the geometry rung
+constexpr double kClosureTolerance = 0.02;  // of the pass: a change of this share matters to nobody
+constexpr double kWatchTolerance = 0.1;  // of what its stage costs
+constexpr double kWatchShare = 0.01;  // of the pass: with many comparisons some are off by chance
+
+// Whether all of the interval is beyond -limit ... limit; never with too few laps for one.
+bool isBeyond(const Cost& cost, double limit) {
+    return cost.interval && (cost.interval->lower > limit || cost.interval->upper < -limit);
+}
+
+std::string text(const Cost& cost) {
+    std::string text = report::shortNumber(cost.estimate) + " ms";
+    if (cost.interval)
+        text += " (" + report::shortNumber(cost.interval->lower) + " to " +
+                report::shortNumber(cost.interval->upper) + ')';
+    return text;
+}
+
+// Of one or both rungs of the tessellation.
+double marginalOf(const Attribution& attribution, std::span<const Stop> rungs) {
+    double sum = 0.0;
+    for (const RungCost& rung : attribution.rungs)
+        if (std::ranges::find(rungs, rung.stop) != rungs.end()) sum += rung.marginal.estimate;
+    return sum;
+}
+
+double watchedStage(const Attribution& attribution, Stop watched) {
+    if (watched == Stop::watched_vertex) return marginalOf(attribution, std::array{Stop::vertex});
+    if (watched == Stop::watched_evaluation)
+        return marginalOf(attribution, std::array{Stop::tessellation_1, Stop::tessellation});
+    return marginalOf(attribution, std::array{Stop::geometry});
+}
+
+}  // namespace
+
+std::vector<std::string> attributionWarnings(const Attribution& attribution) {
+    std::vector<std::string> warnings;
+    const Residual& residual = attribution.residual;
+    for (const RungCost& rung : attribution.rungs) {
+        if (rung.marginal.interval && rung.marginal.interval->upper < 0.0)
+            warnings.push_back(
+                std::string(stopName(rung.stop)) + ": the pass takes less with it than without, " +
+                text(rung.marginal));
+        if (rung.stop == Stop::geometry &&
+            isBeyond(residual.discard, kDiscardTolerance * rung.time))
+            warnings.push_back(
+                "discarding primitives and clipping all of them differ by " +
+                text(residual.discard) +
+                ": the driver leaves work away or does more in one of them, so that the costs "
+                "before and after the rasteriser are uncertain by as much");
+    }
+    if (isBeyond(residual.closure, kClosureTolerance * attribution.pass_time))
+        warnings.push_back(
+            "the pass differs from the top of the ladder, which draws the same, by " +
+            text(residual.closure));
+    for (const auto& [watched, cost] : attribution.watching) {
+        const double stage = std::max(watchedStage(attribution, watched), 0.0);
+        const double limit = std::max(kWatchTolerance * stage, kWatchShare * attribution.pass_time);
+        if (cost.interval && cost.interval->lower > limit)
+            warnings.push_back(
+                std::string(stopName(watched)) + ": watching costs " + text(cost) +
+                ", over a tenth of the stage's " + report::shortNumber(stage) + " ms");
+    }
+    return warnings;
+}
+
+namespace {
+
+// ---- Unit costs ---------------------------------------------------------------------------------
+
+struct Unit {
+    const char* name;
+    std::optional<std::uint64_t> count;
+    std::string note{};
+};
+
+// What a stage handles one by one.
+Unit ownUnit(Stop rung, const WorkCounts& work) {
+    switch (rung) {
+    case Stop::vertex:
+        return {"patch", work.patches};
+    case Stop::tessellation_1:
+        return {"evaluation", work.evaluations_1};
+    case Stop::tessellation:
+        if (!work.evaluations) break;
+        return {"evaluation", *work.evaluations - work.evaluations_1.value_or(0)};
+    case Stop::raster:
+    case Stop::fragment:
+        return {"fragment", work.fragments, work.fragments_note};
+    case Stop::msaa:
+        return {"sample", work.samples};
+    default:
+        break;
+    }
+    return {"", std::nullopt};
+}
+
+}  // namespace
+
+std::vector<UnitCost> unitCosts(const std::vector<RungCost>& rungs, const WorkCounts& work) {
+    std::vector<UnitCost> costs;
+    for (const RungCost& rung : rungs) {
+        if (rung.stop == Stop::empty) continue;
+        for (const Unit& unit :
+             {Unit{"strand", work.strands}, Unit{"segment", work.segments},
+              ownUnit(rung.stop, work)}) {
+            if (unit.count.value_or(0) == 0) continue;
+            const double each = 1e6 * rung.marginal.estimate / static_cast<double>(*unit.count);
+            costs.push_back({rung.stop, unit.name, *unit.count, each, unit.note});
+        }
+    }
+    return costs;
+}
+
+}  // namespace benchmarks::ablate

@@ -1,17 +1,170 @@
 #include "benchmarks/ablate/ladder_walk.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
 #include <iterator>
+#include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
-#include "benchmarks/ablate/coverage_check.h"
-#include "benchmarks/hash.h"
-#include "benchmarks/measure/check_timestamps.h"
+#include "benchmarks/ablate/ablation.h"
+#include "benchmarks/ablate/stops.h"
+#include "benchmarks/measure/case.h"
+#include "benchmarks/measure/metrics.h"
+#include "benchmarks/measure/trust.h"
+#include "benchmarks/report/environment.h"
+#include "engine/error.h"
+#include "engine/process.h"
+#include "hair/rendering/backends.h"
 
-namespace benchmarks {
+namespace benchmarks::ablate {
+namespace {
+
+// ---- Coverage check -----------------------------------------------------------------------------
+
+constexpr std::array kAlike{
+    std::pair{Stop::raster, Stop::fragment},
+    std::pair{Stop::raster_msaa, Stop::msaa},
+};
+
+}  // namespace
+
+std::vector<std::string> coverageWarnings(std::span<const StopRecord> stops) {
+    std::vector<std::string> warnings;
+    for (const auto& [without, with] : kAlike) {
+        const std::optional<std::uint64_t> null_count =
+            measuredCount(stops, without, "samples_passed");
+        const std::optional<std::uint64_t> count = measuredCount(stops, with, "samples_passed");
+        if (null_count && count && *null_count != *count)
+            warnings.push_back(
+                std::string(stopName(without)) + ": covers " + std::to_string(*null_count) +
+                " samples, " + stopName(with) + " " + std::to_string(*count));
+    }
+    return warnings;
+}
+
+// ---- Still hair ---------------------------------------------------------------------------------
+
+StillHair::StillHair(
+    const engine::Device& device, const hair::Settings& settings,
+    const std::filesystem::path& directory, std::uint32_t frame)
+    : case_(device, settings, directory), mesh_(measure::loadMesh(settings, directory)),
+      assets_(measure::loadRenderAssets(settings, mesh_ ? &*mesh_ : nullptr, directory)) {
+    engine::FrameLoop loop(device, engine::Timing::statistics);
+    for (std::uint32_t i = 0; i <= frame; ++i) {
+        engine::checkInterrupted();
+        loop.frame([&](engine::Passes& passes) { case_.simulate(passes); });
+    }
+}
 
 namespace {
+
+// ---- Stop view ----------------------------------------------------------------------------------
+
+constexpr const char* kPass = "strands";
+
+std::optional<engine::SamplesQuery> samplesQuery(const engine::Device& device) {
+    try {
+        return engine::SamplesQuery(device);
+    } catch (const engine::Unsupported&) {
+        return std::nullopt;
+    }
+}
+
+}  // namespace
+
+StopView::StopView(
+    const engine::Device& device, StopPlan stop, const hair::rendering::StrandView& hair,
+    const hair::rendering::RenderAssets& assets)
+    : device_(device), stop_(std::move(stop)), hair_(hair),
+      renderer_(device, stop_.settings, hair, assets, stop_.stages) {}
+
+void StopView::draw(engine::FrameLoop& loop) {
+    engine::checkInterrupted();
+    loop.frame([&](engine::Passes& passes) { renderer_.record(passes, hair_); });
+}
+
+std::vector<double> StopView::visit(engine::FrameLoop& loop, std::uint32_t frames) {
+    draw(loop);
+    loop.finish();
+    for (std::uint32_t i = 0; i < frames; ++i) draw(loop);
+    return measure::passTimes(loop.finish(), kPass);
+}
+
+// In frames of their own each: no count is spoilt by another query.
+StopCounts StopView::count(hair::rendering::StageWatch& watch) {
+    StopCounts counts;
+    counts.statistics = countStatistics();
+    counts.samples_passed = countSamples();
+    if (stop_.stages.watched) {
+        watch.seeAll();
+        engine::FrameLoop loop(device_, engine::Timing::wall_clock);
+        draw(loop);
+        loop.finish();
+        counts.seen = watch.seen().invocations;
+        watch.seeNone();
+    }
+    return counts;
+}
+
+std::optional<engine::StatisticCounts> StopView::countStatistics() {
+    engine::FrameLoop loop(device_, engine::Timing::statistics);
+    draw(loop);
+    const std::vector<engine::FrameRecord> frames = loop.finish();
+    for (const engine::PassStatistics& pass : frames.front().statistics)
+        if (pass.name == kPass) return pass.counts;
+    return std::nullopt;
+}
+
+std::optional<std::uint64_t> StopView::countSamples() {
+    std::optional<engine::SamplesQuery> query = samplesQuery(device_);
+    if (!query) return std::nullopt;
+    engine::FrameLoop loop(device_, engine::Timing::wall_clock);
+    loop.frame([&](engine::Passes& passes) {
+        SampledPasses sampled(passes, kPass, *query);
+        renderer_.record(sampled, hair_);
+    });
+    loop.finish();
+    return query->read();
+}
+
+std::vector<std::uint8_t> StopView::picture() const {
+    return engine::readOutput(device_, renderer_.target());
+}
+
+namespace {
+
+// ---- Ladder walk --------------------------------------------------------------------------------
+
+// All stops of a case, counted when they are made, then timed.
+class LadderWalk {
+public:
+    // Fills in result.stops but for times, result.image_hash, and what is odd about the counts.
+    // Throws engine::Unsupported for what the device can't do, and Interrupted.
+    LadderWalk(
+        const engine::Device& device, const StillHair& hair, const hair::Settings& settings,
+        CaseAblation& result);
+
+    // The plan of the case itself.
+    const hair::rendering::StrandPlan& plan() const { return pass().plan(); }
+
+    // Up and down so many times. Throws Interrupted; a lap that isn't done is left out.
+    void walk(std::uint32_t laps, const std::function<void(const std::string&)>& progress);
+
+private:
+    void addStop(StopPlan plan, const StillHair& hair);
+    StopView& pass() const;
+
+    const engine::Device& device_;
+    hair::rendering::StageWatch watch_;
+    CaseAblation& result_;
+    std::vector<std::unique_ptr<StopView>> views_;
+};
 
 constexpr std::uint32_t kVisitFrames = 3;  // their median is the visit's time
 constexpr std::uint32_t kWarmUps = 2;  // frames of a pipeline before it is timed
@@ -20,14 +173,12 @@ constexpr std::uint32_t kWarmUps = 2;  // frames of a pipeline before it is time
 engine::Timing
 trustedTiming(const engine::Device& device, StopView& pass, std::vector<std::string>& warnings) {
     const std::vector<std::string> faults =
-        checkTimestamps(device, [&](engine::FrameLoop& loop) { pass.draw(loop); });
+        measure::checkTimestamps(device, [&](engine::FrameLoop& loop) { pass.draw(loop); });
     if (faults.empty()) return engine::Timing::isolated;
     warnings.push_back("timestamps are not trusted: times are by the CPU's clock");
     warnings.insert(warnings.end(), faults.begin(), faults.end());
     return engine::Timing::wall_clock;
 }
-
-}  // namespace
 
 LadderWalk::LadderWalk(
     const engine::Device& device, const StillHair& hair, const hair::Settings& settings,
@@ -37,7 +188,7 @@ LadderWalk::LadderWalk(
     if (settings.strands.texture.empty())
         std::ranges::move(coverageWarnings(result_.stops), std::back_inserter(result_.warnings));
     const std::vector<std::uint8_t> picture = pass().picture();
-    result_.image_hash = hashBytes(std::as_bytes(std::span(picture)));
+    result_.image_hash = report::hashBytes(std::as_bytes(std::span(picture)));
 }
 
 void LadderWalk::addStop(StopPlan plan, const StillHair& hair) {
@@ -77,4 +228,75 @@ void LadderWalk::walk(std::uint32_t laps, const std::function<void(const std::st
     }
 }
 
-}  // namespace benchmarks
+// ---- Ablate case --------------------------------------------------------------------------------
+
+WorkCounts workOf(const std::vector<StopRecord>& stops, const hair::rendering::StrandPlan& plan) {
+    constexpr const char* kEvaluations = "tessellation_evaluation_invocations";
+    WorkCounts work{
+        .patches = plan.patches(),
+        .strands = {},
+        .segments = measuredCount(stops, Stop::geometry, "geometry_invocations"),
+        .evaluations_1 = measuredCount(stops, Stop::tessellation_1, kEvaluations),
+        .evaluations = measuredCount(stops, Stop::tessellation, kEvaluations),
+        .fragments = measuredCount(stops, Stop::fragment, "samples_passed"),
+        .samples = measuredCount(stops, Stop::msaa, "samples_passed"),
+        .fragments_note = {}};
+    if (plan.lod_mode == hair::LodMode::forced) work.strands = plan.strands();
+    if (!work.fragments) {
+        work.fragments = measuredCount(stops, Stop::fragment, "fragment_invocations");
+        work.fragments_note = "approximate";
+    }
+    return work;
+}
+
+void attributeCase(const hair::rendering::StrandPlan& plan, CaseAblation& result) {
+    if (result.stops.front().times.laps.empty()) return;
+    std::vector<StopTimes> times;
+    for (const StopRecord& stop : result.stops) times.push_back(stop.times);
+    result.attribution = attribute(times);
+    result.unit_costs = unitCosts(result.attribution->rungs, workOf(result.stops, plan));
+    std::ranges::move(
+        attributionWarnings(*result.attribution), std::back_inserter(result.warnings));
+}
+
+void measureCase(
+    const engine::Device& device, const scene::CaseSpec& spec,
+    const std::filesystem::path& directory, std::uint32_t laps,
+    const std::function<void(const std::string&)>& progress, CaseAblation& result) {
+    progress("simulation");
+    const StillHair hair(device, spec.settings, directory, result.frame);
+    result.counts = hair.counts();
+    progress("pipelines");
+    LadderWalk ladder(device, hair, spec.settings, result);
+    try {
+        ladder.walk(laps, progress);
+    } catch (const engine::Interrupted&) {
+        attributeCase(ladder.plan(), result);
+        throw;
+    }
+    attributeCase(ladder.plan(), result);
+}
+
+}  // namespace
+
+void ablateCase(
+    const engine::Device& device, const scene::CaseSpec& spec,
+    const std::filesystem::path& directory, std::uint32_t laps,
+    const std::function<void(const std::string&)>& progress, CaseAblation& result) {
+    const hair::RunSettings& run = spec.settings.run;
+    result = {.name = spec.name, .axes = spec.axes, .frame = run.warmup + run.frames};
+    const auto without = [&](report::Status status, const std::string& reason) {
+        result = {.name = spec.name, .axes = spec.axes, .status = status, .reason = reason};
+    };
+    if (const std::string obstacle = ablationObstacle(spec.settings); !obstacle.empty())
+        return without(report::Status::skipped, obstacle);
+    try {
+        measureCase(device, spec, directory, laps, progress, result);
+    } catch (const engine::Unsupported& error) {
+        without(report::Status::skipped, error.what());
+    } catch (const engine::Error& error) {
+        without(report::Status::failed, error.what());
+    }
+}
+
+}  // namespace benchmarks::ablate

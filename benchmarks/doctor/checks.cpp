@@ -1,8 +1,19 @@
 #include "benchmarks/doctor/checks.h"
 
-namespace benchmarks {
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 
+#include "benchmarks/measure/machine_watch.h"
+#include "benchmarks/measure/trust.h"
+#include "benchmarks/report/change.h"
+#include "benchmarks/report/statistics.h"
+#include "benchmarks/report/text.h"
+
+namespace benchmarks::doctor {
 namespace {
+
+// ---- Checks -------------------------------------------------------------------------------------
 
 constexpr DoctorCheck kChecks[] = {
     {"device", judgeDevice},         {"build", judgeBuild},       {"layers", judgeLayers},
@@ -40,4 +51,288 @@ std::vector<Finding> judgeAll(const Facts& facts) {
     return findings;
 }
 
-}  // namespace benchmarks
+// ---- Texts --------------------------------------------------------------------------------------
+
+std::string shareText(double share) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f %%", share * 100.0);
+    return text;
+}
+
+std::string changeText(double share) {
+    if (!std::isfinite(share)) return "any amount";
+    return shareText(std::abs(share)) + (share < 0.0 ? " less" : " more");
+}
+
+std::string joined(const std::vector<std::string>& parts, std::string_view between) {
+    std::string text;
+    for (const std::string& part : parts) {
+        if (!text.empty()) text += between;
+        text += part;
+    }
+    return text;
+}
+
+namespace {
+
+// ---- Judge machine ------------------------------------------------------------------------------
+
+// Shares of all processors' time from which others disturb, and from which they rule.
+constexpr double kLittleLoad = 0.05;
+constexpr double kMuchLoad = 0.25;
+constexpr double kLittleSteal = 0.01;
+constexpr double kMuchSteal = 0.1;
+
+bool isSoftware(const Facts& facts) { return facts.device.type == "cpu"; }
+
+std::string megahertz(double clock) { return report::shortNumber(clock) + " MHz"; }
+
+std::string clockText(const ClockFacts& clocks) {
+    std::string text;
+    if (clocks.lowest_mhz && clocks.highest_mhz)
+        text = *clocks.lowest_mhz == *clocks.highest_mhz
+                   ? megahertz(*clocks.highest_mhz)
+                   : megahertz(*clocks.lowest_mhz) + " to " + megahertz(*clocks.highest_mhz);
+    else
+        text = "shaders' clock not told";
+    if (const auto base = clocks.conditions.base_clock_mhz) text += " of " + megahertz(*base);
+    if (clocks.held) text += ", held by the administrator";
+    if (const auto degrees = clocks.conditions.temperature)
+        text += ", " + report::shortNumber(*degrees) + " degrees C";
+    if (!clocks.conditions.throttle_reasons.empty())
+        text += ", held back by " + joined(clocks.conditions.throttle_reasons, ", ");
+    return text;
+}
+
+// What disturbs a software device's frames disturbs only the recording of others'.
+Health disturbance(const Facts& facts, double share, double little, double much) {
+    if (share <= little) return Health::ok;
+    return share > much && isSoftware(facts) ? Health::bad : Health::warn;
+}
+
+}  // namespace
+
+Judgement judgeClocks(const Facts& facts) {
+    if (isSoftware(facts)) return {Health::ok, "the processor's: see there"};
+    if (!facts.clocks)
+        return {
+            Health::unknown, "no NVML, nor files of amdgpu",
+            "watch the clocks by other means: throttling goes unnoticed"};
+    const ClockFacts& clocks = *facts.clocks;
+    const std::string seen = clockText(clocks);
+    if (measure::isThrottled(clocks.conditions))
+        return {
+            Health::bad, seen,
+            "the device is throttled: let it cool down, raise its power limit, end what else uses "
+            "it"};
+    if (!clocks.conditions.throttle_reasons.empty())
+        return {
+            Health::warn, seen,
+            "lock the clocks at what the device can hold (NVIDIA: nvidia-smi --lock-gpu-clocks, "
+            "as administrator)"};
+    if (!clocks.held)
+        return {
+            Health::warn, seen,
+            "clocks are free to change: lock them before comparing (NVIDIA: nvidia-smi "
+            "--lock-gpu-clocks; AMD: power_dpm_force_performance_level; as administrator)"};
+    return {Health::ok, seen};
+}
+
+Judgement judgeProcessor(const Facts& facts) {
+    const ProcessorFacts& processor = facts.processor;
+    std::string seen = processor.count ? std::to_string(*processor.count) + " processors"
+                                       : std::string("processors");
+    if (processor.quota)
+        seen += ", " + report::shortNumber(*processor.quota) + " of them to be used";
+    seen += processor.governors.empty() ? "; frequency scaling not told"
+                                        : "; governor " + joined(processor.governors, ", ");
+    if (isSoftware(facts) && processor.quota && processor.count &&
+        *processor.quota < *processor.count)
+        return {
+            Health::warn, seen,
+            "the container's quota stops frames half-way: give it whole processors (cpuset)"};
+    if (processor.governors.empty()) return {Health::unknown, seen};
+    const bool steady = std::ranges::all_of(
+        processor.governors, [](const std::string& each) { return each == "performance"; });
+    if (steady) return {Health::ok, seen};
+    return {
+        Health::warn, seen,
+        "set the governor to performance (cpupower frequency-set -g performance, as "
+        "administrator)"};
+}
+
+Judgement judgeOthers(const Facts& facts) {
+    if (!facts.load.others) return {Health::unknown, "no /proc/stat"};
+    const std::string seen = shareText(*facts.load.others) + " of all processors' time";
+    const Health health = disturbance(facts, *facts.load.others, kLittleLoad, kMuchLoad);
+    if (health == Health::ok) return {health, seen};
+    return {health, seen, "end other programs, or measure when the machine is idle"};
+}
+
+Judgement judgeSteal(const Facts& facts) {
+    if (!facts.load.steal) return {Health::unknown, "no /proc/stat"};
+    const std::string seen = shareText(*facts.load.steal) + " of all processors' time";
+    const Health health = disturbance(facts, *facts.load.steal, kLittleSteal, kMuchSteal);
+    if (health == Health::ok) return {health, seen};
+    return {health, seen, "the hypervisor gives time to other guests: use a machine of your own"};
+}
+
+Judgement judgePower(const Facts& facts) {
+    if (!facts.on_battery) return {Health::unknown, "no power supply is listed"};
+    if (!*facts.on_battery) return {Health::ok, "mains"};
+    return {Health::warn, "battery", "plug the machine in: it saves power now"};
+}
+
+namespace {
+
+// ---- Judge program ------------------------------------------------------------------------------
+
+bool contains(const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+}
+
+// Picks a device and takes no part in what is submitted to it.
+bool isHarmless(const std::string& layer) { return contains(layer, "MESA_device_select"); }
+
+}  // namespace
+
+Judgement judgeDevice(const Facts& facts) {
+    std::string seen = facts.device.name + " (" + facts.device.type + ")";
+    if (facts.device.type != "cpu") return {Health::ok, seen};
+    return {Health::ok, seen + ": times are those of the processors; judge by CPU time too"};
+}
+
+Judgement judgeBuild(const Facts& facts) {
+    const report::BuildRecord& build = facts.build.build;
+    std::string seen = build.type.empty() ? "no build type" : build.type;
+    if (!build.flags.empty()) seen += " (" + build.flags + ")";
+    if (facts.build.assertions) seen += ", assertions on";
+    if (build.dirty == true) seen += ", not as committed";
+    if (facts.build.assertions || contains(build.flags, "-fsanitize") ||
+        !build.type.starts_with("Rel"))
+        return {Health::bad, seen, "measure with the release preset"};
+    if (build.dirty == true)
+        return {Health::warn, seen, "commit before you keep results: nobody can build this again"};
+    return {Health::ok, seen};
+}
+
+Judgement judgeLayers(const Facts& facts) {
+    if (facts.layers.validation)
+        return {Health::bad, "the validation layer is on", "leave out --validate"};
+    if (facts.layers.loaded.empty()) return {Health::ok, "none"};
+    Judgement judgement{Health::ok, joined(facts.layers.loaded, ", ")};
+    for (const std::string& layer : facts.layers.loaded) {
+        if (isHarmless(layer)) continue;
+        judgement.health = Health::warn;
+        judgement.advice = "layers take time of every call: unset VK_INSTANCE_LAYERS and "
+                           "VK_LOADER_LAYERS_ENABLE, or set VK_LOADER_LAYERS_DISABLE='*'";
+        if (contains(layer, "validation")) {
+            judgement.health = Health::bad;
+            return judgement;
+        }
+    }
+    return judgement;
+}
+
+namespace {
+
+// ---- Judge timings ------------------------------------------------------------------------------
+
+// A pass is known to 1 % only if it takes a hundred steps: a tenth of a millisecond of these.
+constexpr double kCoarseStep = 1000.0;  // ns
+// Of the test whether two equal runs differ: one doctor in a hundred may wrongly say so.
+constexpr double kRepeatAlpha = 0.01;
+// What gates and comparisons call a change if nobody says otherwise.
+constexpr double kThreshold = 0.02;
+// A pair that scatters by more hides what most optimisations gain.
+constexpr double kNoisy = 0.1;
+
+// What a single pair can be off by: three standard deviations.
+double scatter(const std::vector<double>& differences) {
+    return report::decisiveChange(0.0, differences);
+}
+
+}  // namespace
+
+Judgement judgeTimestamps(const Facts& facts) {
+    const TimestampFacts& stamps = facts.timestamps;
+    if (stamps.valid_bits == 0)
+        return {
+            Health::bad, "the device's queue has none",
+            "passes cannot be timed on this device: use another one"};
+    std::string seen = std::to_string(stamps.valid_bits) + " bits, " +
+                       report::shortNumber(stamps.period_ns) + " ns a tick";
+    if (!stamps.step_ns || !stamps.gap_ns)
+        return {Health::bad, seen + "; they do not advance", "update the driver"};
+    seen += ", in steps of " + report::shortNumber(*stamps.step_ns) + " ns; two in a row are " +
+            report::shortNumber(*stamps.gap_ns * 1e-3) + " us apart";
+    if (*stamps.step_ns > kCoarseStep)
+        return {
+            Health::warn, seen,
+            "passes below " + report::shortNumber(*stamps.step_ns * 1e-4) +
+                " ms are known to worse than 1 %: make the scene larger"};
+    return {Health::ok, seen};
+}
+
+Judgement judgePassSum(const Facts& facts) {
+    if (facts.timestamps.valid_bits == 0) return {Health::unknown, "needs timestamps"};
+    const double ratio = facts.passes.sum_over_wall;
+    const std::string seen = "isolated passes add up to " + shareText(ratio) + " of wall clock";
+    if (std::abs(ratio - 1.0) <= measure::kTrustTolerance) return {Health::ok, seen};
+    return {
+        Health::bad, seen,
+        "don't believe times of passes here; frame times stand. Close other programs and try "
+        "again; if it stays, it is the driver"};
+}
+
+Judgement judgeStamps(const Facts& facts) {
+    if (facts.timestamps.valid_bits == 0) return {Health::unknown, "needs timestamps"};
+    const std::vector<std::string>& faults = facts.passes.faults;
+    if (faults.empty()) return {Health::ok, "as by submitting and waiting for each pass"};
+    return {
+        Health::bad, joined(faults, "; "),
+        "reports of this device have passes by wall clock. Close other programs and try again; "
+        "if it stays, it is the driver"};
+}
+
+Judgement judgeRepeat(const Facts& facts) {
+    const RepeatFacts& repeat = facts.repeat;
+    if (!repeat.same_picture || !repeat.same_state) {
+        const char* const what = repeat.same_state     ? "pictures"
+                                 : repeat.same_picture ? "states"
+                                                       : "pictures and states";
+        return {
+            Health::bad, std::string(what) + " of two equal runs differ",
+            "times of different work can't be compared: look for a driver update"};
+    }
+    const report::MedianInterval frame = report::signedRankInterval(repeat.frame, kRepeatAlpha);
+    const double b = std::log1p(kThreshold);
+    const std::string seen = "same picture and state; of two equal runs the second took " +
+                             changeText(std::expm1(frame.estimate)) + " (" +
+                             changeText(std::expm1(frame.lower)) + " to " +
+                             changeText(std::expm1(frame.upper)) + ")";
+    if (frame.lower > b || frame.upper < -b)
+        return {
+            Health::bad, seen,
+            "equal runs look different: close other programs, lock clocks, let the machine cool "
+            "down"};
+    return {Health::ok, seen};
+}
+
+Judgement judgeNoise(const Facts& facts) {
+    const double frame = scatter(facts.repeat.frame);
+    const double cpu = scatter(facts.repeat.cpu);
+    std::string seen =
+        "three standard deviations of a pair are " + shareText(frame) + " of the frame time";
+    if (isSoftware(facts)) seen += ", " + shareText(cpu) + " of the CPU time";
+    if (frame <= kNoisy) return {Health::ok, seen};
+    if (isSoftware(facts) && cpu <= kNoisy)
+        return {
+            Health::warn, seen, "frame times show large changes only: compare CPU times instead"};
+    return {
+        Health::warn, seen,
+        "only large changes can be found: see other load, clocks and processor; `--pairs 48` says "
+        "how large"};
+}
+
+}  // namespace benchmarks::doctor

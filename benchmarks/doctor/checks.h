@@ -1,12 +1,30 @@
 #pragma once
 
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "benchmarks/doctor/facts.h"
-#include "benchmarks/doctor/finding.h"
 
-namespace benchmarks {
+namespace benchmarks::doctor {
+
+enum class Health {
+    ok,
+    unknown,  // the machine does not tell
+    warn,     // timings can be used, with care
+    bad,      // they can't be trusted
+};
+
+// "ok", "not told", "warn", "bad".
+const char* healthName(Health health);
+
+struct Finding {
+    std::string check;  // name of the row
+    Health health = Health::ok;
+    std::string seen;
+    std::string advice;  // what to do about it; empty: nothing
+};
 
 struct Judgement {
     Health health = Health::ok;
@@ -43,4 +61,12 @@ Judgement judgeOthers(const Facts& facts);
 Judgement judgeSteal(const Facts& facts);
 Judgement judgePower(const Facts& facts);
 
-}  // namespace benchmarks
+// "12.3 %" of a share of 0.123.
+std::string shareText(double share);
+
+// "1.2 % more", "0.3 % less" of shares of 0.012 and -0.003.
+std::string changeText(double share);
+
+std::string joined(const std::vector<std::string>& parts, std::string_view between);
+
+}  // namespace benchmarks::doctor

@@ -1,14 +1,19 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "benchmarks/report.h"
+#include "benchmarks/measure/measure.h"
+#include "benchmarks/report/report.h"
+#include "engine/device.h"
 
 // What the doctor looked at, before anyone judges it. What could not be seen is absent.
-namespace benchmarks {
+namespace benchmarks::doctor {
 
 struct TimestampFacts {
     std::uint32_t valid_bits = 0;  // 0: the device has no timestamps
@@ -35,7 +40,7 @@ struct ClockFacts {
     std::optional<double> lowest_mhz;  // of the shaders, while frames were drawn
     std::optional<double> highest_mhz;
     bool held = false;  // an administrator set them
-    Conditions conditions;
+    report::Conditions conditions;
 };
 
 struct ProcessorFacts {
@@ -55,12 +60,12 @@ struct LayerFacts {
 };
 
 struct BuildFacts {
-    BuildRecord build;
+    report::BuildRecord build;
     bool assertions = false;
 };
 
 struct Facts {
-    DeviceRecord device;
+    report::DeviceRecord device;
     BuildFacts build;
     LayerFacts layers;
     TimestampFacts timestamps;
@@ -72,4 +77,43 @@ struct Facts {
     std::optional<bool> on_battery;
 };
 
-}  // namespace benchmarks
+// Looks at everything: a second of the idle machine, then some seconds of the doctor's scene.
+// Throws Interrupted where the hooks say so.
+Facts gatherFacts(
+    const engine::Device& device, engine::Validation validation,
+    const measure::MeasureHooks& hooks);
+
+// Whether a library of this path is a Vulkan layer, by the names that layers' libraries have.
+bool isLayerLibrary(std::string_view path);
+
+// File names of the Vulkan layers in this process, explicit and implicit: the loader does not tell
+// which are active, but it loads the libraries of those alone.
+std::vector<std::string> loadedLayers();
+
+// What Linux tells of how processors are run. `root` is where its file systems are.
+
+// Governors of frequency scaling of all processors, each once, sorted; empty where there is none,
+// as in most virtual machines.
+std::vector<std::string> scalingGovernors(const std::filesystem::path& root = "/");
+
+// How many processors' worth of time the control group may use; absent where there is no limit.
+std::optional<double> processorQuota(const std::filesystem::path& root = "/");
+
+// Whether the machine runs on its battery; absent where no power supply tells.
+std::optional<bool> onBattery(const std::filesystem::path& root = "/");
+
+// How finely stamps divide time, in ticks.
+struct TimestampSteps {
+    std::uint64_t step = 0;  // that all differences are multiples of: the counter may advance by
+                             // more than a tick
+    std::uint64_t gap = 0;  // smallest difference between successive stamps that differ: what an
+                            // empty pass would seem to take
+};
+
+// Of stamps in the order in which they were taken; absent where none differ.
+std::optional<TimestampSteps> timestampSteps(std::span<const std::uint64_t> ticks);
+
+// Of the device's, taken one after another with nothing between them.
+std::optional<TimestampSteps> timestampSteps(const engine::Device& device);
+
+}  // namespace benchmarks::doctor

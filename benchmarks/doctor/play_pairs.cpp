@@ -2,18 +2,82 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include "benchmarks/doctor/doctor_scene.h"
-#include "benchmarks/measure/check_timestamps.h"
-#include "benchmarks/measure/round_player.h"
-#include "benchmarks/scratch_folder.h"
-#include "benchmarks/statistics.h"
-#include "benchmarks/trust.h"
-#include "engine/process_use.h"
+#include <nlohmann/json.hpp>
 
-namespace benchmarks {
+#include "benchmarks/measure/metrics.h"
+#include "benchmarks/measure/sampling.h"
+#include "benchmarks/measure/trust.h"
+#include "benchmarks/report/statistics.h"
+#include "benchmarks/scene/settings_json.h"
+#include "engine/files.h"
+#include "engine/process.h"
+#include "hair/groom/files.h"
+
+namespace benchmarks::doctor {
+namespace {
+
+// ---- Doctor scene -------------------------------------------------------------------------------
+
+constexpr std::uint32_t kGuides = 48;
+constexpr std::uint32_t kVertices = 8;  // of a guide
+constexpr double kDisc = 0.08;  // m, its radius
+constexpr double kLength = 0.2;  // m, of a guide
+constexpr double kLean = 0.6;  // how far the outermost guides lean outward, per metre down
+
+}  // namespace
+
+hair::groom::StrandSet doctorStrands() {
+    // Seeds turn by the golden angle, and as many lie on every part of the disc (Vogel 1979, A
+    // better way to construct the sunflower head).
+    const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
+    hair::groom::StrandSet strands;
+    strands.metres_per_unit = 1.0;
+    for (std::uint32_t guide = 0; guide < kGuides; ++guide) {
+        const double out = std::sqrt((guide + 0.5) / kGuides);
+        const double angle = golden_angle * guide;
+        const double lean = kLean * out;
+        const double step = kLength / (kVertices - 1) / std::sqrt(1.0 + lean * lean);
+        for (std::uint32_t vertex = 0; vertex < kVertices; ++vertex) {
+            const double down = step * vertex;
+            const double radius = kDisc * out + lean * down;
+            strands.points.emplace_back(
+                radius * std::cos(angle), 0.1 - down, radius * std::sin(angle));
+        }
+        strands.ends.push_back((guide + 1) * kVertices);
+    }
+    return strands;
+}
+
+hair::Settings doctorSettings() {
+    hair::Settings settings;
+    settings.description = "A mop of hair in a gusty wind: what `hairbench doctor` measures.";
+    settings.groom.file = kDoctorStrands;
+    settings.simulation.substeps = 16;
+    settings.simulation.wind.strength = 6.0f;
+    settings.strands.density = 8;
+    settings.strands.tessellation = 2;
+    settings.camera.position = {0.0f, 0.05f, 0.3f};
+    settings.camera.field_of_view = 60.0f;
+    settings.render.width = 320;
+    settings.render.height = 180;
+    settings.run.frames = 10;
+    return settings;
+}
+
+std::string doctorSceneText() { return scene::writeSettings(doctorSettings()).dump(2) + '\n'; }
+
+std::filesystem::path writeDoctorScene(const std::filesystem::path& folder) {
+    hair::groom::exportStrands(doctorStrands(), folder / kDoctorStrands);
+    const std::filesystem::path scene = folder / "doctor.json";
+    engine::writeFileAtomically(scene, doctorSceneText());
+    return scene;
+}
 
 namespace {
+
+// ---- Play pairs ---------------------------------------------------------------------------------
 
 constexpr int kPairs = 12;
 constexpr int kRounds = 3;  // of isolated frames
@@ -21,49 +85,51 @@ constexpr int kRounds = 3;  // of isolated frames
 // What a round took.
 struct Cost {
     double frame;  // ms, median from one frame's start to the next one's
-    double cpu;    // ms, of all threads of this process
+    double cpu;  // ms, of all threads of this process
 };
 
-Cost costOf(RoundPlayer& player) {
+Cost costOf(measure::RoundPlayer& player) {
     const engine::ProcessUse before = engine::processUse();
     std::vector<double> intervals;
     for (const engine::FrameRecord& frame : player.round()) intervals.push_back(frame.interval);
-    return {summarize(intervals).median, (engine::processUse() - before).cpu};
+    return {report::summarize(intervals).median, (engine::processUse() - before).cpu};
 }
 
 }  // namespace
 
-PassFacts examinePasses(const engine::Device& device, const MeasureHooks& hooks) {
-    const ScratchFolder folder;
+PassFacts examinePasses(const engine::Device& device, const measure::MeasureHooks& hooks) {
+    const engine::ScratchFolder folder;
     writeDoctorScene(folder.path());
     const hair::Settings settings = doctorSettings();
-    Case test_case(device, settings, folder.path());
-    const Play play{.device = device, .test_case = test_case, .run = settings.run, .hooks = hooks};
-    RoundPlayer player(play, engine::Timing::isolated);
+    measure::Case test_case(device, settings, folder.path());
+    const measure::Play play{
+        .device = device, .test_case = test_case, .run = settings.run, .hooks = hooks};
+    measure::RoundPlayer player(play, engine::Timing::isolated);
     // A busy machine only ever adds time outside the passes or between them: the round whose sum is
     // nearest to the wall clock tells most of the device.
     PassFacts facts;
     double nearest = INFINITY;
     for (int i = 0; i < kRounds; ++i) {
-        const double ratio = passSumOverWall(player.round());
+        const double ratio = measure::passSumOverWall(player.round());
         if (std::abs(ratio - 1.0) >= nearest) continue;
         nearest = std::abs(ratio - 1.0);
         facts.sum_over_wall = ratio;
     }
-    facts.faults = checkTimestamps(device, [&](engine::FrameLoop& loop) { playFrame(loop, play); });
+    facts.faults = measure::checkTimestamps(
+        device, [&](engine::FrameLoop& loop) { measure::playFrame(loop, play); });
     return facts;
 }
 
-RepeatFacts examineRepeat(const engine::Device& device, const MeasureHooks& hooks) {
-    const ScratchFolder folder;
+RepeatFacts examineRepeat(const engine::Device& device, const measure::MeasureHooks& hooks) {
+    const engine::ScratchFolder folder;
     writeDoctorScene(folder.path());
     const hair::Settings settings = doctorSettings();
-    Case case_a(device, settings, folder.path());
-    Case case_b(device, settings, folder.path());
-    RoundPlayer a(
+    measure::Case case_a(device, settings, folder.path());
+    measure::Case case_b(device, settings, folder.path());
+    measure::RoundPlayer a(
         {.device = device, .test_case = case_a, .run = settings.run, .hooks = hooks},
         engine::Timing::overlapped);
-    RoundPlayer b(
+    measure::RoundPlayer b(
         {.device = device, .test_case = case_b, .run = settings.run, .hooks = hooks},
         engine::Timing::overlapped);
     // Pipelines and caches warm up.
@@ -78,8 +144,8 @@ RepeatFacts examineRepeat(const engine::Device& device, const MeasureHooks& hook
         facts.frame.push_back(sign * std::log(second.frame / first.frame));
         facts.cpu.push_back(sign * std::log(second.cpu / first.cpu));
     }
-    const RoundEnd end_a = a.lastEnd();
-    const RoundEnd end_b = b.lastEnd();
+    const measure::RoundEnd end_a = a.lastEnd();
+    const measure::RoundEnd end_b = b.lastEnd();
     facts.same_picture =
         end_a.picture_hash == a.firstEnd().picture_hash && end_a.picture_hash == end_b.picture_hash;
     facts.same_state =
@@ -87,4 +153,4 @@ RepeatFacts examineRepeat(const engine::Device& device, const MeasureHooks& hook
     return facts;
 }
 
-}  // namespace benchmarks
+}  // namespace benchmarks::doctor

@@ -1,17 +1,19 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "benchmarks/gate/side.h"
-#include "benchmarks/metric.h"
+#include "benchmarks/gate/blocks.h"
+#include "benchmarks/report/metric.h"
 
-namespace benchmarks {
+namespace benchmarks::doctor {
 
 // How small a slowdown of one metric a gate can find on this machine.
 struct Sensitivity {
-    MetricId metric;  // of the doctor's scene
+    report::MetricId metric;  // of the doctor's scene
     // Tau, a share: three standard deviations of an A/A pair, at least 2 %.
     double decisive_change = 0.0;
     double smallest_slowdown = 0.0;  // share that 48 pairs find in nine of ten gates
@@ -39,4 +41,17 @@ std::vector<PlantedGate> plantSlowdowns(
     const engine::DeviceOptions& device, const std::vector<Sensitivity>& sensitivities,
     std::uint32_t gates);
 
-}  // namespace benchmarks
+// The smallest slowdown of one metric, a share, that a gate of 48 pairs calls a regression in nine
+// of ten gates on a machine whose pairs of one build differ by `differences` = ln(A2/A1), where
+// `decisive_change` is tau and nothing else of the gate's `metrics` is slower, so that it has to
+// hold against the strictest step of Benjamini and Hochberg.
+//
+// A gate is drawn as 48 of the differences, with replacement, either sign being as likely in pairs
+// of one build. A slowdown s moves all 48 by ln(1 + s), so that the gate finds it if the lower end
+// of the 48's signed-rank interval, at the level of the last decision, is above ln(1 + tau) -
+// ln(1 + s). The result is the s for which that is so in 90 % of the draws. At least two
+// differences or engine::Error. The draws are the same every time.
+double
+smallestSlowdown(std::span<const double> differences, double decisive_change, std::size_t metrics);
+
+}  // namespace benchmarks::doctor

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <utility>
 
-#include "engine/transfer.h"
+#include "engine/buffer_image.h"
+#include "engine/error.h"
 
-namespace benchmarks {
+namespace benchmarks::measure {
+
+// ---- Busy work ----------------------------------------------------------------------------------
 
 namespace gpu {
 using uint = std::uint32_t;
@@ -34,10 +38,10 @@ BusyWork::BusyWork(const engine::Device& device, std::uint32_t steps)
 void BusyWork::record(engine::Commands& commands) const {
     using engine::Access;
     if (steps_ == 0) return;
-    commands.barrier(Access::anything, Access::compute_write);
+    commands.barrier(engine::Access::anything, engine::Access::compute_write);
     commands.bind(pipeline_, gpu::BusyPush{.results = results_.address(), .steps = steps_});
     commands.dispatch(std::min(steps_, groups_));
-    commands.barrier(Access::compute_write, Access::anything);
+    commands.barrier(engine::Access::compute_write, engine::Access::anything);
 }
 
 BusyWork::Done BusyWork::done() const {
@@ -45,4 +49,33 @@ BusyWork::Done BusyWork::done() const {
     return {results.front(), {results.begin() + 1, results.end()}};
 }
 
-}  // namespace benchmarks
+// ---- Busy passes --------------------------------------------------------------------------------
+
+BusyPass::BusyPass(const engine::Device& device, std::string name, std::uint32_t steps)
+    : name_(std::move(name)), work_(device, steps) {}
+
+void BusyPass::checkThatItRan() const {
+    if (std::ranges::find(seen_, name_) != seen_.end()) return;
+    std::string known;
+    for (const std::string& name : seen_) known += (known.empty() ? "" : ", ") + name;
+    throw engine::Error("/run/busy_pass", "there is no pass '" + name_ + "'; there are " + known);
+}
+
+BusyPasses::BusyPasses(engine::Passes& passes, BusyPass& busy) : passes_(passes), busy_(busy) {
+    slot_ = passes.slot();
+}
+
+void BusyPasses::pass(
+    const char* name, engine::PassKind kind, const std::function<void(engine::Commands&)>& record) {
+    if (std::ranges::find(busy_.seen_, name) == busy_.seen_.end()) busy_.seen_.emplace_back(name);
+    if (busy_.name_ != name) {
+        passes_.pass(name, kind, record);
+        return;
+    }
+    passes_.pass(name, kind, [&](engine::Commands& commands) {
+        record(commands);
+        busy_.work().record(commands);
+    });
+}
+
+}  // namespace benchmarks::measure

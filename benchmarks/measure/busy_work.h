@@ -1,13 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
-#include "engine/buffer.h"
+#include "engine/buffer_image.h"
 #include "engine/commands.h"
+#include "engine/frame_loop.h"
 #include "engine/pipeline.h"
 
-namespace benchmarks {
+namespace benchmarks::measure {
 
 // Steps of work that nobody needs and no driver can leave out: what it makes is written to a
 // buffer. The work is proportional to the number of steps.
@@ -39,4 +41,36 @@ private:
     engine::Buffer results_;
 };
 
-}  // namespace benchmarks
+// One pass that is to be slowed down, and which passes there were.
+class BusyPass {
+public:
+    BusyPass(const engine::Device& device, std::string name, std::uint32_t steps);
+
+    // Throws engine::Error that lists the passes if none of those so far had the name.
+    void checkThatItRan() const;
+
+    const BusyWork& work() const { return work_; }
+
+private:
+    friend class BusyPasses;
+    std::string name_;
+    BusyWork work_;
+    std::vector<std::string> seen_;  // names, in order of appearance
+};
+
+// Hands on a frame's passes, the busy one with its work after its own: inside the pass, so that
+// the pass's timer, label and metric have it.
+class BusyPasses : public engine::Passes {
+public:
+    BusyPasses(engine::Passes& passes, BusyPass& busy);
+
+    void pass(
+        const char* name, engine::PassKind kind,
+        const std::function<void(engine::Commands&)>& record) override;
+
+private:
+    engine::Passes& passes_;
+    BusyPass& busy_;
+};
+
+}  // namespace benchmarks::measure

@@ -1,20 +1,16 @@
-#include "benchmarks/measure.h"
+#include "benchmarks/measure/measure.h"
 
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
-#include "benchmarks/machine/machine_watch.h"
-#include "benchmarks/measure/check_timestamps.h"
-#include "benchmarks/measure/drawn_counts.h"
+#include "benchmarks/measure/machine_watch.h"
 #include "benchmarks/measure/metrics.h"
-#include "benchmarks/measure/sample_mode.h"
-#include "benchmarks/memory_metrics.h"
-#include "benchmarks/statistics.h"
-#include "benchmarks/trust.h"
+#include "benchmarks/measure/sampling.h"
+#include "benchmarks/measure/trust.h"
+#include "benchmarks/report/statistics.h"
 
-namespace benchmarks {
-
+namespace benchmarks::measure {
 namespace {
 
 using engine::FrameRecord;
@@ -24,13 +20,13 @@ using engine::Timing;
 constexpr double kUseShare = 1.0 / 3.0;
 
 template <class Get>
-double medianOf(const std::vector<FrameRecord>& frames, Get get) {
+double medianOf(const std::vector<engine::FrameRecord>& frames, Get get) {
     std::vector<double> values;
-    for (const FrameRecord& frame : frames) values.push_back(get(frame));
-    return summarize(values).median;
+    for (const engine::FrameRecord& frame : frames) values.push_back(get(frame));
+    return report::summarize(values).median;
 }
 
-void checkEnds(const RoundEnd& overlapped, const RoundEnd& isolated, CaseResult& result) {
+void checkEnds(const RoundEnd& overlapped, const RoundEnd& isolated, report::CaseResult& result) {
     if (isolated.picture_hash != overlapped.picture_hash)
         result.trust.warnings.push_back("overlapped and isolated frames made different pictures");
     if (isolated.state_hash != overlapped.state_hash)
@@ -40,15 +36,16 @@ void checkEnds(const RoundEnd& overlapped, const RoundEnd& isolated, CaseResult&
 // Adds the passes' times, by timestamps if they can be trusted and else by the CPU's clock; on a
 // software device also what they used of the CPU, which only the latter tells. Returns the
 // conditions of the rounds that it played.
-std::vector<Conditions>
-addPasses(const Play& play, const SampledMode& isolated, MachineWatch& watch, CaseResult& result) {
+std::vector<report::Conditions> addPasses(
+    const Play& play, const SampledMode& isolated, MachineWatch& watch,
+    report::CaseResult& result) {
     const std::vector<std::string> faults =
         checkTimestamps(play.device, [&](engine::FrameLoop& loop) { playFrame(loop, play); });
     const bool software = play.device.info().type == "cpu";
-    if (faults.empty()) addPassTimes(isolated.frames, Mode::isolated, result);
+    if (faults.empty()) addPassTimes(isolated.frames, report::Mode::isolated, result);
     if (faults.empty() && !software) return {};
 
-    SamplingRule rule = samplingRule(Timing::wall_clock, play.run);
+    SamplingRule rule = samplingRule(engine::Timing::wall_clock, play.run);
     if (faults.empty()) {
         rule.max_time *= kUseShare;
         rule.most_rounds = isolated.sampling.rounds;
@@ -57,8 +54,8 @@ addPasses(const Play& play, const SampledMode& isolated, MachineWatch& watch, Ca
             "timestamps are not trusted: the passes' times are by the CPU's clock");
         result.trust.warnings.insert(result.trust.warnings.end(), faults.begin(), faults.end());
     }
-    SampledMode clocked = sampleMode(play, Timing::wall_clock, rule, watch, result);
-    if (!faults.empty()) addPassTimes(clocked.frames, Mode::wall_clock, result);
+    SampledMode clocked = sampleMode(play, engine::Timing::wall_clock, rule, watch, result);
+    if (!faults.empty()) addPassTimes(clocked.frames, report::Mode::wall_clock, result);
     if (software) addPassUse(clocked.frames, result);
     return std::move(clocked.conditions);
 }
@@ -67,18 +64,18 @@ addPasses(const Play& play, const SampledMode& isolated, MachineWatch& watch, Ca
 
 std::vector<std::uint8_t> measure(
     const engine::Device& device, Case& test_case, const hair::RunSettings& run,
-    const MeasureHooks& hooks, CaseResult& result) {
+    const MeasureHooks& hooks, report::CaseResult& result) {
     result.counts = test_case.counts();
     std::optional<BusyPass> busy;
     if (!run.busy_pass.empty()) busy.emplace(device, run.busy_pass, run.busy_work);
     const Play play{device, test_case, run, hooks, busy ? &*busy : nullptr};
     MachineWatch watch(device);
 
-    const auto sample = [&](Timing timing) {
+    const auto sample = [&](engine::Timing timing) {
         return sampleMode(play, timing, samplingRule(timing, run), watch, result);
     };
-    SampledMode overlapped = sample(Timing::overlapped);
-    const SampledMode isolated = sample(Timing::isolated);
+    SampledMode overlapped = sample(engine::Timing::overlapped);
+    const SampledMode isolated = sample(engine::Timing::isolated);
     result.image_hash = overlapped.end.picture_hash;
     result.state_hash = overlapped.end.state_hash;
     checkEnds(overlapped.end, isolated.end, result);
@@ -87,9 +84,11 @@ std::vector<std::uint8_t> measure(
 
     addOverlappedMetrics(overlapped.frames, result);
     result.metrics.push_back(
-        {ofFrame(Measured::first_time), {overlapped.first_frame}, Mode::overlapped});
+        {report::ofFrame(report::Measured::first_time),
+         {overlapped.first_frame},
+         report::Mode::overlapped});
     addPassSum(isolated.frames, result);
-    std::vector<Conditions> conditions = std::move(overlapped.conditions);
+    std::vector<report::Conditions> conditions = std::move(overlapped.conditions);
     std::ranges::copy(isolated.conditions, std::back_inserter(conditions));
     std::ranges::move(addPasses(play, isolated, watch, result), std::back_inserter(conditions));
     result.conditions = medianConditions(conditions);
@@ -98,11 +97,12 @@ std::vector<std::uint8_t> measure(
     // What passing side by side saves: the isolated passes' sum less the overlapped frame.
     const double sum = medianOf(isolated.frames, passSum);
     const double frame = medianOf(overlapped.frames, [](auto& f) { return f.interval; });
-    result.metrics.push_back({ofFrame(Measured::overlap), {sum - frame}});
+    result.metrics.push_back({report::ofFrame(report::Measured::overlap), {sum - frame}});
     result.metrics.push_back(
-        {ofMemory(Measured::allocated), {static_cast<double>(device.allocatedBytes())}});
+        {report::ofMemory(report::Measured::allocated),
+         {static_cast<double>(device.allocatedBytes())}});
     std::ranges::move(memoryMetrics(device.memory()), std::back_inserter(result.metrics));
     return std::move(overlapped.end.picture);
 }
 
-}  // namespace benchmarks
+}  // namespace benchmarks::measure

@@ -1,11 +1,21 @@
 #include "benchmarks/physics/checks.h"
 
-namespace benchmarks::physics {
+#include <cmath>
+#include <cstring>
+#include <limits>
 
+#include "benchmarks/physics/experiment.h"
+#include "benchmarks/physics/theory.h"
+#include "benchmarks/report/environment.h"
+#include "hair/simulation/solvers.h"
+
+namespace benchmarks::physics {
 namespace {
 
 using engine::Device;
 using hair::Solver;
+
+// ---- Checks -------------------------------------------------------------------------------------
 
 constexpr unsigned kMasses[] = {1, 2, 3, 5};
 // The ratios at which Romero et al. 2021 and the tables of docs/physics.md are read.
@@ -14,11 +24,11 @@ constexpr double kGammas[] = {0.1, 1.0, 5.0, 10.0, 50.0, 100.0, 1000.0};
 constexpr Check kChecks[] = {
     {"projectile", checkProjectile},
     {"free_fall", checkFreeFall},
-    {"pendulum", [](const Device& device, Solver solver,
+    {"pendulum", [](const engine::Device& device, hair::Solver solver,
                     Findings& findings) { checkPendulum(device, solver, kMasses, findings); }},
     {"hanging_chain", checkHangingChain},
     {"catenary", checkCatenary},
-    {"cantilever", [](const Device& device, Solver solver,
+    {"cantilever", [](const engine::Device& device, hair::Solver solver,
                       Findings& findings) { checkCantilever(device, solver, kGammas, findings); }},
     {"convergence", checkConvergence},
     {"bending_frequency", checkBendingFrequency},
@@ -36,5 +46,213 @@ constexpr Check kChecks[] = {
 }  // namespace
 
 std::span<const Check> allChecks() { return kChecks; }
+
+namespace {
+
+// ---- Check energy -------------------------------------------------------------------------------
+
+// A hair let go from the horizontal. What its energy is compared with is the weight's at half its
+// length: what it loses from there to hanging down.
+
+constexpr std::uint32_t kEnergySegments = 16;
+constexpr double kEnergyLength = 0.15;  // m
+constexpr double kEnergyWindow = 0.25;  // s
+// The sampled energy of one window may pass that of the one before by rounding and by what the
+// samples miss of the true maximum.
+constexpr double kEnergyTolerance = 1e-3;
+
+std::vector<double>
+energies(const engine::Device& device, const hair::SimulationSettings& settings, double seconds) {
+    Experiment experiment(
+        device, straightStrand(kEnergySegments, kEnergyLength, {1.0, 0.0, 0.0}), settings);
+    const double scale =
+        lineDensity(settings.material) * kGravity * kEnergyLength * kEnergyLength / 2.0;
+    std::vector<double> samples;
+    std::vector<glm::dvec3> before = experiment.positions();
+    for (std::uint32_t i = 0; i < experiment.stepsIn(seconds); ++i) {
+        experiment.advance(1);
+        std::vector<glm::dvec3> after = experiment.positions();
+        samples.push_back(energyOf(before, after, settings, kEnergyLength) / scale);
+        before = std::move(after);
+    }
+    return samples;
+}
+
+// Slope of the straight line through the samples (least squares), per interval.
+double slopeOf(std::span<const double> samples) {
+    const double middle = static_cast<double>(samples.size() - 1) / 2.0;
+    double products = 0.0;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const double t = static_cast<double>(i) - middle;
+        products += t * samples[i];
+        squares += t * t;
+    }
+    return products / squares;
+}
+
+// By how much the greatest energy of a window passes that of the window before.
+double greatestGrowth(std::span<const double> samples, std::size_t window) {
+    double growth = 0.0;
+    double before = std::numeric_limits<double>::infinity();
+    for (std::size_t start = 0; start + window <= samples.size(); start += window) {
+        double greatest = samples[start];
+        for (const double sample : samples.subspan(start, window))
+            greatest = worst(greatest, sample);
+        growth = worst(growth, greatest - before);
+        before = greatest;
+    }
+    return growth;
+}
+
+}  // namespace
+
+void checkEnergy(const engine::Device& device, hair::Solver solver, Findings& findings) {
+    // A solver step at a time, or what happens between two looks would be averaged.
+    hair::SimulationSettings settings = freeHair(solver);
+    settings.time_step = hair::simulation::stepOf(settings).sub;
+    settings.substeps = 1;
+    // Shape constraints have no energy that could be counted, nor has what segments are too long
+    // by.
+    settings.local.stiffness = 0.0f;
+    settings.length.iterations = 64;
+    const double step = settings.time_step;
+    const std::vector<Parameter> parameters{{"time_step", step, "s"}};
+    findings.value(
+        {"drift without friction, per second", "1/s", parameters},
+        slopeOf(energies(device, settings, 2.0)) / step);
+
+    settings.friction = defaultHair(solver).friction;
+    findings.deviation(
+        {"growth from window to window with friction", "1", parameters},
+        greatestGrowth(
+            energies(device, settings, 4.0),
+            static_cast<std::size_t>(std::lround(kEnergyWindow / step))),
+        kEnergyTolerance);
+}
+
+namespace {
+
+// ---- Check invariance ---------------------------------------------------------------------------
+
+// Does hair move the same whatever the step, the number of segments and of iterations? Default hair
+// let go from the horizontal; the finest run is the reference.
+
+constexpr double kInvarianceTolerance = 0.02;  // between 1/60 s and 1/480 s, promised of `rod`
+constexpr std::uint32_t kInvarianceSegments = 16;
+
+// Differences from the last run, as a curve and a value each.
+void reportDifferences(
+    Findings& findings, const Parameter& varied, const std::vector<double>& values,
+    const std::vector<Trajectory>& runs) {
+    std::vector<std::vector<double>> rows;
+    for (std::size_t i = 0; i + 1 < runs.size(); ++i) {
+        const double difference = differenceOf(runs[i], runs.back());
+        findings.deviation(
+            {"difference from the finest / length",
+             "1",
+             {{varied.name, values[i], varied.unit},
+              {"finest " + varied.name, values.back(), varied.unit}}},
+            difference);
+        rows.push_back({values[i], difference});
+    }
+    findings.curve(
+        "difference from the finest", {{varied.name, varied.unit}, {"difference / length", "1"}},
+        std::move(rows));
+}
+
+}  // namespace
+
+void checkStepInvariance(const engine::Device& device, hair::Solver solver, Findings& findings) {
+    std::vector<double> steps;
+    std::vector<Trajectory> runs;
+    for (const double rate : {30.0, 60.0, 120.0, 240.0, 480.0, 1000.0}) {
+        hair::SimulationSettings settings = defaultHair(solver);
+        settings.time_step = static_cast<float>(1.0 / rate);
+        steps.push_back(1.0 / rate);
+        runs.push_back(playRelease(device, settings, kInvarianceSegments));
+    }
+    reportDifferences(findings, {.name = "time_step", .unit = "s"}, steps, runs);
+    std::optional<double> tolerance;
+    if (solver == hair::Solver::rod) tolerance = kInvarianceTolerance;
+    findings.deviation(
+        {"difference / length",
+         "1",
+         {{"time_step", steps[1], "s"}, {"other time_step", steps[4], "s"}}},
+        differenceOf(runs[1], runs[4]), tolerance);
+
+    // Air acts on hair once in a time step, however many substeps a solver takes: no promise holds.
+    const auto playInAir = [&](double step) {
+        hair::SimulationSettings settings = defaultHair(solver);
+        settings.time_step = static_cast<float>(step);
+        settings.wind.mode = hair::WindMode::drag;
+        return playRelease(device, settings, kInvarianceSegments);
+    };
+    findings.deviation(
+        {"difference in still air / length",
+         "1",
+         {{"time_step", steps[1], "s"}, {"other time_step", steps[4], "s"}}},
+        differenceOf(playInAir(steps[1]), playInAir(steps[4])));
+}
+
+// What the length of a substep does by itself: numerical damping.
+void checkSubstepInvariance(const engine::Device& device, hair::Solver solver, Findings& findings) {
+    std::vector<double> counts;
+    std::vector<Trajectory> runs;
+    for (const std::uint32_t substeps : {1u, 2u, 4u, 8u, 16u, 32u, 64u}) {
+        hair::SimulationSettings settings = defaultHair(solver);
+        settings.substeps = substeps;
+        counts.push_back(substeps);
+        runs.push_back(playRelease(device, settings, kInvarianceSegments));
+    }
+    reportDifferences(findings, {.name = "substeps", .unit = "count"}, counts, runs);
+}
+
+void checkSegmentInvariance(const engine::Device& device, hair::Solver solver, Findings& findings) {
+    std::vector<double> counts;
+    std::vector<Trajectory> runs;
+    for (const std::uint32_t segments : {8u, 16u, 32u, 64u, 128u}) {
+        counts.push_back(segments);
+        runs.push_back(playRelease(device, defaultHair(solver), segments));
+    }
+    reportDifferences(findings, {.name = "segments", .unit = "count"}, counts, runs);
+}
+
+void checkIterationInvariance(
+    const engine::Device& device, hair::Solver solver, Findings& findings) {
+    if (const auto why = lack(solver, Need::iterations)) return findings.skip(*why);
+    std::vector<double> counts;
+    std::vector<Trajectory> runs;
+    for (const std::uint32_t iterations : {1u, 2u, 4u, 8u, 16u, 32u}) {
+        hair::SimulationSettings settings = defaultHair(solver);
+        setIterations(settings, iterations);
+        counts.push_back(iterations);
+        runs.push_back(playRelease(device, settings, kInvarianceSegments));
+    }
+    reportDifferences(findings, {.name = "iterations", .unit = "count"}, counts, runs);
+}
+
+namespace {
+
+// ---- Check state hash ---------------------------------------------------------------------------
+
+std::vector<glm::vec3> play(const engine::Device& device, hair::Solver solver) {
+    Experiment experiment(device, livelyGroom(), livelyHair(solver));
+    experiment.advance(experiment.stepsIn(2.0));
+    const std::vector<glm::dvec3> points = experiment.positions();  // exactly what was read
+    return {points.begin(), points.end()};
+}
+
+}  // namespace
+
+void checkStateHash(const engine::Device& device, hair::Solver solver, Findings& findings) {
+    const std::vector<glm::vec3> first = play(device, solver);
+    const std::vector<glm::vec3> second = play(device, solver);
+    double different = 0.0;
+    for (std::size_t i = 0; i < first.size(); ++i)
+        different += std::memcmp(&first[i], &second[i], sizeof first[i]) != 0 ? 1.0 : 0.0;
+    findings.deviation({"vertices that differ in any bit", "count"}, different, 0.0).state_hash =
+        report::hashBytes(std::as_bytes(std::span(first)));
+}
 
 }  // namespace benchmarks::physics

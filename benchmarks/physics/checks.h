@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "benchmarks/physics/findings.h"
+#include "benchmarks/physics/report.h"
 #include "engine/device.h"
 #include "hair/settings.h"
 

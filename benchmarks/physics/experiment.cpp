@@ -3,17 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "benchmarks/interrupt.h"
-#include "benchmarks/measure.h"
-#include "benchmarks/physics/worst.h"
+#include "benchmarks/measure/measure.h"
+#include "benchmarks/physics/theory.h"
 #include "engine/commands.h"
-#include "hair/simulation/solver.h"
+#include "engine/process.h"
+#include "hair/simulation/solvers.h"
+#include "hair/simulation/stiffness.h"
 
 namespace benchmarks::physics {
-
 namespace {
+
+using hair::Solver;
+
+// ---- Experiment ---------------------------------------------------------------------------------
 
 constexpr std::uint32_t kBatch = 64;  // steps per submission
 constexpr std::uint32_t kSeed = 1;
@@ -22,7 +27,7 @@ std::vector<glm::vec3> toFloat(std::span<const glm::dvec3> points) {
     return {points.begin(), points.end()};
 }
 
-hair::Groom groomOf(const std::vector<glm::dvec3>& points) {
+hair::groom::Groom groomOf(const std::vector<glm::dvec3>& points) {
     return {
         .strand_count = 1,
         .vertices_per_strand = static_cast<std::uint32_t>(points.size()),
@@ -37,14 +42,15 @@ bool hasWind(const hair::WindSettings& wind) {
 
 }  // namespace
 
-hair::Groom straightStrand(std::uint32_t segments, double length, const glm::dvec3& direction) {
+hair::groom::Groom
+straightStrand(std::uint32_t segments, double length, const glm::dvec3& direction) {
     std::vector<glm::dvec3> points;
     for (std::uint32_t i = 0; i <= segments; ++i)
         points.push_back(length * i / segments * direction);
     return groomOf(points);
 }
 
-hair::Groom curvedStrand(std::uint32_t segments, double length, double curvature) {
+hair::groom::Groom curvedStrand(std::uint32_t segments, double length, double curvature) {
     std::vector<glm::dvec3> points;
     for (std::uint32_t i = 0; i <= segments; ++i) {
         const double angle = curvature * length * i / segments;
@@ -54,16 +60,16 @@ hair::Groom curvedStrand(std::uint32_t segments, double length, double curvature
 }
 
 Experiment::Experiment(
-    const engine::Device& device, const hair::Groom& groom,
+    const engine::Device& device, const hair::groom::Groom& groom,
     const hair::SimulationSettings& settings)
     : device_(&device), settings_(settings),
-      substep_(double{settings.time_step} / hair::stepOf(settings).count),
+      substep_(double{settings.time_step} / hair::simulation::stepOf(settings).count),
       simulation_(device, groom, settings, kSeed) {}
 
 void Experiment::advance(std::uint32_t steps) {
     const bool wind = hasWind(settings_.wind);
     while (steps > 0) {
-        if (interrupted()) throw Interrupted{};
+        if (engine::interrupted()) throw engine::Interrupted{};
         const std::uint32_t batch = std::min(steps, kBatch);
         device_->runOnce([&](engine::Commands& commands) {
             for (std::uint32_t i = 0; i < batch; ++i) {
@@ -116,6 +122,176 @@ double greatestDistance(std::span<const glm::dvec3> a, std::span<const glm::dvec
     for (std::size_t i = 0; i < a.size(); ++i)
         greatest = worst(greatest, glm::distance(a[i], b[i]));
     return greatest;
+}
+
+namespace {
+
+// ---- Solver settings ----------------------------------------------------------------------------
+
+// Weight over stiffness of a rod that is to hang like a chain: it bends within L / sqrt(Gamma) of
+// the clamp, a thousandth of its length.
+constexpr double kChainGamma = 1e6;
+
+// Enough for 64 segments at steps of a millisecond: their period is then what theory says of 64
+// masses to 0.1 %. check_chains.cpp says why more is worse.
+constexpr std::uint32_t kChainIterations = 64;
+
+struct Lack {
+    hair::Solver solver;
+    Need need;
+    const char* reason;
+};
+
+constexpr Lack kLacks[] = {
+    {hair::Solver::ftl, Need::free_vertices,
+     "every segment keeps its length: no vertex flies freely"},
+    {hair::Solver::rod, Need::free_vertices,
+     "every segment keeps its length: no vertex flies freely"},
+    {hair::Solver::ftl, Need::pinned_tip,
+     "it places vertices from the root down and can't hold the tip"},
+    {hair::Solver::rod, Need::equal_masses, "it is made of heavy segments: see hanging_chain"},
+    {hair::Solver::ftl, Need::bending, "it has no bending stiffness"},
+    {hair::Solver::ftl, Need::material, "it has no bending stiffness"},
+    {hair::Solver::shape, Need::material, "its stiffness is no material's"},
+    {hair::Solver::ftl, Need::iterations, "it has no iterations"},
+};
+
+}  // namespace
+
+hair::SimulationSettings defaultHair(hair::Solver solver) {
+    hair::SimulationSettings settings;
+    settings.solver = solver;
+    settings.gravity = {0.0f, static_cast<float>(-kGravity), 0.0f};
+    return settings;
+}
+
+hair::SimulationSettings freeHair(hair::Solver solver) {
+    hair::SimulationSettings settings = defaultHair(solver);
+    settings.friction = 0.0f;
+    settings.global.stiffness = 0.0f;
+    return settings;
+}
+
+hair::SimulationSettings chain(hair::Solver solver, double length) {
+    hair::SimulationSettings settings = freeHair(solver);
+    settings.local = {.stiffness = 0.0f, .iterations = 0};
+    settings.length.iterations = kChainIterations;
+    const double softer = gammaOf(settings.material, length) / kChainGamma;
+    settings.material.youngs_modulus *= static_cast<float>(softer);
+    settings.material.shear_modulus *= static_cast<float>(softer);
+    return settings;
+}
+
+float frictionOf(double rate) {
+    return static_cast<float>(-std::expm1(-rate * hair::simulation::kReferenceStep));
+}
+
+double gammaOf(const hair::MaterialSettings& material, double length) {
+    return lineDensity(material) * kGravity * std::pow(length, 3.0) / bendingStiffness(material);
+}
+
+double lengthOf(const hair::MaterialSettings& material, double gamma) {
+    return std::cbrt(gamma * bendingStiffness(material) / (lineDensity(material) * kGravity));
+}
+
+double bendingStiffness(const hair::MaterialSettings& material) {
+    return double{material.youngs_modulus} * kPi / 4.0 * std::pow(double{material.radius}, 4.0);
+}
+
+double lineDensity(const hair::MaterialSettings& material) {
+    return double{material.density} * kPi * std::pow(double{material.radius}, 2.0);
+}
+
+std::optional<std::string> lack(hair::Solver solver, Need need) {
+    for (const Lack& each : kLacks)
+        if (each.solver == solver && each.need == need) return each.reason;
+    return {};
+}
+
+void setIterations(hair::SimulationSettings& settings, std::uint32_t iterations) {
+    settings.local.iterations = iterations;
+    settings.length.iterations = iterations;
+    settings.rod.iterations = iterations;
+}
+
+// ---- Lively -------------------------------------------------------------------------------------
+
+hair::SimulationSettings livelyHair(hair::Solver solver) {
+    hair::SimulationSettings settings = defaultHair(solver);
+    settings.wind.strength = 15.0f;  // the thesis's strongest
+    settings.motion.keyframes = {
+        {.time = 0.0f},
+        {.time = 0.4f, .rotation = {0.0f, 60.0f, 0.0f}, .translation = {}},
+        {.time = 0.8f, .rotation = {0.0f, -60.0f, 0.0f}, .translation = {0.1f, 0.0f, 0.0f}},
+        {.time = 1.2f, .rotation = {40.0f, 0.0f, 0.0f}, .translation = {0.0f, -0.05f, 0.0f}},
+        {.time = 1.6f}};
+    return settings;
+}
+
+hair::groom::Groom livelyGroom() {
+    constexpr std::uint32_t kStrands = 16;
+    const hair::groom::Groom one = straightStrand(7, kLivelyLength, {0.0, -1.0, 0.0});
+    hair::groom::Groom groom = one;
+    groom.strand_count = kStrands;
+    groom.points.clear();
+    for (std::uint32_t strand = 0; strand < kStrands; ++strand)
+        for (const glm::vec3& point : one.points)
+            groom.points.push_back(
+                point + glm::vec3(0.01f * static_cast<float>(strand), 0.1f, 0.0f));
+    return groom;
+}
+
+namespace {
+
+// ---- Trajectory ---------------------------------------------------------------------------------
+
+constexpr int kSamples = 60;
+constexpr double kInterval = 1.0 / 30.0;  // s
+constexpr std::uint32_t kPoints = 8;
+
+// As a share of a step: what rounding of the step's length makes of a whole number.
+constexpr double kNoFraction = 1e-3;
+
+std::vector<glm::dvec3> every(const std::vector<glm::dvec3>& points, std::uint32_t stride) {
+    std::vector<glm::dvec3> some;
+    for (std::size_t i = 0; i < points.size(); i += stride) some.push_back(points[i]);
+    return some;
+}
+
+}  // namespace
+
+Trajectory playRelease(
+    const engine::Device& device, const hair::SimulationSettings& settings,
+    std::uint32_t segments) {
+    Experiment experiment(
+        device, straightStrand(segments, kTrajectoryLength, {1.0, 0.0, 0.0}), settings);
+    Trajectory trajectory;
+    std::uint32_t step = 0;
+    const auto goTo = [&](std::uint32_t target) {
+        experiment.advance(target - step);
+        step = target;
+        return every(experiment.positions(), segments / kPoints);
+    };
+    for (int i = 1; i <= kSamples; ++i) {
+        const double steps = i * kInterval / experiment.timeStep();
+        const auto whole = static_cast<std::uint32_t>(steps + kNoFraction);
+        std::vector<glm::dvec3> sample = goTo(whole);
+        const double fraction = steps - whole;
+        if (fraction > kNoFraction) {
+            const std::vector<glm::dvec3> next = goTo(whole + 1);
+            for (std::size_t point = 0; point < sample.size(); ++point)
+                sample[point] = glm::mix(sample[point], next[point], fraction);
+        }
+        trajectory.push_back(std::move(sample));
+    }
+    return trajectory;
+}
+
+double differenceOf(const Trajectory& a, const Trajectory& b) {
+    double greatest = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        greatest = worst(greatest, greatestDistance(a[i], b[i]));
+    return greatest / kTrajectoryLength;
 }
 
 }  // namespace benchmarks::physics

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -14,18 +17,19 @@
 namespace benchmarks::physics {
 
 // A strand in `segments` equal segments from the origin along a unit vector, at rest. m
-hair::Groom straightStrand(std::uint32_t segments, double length, const glm::dvec3& direction);
+hair::groom::Groom
+straightStrand(std::uint32_t segments, double length, const glm::dvec3& direction);
 
 // One that is `length` long and constantly curved (1/m) from -y toward +x. Its vertices lie on the
 // circle.
-hair::Groom curvedStrand(std::uint32_t segments, double length, double curvature);
+hair::groom::Groom curvedStrand(std::uint32_t segments, double length, double curvature);
 
 // A groom in a simulation that is played step by step. Throws Interrupted (measure.h) between
 // submissions when the user asked to stop. Borrows the device.
 class Experiment {
 public:
     Experiment(
-        const engine::Device& device, const hair::Groom& groom,
+        const engine::Device& device, const hair::groom::Groom& groom,
         const hair::SimulationSettings& settings);
 
     void advance(std::uint32_t steps);
@@ -51,10 +55,82 @@ private:
     const engine::Device* device_;
     hair::SimulationSettings settings_;
     double substep_;
-    hair::Simulation simulation_;
+    hair::simulation::Simulation simulation_;
 };
 
 // Greatest distance between points of the same index, m.
 double greatestDistance(std::span<const glm::dvec3> a, std::span<const glm::dvec3> b);
+
+// Where n steps of Verlet's integration take a point that came with `velocity`: n v h + n (n + 1) /
+// 2 a h^2, the sum of the displacements (v + m a h) h. Exact, where the true parabola has n^2.
+inline glm::dvec3
+verletFlight(double n, const glm::dvec3& velocity, const glm::dvec3& acceleration, double step) {
+    return n * step * velocity + 0.5 * n * (n + 1.0) * step * step * acceleration;
+}
+
+inline constexpr double kLivelyLength = 0.15;  // m, the thesis's
+
+// Default hair in strong wind on a head that shakes once and nods, for 2 s.
+hair::SimulationSettings livelyHair(hair::Solver solver);
+
+// Sixteen hanging strands of the thesis's 8 vertices, 1 cm apart.
+hair::groom::Groom livelyGroom();
+
+// How each solver is set up to be compared with theory, and what it can't be asked.
+
+inline constexpr double kGravity = 9.81;  // m/s^2, down -y
+
+// A hair as a user gets it, but for this gravity.
+hair::SimulationSettings defaultHair(hair::Solver solver);
+
+// The hair with nothing but its stiffness and weight: neither friction nor a pull to rest.
+hair::SimulationSettings freeHair(hair::Solver solver);
+
+// A chain: segments keep their length, as well as the solver can, and do not resist bending. `rod`
+// always does; its modulus is so small that strands up to `length` bend by their weight at once.
+hair::SimulationSettings chain(hair::Solver solver, double length);
+
+// Friction that takes exp(-rate) of the velocity in 1 s. `rate` in 1/s.
+float frictionOf(double rate);
+
+// rho g S L^3 / EI = 4 rho g L^3 / (E R^2): weight over stiffness, "Gamma" of Romero et al. 2021,
+// Physical validation of simulators in computer graphics; and the length that has it, m.
+double gammaOf(const hair::MaterialSettings& material, double length);
+double lengthOf(const hair::MaterialSettings& material, double gamma);
+
+double bendingStiffness(const hair::MaterialSettings& material);  // EI, N m^2
+double lineDensity(const hair::MaterialSettings& material);  // kg/m
+
+// What a check may need of a solver.
+enum class Need {
+    free_vertices,  // that fly where nothing holds them
+    pinned_tip,
+    equal_masses,  // in vertices
+    bending,  // stiffness against it
+    material,  // bending stiffness by a modulus
+    iterations
+};
+
+// Why it can't be had; absent where it can.
+std::optional<std::string> lack(hair::Solver solver, Need need);
+
+// Sets the number of iterations of a solver that has one.
+void setIterations(hair::SimulationSettings& settings, std::uint32_t iterations);
+
+inline constexpr double kTrajectoryLength = 0.15;  // m
+
+// Points at eighths of the strand from the root, [sample][point], m.
+using Trajectory = std::vector<std::vector<glm::dvec3>>;
+
+// A strand let go from the horizontal: 2 s, sampled every 1/30 s. A time that is no whole number of
+// steps is interpolated linearly between the steps around it. `segments` is a multiple of 8.
+Trajectory playRelease(
+    const engine::Device& device, const hair::SimulationSettings& settings, std::uint32_t segments);
+
+// Greatest distance of a point at any time / strand length.
+double differenceOf(const Trajectory& a, const Trajectory& b);
+
+// The greater of two errors; what is not a number is the greatest of all, and stays.
+inline double worst(double a, double b) { return std::isnan(a) || b <= a ? a : b; }
 
 }  // namespace benchmarks::physics

@@ -1,12 +1,145 @@
 #include "benchmarks/physics/theory.h"
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "benchmarks/physics/experiment.h"
 
 namespace benchmarks::physics {
+namespace {
+
+// ---- Catenary -----------------------------------------------------------------------------------
+
+// a with 2 a sinh(span / 2 a) = length: bisection on u = span / 2 a, where sinh(u) / u rises.
+double solveParameter(double span, double length) {
+    double low = 1e-9;
+    double high = 700.0;
+    for (int i = 0; i < 200; ++i) {
+        const double middle = 0.5 * (low + high);
+        (std::sinh(middle) / middle < length / span ? low : high) = middle;
+    }
+    return span / (low + high);
+}
+
+}  // namespace
+
+Catenary::Catenary(double span, double length)
+    : span_(span), length_(length), parameter_(solveParameter(span, length)) {
+    assert(0.0 < span && span < length);
+}
+
+glm::dvec2 Catenary::at(double s) const {
+    const double a = parameter_;
+    const double u = s - length_ / 2.0;  // from the lowest point
+    return {span_ / 2.0 + a * std::asinh(u / a), std::hypot(a, u) - std::hypot(a, length_ / 2.0)};
+}
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+// ---- Deflection ---------------------------------------------------------------------------------
+
+// The greatest slope of a strand in a small vibration: 0.03^2 / 16 is its effect on a pendulum's
+// frequency, 6e-5.
+inline constexpr double kSmallSlope = 0.03;
+
+// A strand from the origin along `direction` whose vertices are displaced along `sideways` in
+// proportion to `shape` (root first), so that its steepest segment has kSmallSlope; segments keep
+// their length. Both vectors are unit vectors, perpendicular. m
+std::vector<glm::dvec3> deflected(
+    std::span<const double> shape, double segment, const glm::dvec3& direction,
+    const glm::dvec3& sideways) {
+    double steepest = 0.0;
+    for (std::size_t i = 1; i < shape.size(); ++i)
+        steepest = std::max(steepest, std::abs(shape[i] - shape[i - 1]));
+    std::vector<glm::dvec3> points{glm::dvec3(0.0)};
+    for (std::size_t i = 1; i < shape.size(); ++i) {
+        const double slope = kSmallSlope * (shape[i] - shape[i - 1]) / steepest;
+        points.push_back(
+            points.back() +
+            segment * (slope * sideways + std::sqrt(1.0 - slope * slope) * direction));
+    }
+    return points;
+}
+
+// Sum of displacement along `sideways` times shape: how much of the shape there is, at any scale.
+double amountOf(
+    std::span<const double> shape, std::span<const glm::dvec3> positions,
+    const glm::dvec3& sideways) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < shape.size(); ++i)
+        sum += shape[i] * glm::dot(positions[i], sideways);
+    return sum;
+}
+
+// ---- Energy -------------------------------------------------------------------------------------
+
+// The clamp's joint is half a segment long: the other half would be in the skin.
+double bendingEnergy(
+    std::span<const glm::dvec3> points, double stiffness, double segment,
+    const glm::dvec3& clamp_tangent) {
+    double energy = 0.0;
+    glm::dvec3 before = clamp_tangent;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const glm::dvec3 tangent = glm::normalize(points[i] - points[i - 1]);
+        const double angle =
+            std::atan2(glm::length(glm::cross(before, tangent)), glm::dot(before, tangent));
+        energy += 0.5 * stiffness * angle * angle / (i == 1 ? segment / 2.0 : segment);
+        before = tangent;
+    }
+    return energy;
+}
+
+}  // namespace
+
+double energyOf(
+    std::span<const glm::dvec3> before, std::span<const glm::dvec3> after,
+    const hair::SimulationSettings& settings, double length) {
+    const std::size_t count = after.size();
+    const double segment = length / static_cast<double>(count - 1);
+    const bool rod = !lack(settings.solver, Need::material);
+    std::vector<glm::dvec3> points{after[0]};
+    double energy = 0.0;
+    for (std::size_t i = 1; i < count; ++i) {
+        points.push_back(0.5 * (before[i] + after[i]));
+        const glm::dvec3 velocity = (after[i] - before[i]) / double{settings.time_step};
+        const bool half = rod && i + 1 == count;  // only one segment ends at a rod's tip
+        const double mass = lineDensity(settings.material) * segment * (half ? 0.5 : 1.0);
+        energy += mass * (0.5 * glm::dot(velocity, velocity) + kGravity * points[i].y);
+    }
+    if (rod)
+        energy +=
+            bendingEnergy(points, bendingStiffness(settings.material), segment, {1.0, 0.0, 0.0});
+    return energy;
+}
+
+// ---- Oscillation --------------------------------------------------------------------------------
+
+std::optional<double> frequencyOf(std::span<const double> samples, double interval) {
+    double first = 0.0;
+    double last = 0.0;
+    int crossings = 0;
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        const double a = samples[i - 1];
+        const double b = samples[i];
+        if ((a < 0.0) == (b < 0.0)) continue;
+        last = static_cast<double>(i - 1) + a / (a - b);
+        if (crossings++ == 0) first = last;
+    }
+    if (crossings < 3) return {};
+    return (crossings - 1) / (2.0 * interval * (last - first));
+}
+
+namespace {
+
+// ---- Theory -------------------------------------------------------------------------------------
+
 constexpr int kSteps = 4000;
 
 struct Hanging {
@@ -59,6 +192,104 @@ double cantileverRatio(double gamma, double natural_turn) {
     }
     const Hanging hanging = hangFromTip(gamma, natural_turn, tip(low));
     return hanging.drop / hanging.reach;
+}
+
+namespace {
+
+// ---- Vibrate ------------------------------------------------------------------------------------
+
+constexpr int kPeriods = 5;
+constexpr int kSamplesPerPeriod = 40;
+
+}  // namespace
+
+std::optional<double> measureFrequency(Experiment& experiment, const Vibration& vibration) {
+    experiment.place(
+        deflected(vibration.shape, vibration.segment, vibration.direction, vibration.sideways));
+    const std::uint32_t steps =
+        experiment.stepsIn(1.0 / (kSamplesPerPeriod * vibration.expected_frequency));
+    std::vector<double> amounts;
+    for (int i = 0; i < kPeriods * kSamplesPerPeriod; ++i) {
+        experiment.advance(steps);
+        amounts.push_back(amountOf(vibration.shape, experiment.positions(), vibration.sideways));
+    }
+    return frequencyOf(amounts, steps * experiment.timeStep());
+}
+
+namespace {
+
+// ---- Vibration ----------------------------------------------------------------------------------
+
+constexpr double kFirstBesselRoot = 2.404825557695773;  // of J0, Abramowitz and Stegun table 9.5
+constexpr double kFirstBeamRoot = 1.8751040687119611;  // of cos z cosh z = -1
+
+// The root of L_n between two points where it has different signs.
+double bisect(unsigned n, double low, double high) {
+    const bool rising = laguerre(n, low) < 0.0;
+    for (int i = 0; i < 100; ++i) {
+        const double middle = 0.5 * (low + high);
+        ((laguerre(n, middle) < 0.0) == rising ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+}  // namespace
+
+double laguerre(unsigned n, double x) {
+    double before = 0.0;
+    double value = 1.0;
+    for (unsigned k = 0; k < n; ++k) {
+        const double next = ((2.0 * k + 1.0 - x) * value - k * before) / (k + 1.0);
+        before = value;
+        value = next;
+    }
+    return value;
+}
+
+// The roots of L_(m-1) part those of L_m, which all lie below 4 m.
+std::vector<double> laguerreRoots(unsigned n) {
+    std::vector<double> roots;
+    for (unsigned m = 1; m <= n; ++m) {
+        std::vector<double> bounds{0.0};
+        bounds.insert(bounds.end(), roots.begin(), roots.end());
+        bounds.push_back(4.0 * m);
+        roots.clear();
+        for (unsigned i = 0; i < m; ++i) roots.push_back(bisect(m, bounds[i], bounds[i + 1]));
+    }
+    return roots;
+}
+
+std::vector<PendulumMode> pendulumModes(unsigned n, double link, double gravity) {
+    std::vector<PendulumMode> modes;
+    for (const double root : laguerreRoots(n)) {
+        PendulumMode mode{.frequency = std::sqrt(root * gravity / link) / (2.0 * kPi), .shape = {}};
+        double greatest = 0.0;
+        for (unsigned i = 0; i < n; ++i) {
+            mode.shape.push_back(laguerre(n - 1 - i, root));
+            greatest = std::max(greatest, std::abs(mode.shape.back()));
+        }
+        for (double& each : mode.shape) each /= greatest;
+        modes.push_back(std::move(mode));
+    }
+    return modes;
+}
+
+double hangingChainPeriod(double length, double gravity) {
+    return 4.0 * kPi / kFirstBesselRoot * std::sqrt(length / gravity);
+}
+
+double cantileverFrequency(double stiffness, double line_density, double length) {
+    return kFirstBeamRoot * kFirstBeamRoot / (2.0 * kPi) *
+           std::sqrt(stiffness / (line_density * std::pow(length, 4.0)));
+}
+
+double cantileverShape(double s) {
+    const double z = kFirstBeamRoot;
+    const double part = (std::cosh(z) + std::cos(z)) / (std::sinh(z) + std::sin(z));
+    const auto shape = [&](double t) {
+        return std::cosh(z * t) - std::cos(z * t) - part * (std::sinh(z * t) - std::sin(z * t));
+    };
+    return shape(s) / shape(1.0);
 }
 
 }  // namespace benchmarks::physics

@@ -1,7 +1,48 @@
 #pragma once
 
-// What elastic rods do in theory, for simulations to be held against.
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "benchmarks/physics/experiment.h"
+#include "hair/settings.h"
+
 namespace benchmarks::physics {
+
+// A chain of `length` that hangs between pins at (0, 0) and (span, 0): y = a cosh((x - x0) / a) +
+// c.
+class Catenary {
+public:
+    // 0 < span < length, m.
+    Catenary(double span, double length);
+
+    // At arc length s in [0, length] from the first pin, m.
+    glm::dvec2 at(double s) const;
+
+    double parameter() const { return parameter_; }  // a, m
+
+private:
+    double span_;
+    double length_;
+    double parameter_;
+};
+
+// Kinetic energy, weight's and, for a solver with a material, that of bending, of a strand that is
+// straight along +x at rest, in the middle of a substep that began and ended so, J. Segments' spin
+// is left out: it is of the order of (segment / length)^2.
+double energyOf(
+    std::span<const glm::dvec3> before, std::span<const glm::dvec3> after,
+    const hair::SimulationSettings& settings, double length);
+
+// Frequency of what swings about 0, from the times between its first and last zero crossing, which
+// damping does not move; Hz. Samples are `interval` s apart. Absent with fewer than three
+// crossings.
+std::optional<double> frequencyOf(std::span<const double> samples, double interval);
+
+// What elastic rods do in theory, for simulations to be held against.
 
 // Drop over reach, H/W, of an inextensible rod that is clamped horizontally and hangs under its own
 // weight: Romero et al. 2021, Physical validation of simulators in computer graphics. gamma =
@@ -10,5 +51,50 @@ namespace benchmarks::physics {
 //   theta'' = -gamma (1 - s) cos theta,  theta(0) = 0,  theta'(1) = natural_turn
 // Good to 7 digits for gamma up to 10^4.
 double cantileverRatio(double gamma, double natural_turn = 0.0);
+
+// Releases a strand that is deflected along `sideways` (theory.h) and measures the frequency
+// with which it swings through five of the periods that theory expects. Absent if it does not
+// swing.
+struct Vibration {
+    std::span<const double> shape;  // [vertex], root first
+    double segment;  // m
+    glm::dvec3 direction;
+    glm::dvec3 sideways;
+    double expected_frequency;  // Hz
+};
+std::optional<double> measureFrequency(Experiment& experiment, const Vibration& vibration);
+
+// Small vibrations of what hangs or sticks out.
+
+inline constexpr double kPi = 3.14159265358979323846;
+
+// Laguerre's polynomial L_n (Abramowitz and Stegun 1964, Handbook of mathematical functions,
+// 22.7.12).
+double laguerre(unsigned n, double x);
+
+// Its n roots, ascending.
+std::vector<double> laguerreRoots(unsigned n);
+
+// A pendulum of n equal masses on links of equal length. Mass k above the lowest one (k = 0) obeys
+//     l u''_k / g = (k + 1) (u_(k+1) - u_k) - k (u_k - u_(k-1)),
+// Laguerre's recurrence for u_k = L_k(x) with w^2 = x g / l; L_n(x) = 0 holds the upper end.
+struct PendulumMode {
+    double frequency;  // Hz
+    std::vector<double> shape;  // horizontal, of each mass from the upper end down; the greatest 1
+};
+
+// All n modes, the slowest first.
+std::vector<PendulumMode> pendulumModes(unsigned n, double link, double gravity);
+
+// First period of a hanging chain, 2 pi / (j / 2) sqrt(L / g), j the first root of Bessel's J0
+// (D. Bernoulli 1738; Rayleigh 1894, Theory of sound). s
+double hangingChainPeriod(double length, double gravity);
+
+// First frequency of a clamped beam without weight, z^2 / (2 pi) sqrt(EI / (lambda L^4)) with
+// cos z cosh z = -1. Stiffness EI in N m^2, line density in kg/m. Hz
+double cantileverFrequency(double stiffness, double line_density, double length);
+
+// Its shape at s in [0, 1], 1 at the tip.
+double cantileverShape(double s);
 
 }  // namespace benchmarks::physics

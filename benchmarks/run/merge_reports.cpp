@@ -9,13 +9,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/report.h"
-#include "benchmarks/report_file.h"
-#include "benchmarks/run/identity.h"
+#include "benchmarks/report/report.h"
+#include "benchmarks/run/record.h"
 #include "engine/error.h"
 
-namespace benchmarks {
-
+namespace benchmarks::run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -24,7 +22,7 @@ constexpr std::size_t kMostNamed = 8;
 
 struct Part {
     fs::path path;
-    Json report;
+    scene::Json report;
 };
 
 // Throws what is wrong, or with `force` notes it.
@@ -43,12 +41,12 @@ private:
 };
 
 // Those of older reports, which do not say it, come last.
-std::size_t indexOf(const Json& result) {
+std::size_t indexOf(const scene::Json& result) {
     return result.value("index", std::numeric_limits<std::size_t>::max());
 }
 
 // The file as seen from the new report's folder.
-void moveReference(Json& result, const fs::path& from, const fs::path& to) {
+void moveReference(scene::Json& result, const fs::path& from, const fs::path& to) {
     if (!result.contains("picture")) return;
     const fs::path file = fs::absolute(from).parent_path() / result["picture"].get<std::string>();
     const fs::path folder = fs::absolute(to).parent_path();
@@ -57,12 +55,12 @@ void moveReference(Json& result, const fs::path& from, const fs::path& to) {
 }
 
 // Takes the cases out of the parts.
-std::vector<Json> joinedCases(std::vector<Part>& parts, const fs::path& out, Judge& judge) {
-    std::vector<Json> cases;
+std::vector<scene::Json> joinedCases(std::vector<Part>& parts, const fs::path& out, Judge& judge) {
+    std::vector<scene::Json> cases;
     std::map<std::string, fs::path> names;
     std::map<std::size_t, fs::path> indices;
     for (Part& part : parts)
-        for (Json& result : part.report.at("cases")) {
+        for (scene::Json& result : part.report.at("cases")) {
             const auto name = result.at("name").get<std::string>();
             const std::size_t index = indexOf(result);
             if (const auto earlier = names.find(name); earlier != names.end()) {
@@ -91,7 +89,7 @@ bool areAllShards(const std::vector<Part>& parts) {
     std::set<std::size_t> indices;
     std::set<std::size_t> counts;
     for (const Part& part : parts) {
-        const Json shard = part.report.value("shard", Json::object());
+        const scene::Json shard = part.report.value("shard", scene::Json::object());
         if (shard.empty() || part.report.value("interrupted", false)) return false;
         indices.insert(shard.at("index").get<std::size_t>());
         counts.insert(shard.at("count").get<std::size_t>());
@@ -99,9 +97,9 @@ bool areAllShards(const std::vector<Part>& parts) {
     return counts.size() == 1 && indices.size() == *counts.begin();
 }
 
-std::vector<std::size_t> missingIndices(const std::vector<Json>& cases, std::size_t count) {
+std::vector<std::size_t> missingIndices(const std::vector<scene::Json>& cases, std::size_t count) {
     std::set<std::size_t> found;
-    for (const Json& result : cases) found.insert(indexOf(result));
+    for (const scene::Json& result : cases) found.insert(indexOf(result));
     std::vector<std::size_t> missing;
     for (std::size_t i = 0; i < count; ++i)
         if (!found.contains(i)) missing.push_back(i);
@@ -117,7 +115,8 @@ std::string missingText(const std::vector<std::size_t>& missing, std::size_t cou
     return text + (missing.size() > kMostNamed ? " ..." : "") + " of the sweep, counted from 0";
 }
 
-Json merged(std::vector<Part> parts, const MergeRules& rules, std::vector<std::string>& notes) {
+scene::Json
+merged(std::vector<Part> parts, const MergeRules& rules, std::vector<std::string>& notes) {
     Judge judge(rules.force, notes);
     const Part& first = parts.front();
     for (const Part& part : parts)
@@ -127,8 +126,8 @@ Json merged(std::vector<Part> parts, const MergeRules& rules, std::vector<std::s
     bool interrupted = std::ranges::any_of(
         parts, [](const Part& part) { return part.report.value("interrupted", false); });
     const bool all_shards = areAllShards(parts);
-    std::vector<Json> cases = joinedCases(parts, rules.out, judge);
-    Json header = std::move(parts.front().report);
+    std::vector<scene::Json> cases = joinedCases(parts, rules.out, judge);
+    scene::Json header = std::move(parts.front().report);
     if (header.contains("case_count")) {
         const auto count = header["case_count"].get<std::size_t>();
         const auto missing = all_shards ? std::vector<std::size_t>() : missingIndices(cases, count);
@@ -137,26 +136,27 @@ Json merged(std::vector<Part> parts, const MergeRules& rules, std::vector<std::s
     }
     header.erase("shard");
     // Where each part had its own there is none of the whole.
-    const Json seed = header.value("order_seed", Json());
+    const scene::Json seed = header.value("order_seed", scene::Json());
     if (std::ranges::any_of(parts, [&](const Part& part) {
-            return &part != &parts.front() && part.report.value("order_seed", Json()) != seed;
+            return &part != &parts.front() &&
+                   part.report.value("order_seed", scene::Json()) != seed;
         }))
         header.erase("order_seed");
-    return assembledReport(std::move(header), std::move(cases), interrupted);
+    return report::assembledReport(std::move(header), std::move(cases), interrupted);
 }
 
 }  // namespace
 
-Json mergedReport(
+scene::Json mergedReport(
     const std::vector<fs::path>& reports, const MergeRules& rules,
     std::vector<std::string>& notes) {
     std::vector<Part> parts;
-    for (const fs::path& path : reports) parts.push_back({path, readReport(path)});
+    for (const fs::path& path : reports) parts.push_back({path, report::readReport(path)});
     try {
         return merged(std::move(parts), rules, notes);
-    } catch (const Json::exception& error) {
+    } catch (const scene::Json::exception& error) {
         throw engine::Error("merge", std::string("a report is damaged: ") + error.what());
     }
 }
 
-}  // namespace benchmarks
+}  // namespace benchmarks::run

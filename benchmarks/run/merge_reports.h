@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/json_fwd.h"
+#include "benchmarks/scene/json.h"
 
-namespace benchmarks {
+namespace benchmarks::run {
 
 struct MergeRules {
     std::filesystem::path out;  // what pictures' file names are to be relative to
@@ -19,8 +19,8 @@ struct MergeRules {
 // passed over, which cases are missing. Throws engine::Error "<path>: <reason>" as readReport, and
 // for a report of another scene, build or device than the first's, or with a case of an earlier
 // one.
-Json mergedReport(
+scene::Json mergedReport(
     const std::vector<std::filesystem::path>& reports, const MergeRules& rules,
     std::vector<std::string>& notes);
 
-}  // namespace benchmarks
+}  // namespace benchmarks::run

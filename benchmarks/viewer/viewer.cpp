@@ -2,11 +2,9 @@
 
 #include <imgui.h>
 
-#include "benchmarks/interrupt.h"
-#include "benchmarks/viewer/viewer_parts.h"
+#include "engine/process.h"
 
-namespace benchmarks {
-
+namespace benchmarks::viewer {
 namespace {
 
 constexpr double kAwake = 1.0;    // s that the window is drawn on for after something happened
@@ -33,8 +31,8 @@ engine::WindowDescription windowOf(const ViewOptions& options, const Preferences
 }
 
 hair::Settings settingsOf(const ViewOptions& options) {
-    Scene scene = loadScene(options.scene.scene);
-    return singleCase(scene, options.scene).settings;
+    scene::Scene scene = scene::loadScene(options.scene.scene);
+    return scene::singleCase(scene, options.scene).settings;
 }
 
 }  // namespace
@@ -128,7 +126,7 @@ void Viewer::Parts::measure(std::size_t side) {
          .closes =
              [&] {
                  window.poll(0.0);
-                 return window.wantsToClose() || interrupted();
+                 return window.wantsToClose() || engine::interrupted();
              }});
 }
 
@@ -201,4 +199,4 @@ engine::PresentMode Viewer::presentMode() const { return parts_->presenter.mode(
 
 std::vector<std::string> Viewer::takeMessages() { return parts_->device.messages().take(); }
 
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -1,23 +1,172 @@
 #include "hair/groom/build_groom.h"
 
+#include <algorithm>
+#include <cassert>
+#include <limits>
 #include <numeric>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat4x4.hpp>
 
 #include "engine/error.h"
+#include "hair/groom/files.h"
 #include "hair/groom/growth/grow.h"
 #include "hair/groom/guides/bind_strands.h"
 #include "hair/groom/guides/choose_guides.h"
 #include "hair/groom/guides/root_triangles.h"
-#include "hair/groom/importers.h"
-#include "hair/groom/resample.h"
 #include "hair/groom/style/style.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
+
+// ---- Resample -----------------------------------------------------------------------------------
+
+constexpr std::uint32_t kMostVertices = 256;  // of guides whose number is not given
+
+// A place between two neighbouring points.
+struct Place {
+    std::size_t point;  // the one before it
+    double fraction;  // 0 there, 1 at the next
+};
+
+double segmentLength(std::span<const glm::vec3> points, std::size_t segment) {
+    return glm::distance(glm::dvec3(points[segment]), glm::dvec3(points[segment + 1]));
+}
+
+// Places at equal distances along a strand. Without length its segments count as equally long:
+// the points stay where they are, and what else they have still goes from root to tip.
+void spaceEvenly(std::span<const glm::vec3> points, std::size_t first, std::span<Place> places) {
+    const std::size_t segments = points.size() - 1;
+    double total = 0.0;
+    for (std::size_t i = 0; i < segments; ++i) total += segmentLength(points, i);
+    const bool has_length = total > 0.0;
+    if (!has_length) total = static_cast<double>(segments);
+
+    const double step = total / static_cast<double>(places.size() - 1);
+    std::size_t segment = 0;
+    double start = 0.0;  // of the segment, from the root
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        const double wanted = static_cast<double>(k) * step;
+        for (; segment < segments; ++segment) {
+            const double length = has_length ? segmentLength(points, segment) : 1.0;
+            if (wanted < start + length) {
+                places[k] = {first + segment, (wanted - start) / length};
+                break;
+            }
+            start += length;
+        }
+        if (segment == segments) places[k] = {first + segments, 0.0};
+    }
+    places.front() = {first, 0.0};
+    places.back() = {first + segments, 0.0};
+}
+
+template <class Value>
+Value valueAt(const std::vector<Value>& values, const Place& place) {
+    if (place.fraction == 0.0) return values[place.point];
+    const auto mix = [&](float a, float b) {
+        return static_cast<float>(a + place.fraction * (double{b} - double{a}));
+    };
+    const Value& a = values[place.point];
+    const Value& b = values[place.point + 1];
+    if constexpr (std::is_same_v<Value, float>) {
+        return mix(a, b);
+    } else {
+        return {mix(a.x, b.x), mix(a.y, b.y), mix(a.z, b.z)};
+    }
+}
+
+template <class Value>
+void append(std::vector<Value>& to, const std::vector<Value>& from, std::span<const Place> places) {
+    if (from.empty()) return;
+    for (const Place& place : places) to.push_back(valueAt(from, place));
+}
+
+// The places of all strands, in order, a strand at a time.
+template <class Visit>
+void forEachPlace(const StrandSet& strands, std::uint32_t vertices, Visit&& visit) {
+    std::vector<Place> places(vertices);
+    for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
+        if (strands.size(i) == vertices) {
+            for (std::uint32_t k = 0; k < vertices; ++k) places[k] = {strands.first(i) + k, 0.0};
+        } else {
+            spaceEvenly(strands.strand(i), strands.first(i), places);
+        }
+        visit(std::span<const Place>(places));
+    }
+}
+
+}  // namespace
+
+StrandSet resample(StrandSet strands, std::uint32_t vertices) {
+    assert(vertices >= 2);
+    if (strands.ends.empty() || commonSize(strands) == vertices) return strands;
+    const std::size_t count = std::size_t{strands.strandCount()} * vertices;
+    if (count > std::numeric_limits<std::uint32_t>::max())
+        throw engine::Error(
+            std::to_string(strands.strandCount()) + " strands of " + std::to_string(vertices) +
+                " points",
+            "more than 2^32 - 1 points in all");
+
+    std::vector<glm::vec3> points;
+    decltype(strands.widths.values) widths;
+    decltype(strands.transparencies.values) transparencies;
+    decltype(strands.colors.values) colors;
+    points.reserve(count);
+    widths.reserve(strands.widths.values.empty() ? 0 : count);
+    transparencies.reserve(strands.transparencies.values.empty() ? 0 : count);
+    colors.reserve(strands.colors.values.empty() ? 0 : count);
+    forEachPlace(strands, vertices, [&](std::span<const Place> places) {
+        append(points, strands.points, places);
+        append(widths, strands.widths.values, places);
+        append(transparencies, strands.transparencies.values, places);
+        append(colors, strands.colors.values, places);
+    });
+    for (std::uint32_t i = 0; i < strands.strandCount(); ++i) strands.ends[i] = (i + 1) * vertices;
+    strands.points = std::move(points);
+    strands.widths.values = std::move(widths);
+    strands.transparencies.values = std::move(transparencies);
+    strands.colors.values = std::move(colors);
+    return strands;
+}
+
+Groom toGroom(StrandSet strands, std::uint32_t vertices) {
+    if (strands.ends.empty()) throw engine::Error("there are no strands");
+    if (vertices == 0) vertices = std::clamp(greatestSize(strands), 2u, kMostVertices);
+    strands.transparencies = {};
+    strands.colors = {};
+    strands = resample(std::move(strands), vertices);
+
+    Groom groom{
+        .strand_count = strands.strandCount(),
+        .vertices_per_strand = vertices,
+        .points = std::move(strands.points),
+        .widths = std::move(strands.widths.values),
+        .root_triangles = std::move(strands.root_triangles)};
+    if (groom.widths.empty() && strands.widths.everywhere)
+        groom.widths.assign(groom.points.size(), *strands.widths.everywhere);
+    return groom;
+}
+
+StrandSet toStrandSet(const Groom& groom) {
+    StrandSet strands{
+        .points = groom.points,
+        .widths = {.values = groom.widths},
+        .root_triangles = groom.root_triangles,
+        .metres_per_unit = 1.0};
+    strands.ends.reserve(groom.strand_count);
+    for (std::uint32_t i = 1; i <= groom.strand_count; ++i)
+        strands.ends.push_back(i * groom.vertices_per_strand);
+    return strands;
+}
+
+namespace {
+
+// ---- Build groom --------------------------------------------------------------------------------
 
 constexpr std::uint32_t kThesisGuides = 86;
 
@@ -90,4 +239,4 @@ Groom buildGroom(
     }
 }
 
-}  // namespace hair
+}  // namespace hair::groom

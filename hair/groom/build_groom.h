@@ -7,7 +7,7 @@
 #include "hair/groom/mesh/mesh.h"
 #include "hair/settings.h"
 
-namespace hair {
+namespace hair::groom {
 
 // The guides that a scene asks for, styled: from the strands of settings.file or, if that is empty,
 // grown. File names are relative to `directory`, the scene's folder. `mesh` is what the hair grows
@@ -17,4 +17,18 @@ Groom buildGroom(
     const GroomSettings& settings, const Mesh* mesh, const std::filesystem::path& directory,
     std::uint32_t seed);
 
-}  // namespace hair
+// Every strand with `vertices` >= 2 points, evenly spaced by arc length along its polyline, both
+// ends kept to the bit; what its points have is interpolated with them. A strand that has so many
+// already keeps them as they are. A strand of one point, or without length, stays at its place.
+// Throws engine::Error if that makes 2^32 points or more.
+StrandSet resample(StrandSet strands, std::uint32_t vertices);
+
+// Guides of the strands, with their widths and root triangles, resampled to `vertices` points; 0:
+// as many as their longest list has, 2 to 256. Takes lengths as metres.
+// Throws engine::Error where there is no strand.
+Groom toGroom(StrandSet strands, std::uint32_t vertices);
+
+// The other way, without the normals and bindings. `metres_per_unit` is 1.
+StrandSet toStrandSet(const Groom& groom);
+
+}  // namespace hair::groom

@@ -1,13 +1,17 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-namespace hair {
+namespace hair::groom {
 
 // A strand between guides: at rest, vertex k is the weighted mean of vertex k of the three guides
 // plus `offset`.
@@ -37,4 +41,47 @@ struct Groom {
     }
 };
 
-}  // namespace hair
+// What strands may have: nothing, one value everywhere, or a value for each point.
+template <class Value>
+struct PointAttribute {
+    std::optional<Value> everywhere;  // counts where `values` is empty
+    std::vector<Value> values;  // [point], or empty
+
+    bool known() const { return everywhere.has_value() || !values.empty(); }
+    // Only of what is known.
+    const Value& at(std::size_t point) const {
+        return values.empty() ? *everywhere : values[point];
+    }
+};
+
+// Strands as files hold them: each with a number of points of its own, and with whatever else the
+// format stores. Importers make it, exporters write it; a Groom is made from it.
+// Holds in every set: `ends` ascends strictly (a strand has a point at least) and its last is the
+// number of points; all numbers are finite; vectors that are not empty have the size said here.
+struct StrandSet {
+    std::vector<std::uint32_t> ends;  // [strand], index after its last point
+    std::vector<glm::vec3> points;  // [point], strand after strand, root first, file's unit
+    PointAttribute<float> widths;  // diameters, file's unit
+    PointAttribute<float> transparencies;  // 0 opaque to 1
+    PointAttribute<glm::vec3> colors;  // RGB, 0 to 1, as in the file
+    std::vector<glm::vec2> root_uvs;  // [strand], texture coordinates of the mesh at the root
+    std::vector<std::array<std::uint32_t, 3>> root_triangles;  // strand indices
+    std::optional<double> metres_per_unit;  // where the format or the file states it
+    std::string comment;  // what the file says of itself
+    std::vector<std::string> warnings;  // what the file has and this can't hold
+
+    std::uint32_t strandCount() const { return static_cast<std::uint32_t>(ends.size()); }
+    std::uint32_t first(std::uint32_t strand) const { return strand == 0 ? 0 : ends[strand - 1]; }
+    std::uint32_t size(std::uint32_t strand) const { return ends[strand] - first(strand); }
+    std::span<const glm::vec3> strand(std::uint32_t strand) const {
+        return std::span(points).subspan(first(strand), size(strand));
+    }
+};
+
+// The number of points that every strand has; absent where they differ or there are no strands.
+std::optional<std::uint32_t> commonSize(const StrandSet& strands);
+
+// The greatest number of points of a strand; 0 without strands.
+std::uint32_t greatestSize(const StrandSet& strands);
+
+}  // namespace hair::groom

@@ -1,19 +1,285 @@
 #include "hair/groom/inspect.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <sstream>
 #include <utility>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
-#include "hair/groom/inspect/count_duplicates.h"
-#include "hair/groom/inspect/guess_unit.h"
-#include "hair/groom/inspect/inspect_on_mesh.h"
-#include "hair/groom/inspect/spread_of.h"
+#include "engine/error.h"
+#include "hair/groom/mesh/surface.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
+
+// ---- Count duplicates ---------------------------------------------------------------------------
+
+// Rounds of multiply and shift with the constants of MurmurHash3's finalizer (Appleby 2011).
+std::uint64_t hashOf(std::span<const glm::vec3> points) {
+    std::uint64_t hash = points.size();
+    const auto add = [&](float value) {
+        hash ^= std::bit_cast<std::uint32_t>(value + 0.0f);  // -0 equals 0
+        hash *= 0xff51afd7ed558ccd;
+        hash ^= hash >> 33;
+    };
+    for (const glm::vec3& point : points) {
+        add(point.x);
+        add(point.y);
+        add(point.z);
+    }
+    return hash;
+}
+
+struct Entry {
+    std::uint64_t hash;
+    std::uint32_t row;
+    auto operator<=>(const Entry&) const = default;
+};
+
+// How many of `count` rows of points are equal to one before them. Takes 16 bytes for each.
+std::uint32_t countDuplicates(
+    std::uint32_t count, const std::function<std::span<const glm::vec3>(std::uint32_t)>& row) {
+    std::vector<Entry> entries;
+    entries.reserve(count);
+    for (std::uint32_t i = 0; i < count; ++i) entries.push_back({hashOf(row(i)), i});
+    std::ranges::sort(entries);
+
+    std::uint32_t duplicates = 0;
+    std::vector<std::uint32_t> unlike;  // rows with one hash: all but always one
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        if (i == 0 || entries[i].hash != entries[i - 1].hash) unlike.clear();
+        const auto points = row(entries[i].row);
+        const auto equals = [&](std::uint32_t other) {
+            return std::ranges::equal(points, row(other));
+        };
+        if (std::ranges::any_of(unlike, equals)) {
+            ++duplicates;
+        } else {
+            unlike.push_back(entries[i].row);
+        }
+    }
+    return duplicates;
+}
+
+// ---- Guess unit ---------------------------------------------------------------------------------
+
+struct Known {
+    const char* name;
+    double metres;
+};
+
+constexpr std::array kKnown{
+    Known{"m", 1.0}, Known{"cm", 0.01}, Known{"mm", 0.001}, Known{"inch", 0.0254}};
+
+// Heads are 0.15 m wide and 0.2 m long, more or less, and hair is 0.01 m to 1 m long. The scatter
+// is a factor: with 1.5, the extent of a part of a scalp or of a bearded head is still likely, and
+// an inch is well apart from a centimetre.
+constexpr double kRootExtent = 0.2;
+constexpr double kRootScatter = 1.5;
+constexpr double kLength = 0.1;
+constexpr double kLengthScatter = 10.0;
+
+// Square of the number of scatters that a size is off.
+double misfit(double size, double expected, double scatter) {
+    const double off = size > 0.0 ? std::log(size / expected) / std::log(scatter) : 0.0;
+    return off * off;
+}
+
+}  // namespace
+
+Unit statedUnit(double metres) {
+    for (const Known& known : kKnown)
+        if (std::abs(metres / known.metres - 1.0) < 1e-6)
+            return {known.name, metres, "The file states it."};
+    std::ostringstream name;
+    name << metres << " m";
+    return {name.str(), metres, "The file states it."};
+}
+
+Unit guessUnit(double root_extent, double median_length) {
+    const Known* best = &kKnown.front();
+    double least = std::numeric_limits<double>::infinity();
+    for (const Known& known : kKnown) {
+        const double found = misfit(root_extent * known.metres, kRootExtent, kRootScatter) +
+                             misfit(median_length * known.metres, kLength, kLengthScatter);
+        if (found >= least) continue;
+        least = found;
+        best = &known;
+    }
+    std::ostringstream reason;
+    reason.precision(3);
+    reason << "The file doesn't state it";
+    if (root_extent <= 0.0 && median_length <= 0.0) {
+        reason << ", and nothing in it has a length to guess from.";
+    } else {
+        reason << "; in " << best->name << " ";
+        if (root_extent > 0.0)
+            reason << "the roots span " << root_extent * best->metres << " m (a head: about "
+                   << kRootExtent << " m)";
+        if (root_extent > 0.0 && median_length > 0.0) reason << " and ";
+        if (median_length > 0.0)
+            reason << "the median strand is " << median_length * best->metres
+                   << " m long (hair: 0.01 m to 1 m)";
+        reason << ", which fits best of m, cm, mm and inch.";
+    }
+    return {best->name, best->metres, reason.str()};
+}
+
+// ---- Spread of ----------------------------------------------------------------------------------
+
+Spread spreadOf(std::vector<float>& numbers) {
+    if (numbers.empty()) return {};
+    const auto quantile = [&](double share) {
+        const double rank = share * static_cast<double>(numbers.size() - 1);
+        const auto below = numbers.begin() + static_cast<std::ptrdiff_t>(rank);
+        std::ranges::nth_element(numbers, below);
+        const double fraction = rank - std::floor(rank);
+        if (fraction == 0.0) return double{*below};
+        return std::lerp(
+            double{*below}, double{*std::min_element(below + 1, numbers.end())}, fraction);
+    };
+    return {
+        .minimum = quantile(0.0),
+        .quartile1 = quantile(0.25),
+        .median = quantile(0.5),
+        .quartile3 = quantile(0.75),
+        .maximum = quantile(1.0),
+        .mean = std::accumulate(numbers.begin(), numbers.end(), 0.0) /
+                static_cast<double>(numbers.size())};
+}
+
+namespace {
+
+// ---- Inspect on mesh ----------------------------------------------------------------------------
+
+// What counts as on the surface, m. Triangles stray from the round head that they stand for: by
+// e^2 / 8 r with edges of e = 2 cm on a head of r = 10 cm, a coarse one, by 0.5 mm. Hair is as wide
+// as 0.1 mm, and off by more than a millimetre shows.
+constexpr double kTolerance = 1e-3;
+
+// Which direction is outward at a point of a closed mesh.
+const glm::dvec3& pseudonormal(const ClosedMesh& mesh, const MeshPoint& at) {
+    const Pseudonormals& normals = mesh.normals[at.triangle];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto corner = static_cast<int>(k);
+        if (at.weights[corner] == 1.0) return normals.corners[k];
+        if (at.weights[corner] == 0.0 && at.weights[(corner + 1) % 3] > 0.0 &&
+            at.weights[(corner + 2) % 3] > 0.0)
+            return normals.edges[(k + 1) % 3];
+    }
+    return normals.face;
+}
+
+// How deep points are inside a closed mesh. Most of a groom is well outside: cells of a grid that
+// have no part of the mesh in them, once found to be outside, answer for all points in them.
+class Depths {
+public:
+    explicit Depths(const ClosedMesh& mesh)
+        : mesh_(mesh), surface_(mesh.positions, mesh.triangles),
+          outside_(std::size_t{kCells} * kCells * kCells, Answer::unknown) {
+        low_ = glm::dvec3(std::numeric_limits<double>::max());
+        high_ = -low_;
+        for (const glm::vec3& position : mesh.positions) {
+            low_ = glm::min(low_, glm::dvec3(position));
+            high_ = glm::max(high_, glm::dvec3(position));
+        }
+        cell_ = (high_ - low_) / double{kCells};
+    }
+
+    // 0 outside.
+    double operator()(const glm::dvec3& point) {
+        if (glm::any(glm::lessThan(point, low_)) || glm::any(glm::greaterThan(point, high_)))
+            return 0.0;
+        const glm::ivec3 cell =
+            glm::min(glm::ivec3((point - low_) / cell_), glm::ivec3(kCells - 1));
+        if (isOutside(cell)) return 0.0;
+        return std::max(-signedDistance(point), 0.0);
+    }
+
+private:
+    enum class Answer : std::uint8_t { unknown, outside, neither };
+    static constexpr int kCells = 64;  // along each side of the mesh's box
+
+    double signedDistance(const glm::dvec3& point) const {
+        const MeshPoint at = surface_(point);
+        const bool is_inside = glm::dot(point - at.position, pseudonormal(mesh_, at)) < 0.0;
+        return is_inside ? -at.distance : at.distance;
+    }
+
+    bool isOutside(const glm::ivec3& cell) {
+        Answer& answer =
+            outside_[static_cast<std::size_t>((cell.z * kCells + cell.y) * kCells + cell.x)];
+        if (answer == Answer::unknown) {
+            const glm::dvec3 centre = low_ + (glm::dvec3(cell) + 0.5) * cell_;
+            // A hair's breadth more than half the diagonal, for points on the cell's corners.
+            const double reach = 0.5001 * glm::length(cell_);
+            answer = signedDistance(centre) > reach ? Answer::outside : Answer::neither;
+        }
+        return answer == Answer::outside;
+    }
+
+    const ClosedMesh& mesh_;
+    NearestSurface surface_;
+    glm::dvec3 low_;
+    glm::dvec3 high_;
+    glm::dvec3 cell_;
+    std::vector<Answer> outside_;  // [z][y][x]
+};
+
+void inspectInside(
+    const StrandSet& strands, const ClosedMesh& mesh, double scale, MeshFindings& findings) {
+    Depths depthOf(mesh);
+    std::uint32_t strands_inside = 0;
+    std::size_t points_inside = 0;
+    double deepest = 0.0;
+    for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
+        std::size_t inside = 0;
+        for (const glm::vec3& point : strands.strand(i)) {
+            const double depth = depthOf(glm::dvec3(point) * scale);
+            deepest = std::max(deepest, depth);
+            if (depth > kTolerance) ++inside;
+        }
+        points_inside += inside;
+        if (inside > 0) ++strands_inside;
+    }
+    findings.strands_inside = strands_inside;
+    findings.points_inside = points_inside;
+    findings.deepest = deepest;
+}
+
+// The mesh, in metres, has a triangle at least.
+MeshFindings inspectOnMesh(const StrandSet& strands, const Mesh& mesh, double metres_per_unit) {
+    MeshFindings findings{.tolerance = kTolerance};
+    const NearestSurface surface(mesh.positions, mesh.triangles);
+    std::vector<float> distances;
+    distances.reserve(strands.strandCount());
+    for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
+        const glm::dvec3 root = glm::dvec3(strands.strand(i)[0]) * metres_per_unit;
+        const double distance = surface(root).distance;
+        if (distance > kTolerance) ++findings.roots_off_surface;
+        distances.push_back(static_cast<float>(distance));
+    }
+    findings.root_distances = spreadOf(distances);
+    try {
+        inspectInside(strands, closeMesh(mesh), metres_per_unit, findings);
+    } catch (const engine::Error& error) {
+        findings.not_closed = error.what();
+    }
+    return findings;
+}
+
+// ---- Inspect ------------------------------------------------------------------------------------
 
 void inspectSizes(const StrandSet& strands, StrandFindings& findings) {
     std::vector<float> sizes;
@@ -101,4 +367,4 @@ inspect(const StrandSet& strands, const Mesh* mesh, std::optional<double> metres
     return findings;
 }
 
-}  // namespace hair
+}  // namespace hair::groom

@@ -8,10 +8,10 @@
 
 #include <glm/vec3.hpp>
 
+#include "hair/groom/groom.h"
 #include "hair/groom/mesh/mesh.h"
-#include "hair/groom/strand_set.h"
 
-namespace hair {
+namespace hair::groom {
 
 // Least, quartiles and greatest of many numbers.
 struct Spread {
@@ -64,4 +64,21 @@ struct StrandFindings {
 StrandFindings
 inspect(const StrandSet& strands, const Mesh* mesh, std::optional<double> metres_per_unit);
 
-}  // namespace hair
+struct Unit {
+    std::string name;  // "m", "cm", "mm" or "inch"; a stated one may be another: "0.5 m"
+    double metres;     // its length
+    std::string reason;  // a sentence
+};
+
+Unit statedUnit(double metres);
+
+// Of human hair: the unit in which the extent of the roots is nearest to that of a scalp and the
+// median strand is long as hair is. Either may be 0: then it says nothing.
+Unit guessUnit(double root_extent, double median_length);
+
+// Quartiles lie between two of the numbers where their rank isn't whole (Hyndman and Fan 1996,
+// Sample quantiles in statistical packages, definition 7). All 0 without numbers. Leaves them in
+// another order: a copy of them all would be too much.
+Spread spreadOf(std::vector<float>& numbers);
+
+}  // namespace hair::groom

@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <limits>
+#include <span>
 
+#include "engine/buffer_image.h"
 #include "engine/error.h"
 #include "engine/target.h"
 #include "hair/gpu_structs.h"
 #include "hair/rendering/strand_offsets.h"
 #include "hair/shader_codes.h"
 
-namespace hair {
-
+namespace hair::rendering {
 namespace {
+
+// ---- Backends -----------------------------------------------------------------------------------
 
 struct BackendRow {
     Backend backend;
@@ -75,4 +79,176 @@ engine::GraphicsDescription strandPipeline(const BackendContext& context) {
         .sampled_images = output.sampled_images};
 }
 
-}  // namespace hair
+namespace {
+
+// ---- Backend empty ------------------------------------------------------------------------------
+
+class EmptyBackend : public StrandBackend {
+public:
+    void
+    draw(engine::Commands&, std::uint64_t, std::span<const engine::SampledImage>) const override {}
+
+    std::optional<ExpectedCounts> expected() const override { return std::nullopt; }
+};
+
+}  // namespace
+
+std::unique_ptr<StrandBackend> makeEmptyBackend() { return std::make_unique<EmptyBackend>(); }
+
+namespace {
+
+// ---- Backend pulling geometry -------------------------------------------------------------------
+
+class PullingGeometryBackend : public StrandBackend {
+public:
+    explicit PullingGeometryBackend(const BackendContext& context)
+        : vertices_(vertexCount(context.plan)), pipeline_(context.device, describe(context)) {}
+
+    void draw(
+        engine::Commands& commands, std::uint64_t picture,
+        std::span<const engine::SampledImage> images) const override {
+        commands.bind(pipeline_, gpu::StrandPush{.picture = picture});
+        commands.images(pipeline_, images);
+        commands.draw({.vertices = vertices_});
+    }
+
+    std::optional<ExpectedCounts> expected() const override { return std::nullopt; }
+
+private:
+    static std::uint32_t vertexCount(const StrandPlan& plan) {
+        const std::uint64_t count =
+            std::uint64_t{2} * plan.patches() * plan.strands_per_patch * plan.forced_tessellation;
+        if (count > std::numeric_limits<std::uint32_t>::max()) {
+            throw engine::Unsupported(
+                "pulling_geometry", std::to_string(count) + " vertices do not fit one draw");
+        }
+        return static_cast<std::uint32_t>(count);
+    }
+
+    static engine::GraphicsDescription describe(const BackendContext& context) {
+        engine::GraphicsDescription description = strandPipeline(context);
+        description.shaders = {
+            "strands/pulling.vert", context.output.geometry, context.output.fragment};
+        description.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
+        return description;
+    }
+
+    std::uint32_t vertices_;
+    engine::GraphicsPipeline pipeline_;
+};
+
+}  // namespace
+
+std::unique_ptr<StrandBackend> makePullingGeometryBackend(const BackendContext& context) {
+    return std::make_unique<PullingGeometryBackend>(context);
+}
+
+namespace {
+
+// ---- Backend tessellation -----------------------------------------------------------------------
+
+// The shaders of the stages up to the last one.
+std::vector<std::string> stageShaders(const BackendContext& context) {
+    const StrandStages& stages = context.stages;
+    const auto path = [&](StrandStage stage, const std::string& file) {
+        return (stages.watched == stage ? "strands/watched/" : "strands/") + file;
+    };
+    std::vector<std::string> shaders{path(StrandStage::vertex, "tessellation.vert")};
+    if (stages.last >= StrandStage::evaluation) {
+        shaders.emplace_back("strands/tessellation.tesc");
+        shaders.push_back(path(StrandStage::evaluation, "tessellation.tese"));
+    }
+    if (stages.last >= StrandStage::geometry) {
+        shaders.push_back(
+            stages.watched == StrandStage::geometry ? "strands/watched/strand.geom"
+                                                    : context.output.geometry);
+    }
+    if (stages.last >= StrandStage::fragment) shaders.push_back(context.output.fragment);
+    return shaders;
+}
+
+class TessellationBackend : public StrandBackend {
+public:
+    explicit TessellationBackend(const BackendContext& context)
+        : plan_(context.plan), watch_(context.stages.watched ? context.stages.watch : 0),
+          draws_(planDraws(
+              context.plan, context.strands.submission, context.device.maxTessellatedVertices())),
+          pipeline_(context.device, describe(context)) {
+        assert(watch_ != 0 || !context.stages.watched);
+    }
+
+    void draw(
+        engine::Commands& commands, std::uint64_t picture,
+        std::span<const engine::SampledImage> images) const override {
+        if (watch_ != 0)
+            commands.bind(pipeline_, gpu::WatchedPush{.picture = picture, .watch = watch_});
+        else
+            commands.bind(pipeline_, gpu::StrandPush{.picture = picture});
+        commands.images(pipeline_, images);
+        for (const engine::Draw& draw : draws_) commands.draw(draw);
+    }
+
+    std::optional<ExpectedCounts> expected() const override { return expectedCounts(plan_); }
+
+private:
+    static engine::GraphicsDescription describe(const BackendContext& context) {
+        engine::GraphicsDescription description = strandPipeline(context);
+        description.shaders = stageShaders(context);
+        if (context.stages.last == StrandStage::vertex) {
+            description.topology = VK_PRIMITIVE_TOPOLOGY_POINT_LIST;
+        } else {
+            description.topology = VK_PRIMITIVE_TOPOLOGY_PATCH_LIST;
+            description.patch_control_points = 1;
+        }
+        return description;
+    }
+
+    StrandPlan plan_;
+    std::uint64_t watch_;
+    std::vector<engine::Draw> draws_;
+    engine::GraphicsPipeline pipeline_;
+};
+
+}  // namespace
+
+std::unique_ptr<StrandBackend> makeTessellationBackend(const BackendContext& context) {
+    return std::make_unique<TessellationBackend>(context);
+}
+
+namespace {
+
+// ---- Stage watch --------------------------------------------------------------------------------
+
+engine::Buffer watchBuffer(const engine::Device& device) {
+    VkPhysicalDeviceFeatures features{};
+    vkGetPhysicalDeviceFeatures(device.info().handle, &features);
+    if (!features.vertexPipelineStoresAndAtomics)
+        throw engine::Unsupported(
+            "ablation", "the device's vertex, tessellation and geometry stages can't store");
+    return {
+        device,
+        {.size = sizeof(gpu::StageWatch), .usage = engine::Usage::storage, .name = "stage watch"}};
+}
+
+}  // namespace
+
+StageWatch::StageWatch(const engine::Device& device)
+    : device_(device), buffer_(watchBuffer(device)) {
+    seeNone();
+}
+
+void StageWatch::seeAll() { see(0, 0); }
+
+void StageWatch::seeNone() { see(0xffffffff, 0x9e3779b9); }  // any number that is nothing special
+
+StageWatch::Seen StageWatch::seen() const {
+    const gpu::StageWatch watch = engine::downloadAs<gpu::StageWatch>(device_, buffer_).front();
+    return {.invocations = watch.count, .sum = watch.sum};
+}
+
+void StageWatch::see(std::uint32_t mask, std::uint32_t wanted) {
+    const gpu::StageWatch watch{.mask = mask, .wanted = wanted, .sum = 0, .count = 0};
+    engine::upload(device_, std::as_bytes(std::span(&watch, 1)), buffer_);
+}
+
+}  // namespace hair::rendering

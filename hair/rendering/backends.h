@@ -1,10 +1,83 @@
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/buffer_image.h"
+#include "engine/commands.h"
+#include "engine/device.h"
 #include "engine/pipeline.h"
-#include "hair/rendering/strand_backend.h"
+#include "engine/target.h"
+#include "hair/rendering/strand_plan.h"
+#include "hair/settings.h"
+
+namespace hair::rendering {
+
+// The stages of the tessellation back end that can be left away, in the order in which strands go
+// through them. The control stage goes with the evaluation.
+enum class StrandStage { vertex, evaluation, geometry, raster, fragment };
+
+// Which of them a picture's strands go through. All, but where it is measured what a stage costs:
+// then there is less to see of the strands, or nothing.
+struct StrandStages {
+    // Absent: no strand is drawn. Before raster, primitives are discarded; raster alone has no
+    // fragment shader and writes depth.
+    std::optional<StrandStage> last = StrandStage::fragment;
+    // Vertex, evaluation or geometry: all that it makes goes into something that can be seen, or
+    // drivers would leave the work away that nothing comes of.
+    std::optional<StrandStage> watched{};
+    std::uint64_t watch = 0;  // StageWatch::address(), where a stage is watched
+
+    bool operator==(const StrandStages&) const = default;
+};
+
+// Whether primitives end before they are rasterised.
+inline bool discards(const StrandStages& stages) { return stages.last < StrandStage::raster; }
+
+// Draws all strands of a picture into the target that is being rendered to. Every back end draws
+// the same strands; they differ in the pipeline stages that make them.
+class StrandBackend {
+public:
+    virtual ~StrandBackend() = default;
+
+    // `picture` is the device address of the picture's gpu::PictureParameters; `images` are as many
+    // as StrandOutput says.
+    virtual void draw(
+        engine::Commands& commands, std::uint64_t picture,
+        std::span<const engine::SampledImage> images) const = 0;
+
+    // What the pipeline statistics of draw() must be; absent where the back end has no such stages.
+    virtual std::optional<ExpectedCounts> expected() const = 0;
+};
+
+// What becomes of strands' quads: the last stages of the pipeline and what they write to.
+struct StrandOutput {
+    std::string geometry = "strands/strand.geom";
+    std::string fragment;
+    std::vector<engine::ColorTarget> colors;
+    VkFormat depth_format = engine::Target::kDepthFormat;
+    bool depth_write = true;
+    std::uint32_t samples = 1;
+    engine::Constants shading;  // shadingConstants
+    std::uint32_t sampled_images = 0;
+};
+
+struct BackendContext {
+    const engine::Device& device;
+    const StrandPlan& plan;
+    const StrandSettings& strands;
+    StrandOutput output;
+    StrandStages stages{};
+};
+
+// Throws engine::Unsupported for stages that the back end doesn't have.
+std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext& context);
 
 // The makers that the table in backends.cpp lists.
-namespace hair {
 
 // Vertex -> control -> isolines -> evaluation -> geometry (camera-facing quads) -> fragment:
 // thesis 2.2, 2.3.5.
@@ -23,4 +96,33 @@ engine::Constants strandConstants(const StrandSettings& strands, const StrandPla
 // The pipeline state that all line back ends share; without shaders.
 engine::GraphicsDescription strandPipeline(const BackendContext& context);
 
-}  // namespace hair
+// Where watched stages leave a trace: a condition on what an invocation made decides whether it is
+// added up. Drivers can't know it, so that they must do the work of all.
+class StageWatch {
+public:
+    // Sees next to none. Throws engine::Unsupported where stages before the rasteriser can't store.
+    explicit StageWatch(const engine::Device& device);
+
+    std::uint64_t address() const { return buffer_.address(); }
+
+    // From the next frame on; the device must be done with the last one. Every invocation: adding
+    // them up costs much. Or next to none, one of 2^32 for outputs without order: that is a
+    // comparison.
+    void seeAll();
+    void seeNone();
+
+    struct Seen {
+        std::uint32_t invocations = 0;
+        std::uint32_t sum = 0;  // of the bits of what they made, modulo 2^32
+    };
+    // Since the last call of these two. Waits for the device.
+    Seen seen() const;
+
+private:
+    void see(std::uint32_t mask, std::uint32_t wanted);
+
+    const engine::Device& device_;
+    engine::Buffer buffer_;
+};
+
+}  // namespace hair::rendering

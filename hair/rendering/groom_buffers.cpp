@@ -6,17 +6,16 @@
 #include <span>
 #include <vector>
 
+#include "engine/buffer_image.h"
 #include "engine/error.h"
-#include "engine/transfer.h"
 #include "hair/gpu_structs.h"
-#include "hair/groom/style/strand_frames.h"
+#include "hair/groom/style/displace.h"
 #include "hair/random.h"
-#include "hair/rendering/lod_bound.h"
-#include "hair/rendering/root_pattern.h"
-#include "hair/rendering/strand_bounds.h"
+#include "hair/rendering/shadow_pass.h"
 #include "hair/rendering/strand_offsets.h"
+#include "hair/rendering/strand_plan.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 static_assert(sizeof(gpu::BoundStrand) == 36 && offsetof(gpu::BoundStrand, offset) == 24);
@@ -24,7 +23,7 @@ static_assert(sizeof(gpu::RootFrame) == 24);
 
 // Levels of detail keep the first ones: so they have to come in random order.
 std::vector<gpu::BoundStrand>
-inRandomOrder(const std::vector<StrandBinding>& bindings, std::uint32_t seed) {
+inRandomOrder(const std::vector<groom::StrandBinding>& bindings, std::uint32_t seed) {
     std::vector<std::uint32_t> order(bindings.size());
     std::iota(order.begin(), order.end(), 0u);
     std::ranges::stable_sort(
@@ -38,12 +37,12 @@ inRandomOrder(const std::vector<StrandBinding>& bindings, std::uint32_t seed) {
     return strands;
 }
 
-std::vector<gpu::RootFrame> rootFrames(const Groom& groom) {
+std::vector<gpu::RootFrame> rootFrames(const groom::Groom& groom) {
     std::vector<gpu::RootFrame> frames;
     frames.reserve(groom.strand_count);
     for (std::uint32_t i = 0; i < groom.strand_count; ++i) {
-        const glm::dvec3 direction = rootDirection(groom.strand(i));
-        frames.push_back({glm::vec3(direction), glm::vec3(across(direction))});
+        const glm::dvec3 direction = groom::rootDirection(groom.strand(i));
+        frames.push_back({glm::vec3(direction), glm::vec3(groom::across(direction))});
     }
     return frames;
 }
@@ -51,8 +50,8 @@ std::vector<gpu::RootFrame> rootFrames(const Groom& groom) {
 }  // namespace
 
 GroomBuffers::GroomBuffers(
-    const engine::Device& device, const Groom& groom, const Settings& settings,
-    const StrandSet* model)
+    const engine::Device& device, const groom::Groom& groom, const Settings& settings,
+    const groom::StrandSet* model)
     : view_{
           .guide_count = groom.strand_count,
           .vertices_per_guide = groom.vertices_per_strand,
@@ -92,11 +91,11 @@ GroomBuffers::GroomBuffers(
     }
 }
 
-void checkStrands(const StrandSettings& settings, const Groom& groom) {
+void checkStrands(const StrandSettings& settings, const groom::Groom& groom) {
     if (settings.width == WidthSource::groom && groom.widths.empty())
         throw engine::Error("/strands/width", "is groom, but the groom has no widths");
     if (settings.source == StrandSource::groom && groom.bindings.empty())
         throw engine::Error("/strands/source", "is groom, but the groom has no bindings");
 }
 
-}  // namespace hair
+}  // namespace hair::rendering

@@ -2,11 +2,25 @@
 
 #include <cstddef>
 
+#include <glm/ext/matrix_clip_space.hpp>
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
-#include "hair/rendering/working_color.h"
+#include "hair/rendering/render_assets.h"
 
-namespace hair {
+namespace hair::rendering {
+
+// ---- Camera -------------------------------------------------------------------------------------
+
+glm::mat4 viewProjection(const CameraSettings& camera, float aspect) {
+    glm::mat4 projection = glm::perspectiveRH_ZO(
+        glm::radians(camera.field_of_view), aspect, camera.near_plane, camera.far_plane);
+    projection[1][1] = -projection[1][1];
+    return projection * glm::lookAtRH(camera.position, camera.target, camera.up);
+}
+
+// ---- Lights -------------------------------------------------------------------------------------
 
 static_assert(offsetof(gpu::Light, color) == 32 && sizeof(gpu::Light) == 48);
 
@@ -51,4 +65,4 @@ std::uint32_t lightKinds(const Settings& settings) {
     return kinds;
 }
 
-}  // namespace hair
+}  // namespace hair::rendering

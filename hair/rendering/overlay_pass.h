@@ -1,14 +1,29 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
-#include "engine/buffer.h"
+#include "engine/buffer_image.h"
 #include "engine/pipeline.h"
+#include "hair/gpu_structs.h"
+#include "hair/groom/mesh/mesh.h"
+#include "hair/rendering/groom_buffers.h"
 #include "hair/rendering/render_assets.h"
-#include "hair/rendering/strand_view.h"
 #include "hair/settings.h"
 
-namespace hair {
+namespace hair::rendering {
+
+// The wire frame of a capsule: a ring at each end of its axis, four lines between them and two
+// great half-circles over each end; of a sphere, where a == b, three great circles.
+std::vector<gpu::BodyLine> capsuleLines(const Collider& capsule);
+
+// The edges of a mesh, each once.
+std::vector<gpu::BodyLine> meshLines(const groom::Mesh& mesh, Follows follows);
+
+// Wire frames of all that hair collides with; `meshes` are those of settings.distance_fields.
+std::vector<gpu::BodyLine>
+bodyLines(const SimulationSettings& settings, std::span<const groom::Mesh> meshes);
 
 // Ribbons over the finished hair: the simulated guides, the root triangles (thesis figures 4.2 and
 // 4.6) and the bodies that hair collides with, seen through hair and head.
@@ -33,4 +48,4 @@ private:
     std::optional<BodyWires> bodies_;
 };
 
-}  // namespace hair
+}  // namespace hair::rendering

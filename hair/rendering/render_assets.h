@@ -3,18 +3,61 @@
 #include <optional>
 #include <vector>
 
-#include "engine/image_file.h"
-#include "hair/groom/mesh/mesh.h"
+#include <glm/vec3.hpp>
 
-namespace hair {
+#include "engine/pictures.h"
+#include "engine/target.h"
+#include "hair/groom/mesh/mesh.h"
+#include "hair/settings.h"
+#include "hair/shading_settings.h"
+
+// The colour of much hair and the absorption in a fibre, which make each other: Chiang et al. 2016,
+// A practical and controllable hair and fur model for production path tracing, equation (9).
+namespace hair::rendering {
+
+// sigma_a, over a radius of a fibre, of red, green and blue: from the pigments, or that for which
+// much hair has /shading/color. Linear colours below 1e-4 count as 1e-4.
+glm::dvec3 absorption(const ShadingSettings& shading);
+
+// The linear RGB that much hair has.
+glm::dvec3 linearColor(const ShadingSettings& shading);
 
 // What a picture shows beside the hair, as files gave it.
 struct RenderAssets {
-    const Mesh* head = nullptr;  // that the hair grows on; null: none
-    std::vector<Mesh> meshes;  // of /render/meshes, in their order
-    std::vector<Mesh> field_meshes;  // of /simulation/distance_fields, where bodies are drawn
+    const groom::Mesh* head = nullptr;  // that the hair grows on; null: none
+    std::vector<groom::Mesh> meshes;  // of /render/meshes, in their order
+    std::vector<groom::Mesh>
+        field_meshes;  // of /simulation/distance_fields, where bodies are drawn
     std::optional<engine::Pixels> strand_texture;  // of /strands/texture
     std::optional<engine::FloatPixels> environment;  // of /render/environment
 };
 
-}  // namespace hair
+// The colours that a picture is worked out in.
+
+// Whether they are linear RGB with sRGB's primaries; display RGB, as in the thesis, otherwise.
+inline bool hasLinearLight(const RenderSettings& render) {
+    return render.tone_map != ToneMap::none;
+}
+
+// sRGB's curve (IEC 61966-2-1), channel by channel.
+glm::dvec3 toLinear(const glm::dvec3& display);
+glm::dvec3 toDisplay(const glm::dvec3& linear);
+
+// A setting's display RGB as the picture's working colour.
+glm::vec3 workingColor(const RenderSettings& render, const glm::vec3& display);
+
+// Format of the colors that a picture is rendered to.
+inline VkFormat colorFormat(const RenderSettings& render) {
+    return hasLinearLight(render) ? VK_FORMAT_R16G16B16A16_SFLOAT : VK_FORMAT_R8G8B8A8_UNORM;
+}
+
+inline engine::TargetDescription targetDescription(const RenderSettings& render) {
+    return {
+        .width = render.width,
+        .height = render.height,
+        .msaa = render.msaa,
+        .ssaa = render.ssaa,
+        .color_format = colorFormat(render)};
+}
+
+}  // namespace hair::rendering

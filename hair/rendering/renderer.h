@@ -1,25 +1,42 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
 #include "engine/frame_loop.h"
 #include "engine/target.h"
-#include "hair/rendering/environment_pass.h"
-#include "hair/rendering/frames_pass.h"
-#include "hair/rendering/hair_optics.h"
+#include "hair/gpu_structs.h"
+#include "hair/rendering/environment.h"
+#include "hair/rendering/fiber.h"
+#include "hair/rendering/groom_buffers.h"
 #include "hair/rendering/overlay_pass.h"
 #include "hair/rendering/render_assets.h"
 #include "hair/rendering/resolve_pass.h"
 #include "hair/rendering/scene_meshes.h"
 #include "hair/rendering/shadow_pass.h"
-#include "hair/rendering/strand_images.h"
+#include "hair/rendering/strand_offsets.h"
 #include "hair/rendering/strand_pass.h"
-#include "hair/rendering/strand_view.h"
+#include "hair/rendering/strand_plan.h"
 #include "hair/settings.h"
 
-namespace hair {
+namespace hair::rendering {
+
+// Addresses of what else shaders read; 0 where they don't.
+struct PictureBuffers {
+    std::uint64_t guide_normals = 0;  // FramesPass::normals()
+    std::uint64_t lights = 0;
+    std::uint64_t optics = 0;
+    std::uint64_t shadows = 0;
+    std::uint64_t environment = 0;
+    std::uint64_t fragments = 0;
+};
+
+// What every shader of a picture reads. `plan` is the one that planStrands makes of the settings.
+gpu::PictureParameters pictureParameters(
+    const Settings& settings, const StrandPlan& plan, const StrandView& view,
+    const PictureBuffers& buffers);
 
 // Draws pictures of a head of hair: the passes frames (where strands are offset), mesh_shadow and
 // hair_shadow (where asked for), scene, strands, composite (where fragments are blended at the
@@ -62,4 +79,4 @@ private:
     ResolvePass resolve_;
 };
 
-}  // namespace hair
+}  // namespace hair::rendering

@@ -5,11 +5,10 @@
 #include <vector>
 
 #include "hair/gpu_structs.h"
-#include "hair/rendering/working_color.h"
+#include "hair/rendering/render_assets.h"
 #include "hair/shader_codes.h"
 
-namespace hair {
-
+namespace hair::rendering {
 namespace {
 
 engine::ComputeDescription
@@ -60,4 +59,4 @@ void ResolvePass::record(engine::Commands& commands, const engine::Target& targe
     target.endResolve(commands);
 }
 
-}  // namespace hair
+}  // namespace hair::rendering

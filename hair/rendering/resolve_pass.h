@@ -6,7 +6,7 @@
 #include "engine/target.h"
 #include "hair/settings.h"
 
-namespace hair {
+namespace hair::rendering {
 
 // Rendered samples -> the picture: the mean over MSAA samples and SSAA pixels (thesis 2.3.7). One
 // sample a pixel of display colours is copied, which takes lavapipe 0.5 ms instead of 11. Of linear
@@ -24,4 +24,4 @@ private:
     std::optional<engine::ComputePipeline> pipeline_;  // none: a copy will do
 };
 
-}  // namespace hair
+}  // namespace hair::rendering

@@ -1,12 +1,145 @@
 #include "hair/rendering/scene_meshes.h"
 
+#include <algorithm>
+
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+
 #include "engine/target.h"
 #include "hair/gpu_structs.h"
-#include "hair/rendering/target_description.h"
+#include "hair/rendering/render_assets.h"
+#include "hair/rendering/strand_pass.h"
 
-namespace hair {
+namespace hair::rendering {
+namespace {
+
+// ---- Mesh geometry ------------------------------------------------------------------------------
+
+// Corner indices of the triangles, those of the first material first.
+std::vector<std::uint32_t> sortedIndices(const groom::Mesh& mesh) {
+    std::vector<std::uint32_t> order(mesh.triangles.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::ranges::stable_sort(
+        order, {}, [&](std::uint32_t triangle) { return mesh.triangle_materials[triangle]; });
+    std::vector<std::uint32_t> indices;
+    indices.reserve(3 * order.size());
+    for (const std::uint32_t triangle : order)
+        indices.insert(
+            indices.end(), mesh.triangles[triangle].begin(), mesh.triangles[triangle].end());
+    return indices;
+}
+
+}  // namespace
+
+groom::Mesh placed(groom::Mesh mesh, const MeshSettings& settings) {
+    glm::mat4 turn(1.0f);
+    for (int axis = 2; axis >= 0; --axis) {
+        glm::vec3 direction(0.0f);
+        direction[axis] = 1.0f;
+        turn = glm::rotate(turn, glm::radians(settings.rotation[axis]), direction);
+    }
+    const glm::mat3 rotation(turn);
+    for (glm::vec3& position : mesh.positions)
+        position = settings.translation + rotation * (settings.scale * position);
+    for (glm::vec3& normal : mesh.normals) normal = rotation * normal;
+    return mesh;
+}
+
+MeshGeometry::MeshGeometry(const engine::Device& device, const groom::Mesh& mesh)
+    : positions(engine::makeBuffer(device, std::span(mesh.positions), "mesh positions")),
+      normals(engine::makeBuffer(device, std::span(mesh.normals), "mesh normals")),
+      texture_coordinates(engine::makeBuffer(
+          device, std::span(mesh.texture_coordinates), "mesh texture coordinates")),
+      indices(engine::makeBuffer(
+          device, std::span<const std::uint32_t>(sortedIndices(mesh)), "mesh indices")) {
+    std::uint32_t first = 0;
+    for (std::uint32_t material = 0; material < mesh.materials.size(); ++material) {
+        const auto triangles =
+            static_cast<std::uint32_t>(std::ranges::count(mesh.triangle_materials, material));
+        if (triangles > 0) parts.push_back({material, first, 3 * triangles});
+        first += 3 * triangles;
+    }
+}
 
 namespace {
+
+// ---- Mesh materials -----------------------------------------------------------------------------
+
+VkSamplerAddressMode addressMode(groom::Wrap wrap) {
+    switch (wrap) {
+    case groom::Wrap::repeat:
+        return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    case groom::Wrap::mirror:
+        return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+    case groom::Wrap::clamp:
+        break;
+    }
+    return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+}
+
+MeshLook lookOf(const groom::Mesh& mesh, const groom::Material& material) {
+    const bool is_mapped = !mesh.texture_coordinates.empty();
+    return {
+        .base_color_texture = is_mapped && material.base_color_texture,
+        .metallic_roughness_texture = is_mapped && material.metallic_roughness_texture,
+        .normal_texture = is_mapped && material.normal_texture,
+        .mask = material.cutoff.has_value(),
+        .double_sided = material.double_sided};
+}
+
+}  // namespace
+
+engine::Constants meshConstants(const MeshLook& look, const Settings& settings) {
+    engine::Constants constants{
+        {gpu::kBaseColorTextureConstant, look.base_color_texture},
+        {gpu::kMetallicRoughnessTextureConstant, look.metallic_roughness_texture},
+        {gpu::kNormalTextureConstant, look.normal_texture},
+        {gpu::kMaskConstant, look.mask},
+        {gpu::kDoubleSidedConstant, look.double_sided}};
+    const engine::Constants shading = shadingConstants(settings);
+    constants.insert(constants.end(), shading.begin(), shading.end());
+    return constants;
+}
+
+MeshMaterials::MeshMaterials(
+    const engine::Device& device, const RenderSettings& settings, const groom::Mesh& mesh,
+    const engine::SampledImage& blank) {
+    const engine::Decoding decoding =
+        hasLinearLight(settings) ? engine::Decoding::linear : engine::Decoding::none;
+    const auto sampled = [&](const groom::MaterialTexture& use, engine::Texels texels) {
+        const auto texture = textures_.try_emplace(
+            {use.picture, texels}, device, mesh.pictures[use.picture], texels, decoding,
+            "mesh texture");
+        const auto sampler = samplers_.try_emplace(
+            {use.horizontal, use.vertical, use.is_smooth}, device,
+            engine::SamplerDescription{
+                .filter = use.is_smooth ? VK_FILTER_LINEAR : VK_FILTER_NEAREST,
+                .horizontal = addressMode(use.horizontal),
+                .vertical = addressMode(use.vertical)});
+        return engine::SampledImage{&texture.first->second.image(), &sampler.first->second};
+    };
+    for (const groom::Material& source : mesh.materials) {
+        MeshMaterial& material = materials_.emplace_back(MeshMaterial{
+            .look = lookOf(mesh, source),
+            .base_color = workingColor(settings, source.base_color),
+            .opacity = source.opacity,
+            .metallic = source.metallic,
+            .roughness = source.roughness,
+            .normal_scale = source.normal_scale,
+            .cutoff = source.cutoff.value_or(0.0f),
+            .images = {blank, blank, blank}});
+        if (material.look.base_color_texture)
+            material.images[0] = sampled(*source.base_color_texture, engine::Texels::display_color);
+        if (material.look.metallic_roughness_texture)
+            material.images[1] = sampled(*source.metallic_roughness_texture, engine::Texels::data);
+        if (material.look.normal_texture)
+            material.images[2] = sampled(*source.normal_texture, engine::Texels::data);
+    }
+}
+
+namespace {
+
+// ---- Scene meshes -------------------------------------------------------------------------------
 
 engine::GraphicsDescription pipeline(const MeshLook& look, const Settings& settings) {
     return {
@@ -53,7 +186,8 @@ SceneMeshes::SceneMeshes(
 }
 
 void SceneMeshes::add(
-    const engine::Device& device, const Settings& settings, const Mesh& mesh, Motion motion) {
+    const engine::Device& device, const Settings& settings, const groom::Mesh& mesh,
+    Motion motion) {
     const SceneMesh& added = meshes_.emplace_back(SceneMesh{
         {device, mesh},
         {device, settings.render, mesh, {&blank_.image(), &blank_sampler_}},
@@ -116,4 +250,4 @@ void SceneMeshes::drawDepth(engine::Commands& commands, std::uint64_t picture) c
     }
 }
 
-}  // namespace hair
+}  // namespace hair::rendering

@@ -1,20 +1,96 @@
 #pragma once
 
+#include <array>
+#include <compare>
 #include <cstdint>
 #include <map>
 #include <span>
+#include <tuple>
+#include <utility>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
+#include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/pipeline.h"
-#include "engine/sampler.h"
 #include "engine/texture.h"
-#include "hair/rendering/mesh_geometry.h"
-#include "hair/rendering/mesh_materials.h"
+#include "hair/groom/mesh/mesh.h"
 #include "hair/rendering/render_assets.h"
 #include "hair/settings.h"
 
-namespace hair {
+namespace hair::rendering {
+
+// The mesh where the settings place it.
+groom::Mesh placed(groom::Mesh mesh, const MeshSettings& settings);
+
+// A mesh's triangles on the device, sorted by material.
+struct MeshGeometry {
+    // The triangles of one material.
+    struct Part {
+        std::uint32_t material;
+        std::uint32_t first_index;
+        std::uint32_t index_count;  // above 0
+    };
+
+    MeshGeometry(const engine::Device& device, const groom::Mesh& mesh);
+
+    engine::Buffer positions;  // vec3
+    engine::Buffer normals;  // vec3
+    engine::Buffer texture_coordinates;  // vec2; of the mesh, which may have none
+    engine::Buffer indices;
+    std::vector<Part> parts;
+};
+
+// What mesh shaders sample, at these bindings: base colour, metallic and roughness, normals, then
+// ShadowPass::images().
+inline constexpr std::uint32_t kMaterialImages = 3;
+inline constexpr std::uint32_t kMeshImages = kMaterialImages + 3;
+
+// What a material needs a pipeline of its own for.
+struct MeshLook {
+    bool base_color_texture = false;
+    bool metallic_roughness_texture = false;
+    bool normal_texture = false;
+    bool mask = false;
+    bool double_sided = false;
+
+    auto operator<=>(const MeshLook&) const = default;
+};
+
+// The specialization constants of shaders/scene/options.glsl and shading/options.glsl.
+engine::Constants meshConstants(const MeshLook& look, const Settings& settings);
+
+// A material as shaders read it.
+struct MeshMaterial {
+    MeshLook look;
+    glm::vec3 base_color;  // working colours
+    float opacity;
+    float metallic;
+    float roughness;
+    float normal_scale;
+    float cutoff;
+    std::array<engine::SampledImage, kMaterialImages> images;
+};
+
+// A mesh's materials, with their textures on the device. Textures of a mesh without texture
+// coordinates are left out.
+class MeshMaterials {
+public:
+    // `blank` is what is bound where a material has no texture.
+    MeshMaterials(
+        const engine::Device& device, const RenderSettings& settings, const groom::Mesh& mesh,
+        const engine::SampledImage& blank);
+
+    // In the mesh's order.
+    std::span<const MeshMaterial> materials() const { return materials_; }
+
+private:
+    // Their elements stay where they are.
+    std::map<std::pair<std::uint32_t, engine::Texels>, engine::Texture> textures_;
+    std::map<std::tuple<groom::Wrap, groom::Wrap, bool>, engine::Sampler> samplers_;
+    std::vector<MeshMaterial> materials_;
+};
 
 // The meshes of a picture on the device: the head, which moves, and others, which don't. Drawn
 // material by material.
@@ -44,7 +120,8 @@ private:
     };
 
     void
-    add(const engine::Device& device, const Settings& settings, const Mesh& mesh, Motion motion);
+    add(const engine::Device& device, const Settings& settings, const groom::Mesh& mesh,
+        Motion motion);
 
     void bind(
         engine::Commands& commands, const engine::GraphicsPipeline& pipeline, std::uint64_t picture,
@@ -57,4 +134,4 @@ private:
     std::map<MeshLook, engine::GraphicsPipeline> depth_pipelines_;
 };
 
-}  // namespace hair
+}  // namespace hair::rendering

@@ -1,16 +1,223 @@
 #include "hair/rendering/shadow_pass.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
 #include <string>
 
-#include "engine/error.h"
-#include "engine/rendering.h"
-#include "hair/rendering/light_view.h"
+#include <glm/common.hpp>
+#include <glm/ext/matrix_clip_space.hpp>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/trigonometric.hpp>
 
-namespace hair {
+#include "engine/error.h"
+#include "engine/target.h"
+#include "hair/settings.h"
+
+namespace hair::rendering {
+
+// ---- Strand bounds ------------------------------------------------------------------------------
+
+Sphere strandBounds(const groom::Groom& groom, const StrandSettings& settings) {
+    if (groom.strand_count == 0) return {};
+    glm::vec3 least(std::numeric_limits<float>::max());
+    glm::vec3 most(std::numeric_limits<float>::lowest());
+    for (std::uint32_t i = 0; i < groom.strand_count; ++i) {
+        least = glm::min(least, groom.strand(i)[0]);
+        most = glm::max(most, groom.strand(i)[0]);
+    }
+    Sphere bounds{.centre = 0.5f * (least + most)};
+    for (std::uint32_t i = 0; i < groom.strand_count; ++i) {
+        const auto strand = groom.strand(i);
+        float reach = glm::distance(bounds.centre, strand[0]);
+        for (std::size_t k = 1; k < strand.size(); ++k)
+            reach += glm::distance(strand[k - 1], strand[k]);
+        bounds.radius = std::max(bounds.radius, reach);
+    }
+    float beside = settings.curl.radius + settings.variation.amplitude;
+    for (const groom::StrandBinding& binding : groom.bindings)
+        beside = std::max(beside, glm::length(binding.offset));
+    bounds.radius += beside;
+    return bounds;
+}
 
 namespace {
+
+// ---- Shadow bounds ------------------------------------------------------------------------------
+
+Sphere boundsOf(std::span<const glm::vec3> points) {
+    if (points.empty()) return {};
+    glm::vec3 least = points.front();
+    glm::vec3 most = points.front();
+    for (const glm::vec3& point : points) {
+        least = glm::min(least, point);
+        most = glm::max(most, point);
+    }
+    Sphere sphere{.centre = 0.5f * (least + most)};
+    for (const glm::vec3& point : points)
+        sphere.radius = std::max(sphere.radius, glm::distance(point, sphere.centre));
+    return sphere;
+}
+
+// However it is turned about its origin.
+Sphere boundsOf(const groom::Mesh& mesh, const MeshSettings& placed) {
+    const Sphere sphere = boundsOf(mesh.positions);
+    return {
+        .centre = placed.translation,
+        .radius = placed.scale * (glm::length(sphere.centre) + sphere.radius)};
+}
+
+Sphere moved(const glm::mat4& rigid, const Sphere& sphere) {
+    return {glm::vec3(rigid * glm::vec4(sphere.centre, 1.0f)), sphere.radius};
+}
+
+}  // namespace
+
+Sphere enclosing(const Sphere& a, const Sphere& b) {
+    const float apart = glm::distance(a.centre, b.centre);
+    if (b.radius == 0.0f || apart + b.radius <= a.radius) return a;
+    if (a.radius == 0.0f || apart + a.radius <= b.radius) return b;
+    const float radius = 0.5f * (apart + a.radius + b.radius);
+    return {a.centre + (radius - a.radius) / apart * (b.centre - a.centre), radius};
+}
+
+ShadowScene::ShadowScene(const Settings& settings, const RenderAssets& assets) {
+    if (assets.head && settings.render.head) head_ = boundsOf(assets.head->positions);
+    for (std::size_t i = 0; i < assets.meshes.size(); ++i)
+        others_ = enclosing(others_, boundsOf(assets.meshes[i], settings.render.meshes[i]));
+}
+
+ShadowBounds ShadowScene::bounds(const StrandView& view) const {
+    const Sphere hair{view.centre, view.radius};
+    ShadowBounds bounds{.seen = moved(view.head, enclosing(hair, head_))};
+    if (bounds.seen.radius == 0.0f) bounds.seen = others_;
+    bounds.range = enclosing(bounds.seen, others_);
+    return bounds;
+}
+
+namespace {
+
+// ---- Light view ---------------------------------------------------------------------------------
+
+// How a light looks at what it lights: a perspective view of all that it is to see, or a parallel
+// one of directional lights.
+struct LightView {
+    glm::mat4 view_projection;  // world -> clip, depth 0 near to 1 far
+    glm::vec3 eye;  // m; of a directional light far away
+    glm::vec4 depth_terms;  // as in gpu::ShadowMap
+    float texel_near;  // m, as in gpu::ShadowMap
+    float texel_slope;
+};
+
+constexpr float kMostHalfAngle = 75.0f;  // degrees
+constexpr float kNearest = 0.01f;  // of the far end
+constexpr float kLeastRadius = 0.001f;  // m: nothing to see still gives a view
+// Strands turn to a directional light as to a point this many times as far as what it lights is
+// wide: 0.001 rad off at most.
+constexpr float kFarAway = 1000.0f;
+
+// Length 1; downward where there is none.
+glm::vec3 unit(const glm::vec3& direction) {
+    const float length = glm::length(direction);
+    return length > 0.0f ? direction / length : glm::vec3(0.0f, -1.0f, 0.0f);
+}
+
+glm::mat4 looking(const glm::vec3& from, const glm::vec3& axis) {
+    const glm::vec3 up = std::abs(axis.y) > 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+    return glm::lookAtRH(from, from + axis, up);
+}
+
+LightView
+parallelView(const glm::vec3& axis, const ShadowBounds& bounds, float radius, float texels) {
+    const Sphere& range = bounds.range;
+    const float start = glm::dot(range.centre - bounds.seen.centre, axis) - range.radius;
+    const glm::mat4 projection = glm::orthoRH_ZO(
+        -radius, radius, -radius, radius, 0.0f, 2.0f * std::max(range.radius, kLeastRadius));
+    return {
+        .view_projection = projection * looking(bounds.seen.centre + start * axis, axis),
+        .eye = bounds.seen.centre - kFarAway * radius * axis,
+        .depth_terms = {-projection[2][2], projection[3][2], 0.0f, 1.0f},
+        .texel_near = 2.0f * radius / texels,
+        .texel_slope = 0.0f};
+}
+
+LightView perspectiveView(
+    const glm::vec3& eye, const glm::vec3& axis, const Sphere& range, float slope, float texels) {
+    const float middle = glm::dot(range.centre - eye, axis);
+    const float far = std::max(middle + range.radius, kLeastRadius);
+    const float near = std::max(middle - range.radius, kNearest * far);
+    const float side = slope * near;
+    const glm::mat4 projection = glm::frustumRH_ZO(-side, side, -side, side, near, far);
+    return {
+        .view_projection = projection * looking(eye, axis),
+        .eye = eye,
+        .depth_terms = {-projection[2][2], projection[3][2], 1.0f, 0.0f},
+        .texel_near = 0.0f,
+        .texel_slope = 2.0f * slope / texels};
+}
+
+// A map of side x side texels shows bounds.seen and `margin` texels round it. Where the light is in
+// it, or so near that it would see it under more than 150 degrees, the map shows 150 degrees round
+// its centre, and what is beyond throws no shadow. Neither does what is nearer to a point light
+// than a hundredth of the far end of bounds.range: depth would be too coarse.
+LightView lightView(
+    const LightSettings& light, const ShadowBounds& bounds, std::uint32_t side, float margin) {
+    const auto texels = static_cast<float>(side);
+    const float widened = texels / (texels - 2.0f * margin);
+    const float radius = std::max(bounds.seen.radius, kLeastRadius);
+    if (light.type == LightType::directional)
+        return parallelView(unit(light.direction), bounds, widened * radius, texels);
+    const glm::vec3 to_centre = bounds.seen.centre - light.position;
+    const float most = std::sin(glm::radians(kMostHalfAngle));
+    const float sine = std::min(radius / std::max(glm::length(to_centre), radius), most);
+    const float slope = sine / std::sqrt(1.0f - sine * sine);
+    return perspectiveView(light.position, unit(to_centre), bounds.range, widened * slope, texels);
+}
+
+}  // namespace
+
+// ---- Shadow atlas -------------------------------------------------------------------------------
+
+std::uint32_t ShadowAtlas::columns() const {
+    std::uint32_t columns = 1;
+    while (columns * columns < parts) ++columns;
+    return columns;
+}
+
+VkExtent2D ShadowAtlas::extent() const {
+    const std::uint32_t rows = (parts + columns() - 1) / columns();
+    return {side * columns(), side * rows};
+}
+
+VkRect2D ShadowAtlas::part(std::uint32_t index) const {
+    return {
+        {static_cast<std::int32_t>(side * (index % columns())),
+         static_cast<std::int32_t>(side * (index / columns()))},
+        {side, side}};
+}
+
+void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas) {
+    const VkPhysicalDeviceLimits& limits = device.info().limits;
+    const std::uint32_t most = std::min(
+        {limits.maxImageDimension2D, limits.maxFramebufferWidth, limits.maxFramebufferHeight});
+    const std::uint32_t width = atlas.extent().width;
+    if (width > most) {
+        throw engine::Unsupported(
+            "/shading/shadows/resolution", std::to_string(atlas.parts) + " lights' maps of " +
+                                               std::to_string(atlas.side) + " px are an image of " +
+                                               std::to_string(width) + " px, over the device's " +
+                                               std::to_string(most));
+    }
+}
+
+namespace {
+
+// ---- Shadow pass --------------------------------------------------------------------------------
 
 static_assert(offsetof(gpu::ShadowMap, corner) == 80 && sizeof(gpu::ShadowMap) == 104);
 static_assert(offsetof(gpu::ShadowParameters, softness) == 1672);
@@ -212,4 +419,4 @@ void ShadowPass::record(
     }
 }
 
-}  // namespace hair
+}  // namespace hair::rendering

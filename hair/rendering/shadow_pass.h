@@ -7,18 +7,64 @@
 #include <span>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
+#include "engine/buffer_image.h"
+#include "engine/device.h"
 #include "engine/frame_loop.h"
-#include "engine/sampler.h"
 #include "hair/gpu_structs.h"
+#include "hair/groom/groom.h"
+#include "hair/rendering/backends.h"
+#include "hair/rendering/groom_buffers.h"
 #include "hair/rendering/render_assets.h"
 #include "hair/rendering/scene_meshes.h"
-#include "hair/rendering/shadow_atlas.h"
-#include "hair/rendering/shadow_bounds.h"
-#include "hair/rendering/strand_backend.h"
-#include "hair/rendering/strand_view.h"
 #include "hair/settings.h"
 
-namespace hair {
+namespace hair::rendering {
+
+struct Sphere {
+    glm::vec3 centre{0.0f};  // m
+    float radius = 0.0f;     // m
+};
+
+// A sphere that strands can't leave however they hang, but for what solvers stretch them: about
+// their roots, as far as they are long.
+Sphere strandBounds(const groom::Groom& groom, const StrandSettings& settings);
+
+// The least sphere round both; one of no radius is none.
+Sphere enclosing(const Sphere& a, const Sphere& b);
+
+// What lights look at.
+struct ShadowBounds {
+    Sphere seen;  // a light's map shows all of it: the hair and the head
+    Sphere range;  // a light's map reaches from its near to its far end: all that is drawn
+};
+
+// Where things are in a picture.
+class ShadowScene {
+public:
+    ShadowScene(const Settings& settings, const RenderAssets& assets);
+
+    // With the head and the hair where `view` has them.
+    ShadowBounds bounds(const StrandView& view) const;
+
+private:
+    Sphere head_;  // before it moved
+    Sphere others_;
+};
+
+// Square parts of one size in an image: in rows, as many of them as columns or one less.
+struct ShadowAtlas {
+    std::uint32_t parts = 0;
+    std::uint32_t side = 0;  // of a part, px
+
+    std::uint32_t columns() const;
+    VkExtent2D extent() const;
+    VkRect2D part(std::uint32_t index) const;
+};
+
+// Throws engine::Unsupported where the device has no such images.
+void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas);
 
 // What lights see: the depth of meshes, and of hair its depth and opacity in layers (Yuksel and
 // Keyser 2008, Deep opacity maps). Each light that throws shadows has a part of an atlas. Spheres
@@ -69,4 +115,4 @@ private:
     std::unique_ptr<StrandBackend> opacity_;
 };
 
-}  // namespace hair
+}  // namespace hair::rendering

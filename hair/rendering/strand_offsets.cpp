@@ -2,17 +2,192 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
 
 #include "engine/error.h"
-#include "hair/groom/style/along_strand.h"
+#include "hair/gpu_structs.h"
+#include "hair/groom/build_groom.h"
+#include "hair/groom/groom.h"
+#include "hair/groom/style/displace.h"
+#include "hair/groom/style/style.h"
 #include "hair/random.h"
-#include "hair/rendering/model_offsets.h"
-#include "hair/rendering/procedural_offsets.h"
+#include "hair/settings.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
+
+// ---- Frames pass --------------------------------------------------------------------------------
+
+static_assert(sizeof(gpu::FramesPush) == 96 && offsetof(gpu::FramesPush, guides) == 64);
+
+}  // namespace
+
+FramesPass::FramesPass(const engine::Device& device, const StrandView& view)
+    : pipeline_(device, {.shader = "strands/frames.comp", .push_size = sizeof(gpu::FramesPush)}),
+      normals_(
+          device, {.size = std::max<std::size_t>(
+                               std::size_t{view.guide_count} * view.vertices_per_guide, 1) *
+                           sizeof(glm::vec3),
+                   .name = "guide normals"}) {}
+
+void FramesPass::record(engine::Commands& commands, const StrandView& view) const {
+    using engine::Access;
+    // After the simulation, and whoever still draws with the frames that are overwritten.
+    commands.barrier(engine::Access::anything, engine::Access::compute_write);
+    commands.bind(
+        pipeline_, gpu::FramesPush{
+                       .head = view.head,
+                       .guides = view.guides,
+                       .root_frames = view.root_frames,
+                       .normals = normals_.address(),
+                       .guide_count = view.guide_count,
+                       .vertices_per_guide = view.vertices_per_guide});
+    commands.dispatch((view.guide_count + gpu::kFramesGroupSize - 1) / gpu::kFramesGroupSize);
+    commands.barrier(engine::Access::compute_write, engine::Access::anything);
+}
+
+namespace {
+
+// ---- Model offsets ------------------------------------------------------------------------------
+
+// A cubic needs 3 points beside the root; more make its fit one by arc length. The most is what a
+// table of 1,024 profiles has room for.
+constexpr std::uint32_t kLeastPoints = 16;
+constexpr std::uint32_t kMostPoints = 4096;
+
+// p(s) = root + c0 s + c1 s^2 + c2 s^3, s the fraction of arc length.
+struct Cubic {
+    glm::dvec3 root;
+    glm::dmat3 coefficients;  // columns c0 to c2
+
+    glm::dvec3 at(double s) const { return root + coefficients * glm::dvec3(s, s * s, s * s * s); }
+};
+
+// Least squares over arc length, by the trapezoidal rule.
+Cubic fit(std::span<const glm::vec3> strand, const groom::AlongStrand& along) {
+    const glm::dvec3 root(strand.front());
+    glm::dmat3 normal_matrix(1e-12);  // so that coinciding points don't make it singular
+    glm::dmat3 moments(0.0);
+    for (std::size_t i = 0; i < strand.size(); ++i) {
+        const double weight = along.fraction(std::min(i + 1, strand.size() - 1)) -
+                              along.fraction(std::max<std::size_t>(i, 1) - 1);
+        const double s = along.fraction(i);
+        const glm::dvec3 powers(s, s * s, s * s * s);
+        normal_matrix += weight * glm::outerProduct(powers, powers);
+        moments += weight * glm::outerProduct(glm::dvec3(strand[i]) - root, powers);
+    }
+    return {root, moments * glm::inverse(normal_matrix)};
+}
+
+// The strands of a model that offsets can be taken from, at most `most` and spread over the file:
+// those with a length. Throws engine::Error where there is none.
+groom::StrandSet offsetModel(const groom::StrandSet& strands, std::uint32_t most) {
+    std::vector<std::uint32_t> usable;
+    for (std::uint32_t i = 0; i < strands.strandCount(); ++i)
+        if (groom::AlongStrand(strands.strand(i)).length() > 0.0) usable.push_back(i);
+    if (usable.empty()) throw engine::Error("no strand has a length");
+    const std::size_t count = std::min<std::size_t>(usable.size(), most);
+    std::vector<std::uint32_t> spread(count);
+    for (std::size_t i = 0; i < count; ++i) spread[i] = usable[i * usable.size() / count];
+    groom::StrandSet picked = groom::pickStrands(strands, spread);
+    const std::uint32_t points = std::clamp(groom::greatestSize(picked), kLeastPoints, kMostPoints);
+    return groom::resample(std::move(picked), points);
+}
+
+// Adds the offsets of a strand of a model from its smooth shape, enlarged from that one's length to
+// `length` and turned about it by `turn` (1: all the way round), to `samples`, evenly spaced from
+// root to tip. The smooth shape is the cubic through the root that fits the strand best by arc
+// length; the offsets are in its frame that does not turn about it.
+void addModelOffsets(
+    std::span<const glm::vec3> strand, double length, double turn, std::span<glm::vec3> samples) {
+    const groom::AlongStrand along(strand);
+    const Cubic cubic = fit(strand, along);
+    std::vector<glm::vec3> smooth(strand.size());
+    for (std::size_t i = 0; i < strand.size(); ++i)
+        smooth[i] = glm::vec3(cubic.at(along.fraction(i)));
+    const std::vector<groom::StrandFrame> frames = groom::strandFrames(smooth, nullptr);
+    // A strand that ends where it began may have a smooth shape of next to no length.
+    const double scale =
+        length / std::max(groom::AlongStrand(smooth).length(), 0.01 * along.length());
+
+    const double angle = 2.0 * std::numbers::pi * turn;
+    const double cosine = std::cos(angle);
+    const double sine = std::sin(angle);
+    std::vector<glm::dvec3> offsets(strand.size());
+    for (std::size_t i = 0; i < strand.size(); ++i) {
+        const glm::dvec3 offset = glm::dvec3(strand[i]) - cubic.at(along.fraction(i));
+        const groom::StrandFrame& frame = frames[i];
+        const double x = glm::dot(offset, frame.normal);
+        const double y = glm::dot(offset, frame.binormal);
+        offsets[i] = scale * glm::dvec3(
+                                 cosine * x - sine * y, sine * x + cosine * y,
+                                 glm::dot(offset, frame.tangent));
+    }
+    std::size_t before = 0;
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        const double s = static_cast<double>(i) / static_cast<double>(samples.size() - 1);
+        while (before + 2 < strand.size() && along.fraction(before + 1) <= s) ++before;
+        const double from = along.fraction(before);
+        const double span = along.fraction(before + 1) - from;
+        const double part = span > 0.0 ? std::min((s - from) / span, 1.0) : 1.0;
+        samples[i] += glm::vec3(glm::mix(offsets[before], offsets[before + 1], part));
+    }
+}
+
+// ---- Procedural offsets -------------------------------------------------------------------------
+
+// The offsets that are made and not taken from a model. All add to `samples`, evenly spaced from
+// the root to the tip of a strand of `length` m, and leave the first alone; `profile` is a number
+// that the random ones come from.
+
+// Adds `offset(along)`, along in (0, 1], which grows over the fraction `start` of the strand.
+template <class Offset>
+void add(double start, std::span<glm::vec3> samples, Offset&& offset) {
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        const double along = static_cast<double>(i) / static_cast<double>(samples.size() - 1);
+        samples[i] += glm::vec3(groom::ease(0.0, start, along) * offset(along));
+    }
+}
+
+// A helix of a random phase and frequency.
+void addCurl(
+    const StrandCurlSettings& settings, double length, std::uint32_t seed, std::uint32_t profile,
+    std::span<glm::vec3> samples) {
+    const double phase = random01(seed, profile, purpose::offset_phase);
+    const double change = settings.frequency_variation *
+                          (2.0 * random01(seed, profile, purpose::offset_frequency) - 1.0);
+    const double turns = settings.frequency * (1.0 + change) * length;
+    add(settings.start, samples, [&](double along) {
+        const double angle = 2.0 * std::numbers::pi * (turns * along + phase);
+        return double{settings.radius} * glm::dvec3(std::cos(angle), std::sin(angle), 0.0);
+    });
+}
+
+// Smooth noise: a random vector of at most the amplitude at every change of direction.
+void addVariation(
+    const StrandVariationSettings& settings, double length, std::uint32_t seed,
+    std::uint32_t profile, std::span<glm::vec3> samples) {
+    const std::uint32_t own = hash(seed, profile, purpose::offset_noise_x);
+    add(settings.start, samples, [&](double along) {
+        return double{settings.amplitude} *
+               groom::smoothNoise(
+                   own, purpose::offset_noise_x, settings.frequency * length * along);
+    });
+}
+
+// ---- Strand offsets -----------------------------------------------------------------------------
 
 constexpr double kSamplesPerTurn = 16.0;
 constexpr double kSamplesPerChange = 8.0;
@@ -24,10 +199,10 @@ bool varies(const StrandSettings& settings) {
     return settings.variation.amplitude > 0.0f && settings.variation.share > 0.0f;
 }
 
-double meanLength(const Groom& groom) {
+double meanLength(const groom::Groom& groom) {
     double sum = 0.0;
     for (std::uint32_t i = 0; i < groom.strand_count; ++i)
-        sum += AlongStrand(groom.strand(i)).length();
+        sum += groom::AlongStrand(groom.strand(i)).length();
     return sum / groom.strand_count;
 }
 
@@ -43,8 +218,8 @@ std::uint32_t intervalsFor(
     return static_cast<std::uint32_t>(std::ceil(count * intervals_each));
 }
 
-std::uint32_t
-samplesFor(const StrandSettings& settings, double length, const std::optional<StrandSet>& model) {
+std::uint32_t samplesFor(
+    const StrandSettings& settings, double length, const std::optional<groom::StrandSet>& model) {
     std::uint32_t intervals = model ? model->size(0) - 1 : 1;
     if (curls(settings)) {
         const StrandCurlSettings& curl = settings.curl;
@@ -75,9 +250,9 @@ bool hasOffsets(const StrandSettings& settings) {
 }
 
 StrandOffsets makeStrandOffsets(
-    const StrandSettings& settings, const Groom& groom, const StrandSet* model,
+    const StrandSettings& settings, const groom::Groom& groom, const groom::StrandSet* model,
     std::uint32_t seed) {
-    std::optional<StrandSet> strands;
+    std::optional<groom::StrandSet> strands;
     if (model) strands = offsetModel(*model, StrandOffsets::kMostProfiles);
     const double length = meanLength(groom);
     StrandOffsets offsets{.samples = samplesFor(settings, length, strands)};
@@ -106,4 +281,4 @@ StrandOffsets makeStrandOffsets(
     return offsets;
 }
 
-}  // namespace hair
+}  // namespace hair::rendering

@@ -6,18 +6,40 @@
 
 #include <glm/vec3.hpp>
 
+#include "engine/buffer_image.h"
+#include "engine/commands.h"
+#include "engine/pipeline.h"
 #include "hair/groom/groom.h"
-#include "hair/groom/strand_set.h"
+#include "hair/rendering/groom_buffers.h"
 #include "hair/settings.h"
 
-namespace hair {
+namespace hair::rendering {
+
+// Frames along the guides that don't turn about them, for the offsets of strands. They start at the
+// root with what the groom has at rest, turned as little as the guide's direction there has turned:
+// as long as that isn't reversed they move without a jump.
+class FramesPass {
+public:
+    // `view` gives the counts.
+    FramesPass(const engine::Device& device, const StrandView& view);
+
+    // After what moved the guides; before what draws.
+    void record(engine::Commands& commands, const StrandView& view) const;
+
+    // vec3 [guide][vertex], unit length, across the guide.
+    const engine::Buffer& normals() const { return normals_; }
+
+private:
+    engine::ComputePipeline pipeline_;
+    engine::Buffer normals_;
+};
 
 // Offsets of drawn strands from their smooth shape: thesis 2.3.8.2 and 2.3.8.3. Computed once; a
 // strand takes one of the profiles by a hash, the same at every level of detail. A vector is along
 // the normal, the binormal and the tangent of a frame that does not turn about the strand. The
 // first sample, at the root, is 0.
 struct StrandOffsets {
-    static constexpr std::uint32_t kProfiles = 64;        // without a model
+    static constexpr std::uint32_t kProfiles = 64;  // without a model
     static constexpr std::uint32_t kMostProfiles = 1024;  // with one
     static constexpr std::uint32_t kMostSamples = 16384;  // then fewer profiles: a table has about
                                                           // 2^22 vectors at most, 50 MB
@@ -43,6 +65,7 @@ bool hasOffsets(const StrandSettings& settings);
 // Throws engine::Error, beginning with the JSON pointer, for what a table can't hold: more than
 // 1,024 turns or 2,048 changes of direction on a strand.
 StrandOffsets makeStrandOffsets(
-    const StrandSettings& settings, const Groom& groom, const StrandSet* model, std::uint32_t seed);
+    const StrandSettings& settings, const groom::Groom& groom, const groom::StrandSet* model,
+    std::uint32_t seed);
 
-}  // namespace hair
+}  // namespace hair::rendering

@@ -1,12 +1,406 @@
 #include "hair/rendering/strand_pass.h"
 
-#include "hair/rendering/blends.h"
-#include "hair/rendering/shading_constants.h"
-#include "hair/rendering/strand_images.h"
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <memory>
 
-namespace hair {
+#include "engine/buffer_image.h"
+#include "engine/error.h"
+#include "engine/target.h"
+#include "hair/gpu_structs.h"
+#include "hair/rendering/groom_buffers.h"
+#include "hair/rendering/lights.h"
+#include "hair/rendering/render_assets.h"
+#include "hair/shader_codes.h"
+
+namespace hair::rendering {
+namespace {
+
+// ---- Blends -------------------------------------------------------------------------------------
+
+struct BlendContext {
+    const engine::Device& device;
+    const Settings& settings;
+    const engine::Target& target;
+    const StrandView& view;  // for the sphere that strands can't leave
+};
+
+// The pipeline of a pass that blends a fragment over every pixel of the target.
+engine::GraphicsDescription
+compositePipeline(const RenderSettings& render, const char* fragment_shader) {
+    return {
+        .shaders = {"composite/screen.vert", fragment_shader},
+        .push_size = sizeof(gpu::CompositePush),
+        .colors = {{colorFormat(render), engine::Blend::over}},
+        .depth_format = engine::Target::kDepthFormat,
+        .samples = render.msaa,
+        .depth_compare = VK_COMPARE_OP_ALWAYS,
+        .depth_write = false};
+}
+
+// ---- Blend direct -------------------------------------------------------------------------------
+
+// Fragments go to the target at once.
+class DirectBlend : public StrandBlend {
+public:
+    DirectBlend(const RenderSettings& render, const char* fragment_shader)
+        : output_{
+              .fragment = fragment_shader,
+              .colors = {{colorFormat(render)}},
+              .samples = render.msaa} {}
+
+    StrandOutput output() const override { return output_; }
+
+    void record(
+        engine::Passes& passes, const engine::Target& target,
+        const std::function<void(engine::Commands&)>& draw) const override {
+        passes.pass("strands", engine::PassKind::graphics, [&](engine::Commands& commands) {
+            target.beginRendering(commands, engine::Load::keep, {});
+            draw(commands);
+            target.endRendering(commands);
+        });
+    }
+
+private:
+    StrandOutput output_;
+};
+
+// The nearest fragment is seen.
+std::unique_ptr<StrandBlend> makeOpaqueBlend(const BlendContext& context) {
+    return std::make_unique<DirectBlend>(context.settings.render, "strands/strand.frag");
+}
+
+// The nearest fragment, in a color that says what /render/show asks for.
+std::unique_ptr<StrandBlend> makeShownBlend(const BlendContext& context) {
+    return std::make_unique<DirectBlend>(context.settings.render, "strands/strand_show.frag");
+}
+
+// The nearest fragment of every sample; one covers as many as its alpha says.
+std::unique_ptr<StrandBlend> makeSampleBlend(const BlendContext& context) {
+    return std::make_unique<DirectBlend>(context.settings.render, "strands/samples.frag");
+}
+
+// ---- Blend discarded ----------------------------------------------------------------------------
+
+// For strands whose primitives are discarded before they are rasterised: they touch no attachment,
+// and none may be there that their pipeline does not name. The target is rendered to without them,
+// so that its share of the pass is the same as in other pictures.
+class DiscardedBlend : public StrandBlend {
+public:
+    StrandOutput output() const override { return {.depth_format = VK_FORMAT_UNDEFINED}; }
+
+    void record(
+        engine::Passes& passes, const engine::Target& target,
+        const std::function<void(engine::Commands&)>& draw) const override {
+        passes.pass("strands", engine::PassKind::graphics, [&](engine::Commands& commands) {
+            target.beginRendering(commands, engine::Load::keep, {});
+            target.endRendering(commands);
+            const VkRect2D area{{0, 0}, target.color().extent()};
+            engine::beginRendering(commands, {}, std::nullopt, area);
+            draw(commands);
+            engine::endRendering(commands);
+        });
+    }
+};
+
+// Nothing is seen: of StrandStages that end before raster.
+std::unique_ptr<StrandBlend> makeDiscardedBlend() { return std::make_unique<DiscardedBlend>(); }
+
+// ---- Blend list ---------------------------------------------------------------------------------
+
+// 4 GiB of nodes: what 32-bit offsets reach.
+constexpr std::uint64_t kMostNodes = (std::uint64_t{1} << 32u) / sizeof(gpu::FragmentNode);
+
+std::uint32_t pixelCount(const engine::Target& target) {
+    const VkExtent2D extent = target.color().extent();
+    return extent.width * extent.height;
+}
+
+std::uint32_t capacity(const BlendContext& context) {
+    if (!context.device.hasFragmentStores())
+        throw engine::Unsupported("fragment_list", "the device's fragments can't store");
+    const std::uint64_t nodes =
+        std::uint64_t{context.settings.render.list_length} * pixelCount(context.target);
+    if (nodes > kMostNodes) {
+        throw engine::Unsupported(
+            "fragment_list", std::to_string(nodes) + " fragments do not fit 4 GiB");
+    }
+    return static_cast<std::uint32_t>(nodes);
+}
+
+engine::Buffer storage(const engine::Device& device, std::uint64_t bytes, const char* name) {
+    return {device, {.size = bytes, .usage = engine::Usage::storage, .name = name}};
+}
+
+class ListBlend : public StrandBlend {
+public:
+    explicit ListBlend(const BlendContext& context)
+        : device_(context.device), samples_(context.settings.render.msaa),
+          capacity_(capacity(context)),
+          heads_(storage(
+              device_, sizeof(std::uint32_t) * pixelCount(context.target), "fragment heads")),
+          nodes_(storage(device_, sizeof(gpu::FragmentNode) * capacity_, "fragment nodes")),
+          counter_(storage(device_, sizeof(std::uint32_t), "fragment counter")),
+          lists_(engine::makeBuffer(
+              device_,
+              std::span<const gpu::FragmentLists>(std::array{gpu::FragmentLists{
+                  .heads = heads_.address(),
+                  .nodes = nodes_.address(),
+                  .counters = counter_.address(),
+                  .capacity = capacity_,
+                  .width = context.target.color().extent().width}}),
+              "fragment lists")),
+          composite_(device_, compositePipeline(context.settings.render, "composite/list.frag")) {}
+
+    StrandOutput output() const override {
+        return {.fragment = "strands/list.frag", .depth_write = false, .samples = samples_};
+    }
+
+    void record(
+        engine::Passes& passes, const engine::Target& target,
+        const std::function<void(engine::Commands&)>& draw) const override {
+        passes.pass("strands", engine::PassKind::graphics, [&](engine::Commands& commands) {
+            list(commands, target, draw);
+        });
+        passes.pass("composite", engine::PassKind::graphics, [&](engine::Commands& commands) {
+            commands.barrier(engine::Access::fragment_write, engine::Access::graphics_read);
+            target.beginRendering(commands, engine::Load::keep, {});
+            commands.bind(
+                composite_, gpu::CompositePush{.fragments = fragments(), .sample_index = 0});
+            commands.draw({.vertices = 3});
+            target.endRendering(commands);
+        });
+    }
+
+    std::uint64_t fragments() const override { return lists_.address(); }
+
+    std::uint64_t bytes() const override {
+        return heads_.size() + nodes_.size() + counter_.size() + lists_.size();
+    }
+
+    std::optional<ListedFragments> listed() const override {
+        return ListedFragments{
+            .capacity = capacity_,
+            .wanted = engine::downloadAs<std::uint32_t>(device_, counter_).front()};
+    }
+
+private:
+    void list(
+        engine::Commands& commands, const engine::Target& target,
+        const std::function<void(engine::Commands&)>& draw) const {
+        // After the last picture's passes.
+        commands.barrier(engine::Access::fragment_write, engine::Access::transfer_write);
+        commands.fill(heads_, gpu::kNoFragment);
+        commands.fill(counter_, 0);
+        commands.barrier(engine::Access::transfer_write, engine::Access::fragment_write);
+        commands.barrier(engine::Access::attachment, engine::Access::attachment);
+        engine::beginRendering(commands, {}, engine::Attachment{.image = &target.depth()});
+        draw(commands);
+        engine::endRendering(commands);
+    }
+
+    const engine::Device& device_;
+    std::uint32_t samples_;
+    std::uint32_t capacity_;  // nodes
+    engine::Buffer heads_;
+    engine::Buffer nodes_;
+    engine::Buffer counter_;
+    engine::Buffer lists_;  // gpu::FragmentLists
+    engine::GraphicsPipeline composite_;
+};
+
+// All fragments in their order, from lists.
+std::unique_ptr<StrandBlend> makeListBlend(const BlendContext& context) {
+    return std::make_unique<ListBlend>(context);
+}
+
+// ---- Blend weighted -----------------------------------------------------------------------------
+
+// Formats that every device can blend.
+constexpr VkFormat kSumFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+constexpr VkFormat kRevealedFormat = VK_FORMAT_R16_SFLOAT;
+constexpr std::uint64_t kBytesPerSample = 8 + 2;
+
+engine::Image sumImage(const BlendContext& context, VkFormat format, const char* name) {
+    const VkExtent2D extent = context.target.color().extent();
+    return {
+        context.device,
+        {.format = format,
+         .width = extent.width,
+         .height = extent.height,
+         .samples = context.settings.render.msaa,
+         .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+         .name = name}};
+}
+
+engine::GraphicsDescription composite(const RenderSettings& render) {
+    engine::GraphicsDescription description = compositePipeline(
+        render,
+        render.msaa > 1 ? "composite/weighted_multisample.frag" : "composite/weighted.frag");
+    description.sampled_images = 2;
+    return description;
+}
+
+const engine::Device& checked(const engine::Device& device) {
+    if (!device.hasIndependentBlend())
+        throw engine::Unsupported("weighted_blended", "the device has no independent blending");
+    return device;
+}
+
+class WeightedBlend : public StrandBlend {
+public:
+    explicit WeightedBlend(const BlendContext& context)
+        : samples_(context.settings.render.msaa),
+          range_(engine::makeBuffer(
+              checked(context.device),
+              std::span<const gpu::BlendRange>(
+                  std::array{gpu::BlendRange{context.view.centre, context.view.radius}}),
+              "blend range")),
+          sum_(sumImage(context, kSumFormat, "weighted sum")),
+          revealed_(sumImage(context, kRevealedFormat, "revealed part")),
+          sampler_(context.device, {.filter = VK_FILTER_NEAREST}),
+          composite_(context.device, composite(context.settings.render)) {}
+
+    StrandOutput output() const override {
+        return {
+            .fragment = "strands/weighted.frag",
+            .colors =
+                {{kSumFormat, engine::Blend::add}, {kRevealedFormat, engine::Blend::attenuate}},
+            .depth_write = false,
+            .samples = samples_};
+    }
+
+    void record(
+        engine::Passes& passes, const engine::Target& target,
+        const std::function<void(engine::Commands&)>& draw) const override {
+        passes.pass("strands", engine::PassKind::graphics, [&](engine::Commands& commands) {
+            sumUp(commands, target, draw);
+        });
+        passes.pass("composite", engine::PassKind::graphics, [&](engine::Commands& commands) {
+            blend(commands, target);
+        });
+    }
+
+    std::uint64_t fragments() const override { return range_.address(); }
+
+    std::uint64_t bytes() const override {
+        return kBytesPerSample * samples_ * sum_.extent().width * sum_.extent().height;
+    }
+
+private:
+    void sumUp(
+        engine::Commands& commands, const engine::Target& target,
+        const std::function<void(engine::Commands&)>& draw) const {
+        for (const engine::Image* image : {&sum_, &revealed_}) {
+            commands.transition(
+                *image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                engine::Access::graphics_read, engine::Access::attachment);
+        }
+        commands.barrier(engine::Access::attachment, engine::Access::attachment);
+        const std::array sums{
+            engine::Attachment{.image = &sum_, .load = engine::Load::clear, .clear = {}},
+            engine::Attachment{.image = &revealed_, .load = engine::Load::clear, .clear = {1}}};
+        engine::beginRendering(commands, sums, engine::Attachment{.image = &target.depth()});
+        draw(commands);
+        engine::endRendering(commands);
+    }
+
+    void blend(engine::Commands& commands, const engine::Target& target) const {
+        for (const engine::Image* image : {&sum_, &revealed_}) {
+            commands.transition(
+                *image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, engine::Access::attachment,
+                engine::Access::graphics_read);
+        }
+        target.beginRendering(commands, engine::Load::keep, {});
+        // One draw for each sample: shading by sample is a feature that not every device has.
+        for (std::uint32_t i = 0; i < samples_; ++i) {
+            commands.bind(composite_, gpu::CompositePush{.fragments = 0, .sample_index = i});
+            commands.images(
+                composite_, std::array{
+                                engine::SampledImage{&sum_, &sampler_},
+                                engine::SampledImage{&revealed_, &sampler_}});
+            commands.draw({.vertices = 3});
+        }
+        target.endRendering(commands);
+    }
+
+    std::uint32_t samples_;
+    engine::Buffer range_;  // gpu::BlendRange
+    engine::Image sum_;
+    engine::Image revealed_;
+    engine::Sampler sampler_;
+    engine::GraphicsPipeline composite_;
+};
+
+// A weighted mean of all fragments: McGuire and Bavoil 2013.
+std::unique_ptr<StrandBlend> makeWeightedBlend(const BlendContext& context) {
+    return std::make_unique<WeightedBlend>(context);
+}
+
+// ---- The table ----------------------------------------------------------------------------------
+
+struct BlendRow {
+    Transparency transparency;
+    std::unique_ptr<StrandBlend> (*make)(const BlendContext&);
+};
+
+// All kinds of transparency, one row each.
+constexpr std::array kBlends{
+    BlendRow{Transparency::none, makeOpaqueBlend},
+    BlendRow{Transparency::alpha_to_coverage, makeSampleBlend},
+    BlendRow{Transparency::weighted_blended, makeWeightedBlend},
+    BlendRow{Transparency::fragment_list, makeListBlend},
+};
+
+// Throws engine::Unsupported for what the device lacks.
+std::unique_ptr<StrandBlend> makeBlend(const BlendContext& context) {
+    if (context.settings.render.show != Show::shading) return makeShownBlend(context);
+    const auto row =
+        std::ranges::find(kBlends, context.settings.render.transparency, &BlendRow::transparency);
+    assert(row != kBlends.end());
+    return row->make(context);
+}
+
+}  // namespace
+
+// ---- Shading constants --------------------------------------------------------------------------
+
+engine::Constants shadingConstants(const Settings& settings) {
+    const ShadingSettings& shading = settings.shading;
+    const RenderSettings& render = settings.render;
+    return {
+        {gpu::kModelConstant, shaderCode(shading.model)},
+        {gpu::kLightCountConstant, static_cast<std::uint32_t>(shading.lights.size())},
+        {gpu::kMeshShadowsConstant, shading.shadows.meshes},
+        {gpu::kHairShadowsConstant, shading.shadows.hair != HairShadows::none},
+        {gpu::kEnvironmentConstant, !render.environment.empty()},
+        {gpu::kLinearLightConstant, hasLinearLight(render)},
+        {gpu::kAnalyticCoverageConstant,
+         render.coverage == Coverage::analytic && render.show == Show::shading},
+        {gpu::kStrandTextureConstant, !settings.strands.texture.empty()},
+        {gpu::kShowConstant, shaderCode(render.show)},
+        {gpu::kLightKindsConstant, lightKinds(settings)}};
+}
+
+// ---- Strand images ------------------------------------------------------------------------------
+
+StrandTexture::StrandTexture(
+    const engine::Device& device, const RenderSettings& settings,
+    const std::optional<engine::Pixels>& pixels)
+    : texture_(
+          device, pixels.value_or(engine::Pixels{1, 1, {255, 255, 255, 255}}),
+          engine::Texels::display_color,
+          hasLinearLight(settings) ? engine::Decoding::linear : engine::Decoding::none,
+          "strand texture"),
+      sampler_(
+          device, {.horizontal = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                   .vertical = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE}) {}
 
 namespace {
+
+// ---- Strand pass --------------------------------------------------------------------------------
 
 StrandOutput shaded(StrandOutput output, const Settings& settings) {
     output.shading = shadingConstants(settings);
@@ -40,4 +434,4 @@ void StrandPass::record(
     });
 }
 
-}  // namespace hair
+}  // namespace hair::rendering

@@ -1,18 +1,75 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 
+#include "engine/buffer_image.h"
+#include "engine/commands.h"
 #include "engine/frame_loop.h"
+#include "engine/pipeline.h"
 #include "engine/target.h"
-#include "hair/rendering/strand_backend.h"
-#include "hair/rendering/strand_blend.h"
-#include "hair/rendering/strand_view.h"
+#include "engine/texture.h"
+#include "hair/rendering/backends.h"
+#include "hair/rendering/groom_buffers.h"
 #include "hair/settings.h"
 
-namespace hair {
+namespace hair::rendering {
+
+// How many of a picture's fragments the lists have room for, and how many there were.
+struct ListedFragments {
+    std::uint64_t capacity = 0;
+    std::uint64_t wanted = 0;
+
+    std::uint64_t dropped() const { return wanted > capacity ? wanted - capacity : 0; }
+};
+
+// What becomes of strands' fragments: one kind of transparency.
+class StrandBlend {
+public:
+    virtual ~StrandBlend() = default;
+
+    // What a back end's pipeline writes, but for how strands are shaded.
+    virtual StrandOutput output() const = 0;
+
+    // The pass "strands", in which `draw` draws them, and "composite", where there is one.
+    virtual void record(
+        engine::Passes& passes, const engine::Target& target,
+        const std::function<void(engine::Commands&)>& draw) const = 0;
+
+    // PictureParameters::fragments.
+    virtual std::uint64_t fragments() const { return 0; }
+
+    // Memory that transparency takes beside the target.
+    virtual std::uint64_t bytes() const { return 0; }
+
+    // The last picture's; waits for the device. Absent where fragments are not listed.
+    virtual std::optional<ListedFragments> listed() const { return std::nullopt; }
+};
+
+// The specialization constants of shaders/shading/options.glsl.
+engine::Constants shadingConstants(const Settings& settings);
+
+// What fragment shaders of strands sample, at these bindings: the strands' texture, then
+// ShadowPass::images().
+inline constexpr std::uint32_t kStrandImages = 4;
+
+// The picture on strands, on the device, for strands/texture.glsl: its colours become working
+// colours. One white pixel where there is none.
+class StrandTexture {
+public:
+    StrandTexture(
+        const engine::Device& device, const RenderSettings& settings,
+        const std::optional<engine::Pixels>& pixels);
+
+    engine::SampledImage image() const { return {&texture_.image(), &sampler_}; }
+
+private:
+    engine::Texture texture_;
+    engine::Sampler sampler_;
+};
 
 // Draws a picture's strands with the transparency that is asked for: the pass "strands" and, where
 // fragments are blended after all are known, "composite".
@@ -41,4 +98,4 @@ private:
     std::unique_ptr<StrandBackend> backend_;
 };
 
-}  // namespace hair
+}  // namespace hair::rendering

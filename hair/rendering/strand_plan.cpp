@@ -3,12 +3,53 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <glm/geometric.hpp>
 
 #include "engine/error.h"
 
-namespace hair {
+namespace hair::rendering {
+namespace {
+
+// ---- Lod bound ----------------------------------------------------------------------------------
+
+// Over strands, m.
+double meanWidth(const groom::Groom& groom, const StrandSettings& settings) {
+    if (settings.width == WidthSource::groom) {
+        const double sum = std::accumulate(groom.widths.begin(), groom.widths.end(), 0.0);
+        return sum / static_cast<double>(groom.widths.size());
+    }
+    const double tapered = 0.5 * (double{settings.root_width} + double{settings.tip_width});
+    return std::lerp(tapered, double{settings.root_width}, double{settings.taper_start});
+}
+
+// Root of the mean square distance of guide points from their mean, m: the radius of a sphere with
+// the points on it.
+double radius(const groom::Groom& groom) {
+    glm::dvec3 sum(0.0);
+    double squares = 0.0;
+    for (const glm::vec3& point : groom.points) {
+        sum += glm::dvec3(point);
+        squares += glm::dot(glm::dvec3(point), glm::dvec3(point));
+    }
+    const auto count = static_cast<double>(groom.points.size());
+    const glm::dvec3 mean = sum / count;
+    return std::sqrt(std::max(squares / count - glm::dot(mean, mean), 0.0));
+}
+
+}  // namespace
+
+float greatestWidthScale(const groom::Groom& groom, const StrandSettings& settings) {
+    const double width = groom.points.empty() ? 0.0 : meanWidth(groom, settings);
+    if (width == 0.0) return std::numeric_limits<float>::infinity();
+    return static_cast<float>(1.0 + double{kOutlineGrowth} * radius(groom) / width);
+}
 
 namespace {
+
+// ---- Strand plan --------------------------------------------------------------------------------
 
 constexpr std::uint32_t divideUp(std::uint32_t value, std::uint32_t divisor) {
     return (value + divisor - 1) / divisor;
@@ -115,4 +156,70 @@ planDraws(const StrandPlan& plan, Submission submission, std::uint32_t max_verti
     return draws;
 }
 
-}  // namespace hair
+// ---- Lod levels ---------------------------------------------------------------------------------
+
+double levelAtDistance(const LodSettings& lod, double distance) {
+    const double octaves = std::log2(distance / lod.near_distance);
+    const double all = std::log2(double{lod.far_distance} / lod.near_distance);
+    return lod.maximum_level * std::clamp(octaves / all, 0.0, 1.0);
+}
+
+DistanceLod distanceLod(
+    const groom::Groom& groom, std::span<const glm::vec3> guides, const StrandView& view,
+    const Settings& settings) {
+    const auto root = [&](std::uint32_t guide) {
+        return glm::dvec3(guides[std::size_t{guide} * groom.vertices_per_strand]);
+    };
+    const auto levelAt = [&](const glm::dvec3& place) {
+        return levelAtDistance(
+            settings.lod, glm::distance(place, glm::dvec3(settings.camera.position)));
+    };
+
+    DistanceLod result;
+    if (settings.strands.source == StrandSource::groom) {
+        for (const groom::StrandBinding& binding : groom.bindings) {
+            glm::dvec3 place = glm::dmat3(glm::mat3(view.head)) * glm::dvec3(binding.offset);
+            for (int i = 0; i < 3; ++i)
+                place +=
+                    double{binding.weights[i]} * root(binding.guides[static_cast<std::size_t>(i)]);
+            result.mean_level += levelAt(place) / static_cast<double>(groom.bindings.size());
+        }
+        return result;
+    }
+    const float least = view.greatest_width_scale > 0.0f ? 1.0f / view.greatest_width_scale : 0.0f;
+    std::uint64_t strands = 0;
+    for (const auto& [a, b, c] : groom.root_triangles) {
+        const double level = levelAt((root(a) + root(b) + root(c)) / 3.0);
+        result.mean_level += level / static_cast<double>(groom.root_triangles.size());
+        const auto scale = static_cast<float>(std::exp2(-level));
+        strands += drawnStrands(settings.strands.density, std::max(scale, least));
+    }
+    result.strands = strands;
+    return result;
+}
+
+namespace {
+
+// ---- Root pattern -------------------------------------------------------------------------------
+
+// Thesis program 2.3: fract(sin(dot(co, (12.9898, 78.233))) * 43758.5453).
+float thesisRandom(double x, double y) {
+    const double wide = std::sin(12.9898 * x + 78.233 * y) * 43758.5453;
+    const double fraction = wide - std::floor(wide);
+    return static_cast<float>(std::floor(fraction * 0x1p24)) * 0x1p-24f;
+}
+
+}  // namespace
+
+// Thesis program 2.4; there the strand is gl_TessCoord.y.
+std::vector<glm::vec2> thesisRootPattern(std::uint32_t density) {
+    std::vector<glm::vec2> pairs;
+    pairs.reserve(density);
+    for (std::uint32_t strand = 0; strand < density; ++strand) {
+        const double isoline = static_cast<double>(strand) / density;
+        pairs.emplace_back(thesisRandom(isoline, 0.6), thesisRandom(isoline, -0.4));
+    }
+    return pairs;
+}
+
+}  // namespace hair::rendering

@@ -7,16 +7,14 @@
 #include <optional>
 #include <string>
 
+#include "engine/buffer_image.h"
 #include "engine/error.h"
 #include "engine/pipeline.h"
-#include "engine/transfer.h"
 #include "hair/rendering/backends.h"
-#include "hair/rendering/frames_pass.h"
-#include "hair/rendering/picture_parameters.h"
+#include "hair/rendering/renderer.h"
 #include "hair/rendering/strand_offsets.h"
 
-namespace hair {
-
+namespace hair::rendering {
 namespace {
 
 using Record = gpu::StrandPointRecord;
@@ -98,4 +96,4 @@ StrandPoints evaluateStrandPoints(
     return result;
 }
 
-}  // namespace hair
+}  // namespace hair::rendering

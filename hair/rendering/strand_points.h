@@ -5,11 +5,11 @@
 
 #include "engine/device.h"
 #include "hair/gpu_structs.h"
+#include "hair/rendering/groom_buffers.h"
 #include "hair/rendering/strand_plan.h"
-#include "hair/rendering/strand_view.h"
 #include "hair/settings.h"
 
-namespace hair {
+namespace hair::rendering {
 
 // The strands of a picture as points in memory, for who exports, measures or tests them. Both ends
 // of every guide segment are there: the last point of one is the first of the next.
@@ -34,4 +34,4 @@ StrandPoints evaluateStrandPoints(
     const engine::Device& device, const Settings& settings, const StrandView& view,
     std::uint32_t most_at_once = kMostPointsAtOnce);
 
-}  // namespace hair
+}  // namespace hair::rendering

@@ -1,17 +1,41 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "engine/buffer.h"
+#include "engine/buffer_image.h"
 #include "hair/gpu_structs.h"
 #include "hair/groom/mesh/mesh.h"
+#include "hair/groom/mesh/surface.h"
 #include "hair/settings.h"
-#include "hair/simulation/distance_field.h"
 
-namespace hair {
+namespace hair::simulation {
+
+// Signed distances to a closed mesh on a grid, in the mesh's frame, for shaders
+// (shaders/simulation/constraints/distance_field.glsl).
+class DistanceField {
+public:
+    // Bakes on the device and waits. The longest side of the mesh's bounding box is `resolution`
+    // cells, at least 1; the grid goes on for at least `padding` (m, not negative) on every side,
+    // as far on opposite ones. Throws engine::Error for a mesh that is not closed, and
+    // engine::Unsupported where a buffer is larger than the device's.
+    DistanceField(
+        const engine::Device& device, const groom::Mesh& mesh, std::uint32_t resolution,
+        float padding);
+
+    const gpu::DistanceField& parameters() const { return parameters_; }
+    std::size_t bytes() const { return distances_.size(); }
+
+    // [z][y][x], m; downloaded, for set-up and tests.
+    std::vector<float> distances(const engine::Device& device) const;
+
+private:
+    gpu::DistanceField parameters_;
+    engine::Buffer distances_;
+};
 
 // What hair collides with, on the device: capsules and distance fields.
 class Bodies {
@@ -25,7 +49,7 @@ public:
     // (/simulation/distance_fields/N) for a mesh that is not closed.
     Bodies(
         const engine::Device& device, const SimulationSettings& settings,
-        std::span<const Mesh> meshes);
+        std::span<const groom::Mesh> meshes);
 
     gpu::Bodies parameters() const { return parametersWith(capsules_); }
     // The parameters of the same distance fields with other capsules.
@@ -42,4 +66,14 @@ private:
     float friction_;
 };
 
-}  // namespace hair
+// A hierarchy of boxes round triangles, for nearest neighbours. Every node is split in two halves
+// with as many triangles, so no path from the root has more than gpu::kTreeDepth nodes.
+struct TriangleTree {
+    std::vector<gpu::TreeNode> nodes;
+    std::vector<std::uint32_t> order;  // the mesh's triangles as the leaves number them
+};
+
+// The mesh has at least one triangle.
+TriangleTree buildTriangleTree(const groom::ClosedMesh& mesh);
+
+}  // namespace hair::simulation

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace hair {
+namespace hair::simulation {
 
 // Where the guides are on the device, for who draws them. Valid as long as the simulation that gave
 // it.
@@ -15,4 +15,4 @@ struct GuideView {
     std::uint32_t vertices_per_strand = 0;
 };
 
-}  // namespace hair
+}  // namespace hair::simulation

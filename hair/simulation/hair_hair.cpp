@@ -10,13 +10,11 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "engine/transfer.h"
+#include "engine/buffer_image.h"
 #include "hair/gpu_structs.h"
-#include "hair/simulation/dispatch_groups.h"
 #include "hair/simulation/stiffness.h"
 
-namespace hair {
-
+namespace hair::simulation {
 namespace {
 
 using engine::Access;
@@ -74,7 +72,7 @@ std::vector<float> toFloat(std::span<const double> values) {
 
 // Without the addresses.
 gpu::VolumeParameters
-parametersOf(const Groom& groom, const SimulationSettings& settings, const gpu::Step& step) {
+parametersOf(const groom::Groom& groom, const SimulationSettings& settings, const gpu::Step& step) {
     const HairHairSettings& contact = settings.hair_hair;
     const VolumeGrid grid = volumeGrid(groom, contact.resolution);
     const double whole = step.whole;
@@ -108,7 +106,7 @@ engine::ComputePipeline pipeline(const engine::Device& device, const char* shade
 
 }  // namespace
 
-VolumeGrid volumeGrid(const Groom& groom, std::uint32_t resolution) {
+VolumeGrid volumeGrid(const groom::Groom& groom, std::uint32_t resolution) {
     glm::dvec3 low(groom.points[0]);
     glm::dvec3 high = low;
     double longest = 0.0;
@@ -128,7 +126,7 @@ VolumeGrid volumeGrid(const Groom& groom, std::uint32_t resolution) {
         .resolution = resolution};
 }
 
-std::vector<double> lengthShares(const Groom& groom) {
+std::vector<double> lengthShares(const groom::Groom& groom) {
     std::vector<double> shares(groom.points.size());
     for (std::size_t i = 1; i < shares.size(); ++i) {
         if (i % groom.vertices_per_strand == 0) continue;
@@ -143,7 +141,7 @@ std::vector<double> lengthShares(const Groom& groom) {
     return shares;
 }
 
-double meanRestDensity(const Groom& groom, const VolumeGrid& grid) {
+double meanRestDensity(const groom::Groom& groom, const VolumeGrid& grid) {
     const std::size_t side = grid.resolution;
     const std::vector<double> shares = lengthShares(groom);
     std::vector<double> density(gpu::kVolumeGrids * side * side * side);
@@ -160,7 +158,7 @@ double meanRestDensity(const Groom& groom, const VolumeGrid& grid) {
 }
 
 HairHair::HairHair(
-    const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
+    const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const gpu::Step& step, std::uint64_t guides)
     : vertex_count_(static_cast<std::uint32_t>(groom.points.size())),
       shares_(engine::makeBuffer(
@@ -188,15 +186,16 @@ void HairHair::record(
     const gpu::VolumePush push{
         .volume = parameters_.address(), .accelerations = accelerations, .frame = toGpu(later)};
     // The grids may still be read by the step before.
-    commands.barrier(Access::compute_write, Access::transfer_write);
+    commands.barrier(engine::Access::compute_write, engine::Access::transfer_write);
     commands.fill(sums_, 0);
     commands.fill(fastest_, 0);
-    commands.barrier(Access::transfer_write, Access::compute_write);
+    commands.barrier(engine::Access::transfer_write, engine::Access::compute_write);
     for (const engine::ComputePipeline* pass : {&sample_, &splat_, &force_}) {
-        if (pass != &sample_) commands.barrier(Access::compute_write, Access::compute_write);
+        if (pass != &sample_)
+            commands.barrier(engine::Access::compute_write, engine::Access::compute_write);
         commands.bind(*pass, push);
         dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
     }
 }
 
-}  // namespace hair
+}  // namespace hair::simulation

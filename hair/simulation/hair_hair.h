@@ -5,15 +5,15 @@
 
 #include <glm/vec3.hpp>
 
-#include "engine/buffer.h"
+#include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/pipeline.h"
 #include "hair/gpu_structs.h"
 #include "hair/groom/groom.h"
 #include "hair/settings.h"
-#include "hair/simulation/rigid_motion.h"
+#include "hair/simulation/head_motion.h"
 
-namespace hair {
+namespace hair::simulation {
 
 // A cubic grid on the head, round the roots and 1.1 of the longest strand's length on every side.
 // All that lies at least kVolumeMargin cells within. A second grid begins half a cell before it.
@@ -23,14 +23,14 @@ struct VolumeGrid {
     std::uint32_t resolution = 0;  // cells a side
 };
 
-VolumeGrid volumeGrid(const Groom& groom, std::uint32_t resolution);
+VolumeGrid volumeGrid(const groom::Groom& groom, std::uint32_t resolution);
 
 // The part of the groom's length that each vertex stands for: half of its segments. Parts of a
 // groom without length are equal. [strand][vertex], sums to 1.
-std::vector<double> lengthShares(const Groom& groom);
+std::vector<double> lengthShares(const groom::Groom& groom);
 
 // Mean over the groom's length and both grids of the density at rest, shares per cell.
-double meanRestDensity(const Groom& groom, const VolumeGrid& grid);
+double meanRestDensity(const groom::Groom& groom, const VolumeGrid& grid);
 
 // Contact of hair with hair as between parts of a fluid, on grids that move with the head
 // (Petrovic, Henne and Anderson 2005, Volumetric methods for simulation and rendering of hair).
@@ -66,7 +66,7 @@ class HairHair {
 public:
     // `guides` is the address of gpu::GuideParameters.
     HairHair(
-        const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
+        const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
         const gpu::Step& step, std::uint64_t guides);
 
     // Adds to the accelerations, vec4 [strand][vertex], m/s^2, what acts over the next step;
@@ -91,4 +91,4 @@ private:
     engine::ComputePipeline force_;
 };
 
-}  // namespace hair
+}  // namespace hair::simulation

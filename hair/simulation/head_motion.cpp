@@ -8,8 +8,7 @@
 
 #include "engine/error.h"
 
-namespace hair {
-
+namespace hair::simulation {
 namespace {
 
 struct Pose {
@@ -123,4 +122,4 @@ RigidMotion HeadMotion::at(double time) const {
     return {rotation, pivot + pose.translation - rotation * pivot};
 }
 
-}  // namespace hair
+}  // namespace hair::simulation

@@ -3,20 +3,40 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <utility>
 
-#include "engine/transfer.h"
+#include "engine/buffer_image.h"
 #include "hair/gpu_structs.h"
 #include "hair/simulation/stiffness.h"
 
-namespace hair {
-
+namespace hair::simulation {
 namespace {
 
 using engine::Access;
 using engine::Commands;
+
+// ---- Fixed step ---------------------------------------------------------------------------------
+
+constexpr std::int64_t kPartsPerStep = 720720;  // the least common multiple of 1 .. 16
+
+}  // namespace
+
+FixedStep::FixedStep(double step) : step_(step) { assert(step > 0.0); }
+
+std::uint32_t FixedStep::stepsFor(double frame_time) {
+    assert(frame_time >= 0.0);
+    parts_ += std::llround(frame_time / step_ * double{kPartsPerStep});
+    const std::int64_t steps = parts_ / kPartsPerStep;
+    parts_ -= steps * kPartsPerStep;
+    return static_cast<std::uint32_t>(steps);
+}
+
+namespace {
+
+// ---- Simulation ---------------------------------------------------------------------------------
 
 static_assert(sizeof(gpu::Bodies) == 32);
 static_assert(sizeof(gpu::GuideParameters) == 96 && offsetof(gpu::GuideParameters, gravity) == 56);
@@ -37,8 +57,8 @@ bool hairActsOnHair(const SimulationSettings& settings) {
 }  // namespace
 
 Simulation::Simulation(
-    const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
-    std::uint32_t seed, std::span<const Mesh> field_meshes)
+    const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
+    std::uint32_t seed, std::span<const groom::Mesh> field_meshes)
     : device_(&device), settings_(settings), step_(stepOf(settings)),
       strand_count_(groom.strand_count), vertices_per_strand_(groom.vertices_per_strand),
       seed_(seed), pinned_(groom.points.size()), motion_(settings.motion),
@@ -67,29 +87,29 @@ Simulation::Simulation(
 
     for (const engine::Buffer* buffer : state())
         settled_.emplace_back(device, stateOf(*buffer, "settled state"));
-    device.runOnce([&](Commands& commands) {
-        commands.barrier(Access::anything, Access::transfer_write);
+    device.runOnce([&](engine::Commands& commands) {
+        commands.barrier(engine::Access::anything, engine::Access::transfer_write);
         for (std::size_t i = 0; i < settled_.size(); ++i)
             commands.copy(*state()[i], settled_[i], settled_[i].size());
         commands.fill(accelerations_, 0);
-        commands.barrier(Access::transfer_write, Access::anything);
+        commands.barrier(engine::Access::transfer_write, engine::Access::anything);
     });
 }
 
-void Simulation::recordWind(Commands& commands) const {
+void Simulation::recordWind(engine::Commands& commands) const {
     if (!solver_) return;
-    commands.barrier(Access::compute_write, Access::compute_write);
+    commands.barrier(engine::Access::compute_write, engine::Access::compute_write);
     wind_.record(commands, parameters_.address(), accelerations_.address(), time());
 }
 
-void Simulation::recordVolume(Commands& commands) const {
+void Simulation::recordVolume(engine::Commands& commands) const {
     if (!hair_hair_) return;
-    commands.barrier(Access::compute_write, Access::compute_write);
+    commands.barrier(engine::Access::compute_write, engine::Access::compute_write);
     hair_hair_->record(
         commands, accelerations_.address(), motion_.at(time() + double{step_.whole}));
 }
 
-void Simulation::recordPulls(Commands& commands) const {
+void Simulation::recordPulls(engine::Commands& commands) const {
     if (!solver_ || !pulls_) return;
     pulls_->record(commands, parameters_.address(), accelerations_.address(), time());
 }
@@ -133,7 +153,7 @@ void Simulation::carryOn(const SimulationSettings& settings) {
     if (solver) solver_ = std::move(solver);
 }
 
-void Simulation::recordStep(Commands& commands) {
+void Simulation::recordStep(engine::Commands& commands) {
     if (!solver_) return;
     const double start = time();
     ++steps_;
@@ -145,11 +165,11 @@ void Simulation::settle(std::uint32_t steps) {
     const std::uint32_t most = std::max(1u, kSettleBatch / step_.count);
     while (steps > 0) {
         const std::uint32_t batch = std::min(steps, most);
-        device_->runOnce([&](Commands& commands) {
+        device_->runOnce([&](engine::Commands& commands) {
             for (std::uint32_t i = 0; i < batch; ++i) {
-                commands.barrier(Access::anything, Access::compute_write);
+                commands.barrier(engine::Access::anything, engine::Access::compute_write);
                 wind_.recordCalm(commands, parameters_.address(), accelerations_.address());
-                commands.barrier(Access::compute_write, Access::compute_write);
+                commands.barrier(engine::Access::compute_write, engine::Access::compute_write);
                 if (hair_hair_) hair_hair_->record(commands, accelerations_.address(), pose());
                 recordSubsteps(commands, time(), time());
             }
@@ -160,12 +180,12 @@ void Simulation::settle(std::uint32_t steps) {
 
 void Simulation::reset() {
     steps_ = 0;
-    device_->runOnce([&](Commands& commands) {
-        commands.barrier(Access::anything, Access::transfer_write);
+    device_->runOnce([&](engine::Commands& commands) {
+        commands.barrier(engine::Access::anything, engine::Access::transfer_write);
         for (std::size_t i = 0; i < settled_.size(); ++i)
             commands.copy(settled_[i], *state()[i], settled_[i].size());
         commands.fill(accelerations_, 0);
-        commands.barrier(Access::transfer_write, Access::anything);
+        commands.barrier(engine::Access::transfer_write, engine::Access::anything);
     });
 }
 
@@ -178,12 +198,12 @@ void Simulation::setState(
     engine::upload(*device_, std::as_bytes(std::span(now)), positions_);
     engine::upload(*device_, std::as_bytes(std::span(before)), previous_);
     if (!solver_) return;
-    device_->runOnce([&](Commands& commands) {
+    device_->runOnce([&](engine::Commands& commands) {
         const gpu::RigidFrame frame = toGpu(pose());
-        commands.barrier(Access::anything, Access::compute_write);
+        commands.barrier(engine::Access::anything, engine::Access::compute_write);
         solver_->recordAdopt(
             commands, {.guides = parameters_.address(), .frame = frame, .frame_before = frame});
-        commands.barrier(Access::compute_write, Access::anything);
+        commands.barrier(engine::Access::compute_write, engine::Access::anything);
     });
 }
 
@@ -218,22 +238,22 @@ GuideView Simulation::guides() const {
 }
 
 // The frames of the head divide the time evenly.
-void Simulation::recordSubsteps(Commands& commands, double from, double to) const {
+void Simulation::recordSubsteps(engine::Commands& commands, double from, double to) const {
     const auto frameAfter = [&](std::uint32_t substep) {
         const double part = static_cast<double>(substep) / step_.count;
         return toGpu(motion_.at(from + part * (to - from)));
     };
     // After the forces, an earlier step, and whoever still draws what is overwritten.
-    commands.barrier(Access::anything, Access::compute_write);
+    commands.barrier(engine::Access::anything, engine::Access::compute_write);
     for (std::uint32_t i = 0; i < step_.count; ++i) {
-        if (i > 0) commands.barrier(Access::compute_write, Access::compute_write);
+        if (i > 0) commands.barrier(engine::Access::compute_write, engine::Access::compute_write);
         solver_->record(
             commands, {.guides = parameters_.address(),
                        .accelerations = accelerations_.address(),
                        .frame = frameAfter(i + 1),
                        .frame_before = frameAfter(i)});
     }
-    commands.barrier(Access::compute_write, Access::graphics_read);
+    commands.barrier(engine::Access::compute_write, engine::Access::graphics_read);
 }
 
 PullPass Simulation::pullPassOf(const SimulationSettings& settings) const {
@@ -272,4 +292,4 @@ std::vector<const engine::Buffer*> Simulation::state() const {
     return buffers;
 }
 
-}  // namespace hair
+}  // namespace hair::simulation

@@ -8,7 +8,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "engine/buffer.h"
+#include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "hair/groom/groom.h"
 #include "hair/groom/mesh/mesh.h"
@@ -17,11 +17,29 @@
 #include "hair/simulation/guide_view.h"
 #include "hair/simulation/hair_hair.h"
 #include "hair/simulation/head_motion.h"
-#include "hair/simulation/pull_pass.h"
-#include "hair/simulation/solver.h"
-#include "hair/simulation/wind_pass.h"
+#include "hair/simulation/pulls.h"
+#include "hair/simulation/solvers.h"
+#include "hair/simulation/wind.h"
 
-namespace hair {
+namespace hair::simulation {
+
+// Turns the simulated time that frames advance into whole steps and carries the rest over. Time is
+// counted in whole parts of a step, 720,720 of them, so that every ratio p / q of frame to step
+// with q <= 16 is exact and no error builds up; any other is off by less than 1e-6 steps a frame.
+class FixedStep {
+public:
+    // step > 0, s.
+    explicit FixedStep(double step);
+
+    // Steps to simulate for a frame that advances `frame_time` >= 0, s.
+    std::uint32_t stepsFor(double frame_time);
+
+    void reset() { parts_ = 0; }
+
+private:
+    double step_;
+    std::int64_t parts_ = 0;  // time that waits for the next step
+};
 
 // The guides on the device and the compute passes that move them. A time step is recordWind,
 // recordVolume where hasVolume, recordPulls where hasPulls, then recordStep. Simulated time is the
@@ -35,8 +53,8 @@ public:
     // settings.distance_fields[i]. Settles the guides (see settle) for settings.settle_steps.
     // Throws Error for settings that make no sense, Unsupported for what the device can't do.
     Simulation(
-        const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
-        std::uint32_t seed, std::span<const Mesh> field_meshes = {});
+        const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
+        std::uint32_t seed, std::span<const groom::Mesh> field_meshes = {});
 
     // The acceleration that air gives every vertex at the current time. Recorded without wind too,
     // so that frames with and without do the same work.
@@ -118,4 +136,4 @@ private:
     std::uint64_t steps_ = 0;
 };
 
-}  // namespace hair
+}  // namespace hair::simulation

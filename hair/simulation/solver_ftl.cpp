@@ -3,14 +3,13 @@
 #include <array>
 #include <span>
 
-#include "engine/transfer.h"
-#include "hair/simulation/dispatch_groups.h"
+#include "engine/buffer_image.h"
 #include "hair/simulation/stiffness.h"
 
-namespace hair {
+namespace hair::simulation {
 
 FtlSolver::FtlSolver(
-    const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
+    const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const gpu::Step& step)
     : strand_count_(groom.strand_count),
       parameters_(engine::makeBuffer(
@@ -27,4 +26,4 @@ void FtlSolver::record(engine::Commands& commands, gpu::SubstepPush push) const 
     dispatchInvocations(commands, strand_count_, gpu::kGuideGroupSize);
 }
 
-}  // namespace hair
+}  // namespace hair::simulation

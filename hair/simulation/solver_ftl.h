@@ -1,9 +1,9 @@
 #pragma once
 
 #include "engine/pipeline.h"
-#include "hair/simulation/solver.h"
+#include "hair/simulation/solvers.h"
 
-namespace hair {
+namespace hair::simulation {
 
 // Follow the leader: Verlet, the pull toward the rest position, then every segment is brought to
 // its length by moving its lower end alone, from the root down, and the upper end's velocity is
@@ -14,7 +14,7 @@ namespace hair {
 class FtlSolver : public GuideSolver {
 public:
     FtlSolver(
-        const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
+        const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
         const gpu::Step& step);
 
     void record(engine::Commands& commands, gpu::SubstepPush push) const override;
@@ -25,4 +25,4 @@ private:
     engine::ComputePipeline pipeline_;
 };
 
-}  // namespace hair
+}  // namespace hair::simulation

@@ -1,10 +1,28 @@
 #pragma once
 
-#include "engine/pipeline.h"
-#include "hair/simulation/shape_plan.h"
-#include "hair/simulation/solver.h"
+#include <cstdint>
+#include <string>
 
-namespace hair {
+#include "engine/instance.h"
+#include "engine/pipeline.h"
+#include "hair/settings.h"
+#include "hair/simulation/solvers.h"
+
+namespace hair::simulation {
+
+// How the `shape` solver's strands are dealt out to invocations.
+struct ShapePlan {
+    std::string shader;
+    engine::Constants constants;  // but kShapeCollidesConstant
+    bool collides = false;        // whether it looks for contact with bodies
+    std::uint32_t strands_per_group = 0;
+};
+
+// Throws Unsupported for strands with more vertices than the device has invocations in a workgroup
+// for, at 32 vertices each.
+ShapePlan planShape(
+    const engine::DeviceInfo& device, const SimulationSettings& settings,
+    std::uint32_t strand_count, std::uint32_t vertices_per_strand);
 
 // The thesis's solver: Verlet, then global, local (Han and Harada 2012) and length constraints
 // (thesis section 3).
@@ -12,7 +30,7 @@ class ShapeSolver : public GuideSolver {
 public:
     // Throws what planShape does.
     ShapeSolver(
-        const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
+        const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
         const gpu::Step& step);
 
     void record(engine::Commands& commands, gpu::SubstepPush push) const override;
@@ -27,4 +45,4 @@ private:
     engine::ComputePipeline pipeline_;
 };
 
-}  // namespace hair
+}  // namespace hair::simulation

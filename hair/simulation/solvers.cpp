@@ -1,3 +1,5 @@
+#include "hair/simulation/solvers.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -5,15 +7,40 @@
 #include <iterator>
 #include <limits>
 
-#include "hair/simulation/solver.h"
+#include "engine/pipeline.h"
 #include "hair/simulation/solver_ftl.h"
-#include "hair/simulation/solver_rest.h"
 #include "hair/simulation/solver_rod.h"
 #include "hair/simulation/solver_shape.h"
+#include "hair/simulation/stiffness.h"
 
-namespace hair {
-
+namespace hair::simulation {
 namespace {
+
+// ---- Solver rest --------------------------------------------------------------------------------
+
+// Hair frozen on a head that moves: solver `none` with keyframes.
+class RestSolver : public GuideSolver {
+public:
+    RestSolver(const engine::Device& device, const groom::Groom& groom);
+
+    void record(engine::Commands& commands, gpu::SubstepPush push) const override;
+
+private:
+    std::uint32_t vertex_count_;
+    engine::ComputePipeline pipeline_;
+};
+
+RestSolver::RestSolver(const engine::Device& device, const groom::Groom& groom)
+    : vertex_count_(groom.strand_count * groom.vertices_per_strand),
+      pipeline_(device, {.shader = "simulation/rest.comp", .push_size = sizeof(gpu::SubstepPush)}) {
+}
+
+void RestSolver::record(engine::Commands& commands, gpu::SubstepPush push) const {
+    commands.bind(pipeline_, push);
+    dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
+}
+
+// ---- Solvers ------------------------------------------------------------------------------------
 
 static_assert(sizeof(gpu::Step) == 12 && offsetof(gpu::Step, sub) == 4);
 static_assert(offsetof(gpu::Step, count) == 8);
@@ -22,18 +49,18 @@ struct Row {
     Solver solver;
     double longest_substep;  // of its own choice, s
     std::unique_ptr<GuideSolver> (*make)(
-        const engine::Device&, const Groom&, const SimulationSettings&, const gpu::Step&);
+        const engine::Device&, const groom::Groom&, const SimulationSettings&, const gpu::Step&);
 };
 
 template <class Made>
 std::unique_ptr<GuideSolver> make(
-    const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
+    const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const gpu::Step& step) {
     return std::make_unique<Made>(device, groom, settings, step);
 }
 
 std::unique_ptr<GuideSolver> makeNone(
-    const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
+    const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const gpu::Step&) {
     if (settings.motion.keyframes.empty()) return nullptr;
     return std::make_unique<RestSolver>(device, groom);
@@ -64,7 +91,7 @@ std::uint32_t substepsOf(const SimulationSettings& settings) {
 }  // namespace
 
 std::unique_ptr<GuideSolver> makeSolver(
-    const engine::Device& device, const Groom& groom, const SimulationSettings& settings,
+    const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const gpu::Step& step) {
     return rowOf(settings.solver).make(device, groom, settings, step);
 }
@@ -77,4 +104,4 @@ gpu::Step stepOf(const SimulationSettings& settings) {
         .count = count};
 }
 
-}  // namespace hair
+}  // namespace hair::simulation

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hair {
-
+namespace hair::simulation {
 namespace {
 
 double substepRatio(const gpu::Step& step) { return double{step.sub} / kReferenceStep; }
@@ -37,4 +36,4 @@ localStiffness(const SimulationSettings& settings, const gpu::Step& step, double
     return std::min(-std::expm1(exponent * std::log1p(-k)), kGreatestLocalStiffness);
 }
 
-}  // namespace hair
+}  // namespace hair::simulation

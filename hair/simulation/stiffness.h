@@ -1,7 +1,55 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+
+#include <glm/ext/quaternion_double.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/commands.h"
 #include "hair/gpu_structs.h"
 #include "hair/settings.h"
+
+namespace hair::simulation {
+
+// Dispatches `groups` workgroups. Where more are needed than fit in a row, shaders count them row
+// by row (workgroupIndex() in simulation/guides.glsl), and the last row may have some too many.
+inline void dispatchGroups(engine::Commands& commands, std::uint32_t groups) {
+    constexpr std::uint32_t kMostInRow = 65535;  // what every device has
+    const std::uint32_t columns = std::min(groups, kMostInRow);
+    commands.dispatch(columns, (groups + columns - 1) / columns);
+}
+
+// With as many workgroups of `size` invocations as `invocations` need.
+inline void
+dispatchInvocations(engine::Commands& commands, std::uint32_t invocations, std::uint32_t size) {
+    dispatchGroups(commands, (invocations + size - 1) / size);
+}
+
+// A unit vector perpendicular to `v`: its cross product with the axis it has least of (x before y
+// before z where they tie). (0, 1, 0) for v = 0. The same choice as in
+// shaders/common/quaternion.glsl.
+inline glm::dvec3 perpendicular(const glm::dvec3& v) {
+    const glm::dvec3 size = glm::abs(v);
+    glm::dvec3 axis{0.0, 0.0, 1.0};
+    if (size.x <= size.y && size.x <= size.z)
+        axis = {1.0, 0.0, 0.0};
+    else if (size.y <= size.z)
+        axis = {0.0, 1.0, 0.0};
+    const glm::dvec3 normal = glm::cross(v, axis);
+    const double length = glm::length(normal);
+    return length > 0.0 ? normal / length : glm::dvec3{0.0, 1.0, 0.0};
+}
+
+// The smallest rotation from one unit vector to another; half a turn round perpendicular(from)
+// where they are opposite. The same choice as in shaders/common/quaternion.glsl.
+inline glm::dquat rotationBetween(const glm::dvec3& from, const glm::dvec3& to) {
+    const glm::dvec3 sum = from + to;
+    if (glm::dot(sum, sum) < 1e-12) return {0.0, perpendicular(from)};
+    const glm::dvec3 halfway = glm::normalize(sum);
+    return {glm::dot(from, halfway), glm::cross(from, halfway)};
+}
 
 // From the settings to the factors that a solver applies in a substep, which is the step dt here.
 //
@@ -22,7 +70,6 @@
 // short that the iterations can't carry a correction along the strand stay too soft.
 //
 // Friction leaves a fraction of the velocity per reference step, hence its power dt / h0 per step.
-namespace hair {
 
 inline constexpr double kReferenceStep = 1.0 / 60.0;  // h0, s
 inline constexpr double kReferenceIterations = 10.0;  // n0
@@ -41,4 +88,4 @@ double globalStiffness(const SimulationSettings& settings, const gpu::Step& step
 double
 localStiffness(const SimulationSettings& settings, const gpu::Step& step, double segment_length);
 
-}  // namespace hair
+}  // namespace hair::simulation

@@ -24,8 +24,11 @@ endfunction()
 # ---- tools
 find_program(CCACHE ccache)
 if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    set(CMAKE_C_COMPILER_LAUNCHER "${CCACHE}")
-    set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE}")
+    # Without these it would not keep what is compiled with a precompiled header.
+    set(launcher "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${CCACHE}")
+    set(CMAKE_C_COMPILER_LAUNCHER "${launcher}")
+    set(CMAKE_CXX_COMPILER_LAUNCHER "${launcher}")
+    add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>)
 endif()
 find_program(GLSLANG_VALIDATOR NAMES glslangValidator glslang
     HINTS "$ENV{VULKAN_SDK}/bin" "$ENV{VULKAN_SDK}/Bin" REQUIRED)
@@ -81,7 +84,7 @@ add_library(hairbench_imgui STATIC
     ${IMGUI_DIR}/backends/imgui_impl_vulkan.cpp)
 target_include_directories(hairbench_imgui SYSTEM PUBLIC ${IMGUI_DIR})
 target_compile_definitions(hairbench_imgui PRIVATE IMGUI_IMPL_VULKAN_NO_PROTOTYPES VK_NO_PROTOTYPES)
-# It then tells engine/ui_items.cpp of its widgets, while somebody asks.
+# It then tells engine/ui.cpp of its widgets, while somebody asks.
 target_compile_definitions(hairbench_imgui PUBLIC IMGUI_ENABLE_TEST_ENGINE)
 target_compile_options(hairbench_imgui PRIVATE -w)
 target_link_libraries(hairbench_imgui PUBLIC glfw Vulkan::Headers)

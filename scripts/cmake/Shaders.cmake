@@ -2,7 +2,7 @@
 # program needs no file at run time. Expects GLSLANG_VALIDATOR and SPIRV_VAL (Dependencies.cmake).
 
 # hairbench_shaders(<target> SHADERS <path>...)
-# Adds the static library <target>, which defines engine::shaderCode() (engine/shader_code.h).
+# Adds the static library <target>, which defines engine::shaderCode() (engine/shaders.h).
 # A path is an entry point, relative to shaders/ and with the stage as its extension:
 # simulation/wind.comp, strands/tessellation.tese. Included files are found relative to shaders/ too
 # and need not be listed: the compiler reports them, and changing one rebuilds whoever includes it.
@@ -47,9 +47,9 @@ function(_hairbench_shader source_dir output_dir shader)
     if(SPIRV_VAL)
         set(validate COMMAND "${SPIRV_VAL}" --target-env vulkan1.3 --scalar-block-layout "${spirv}")
     endif()
-    # -g keeps names and texts for captures, messages and reloading (engine/shader_sources.h); -gVS
+    # -g keeps names and texts for captures, messages and reloading (engine/shaders.h); -gVS
     # would need an extension. Files are named relative to shaders/, so that the code is the same
-    # wherever the project lies and engine/shader_compiler.h can make the same.
+    # wherever the project lies and engine/shaders.h can make the same.
     set(absolute "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/AbsoluteDepfile.cmake")
     add_custom_command(
         OUTPUT "${spirv}"

@@ -32,7 +32,7 @@ struct TreeTriangle {
     vec3 normal;  // unit length
 };
 
-// Pseudonormals, pointing out; only their directions matter. (hair/groom/mesh/closed_mesh.h)
+// Pseudonormals, pointing out; only their directions matter. (hair/groom/mesh/surface.h)
 struct TriangleNormals {
     vec3 face;
     vec3 edges[3];  // from corner i to the next

@@ -18,7 +18,7 @@ const uint kWindWeightPurpose = 0x57494e44u;
 
 // A rigid motion from where the groom was made to where it is now: x -> rotation x + translation.
 struct RigidFrame {
-    vec4 rotation;     // unit quaternion, w the scalar part
+    vec4 rotation;  // unit quaternion, w the scalar part
     vec3 translation;  // m
 };
 
@@ -43,10 +43,10 @@ struct BodyField {
 // The bodies that hair collides with.
 struct Bodies {
     uint64_t capsules;  // Capsule [capsule_count]
-    uint64_t fields;    // BodyField [field_count]
+    uint64_t fields;  // BodyField [field_count]
     uint capsule_count;
     uint field_count;
-    float margin;    // m
+    float margin;  // m
     float friction;  // Coulomb's coefficient
 };
 
@@ -55,8 +55,8 @@ struct Bodies {
 // substep earlier, over the substep.
 struct Step {
     float whole;  // s
-    float sub;    // s, whole / count
-    uint count;   // substeps in a step
+    float sub;  // s, whole / count
+    uint count;  // substeps in a step
 };
 
 // What a simulation knows of its guides for its whole life.
@@ -126,7 +126,7 @@ struct PullPush {
 
 // Parameters of simulation/shape.comp.
 struct ShapeParameters {
-    uint64_t rest_edges;  // hair/simulation/rest_shape.h
+    uint64_t rest_edges;  // hair/simulation/solver_shape.h
     uint64_t local_stiffness;  // float [strand]: factor per iteration
     float global_stiffness;  // factor per substep
     uint local_iterations;

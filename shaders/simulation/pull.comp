@@ -1,6 +1,6 @@
 #version 460
 // Adds to every guide vertex its part of what a hand gives the vertex that it holds:
-// hair/simulation/pull_pass.h. One invocation per vertex; roots get nothing, as from the wind.
+// hair/simulation/pulls.h. One invocation per vertex; roots get nothing, as from the wind.
 #extension GL_GOOGLE_include_directive : require
 
 #include "simulation/guides.glsl"

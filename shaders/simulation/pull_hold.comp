@@ -1,5 +1,5 @@
 #version 460
-// The acceleration of the vertex that a hand holds: hair/simulation/pull_pass.h. One invocation,
+// The acceleration of the vertex that a hand holds: hair/simulation/pulls.h. One invocation,
 // before any vertex gets its part, since the vertex itself is one of them.
 #extension GL_GOOGLE_include_directive : require
 

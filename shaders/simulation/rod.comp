@@ -3,7 +3,7 @@
 // that neither stretches nor shears. The unknowns are rotations of the segments; the vertices
 // follow. Each iteration is a Newton step, which eliminates one segment after the other from the
 // tip up: Featherstone 1983, The calculation of robot dynamics using articulated-body inertias. See
-// reference_rod.h for the rod and for where it comes from, rod_structs.h for the units.
+// rod.h for the rod and for where it comes from, rod_structs.h for the units.
 #extension GL_GOOGLE_include_directive : require
 
 #include "common/rigid_frame.glsl"

@@ -1,4 +1,4 @@
-// For shaders of stages that are watched: see hair/rendering/stage_watch.h.
+// For shaders of stages that are watched: see hair/rendering/backends.h.
 #ifndef HAIRBENCH_WATCH_GLSL
 #define HAIRBENCH_WATCH_GLSL
 

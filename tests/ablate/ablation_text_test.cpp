@@ -1,4 +1,4 @@
-#include "benchmarks/ablate/ablation_text.h"
+#include "benchmarks/ablate/ablation.h"
 
 #include <filesystem>
 
@@ -10,7 +10,7 @@
 #include "tests/benchmarks/schema_errors.h"
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::ablate {
 namespace {
 
 using testing::HasSubstr;
@@ -23,7 +23,7 @@ const std::filesystem::path kSchemaFile =
 CaseAblation sampleCase(std::size_t laps) {
     CaseAblation result{
         .name = "rest",
-        .axes = {{"/render/msaa", Document(4)}},
+        .axes = {{"/render/msaa", scene::Document(4)}},
         .frame = 13,
         .timing = "isolated",
         .counts = {{"strands", 8704}},
@@ -52,21 +52,21 @@ AblationReport sampleAblation(std::size_t laps = 8) {
         .cases =
             {sampleCase(laps),
              {.name = "rest/backend:pulling",
-              .axes = {{"/strands/backend", Document("pulling_geometry")}},
-              .status = Status::skipped,
+              .axes = {{"/strands/backend", scene::Document("pulling_geometry")}},
+              .status = report::Status::skipped,
               .reason = "/strands/backend: only tessellation"}},
         .notes = {"stages overlap"}};
 }
 
-Json written() { return Json::parse(ablationText(sampleAblation())); }
+scene::Json written() { return scene::Json::parse(ablationText(sampleAblation())); }
 
 TEST(AblationText, KeepsEveryFrame) {
-    const Json rung = written()["cases"][0]["rungs"][3];
+    const scene::Json rung = written()["cases"][0]["rungs"][3];
     EXPECT_EQ(rung["name"], "tessellation");
     EXPECT_EQ(rung["tessellation"], 4);
     EXPECT_EQ(rung["time"]["median"], 10.0);
     EXPECT_EQ(rung["time"]["laps"].size(), 8u);
-    EXPECT_EQ(rung["time"]["laps"][7]["down"], Json::array({10.0}));
+    EXPECT_EQ(rung["time"]["laps"][7]["down"], scene::Json::array({10.0}));
     EXPECT_EQ(rung["marginal"]["estimate"], 4.0);
     EXPECT_EQ(rung["marginal"]["interval"]["upper"], 4.0);
     EXPECT_DOUBLE_EQ(rung["per"]["evaluation"]["value"].get<double>(), 4e6 / 3000);
@@ -74,7 +74,7 @@ TEST(AblationText, KeepsEveryFrame) {
 }
 
 TEST(AblationText, SetsChecksApartFromRungs) {
-    const Json found = written()["cases"][0];
+    const scene::Json found = written()["cases"][0];
     EXPECT_EQ(written()["notes"][0], "stages overlap");
     EXPECT_EQ(found["rungs"].size(), 8u);
     EXPECT_EQ(found["checks"].size(), 6u);
@@ -84,7 +84,7 @@ TEST(AblationText, SetsChecksApartFromRungs) {
 }
 
 TEST(AblationText, LeavesOutWhatIsNotKnown) {
-    const Json found = Json::parse(ablationText(sampleAblation(2)))["cases"];
+    const scene::Json found = scene::Json::parse(ablationText(sampleAblation(2)))["cases"];
     EXPECT_FALSE(found[0]["rungs"][3]["marginal"].contains("interval"));
     EXPECT_FALSE(found[1].contains("rungs"));
     EXPECT_FALSE(found[0]["rungs"][3]["statistics"]["fragment_invocations"].contains("expected"));
@@ -102,22 +102,22 @@ TEST(AblationSchema, FindsWhatIsWrong) {
          {"/schema", "/scene/hash", "/laps", "/cases/0/rungs", "/cases/0/image_hash",
           "/cases/0/rungs/1/name", "/cases/0/rungs/1/time/laps", "/cases/0/residual/closure",
           "/cases/0/rungs/2/marginal/estimate", "/cases/1/reason"}) {
-        Json report = written();
-        const Json::json_pointer place(pointer);
+        scene::Json report = written();
+        const scene::Json::json_pointer place(pointer);
         report[place.parent_pointer()].erase(place.back());
         EXPECT_THAT(schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
     }
-    const std::pair<const char*, Json> replaced[] = {
+    const std::pair<const char*, scene::Json> replaced[] = {
         {"/schema", "hairbench-report/1.0.0"},
         {"/cases/0/rungs/0/name", "pass"},
         {"/cases/0/checks/0/name", "empty"},
-        {"/cases/0/rungs/1/time/laps/0/up", Json::array()},
+        {"/cases/0/rungs/1/time/laps/0/up", scene::Json::array()},
         {"/cases/0/rungs/1/marginal/estimate", nullptr},
         {"/cases/0/rungs/1/samples", 3},
         {"/cases/0/timing", "overlapped"}};
     for (const auto& [pointer, value] : replaced) {
-        Json report = written();
-        report[Json::json_pointer(pointer)] = value;
+        scene::Json report = written();
+        report[scene::Json::json_pointer(pointer)] = value;
         EXPECT_THAT(schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
     }
 }
@@ -136,4 +136,4 @@ TEST(AblationTable, HasALinePerRungAndTheRest) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::ablate

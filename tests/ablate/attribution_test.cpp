@@ -4,7 +4,7 @@
 
 #include "tests/ablate/made_up_times.h"
 
-namespace benchmarks {
+namespace benchmarks::ablate {
 namespace {
 
 using testing::ElementsAre;
@@ -126,4 +126,4 @@ TEST(AttributionWarnings, NameWhatDoesNot) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::ablate

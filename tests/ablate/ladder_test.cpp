@@ -1,11 +1,11 @@
-#include "benchmarks/ablate/ladder.h"
+#include "benchmarks/ablate/stops.h"
 
 #include <gmock/gmock.h>
 
-namespace benchmarks {
+namespace benchmarks::ablate {
 namespace {
 
-using hair::StrandStage;
+using hair::rendering::StrandStage;
 using testing::ElementsAre;
 using testing::StartsWith;
 
@@ -38,7 +38,7 @@ TEST(Ladder, AddsSamplesLast) {
             plan.stop == Stop::msaa || plan.stop == Stop::raster_msaa || plan.stop == Stop::pass;
         EXPECT_EQ(plan.settings.render.msaa, multisampled ? 4u : 1u) << stopName(plan.stop);
     }
-    EXPECT_EQ(stopOf(settings, Stop::msaa).stages, hair::StrandStages{});
+    EXPECT_EQ(stopOf(settings, Stop::msaa).stages, hair::rendering::StrandStages{});
 }
 
 // At a level of detail of 2, 4 segments have become 1.
@@ -55,11 +55,14 @@ TEST(Ladder, LeavesOutOneSegmentWhereThereIsNoMore) {
 
 TEST(Ladder, WatchesTheLastStageOfWhatIsDiscarded) {
     EXPECT_EQ(
-        stopOf({}, Stop::geometry).stages,
-        (hair::StrandStages{
-            .last = StrandStage::geometry, .watched = StrandStage::geometry, .watch = 1}));
-    EXPECT_EQ(stopOf({}, Stop::raster).stages, (hair::StrandStages{.last = StrandStage::raster}));
-    EXPECT_EQ(stopOf({}, Stop::pass).stages, hair::StrandStages{});
+        stopOf({}, Stop::geometry).stages, (hair::rendering::StrandStages{
+                                               .last = hair::rendering::StrandStage::geometry,
+                                               .watched = hair::rendering::StrandStage::geometry,
+                                               .watch = 1}));
+    EXPECT_EQ(
+        stopOf({}, Stop::raster).stages,
+        (hair::rendering::StrandStages{.last = hair::rendering::StrandStage::raster}));
+    EXPECT_EQ(stopOf({}, Stop::pass).stages, hair::rendering::StrandStages{});
 }
 
 TEST(Ladder, SaysWhatItIsNotFor) {
@@ -76,4 +79,4 @@ TEST(Ladder, SaysWhatItIsNotFor) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::ablate

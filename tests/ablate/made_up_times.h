@@ -4,9 +4,9 @@
 #include <map>
 #include <vector>
 
-#include "benchmarks/ablate/laps.h"
+#include "benchmarks/ablate/stops.h"
 
-namespace benchmarks {
+namespace benchmarks::ablate {
 
 // Laps of one frame a visit, all stops of which take the same time in every lap.
 inline std::vector<StopTimes> steadyTimes(const std::map<Stop, double>& times, std::size_t laps) {
@@ -35,4 +35,4 @@ inline std::map<Stop, double> sampleTimes() {
         {Stop::watched_geometry, 45.125}};
 }
 
-}  // namespace benchmarks
+}  // namespace benchmarks::ablate

@@ -1,13 +1,13 @@
-#include "benchmarks/ablate/stop_counts.h"
+#include "benchmarks/ablate/stops.h"
 
 #include <algorithm>
 
 #include <gmock/gmock.h>
 
-#include "benchmarks/ablate/coverage_check.h"
-#include "benchmarks/ablate/unit_costs.h"
+#include "benchmarks/ablate/attribution.h"
+#include "benchmarks/ablate/ladder_walk.h"
 
-namespace benchmarks {
+namespace benchmarks::ablate {
 namespace {
 
 using testing::ElementsAre;
@@ -15,8 +15,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 // 2 triangles of 3 segments: 6 patches of 5 strands with 4 pieces: 150 ends, 120 lines.
-hair::StrandPlan smallPlan() {
-    return hair::planStrands(2, 3, {.density = 5, .tessellation = 4}, {}, 64);
+hair::rendering::StrandPlan smallPlan() {
+    return hair::rendering::planStrands(2, 3, {.density = 5, .tessellation = 4}, {}, 64);
 }
 
 engine::StatisticCounts
@@ -102,7 +102,7 @@ TEST(StopCounts, LeaveOutStagesThatAreNotThere) {
     counts.seen = 6;
     EXPECT_THAT(warningsOf(Stop::vertex, counts), IsEmpty());
     const StopPlan vertex = stopOf(Stop::vertex);
-    for (const Statistic& each : stopStatistics(vertex, smallPlan(), counts, false))
+    for (const report::Statistic& each : stopStatistics(vertex, smallPlan(), counts, false))
         EXPECT_THAT(each.name, testing::AnyOf("vertex_invocations", "samples_passed", "seen"));
 }
 
@@ -147,4 +147,4 @@ TEST(UnitCosts, AreMarginalCostsOverCounts) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::ablate

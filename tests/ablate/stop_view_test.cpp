@@ -6,14 +6,13 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/ablate/still_hair.h"
-#include "benchmarks/ablate/stop_view.h"
-#include "engine/samples_query.h"
+#include "benchmarks/ablate/ladder_walk.h"
+#include "engine/queries.h"
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/pictures.h"
 #include "tests/required.h"
 
-namespace benchmarks {
+namespace benchmarks::ablate {
 namespace {
 
 // The thesis's hair, 136 root triangles of 7 guide segments, with 16 strands of 4 pieces.
@@ -25,7 +24,7 @@ protected:
     void SetUp() override {
         GpuTest::SetUp();
         if (isOver()) return;
-        settings_ = hair::thesisAtRest();
+        settings_ = hair::rendering::thesisAtRest();
         settings_.strands.density = 16;
         settings_.strands.root_width = 0.002f;  // m: in a small picture there is more to see
         settings_.strands.tip_width = 0.001f;
@@ -58,7 +57,7 @@ protected:
         return sum;
     }
 
-    hair::Pixels pictureOf(StopView& view) {
+    hair::rendering::Pixels pictureOf(StopView& view) {
         engine::FrameLoop loop(device(), engine::Timing::isolated);
         view.draw(loop);
         loop.finish();
@@ -66,16 +65,16 @@ protected:
     }
 
     hair::Settings settings_;
-    std::optional<hair::StageWatch> watch_;
+    std::optional<hair::rendering::StageWatch> watch_;
     std::optional<StillHair> hair_;
 };
 
 TEST_F(StopViewTest, DoesTheWorkOfItsStages) {
     std::map<Stop, std::map<std::string, std::uint64_t>> counts;
     for (auto& [stop, view] : views(settings_)) {
-        const std::vector<Statistic> lines =
+        const std::vector<report::Statistic> lines =
             stopStatistics(view->stop(), view->plan(), view->count(*watch_), false);
-        for (const Statistic& each : lines) counts[stop][each.name] = each.measured;
+        for (const report::Statistic& each : lines) counts[stop][each.name] = each.measured;
         for (const std::string& warning : countWarnings(view->stop(), lines))
             ADD_FAILURE() << warning;
     }
@@ -107,10 +106,10 @@ TEST_F(StopViewTest, DrawsWhatItsStagesLeaveToSee) {
     single.render.msaa = 1;
     hair::Settings without = single;
     without.render.hair = false;
-    const hair::Pixels hairy = hair::drawCase(device(), single);
-    const hair::Pixels bald = hair::drawCase(device(), without);
+    const hair::rendering::Pixels hairy = hair::rendering::drawCase(device(), single);
+    const hair::rendering::Pixels bald = hair::rendering::drawCase(device(), without);
     // Of 14,400 pixels; the hair is about 0.3 m and the picture 1.2 m high.
-    ASSERT_GT(hair::differingPixels(hairy, bald), 200u);
+    ASSERT_GT(hair::rendering::differingPixels(hairy, bald), 200u);
 
     std::map<Stop, std::unique_ptr<StopView>> all = views(settings_);
     for (const Stop stop :
@@ -120,7 +119,7 @@ TEST_F(StopViewTest, DrawsWhatItsStagesLeaveToSee) {
     for (const Stop stop :
          {Stop::fragment, Stop::watched_vertex, Stop::watched_evaluation, Stop::watched_geometry})
         EXPECT_EQ(pictureOf(*all.at(stop)), hairy) << stopName(stop);
-    const hair::Pixels usual = hair::drawCase(device(), settings_);
+    const hair::rendering::Pixels usual = hair::rendering::drawCase(device(), settings_);
     EXPECT_EQ(pictureOf(*all.at(Stop::pass)), usual);
     if (all.contains(Stop::msaa)) {
         EXPECT_EQ(pictureOf(*all.at(Stop::msaa)), usual);
@@ -198,4 +197,4 @@ TEST_F(StopViewTest, CountsSamples) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::ablate

@@ -1,4 +1,4 @@
-#include "benchmarks/assets.h"
+#include "benchmarks/measure/case.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ TEST(Assets, RefusesAFieldOfAnOpenMeshBeforeAnythingRuns) {
     folder.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
     const auto scene = folder.write("s.json", "{}");
     const std::string error =
-        folder.relative(errorText([&] { checkAssets(withField("open.obj"), scene); }));
+        folder.relative(errorText([&] { measure::checkAssets(withField("open.obj"), scene); }));
     EXPECT_EQ(
         error.substr(0, error.find(", the first")),
         "s.json: /simulation/distance_fields/0: the surface is not closed: edges with one "
@@ -30,14 +30,15 @@ TEST(Assets, RefusesAFieldOfAnOpenMeshBeforeAnythingRuns) {
 TEST(Assets, TakesTheMeshThatHairGrowsOnForAField) {
     const TemporaryFolder folder;
     EXPECT_EQ(
-        errorText([&] { checkAssets(withField(""), folder.write("s.json", "{}")); }), "no error");
+        errorText([&] { measure::checkAssets(withField(""), folder.write("s.json", "{}")); }),
+        "no error");
 }
 
 TEST(Assets, NamesAMissingMeshOfAField) {
     const TemporaryFolder folder;
     const auto scene = folder.write("s.json", "{}");
     const std::string error =
-        folder.relative(errorText([&] { checkAssets(withField("none.obj"), scene); }));
+        folder.relative(errorText([&] { measure::checkAssets(withField("none.obj"), scene); }));
     EXPECT_EQ(error.substr(0, 10), "none.obj: ") << error;
 }
 

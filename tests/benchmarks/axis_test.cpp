@@ -1,4 +1,4 @@
-#include "benchmarks/axis.h"
+#include "benchmarks/scene/axis.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -13,14 +13,17 @@ using testing::ElementsAre;
 // The texts of the values that an argument stands for.
 std::vector<std::string> parsed(const std::string& argument) {
     std::vector<std::string> texts;
-    for (const Document& value : parseAxis(argument).values) texts.push_back(value.text());
+    for (const scene::Document& value : scene::parseAxis(argument).values)
+        texts.push_back(value.text());
     return texts;
 }
 
 TEST(ParseAxis, ReadsValuesAsJsonWhereTheyAre) {
-    const Axis axis = parseAxis("/strands/density=16,64.5,true");
+    const scene::Axis axis = scene::parseAxis("/strands/density=16,64.5,true");
     EXPECT_EQ(axis.pointer, "/strands/density");
-    EXPECT_THAT(axis.values, ElementsAre(Document(16), Document(64.5), Document(true)));
+    EXPECT_THAT(
+        axis.values,
+        ElementsAre(scene::Document(16), scene::Document(64.5), scene::Document(true)));
 }
 
 TEST(ParseAxis, ReadsTheRestAsStrings) {
@@ -38,10 +41,11 @@ TEST(ParseAxis, KeepsVectorsTogether) {
 
 TEST(ParseAxis, RefusesWhatHasNoValues) {
     const std::string expected = ": expected POINTER=V1,V2, as in /strands/density=16,64";
-    EXPECT_EQ(errorText([] { parseAxis("/strands/density"); }), "-a /strands/density" + expected);
-    EXPECT_EQ(errorText([] { parseAxis("=1"); }), "-a =1" + expected);
-    EXPECT_EQ(errorText([] { parseAxis("/a="); }), "-a /a=: a value is empty");
-    EXPECT_EQ(errorText([] { parseAxis("/a=1,,2"); }), "-a /a=1,,2: a value is empty");
+    EXPECT_EQ(
+        errorText([] { scene::parseAxis("/strands/density"); }), "-a /strands/density" + expected);
+    EXPECT_EQ(errorText([] { scene::parseAxis("=1"); }), "-a =1" + expected);
+    EXPECT_EQ(errorText([] { scene::parseAxis("/a="); }), "-a /a=: a value is empty");
+    EXPECT_EQ(errorText([] { scene::parseAxis("/a=1,,2"); }), "-a /a=1,,2: a value is empty");
 }
 
 TEST(ParseAxis, WritesOutRanges) {
@@ -76,31 +80,33 @@ TEST(ParseAxis, RefusesRangesWithoutValues) {
         {"pow2:1:3:0.5", "pow2:1:3:0.5: exponents are whole numbers in [0, 52]"}};
     for (const auto& [range, error] : errors) {
         const std::string argument = std::string("/a=") + range;
-        EXPECT_EQ(errorText([&] { parseAxis(argument); }), "-a " + argument + ": " + error);
+        EXPECT_EQ(errorText([&] { scene::parseAxis(argument); }), "-a " + argument + ": " + error);
     }
 }
 
 TEST(AxisLabels, AreTheLastTokens) {
-    EXPECT_THAT(axisLabels({"/groom/guides", "/render/msaa"}), ElementsAre("guides", "msaa"));
+    EXPECT_THAT(
+        scene::axisLabels({"/groom/guides", "/render/msaa"}), ElementsAre("guides", "msaa"));
 }
 
 TEST(AxisLabels, TakeMoreTokensUntilTheyDiffer) {
     EXPECT_THAT(
-        axisLabels({"/simulation/global/stiffness", "/lod/level", "/simulation/local/stiffness"}),
+        scene::axisLabels(
+            {"/simulation/global/stiffness", "/lod/level", "/simulation/local/stiffness"}),
         ElementsAre("global.stiffness", "level", "local.stiffness"));
     EXPECT_THAT(
-        axisLabels({"/simulation/colliders/0/radius", "/simulation/colliders/1/radius"}),
+        scene::axisLabels({"/simulation/colliders/0/radius", "/simulation/colliders/1/radius"}),
         ElementsAre("0.radius", "1.radius"));
 }
 
 TEST(AxisLabels, NameTheOwnerOfAnElement) {
-    EXPECT_THAT(axisLabels({"/camera/position/2"}), ElementsAre("position.2"));
+    EXPECT_THAT(scene::axisLabels({"/camera/position/2"}), ElementsAre("position.2"));
 }
 
 TEST(ValueLabel, DropsAStringsQuotes) {
-    EXPECT_EQ(valueLabel("lines"), "lines");
-    EXPECT_EQ(valueLabel({0, 0, 1}), "[0,0,1]");
-    EXPECT_EQ(valueLabel(64), "64");
+    EXPECT_EQ(scene::valueLabel("lines"), "lines");
+    EXPECT_EQ(scene::valueLabel({0, 0, 1}), "[0,0,1]");
+    EXPECT_EQ(scene::valueLabel(64), "64");
 }
 
 }  // namespace

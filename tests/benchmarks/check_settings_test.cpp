@@ -1,4 +1,4 @@
-#include "benchmarks/check_settings.h"
+#include "benchmarks/scene/schema.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ template <class Change>
 std::string broken(Change&& change) {
     hair::Settings settings;
     change(settings);
-    return errorText([&] { checkSettings(settings); });
+    return errorText([&] { scene::checkSettings(settings); });
 }
 
 TEST(CheckSettings, AcceptsTheDefaults) {

@@ -1,4 +1,4 @@
-#include "benchmarks/lod_report.h"
+#include "benchmarks/lod/walk.h"
 
 #include <filesystem>
 
@@ -20,7 +20,7 @@ const std::filesystem::path kSchemaFile =
     std::filesystem::path(HAIRBENCH_SCENES_DIR) / "../results/lod.schema.json";
 
 // Two steps; the first has no step before it and doesn't know its strands.
-LodReport sampleLod() {
+lod::LodReport sampleLod() {
     return {
         .environment = sampleReport().environment,
         .scene = sampleReport().scene,
@@ -45,10 +45,10 @@ LodReport sampleLod() {
              .full_time = {14.0, 20.0}}}};
 }
 
-Json written() { return Json::parse(lodReportText(sampleLod())); }
+scene::Json written() { return scene::Json::parse(lod::lodReportText(sampleLod())); }
 
 TEST(LodTotals, AreThoseOfAllSteps) {
-    const LodTotals totals = totalsOf(sampleLod().steps);
+    const lod::LodTotals totals = lod::totalsOf(sampleLod().steps);
     EXPECT_EQ(totals.worst_popping, 0.002);
     EXPECT_NEAR(totals.mean_coverage_change, -0.05, 1e-15);
     EXPECT_NEAR(totals.worst_coverage_change, -0.1, 1e-15);
@@ -57,20 +57,20 @@ TEST(LodTotals, AreThoseOfAllSteps) {
 }
 
 TEST(LodReport, LeavesOutWhatIsNotKnown) {
-    const Json report = written();
+    const scene::Json report = written();
     EXPECT_FALSE(report["steps"][0].contains("popping"));
     EXPECT_FALSE(report["steps"][0].contains("strands"));
     EXPECT_EQ(report["steps"][1]["strands"], 1000);
     EXPECT_EQ(report["steps"][1]["full_time"]["strands"], 14.0);
-    LodReport interrupted = sampleLod();
+    lod::LodReport interrupted = sampleLod();
     interrupted.steps.clear();
     interrupted.interrupted = true;
-    EXPECT_FALSE(Json::parse(lodReportText(interrupted)).contains("totals"));
-    EXPECT_THAT(schemaErrors(textOf(kSchemaFile), lodReportText(interrupted)), IsEmpty());
+    EXPECT_FALSE(scene::Json::parse(lod::lodReportText(interrupted)).contains("totals"));
+    EXPECT_THAT(schemaErrors(textOf(kSchemaFile), lod::lodReportText(interrupted)), IsEmpty());
 }
 
 TEST(LodSchema, DescribesTheReport) {
-    EXPECT_THAT(schemaErrors(textOf(kSchemaFile), lodReportText(sampleLod())), IsEmpty());
+    EXPECT_THAT(schemaErrors(textOf(kSchemaFile), lod::lodReportText(sampleLod())), IsEmpty());
 }
 
 TEST(LodSchema, FindsWhatIsWrong) {
@@ -78,26 +78,26 @@ TEST(LodSchema, FindsWhatIsWrong) {
     for (const char* pointer :
          {"/schema", "/environment/device", "/scene/hash", "/frame", "/steps/0/distance",
           "/steps/0/time/frame", "/totals/strands_speed_up"}) {
-        Json report = written();
-        const Json::json_pointer place(pointer);
+        scene::Json report = written();
+        const scene::Json::json_pointer place(pointer);
         report[place.parent_pointer()].erase(place.back());
         EXPECT_THAT(schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
     }
-    const std::pair<const char*, Json> replaced[] = {
+    const std::pair<const char*, scene::Json> replaced[] = {
         {"/schema", "hairbench-report/1.0.0"},
         {"/steps/1/strands", -1},
         {"/steps/1/popping", nullptr},
         {"/steps/1/coverage", 1.5},
         {"/steps/1/distance", 0.0}};
     for (const auto& [pointer, value] : replaced) {
-        Json report = written();
-        report[Json::json_pointer(pointer)] = value;
+        scene::Json report = written();
+        report[scene::Json::json_pointer(pointer)] = value;
         EXPECT_THAT(schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
     }
 }
 
 TEST(LodTable, HasALinePerStepAndTheTotals) {
-    const std::string table = lodTable(sampleLod());
+    const std::string table = lod::lodTable(sampleLod());
     EXPECT_THAT(table, HasSubstr("0.500"));
     EXPECT_THAT(table, HasSubstr("20.000"));
     EXPECT_THAT(table, HasSubstr("-10.00"));

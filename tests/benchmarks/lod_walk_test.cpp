@@ -1,4 +1,4 @@
-#include "benchmarks/lod_walk.h"
+#include "benchmarks/lod/walk.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@ namespace benchmarks {
 namespace {
 
 TEST(LodPath, StepsAreOfOneRatio) {
-    const auto distances = distancesOf({.from = 0.5, .to = 8.0, .steps = 5});
+    const auto distances = lod::distancesOf({.from = 0.5, .to = 8.0, .steps = 5});
     ASSERT_EQ(distances.size(), 5u);
     for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(distances[i], 0.5 * (1u << i), 1e-12);
 }
@@ -18,7 +18,7 @@ TEST(LodPath, CameraKeepsItsDirection) {
     hair::CameraSettings camera;
     camera.position = {1.0f, 2.0f, 3.0f};
     camera.target = {1.0f, 0.0f, 3.0f};
-    const hair::CameraSettings moved = cameraAt(camera, 7.0);
+    const hair::CameraSettings moved = lod::cameraAt(camera, 7.0);
     EXPECT_EQ(moved.position, glm::vec3(1.0f, 7.0f, 3.0f));
     EXPECT_EQ(moved.target, camera.target);
 }
@@ -33,10 +33,10 @@ TEST_F(LodWalkTest, ComparesWithFullDetail) {
     settings.render.width = 96;
     settings.render.height = 64;
     settings.lod.near_distance = 1.0f;
-    Case hair(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
-    std::vector<LodStep> steps;
+    measure::Case hair(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
+    std::vector<lod::LodStep> steps;
     std::vector<double> begun;
-    walk(
+    lod::walk(
         device(), hair, settings, {.from = 0.5, .to = 4.0, .steps = 2},
         [&](double distance) { begun.push_back(distance); }, steps);
     ASSERT_EQ(steps.size(), 2u);

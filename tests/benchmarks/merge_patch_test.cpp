@@ -1,4 +1,4 @@
-#include "benchmarks/merge_patch.h"
+#include "benchmarks/scene/scene.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -9,8 +9,8 @@ namespace benchmarks {
 namespace {
 
 std::string merged(const char* target, const char* patch, const char* known = "{}") {
-    Json document = Json::parse(target);
-    mergePatch(document, Json::parse(patch), Json::parse(known));
+    scene::Json document = scene::Json::parse(target);
+    scene::mergePatch(document, scene::Json::parse(patch), scene::Json::parse(known));
     return document.dump();
 }
 

@@ -1,4 +1,4 @@
-#include "benchmarks/metric.h"
+#include "benchmarks/report/metric.h"
 
 #include <map>
 #include <regex>
@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "engine/read_file.h"
+#include "engine/files.h"
 
 namespace benchmarks {
 namespace {
@@ -49,9 +49,9 @@ std::map<std::string, std::string> documented() {
 // Of each kind one, of the part "x" where there is one.
 std::map<std::string, std::string> made() {
     std::map<std::string, std::string> units;
-    for (const MetricKind& kind : metricKinds()) {
+    for (const report::MetricKind& kind : report::metricKinds()) {
         const bool has_part = kind.name.find('*') != kind.name.npos;
-        const Metric metric({kind.of, kind.what, has_part ? "x" : ""}, {1.0});
+        const report::Metric metric({kind.of, kind.what, has_part ? "x" : ""}, {1.0});
         units[metric.name()] = metric.unit;
     }
     return units;
@@ -66,65 +66,73 @@ TEST(Metric, HasTheNamesAndUnitsThatAreDocumented) {
 }
 
 TEST(Metric, IsFoundAgainByItsName) {
-    for (const MetricKind& kind : metricKinds()) {
+    for (const report::MetricKind& kind : report::metricKinds()) {
         const bool has_part = kind.name.find('*') != kind.name.npos;
-        const MetricId id{kind.of, kind.what, has_part ? "mesh_shadow" : ""};
-        EXPECT_EQ(metricNamed(id.name()), id) << id.name();
+        const report::MetricId id{kind.of, kind.what, has_part ? "mesh_shadow" : ""};
+        EXPECT_EQ(report::metricNamed(id.name()), id) << id.name();
     }
-    EXPECT_EQ(metricNamed("pass.strands.time"), ofPass("strands", Measured::time));
-    EXPECT_EQ(metricNamed("pass.strands.cpu.time"), ofPass("strands", Measured::cpu_time));
-    EXPECT_EQ(metricNamed("pass.cpu.time"), ofPass("cpu", Measured::time));
-    EXPECT_EQ(metricNamed("memory.heap.0"), ofMemory(Measured::heap, "0"));
-    EXPECT_EQ(metricNamed("memory.purpose.targets"), ofMemory(Measured::purpose, "targets"));
+    EXPECT_EQ(
+        report::metricNamed("pass.strands.time"),
+        report::ofPass("strands", report::Measured::time));
+    EXPECT_EQ(
+        report::metricNamed("pass.strands.cpu.time"),
+        report::ofPass("strands", report::Measured::cpu_time));
+    EXPECT_EQ(report::metricNamed("pass.cpu.time"), report::ofPass("cpu", report::Measured::time));
+    EXPECT_EQ(report::metricNamed("memory.heap.0"), report::ofMemory(report::Measured::heap, "0"));
+    EXPECT_EQ(
+        report::metricNamed("memory.purpose.targets"),
+        report::ofMemory(report::Measured::purpose, "targets"));
 }
 
 TEST(Metric, IsAnotherWhereNoKindHasItsName) {
     for (const char* const name :
          {"", "frame", "frame.times", "pass.time", "pass..time", "pass.a.b.time",
           "pass.strands.bytes", "memory.heap.", "fps.low_1"}) {
-        const MetricId id = metricNamed(name);
-        EXPECT_EQ(id.of, MetricOf::other) << name;
+        const report::MetricId id = report::metricNamed(name);
+        EXPECT_EQ(id.of, report::MetricOf::other) << name;
         EXPECT_EQ(id.name(), name);
         EXPECT_EQ(id.pass(), "");
     }
-    EXPECT_NE(metricNamed("a"), metricNamed("b"));
+    EXPECT_NE(report::metricNamed("a"), report::metricNamed("b"));
 }
 
 TEST(Metric, NamesItsPass) {
-    EXPECT_EQ(metricNamed("pass.strands.time").pass(), "strands");
-    EXPECT_EQ(metricNamed("pass.strands.cpu.time").pass(), "strands");
-    EXPECT_EQ(metricNamed("pass.mesh_shadow.instructions").pass(), "mesh_shadow");
-    EXPECT_EQ(metricNamed("frame.cpu.time").pass(), "");
-    EXPECT_EQ(metricNamed("memory.heap.0").pass(), "");
+    EXPECT_EQ(report::metricNamed("pass.strands.time").pass(), "strands");
+    EXPECT_EQ(report::metricNamed("pass.strands.cpu.time").pass(), "strands");
+    EXPECT_EQ(report::metricNamed("pass.mesh_shadow.instructions").pass(), "mesh_shadow");
+    EXPECT_EQ(report::metricNamed("frame.cpu.time").pass(), "");
+    EXPECT_EQ(report::metricNamed("memory.heap.0").pass(), "");
 }
 
 // Of rates, the signal-to-noise ratio and the structural similarity more is better. An overlap is a
 // difference of two times, and who waits longer does so because others are faster.
 TEST(Metric, KnowsWhatIsBetter) {
-    for (const MetricKind& kind : metricKinds()) {
+    for (const report::MetricKind& kind : report::metricKinds()) {
         const std::string name(kind.name);
-        Better expected = Better::lower;
+        report::Better expected = report::Better::lower;
         if (name.starts_with("fps") || name == "image.psnr" || name == "image.ssim")
-            expected = Better::higher;
-        if (name == "frame.overlap" || name.ends_with(".wait.time")) expected = Better::neither;
+            expected = report::Better::higher;
+        if (name == "frame.overlap" || name.ends_with(".wait.time"))
+            expected = report::Better::neither;
         EXPECT_EQ(kind.better, expected) << name;
-        EXPECT_EQ(Metric(metricNamed(name), {}).better, expected) << name;
+        EXPECT_EQ(report::Metric(report::metricNamed(name), {}).better, expected) << name;
     }
-    EXPECT_EQ(Metric(metricNamed("frame.times"), {}).better, Better::neither);
+    EXPECT_EQ(
+        report::Metric(report::metricNamed("frame.times"), {}).better, report::Better::neither);
 }
 
 TEST(Metric, TellsTimesFromDifferencesAndWaits) {
     for (const char* const name :
          {"frame.time", "frame.first.time", "cpu.record.time", "pass.wind.cpu.time"})
-        EXPECT_TRUE(Metric(metricNamed(name), {}).isTime()) << name;
+        EXPECT_TRUE(report::Metric(report::metricNamed(name), {}).isTime()) << name;
     for (const char* const name :
          {"frame.overlap", "gpu.wait.time", "fps", "memory.device", "frame.instructions"})
-        EXPECT_FALSE(Metric(metricNamed(name), {}).isTime()) << name;
+        EXPECT_FALSE(report::Metric(report::metricNamed(name), {}).isTime()) << name;
 }
 
 TEST(Metric, FindsTheSameOfAllPasses) {
     const auto is_same = [](const char* name, const char* other) {
-        return isSameOfFrameOrPass(metricNamed(name), metricNamed(other));
+        return report::isSameOfFrameOrPass(report::metricNamed(name), report::metricNamed(other));
     };
     EXPECT_TRUE(is_same("pass.wind.cpu.time", "pass.strands.cpu.time"));
     EXPECT_TRUE(is_same("frame.cpu.time", "pass.strands.cpu.time"));
@@ -139,45 +147,47 @@ TEST(Metric, KnowsEveryCost) {
     for (const char* const name :
          {"frame.time", "frame.cpu.time", "frame.instructions", "pass.wind.time",
           "pass.wind.cpu.time", "pass.wind.instructions"})
-        EXPECT_TRUE(isFrameOrPassCost(metricNamed(name))) << name;
+        EXPECT_TRUE(report::isFrameOrPassCost(report::metricNamed(name))) << name;
     for (const char* const name :
          {"frame.first.time", "frame.overlap", "cpu.record.time", "fps", "memory.device"})
-        EXPECT_FALSE(isFrameOrPassCost(metricNamed(name))) << name;
+        EXPECT_FALSE(report::isFrameOrPassCost(report::metricNamed(name))) << name;
 }
 
 TEST(Metric, IsReadFromAReport) {
-    const Json result = Json::parse(R"({"metrics": {
+    const scene::Json result = scene::Json::parse(R"({"metrics": {
         "pass.wind.time": {"unit": "ms", "hint": "lower", "mode": "wall_clock", "median": 2.0,
                            "mad": 1.0, "samples": [1.0, 2.0, 3.0]},
         "fps": {"unit": "1/s", "median": 60.0, "mad": 0.0, "samples": [60.0]},
         "frame.overlap": {"unit": "ms", "median": 1.0, "mad": 0.0, "samples": [1.0]}}})");
-    const std::vector<MetricReading> metrics = readMetrics(result);
+    const std::vector<report::MetricReading> metrics = report::readMetrics(result);
     ASSERT_EQ(metrics.size(), 3u);
-    EXPECT_EQ(metrics[0].id, ofPass("wind", Measured::time));
+    EXPECT_EQ(metrics[0].id, report::ofPass("wind", report::Measured::time));
     EXPECT_EQ(metrics[0].unit, "ms");
-    EXPECT_EQ(metrics[0].better, Better::lower);
-    EXPECT_EQ(metrics[0].mode, Mode::wall_clock);
+    EXPECT_EQ(metrics[0].better, report::Better::lower);
+    EXPECT_EQ(metrics[0].mode, report::Mode::wall_clock);
     EXPECT_EQ(metrics[0].median, 2.0);
     EXPECT_THAT(metrics[0].samples, ElementsAre(1.0, 2.0, 3.0));
     // As reports of 1.0 are, which say no direction.
-    EXPECT_EQ(metrics[1].better, Better::higher);
-    EXPECT_EQ(metrics[1].mode, Mode::none);
-    EXPECT_EQ(metrics[2].better, Better::neither);
-    EXPECT_EQ(findMetric(metrics, ofFrame(Measured::rate)), &metrics[1]);
-    EXPECT_EQ(findMetric(metrics, ofFrame(Measured::time)), nullptr);
+    EXPECT_EQ(metrics[1].better, report::Better::higher);
+    EXPECT_EQ(metrics[1].mode, report::Mode::none);
+    EXPECT_EQ(metrics[2].better, report::Better::neither);
+    EXPECT_EQ(report::findMetric(metrics, report::ofFrame(report::Measured::rate)), &metrics[1]);
+    EXPECT_EQ(report::findMetric(metrics, report::ofFrame(report::Measured::time)), nullptr);
 }
 
 TEST(Metric, IsAsTheReportSaysWhereItIsNotKnownHere) {
-    const Json said = Json::parse(
+    const scene::Json said = scene::Json::parse(
         R"({"unit": "J", "hint": "lower", "mode": "asleep", "median": 2.0, "samples": [2.0]})");
-    const MetricReading energy = MetricReading::fromReport("frame.energy", said);
+    const report::MetricReading energy = report::MetricReading::fromReport("frame.energy", said);
     EXPECT_EQ(energy.name(), "frame.energy");
     EXPECT_EQ(energy.unit, "J");
-    EXPECT_EQ(energy.better, Better::lower);
-    EXPECT_EQ(energy.mode, Mode::other);
+    EXPECT_EQ(energy.better, report::Better::lower);
+    EXPECT_EQ(energy.mode, report::Mode::other);
     EXPECT_FALSE(energy.isTimedAs(energy));  // two modes of which nothing is known may differ
-    const Json silent = Json::parse(R"({"unit": "ms", "median": 2.0, "samples": [2.0]})");
-    EXPECT_EQ(MetricReading::fromReport("frame.times", silent).better, Better::neither);
+    const scene::Json silent =
+        scene::Json::parse(R"({"unit": "ms", "median": 2.0, "samples": [2.0]})");
+    EXPECT_EQ(
+        report::MetricReading::fromReport("frame.times", silent).better, report::Better::neither);
 }
 
 }  // namespace

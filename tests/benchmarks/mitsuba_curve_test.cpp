@@ -7,8 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "benchmarks/curve_control_points.h"
-#include "benchmarks/mitsuba_shapes.h"
+#include "benchmarks/reference/mitsuba.h"
 
 namespace benchmarks {
 namespace {
@@ -44,7 +43,7 @@ constexpr double kRounding = 1e-14;
 TEST(CurveControlPoints, GoThroughEveryPointAtItsKnot) {
     for (const std::size_t count : {2u, 3u, 4u, 5u, 17u, 77u}) {
         const auto points = somePoints(count);
-        const auto control = interpolatingControlPoints(points);
+        const auto control = reference::interpolatingControlPoints(points);
         ASSERT_EQ(control.size(), count + 2);
         for (std::size_t i = 0; i < count; ++i)
             EXPECT_LT(glm::distance(curveAt(control, double(i)), points[i]), kRounding) << i;
@@ -56,15 +55,15 @@ TEST(CurveControlPoints, KeepAStraightEvenLineEven) {
     const glm::dvec4 step(0.01, -0.02, 0.005, -0.0001);
     std::vector<glm::dvec4> points;
     for (int i = 0; i < 9; ++i) points.push_back(root + double(i) * step);
-    const auto control = interpolatingControlPoints(points);
+    const auto control = reference::interpolatingControlPoints(points);
     for (std::size_t i = 0; i < control.size(); ++i)
         EXPECT_LT(glm::distance(control[i], root + (double(i) - 1.0) * step), kRounding);
     EXPECT_LT(glm::distance(curveAt(control, 3.25), root + 3.25 * step), kRounding);
 }
 
-std::vector<std::vector<glm::dvec4>> written(const hair::StrandSet& strands) {
+std::vector<std::vector<glm::dvec4>> written(const hair::groom::StrandSet& strands) {
     std::stringstream file;
-    writeMitsubaCurves(file, strands);
+    reference::writeMitsubaCurves(file, strands);
     std::vector<std::vector<glm::dvec4>> curves(1);
     for (std::string line; std::getline(file, line);) {
         if (line.empty()) {
@@ -81,7 +80,7 @@ std::vector<std::vector<glm::dvec4>> written(const hair::StrandSet& strands) {
 }
 
 TEST(MitsubaCurves, HaveRootAndTipAndRadiiOfTheStrands) {
-    hair::StrandSet strands;
+    hair::groom::StrandSet strands;
     strands.points = {{0, 0, 0}, {0, 1, 0}, {0.5f, 2, 0}, {9, 9, 9}, {1, 0, 0}, {2, 0, 0}};
     strands.widths.values = {0.4f, 0.3f, 0.2f, 1.0f, 0.2f, 0.0f};
     strands.ends = {3, 4, 6};  // that of one point has no curve

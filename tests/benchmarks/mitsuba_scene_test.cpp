@@ -8,9 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/mitsuba_optics.h"
-#include "benchmarks/mitsuba_scene.h"
-#include "benchmarks/mitsuba_shapes.h"
+#include "benchmarks/reference/mitsuba.h"
 
 namespace benchmarks {
 namespace {
@@ -18,9 +16,9 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-std::string sceneOf(const hair::Settings& settings, const MitsubaParts& parts) {
+std::string sceneOf(const hair::Settings& settings, const reference::MitsubaParts& parts) {
     std::ostringstream out;
-    writeMitsubaScene(out, settings, parts);
+    reference::writeMitsubaScene(out, settings, parts);
     return out.str();
 }
 
@@ -100,15 +98,17 @@ TEST(MitsubaOptics, LightsHaveTheirColorsAsRadianceOfMattWhite) {
     linear.tone_map = hair::ToneMap::srgb;
     const hair::LightSettings light{
         .position = {1, 0, 2}, .color = {1.0f, 0.5f, 0.0f}, .strength = 2.0f, .radius = 0.5f};
-    EXPECT_NEAR(lightColor(linear, light).y, 2.0 * 0.21404114, 1e-7);
-    EXPECT_NEAR(lightColor(display, light).y, 1.0, 1e-12);  // twice 0.5 of a display
+    EXPECT_NEAR(reference::lightColor(linear, light).y, 2.0 * 0.21404114, 1e-7);
+    EXPECT_NEAR(reference::lightColor(display, light).y, 1.0, 1e-12);  // twice 0.5 of a display
     const glm::dvec3 target(1, 0, 0), color(1.0, 0.25, 0.0);
-    EXPECT_NEAR(lightIntensity(light, color, target).y, std::numbers::pi, 1e-12);  // pi 4 / 4
-    EXPECT_NEAR(lightRadiance(light, color, target).x, 16.0, 1e-12);               // (2 / 0.5)^2
+    EXPECT_NEAR(
+        reference::lightIntensity(light, color, target).y, std::numbers::pi, 1e-12);  // pi 4 / 4
+    EXPECT_NEAR(reference::lightRadiance(light, color, target).x, 16.0, 1e-12);  // (2 / 0.5)^2
     hair::LightSettings weakening = light;
     weakening.reference_distance = 3.0f;
-    EXPECT_NEAR(lightIntensity(weakening, color, target).x, 9.0 * std::numbers::pi, 1e-12);
-    EXPECT_NEAR(lightRadiance(weakening, color, target).x, 36.0, 1e-12);
+    EXPECT_NEAR(
+        reference::lightIntensity(weakening, color, target).x, 9.0 * std::numbers::pi, 1e-12);
+    EXPECT_NEAR(reference::lightRadiance(weakening, color, target).x, 36.0, 1e-12);
 }
 
 TEST(MitsubaScene, HasEveryKindOfLight) {
@@ -163,7 +163,7 @@ TEST(MitsubaScene, HasSurroundingsInsteadOfABackground) {
 
 TEST(MitsubaScene, HasTheMaterialsOfMeshes) {
     hair::Settings settings;
-    const MitsubaParts parts{
+    const reference::MitsubaParts parts{
         .meshes = {
             {.file = "a.ply", .color = {1, 1, 0}, .metallic = 1.0f, .roughness = 0.5f},
             {.file = "b.ply", .texture = "b.png", .wrap = "mirror", .two_sided = true}}};
@@ -182,16 +182,17 @@ TEST(MitsubaScene, HasTheMaterialsOfMeshes) {
 }
 
 TEST(MitsubaMesh, HasTheMaterialsTrianglesWhereTheHeadIs) {
-    hair::Mesh mesh;
+    hair::groom::Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     mesh.normals = {{1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}};
     mesh.triangles = {{0, 1, 2}, {0, 3, 1}};
     mesh.triangle_materials = {0, 1};
     mesh.materials.resize(2);
     // Half a turn about z, then 5 up: (x, y, z) -> (-x, 5 - y, z).
-    const hair::RigidMotion pose{.rotation = {0.0, 0.0, 0.0, 1.0}, .translation = {0, 5, 0}};
+    const hair::simulation::RigidMotion pose{
+        .rotation = {0.0, 0.0, 0.0, 1.0}, .translation = {0, 5, 0}};
     std::ostringstream out;
-    writeMaterialPly(out, mesh, 1, pose);
+    reference::writeMaterialPly(out, mesh, 1, pose);
     const std::string text = out.str();
     EXPECT_THAT(text, HasSubstr("element vertex 3\n"));
     EXPECT_THAT(text, HasSubstr("element face 1\n"));

@@ -7,7 +7,6 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/physics/findings.h"
 #include "tests/benchmarks/sample_report.h"
 #include "tests/benchmarks/schema_errors.h"
 #include "tests/temporary_folder.h"
@@ -44,7 +43,7 @@ PhysicsReport samplePhysics() {
         .curves = findings.curves()};
 }
 
-Json written() { return Json::parse(physicsReportText(samplePhysics())); }
+scene::Json written() { return scene::Json::parse(physicsReportText(samplePhysics())); }
 
 TEST(Findings, PassUpToTheTolerance) {
     const Findings findings = sampleFindings();
@@ -66,7 +65,7 @@ TEST(Findings, DoNotPassWhatCouldNotBeMeasured) {
 }
 
 TEST(PhysicsReport, KeepsTheContractsNames) {
-    const Json report = written();
+    const scene::Json report = written();
     EXPECT_EQ(report["schema"], "hairbench-physics/1.0.0");
     EXPECT_EQ(report["environment"]["device"]["driver"], "llvmpipe");
     EXPECT_EQ(
@@ -82,7 +81,7 @@ TEST(PhysicsReport, KeepsTheContractsNames) {
 }
 
 TEST(PhysicsReport, LeavesOutWhatIsNotKnown) {
-    const Json report = written();
+    const scene::Json report = written();
     EXPECT_FALSE(report["outcomes"][2].contains("measured"));
     EXPECT_FALSE(report["outcomes"][2].contains("error"));
     EXPECT_EQ(report["curves"][0]["rows"].dump(), "[[10.0,1.0],[50.0,1.5]]");
@@ -98,18 +97,18 @@ TEST(PhysicsSchema, FindsWhatIsWrong) {
     for (const char* pointer :
          {"/schema", "/environment/device", "/outcomes/0/verdict", "/outcomes/0/unit",
           "/outcomes/3/reason", "/outcomes/0/parameters/gamma/value", "/curves/0/rows"}) {
-        Json report = written();
-        const Json::json_pointer place(pointer);
+        scene::Json report = written();
+        const scene::Json::json_pointer place(pointer);
         report[place.parent_pointer()].erase(place.back());
         EXPECT_THAT(schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
     }
-    const std::pair<const char*, Json> replaced[] = {
+    const std::pair<const char*, scene::Json> replaced[] = {
         {"/schema", "hairbench-report/1.0.0"}, {"/outcomes/0/verdict", "great"},
         {"/outcomes/0/measured", nullptr},     {"/outcomes/0/error", -1.0},
         {"/outcomes/4/state_hash", "FF"},      {"/curves/0/rows/0/1", nullptr}};
     for (const auto& [pointer, value] : replaced) {
-        Json report = written();
-        report[Json::json_pointer(pointer)] = value;
+        scene::Json report = written();
+        report[scene::Json::json_pointer(pointer)] = value;
         EXPECT_THAT(schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
     }
 }

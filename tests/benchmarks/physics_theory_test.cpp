@@ -3,11 +3,8 @@
 
 #include <gmock/gmock.h>
 
-#include "benchmarks/physics/catenary.h"
-#include "benchmarks/physics/free_flight.h"
-#include "benchmarks/physics/oscillation.h"
+#include "benchmarks/physics/experiment.h"
 #include "benchmarks/physics/theory.h"
-#include "benchmarks/physics/vibration.h"
 
 namespace benchmarks::physics {
 namespace {

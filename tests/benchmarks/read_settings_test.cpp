@@ -1,4 +1,4 @@
-#include "benchmarks/read_settings.h"
+#include "benchmarks/scene/settings_json.h"
 
 #include <cmath>
 #include <limits>
@@ -6,13 +6,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/write_settings.h"
 #include "tests/error_text.h"
 
 namespace benchmarks {
 namespace {
 
-hair::Settings read(const char* text) { return readSettings(Json::parse(text)); }
+hair::Settings read(const char* text) { return scene::readSettings(scene::Json::parse(text)); }
 
 TEST(ReadSettings, KeepsDefaultsOfWhatIsAbsent) {
     const hair::Settings settings = read(R"({"strands": {"density": 16}})");
@@ -51,11 +50,11 @@ TEST(ReadSettings, PassesOverTheSceneReadersMembers) {
 TEST(ReadSettings, RefusesNumbersThatAreNotFinite) {
     for (const double number :
          {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-        const Json document = {{"simulation", {{"friction", number}}}};
+        const scene::Json document = {{"simulation", {{"friction", number}}}};
         EXPECT_EQ(
-            errorText([&] { readSettings(document); }), std::string("/simulation/friction: ") +
-                                                            (std::isnan(number) ? "nan" : "inf") +
-                                                            " is not finite");
+            errorText([&] { scene::readSettings(document); }),
+            std::string("/simulation/friction: ") + (std::isnan(number) ? "nan" : "inf") +
+                " is not finite");
     }
 }
 
@@ -65,7 +64,7 @@ TEST(ReadSettings, RefusesADocumentThatIsNoObject) {
 }
 
 TEST(WriteSettings, WritesEveryFieldWithCleanNumbers) {
-    const Json echo = writeSettings({});
+    const scene::Json echo = scene::writeSettings({});
     EXPECT_EQ(echo["simulation"]["global"]["stiffness"].dump(), "0.002");
     EXPECT_EQ(echo["simulation"]["gravity"].dump(), "[0,-9.8,0]");
     EXPECT_EQ(echo["lod"]["level"].dump(), "0");
@@ -84,7 +83,7 @@ TEST(WriteSettings, ReadsBackBitEqual) {
     settings.seed = 4294967295u;
     settings.render.ssaa = 2;
     settings.simulation.stiffness_scaling = hair::StiffnessScaling::thesis;
-    const std::string text = writeSettings(settings).dump();
+    const std::string text = scene::writeSettings(settings).dump();
     const hair::Settings back = read(text.c_str());
     EXPECT_EQ(back.simulation.time_step, settings.simulation.time_step);
     EXPECT_EQ(back.simulation.gravity, settings.simulation.gravity);
@@ -92,17 +91,17 @@ TEST(WriteSettings, ReadsBackBitEqual) {
     EXPECT_EQ(back.simulation.colliders[0].radius, settings.simulation.colliders[0].radius);
     EXPECT_EQ(back.simulation.colliders[1].a, settings.simulation.colliders[1].a);
     EXPECT_EQ(back.strands.tip_width, settings.strands.tip_width);
-    EXPECT_EQ(writeSettings(back).dump(), text);
+    EXPECT_EQ(scene::writeSettings(back).dump(), text);
 }
 
-bool holdsNull(const Json& value) {
+bool holdsNull(const scene::Json& value) {
     if (value.is_null()) return true;
-    for (const Json& member : value)
+    for (const scene::Json& member : value)
         if (value.is_structured() && holdsNull(member)) return true;
     return false;
 }
 
-TEST(WriteSettings, NamesEveryDefault) { EXPECT_FALSE(holdsNull(writeSettings({}))); }
+TEST(WriteSettings, NamesEveryDefault) { EXPECT_FALSE(holdsNull(scene::writeSettings({}))); }
 
 }  // namespace
 }  // namespace benchmarks

@@ -1,5 +1,4 @@
-#include "benchmarks/report.h"
-#include "benchmarks/report_file.h"
+#include "benchmarks/report/report.h"
 
 #include <cmath>
 #include <filesystem>
@@ -7,10 +6,10 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "engine/write_file.h"
-#include "tests/error_text.h"
+#include "engine/files.h"
 #include "tests/benchmarks/sample_report.h"
 #include "tests/benchmarks/schema_errors.h"
+#include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
 namespace benchmarks {
@@ -23,10 +22,10 @@ using testing::Not;
 const std::filesystem::path kReportSchemaFile =
     std::filesystem::path(HAIRBENCH_SCENES_DIR) / "../results/report.schema.json";
 
-Json written() { return Json::parse(reportText(sampleReport())); }
+scene::Json written() { return scene::Json::parse(report::reportText(sampleReport())); }
 
 TEST(Report, KeepsTheContractsNames) {
-    const Json report = written();
+    const scene::Json report = written();
     EXPECT_EQ(report["schema"], "hairbench-report/1.1.0");
     EXPECT_EQ(
         report["environment"]["device"].dump(),
@@ -45,7 +44,7 @@ TEST(Report, KeepsTheContractsNames) {
     EXPECT_EQ(report["case_count"], 6);
     EXPECT_EQ(report["order_seed"], 11);
     EXPECT_EQ(report["shard"].dump(), R"({"index":1,"count":2})");
-    const Json& result = report["cases"][0];
+    const scene::Json& result = report["cases"][0];
     EXPECT_EQ(result["index"], 0);
     EXPECT_EQ(result["order"], 2);
     EXPECT_EQ(
@@ -61,7 +60,7 @@ TEST(Report, KeepsTheContractsNames) {
 }
 
 TEST(Report, SaysHowSamplesCameAbout) {
-    const Json result = written()["cases"][0];
+    const scene::Json result = written()["cases"][0];
     EXPECT_EQ(
         result["sampling"].dump(),
         R"([{"mode":"overlapped","rounds":3,"warmup_rounds":1,"throttled_rounds":2,)"
@@ -74,7 +73,7 @@ TEST(Report, SaysHowSamplesCameAbout) {
 }
 
 TEST(Report, SummarizesTheFiniteSamples) {
-    const Json frame = written()["cases"][0]["metrics"]["frame.time"];
+    const scene::Json frame = written()["cases"][0]["metrics"]["frame.time"];
     EXPECT_EQ(frame["unit"], "ms");
     EXPECT_EQ(frame["mode"], "overlapped");
     EXPECT_EQ(frame["median"], 3.0);
@@ -90,24 +89,25 @@ TEST(Report, SummarizesTheFiniteSamples) {
 }
 
 TEST(Report, SaysWhatIsBetter) {
-    const std::pair<Metric, const char*> hints[] = {
-        {{ofFrame(Measured::time), {1.0}}, "lower"},
-        {{ofFrame(Measured::overlap), {1.0}}, ""},
-        {{ofFrame(Measured::rate), {1.0}}, "higher"},
-        {{ofMemory(Measured::allocated), {1.0}}, "lower"},
-        {{ofPass("strands", Measured::instructions), {1.0}}, "lower"},
-        {{ofImage(Measured::flip), {1.0}}, "lower"},
-        {{ofImage(Measured::ssim), {1.0}}, "higher"},
-        {{ofImage(Measured::psnr), {1.0}}, "higher"}};
+    const std::pair<report::Metric, const char*> hints[] = {
+        {{report::ofFrame(report::Measured::time), {1.0}}, "lower"},
+        {{report::ofFrame(report::Measured::overlap), {1.0}}, ""},
+        {{report::ofFrame(report::Measured::rate), {1.0}}, "higher"},
+        {{report::ofMemory(report::Measured::allocated), {1.0}}, "lower"},
+        {{report::ofPass("strands", report::Measured::instructions), {1.0}}, "lower"},
+        {{report::ofImage(report::Measured::flip), {1.0}}, "lower"},
+        {{report::ofImage(report::Measured::ssim), {1.0}}, "higher"},
+        {{report::ofImage(report::Measured::psnr), {1.0}}, "higher"}};
     for (const auto& [metric, hint] : hints) {
-        const Json written = caseJson({.name = "x", .metrics = {metric}});
+        const scene::Json written = report::caseJson({.name = "x", .metrics = {metric}});
         EXPECT_EQ(written["metrics"][metric.name()].value("hint", ""), hint) << metric.name();
     }
 }
 
 TEST(Report, HasAnIntervalOfTheMedianWhereThereAreEnoughSamples) {
-    const Json frame = Json::parse(reportText(manySamples()))["cases"][0]["metrics"]["frame.time"];
-    const Json& interval = frame["interval"];
+    const scene::Json frame =
+        scene::Json::parse(report::reportText(manySamples()))["cases"][0]["metrics"]["frame.time"];
+    const scene::Json& interval = frame["interval"];
     EXPECT_LE(interval["lower"], frame["median"]);
     EXPECT_GE(interval["upper"], frame["median"]);
     EXPECT_GE(interval["confidence"], 0.95);
@@ -116,7 +116,7 @@ TEST(Report, HasAnIntervalOfTheMedianWhereThereAreEnoughSamples) {
 }
 
 TEST(Report, LeavesOutWhatIsNotKnown) {
-    const Json report = written();
+    const scene::Json report = written();
     EXPECT_FALSE(report["cases"][0].contains("reason"));
     EXPECT_FALSE(report["cases"][0]["metrics"].contains("pass.ui.time"));  // no finite sample
     EXPECT_FALSE(report["cases"][0]["metrics"]["memory.device"].contains("mode"));
@@ -125,25 +125,28 @@ TEST(Report, LeavesOutWhatIsNotKnown) {
         R"({"name":"thesis/density:64/backend:mesh","axes":{"/strands/density":64,"/strands/backend":"mesh"},)"
         R"("index":2,"order":0,)"
         R"("status":"skipped","reason":"the device has no VK_EXT_mesh_shader, which the back end needs"})");
-    Report bare;
-    bare.scene.document = Document(Json::object());
+    report::Report bare;
+    bare.scene.document = scene::Document(scene::Json::object());
     bare.cases.push_back(
         {.name = "x", .trust = {.pass_sum_over_wall = std::nan(""), .warnings = {}}});
-    const Json empty = Json::parse(reportText(bare));
+    const scene::Json empty = scene::Json::parse(report::reportText(bare));
     EXPECT_EQ(empty["environment"]["device"].dump(), "{}");
     EXPECT_EQ(empty["environment"]["host"].dump(), "{}");
     EXPECT_EQ(empty["cases"][0]["trust"].dump(), R"({"warnings":[]})");
-    EXPECT_THAT(reportText(bare), Not(HasSubstr("null")));
+    EXPECT_THAT(report::reportText(bare), Not(HasSubstr("null")));
 }
 
 TEST(Report, SurvivesTextThatIsNotUtf8) {
-    Report report = sampleReport();
+    report::Report report = sampleReport();
     report.environment.device.name = "GPU \xff";
-    EXPECT_EQ(Json::parse(reportText(report))["environment"]["device"]["name"], "GPU \xef\xbf\xbd");
+    EXPECT_EQ(
+        scene::Json::parse(report::reportText(report))["environment"]["device"]["name"],
+        "GPU \xef\xbf\xbd");
 }
 
 TEST(ReportSchema, DescribesTheReport) {
-    EXPECT_THAT(schemaErrors(textOf(kReportSchemaFile), reportText(sampleReport())), IsEmpty());
+    EXPECT_THAT(
+        schemaErrors(textOf(kReportSchemaFile), report::reportText(sampleReport())), IsEmpty());
 }
 
 TEST(ReportSchema, FindsWhatIsWrong) {
@@ -153,12 +156,12 @@ TEST(ReportSchema, FindsWhatIsWrong) {
                                    "/cases/0/metrics", "/cases/0/metrics/frame.time/samples",
                                    "/cases/1/reason"};
     for (const char* pointer : removed) {
-        Json report = written();
-        const Json::json_pointer place(pointer);
+        scene::Json report = written();
+        const scene::Json::json_pointer place(pointer);
         report[place.parent_pointer()].erase(place.back());
         EXPECT_THAT(schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
     }
-    const std::pair<const char*, Json> replaced[] = {
+    const std::pair<const char*, scene::Json> replaced[] = {
         {"/schema", "hairbench-report/2"},
         {"/cases/0/image_hash", "FF"},
         {"/cases/0/status", "great"},
@@ -170,7 +173,7 @@ TEST(ReportSchema, FindsWhatIsWrong) {
         {"/cases/0/sampling/0/mode", "fast"},
         {"/cases/0/sampling/0/rounds", -1},
         {"/cases/0/conditions/steal", 1.5},
-        {"/cases/0/conditions/throttle_reasons", Json::array()},
+        {"/cases/0/conditions/throttle_reasons", scene::Json::array()},
         {"/cases/0/index", 0.5},
         {"/environment/device/id", "llvmpipe"},
         {"/environment/build/dirty", "no"},
@@ -178,8 +181,8 @@ TEST(ReportSchema, FindsWhatIsWrong) {
         {"/case_count", -1},
         {"/order_seed", "random"}};
     for (const auto& [pointer, value] : replaced) {
-        Json report = written();
-        report[Json::json_pointer(pointer)] = value;
+        scene::Json report = written();
+        report[scene::Json::json_pointer(pointer)] = value;
         EXPECT_THAT(schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
     }
 }
@@ -187,9 +190,9 @@ TEST(ReportSchema, FindsWhatIsWrong) {
 TEST(WriteReport, MakesFoldersAndLeavesOnlyTheReport) {
     const TemporaryFolder folder;
     const auto path = folder.path() / "a/b/r.json";
-    writeReport(reportJson(sampleReport()), path);
-    writeReport(reportJson(sampleReport()), path);  // over the first
-    EXPECT_EQ(textOf(path), reportText(sampleReport()));
+    report::writeReport(report::reportJson(sampleReport()), path);
+    report::writeReport(report::reportJson(sampleReport()), path);  // over the first
+    EXPECT_EQ(textOf(path), report::reportText(sampleReport()));
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path.parent_path()), {}), 1);
 }
 
@@ -204,7 +207,8 @@ TEST(WriteReport, SaysWhyItCannot) {
     for (const auto& [name, error] : errors) {
         const auto path = folder.path() / name;
         EXPECT_EQ(
-            folder.relative(errorText([&] { writeReport(reportJson(sampleReport()), path); })),
+            folder.relative(
+                errorText([&] { report::writeReport(report::reportJson(sampleReport()), path); })),
             error);
         EXPECT_EQ(folder.relative(errorText([&] { engine::checkWritable(path); })), error);
     }
@@ -217,7 +221,7 @@ TEST(CheckWritable, MakesTheFolderButNotTheFile) {
 }
 
 TEST(WriteReport, WritesIntoWhatIsNoFile) {
-    EXPECT_NO_THROW(writeReport(reportJson(manySamples()), "/dev/null"));
+    EXPECT_NO_THROW(report::writeReport(report::reportJson(manySamples()), "/dev/null"));
     EXPECT_FALSE(std::filesystem::exists("/dev/null.samples.jsonl"));
 }
 
@@ -227,7 +231,7 @@ TEST(Report, CommittedOnesFitTheSchema) {
     for (const auto& entry : std::filesystem::directory_iterator(kReportSchemaFile.parent_path())) {
         if (entry.path().extension() != ".json" ||
             entry.path().filename().string().ends_with(".schema.json") ||
-            !Json::parse(textOf(entry.path()))["schema"].get<std::string>().starts_with(
+            !scene::Json::parse(textOf(entry.path()))["schema"].get<std::string>().starts_with(
                 "hairbench-report/"))  // of another kind
             continue;
         EXPECT_THAT(schemaErrors(schema, textOf(entry.path())), IsEmpty()) << entry.path();

@@ -4,13 +4,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/report.h"
+#include "benchmarks/report/report.h"
 
 namespace benchmarks {
 
 // A made-up report with one case of each status, in which everything that can be said is said.
-inline Report sampleReport() {
-    Report report;
+inline report::Report sampleReport() {
+    report::Report report;
     report.environment = {
         .device =
             {.name = "Soft",
@@ -28,7 +28,8 @@ inline Report sampleReport() {
         .started = "2030-01-02T03:04:05Z",
         .seed = 7,
         .validation = false};
-    report.scene = {"scenes/thesis.json", "0123456789abcdef", Document(Json{{"seed", 7}})};
+    report.scene = {
+        "scenes/thesis.json", "0123456789abcdef", scene::Document(scene::Json{{"seed", 7}})};
     report.case_count = 6;
     report.order_seed = 11;
     report.shard = {.index = 1, .count = 2};
@@ -38,14 +39,17 @@ inline Report sampleReport() {
          .index = 0,
          .order = 2,
          .axes =
-             {{"/strands/density", Document(64)}, {"/strands/backend", Document("tessellation")}},
+             {{"/strands/density", scene::Document(64)},
+              {"/strands/backend", scene::Document("tessellation")}},
          .metrics =
-             {{ofFrame(Measured::time), {2.0, 4.0, 3.0, nan}, Mode::overlapped},
-              {ofFrame(Measured::rate), {333.25}, Mode::overlapped},
-              {ofPass("wind", Measured::time), {0.0125}, Mode::isolated},
-              {ofPass("strands", Measured::time), {2.5}, Mode::isolated},
-              {ofPass("ui", Measured::time), {nan}, Mode::isolated},
-              {ofMemory(Measured::allocated), {1048576.0}}},
+             {{report::ofFrame(report::Measured::time),
+               {2.0, 4.0, 3.0, nan},
+               report::Mode::overlapped},
+              {report::ofFrame(report::Measured::rate), {333.25}, report::Mode::overlapped},
+              {report::ofPass("wind", report::Measured::time), {0.0125}, report::Mode::isolated},
+              {report::ofPass("strands", report::Measured::time), {2.5}, report::Mode::isolated},
+              {report::ofPass("ui", report::Measured::time), {nan}, report::Mode::isolated},
+              {report::ofMemory(report::Measured::allocated), {1048576.0}}},
          .statistics =
              {{"tessellation_control_patches", 952, 952, ""},
               {"geometry_primitives", 5, {}, "no count is known"}},
@@ -75,22 +79,26 @@ inline Report sampleReport() {
         {.name = "thesis/density:64/backend:mesh",
          .index = 2,
          .order = 0,
-         .axes = {{"/strands/density", Document(64)}, {"/strands/backend", Document("mesh")}},
-         .status = Status::skipped,
+         .axes =
+             {{"/strands/density", scene::Document(64)},
+              {"/strands/backend", scene::Document("mesh")}},
+         .status = report::Status::skipped,
          .reason = "the device has no VK_EXT_mesh_shader, which the back end needs"});
     report.cases.push_back(
         {.name = "thesis/density:64/backend:lines",
          .index = 4,
          .order = 1,
-         .axes = {{"/strands/density", Document(64)}, {"/strands/backend", Document("lines")}},
-         .status = Status::failed,
+         .axes =
+             {{"/strands/density", scene::Document(64)},
+              {"/strands/backend", scene::Document("lines")}},
+         .status = report::Status::failed,
          .reason = "device lost"});
     return report;
 }
 
 // With more samples of the frame's time than a report's own file takes.
-inline Report manySamples() {
-    Report report = sampleReport();
+inline report::Report manySamples() {
+    report::Report report = sampleReport();
     std::vector<double>& samples = report.cases[0].metrics[0].samples;
     samples.clear();
     for (int i = 0; i < 2001; ++i) samples.push_back(1.0 + i % 7 * 0.1);

@@ -1,4 +1,4 @@
-#include "benchmarks/samples_file.h"
+#include "benchmarks/report/report.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -6,7 +6,6 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/report_file.h"
 #include "tests/benchmarks/sample_report.h"
 #include "tests/benchmarks/schema_errors.h"
 #include "tests/error_text.h"
@@ -19,8 +18,10 @@ using testing::IsEmpty;
 
 class SamplesFile : public testing::Test {
 protected:
-    void write(const Report& report) { writeReport(reportJson(report), file_); }
-    Json inFile() { return Json::parse(textOf(file_)); }
+    void write(const report::Report& report) {
+        report::writeReport(report::reportJson(report), file_);
+    }
+    scene::Json inFile() { return scene::Json::parse(textOf(file_)); }
 
     TemporaryFolder folder_;
     std::filesystem::path file_ = folder_.file("r.json");
@@ -29,18 +30,18 @@ protected:
 
 TEST_F(SamplesFile, HoldsWhatIsLargeAndIsReadBack) {
     write(manySamples());
-    const Json metrics = inFile()["cases"][0]["metrics"];
+    const scene::Json metrics = inFile()["cases"][0]["metrics"];
     EXPECT_EQ(metrics["frame.time"]["samples_file"], "r.samples.jsonl");
     EXPECT_EQ(metrics["frame.time"]["sample_count"], 2001);
     EXPECT_FALSE(metrics["frame.time"].contains("samples"));
     EXPECT_TRUE(metrics["fps"].contains("samples"));
     const std::string text = textOf(samples_);
     EXPECT_EQ(std::ranges::count(text, '\n'), 1);
-    const Json line = Json::parse(text);
+    const scene::Json line = scene::Json::parse(text);
     EXPECT_EQ(line["case"], "thesis/density:64/backend:tessellation");
     EXPECT_EQ(line["metric"], "frame.time");
     EXPECT_EQ(line["samples"].size(), 2001u);
-    EXPECT_EQ(readReport(file_).dump(), reportJson(manySamples()).dump());
+    EXPECT_EQ(report::readReport(file_).dump(), report::reportJson(manySamples()).dump());
 }
 
 TEST_F(SamplesFile, FitsTheSchema) {
@@ -48,7 +49,7 @@ TEST_F(SamplesFile, FitsTheSchema) {
     const auto schema =
         std::filesystem::path(HAIRBENCH_SCENES_DIR) / "../results/report.schema.json";
     EXPECT_THAT(schemaErrors(textOf(schema), textOf(file_)), IsEmpty());
-    Json neither = inFile();
+    scene::Json neither = inFile();
     neither["cases"][0]["metrics"]["frame.time"].erase("samples_file");
     EXPECT_THAT(schemaErrors(textOf(schema), neither.dump()), testing::Not(IsEmpty()));
 }
@@ -60,7 +61,7 @@ TEST_F(SamplesFile, IsNotThereWhereNothingIsLarge) {
     EXPECT_TRUE(std::filesystem::exists(samples_));
     write(sampleReport());
     EXPECT_FALSE(std::filesystem::exists(samples_));
-    Report few = manySamples();
+    report::Report few = manySamples();
     few.cases[0].metrics[0].samples.resize(2000);
     write(few);
     EXPECT_FALSE(std::filesystem::exists(samples_));
@@ -71,19 +72,21 @@ TEST_F(SamplesFile, LiesBesideWhatALinkPointsTo) {
     std::filesystem::create_directories(folder_.file("links"));
     const auto link = folder_.file("links/l.json");
     std::filesystem::create_symlink(file_, link);
-    writeReport(reportJson(manySamples()), link);
+    report::writeReport(report::reportJson(manySamples()), link);
     EXPECT_TRUE(std::filesystem::exists(samples_));
-    EXPECT_EQ(readReport(link).dump(), readReport(file_).dump());
+    EXPECT_EQ(report::readReport(link).dump(), report::readReport(file_).dump());
 }
 
 TEST_F(SamplesFile, IsMissedAndMustBeOfTheReport) {
-    const auto error = [&] { return folder_.relative(errorText([&] { readReport(file_); })); };
+    const auto error = [&] {
+        return folder_.relative(errorText([&] { report::readReport(file_); }));
+    };
     write(manySamples());
     const std::string right = textOf(samples_);
     std::filesystem::remove(samples_);
     EXPECT_EQ(error(), "r.json: its samples are missing: r.samples.jsonl");
-    Json line = Json::parse(right);
-    for (Json& sample : line["samples"]) sample = sample.get<double>() * 2.0;
+    scene::Json line = scene::Json::parse(right);
+    for (scene::Json& sample : line["samples"]) sample = sample.get<double>() * 2.0;
     const std::string doubled = line.dump() + '\n';
     line["samples"].erase(line["samples"].begin());
     for (const std::string& wrong : {doubled, line.dump(), std::string()}) {

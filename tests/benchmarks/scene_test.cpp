@@ -1,4 +1,4 @@
-#include "benchmarks/scene.h"
+#include "benchmarks/scene/scene.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -16,7 +16,7 @@ using testing::Not;
 TEST(Scene, KnowsWhereItIs) {
     const TemporaryFolder folder;
     const auto path = folder.write("curl.json", "{}");
-    const Scene scene = loadScene(path);
+    const scene::Scene scene = scene::loadScene(path);
     EXPECT_EQ(scene.path, path);
     EXPECT_EQ(scene.directory, folder.path());
     EXPECT_EQ(scene.name, "curl");
@@ -26,7 +26,7 @@ TEST(Scene, KnowsWhereItIs) {
 
 TEST(Scene, SeparatesSettingsFromTheReadersMembers) {
     const TemporaryFolder folder;
-    const Scene scene = loadScene(folder.write(
+    const scene::Scene scene = scene::loadScene(folder.write(
         "s.json",
         R"({"$schema": "x", "seed": 7, "sweep": {"/strands/density": [64.0, 16], "/render/msaa": [1]}})"));
     EXPECT_EQ(scene.document.text(), R"({"seed":7})");
@@ -35,14 +35,14 @@ TEST(Scene, SeparatesSettingsFromTheReadersMembers) {
     EXPECT_EQ(scene.settings.seed, 7u);
     ASSERT_EQ(scene.axes.size(), 2u);
     EXPECT_EQ(scene.axes[0].pointer, "/strands/density");
-    EXPECT_THAT(scene.axes[0].values, ElementsAre(Document(64), Document(16)));
+    EXPECT_THAT(scene.axes[0].values, ElementsAre(scene::Document(64), scene::Document(16)));
 }
 
 TEST(Scene, IsAppliedToItsBase) {
     const TemporaryFolder folder;
     folder.write("base.json", R"({"seed": 7, "strands": {"density": 8, "tessellation": 2},
                                   "sweep": {"/strands/density": [1, 2], "/render/msaa": [1, 4]}})");
-    const Scene scene = loadScene(folder.write(
+    const scene::Scene scene = scene::loadScene(folder.write(
         "s.json", R"({"base": "base.json", "strands": {"density": 9, "tessellation": null},
                       "sweep": {"/strands/density": null}})"));
     EXPECT_EQ(scene.document.text(), R"({"seed":7,"strands":{"density":9}})");
@@ -54,8 +54,8 @@ TEST(Scene, TakesAwayTheBasesSweep) {
     const TemporaryFolder folder;
     folder.write("a.json", R"({"sweep": {"/strands/density": [1, 2]}})");
     folder.write("b.json", R"({"base": "a.json", "sweep": null})");
-    EXPECT_TRUE(
-        loadScene(folder.write("c.json", R"({"base": "b.json", "sweep": null})")).axes.empty());
+    EXPECT_TRUE(scene::loadScene(folder.write("c.json", R"({"base": "b.json", "sweep": null})"))
+                    .axes.empty());
 }
 
 TEST(Scene, FindsTheFilesOfABaseInAnotherFolder) {
@@ -67,26 +67,27 @@ TEST(Scene, FindsTheFilesOfABaseInAnotherFolder) {
         "lib/bodies.json",
         R"({"simulation": {"distance_fields": [{"mesh": ""}, {"mesh": "body.obj"}]}})");
     const auto load = [&](const char* text) {
-        return loadScene(folder.write("s.json", text)).settings.groom;
+        return scene::loadScene(folder.write("s.json", text)).settings.groom;
     };
     EXPECT_EQ(load(R"({"base": "lib/base.json"})").grow.mesh, "m/head.glb");
     EXPECT_EQ(load(R"({"base": "lib/file.json"})").file, "lib/a.hgl");
     EXPECT_EQ(load(R"({"base": "lib/file.json"})").grow.mesh, "/head.glb");
     EXPECT_EQ(load(R"({"base": "lib/silent.json"})").grow.mesh, "lib/assets/head.glb");
-    const Scene bodies = loadScene(folder.write("b.json", R"({"base": "lib/bodies.json"})"));
+    const scene::Scene bodies =
+        scene::loadScene(folder.write("b.json", R"({"base": "lib/bodies.json"})"));
     EXPECT_EQ(bodies.settings.simulation.distance_fields[0].mesh, "");
     EXPECT_EQ(bodies.settings.simulation.distance_fields[1].mesh, "lib/body.obj");
 }
 
 TEST(SetField, IsAsIfTheFileHadIt) {
     const TemporaryFolder folder;
-    Scene scene = loadScene(folder.write("s.json", R"({"seed": 7})"));
-    setField(scene, "/run/frames", 64);
+    scene::Scene scene = scene::loadScene(folder.write("s.json", R"({"seed": 7})"));
+    scene::setField(scene, "/run/frames", 64);
     EXPECT_EQ(scene.document.text(), R"({"seed":7,"run":{"frames":64}})");
     EXPECT_EQ(scene.settings.run.frames, 64u);
     EXPECT_THAT(scene.resolved.text(), HasSubstr(R"("frames":64)"));
     EXPECT_EQ(
-        errorText([&] { setField(scene, "/run/frames", 0); }),
+        errorText([&] { scene::setField(scene, "/run/frames", 0); }),
         "/run/frames: 0 is outside [1, 1000000] count");
 }
 
@@ -104,7 +105,7 @@ class SceneError : public testing::TestWithParam<BadScene> {};
 TEST_P(SceneError, IsOneLine) {
     const TemporaryFolder folder;
     const auto path = folder.write("s.json", GetParam().text);
-    const std::string error = folder.relative(errorText([&] { loadScene(path); }));
+    const std::string error = folder.relative(errorText([&] { scene::loadScene(path); }));
     EXPECT_EQ(error, std::string("s.json") + GetParam().error);
     EXPECT_EQ(error.find('\n'), std::string::npos);
 }
@@ -215,10 +216,10 @@ INSTANTIATE_TEST_SUITE_P(ReaderMembers, SceneError, testing::ValuesIn(kBadReader
 TEST(SceneErrors, OfAFile) {
     const TemporaryFolder folder;
     EXPECT_EQ(
-        folder.relative(errorText([&] { loadScene(folder.path() / "no.json"); })),
+        folder.relative(errorText([&] { scene::loadScene(folder.path() / "no.json"); })),
         "no.json: no such file");
     EXPECT_EQ(
-        errorText([&] { loadScene(folder.path()); }),
+        errorText([&] { scene::loadScene(folder.path()); }),
         folder.path().string() + ": is a folder, not a scene file");
 }
 
@@ -229,7 +230,7 @@ TEST(SceneErrors, OfALongList) {
     const auto path =
         folder.write("s.json", R"({"simulation": {"distance_fields": [)" + list + "]}}");
     EXPECT_EQ(
-        folder.relative(errorText([&] { loadScene(path); })),
+        folder.relative(errorText([&] { scene::loadScene(path); })),
         "s.json: /simulation/distance_fields: 9 elements are more than 8");
 }
 
@@ -237,7 +238,8 @@ TEST(SceneErrors, OfDeepNesting) {
     const TemporaryFolder folder;
     const auto path = folder.write("s.json", std::string(1000000, '['));
     EXPECT_EQ(
-        folder.relative(errorText([&] { loadScene(path); })), "s.json: nested deeper than 64");
+        folder.relative(errorText([&] { scene::loadScene(path); })),
+        "s.json: nested deeper than 64");
 }
 
 TEST(SceneErrors, OfABaseNameBothFiles) {
@@ -245,7 +247,7 @@ TEST(SceneErrors, OfABaseNameBothFiles) {
     folder.write("base.json", R"({"seed": -1})");
     const auto path = folder.write("s.json", R"({"base": "base.json", "seed": 1})");
     EXPECT_EQ(
-        folder.relative(errorText([&] { loadScene(path); })),
+        folder.relative(errorText([&] { scene::loadScene(path); })),
         "s.json: /base: base.json: /seed: -1 is outside [0, 4294967295]");
 }
 
@@ -255,7 +257,7 @@ TEST(SceneErrors, OfACycleOfBases) {
     folder.write("sub/x", "");
     const auto path = folder.write("b.json", R"({"base": "a.json"})");
     EXPECT_EQ(
-        folder.relative(errorText([&] { loadScene(path); })),
+        folder.relative(errorText([&] { scene::loadScene(path); })),
         "b.json: /base: a.json: /base: sub/../b.json is built on this file: a cycle");
 }
 
@@ -265,7 +267,7 @@ TEST(SceneErrors, OfARemovalThatRemovesNothing) {
     const auto path =
         folder.write("s.json", R"({"base": "base.json", "sweep": {"/strands/densty": null}})");
     EXPECT_EQ(
-        folder.relative(errorText([&] { loadScene(path); })),
+        folder.relative(errorText([&] { scene::loadScene(path); })),
         "s.json: /sweep/~1strands~1densty: nothing to remove (did you mean \"/strands/density\"?); "
         "known: "
         "/strands/density");

@@ -1,13 +1,12 @@
-#include "benchmarks/schema.h"
+#include "benchmarks/scene/schema.h"
 
 #include <filesystem>
 
 #include <gmock/gmock.h>
 
-#include "benchmarks/suite.h"
-#include "benchmarks/sweep.h"
-#include "tests/error_text.h"
+#include "benchmarks/scene/sweep.h"
 #include "tests/benchmarks/schema_errors.h"
+#include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
 namespace benchmarks {
@@ -27,40 +26,42 @@ std::vector<std::filesystem::path> committedScenes() {
 }
 
 TEST(SceneSchema, IsTheCommittedOne) {
-    EXPECT_TRUE(textOf(kScenes / "scene.schema.json") == sceneSchema())
+    EXPECT_TRUE(textOf(kScenes / "scene.schema.json") == scene::sceneSchema())
         << "write it anew: hairbench schema > scenes/scene.schema.json";
 }
 
 TEST(CommittedScenes, FitTheSchemaAndExpand) {
     EXPECT_THAT(committedScenes(), Not(IsEmpty()));
     for (const auto& path : committedScenes()) {
-        EXPECT_THAT(schemaErrors(sceneSchema(), textOf(path)), IsEmpty()) << path;
+        EXPECT_THAT(schemaErrors(scene::sceneSchema(), textOf(path)), IsEmpty()) << path;
         const auto expand_all = [&] {
-            for (const Scene& scene : loadScenes(path)) expand(scene);
+            for (const scene::Scene& scene : scene::loadScenes(path)) scene::expand(scene);
         };
         EXPECT_EQ(errorText(expand_all), "no error");
     }
 }
 
 TEST(CommittedScenes, SweepWhatTheThesisCaseNeeds) {
-    const auto cases = expand(loadScene(kScenes / "thesis.json"));
+    const auto cases = scene::expand(scene::loadScene(kScenes / "thesis.json"));
     EXPECT_EQ(cases.size(), 243u);  // 3 guide counts x 3 densities x 3 factors x 3 MSAA x 3 levels
     EXPECT_EQ(cases.front().name, "thesis/guides:86/density:16/tessellation:1/msaa:1/level:0");
-    EXPECT_EQ(expand(loadScene(kScenes / "smoke.json")).size(), 2u);
+    EXPECT_EQ(scene::expand(scene::loadScene(kScenes / "smoke.json")).size(), 2u);
     for (const char* name :
          {"rest", "guides_overlay", "other_camera", "weak_wind", "strong_wind",
           "strong_wind_guides"})
-        EXPECT_EQ(expand(loadScene(kScenes / (std::string(name) + ".json"))).size(), 1u) << name;
+        EXPECT_EQ(
+            scene::expand(scene::loadScene(kScenes / (std::string(name) + ".json"))).size(), 1u)
+            << name;
 }
 
 class BadDocument : public testing::TestWithParam<const char*> {};
 
 // What the reader refuses the schema refuses too, as far as a schema can tell.
 TEST_P(BadDocument, BreaksTheSchema) {
-    EXPECT_THAT(schemaErrors(sceneSchema(), GetParam()), Not(IsEmpty()));
+    EXPECT_THAT(schemaErrors(scene::sceneSchema(), GetParam()), Not(IsEmpty()));
     const TemporaryFolder folder;
     const auto path = folder.write("s.json", GetParam());
-    EXPECT_NE(errorText([&] { loadScene(path); }), "no error");
+    EXPECT_NE(errorText([&] { scene::loadScene(path); }), "no error");
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -88,16 +89,16 @@ TEST(SceneSchema, AcceptsWhatTheReaderAccepts) {
                        "cases": [{"/strands/density": 2}, {"/lod/level": 1}],
                        "exclude": [{"/seed": [1], "/lod/level": [0, 1]}]}})",
          R"({"simulation": {"colliders": [{"a": [0, 0, 0], "radius": 1}, {}]}, "render": {"msaa": 8}})"}) {
-        EXPECT_THAT(schemaErrors(sceneSchema(), text), IsEmpty()) << text;
+        EXPECT_THAT(schemaErrors(scene::sceneSchema(), text), IsEmpty()) << text;
         const TemporaryFolder folder;
-        EXPECT_EQ(errorText([&] { loadScene(folder.write("s.json", text)); }), "no error");
+        EXPECT_EQ(errorText([&] { scene::loadScene(folder.write("s.json", text)); }), "no error");
     }
 }
 
 TEST(SceneSchema, AcceptsRemovals) {
     EXPECT_THAT(
         schemaErrors(
-            sceneSchema(),
+            scene::sceneSchema(),
             R"({"base": "a.json", "groom": null, "strands": {"curve": null, "density": null},
                                  "render": {"msaa": null}, "camera": {"up": null}, "sweep": null})"),
         IsEmpty());

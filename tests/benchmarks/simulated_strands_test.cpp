@@ -1,4 +1,4 @@
-#include "benchmarks/simulated_strands.h"
+#include "benchmarks/measure/case.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@ using testing::ElementsAre;
 
 // A triangle of two strands of two segments of two pieces. The record number is a point's x and
 // width.
-hair::StrandPoints numbered() {
-    hair::StrandPoints points;
+hair::rendering::StrandPoints numbered() {
+    hair::rendering::StrandPoints points;
     points.plan = {
         .triangles = 1,
         .segments = 2,
@@ -27,7 +27,7 @@ hair::StrandPoints numbered() {
 }
 
 TEST(DrawnStrands, HaveJointsOfSegmentsOnce) {
-    const hair::StrandSet set = drawnStrands(numbered());
+    const hair::groom::StrandSet set = measure::drawnStrands(numbered());
     EXPECT_THAT(set.ends, ElementsAre(5u, 10u));
     EXPECT_THAT(set.widths.values, ElementsAre(0, 1, 2, 4, 5, 6, 7, 8, 10, 11));
     for (std::size_t i = 0; i < set.points.size(); ++i)
@@ -37,19 +37,20 @@ TEST(DrawnStrands, HaveJointsOfSegmentsOnce) {
 
 // As level of detail by distance leaves them: the first strand in half the pieces, no second.
 TEST(DrawnStrands, LackWhatIsNotDrawn) {
-    hair::StrandPoints points = numbered();
+    hair::rendering::StrandPoints points = numbered();
     for (const std::size_t i : {2, 5, 6, 7, 8, 9, 10, 11}) points.records[i].width = -1.0f;
-    const hair::StrandSet set = drawnStrands(points);
+    const hair::groom::StrandSet set = measure::drawnStrands(points);
     EXPECT_THAT(set.ends, ElementsAre(3u));
     EXPECT_THAT(set.widths.values, ElementsAre(0, 1, 4));
 }
 
 TEST(GuideStrands, AreTheGroomsAtOtherPlaces) {
-    hair::Groom groom;
+    hair::groom::Groom groom;
     groom.strand_count = 3;
     groom.vertices_per_strand = 2;
     groom.root_triangles = {{0, 1, 2}};
-    const hair::StrandSet set = guideStrands(groom, std::vector<glm::vec3>(6, glm::vec3(4.0f)));
+    const hair::groom::StrandSet set =
+        measure::guideStrands(groom, std::vector<glm::vec3>(6, glm::vec3(4.0f)));
     EXPECT_THAT(set.ends, ElementsAre(2u, 4u, 6u));
     EXPECT_EQ(set.points[5], glm::vec3(4.0f));
     EXPECT_THAT(set.root_triangles, ElementsAre(std::array{0u, 1u, 2u}));

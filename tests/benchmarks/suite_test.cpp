@@ -1,4 +1,4 @@
-#include "benchmarks/suite.h"
+#include "benchmarks/scene/sweep.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ protected:
     }
 
     std::string error(const std::string& text) {
-        return errorText([&] { loadScenes(folder.write("all.json", text)); });
+        return errorText([&] { scene::loadScenes(folder.write("all.json", text)); });
     }
 
     TemporaryFolder folder;
@@ -27,8 +27,8 @@ protected:
 
 TEST_F(Suite, HasItsScenesInOrder) {
     const auto path = folder.write("all.json", R"({"suite": ["b.json", "a.json"]})");
-    EXPECT_TRUE(isSuite(path));
-    const std::vector<Scene> scenes = loadScenes(path);
+    EXPECT_TRUE(scene::isSuite(path));
+    const std::vector<scene::Scene> scenes = scene::loadScenes(path);
     ASSERT_EQ(scenes.size(), 2u);
     EXPECT_EQ(scenes[0].name, "b");
     EXPECT_EQ(scenes[0].axes.size(), 1u);
@@ -39,12 +39,12 @@ TEST_F(Suite, HasItsScenesInOrder) {
 
 TEST_F(Suite, IsNotOneScene) {
     const auto path = folder.write("all.json", R"({"suite": ["a.json"]})");
-    EXPECT_THAT(errorText([&] { loadScene(path); }), HasSubstr("/suite: this is a suite"));
+    EXPECT_THAT(errorText([&] { scene::loadScene(path); }), HasSubstr("/suite: this is a suite"));
 }
 
 TEST_F(Suite, OfOneIsAScene) {
-    EXPECT_FALSE(isSuite(folder.path() / "a.json"));
-    const std::vector<Scene> scenes = loadScenes(folder.path() / "a.json");
+    EXPECT_FALSE(scene::isSuite(folder.path() / "a.json"));
+    const std::vector<scene::Scene> scenes = scene::loadScenes(folder.path() / "a.json");
     ASSERT_EQ(scenes.size(), 1u);
     EXPECT_EQ(scenes[0].name, "a");
 }

@@ -1,4 +1,4 @@
-#include "benchmarks/sweep.h"
+#include "benchmarks/scene/sweep.h"
 
 #include <gmock/gmock.h>
 
@@ -14,16 +14,20 @@ using testing::IsEmpty;
 
 class Sweep : public testing::Test {
 protected:
-    Scene load(std::string_view text) const { return loadScene(folder_.write("s.json", text)); }
+    scene::Scene load(std::string_view text) const {
+        return scene::loadScene(folder_.write("s.json", text));
+    }
 
-    std::vector<std::string> names(std::string_view text, std::vector<Axis> overrides = {}) const {
+    std::vector<std::string>
+    names(std::string_view text, std::vector<scene::Axis> overrides = {}) const {
         std::vector<std::string> result;
-        for (const CaseSpec& spec : expand(load(text), overrides)) result.push_back(spec.name);
+        for (const scene::CaseSpec& spec : scene::expand(load(text), overrides))
+            result.push_back(spec.name);
         return result;
     }
 
-    std::string error(std::string_view text, std::vector<Axis> overrides = {}) const {
-        return folder_.relative(errorText([&] { expand(load(text), overrides); }));
+    std::string error(std::string_view text, std::vector<scene::Axis> overrides = {}) const {
+        return folder_.relative(errorText([&] { scene::expand(load(text), overrides); }));
     }
 
 private:
@@ -41,14 +45,14 @@ TEST_F(Sweep, IsTheProductWithTheLastAxisFastest) {
 TEST_F(Sweep, OfNothingIsOneCase) { EXPECT_THAT(names("{}"), ElementsAre("s")); }
 
 TEST_F(Sweep, SetsTheFieldsOfEachCase) {
-    const Scene scene = load(R"({
+    const scene::Scene scene = load(R"({
         "strands": {"tessellation": 2},
         "simulation": {"colliders": [{"radius": 1}]},
         "sweep": {"/simulation/colliders/0/radius": [2, 3], "/camera/position/2": [1],
                   "/strands/backend": ["pulling_geometry"], "/camera/target": [[1, 2, 3]]}})");
-    const auto cases = expand(scene);
+    const auto cases = scene::expand(scene);
     ASSERT_EQ(cases.size(), 2u);
-    const CaseSpec& last = cases[1];
+    const scene::CaseSpec& last = cases[1];
     EXPECT_EQ(last.name, "s/radius:3/position.2:1/backend:pulling_geometry/target:[1,2,3]");
     EXPECT_EQ(last.settings.simulation.colliders[0].radius, 3.0f);
     EXPECT_EQ(last.settings.camera.position, glm::vec3(0.0f, 0.0f, 1.0f));
@@ -58,11 +62,11 @@ TEST_F(Sweep, SetsTheFieldsOfEachCase) {
     EXPECT_EQ(last.axes[0].pointer, "/simulation/colliders/0/radius");
     EXPECT_EQ(last.axes[0].value.text(), "3");
     EXPECT_EQ(last.axes[2].value.text(), "\"pulling_geometry\"");
-    EXPECT_THAT(caseDocument(scene, last.axes).text(), HasSubstr(R"("target":[1,2,3])"));
+    EXPECT_THAT(scene::caseDocument(scene, last.axes).text(), HasSubstr(R"("target":[1,2,3])"));
 }
 
 TEST_F(Sweep, VariesSeveralFieldsTogetherByAGroup) {
-    const auto cases = expand(load(R"({
+    const auto cases = scene::expand(load(R"({
         "simulation": {"wind": {"gust_rate": 1}},
         "sweep": {"/simulation/wind": [{"strength": 3}, {"strength": 15, "gust_rate": 2}]}})"));
     ASSERT_EQ(cases.size(), 2u);
@@ -82,30 +86,31 @@ TEST_F(Sweep, NamesAxesApart) {
 TEST_F(Sweep, IsReplacedAndExtendedByOverrides) {
     const char* const scene = R"({"sweep": {"/strands/density": [16, 64], "/render/msaa": [1]}})";
     EXPECT_THAT(
-        names(scene, {parseAxis("/strands/density=8"), parseAxis("/lod/level=0,1")}),
+        names(scene, {scene::parseAxis("/strands/density=8"), scene::parseAxis("/lod/level=0,1")}),
         ElementsAre("s/density:8/msaa:1/level:0", "s/density:8/msaa:1/level:1"));
     EXPECT_THAT(
-        names("{}", {parseAxis("/camera/position=[0,0,1],[0,0,2]")}),
+        names("{}", {scene::parseAxis("/camera/position=[0,0,1],[0,0,2]")}),
         ElementsAre("s/position:[0,0,1]", "s/position:[0,0,2]"));
     EXPECT_THAT(
-        names("{}", {parseAxis("/seed=1,2"), parseAxis("/seed=3")}), ElementsAre("s/seed:3"));
+        names("{}", {scene::parseAxis("/seed=1,2"), scene::parseAxis("/seed=3")}),
+        ElementsAre("s/seed:3"));
 }
 
 TEST_F(Sweep, RefusesBadOverrides) {
     EXPECT_EQ(
-        error("{}", {parseAxis("/strands/density=0")}),
+        error("{}", {scene::parseAxis("/strands/density=0")}),
         "-a: /strands/density: 0 is outside [1, 4096] count");
     EXPECT_EQ(
-        error("{}", {parseAxis("/strands/density=many")}),
+        error("{}", {scene::parseAxis("/strands/density=many")}),
         "-a: /strands/density: expected an integer, found the string \"many\"");
     EXPECT_EQ(
-        error("{}", {parseAxis("density=1")}),
+        error("{}", {scene::parseAxis("density=1")}),
         "-a: \"density\": a JSON pointer starts with '/', as in /strands/density");
     EXPECT_EQ(
-        error("{}", {parseAxis("/run/frame=1")}),
+        error("{}", {scene::parseAxis("/run/frame=1")}),
         "-a: /run/frame: unknown key (did you mean \"frames\"?); known: warmup, frames, "
         "precision, max_time, frame_time, busy_pass, busy_work, reference");
-    EXPECT_EQ(error("{}", {parseAxis("/seed=1,1")}), "-a: /seed: 1 is there twice");
+    EXPECT_EQ(error("{}", {scene::parseAxis("/seed=1,1")}), "-a: /seed: 1 is there twice");
 }
 
 TEST_F(Sweep, RefusesAxesInsideOneAnother) {
@@ -118,11 +123,14 @@ TEST_F(Sweep, RefusesMoreCasesThanAnyoneRuns) {
     std::string values = "0";
     for (int i = 1; i < 400; ++i) values += ',' + std::to_string(i);
     EXPECT_EQ(
-        error("{}", {parseAxis("/seed=" + values), parseAxis("/run/frames=" + values + ",400")}),
+        error(
+            "{}", {scene::parseAxis("/seed=" + values),
+                   scene::parseAxis("/run/frames=" + values + ",400")}),
         "-a: /run/frames: 0 is outside [1, 1000000] count");
     EXPECT_EQ(
         error(
-            "{}", {parseAxis("/seed=" + values), parseAxis("/simulation/settle_steps=" + values)}),
+            "{}", {scene::parseAxis("/seed=" + values),
+                   scene::parseAxis("/simulation/settle_steps=" + values)}),
         "s.json: /sweep: more than 100000 cases");
 }
 
@@ -146,15 +154,15 @@ TEST_F(Sweep, VariesHowManyGuidesAreChosenFromAFile) {
 }
 
 TEST_F(Sweep, IsFilteredByName) {
-    const auto matches = nameMatcher("density:(1|64)$");
+    const auto matches = scene::nameMatcher("density:(1|64)$");
     EXPECT_TRUE(matches("s/density:1"));
     EXPECT_FALSE(matches("s/density:16"));
     EXPECT_TRUE(matches("s/density:64"));
-    EXPECT_TRUE(nameMatcher("")("s/density:16"));
+    EXPECT_TRUE(scene::nameMatcher("")("s/density:16"));
 }
 
 TEST_F(Sweep, RefusesAMalformedFilter) {
-    EXPECT_THAT(errorText([] { nameMatcher("(x"); }), testing::StartsWith("--filter (x: "));
+    EXPECT_THAT(errorText([] { scene::nameMatcher("(x"); }), testing::StartsWith("--filter (x: "));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "benchmarks/sweep.h"
+#include "benchmarks/scene/sweep.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
@@ -12,19 +12,21 @@ using testing::ElementsAre;
 // Sweeps with "zip", "cases" and "exclude".
 class TiedSweep : public testing::Test {
 protected:
-    Scene load(const std::string& sweep) const {
-        return loadScene(folder_.write("s.json", R"({"sweep": )" + sweep + "}"));
+    scene::Scene load(const std::string& sweep) const {
+        return scene::loadScene(folder_.write("s.json", R"({"sweep": )" + sweep + "}"));
     }
 
     std::vector<std::string>
-    names(const std::string& sweep, const std::vector<Axis>& overrides = {}) const {
+    names(const std::string& sweep, const std::vector<scene::Axis>& overrides = {}) const {
         std::vector<std::string> result;
-        for (const CaseSpec& spec : expand(load(sweep), overrides)) result.push_back(spec.name);
+        for (const scene::CaseSpec& spec : scene::expand(load(sweep), overrides))
+            result.push_back(spec.name);
         return result;
     }
 
-    std::string error(const std::string& sweep, const std::vector<Axis>& overrides = {}) const {
-        return folder_.relative(errorText([&] { expand(load(sweep), overrides); }));
+    std::string
+    error(const std::string& sweep, const std::vector<scene::Axis>& overrides = {}) const {
+        return folder_.relative(errorText([&] { scene::expand(load(sweep), overrides); }));
     }
 
 private:
@@ -41,7 +43,7 @@ TEST_F(TiedSweep, ZipsFieldsInStep) {
                          "s/msaa:1/guides:10/density:64", "s/msaa:1/guides:10/density:16",
                          "s/msaa:1/guides:86/density:16", "s/msaa:4/guides:10/density:64",
                          "s/msaa:4/guides:10/density:16", "s/msaa:4/guides:86/density:16"));
-    const CaseSpec spec = expand(load(kZip))[2];
+    const scene::CaseSpec spec = scene::expand(load(kZip))[2];
     EXPECT_EQ(spec.settings.groom.guides, 86u);
     EXPECT_EQ(spec.settings.strands.density, 16u);
     ASSERT_EQ(spec.axes.size(), 3u);
@@ -105,12 +107,12 @@ TEST_F(TiedSweep, ExcludesNothingWhereNothingIsSwept) {
 
 TEST_F(TiedSweep, IsChangedFromTheCommandLine) {
     EXPECT_THAT(
-        names(kZip, {parseAxis("/render/msaa=8")}),
+        names(kZip, {scene::parseAxis("/render/msaa=8")}),
         ElementsAre(
             "s/msaa:8/guides:10/density:64", "s/msaa:8/guides:10/density:16",
             "s/msaa:8/guides:86/density:16"));
     EXPECT_EQ(
-        error(kZip, {parseAxis("/strands/density=8")}),
+        error(kZip, {scene::parseAxis("/strands/density=8")}),
         "-a: /strands/density: the sweep ties it to other fields");
 }
 

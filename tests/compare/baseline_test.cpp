@@ -1,15 +1,15 @@
-#include "benchmarks/baseline.h"
+#include "benchmarks/report/baseline.h"
 
 #include <cstdlib>
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/report_file.h"
+#include "benchmarks/report/report.h"
 #include "tests/compare/made_report.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::report {
 namespace {
 
 class Baseline : public testing::Test {
@@ -34,7 +34,7 @@ TEST_F(Baseline, RefusesNamesThatAreNoFolders) {
 }
 
 TEST_F(Baseline, KeepsAllSamplesInOneFile) {
-    Json report = madeReport();
+    scene::Json report = madeReport();
     std::vector<double> samples;  // so many that a report keeps them beside itself
     for (int i = 0; i < 5001; ++i) samples.push_back(1.0 + i);
     report["cases"].push_back(madeCase("made", {{"frame.time", samples}}));
@@ -45,7 +45,7 @@ TEST_F(Baseline, KeepsAllSamplesInOneFile) {
     saveBaseline("main", path);
     std::filesystem::remove_all(runs.path());
 
-    const Json kept = readReport(baselineFile("main", "made"));
+    const scene::Json kept = readReport(baselineFile("main", "made"));
     EXPECT_EQ(kept["cases"][0]["metrics"]["frame.time"]["samples"].size(), 5001u);
     EXPECT_FALSE(kept["cases"][0].contains("picture"));
     EXPECT_EQ(kept["environment"], report["environment"]);
@@ -57,4 +57,4 @@ TEST_F(Baseline, KeepsAllSamplesInOneFile) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::report

@@ -5,7 +5,7 @@
 #include "tests/temporary_folder.h"
 
 // hairbench compare as a user runs it.
-namespace benchmarks {
+namespace benchmarks::report {
 namespace {
 
 using testing::HasSubstr;
@@ -20,11 +20,11 @@ std::vector<double> about(double middle) {
 
 class CompareCommand : public testing::Test {
 protected:
-    std::string file(const std::string& name, const Json& report) const {
+    std::string file(const std::string& name, const scene::Json& report) const {
         return folder_.write(name, report.dump()).string();
     }
-    static Json report(double time, const std::string& image = "aaaa") {
-        Json made = madeReport();
+    static scene::Json report(double time, const std::string& image = "aaaa") {
+        scene::Json made = madeReport();
         made["cases"].push_back(
             madeCase("made", {{"frame.time", about(time)}, {"pass.wind.time", about(1.0)}}, image));
         return made;
@@ -58,7 +58,7 @@ TEST_F(CompareCommand, SaysNothingChanged) {
 }
 
 TEST_F(CompareCommand, FailsOnInconclusiveWhereAskedTo) {
-    Json few = madeReport();
+    scene::Json few = madeReport();
     few["cases"].push_back(madeCase("made", {{"frame.time", {10.0, 11.0, 12.0}}}, "aaaa"));
     const std::string b = file("b.json", few);
     EXPECT_EQ(hairbench("compare " + a_ + ' ' + b).status, 0);
@@ -80,7 +80,7 @@ TEST_F(CompareCommand, SaysThatNothingIsInCommon) {
 TEST_F(CompareCommand, WritesJson) {
     const Outcome outcome = hairbench("compare --json " + a_ + ' ' + file("b.json", report(12.0)));
     EXPECT_EQ(outcome.status, 10);
-    const Json json = Json::parse(outcome.output);
+    const scene::Json json = scene::Json::parse(outcome.output);
     EXPECT_EQ(json["verdict"], "regressed");
     EXPECT_EQ(json["changes"].size(), 2u);
     EXPECT_EQ(json["changes"][0]["verdict"], "regressed");
@@ -95,17 +95,17 @@ TEST_F(CompareCommand, ComparesWithABaseline) {
     file("old/made.json", report(10.0));
     const Outcome slower = hairbench("compare --baseline old " + b, before);
     EXPECT_EQ(slower.status, 10) << slower.output;
-    Json elsewhere = report(10.0);
+    scene::Json elsewhere = report(10.0);
     elsewhere["environment"]["device"]["name"] = "Other";
     file("old/made.json", elsewhere);
     const Outcome incompatible = hairbench("compare --baseline old " + b, before);
     EXPECT_EQ(incompatible.status, 13);
     EXPECT_THAT(incompatible.output, HasSubstr("is of another device"));
-    file("old/made.json", Json{{"schema", "hairbench-report/9.0.0"}});
+    file("old/made.json", scene::Json{{"schema", "hairbench-report/9.0.0"}});
     EXPECT_EQ(hairbench("compare --baseline old " + b, before).status, 13);
     EXPECT_EQ(hairbench("compare --baseline ../old " + b, before).status, 2);
     EXPECT_EQ(hairbench("compare --baseline old " + a_ + ' ' + b, before).status, 2);
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::report

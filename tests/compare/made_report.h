@@ -6,13 +6,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/json_fwd.h"
+#include "benchmarks/scene/json.h"
 
-namespace benchmarks {
+namespace benchmarks::report {
 
 // A report with what comparisons read of one, made up.
-inline Json madeReport(const std::string& device_type = "discrete") {
-    Json report = {{"schema", "hairbench-report/1.1.0"}};
+inline scene::Json madeReport(const std::string& device_type = "discrete") {
+    scene::Json report = {{"schema", "hairbench-report/1.1.0"}};
     report["environment"] = {
         {"device", {{"name", "Made up"}, {"type", device_type}}},
         {"host", {{"processor", "Abacus"}}},
@@ -20,8 +20,10 @@ inline Json madeReport(const std::string& device_type = "discrete") {
         {"command", {"hairbench", "run"}},
         {"seed", 1}};
     report["scene"] = {
-        {"path", "scenes/made.json"}, {"hash", "0123456789abcdef"}, {"document", Json::object()}};
-    report["cases"] = Json::array();
+        {"path", "scenes/made.json"},
+        {"hash", "0123456789abcdef"},
+        {"document", scene::Json::object()}};
+    report["cases"] = scene::Json::array();
     return report;
 }
 
@@ -33,26 +35,27 @@ struct MadeMetric {
     std::string mode = "isolated";
 };
 
-inline Json madeMetric(const MadeMetric& metric) {
+inline scene::Json madeMetric(const MadeMetric& metric) {
     return {{"unit", metric.unit}, {"hint", metric.hint},
             {"mode", metric.mode}, {"median", metric.samples[metric.samples.size() / 2]},
             {"mad", 0.0},          {"samples", metric.samples}};
 }
 
-inline Json madeCase(
+inline scene::Json madeCase(
     const std::string& name, const std::vector<MadeMetric>& metrics,
     const std::string& image_hash = "00000000000000aa",
     const std::string& state_hash = "00000000000000bb") {
-    Json result = {{"name", name}, {"axes", Json::object()}, {"status", "ok"}};
-    result["metrics"] = Json::object();
+    scene::Json result = {{"name", name}, {"axes", scene::Json::object()}, {"status", "ok"}};
+    result["metrics"] = scene::Json::object();
     for (const MadeMetric& each : metrics) result["metrics"][each.name] = madeMetric(each);
     result["image_hash"] = image_hash;
     result["state_hash"] = state_hash;
     return result;
 }
 
-inline Json failedCase(const std::string& name, const std::string& reason) {
-    return {{"name", name}, {"axes", Json::object()}, {"status", "failed"}, {"reason", reason}};
+inline scene::Json failedCase(const std::string& name, const std::string& reason) {
+    return {
+        {"name", name}, {"axes", scene::Json::object()}, {"status", "failed"}, {"reason", reason}};
 }
 
-}  // namespace benchmarks
+}  // namespace benchmarks::report

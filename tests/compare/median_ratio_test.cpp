@@ -1,4 +1,4 @@
-#include "benchmarks/compare/median_ratio.h"
+#include "benchmarks/report/change.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "tests/decide/noise.h"
 
-namespace benchmarks {
+namespace benchmarks::report {
 namespace {
 
 // 1 ... 20, in turns below and above the median: as many as they are count as independent.
@@ -98,4 +98,4 @@ TEST(MedianRatio, FindsALargeChange) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::report

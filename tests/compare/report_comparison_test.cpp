@@ -1,11 +1,11 @@
-#include "benchmarks/compare/report_comparison.h"
+#include "benchmarks/report/compare.h"
 
 #include <gmock/gmock.h>
 
 #include "tests/compare/made_report.h"
 #include "tests/error_text.h"
 
-namespace benchmarks {
+namespace benchmarks::report {
 namespace {
 
 using testing::Contains;
@@ -22,13 +22,14 @@ std::vector<double> about(double middle) {
     return samples;
 }
 
-Json reportOf(const std::vector<Json>& cases, const std::string& device = "discrete") {
-    Json report = madeReport(device);
-    for (const Json& each : cases) report["cases"].push_back(each);
+scene::Json
+reportOf(const std::vector<scene::Json>& cases, const std::string& device = "discrete") {
+    scene::Json report = madeReport(device);
+    for (const scene::Json& each : cases) report["cases"].push_back(each);
     return report;
 }
 
-Json frameCase(const std::string& name, double time) {
+scene::Json frameCase(const std::string& name, double time) {
     return madeCase(name, {{"frame.time", about(time)}});
 }
 
@@ -58,7 +59,7 @@ TEST(ReportComparison, PairsCasesByName) {
 }
 
 TEST(ReportComparison, ComparesNoTimesOfDifferentWork) {
-    Json other = frameCase("x", 20.0);
+    scene::Json other = frameCase("x", 20.0);
     other["image_hash"] = "00000000000000ff";
     const ReportComparison found = compareReports(
         reportOf({frameCase("x", 10.0), frameCase("y", 10.0)}),
@@ -73,7 +74,7 @@ TEST(ReportComparison, ComparesNoTimesOfDifferentWork) {
 }
 
 TEST(ReportComparison, TakesAHashThatIsNotKnownForNone) {
-    Json older = frameCase("x", 10.0);
+    scene::Json older = frameCase("x", 10.0);
     older.erase("state_hash");
     EXPECT_THAT(
         compareReports(reportOf({older}), reportOf({frameCase("x", 10.0)}), {}).mismatches,
@@ -89,7 +90,7 @@ TEST(ReportComparison, TakesACaseThatOnlyOnePlayedForAMismatch) {
 }
 
 TEST(ReportComparison, WarnsOfOtherSurroundings) {
-    Json b = reportOf({frameCase("x", 10.0)}, "cpu");
+    scene::Json b = reportOf({frameCase("x", 10.0)}, "cpu");
     b["environment"]["host"]["processor"] = "Slide rule";
     b["scene"]["hash"] = "fedcba9876543210";
     const ReportComparison found = compareReports(reportOf({frameCase("x", 10.0)}), b, {});
@@ -101,8 +102,8 @@ TEST(ReportComparison, WarnsOfOtherSurroundings) {
 }
 
 TEST(ReportComparison, ComparesNoTwoWaysOfTiming) {
-    const Json a = reportOf({madeCase("x", {{"pass.wind.time", about(1.0)}})});
-    const Json b =
+    const scene::Json a = reportOf({madeCase("x", {{"pass.wind.time", about(1.0)}})});
+    const scene::Json b =
         reportOf({madeCase("x", {{"pass.wind.time", about(2.0), "ms", "lower", "wall_clock"}})});
     const ReportComparison found = compareReports(a, b, {});
     EXPECT_THAT(found.changes, IsEmpty());
@@ -143,9 +144,9 @@ TEST(ReportComparison, LeavesOutWhatIsTooShort) {
 
 TEST(ReportComparison, NamesWhatAReportLacks) {
     EXPECT_THAT(
-        errorText([] { compareReports(Json::object(), Json::object(), {}); }),
+        errorText([] { compareReports(scene::Json::object(), scene::Json::object(), {}); }),
         HasSubstr("the reports can't be compared"));
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::report

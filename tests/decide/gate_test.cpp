@@ -1,4 +1,4 @@
-#include "benchmarks/decide/gate.h"
+#include "benchmarks/gate/rule.h"
 
 #include <cmath>
 #include <limits>
@@ -8,16 +8,16 @@
 
 #include "tests/error_text.h"
 
-namespace benchmarks {
+namespace benchmarks::report {
 namespace {
 
-using Step = Gate::Step;
+using Step = gate::Gate::Step;
 
-const std::vector<GateMetric> kOneMetric(1);
+const std::vector<gate::GateMetric> kOneMetric(1);
 
 // Runs pairs whose medians of one metric are 10 and 10 * ratio(pair).
 template <class Ratio>
-std::size_t play(Gate& gate, Ratio ratio) {
+std::size_t play(gate::Gate& gate, Ratio ratio) {
     std::size_t blocks = 0;
     for (Step step = gate.next(); step != Step::decided; step = gate.next(), ++blocks)
         gate.add({step == Step::run_a ? 10.0 : 10.0 * ratio(gate.pairs())});
@@ -30,7 +30,7 @@ double wobble(std::size_t pair) {
 }
 
 TEST(Gate, TakesTurnsThatCancelADrift) {
-    Gate gate(kOneMetric);
+    gate::Gate gate(kOneMetric);
     std::string order;
     for (int i = 0; i < 8; ++i) {
         order += gate.next() == Step::run_a ? 'A' : 'B';
@@ -42,7 +42,7 @@ TEST(Gate, TakesTurnsThatCancelADrift) {
 }
 
 TEST(Gate, FindsARegressionAtTheFirstDecision) {
-    Gate gate(kOneMetric);
+    gate::Gate gate(kOneMetric);
     EXPECT_EQ(play(gate, [](std::size_t i) { return 1.03 + 0.001 * wobble(i); }), 24u);
     const Comparison found = gate.comparisons()[0];
     EXPECT_EQ(found.verdict, Verdict::regressed);
@@ -54,23 +54,23 @@ TEST(Gate, FindsARegressionAtTheFirstDecision) {
 }
 
 TEST(Gate, MirrorsForAnImprovement) {
-    Gate gate(kOneMetric);
+    gate::Gate gate(kOneMetric);
     EXPECT_EQ(play(gate, [](std::size_t i) { return 1.0 / (1.03 + 0.001 * wobble(i)); }), 24u);
     EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::improved);
 }
 
 TEST(Gate, SaysSameOfWhatIsInsideTheBand) {
-    Gate gate(kOneMetric);
+    gate::Gate gate(kOneMetric);
     EXPECT_EQ(play(gate, [](std::size_t i) { return 1.0 + 0.005 * wobble(i); }), 24u);
     EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::same);
     // A significant change that is too small to matter is none either.
-    Gate slower(kOneMetric);
+    gate::Gate slower(kOneMetric);
     play(slower, [](std::size_t i) { return 1.01 + 0.001 * wobble(i); });
     EXPECT_EQ(slower.comparisons()[0].verdict, Verdict::same);
 }
 
 TEST(Gate, GoesOnWhileItCannotTellAndGivesUpAt48) {
-    Gate gate(kOneMetric);
+    gate::Gate gate(kOneMetric);
     EXPECT_EQ(play(gate, [](std::size_t i) { return 1.02 + 0.01 * wobble(i); }), 96u);
     EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::inconclusive);
     EXPECT_EQ(gate.nextDecision(), 48u);
@@ -78,18 +78,18 @@ TEST(Gate, GoesOnWhileItCannotTellAndGivesUpAt48) {
 
 TEST(Gate, EndsAt24WhenThatIsEnough) {
     // Noise at first, then none: 12 pairs say nothing, 24 do.
-    Gate gate(kOneMetric);
+    gate::Gate gate(kOneMetric);
     const auto ratio = [](std::size_t i) { return 1.06 + (i < 12 ? 0.06 : 0.001) * wobble(i); };
     EXPECT_EQ(play(gate, ratio), 48u);
     EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::regressed);
 }
 
 TEST(Gate, DecidesNothingBetweenDecisions) {
-    Gate gate(kOneMetric);
+    gate::Gate gate(kOneMetric);
     for (int i = 0; i < 26; ++i)  // 13 pairs, far apart; the 12th had been enough
         if (gate.next() != Step::decided) gate.add({gate.next() == Step::run_a ? 1.0 : 2.0 + i});
     EXPECT_EQ(gate.pairs(), 12u);
-    Gate early(kOneMetric);
+    gate::Gate early(kOneMetric);
     for (int i = 0; i < 22; ++i) early.add({early.next() == Step::run_a ? 1.0 : 2.0 + i});
     EXPECT_EQ(early.comparisons()[0].verdict, Verdict::inconclusive);
     EXPECT_GT(early.comparisons()[0].lower, 0.02);
@@ -99,7 +99,7 @@ TEST(Gate, NeedsMoreThanTheMachinesOwnNoise) {
     // Pairs of one build differ by 2 %: a 3 % change is no news on such a machine.
     std::vector<double> calibration;
     for (std::size_t i = 0; i < 12; ++i) calibration.push_back(0.02 * wobble(i));
-    Gate gate(std::vector<GateMetric>{{.calibration = calibration}});
+    gate::Gate gate(std::vector<gate::GateMetric>{{.calibration = calibration}});
     play(gate, [](std::size_t i) { return 1.03 + 0.001 * wobble(i); });
     const Comparison found = gate.comparisons()[0];
     EXPECT_EQ(found.verdict, Verdict::same);
@@ -111,7 +111,7 @@ TEST(Gate, NeedsMoreThanTheMachinesOwnNoise) {
 TEST(Gate, LeavesOutAMetricThatCannotBeCompared) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const double broken : {0.0, -1.0, nan}) {
-        Gate gate(std::vector<GateMetric>(2));
+        gate::Gate gate(std::vector<gate::GateMetric>(2));
         while (gate.next() != Step::decided) gate.add({1.0, broken});
         EXPECT_EQ(gate.pairs(), 12u);
         EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::same);
@@ -120,14 +120,14 @@ TEST(Gate, LeavesOutAMetricThatCannotBeCompared) {
 }
 
 TEST(Gate, RefusesOtherMetrics) {
-    Gate gate(kOneMetric);
+    gate::Gate gate(kOneMetric);
     EXPECT_EQ(
         errorText([&] { gate.add({1.0, 2.0}); }),
         "gate: a process measured something else than the others");
 }
 
 TEST(Gate, KnowsNothingBeforeThePairs) {
-    const Gate gate(kOneMetric);
+    const gate::Gate gate(kOneMetric);
     EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::inconclusive);
     EXPECT_EQ(gate.comparisons()[0].lower, -1.0);
 }
@@ -139,4 +139,4 @@ TEST(DecisiveChange, IsTheThresholdOrTheNoise) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::report

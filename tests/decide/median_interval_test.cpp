@@ -1,4 +1,4 @@
-#include "benchmarks/decide/median_interval.h"
+#include "benchmarks/report/statistics.h"
 
 #include <cmath>
 #include <numbers>
@@ -9,7 +9,7 @@
 #include "tests/decide/noise.h"
 #include "tests/decide/scipy_values.h"
 
-namespace benchmarks {
+namespace benchmarks::report {
 namespace {
 
 // A stationary AR(1) series of variance 1.
@@ -135,4 +135,4 @@ TEST(Precision, IsReachedWhenTheMedianIsKnown) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::report

@@ -1,4 +1,4 @@
-#include "benchmarks/decide/multiple_tests.h"
+#include "benchmarks/report/statistics.h"
 
 #include <cmath>
 #include <vector>
@@ -8,7 +8,7 @@
 #include "tests/decide/scipy_values.h"
 #include "tests/error_text.h"
 
-namespace benchmarks {
+namespace benchmarks::report {
 namespace {
 
 TEST(FalseDiscovery, IsScipys) {
@@ -40,4 +40,4 @@ TEST(FalseDiscovery, OfNothingIsNothing) {
 TEST(StageLevel, IsSpentInWhole) { EXPECT_DOUBLE_EQ(stageLevel(0.05) * std::size(kStages), 0.05); }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::report

@@ -1,4 +1,4 @@
-#include "benchmarks/decide/signed_rank.h"
+#include "benchmarks/report/statistics.h"
 
 #include <cmath>
 #include <vector>
@@ -9,7 +9,7 @@
 #include "tests/decide/scipy_values.h"
 #include "tests/error_text.h"
 
-namespace benchmarks {
+namespace benchmarks::report {
 namespace {
 
 // Both sum the same probabilities of at most 64 differences; p-values may cancel to some 1e-14.
@@ -131,4 +131,4 @@ TEST(SignedRank, WantsFiniteDifferences) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::report

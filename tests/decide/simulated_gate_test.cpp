@@ -6,13 +6,13 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/decide/gate.h"
-#include "benchmarks/decide/multiple_tests.h"
+#include "benchmarks/gate/rule.h"
+#include "benchmarks/report/statistics.h"
 #include "tests/decide/noise.h"
 
 // Gates on a machine with the noise of shared machines: every block is off by 0.4 %, and the
 // machine's speed walks at random, by a standard deviation of 1.5 % over the 24 blocks of 12 pairs.
-namespace benchmarks {
+namespace benchmarks::report {
 namespace {
 
 constexpr double kBlockNoise = 0.004;
@@ -54,10 +54,10 @@ Outcome play(
     Noise& noise, double slowdown, const std::vector<double>& calibration,
     const VerdictRule& rule = {}) {
     Machine machine(noise);
-    Gate gate(std::vector<GateMetric>{{.calibration = calibration}}, rule);
+    gate::Gate gate(std::vector<gate::GateMetric>{{.calibration = calibration}}, rule);
     const double cost = std::log1p(slowdown);
-    for (auto step = gate.next(); step != Gate::Step::decided; step = gate.next())
-        gate.add({machine.run(step == Gate::Step::run_b ? cost : 0.0)});
+    for (auto step = gate.next(); step != gate::Gate::Step::decided; step = gate.next())
+        gate.add({machine.run(step == gate::Gate::Step::run_b ? cost : 0.0)});
     return {gate.comparisons()[0].verdict, gate.pairs()};
 }
 
@@ -149,13 +149,13 @@ TEST(SimulatedGates, KeepTheRateOfFalseDiscoveries) {
     double found = 0.0;
     for (int i = 0; i < kFamilies; ++i) {
         std::vector<Machine> machines(kMetrics, Machine(noise));
-        Gate gate{std::vector<GateMetric>(kMetrics)};
-        for (auto step = gate.next(); step != Gate::Step::decided; step = gate.next()) {
+        gate::Gate gate{std::vector<gate::GateMetric>(kMetrics)};
+        for (auto step = gate.next(); step != gate::Gate::Step::decided; step = gate.next()) {
             std::vector<double> medians;
             for (std::size_t m = 0; m < kMetrics; ++m) {
                 const double slowdown = m < kSlower ? 0.04 : 0.02;
                 medians.push_back(
-                    machines[m].run(step == Gate::Step::run_b ? std::log1p(slowdown) : 0.0));
+                    machines[m].run(step == gate::Gate::Step::run_b ? std::log1p(slowdown) : 0.0));
             }
             gate.add(std::move(medians));
         }
@@ -172,4 +172,4 @@ TEST(SimulatedGates, KeepTheRateOfFalseDiscoveries) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::report

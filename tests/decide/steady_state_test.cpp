@@ -1,4 +1,4 @@
-#include "benchmarks/decide/steady_state.h"
+#include "benchmarks/measure/steady_state.h"
 
 #include <cmath>
 #include <vector>
@@ -9,26 +9,28 @@
 #include "tests/decide/scipy_values.h"
 #include "tests/error_text.h"
 
-namespace benchmarks {
+namespace benchmarks::report {
 namespace {
 
 TEST(Trend, IsScipys) {
     for (const auto& row : scipyValues()["trend"]) {
         const auto values = row["values"].get<std::vector<double>>();
-        const Trend found = trend(values);
+        const measure::Trend found = measure::trend(values);
         EXPECT_EQ(found.score, row["score"].get<double>()) << values.size();
         EXPECT_NEAR(found.p, row["p"], 1e-12) << values.size();
-        EXPECT_NEAR(medianSlope(values), row["slope"], 1e-12) << values.size();
+        EXPECT_NEAR(measure::medianSlope(values), row["slope"], 1e-12) << values.size();
     }
 }
 
 TEST(Trend, OfNothingIsNone) {
-    EXPECT_EQ(trend({}).p, 1.0);
-    EXPECT_EQ(trend(std::vector{1.0}).p, 1.0);
-    EXPECT_EQ(trend(std::vector(32, 1.0)).p, 1.0);
-    EXPECT_DOUBLE_EQ(trend(std::vector{1.0, 2.0, 3.0}).p, 2.0 / 6.0);  // one order of six, twice
+    EXPECT_EQ(measure::trend({}).p, 1.0);
+    EXPECT_EQ(measure::trend(std::vector{1.0}).p, 1.0);
+    EXPECT_EQ(measure::trend(std::vector(32, 1.0)).p, 1.0);
+    EXPECT_DOUBLE_EQ(
+        measure::trend(std::vector{1.0, 2.0, 3.0}).p, 2.0 / 6.0);  // one order of six, twice
     EXPECT_EQ(
-        errorText([] { medianSlope(std::vector{1.0}); }), "median slope: fewer than two samples");
+        errorText([] { measure::medianSlope(std::vector{1.0}); }),
+        "median slope: fewer than two samples");
 }
 
 // White noise of 10 %, against which no tolerance helps: the exact test's level bounds the rate.
@@ -39,9 +41,9 @@ TEST(SteadyState, OfWhiteNoiseIsSeen) {
     for (int i = 0; i < kWindows; ++i) {
         std::vector<double> window(32);
         for (double& value : window) value = 10.0 * (1.0 + 0.1 * noise.normal());
-        drifts += !isSteady(window);
+        drifts += !measure::isSteady(window);
     }
-    EXPECT_LE(drifts, mostOf(kWindows, SteadyRule{}.level));
+    EXPECT_LE(drifts, mostOf(kWindows, measure::SteadyRule{}.level));
 }
 
 TEST(SteadyState, IsNotSeenInAWarmUp) {
@@ -53,8 +55,8 @@ TEST(SteadyState, IsNotSeenInAWarmUp) {
         std::vector<double> frames;
         for (int i = 0; i < 120; ++i)
             frames.push_back(10.0 * (1.0 + 0.05 * std::exp(-i / 10.0) + 0.005 * noise.normal()));
-        found_early += isSteady(std::span(frames).first(32));
-        found_late += isSteady(frames);
+        found_early += measure::isSteady(std::span(frames).first(32));
+        found_late += measure::isSteady(frames);
     }
     EXPECT_EQ(found_early, 0);
     EXPECT_EQ(found_late, 200);  // what is left of the drift is far below the tolerance
@@ -63,19 +65,19 @@ TEST(SteadyState, IsNotSeenInAWarmUp) {
 TEST(SteadyState, TakesASmallDriftForNone) {
     std::vector<double> frames;  // rises in every frame, by 0.5 % over the window
     for (int i = 0; i < 32; ++i) frames.push_back(10.0 + 0.05 * i / 31);
-    EXPECT_TRUE(isSteady(frames));
+    EXPECT_TRUE(measure::isSteady(frames));
     for (double& frame : frames) frame = 10.0 + 3.0 * (frame - 10.0);
-    EXPECT_FALSE(isSteady(frames));
+    EXPECT_FALSE(measure::isSteady(frames));
 }
 
 TEST(SteadyState, WantsAWholeWindowAndLooksAtTheLast) {
-    EXPECT_FALSE(isSteady({}));
-    EXPECT_FALSE(isSteady(std::vector(31, 1.0)));
+    EXPECT_FALSE(measure::isSteady({}));
+    EXPECT_FALSE(measure::isSteady(std::vector(31, 1.0)));
     std::vector<double> frames;
     for (int i = 0; i < 40; ++i) frames.push_back(50.0 - i);
     frames.insert(frames.end(), 32, 10.0);
-    EXPECT_TRUE(isSteady(frames));
+    EXPECT_TRUE(measure::isSteady(frames));
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::report

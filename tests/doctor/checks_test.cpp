@@ -6,7 +6,7 @@
 
 #include "tests/doctor/sample_facts.h"
 
-namespace benchmarks {
+namespace benchmarks::doctor {
 namespace {
 
 using testing::HasSubstr;
@@ -156,4 +156,4 @@ TEST(DoctorChecks, SeeAFaultInNoOtherRow) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::doctor

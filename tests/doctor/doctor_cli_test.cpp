@@ -9,7 +9,7 @@
 #include "tests/required.h"
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::doctor {
 namespace {
 
 using testing::HasSubstr;
@@ -72,4 +72,4 @@ TEST(DoctorCommand, PlantsNothingWithoutKnowingHowMuch) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::doctor

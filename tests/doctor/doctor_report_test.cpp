@@ -1,4 +1,4 @@
-#include "benchmarks/doctor/doctor_report.h"
+#include "benchmarks/doctor/report.h"
 
 #include <limits>
 
@@ -9,7 +9,7 @@
 #include "tests/benchmarks/schema_errors.h"
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::doctor {
 namespace {
 
 using testing::HasSubstr;
@@ -26,8 +26,9 @@ DoctorReport sampleDoctor() {
              {"power", Health::unknown, "no power supply is listed", ""},
              {"clocks", Health::warn, "1500 MHz", "lock them"}},
         .sensitivities =
-            {{ofFrame(Measured::time), 0.02, 0.031},
-             {ofPass("wind", Measured::time), 0.2, std::numeric_limits<double>::infinity()}},
+            {{report::ofFrame(report::Measured::time), 0.02, 0.031},
+             {report::ofPass("wind", report::Measured::time), 0.2,
+              std::numeric_limits<double>::infinity()}},
         .planted = {{"strands", 0.05, true, false}, {"strands", 0.05, false, true}}};
 }
 
@@ -95,4 +96,4 @@ TEST(JudgePlanted, WantsEachFoundInItsPassAlone) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::doctor

@@ -1,4 +1,4 @@
-#include "benchmarks/doctor/doctor_scene.h"
+#include "benchmarks/doctor/play_pairs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,15 +6,15 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/case.h"
-#include "benchmarks/scene.h"
-#include "benchmarks/sweep.h"
-#include "benchmarks/trust.h"
-#include "benchmarks/write_settings.h"
+#include "benchmarks/measure/case.h"
+#include "benchmarks/measure/trust.h"
+#include "benchmarks/scene/scene.h"
+#include "benchmarks/scene/settings_json.h"
+#include "benchmarks/scene/sweep.h"
 #include "tests/gpu_fixture.h"
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::doctor {
 namespace {
 
 using testing::Each;
@@ -22,7 +22,7 @@ using testing::ElementsAre;
 using testing::Gt;
 
 TEST(DoctorStrands, HangWithTheirLengthFromADisc) {
-    const hair::StrandSet strands = doctorStrands();
+    const hair::groom::StrandSet strands = doctorStrands();
     ASSERT_GT(strands.strandCount(), 0u);
     for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
         const auto points = strands.strand(i);
@@ -42,9 +42,9 @@ TEST(DoctorStrands, HangWithTheirLengthFromADisc) {
 TEST(DoctorScene, IsASceneFileLikeAnyOther) {
     const TemporaryFolder folder;
     const std::filesystem::path path = writeDoctorScene(folder.path());
-    const Scene scene = loadScene(path);
-    EXPECT_EQ(writeSettings(scene.settings), writeSettings(doctorSettings()));
-    EXPECT_EQ(expand(scene).size(), 1u);
+    const scene::Scene scene = scene::loadScene(path);
+    EXPECT_EQ(scene::writeSettings(scene.settings), scene::writeSettings(doctorSettings()));
+    EXPECT_EQ(scene::expand(scene).size(), 1u);
 }
 
 using DoctorSceneTest = GpuTest;
@@ -52,12 +52,13 @@ using DoctorSceneTest = GpuTest;
 TEST_F(DoctorSceneTest, ShowsMovingHairInEveryPassOfTheFrame) {
     const TemporaryFolder folder;
     writeDoctorScene(folder.path());
-    Case test_case(device(), doctorSettings(), folder.path());
+    measure::Case test_case(device(), doctorSettings(), folder.path());
     engine::FrameLoop loop(device(), engine::Timing::isolated);
     const auto draw = [&] { loop.frame([&](engine::Passes& passes) { test_case.frame(passes); }); };
     draw();
     const std::vector<engine::FrameRecord> frames = loop.finish();
-    EXPECT_THAT(passNames(frames), ElementsAre("wind", "simulate", "scene", "strands", "resolve"));
+    EXPECT_THAT(
+        measure::passNames(frames), ElementsAre("wind", "simulate", "scene", "strands", "resolve"));
     const std::string state = test_case.stateHash();
 
     // Hair is whatever is not like the corner, which is background.
@@ -74,4 +75,4 @@ TEST_F(DoctorSceneTest, ShowsMovingHairInEveryPassOfTheFrame) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::doctor

@@ -3,13 +3,11 @@
 
 #include <gmock/gmock.h>
 
-#include "benchmarks/doctor/loaded_layers.h"
-#include "benchmarks/doctor/processor_settings.h"
-#include "benchmarks/doctor/timestamp_step.h"
+#include "benchmarks/doctor/facts.h"
 #include "tests/gpu_fixture.h"
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::doctor {
 namespace {
 
 using testing::Contains;
@@ -70,7 +68,7 @@ protected:
     void supply(const std::string& name, const std::string& file, const std::string& text) {
         root_.write("sys/class/power_supply/" + name + '/' + file, text + '\n');
     }
-    std::optional<bool> onBattery() const { return benchmarks::onBattery(root_.path()); }
+    std::optional<bool> onBattery() const { return onBattery(root_.path()); }
 
 private:
     TemporaryFolder root_;
@@ -126,4 +124,4 @@ TEST_F(TimestampStepsTest, OfTheDeviceDivideItsGap) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::doctor

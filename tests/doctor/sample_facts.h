@@ -5,7 +5,7 @@
 #include "benchmarks/doctor/checks.h"
 #include "benchmarks/doctor/facts.h"
 
-namespace benchmarks {
+namespace benchmarks::doctor {
 
 // A machine without fault: a discrete device with held clocks, on mains, idle.
 inline Facts goodFacts() {
@@ -53,4 +53,4 @@ inline Finding findingOf(const Facts& facts, const std::string& check) {
     return found == findings.end() ? Finding{"no such check", Health::bad, "", ""} : *found;
 }
 
-}  // namespace benchmarks
+}  // namespace benchmarks::doctor

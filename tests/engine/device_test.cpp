@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/pipeline.h"
-#include "engine/shader_code.h"
+#include "engine/shaders.h"
 #include "engine/target.h"
 #include "tests/gpu_fixture.h"
 

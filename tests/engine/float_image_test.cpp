@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "engine/image_file.h"
+#include "engine/pictures.h"
 #include "hair/random.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"

@@ -1,4 +1,4 @@
-#include "engine/image_file.h"
+#include "engine/pictures.h"
 
 #include <filesystem>
 #include <fstream>

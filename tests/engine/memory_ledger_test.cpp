@@ -1,12 +1,11 @@
-#include "engine/memory_ledger.h"
+#include "engine/device.h"
 
 #include <optional>
 #include <utility>
 
 #include <gtest/gtest.h>
 
-#include "engine/buffer.h"
-#include "engine/image.h"
+#include "engine/buffer_image.h"
 #include "tests/gpu_fixture.h"
 
 namespace engine {

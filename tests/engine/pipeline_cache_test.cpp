@@ -1,4 +1,4 @@
-#include "engine/pipeline_cache.h"
+#include "engine/device.h"
 
 #include <cstdlib>
 #include <optional>

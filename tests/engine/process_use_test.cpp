@@ -1,4 +1,4 @@
-#include "engine/process_use.h"
+#include "engine/process.h"
 
 #include <atomic>
 #include <thread>
@@ -9,8 +9,6 @@
 #include <unistd.h>
 
 #include <gtest/gtest.h>
-
-#include "engine/perf_counter.h"
 
 namespace engine {
 namespace {

@@ -1,10 +1,9 @@
-#include "engine/shader_compiler.h"
+#include "engine/shaders.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "engine/error.h"
-#include "engine/shader_code.h"
 #include "tests/engine/shader_texts.h"
 
 namespace engine {

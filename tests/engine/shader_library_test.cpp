@@ -1,4 +1,4 @@
-#include "engine/shader_library.h"
+#include "engine/shaders.h"
 
 #include <algorithm>
 
@@ -6,8 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "engine/error.h"
-#include "engine/shader_code.h"
-#include "engine/shader_sources.h"
 #include "tests/engine/shader_texts.h"
 
 namespace engine {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/shader_compiler.h"
+#include "engine/shaders.h"
 
 namespace engine {
 

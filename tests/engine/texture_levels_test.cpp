@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "engine/texture_levels.h"
+#include "engine/texture.h"
 
 namespace engine {
 namespace {

@@ -1,4 +1,4 @@
-#include "engine/timestamps.h"
+#include "engine/queries.h"
 
 #include <gtest/gtest.h>
 

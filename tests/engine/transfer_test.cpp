@@ -1,4 +1,4 @@
-#include "engine/transfer.h"
+#include "engine/buffer_image.h"
 
 #include <numeric>
 

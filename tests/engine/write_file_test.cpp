@@ -1,4 +1,4 @@
-#include "engine/write_file.h"
+#include "engine/files.h"
 
 #include <csignal>
 #include <filesystem>

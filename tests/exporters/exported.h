@@ -5,18 +5,20 @@
 
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/exporters/exporters.h"
+#include "benchmarks/report/exporters.h"
 #include "tests/benchmarks/sample_report.h"
 
-namespace benchmarks {
+namespace benchmarks::report {
 
 // The made-up report as it is read back from its file.
-inline Json writtenReport() { return Json::parse(reportText(sampleReport())); }
+inline scene::Json writtenReport() { return scene::Json::parse(reportText(sampleReport())); }
 
 inline std::string exported(std::string_view format) {
     return exportReport(writtenReport(), format);
 }
 
-inline Json exportedJson(std::string_view format) { return Json::parse(exported(format)); }
+inline scene::Json exportedJson(std::string_view format) {
+    return scene::Json::parse(exported(format));
+}
 
-}  // namespace benchmarks
+}  // namespace benchmarks::report

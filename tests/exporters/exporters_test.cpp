@@ -1,4 +1,4 @@
-#include "benchmarks/exporters/exporters.h"
+#include "benchmarks/report/exporters.h"
 
 #include <functional>
 #include <set>
@@ -8,7 +8,7 @@
 #include "tests/error_text.h"
 #include "tests/exporters/exported.h"
 
-namespace benchmarks {
+namespace benchmarks::report {
 namespace {
 
 using testing::ElementsAre;
@@ -17,16 +17,16 @@ using testing::Not;
 
 constexpr const char* kName = "thesis/density:64/backend:tessellation";
 
-std::vector<std::string> names(const Json& entries) {
+std::vector<std::string> names(const scene::Json& entries) {
     std::vector<std::string> found;
-    for (const Json& entry : entries)
+    for (const scene::Json& entry : entries)
         found.push_back(entry.at("name").get<std::string>().substr(std::string(kName).size() + 1));
     return found;
 }
 
-void forEachNumber(const Json& value, const std::function<void(const Json&)>& visit) {
+void forEachNumber(const scene::Json& value, const std::function<void(const scene::Json&)>& visit) {
     if (value.is_structured())
-        for (const Json& element : value) forEachNumber(element, visit);
+        for (const scene::Json& element : value) forEachNumber(element, visit);
     else
         visit(value);
 }
@@ -39,12 +39,12 @@ TEST(Exporters, WriteWhatParsesAndHoldsNoNull) {
         for (const char* bad : {"NaN", "nan", "Infinity", "inf", "null"})
             EXPECT_THAT(text, Not(HasSubstr(bad))) << exporter.name;
         const bool is_json = std::string_view(exporter.extension) == ".json";
-        EXPECT_EQ(Json::accept(text), is_json) << exporter.name;
+        EXPECT_EQ(scene::Json::accept(text), is_json) << exporter.name;
     }
 }
 
 TEST(Exporters, TakeEveryMemberOfAReportAsOptionalThatTheSchemaDoes) {
-    const Json bare = Json::parse(R"({"schema": "hairbench-report/1.7.0",
+    const scene::Json bare = scene::Json::parse(R"({"schema": "hairbench-report/1.7.0",
         "environment": {"device": {}, "host": {}, "build": {}, "command": [], "seed": 1},
         "scene": {"path": "s.json", "hash": "0123456789abcdef", "document": {}},
         "cases": [{"name": "s", "axes": {}, "status": "ok", "statistics": {}, "counts": {},
@@ -60,13 +60,14 @@ TEST(Exporters, RefuseWhatIsNoReport) {
         errorText([] { exported("gbnch"); }),
         "unknown format (did you mean \"gbench\"?); known: csv, markdown, gbench, bmf, "
         "customSmallerIsBetter, perfetto");
-    Json report = writtenReport();
+    scene::Json report = writtenReport();
     report["schema"] = "hairbench-report/2.0.0";
     EXPECT_EQ(
         errorText([&] { exportReport(report, "csv"); }),
         "/schema: hairbench-report/2.0.0 is not hairbench-report/1.1.0");
     EXPECT_THAT(
-        errorText([] { exportReport(Json::array(), "csv"); }), testing::StartsWith("no report: "));
+        errorText([] { exportReport(scene::Json::array(), "csv"); }),
+        testing::StartsWith("no report: "));
     for (const char* member : {"cases", "scene", "environment"}) {
         report = writtenReport();
         report.erase(member);
@@ -79,15 +80,15 @@ TEST(Exporters, RefuseWhatIsNoReport) {
 }
 
 TEST(Gbench, KeepsTheFormatsRules) {
-    const Json document = exportedJson("gbench");
-    const Json& context = document["context"];
+    const scene::Json document = exportedJson("gbench");
+    const scene::Json& context = document["context"];
     EXPECT_EQ(context["json_schema_version"], 1);
     EXPECT_TRUE(context["caches"].is_array());
     EXPECT_EQ(context["date"], "2030-01-02T03:04:05Z");
     EXPECT_EQ(context["num_cpus"], 2);
     EXPECT_EQ(context["library_build_type"], "release");
     std::set<std::string> seen;
-    for (const Json& entry : document["benchmarks"]) {
+    for (const scene::Json& entry : document["benchmarks"]) {
         EXPECT_TRUE(seen.insert(entry["name"]).second) << entry["name"];
         EXPECT_LE(entry["name"].get<std::string>().size(), 1024u);  // bencher's limit
         EXPECT_EQ(entry["run_type"], "iteration");
@@ -100,7 +101,7 @@ TEST(Gbench, KeepsTheFormatsRules) {
 }
 
 TEST(Gbench, HasTimesOnly) {
-    const Json benchmarks = exportedJson("gbench")["benchmarks"];
+    const scene::Json benchmarks = exportedJson("gbench")["benchmarks"];
     EXPECT_THAT(
         names(benchmarks), ElementsAre("frame.time", "pass.wind.time", "pass.strands.time"));
     EXPECT_EQ(benchmarks[0]["real_time"], 3000.0);  // 3 ms
@@ -110,11 +111,12 @@ TEST(Gbench, HasTimesOnly) {
 TEST(Gbench, LeavesOutADifferenceOfTimes) {
     Report report = sampleReport();
     report.cases[0].metrics.push_back({ofFrame(Measured::overlap), {-1.5}});
-    EXPECT_THAT(exportReport(Json::parse(reportText(report)), "gbench"), Not(HasSubstr("overlap")));
+    EXPECT_THAT(
+        exportReport(scene::Json::parse(reportText(report)), "gbench"), Not(HasSubstr("overlap")));
 }
 
 TEST(Bmf, HasAValueWithBoundsPerMeasure) {
-    const Json document = exportedJson("bmf");
+    const scene::Json document = exportedJson("bmf");
     const std::string prefix = std::string(kName) + '/';
     EXPECT_EQ(
         document[prefix + "frame.time"].dump(),
@@ -125,7 +127,7 @@ TEST(Bmf, HasAValueWithBoundsPerMeasure) {
 }
 
 TEST(CustomSmallerIsBetter, HasWhatIsBetterWhenSmaller) {
-    const Json entries = exportedJson("customSmallerIsBetter");
+    const scene::Json entries = exportedJson("customSmallerIsBetter");
     EXPECT_THAT(
         names(entries),
         ElementsAre("frame.time", "pass.wind.time", "pass.strands.time", "memory.device"));
@@ -136,4 +138,4 @@ TEST(CustomSmallerIsBetter, HasWhatIsBetterWhenSmaller) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::report

@@ -8,7 +8,7 @@
 #include "tests/required.h"
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::report {
 namespace {
 
 using testing::HasSubstr;
@@ -41,7 +41,8 @@ TEST(Gbench, IsReadByGoogleBenchmarksComparePy) {
     Report slower = sampleReport();
     for (double& sample : slower.cases[0].metrics[0].samples) sample *= 1.5;
     const auto a = folder.write("a.json", exported("gbench"));
-    const auto b = folder.write("b.json", exportReport(Json::parse(reportText(slower)), "gbench"));
+    const auto b =
+        folder.write("b.json", exportReport(scene::Json::parse(reportText(slower)), "gbench"));
     const Outcome outcome = runInShell(
         "'" + python + "' -B '" + script + "' --no-color benchmarks '" + a.string() + "' '" +
         b.string() + "' 2>&1");
@@ -56,4 +57,4 @@ TEST(Gbench, IsReadByGoogleBenchmarksComparePy) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::report

@@ -4,7 +4,7 @@
 
 #include "tests/exporters/exported.h"
 
-namespace benchmarks {
+namespace benchmarks::report {
 namespace {
 
 using testing::ElementsAre;
@@ -25,9 +25,9 @@ Report framesAndPasses() {
 }
 
 // "name start+length" in us of each slice of a track.
-std::vector<std::string> slices(const Json& trace, int track) {
+std::vector<std::string> slices(const scene::Json& trace, int track) {
     std::vector<std::string> found;
-    for (const Json& event : trace["traceEvents"])
+    for (const scene::Json& event : trace["traceEvents"])
         if (event["ph"] == "X" && event["tid"] == track)
             found.push_back(
                 event["name"].get<std::string>() + ' ' + event["ts"].dump() + '+' +
@@ -36,8 +36,8 @@ std::vector<std::string> slices(const Json& trace, int track) {
 }
 
 TEST(Perfetto, LaysFramesOneAfterAnother) {
-    const Json trace =
-        Json::parse(exportReport(Json::parse(reportText(framesAndPasses())), "perfetto"));
+    const scene::Json trace = scene::Json::parse(
+        exportReport(scene::Json::parse(reportText(framesAndPasses())), "perfetto"));
     EXPECT_THAT(
         slices(trace, 1),
         ElementsAre(
@@ -52,9 +52,9 @@ TEST(Perfetto, LaysFramesOneAfterAnother) {
 }
 
 TEST(Perfetto, NamesCasesAndTracks) {
-    const Json trace = exportedJson("perfetto");
+    const scene::Json trace = exportedJson("perfetto");
     std::vector<std::string> names;
-    for (const Json& event : trace["traceEvents"])
+    for (const scene::Json& event : trace["traceEvents"])
         if (event["ph"] == "M")
             names.push_back(
                 event["name"].get<std::string>() + ": " + event["args"]["name"].get<std::string>());
@@ -69,9 +69,10 @@ TEST(Perfetto, NestsSlicesExactly) {
     Report report = framesAndPasses();
     for (Metric& metric : report.cases[0].metrics)
         for (double& sample : metric.samples) sample /= 3.0;
-    const Json trace = Json::parse(exportReport(Json::parse(reportText(report)), "perfetto"));
+    const scene::Json trace =
+        scene::Json::parse(exportReport(scene::Json::parse(reportText(report)), "perfetto"));
     std::map<int, double> frame_ends;
-    for (const Json& event : trace["traceEvents"]) {
+    for (const scene::Json& event : trace["traceEvents"]) {
         if (event["ph"] != "X") continue;
         const double start = event["ts"];
         const double end = start + event["dur"].get<double>();
@@ -86,4 +87,4 @@ TEST(Perfetto, NestsSlicesExactly) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::report

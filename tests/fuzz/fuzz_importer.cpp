@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "engine/error.h"
-#include "hair/groom/importers.h"
+#include "hair/groom/files.h"
 #include "tests/groom/formats/broken_promise.h"
 
 namespace {

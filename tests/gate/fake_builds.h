@@ -12,7 +12,7 @@
 #include "tests/decide/noise.h"
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::gate {
 
 // Two programs that measure nothing: the n-th process of the gate, from 0, copies a report that the
 // test made beforehand. Each writes down that it ran and how it was called.
@@ -22,7 +22,7 @@ public:
     static constexpr int kProcesses = 2 + 4 * 48;
 
     // `report(side, n)`: of 'A' or 'B' if it is the n-th process.
-    explicit FakeBuilds(const std::function<Json(char, int)>& report) {
+    explicit FakeBuilds(const std::function<scene::Json(char, int)>& report) {
         for (int n = 0; n < kProcesses; ++n)
             for (const char side : {'A', 'B'})
                 folder_.write(
@@ -51,7 +51,7 @@ public:
                reportFile().string() + "' ";
     }
     Outcome gate(const std::string& more = "") const { return hairbench(arguments() + more); }
-    Json report() const { return Json::parse(textOf(reportFile())); }
+    scene::Json report() const { return scene::Json::parse(textOf(reportFile())); }
 
     // One line for each process that ran.
     std::vector<std::string> calls() const {
@@ -90,10 +90,10 @@ public:
         return 10.0 * std::exp(cost + off_[static_cast<std::size_t>(n)]);
     }
 
-    Json operator()(char side, int n) const {
-        Json report = madeReport();
-        report["cases"].push_back(
-            madeCase("made", {{"frame.time", {frameTime(side, n)}, "ms", "lower", "overlapped"}}));
+    scene::Json operator()(char side, int n) const {
+        scene::Json report = report::madeReport();
+        report["cases"].push_back(report::madeCase(
+            "made", {{"frame.time", {frameTime(side, n)}, "ms", "lower", "overlapped"}}));
         return report;
     }
 
@@ -102,4 +102,4 @@ private:
     std::vector<double> off_;
 };
 
-}  // namespace benchmarks
+}  // namespace benchmarks::gate

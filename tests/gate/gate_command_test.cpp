@@ -3,7 +3,7 @@
 #include "tests/gate/fake_builds.h"
 
 // The gate as a user runs it, on programs that stand for builds.
-namespace benchmarks {
+namespace benchmarks::gate {
 namespace {
 
 using testing::Each;
@@ -24,7 +24,7 @@ TEST(GateCommand, FailsASlowerBuild) {
     const Outcome gate = builds.gate();
     EXPECT_EQ(gate.status, 10) << gate.output;
     EXPECT_THAT(gate.output, HasSubstr("verdict: regressed"));
-    const Json change = builds.report()["changes"][0];
+    const scene::Json change = builds.report()["changes"][0];
     // The estimate of 12 pairs whose differences have a standard deviation of
     // sqrt(2) * 0.4 % and a bit of drift: four standard errors.
     EXPECT_NEAR(change["change"].get<double>(), 0.05, 4.0 * 0.008 / std::sqrt(12.0));
@@ -101,7 +101,7 @@ TEST(GateCommand, CalibratesWithAAlone) {
     const Outcome gate = builds.gate("--calibrate 48");
     EXPECT_EQ(gate.status, 0) << gate.output;
     EXPECT_EQ(builds.order().substr(0, 2 + 96 + 4), "AB" + std::string(96, 'A') + "ABBA");
-    const Json report = builds.report();
+    const scene::Json report = builds.report();
     EXPECT_EQ(report["times"][0]["calibration"].size(), 48u);
     // Three standard deviations of a pair. The MAD of 48 normal values has a relative standard
     // error of 1.17 / sqrt(48) = 17 % (Rousseeuw and Croux 1993: an efficiency of 37 %).
@@ -113,8 +113,8 @@ TEST(GateCommand, CalibratesWithAAlone) {
 TEST(GateCommand, JudgesCpuTimeOnSoftwareDevices) {
     const auto report = [](const char* device) {
         return [device](char, int) {
-            Json made = madeReport(device);
-            made["cases"].push_back(madeCase(
+            scene::Json made = report::madeReport(device);
+            made["cases"].push_back(report::madeCase(
                 "made", {{"frame.time", {10.0}},
                          {"frame.first.time", {99.0}},
                          {"frame.overlap", {1.0}, "ms", ""},
@@ -131,8 +131,8 @@ TEST(GateCommand, JudgesCpuTimeOnSoftwareDevices) {
     };
     const auto judged = [](const FakeBuilds& builds) {
         std::vector<std::string> names;
-        const Json made = builds.report();
-        for (const Json& each : made["changes"]) names.push_back(each["metric"]);
+        const scene::Json made = builds.report();
+        for (const scene::Json& each : made["changes"]) names.push_back(each["metric"]);
         return names;
     };
     const FakeBuilds software(report("cpu"));
@@ -152,9 +152,9 @@ TEST(GateCommand, JudgesCpuTimeOnSoftwareDevices) {
 
 TEST(GateCommand, TakesLowerRatesForWorse) {
     const FakeBuilds builds([](char side, int) {
-        Json made = madeReport();
+        scene::Json made = report::madeReport();
         made["cases"].push_back(
-            madeCase("made", {{"fps", {side == 'A' ? 100.0 : 80.0}, "1/s", "higher"}}));
+            report::madeCase("made", {{"fps", {side == 'A' ? 100.0 : 80.0}, "1/s", "higher"}}));
         return made;
     });
     const Outcome gate = builds.gate("--metrics fps");
@@ -199,4 +199,4 @@ TEST(GateCommand, FindsAProgramInABuildFolder) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::gate

@@ -8,16 +8,16 @@
 #include "tests/gate/fake_builds.h"
 
 // Gates that end before a verdict on times.
-namespace benchmarks {
+namespace benchmarks::gate {
 namespace {
 
 using testing::HasSubstr;
 using testing::Not;
 
-Json withHashes(char side, const std::string& image, const std::string& state) {
-    Json report = madeReport();
+scene::Json withHashes(char side, const std::string& image, const std::string& state) {
+    scene::Json report = report::madeReport();
     report["cases"].push_back(
-        madeCase("made", {{"frame.time", {side == 'A' ? 10.0 : 20.0}}}, image, state));
+        report::madeCase("made", {{"frame.time", {side == 'A' ? 10.0 : 20.0}}}, image, state));
     return report;
 }
 
@@ -45,10 +45,10 @@ TEST(GateRefusals, EndWhereABuildDiffersFromItself) {
 
 TEST(GateRefusals, EndWhereOneBuildCannotPlayACase) {
     const FakeBuilds builds([](char side, int) {
-        Json report = withHashes(side, "aaaa", "cccc");
+        scene::Json report = withHashes(side, "aaaa", "cccc");
         report["cases"].push_back(
-            side == 'A' ? madeCase("other", {{"frame.time", {1.0}}})
-                        : failedCase("other", "no such groom"));
+            side == 'A' ? report::madeCase("other", {{"frame.time", {1.0}}})
+                        : report::failedCase("other", "no such groom"));
         return report;
     });
     const Outcome gate = builds.gate();
@@ -58,8 +58,8 @@ TEST(GateRefusals, EndWhereOneBuildCannotPlayACase) {
 
 TEST(GateRefusals, SayThatNothingRan) {
     const FakeBuilds builds([](char, int) {
-        Json report = madeReport();
-        report["cases"].push_back(failedCase("made", "no such groom"));
+        scene::Json report = report::madeReport();
+        report["cases"].push_back(report::failedCase("made", "no such groom"));
         return report;
     });
     EXPECT_EQ(builds.gate().status, 14);
@@ -135,11 +135,11 @@ TEST(GateRefusals, SaveWhatIsDoneWhenInterrupted) {
     EXPECT_EQ(gate.status, 130) << gate.output;
     EXPECT_THAT(gate.output, HasSubstr("interrupted after 2 pairs"));
     EXPECT_EQ(textOf(ended), "yes\n");
-    const Json report = builds.report();
+    const scene::Json report = builds.report();
     EXPECT_EQ(report["end"], "interrupted");
     EXPECT_EQ(report["pairs"], 2);
     EXPECT_EQ(report["blocks"].size(), 2u + 4u + 1u);  // warm-up, two pairs, A of the third
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::gate

@@ -1,12 +1,12 @@
 #include <gmock/gmock.h>
 
-#include "benchmarks/decide/verdict.h"
+#include "benchmarks/report/change.h"
 #include "tests/benchmarks/schema_errors.h"
 #include "tests/gate/fake_builds.h"
 #include "tests/required.h"
 
 // What the gate writes down.
-namespace benchmarks {
+namespace benchmarks::gate {
 namespace {
 
 using testing::IsEmpty;
@@ -17,15 +17,15 @@ std::vector<std::string> errorsOf(const FakeBuilds& builds) {
 }
 
 // Two cases of two metrics, with noise of a processes' own.
-Json twoCases(char side, int n) {
-    Json report = madeReport();
+scene::Json twoCases(char side, int n) {
+    scene::Json report = report::madeReport();
     Noise noise(static_cast<std::uint64_t>(2 * n + (side == 'B')));
     const double cost = side == 'B' ? 1.04 : 1.0;
     for (const char* const name : {"near", "far"}) {
         const double frame = 10.0 * std::exp(0.01 * noise.normal());
         const double pass = 6.0 * cost * std::exp(0.01 * noise.normal());
         report["cases"].push_back(
-            madeCase(name, {{"frame.time", {frame}}, {"pass.strands.time", {pass}}}));
+            report::madeCase(name, {{"frame.time", {frame}}, {"pass.strands.time", {pass}}}));
     }
     return report;
 }
@@ -44,17 +44,18 @@ TEST(GateReport, IsOfItsSchemaHoweverTheGateEnds) {
     EXPECT_THAT(errorsOf(failing), IsEmpty());
 
     const FakeBuilds different([](char side, int) {
-        Json report = madeReport();
-        report["cases"].push_back(madeCase("x", {{"frame.time", {1.0}}}, std::string{side}));
+        scene::Json report = report::madeReport();
+        report["cases"].push_back(
+            report::madeCase("x", {{"frame.time", {1.0}}}, std::string{side}));
         return report;
     });
     EXPECT_EQ(different.gate().status, 12);
     EXPECT_THAT(errorsOf(different), IsEmpty());
 
     const FakeBuilds odd([](char, int n) {  // in one process the time is missing
-        Json report = madeReport();
-        report["cases"].push_back(
-            madeCase("x", {{n == 9 ? "fps" : "frame.time", {1.0}}, {"pass.x.time", {1.0}}}));
+        scene::Json report = report::madeReport();
+        report["cases"].push_back(report::madeCase(
+            "x", {{n == 9 ? "fps" : "frame.time", {1.0}}, {"pass.x.time", {1.0}}}));
         return report;
     });
     const Outcome gate = odd.gate();
@@ -78,14 +79,14 @@ TEST(GateReport, SchemaRefusesWhatIsNoReport) {
 TEST(GateReport, HoldsAllThatItsVerdictsFollowFrom) {
     const FakeBuilds builds(twoCases);
     builds.gate("--calibrate 12");
-    const Json report = builds.report();
+    const scene::Json report = builds.report();
     const std::size_t count = report["times"].size();
     ASSERT_EQ(count, 4u);
     std::vector<std::vector<double>> differences(count);
     std::vector<double> decisive_changes;
     for (std::size_t i = 0; i < count; ++i) {
         std::map<int, std::map<std::string, double>> pairs;
-        for (const Json& block : report["blocks"])
+        for (const scene::Json& block : report["blocks"])
             if (block["phase"] == "gate") pairs[block["pair"]][block["side"]] = block["medians"][i];
         for (const auto& [pair, medians] : pairs)
             differences[i].push_back(std::log(medians.at("B") / medians.at("A")));
@@ -93,15 +94,15 @@ TEST(GateReport, HoldsAllThatItsVerdictsFollowFrom) {
         ASSERT_EQ(written.size(), differences[i].size());
         for (std::size_t pair = 0; pair < written.size(); ++pair)
             EXPECT_DOUBLE_EQ(written[pair].get<double>(), differences[i][pair]);
-        decisive_changes.push_back(decisiveChange(
+        decisive_changes.push_back(report::decisiveChange(
             report["rule"]["threshold"],
             report["times"][i]["calibration"].get<std::vector<double>>()));
     }
-    const std::vector<Comparison> again =
-        compare(differences, decisive_changes, report["rule"]["alpha"]);
+    const std::vector<report::Comparison> again =
+        report::compare(differences, decisive_changes, report["rule"]["alpha"]);
     for (std::size_t i = 0; i < count; ++i) {
-        const Json& change = report["changes"][i];
-        EXPECT_EQ(change["verdict"], verdictName(again[i].verdict));
+        const scene::Json& change = report["changes"][i];
+        EXPECT_EQ(change["verdict"], report::verdictName(again[i].verdict));
         EXPECT_DOUBLE_EQ(change["change"].get<double>(), again[i].change);
         EXPECT_DOUBLE_EQ(change["lower"].get<double>(), again[i].lower);
         EXPECT_DOUBLE_EQ(change["p"].get<double>(), again[i].p);
@@ -111,8 +112,8 @@ TEST(GateReport, HoldsAllThatItsVerdictsFollowFrom) {
 // A made report's pairs of A with itself come in both orders too.
 TEST(GateReport, CancelsADriftInTheCalibration) {
     const FakeBuilds builds([](char, int n) {
-        Json report = madeReport();
-        report["cases"].push_back(madeCase("x", {{"frame.time", {std::exp(0.01 * n)}}}));
+        scene::Json report = report::madeReport();
+        report["cases"].push_back(report::madeCase("x", {{"frame.time", {std::exp(0.01 * n)}}}));
         return report;
     });
     builds.gate("--calibrate 12");
@@ -126,13 +127,13 @@ TEST(GateReport, CancelsADriftInTheCalibration) {
 // the calibration, too, only differences of the cost are above 0 where the second is worse.
 TEST(GateReport, TurnsRatesRoundInEveryDifference) {
     const FakeBuilds builds([](char side, int n) {
-        Json report = madeReport();
+        scene::Json report = report::madeReport();
         const double rate = 100.0 * std::exp(-0.01 * n) / (side == 'B' ? 1.25 : 1.0);
-        report["cases"].push_back(madeCase("x", {{"fps", {rate}, "1/s", "higher"}}));
+        report["cases"].push_back(report::madeCase("x", {{"fps", {rate}, "1/s", "higher"}}));
         return report;
     });
     builds.gate("--calibrate 12 --metrics fps");
-    const Json time = builds.report()["times"][0];
+    const scene::Json time = builds.report()["times"][0];
     const auto calibration = time["calibration"].get<std::vector<double>>();
     const auto differences = time["differences"].get<std::vector<double>>();
     ASSERT_EQ(calibration.size(), 12u);
@@ -158,8 +159,8 @@ TEST(GateReport, IsOfItsSchemaForARealGate) {
     EXPECT_THAT(
         schemaErrors(textOf(HAIRBENCH_SOURCE_DIR "/results/gate.schema.json"), textOf(out)),
         IsEmpty());
-    EXPECT_THAT(Json::parse(textOf(out))["changes"], testing::Not(IsEmpty()));
+    EXPECT_THAT(scene::Json::parse(textOf(out))["changes"], testing::Not(IsEmpty()));
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::gate

@@ -1,15 +1,15 @@
-#include "benchmarks/doctor/smallest_slowdown.h"
+#include "benchmarks/doctor/sensitivity.h"
 
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/decide/verdict.h"
+#include "benchmarks/report/change.h"
 #include "tests/decide/noise.h"
 #include "tests/error_text.h"
 
-namespace benchmarks {
+namespace benchmarks::gate {
 namespace {
 
 constexpr double kDeviation = 0.05;  // of a pair
@@ -23,7 +23,7 @@ std::vector<double> normalDifferences(Noise& noise, std::size_t count) {
 TEST(SmallestSlowdown, IsThatOfTheNormalApproximation) {
     Noise noise(31);
     const double tau = 0.15;
-    const double found = smallestSlowdown(normalDifferences(noise, 4000), tau, 1);
+    const double found = doctor::smallestSlowdown(normalDifferences(noise, 4000), tau, 1);
     // The signed-rank test of normal differences is as good as a t test of 3 / pi as many: its
     // estimate's standard error is sigma sqrt(pi / 3 / n). The interval at level 0.05 / 3
     // ends 2.394 of them below, and nine of ten estimates are above 1.282 of them below the median.
@@ -36,7 +36,7 @@ TEST(SmallestSlowdown, IsThatOfTheNormalApproximation) {
 TEST(SmallestSlowdown, IsFoundInNineOfTenGates) {
     Noise noise(32);
     const double tau = 0.1;
-    const double slowdown = smallestSlowdown(normalDifferences(noise, 4000), tau, 3);
+    const double slowdown = doctor::smallestSlowdown(normalDifferences(noise, 4000), tau, 3);
     constexpr int kGates = 400;
     int found = 0;
     for (int i = 0; i < kGates; ++i) {
@@ -45,21 +45,21 @@ TEST(SmallestSlowdown, IsFoundInNineOfTenGates) {
             differences.push_back(normalDifferences(noise, 48));
         for (double& each : differences[0]) each += std::log1p(slowdown);
         const std::vector<double> taus(3, tau);
-        found += compare(differences, taus, 0.05)[0].verdict == Verdict::regressed;
+        found += report::compare(differences, taus, 0.05)[0].verdict == report::Verdict::regressed;
     }
     // Four standard deviations of 400 tries at 0.9 are 0.06.
     EXPECT_NEAR(found / double{kGates}, 0.9, 0.06);
 }
 
 TEST(SmallestSlowdown, IsTauWithoutNoise) {
-    EXPECT_DOUBLE_EQ(smallestSlowdown(std::vector<double>(12, 0.0), 0.02, 4), 0.02);
+    EXPECT_DOUBLE_EQ(doctor::smallestSlowdown(std::vector<double>(12, 0.0), 0.02, 4), 0.02);
 }
 
 TEST(SmallestSlowdown, NeedsPairs) {
     EXPECT_EQ(
-        errorText([] { smallestSlowdown(std::vector{0.1}, 0.02, 1); }),
+        errorText([] { doctor::smallestSlowdown(std::vector{0.1}, 0.02, 1); }),
         "calibration: two pairs are needed");
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::gate

@@ -16,7 +16,7 @@ struct Feature {
 
 // The thesis's head of hair from near by, small.
 inline Settings plainSettings() {
-    Settings settings = thesisAtRest();
+    Settings settings = rendering::thesisAtRest();
     settings.simulation.solver = Solver::none;
     settings.groom.grow.droop = 10.0f;
     settings.strands.density = 24;

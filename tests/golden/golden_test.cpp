@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/image_file.h"
+#include "engine/pictures.h"
 #include "tests/golden/features.h"
 #include "tests/gpu_fixture.h"
 #include "tests/python.h"
@@ -66,7 +66,8 @@ TEST_F(GoldenTest, FeaturesLookAsTheyDid) {
         feature.show(settings);
         const fs::path path = drawn / (std::string(feature.name) + ".png");
         engine::writePng(
-            path, settings.render.width, settings.render.height, drawCase(device(), settings));
+            path, settings.render.width, settings.render.height,
+            rendering::drawCase(device(), settings));
         for (const std::string& message : device().messages().take())
             ADD_FAILURE() << feature.name << ": " << message;
         if (fs::exists(goldenPicture(feature.name)))

@@ -3,15 +3,13 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-#include "hair/groom/exporters.h"
+#include "hair/groom/files.h"
 #include "hair/groom/growth/grow.h"
-#include "hair/groom/importers.h"
-#include "hair/groom/resample.h"
 #include "tests/error_text.h"
 #include "tests/groom/test_meshes.h"
 #include "tests/temporary_folder.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::HasSubstr;
@@ -170,4 +168,4 @@ TEST(BuildGroom, ListsTheFormatsItKnows) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -1,4 +1,4 @@
-#include "hair/groom/growth/direction_field.h"
+#include "hair/groom/growth/grow.h"
 
 #include <cmath>
 #include <optional>
@@ -9,7 +9,7 @@
 #include "tests/groom/surface_meshes.h"
 #include "tests/groom/test_meshes.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 // What is added to the unit normal, of a direction with that normal and a part along the surface.
@@ -134,4 +134,4 @@ TEST(DirectionField, FollowsACurvedSurface) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -1,4 +1,4 @@
-#include "hair/groom/growth/flatten.h"
+#include "hair/groom/growth/scalp.h"
 
 #include <cmath>
 
@@ -6,10 +6,10 @@
 #include <gmock/gmock.h>
 
 #include "tests/error_text.h"
-#include "tests/temporary_folder.h"
 #include "tests/groom/test_meshes.h"
+#include "tests/temporary_folder.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::HasSubstr;
@@ -96,4 +96,4 @@ TEST(Flatten, RefusesAnAlmostClosedScalp) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -1,11 +1,11 @@
 #include <gmock/gmock.h>
 
-#include "engine/image_file.h"
+#include "engine/pictures.h"
 #include "hair/groom/mesh/import_mesh.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::AllOf;
@@ -186,4 +186,4 @@ TEST(ObjMaterials, HaveTheDiffusePicture) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

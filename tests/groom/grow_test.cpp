@@ -9,8 +9,8 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-#include "engine/image_file.h"
-#include "hair/groom/growth/disc_roots.h"
+#include "engine/pictures.h"
+#include "hair/groom/growth/roots.h"
 #include "hair/groom/mesh/import_mesh.h"
 #include "tests/error_text.h"
 #include "tests/groom/surface_meshes.h"
@@ -18,7 +18,7 @@
 #include "tests/largest_difference.h"
 #include "tests/temporary_folder.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::HasSubstr;
@@ -28,7 +28,7 @@ constexpr float kRounding = 1e-7f;
 
 Groom grow(
     const Mesh& mesh, const GrowSettings& settings, std::uint32_t guides, std::uint32_t seed) {
-    return hair::grow(mesh, settings, {}, guides, seed);
+    return grow(mesh, settings, {}, guides, seed);
 }
 
 Mesh headMesh() { return importMesh(std::string(HAIRBENCH_SCENES_DIR) + "/assets/head.glb"); }
@@ -319,7 +319,7 @@ protected:
         engine::writePng(folder_.file("maps/steps.png"), 4, 1, pixels);
     }
     Groom grow(const GrowSettings& settings, std::uint32_t guides) const {
-        return hair::grow(sheet_, settings, folder_.path(), guides, 1);
+        return grow(sheet_, settings, folder_.path(), guides, 1);
     }
 
     TemporaryFolder folder_;
@@ -419,4 +419,4 @@ TEST(Grow, RefusesMeshesWithoutAScalp) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -6,15 +6,14 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-#include "hair/groom/growth/falling_queue.h"
-#include "hair/groom/growth/outline.h"
-#include "hair/groom/growth/point_grid.h"
-#include "hair/groom/growth/triangle_net.h"
+#include "hair/groom/growth/scalp.h"
+#include "hair/groom/growth/spread.h"
+#include "hair/groom/growth/surface_net.h"
 #include "hair/random.h"
 #include "tests/groom/surface_meshes.h"
 #include "tests/largest_difference.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::ElementsAre;
@@ -191,4 +190,4 @@ TEST(TriangleNet, LinksOnlyWhatIsASurface) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

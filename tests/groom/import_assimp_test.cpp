@@ -8,7 +8,7 @@
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::AllOf;
@@ -285,4 +285,4 @@ TEST(ImportMesh, ListsTheFormatsItKnows) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

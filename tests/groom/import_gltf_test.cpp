@@ -9,7 +9,7 @@
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::AllOf;
@@ -301,4 +301,4 @@ TEST(ImportGltf, RefusesEveryTruncation) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

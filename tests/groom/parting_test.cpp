@@ -12,7 +12,7 @@
 #include "tests/groom/surface_meshes.h"
 #include "tests/groom/test_meshes.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::HasSubstr;
@@ -190,4 +190,4 @@ TEST(Parting, NeedsALineOnTheScalp) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

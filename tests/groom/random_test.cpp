@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 // The published formula worked out in integers of unlimited size.
@@ -53,4 +53,4 @@ TEST(Random, PurposesAreUncorrelated) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

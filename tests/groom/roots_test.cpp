@@ -7,13 +7,12 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-#include "hair/groom/growth/disc_roots.h"
 #include "tests/error_text.h"
 #include "tests/groom/surface_meshes.h"
 #include "tests/groom/test_meshes.h"
 #include "tests/largest_difference.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::ElementsAre;
@@ -203,4 +202,4 @@ TEST(HairlineLengths, HaveARootOnBothSidesOfACut) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

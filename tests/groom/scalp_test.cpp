@@ -6,13 +6,13 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-#include "hair/groom/growth/hairline.h"
+#include "hair/groom/growth/parting.h"
 #include "hair/random.h"
 #include "tests/error_text.h"
-#include "tests/temporary_folder.h"
 #include "tests/groom/test_meshes.h"
+#include "tests/temporary_folder.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::HasSubstr;
@@ -212,4 +212,4 @@ TEST(Hairline, FindsTheLengthNearestToAPoint) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -1,11 +1,11 @@
-#include "hair/groom/growth/scalp_triangles.h"
+#include "hair/groom/growth/scalp.h"
 
 #include <gmock/gmock.h>
 
 #include "tests/error_text.h"
 #include "tests/groom/test_meshes.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::ElementsAre;
@@ -72,4 +72,4 @@ TEST(ScalpTriangles, ListWhatThereIs) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -10,7 +10,7 @@
 #include "hair/random.h"
 #include "tests/largest_difference.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 std::vector<glm::vec3> unitSquare(std::uint32_t count, std::uint32_t seed) {
@@ -75,4 +75,4 @@ TEST(Spread, TakesCandidatesThatCoincide) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -10,7 +10,7 @@
 #include "hair/groom/mesh/mesh.h"
 
 // Meshes with known surfaces, and what a triangulation is as a surface.
-namespace hair {
+namespace hair::groom {
 
 // A quadrilateral mesh of `columns` by `rows`, closed both ways, all of it scalp: `at(u, v)` is the
 // position for u and v in [0, 1), `normal(u, v)` the normal.
@@ -156,4 +156,4 @@ inline Topology topologyOf(const std::vector<std::array<std::uint32_t, 3>>& tria
     return topology;
 }
 
-}  // namespace hair
+}  // namespace hair::groom

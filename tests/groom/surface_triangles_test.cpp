@@ -1,14 +1,14 @@
-#include "hair/groom/growth/surface_triangles.h"
+#include "hair/groom/growth/triangulate.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "hair/groom/growth/root_samples.h"
+#include "hair/groom/growth/roots.h"
 #include "hair/groom/growth/spread.h"
 #include "tests/groom/surface_meshes.h"
 #include "tests/groom/test_meshes.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
@@ -186,4 +186,4 @@ TEST(SurfaceTriangles, TakeWhatIsNoManifold) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -5,7 +5,7 @@
 
 #include "hair/groom/mesh/mesh.h"
 
-namespace hair {
+namespace hair::groom {
 
 // The part of a sphere round `centre` up to `opening` from +y, its apex a vertex, in rings of
 // `sectors` vertices; outer triangles beyond `hairline` are skin, the rest scalp. Angles in
@@ -83,4 +83,4 @@ Mesh makeGrid(std::uint32_t columns, std::uint32_t rows, Hole&& hole) {
     return mesh;
 }
 
-}  // namespace hair
+}  // namespace hair::groom

@@ -1,12 +1,12 @@
-#include "hair/groom/growth/texture.h"
+#include "hair/groom/growth/root_density.h"
 
 #include <gmock/gmock.h>
 
-#include "engine/image_file.h"
+#include "engine/pictures.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 // Pixel (column, row) has its centre at ((column + 1/2) / width, (row + 1/2) / height).
@@ -50,4 +50,4 @@ TEST(Texture, NamesTheFileThatIsMissing) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

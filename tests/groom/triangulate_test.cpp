@@ -10,12 +10,11 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-#include "hair/groom/growth/ear_clipping.h"
 #include "hair/random.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::HasSubstr;
@@ -306,4 +305,4 @@ TEST(ClipEars, GivesTwoTrianglesLessThanVertices) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -1,10 +1,10 @@
-#include "benchmarks/machine/amdgpu.h"
+#include "benchmarks/measure/clocks.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::measure {
 namespace {
 
 constexpr PciAddress kAddress{.domain = 0, .bus = 3, .device = 0, .function = 0};
@@ -78,4 +78,4 @@ TEST_F(AmdgpuTest, HoldsNoClockAgainstAnAdministratorsChoice) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::measure

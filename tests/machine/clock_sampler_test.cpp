@@ -1,4 +1,4 @@
-#include "benchmarks/machine/clock_sampler.h"
+#include "benchmarks/measure/machine_watch.h"
 
 #include <atomic>
 #include <chrono>
@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace benchmarks {
+namespace benchmarks::measure {
 namespace {
 
 using testing::ElementsAre;
@@ -58,7 +58,7 @@ TEST(ClockSampler, ForgetsTheRoundBefore) {
 }
 
 TEST(AddClocks, LeavesOutReadingsOfAnIdleDevice) {
-    Conditions conditions;
+    report::Conditions conditions;
     addClocks(
         {{.clock_mhz = 300, .temperature = 30, .idle = true, .throttle_reasons = {"sync boost"}},
          {.clock_mhz = 1900, .temperature = 50, .throttle_reasons = {"power cap"}},
@@ -73,11 +73,11 @@ TEST(AddClocks, LeavesOutReadingsOfAnIdleDevice) {
 }
 
 TEST(AddClocks, TakesAnIdleDeviceIfThereIsNothingElse) {
-    Conditions conditions;
+    report::Conditions conditions;
     addClocks({{.clock_mhz = 300, .idle = true}}, conditions);
     EXPECT_EQ(conditions.clock_mhz, 300.0);
     EXPECT_THAT(conditions.throttle_reasons, IsEmpty());
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::measure

@@ -1,4 +1,4 @@
-#include "benchmarks/environment.h"
+#include "benchmarks/report/environment.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -8,7 +8,7 @@
 
 #include "tests/gpu_fixture.h"
 
-namespace benchmarks {
+namespace benchmarks::measure {
 namespace {
 
 #ifdef __clang__
@@ -23,13 +23,13 @@ using testing::MatchesRegex;
 
 class EnvironmentTest : public GpuTest {
 protected:
-    static Environment describe(engine::Validation validation) {
-        return describeEnvironment(device(), {"hairbench", "run"}, 7, validation);
+    static report::Environment describe(engine::Validation validation) {
+        return report::describeEnvironment(device(), {"hairbench", "run"}, 7, validation);
     }
 };
 
 TEST_F(EnvironmentTest, HasTheDevicesIdentity) {
-    const DeviceRecord record = describe(engine::Validation::off).device;
+    const report::DeviceRecord record = describe(engine::Validation::off).device;
     VkPhysicalDeviceProperties properties{};
     vkGetPhysicalDeviceProperties(device().info().handle, &properties);
     unsigned vendor = 0, product = 0;
@@ -74,14 +74,14 @@ TEST_F(EnvironmentTest, SaysWhetherValidationIsOn) {
 }
 
 TEST_F(EnvironmentTest, EchoesTheCommandAndTheSeed) {
-    const Environment environment = describe(engine::Validation::off);
+    const report::Environment environment = describe(engine::Validation::off);
     EXPECT_THAT(environment.command, ElementsAre("hairbench", "run"));
     EXPECT_EQ(environment.seed, 7u);
     EXPECT_THAT(environment.started, MatchesRegex("[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9:]{8}Z"));
 }
 
 TEST(BuildRecord, SaysHowTheProgramWasBuilt) {
-    const BuildRecord build = describeBuild();
+    const report::BuildRecord build = report::describeBuild();
     EXPECT_THAT(build.compiler, HasSubstr(kCompilerVersion));
     EXPECT_EQ(build.flags.find("  "), std::string::npos);
 #ifdef NDEBUG
@@ -95,4 +95,4 @@ TEST(BuildRecord, SaysHowTheProgramWasBuilt) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::measure

@@ -1,20 +1,20 @@
-#include "benchmarks/machine/machine_watch.h"
+#include "benchmarks/measure/machine_watch.h"
 
 #include <chrono>
 
 #include <gmock/gmock.h>
 
-#include "benchmarks/machine/pci_address.h"
+#include "benchmarks/measure/clocks.h"
 #include "tests/gpu_fixture.h"
 
-namespace benchmarks {
+namespace benchmarks::measure {
 namespace {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
 
 TEST(MedianConditions, AreThoseOfTheRoundsThatKnow) {
-    const Conditions median = medianConditions(
+    const report::Conditions median = medianConditions(
         {{.clock_mhz = 1500, .steal = 0.1, .throttle_reasons = {"power cap"}},
          {.clock_mhz = 1700, .temperature = 60},
          {.clock_mhz = 1000, .steal = 0.3, .throttle_reasons = {"power brake", "power cap"}}});
@@ -27,7 +27,7 @@ TEST(MedianConditions, AreThoseOfTheRoundsThatKnow) {
 }
 
 TEST(MedianConditions, OfNoRoundsAreUnknown) {
-    const Conditions median = medianConditions({});
+    const report::Conditions median = medianConditions({});
     EXPECT_EQ(median.clock_mhz, std::nullopt);
     EXPECT_THAT(median.throttle_reasons, IsEmpty());
 }
@@ -55,7 +55,7 @@ TEST_F(MachineWatchTest, TellsSharesOfTheProcessorsTime) {
     const auto start = std::chrono::steady_clock::now();
     while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(100)) {
     }
-    const Conditions conditions = watch.end();
+    const report::Conditions conditions = watch.end();
     if (!conditions.other_load) GTEST_SKIP() << "/proc/stat tells nothing here";
     EXPECT_GE(*conditions.other_load, 0.0);
     EXPECT_LE(*conditions.other_load, 1.0);
@@ -68,11 +68,11 @@ TEST_F(MachineWatchTest, KnowsNoClockOfASoftwareDevice) {
     EXPECT_EQ(pciAddress(device().info()), std::nullopt);
     MachineWatch watch(device());
     watch.begin();
-    const Conditions conditions = watch.end();
+    const report::Conditions conditions = watch.end();
     EXPECT_EQ(conditions.clock_mhz, std::nullopt);
     EXPECT_EQ(conditions.base_clock_mhz, std::nullopt);
     EXPECT_FALSE(isThrottled(conditions));
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::measure

@@ -1,55 +1,57 @@
-#include "benchmarks/memory_metrics.h"
+#include "benchmarks/measure/metrics.h"
 
 #include <numeric>
 
 #include <gmock/gmock.h>
 
-#include "benchmarks/case.h"
+#include "benchmarks/measure/case.h"
 #include "tests/golden/features.h"
 #include "tests/gpu_fixture.h"
 
-namespace benchmarks {
+namespace benchmarks::measure {
 namespace {
 
 using engine::MemoryLedger;
 
-double sumOf(const std::vector<Metric>& metrics, std::string_view beginning) {
+double sumOf(const std::vector<report::Metric>& metrics, std::string_view beginning) {
     double sum = 0.0;
-    for (const Metric& metric : metrics)
+    for (const report::Metric& metric : metrics)
         if (metric.name().starts_with(beginning)) sum += metric.samples.at(0);
     return sum;
 }
 
-double valueOf(const std::vector<Metric>& metrics, std::string_view name) {
-    for (const Metric& metric : metrics)
+double valueOf(const std::vector<report::Metric>& metrics, std::string_view name) {
+    for (const report::Metric& metric : metrics)
         if (metric.name() == name) return metric.samples.at(0);
     return 0.0;
 }
 
-double total(const MemoryLedger& ledger) {
+double total(const engine::MemoryLedger& ledger) {
     return std::accumulate(
         ledger.bytes().begin(), ledger.bytes().end(), 0.0,
         [](double sum, const auto& line) { return sum + static_cast<double>(line.second); });
 }
 
 TEST(MemoryMetrics, AddUpByHeapAndByPurpose) {
-    MemoryLedger ledger;
-    const MemoryLedger::Line lines[] = {
+    engine::MemoryLedger ledger;
+    const engine::MemoryLedger::Line lines[] = {
         {ledger, {0, true, "guide positions"}, 1000},
         {ledger, {1, false, "picture parameters"}, 30},
         {ledger, {0, true, "rod scratch"}, 200},
         {ledger, {0, true, "a thing without a row"}, 4}};
-    const std::vector<Metric> metrics = memoryMetrics(ledger);
+    const std::vector<report::Metric> metrics = memoryMetrics(ledger);
     EXPECT_EQ(valueOf(metrics, "memory.heap.0"), 1204.0);
     EXPECT_EQ(valueOf(metrics, "memory.heap.1"), 30.0);
     EXPECT_EQ(valueOf(metrics, "memory.purpose.simulation"), 1200.0);
     EXPECT_EQ(valueOf(metrics, "memory.purpose.shading"), 30.0);
     EXPECT_EQ(valueOf(metrics, "memory.purpose.other"), 4.0);
     EXPECT_EQ(metrics.size(), 5u);
-    for (const Metric& metric : metrics) EXPECT_EQ(metric.unit, "B") << metric.name();
+    for (const report::Metric& metric : metrics) EXPECT_EQ(metric.unit, "B") << metric.name();
 }
 
-TEST(MemoryMetrics, OfNothingAreNone) { EXPECT_TRUE(memoryMetrics(MemoryLedger()).empty()); }
+TEST(MemoryMetrics, OfNothingAreNone) {
+    EXPECT_TRUE(memoryMetrics(engine::MemoryLedger()).empty());
+}
 
 // The longer name's row counts where one name begins another.
 TEST(MemoryPurpose, TellsSimilarNamesApart) {
@@ -74,9 +76,9 @@ protected:
             engine::FrameLoop loop(device(), engine::Timing::overlapped);
             loop.frame([&](engine::Passes& passes) { test_case.frame(passes); });
             loop.finish();
-            const MemoryLedger& ledger = device().memory();
+            const engine::MemoryLedger& ledger = device().memory();
             EXPECT_EQ(total(ledger), static_cast<double>(device().allocatedBytes()));
-            const std::vector<Metric> metrics = memoryMetrics(ledger);
+            const std::vector<report::Metric> metrics = memoryMetrics(ledger);
             EXPECT_EQ(sumOf(metrics, "memory.heap."), total(ledger));
             EXPECT_EQ(sumOf(metrics, "memory.purpose."), total(ledger));
             for (const auto& [entry, bytes] : ledger.bytes())
@@ -122,4 +124,4 @@ TEST_F(MemoryOfCasesTest, OfStrandsOfTheirOwnHasAPurpose) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::measure

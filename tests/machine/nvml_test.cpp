@@ -1,4 +1,4 @@
-#include "benchmarks/machine/nvml.h"
+#include "benchmarks/measure/clocks.h"
 
 #include <stdexcept>
 
@@ -9,7 +9,7 @@ extern "C" {
 #include "tests/machine/fake_nvml.h"
 }
 
-namespace benchmarks {
+namespace benchmarks::measure {
 namespace {
 
 using testing::ElementsAre;
@@ -160,4 +160,4 @@ TEST(Nvml, SaysNothingWhereEveryFunctionIsMissing) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::measure

@@ -1,11 +1,11 @@
-#include "benchmarks/machine/processor_load.h"
+#include "benchmarks/measure/machine_watch.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::measure {
 namespace {
 
 std::optional<ProcessorTicks> ticksOf(const std::string& text) {
@@ -70,4 +70,4 @@ TEST(ProcessorLoad, TakesACounterThatSteppedBackForNothing) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::measure

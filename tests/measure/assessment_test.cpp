@@ -1,4 +1,4 @@
-#include "benchmarks/measure/assessment.h"
+#include "benchmarks/measure/steady_state.h"
 
 #include <cmath>
 #include <functional>
@@ -7,7 +7,7 @@
 
 #include "tests/decide/noise.h"
 
-namespace benchmarks {
+namespace benchmarks::measure {
 namespace {
 
 RoundTimes roundsOf(
@@ -101,4 +101,4 @@ TEST(Assessment, IsEnoughWhenSteadyAndPrecise) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::measure

@@ -3,13 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/measure/busy_passes.h"
 #include "engine/frame_loop.h"
 #include "tests/error_text.h"
 #include "tests/gpu_fixture.h"
 #include "tests/required.h"
 
-namespace benchmarks {
+namespace benchmarks::measure {
 namespace {
 
 using engine::PassKind;
@@ -70,14 +69,14 @@ protected:
         GpuTest::TearDown();
     }
 
-    void play(BusyPass& busy, Timing timing) {
+    void play(BusyPass& busy, engine::Timing timing) {
         engine::FrameLoop loop(device(), timing);
         for (int i = 0; i < 3; ++i)
             loop.frame([&](engine::Passes& passes) {
                 BusyPasses slowed(passes, busy);
                 EXPECT_EQ(slowed.slot(), passes.slot());
                 for (const char* name : {"wind", "strands", "wind"})
-                    slowed.pass(name, PassKind::compute, [&](engine::Commands& commands) {
+                    slowed.pass(name, engine::PassKind::compute, [&](engine::Commands& commands) {
                         commands.fill(*buffer_, 1);
                         commands.barrier(
                             engine::Access::transfer_write, engine::Access::transfer_write);
@@ -92,7 +91,8 @@ protected:
 
 // Three frames; "wind" is recorded twice in each.
 TEST_F(BusyPassesTest, AddsWorkWhereverThePassIs) {
-    for (const Timing timing : {Timing::overlapped, Timing::isolated, Timing::wall_clock}) {
+    for (const engine::Timing timing :
+         {engine::Timing::overlapped, engine::Timing::isolated, engine::Timing::wall_clock}) {
         BusyPass wind(device(), "wind", 10);
         play(wind, timing);
         EXPECT_EQ(wind.work().done().steps, 60u);
@@ -108,10 +108,10 @@ TEST_F(BusyPassesTest, AddsWorkWhereverThePassIs) {
 
 TEST_F(BusyPassesTest, KnowWhichPassesThereAre) {
     BusyPass known(device(), "strands", 0);
-    play(known, Timing::isolated);
+    play(known, engine::Timing::isolated);
     EXPECT_EQ(errorText([&] { known.checkThatItRan(); }), "no error");
     BusyPass unknown(device(), "strand", 5);
-    play(unknown, Timing::isolated);
+    play(unknown, engine::Timing::isolated);
     EXPECT_EQ(unknown.work().done().steps, 0u);
     EXPECT_EQ(
         errorText([&] { unknown.checkThatItRan(); }),
@@ -119,4 +119,4 @@ TEST_F(BusyPassesTest, KnowWhichPassesThereAre) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::measure

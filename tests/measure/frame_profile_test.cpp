@@ -1,9 +1,9 @@
-#include "benchmarks/measure/frame_profile.h"
+#include "benchmarks/measure/steady_state.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace benchmarks {
+namespace benchmarks::measure {
 namespace {
 
 using testing::DoubleEq;
@@ -39,4 +39,4 @@ TEST(FrameProfile, StringsRoundsTogether) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::measure

@@ -1,4 +1,4 @@
-#include "benchmarks/measure.h"
+#include "benchmarks/measure/measure.h"
 
 #include <algorithm>
 #include <map>
@@ -8,12 +8,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/hash.h"
-#include "benchmarks/measure/round_player.h"
+#include "benchmarks/measure/sampling.h"
+#include "benchmarks/report/environment.h"
 #include "tests/error_text.h"
 #include "tests/gpu_fixture.h"
 
-namespace benchmarks {
+namespace benchmarks::measure {
 namespace {
 
 using testing::IsEmpty;
@@ -30,37 +30,37 @@ hair::Settings smallCase() {
     return settings;
 }
 
-const Metric* find(const CaseResult& result, const std::string& name) {
-    const auto found = std::ranges::find(result.metrics, name, &Metric::name);
+const report::Metric* find(const report::CaseResult& result, const std::string& name) {
+    const auto found = std::ranges::find(result.metrics, name, &report::Metric::name);
     return found == result.metrics.end() ? nullptr : &*found;
 }
 
-double onlySample(const CaseResult& result, const std::string& name) {
-    const Metric* metric = find(result, name);
+double onlySample(const report::CaseResult& result, const std::string& name) {
+    const report::Metric* metric = find(result, name);
     EXPECT_TRUE(metric && metric->samples.size() == 1) << name;
     return metric && !metric->samples.empty() ? metric->samples.front() : 0.0;
 }
 
-std::size_t samplesOf(const CaseResult& result, const std::string& name) {
-    const Metric* metric = find(result, name);
+std::size_t samplesOf(const report::CaseResult& result, const std::string& name) {
+    const report::Metric* metric = find(result, name);
     return metric ? metric->samples.size() : 0;
 }
 
 class MeasureTest : public GpuTest {
 protected:
-    static CaseResult
+    static report::CaseResult
     measured(const hair::Settings& settings, const MeasureHooks& hooks = {.stop = [] {
                                                  return false;
                                              }}) {
         Case test_case(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
-        CaseResult result;
+        report::CaseResult result;
         measure(device(), test_case, settings.run, hooks, result);
         return result;
     }
 };
 
 TEST_F(MeasureTest, PlaysOneRoundOfEachModeWithoutTime) {
-    const CaseResult result = measured(smallCase());
+    const report::CaseResult result = measured(smallCase());
     EXPECT_EQ(samplesOf(result, "frame.time"), 5u);
     EXPECT_EQ(samplesOf(result, "frame.isolated.time"), 5u);
     EXPECT_EQ(samplesOf(result, "frame.first.time"), 1u);
@@ -68,13 +68,13 @@ TEST_F(MeasureTest, PlaysOneRoundOfEachModeWithoutTime) {
     ASSERT_GE(result.sampling.size(), 2u);
     EXPECT_EQ(result.sampling[0].mode, "overlapped");
     EXPECT_EQ(result.sampling[1].mode, "isolated");
-    for (const Sampling& mode : result.sampling) EXPECT_EQ(mode.rounds, 1u);
+    for (const report::Sampling& mode : result.sampling) EXPECT_EQ(mode.rounds, 1u);
 }
 
 // A round of five frames: the middle one of the times that are reported is what was judged.
 TEST_F(MeasureTest, JudgesEachModeByTheTimeThatItReports) {
     std::map<std::string, double> medians;
-    const CaseResult result = measured(
+    const report::CaseResult result = measured(
         smallCase(),
         {.stop = [] { return false; },
          .progress = [&](const SamplingState& state) { medians[state.mode] = state.median; }});
@@ -93,7 +93,7 @@ TEST_F(MeasureTest, JudgesEachModeByTheTimeThatItReports) {
 TEST_F(MeasureTest, TellsWhatOverlapSaves) {
     hair::Settings settings = smallCase();
     settings.run.frames = 1;
-    const CaseResult result = measured(settings);
+    const report::CaseResult result = measured(settings);
     const double frame = onlySample(result, "frame.time");
     const double passes =
         result.trust.pass_sum_over_wall.value() * onlySample(result, "frame.isolated.time");
@@ -103,7 +103,7 @@ TEST_F(MeasureTest, TellsWhatOverlapSaves) {
 }
 
 TEST_F(MeasureTest, TellsHowLongTheDeviceWasAtWork) {
-    const CaseResult result = measured(smallCase());
+    const report::CaseResult result = measured(smallCase());
     ASSERT_EQ(samplesOf(result, "frame.device.time"), 5u);
     for (const double time : find(result, "frame.device.time")->samples) EXPECT_GT(time, 0.0);
 }
@@ -124,14 +124,14 @@ TEST_F(MeasureTest, HashesWhatTheLastFrameLeaves) {
     ASSERT_FALSE(earlier_states.contains(by_hand.stateHash()));
 
     Case test_case(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
-    CaseResult result;
+    report::CaseResult result;
     const std::vector<std::uint8_t> picture =
         measure(device(), test_case, settings.run, {.stop = [] { return false; }}, result);
     ASSERT_EQ(picture.size(), 64u * 36u * 4u);
     EXPECT_EQ(picture, last);
-    EXPECT_EQ(result.image_hash, hashBytes(std::as_bytes(std::span(last))));
+    EXPECT_EQ(result.image_hash, report::hashBytes(std::as_bytes(std::span(last))));
     const std::vector<glm::vec3> guides = by_hand.guides();
-    EXPECT_EQ(result.state_hash, hashBytes(std::as_bytes(std::span(guides))));
+    EXPECT_EQ(result.state_hash, report::hashBytes(std::as_bytes(std::span(guides))));
 }
 
 // Every sample of every round is kept, and the hooks are told of each round.
@@ -141,7 +141,7 @@ TEST_F(MeasureTest, KeepsTheSamplesOfAllRounds) {
     settings.run.max_time = 0.2f;
     std::set<std::string> modes;
     std::uint32_t told = 0;
-    const CaseResult result = measured(
+    const report::CaseResult result = measured(
         settings, {.stop = [] { return false; },
                    .progress =
                        [&](const SamplingState& state) {
@@ -150,7 +150,7 @@ TEST_F(MeasureTest, KeepsTheSamplesOfAllRounds) {
                        }});
     std::uint32_t rounds = 0;
     std::uint32_t throttled = 0;
-    for (const Sampling& mode : result.sampling) {
+    for (const report::Sampling& mode : result.sampling) {
         rounds += mode.rounds + mode.warmup_rounds;
         throttled += mode.throttled_rounds;
     }
@@ -165,10 +165,10 @@ TEST_F(MeasureTest, KeepsTheSamplesOfAllRounds) {
 // Rounds start over, so however many there are, they end with the same hair.
 TEST_F(MeasureTest, EndsWithTheSameHairAfterAnyNumberOfRounds) {
     hair::Settings settings = smallCase();
-    const CaseResult one = measured(settings);
+    const report::CaseResult one = measured(settings);
     settings.run.precision = 0.0f;
     settings.run.max_time = 0.1f;
-    const CaseResult more = measured(settings);
+    const report::CaseResult more = measured(settings);
     EXPECT_EQ(more.image_hash, one.image_hash);
     EXPECT_EQ(more.state_hash, one.state_hash);
     EXPECT_THAT(more.trust.warnings, testing::Not(testing::Contains(testing::HasSubstr("differ"))));
@@ -178,11 +178,11 @@ TEST_F(MeasureTest, EndsWithTheSameHairAfterAnyNumberOfRounds) {
 
 TEST_F(MeasureTest, BusyWorkChangesNoPictureNoStateAndNoCount) {
     hair::Settings settings = smallCase();
-    const CaseResult plain = measured(settings);
+    const report::CaseResult plain = measured(settings);
     settings.run.busy_work = 2000;
     for (const char* pass : {"wind", "simulate", "scene", "strands", "resolve"}) {
         settings.run.busy_pass = pass;
-        const CaseResult busy = measured(settings);
+        const report::CaseResult busy = measured(settings);
         EXPECT_EQ(busy.image_hash, plain.image_hash) << pass;
         EXPECT_EQ(busy.state_hash, plain.state_hash) << pass;
         ASSERT_EQ(busy.statistics.size(), plain.statistics.size());
@@ -204,7 +204,7 @@ TEST_F(MeasureTest, SlowsDownNoPassThatIsNotThere) {
 // On a software device what a frame costs the processor is what a frame costs.
 TEST_F(MeasureTest, TellsWhatASoftwareDeviceUses) {
     const bool software = device().info().type == "cpu";
-    const CaseResult result = measured(smallCase());
+    const report::CaseResult result = measured(smallCase());
     for (const char* name : {"frame.cpu.time", "pass.wind.cpu.time", "pass.strands.cpu.time"}) {
         ASSERT_EQ(samplesOf(result, name), software ? 5u : 0u) << name;
         if (!software) continue;
@@ -220,7 +220,7 @@ TEST_F(MeasureTest, StopsWhenAsked) {
     hair::Settings settings = smallCase();
     settings.run.max_time = 3600.0f;
     settings.run.precision = 0.0f;
-    EXPECT_THROW(measured(settings, {.stop = [&] { return ++asked > 30; }}), Interrupted);
+    EXPECT_THROW(measured(settings, {.stop = [&] { return ++asked > 30; }}), engine::Interrupted);
     EXPECT_EQ(asked, 31);
 }
 
@@ -280,15 +280,15 @@ TEST_F(RoundPlayerTest, HashesEveryRowAndEveryGuide) {
     const RoundEnd& end = player.firstEnd();
     ASSERT_EQ(end.picture.size(), 64u * 36u * 4u);
     EXPECT_EQ(end.picture, test_case.picture());
-    const std::string picture = hashBytes(std::as_bytes(std::span(end.picture)));
+    const std::string picture = report::hashBytes(std::as_bytes(std::span(end.picture)));
     EXPECT_EQ(end.picture_hash, picture);
     EXPECT_EQ(test_case.pictureHash(), picture);
     const std::vector<glm::vec3> guides = test_case.guides();
     ASSERT_EQ(
         guides.size(),
         std::size_t{test_case.groom().strand_count} * test_case.groom().vertices_per_strand);
-    EXPECT_EQ(end.state_hash, hashBytes(std::as_bytes(std::span(guides))));
+    EXPECT_EQ(end.state_hash, report::hashBytes(std::as_bytes(std::span(guides))));
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::measure

@@ -5,41 +5,41 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace benchmarks {
+namespace benchmarks::measure {
 namespace {
 
 using engine::FrameRecord;
 using testing::ElementsAre;
 
-std::vector<std::string> names(const CaseResult& result) {
+std::vector<std::string> names(const report::CaseResult& result) {
     std::vector<std::string> all;
-    for (const Metric& metric : result.metrics) all.push_back(metric.name());
+    for (const report::Metric& metric : result.metrics) all.push_back(metric.name());
     return all;
 }
 
-const Metric& metricOf(const CaseResult& result, const std::string& name) {
-    static const Metric none;
-    const auto found = std::ranges::find(result.metrics, name, &Metric::name);
+const report::Metric& metricOf(const report::CaseResult& result, const std::string& name) {
+    static const report::Metric none;
+    const auto found = std::ranges::find(result.metrics, name, &report::Metric::name);
     EXPECT_NE(found, result.metrics.end()) << name;
     return found == result.metrics.end() ? none : *found;
 }
 
-std::vector<FrameRecord> framesOf(std::size_t count) {
-    std::vector<FrameRecord> frames(count);
+std::vector<engine::FrameRecord> framesOf(std::size_t count) {
+    std::vector<engine::FrameRecord> frames(count);
     for (std::size_t i = 0; i < count; ++i) frames[i].interval = 10.0;
     return frames;
 }
 
 TEST(Metrics, OfOverlappedFramesSayWhoWaitsForWhom) {
-    std::vector<FrameRecord> frames = framesOf(2);
+    std::vector<engine::FrameRecord> frames = framesOf(2);
     frames[0].device = 8.0;
     frames[1].device = 13.0;  // it began while the frame before was at work
-    for (FrameRecord& frame : frames) {
+    for (engine::FrameRecord& frame : frames) {
         frame.record = 2.0;
         frame.submit = 1.0;
         frame.wait = 6.5;
     }
-    CaseResult result;
+    report::CaseResult result;
     addOverlappedMetrics(frames, result);
     EXPECT_THAT(
         names(result), ElementsAre(
@@ -52,15 +52,16 @@ TEST(Metrics, OfOverlappedFramesSayWhoWaitsForWhom) {
     EXPECT_THAT(metricOf(result, "cpu.submit.time").samples, ElementsAre(1.0, 1.0));
     EXPECT_THAT(metricOf(result, "cpu.wait.time").samples, ElementsAre(6.5, 6.5));
     EXPECT_THAT(metricOf(result, "gpu.wait.time").samples, ElementsAre(2.0, 0.0));
-    for (const Metric& metric : result.metrics) EXPECT_EQ(metric.mode, Mode::overlapped);
+    for (const report::Metric& metric : result.metrics)
+        EXPECT_EQ(metric.mode, report::Mode::overlapped);
 }
 
 // 98 frames of 10 ms and two of 40 ms, 1,060 ms in all. Percentile: quantile 0.99 lies at position
 // 98.01 of 0 ... 99, in the two: 25 fps, as is the one slowest; 1 % of the time is within it.
 TEST(Metrics, HaveLowsOfThreeKinds) {
-    std::vector<FrameRecord> frames = framesOf(100);
+    std::vector<engine::FrameRecord> frames = framesOf(100);
     frames[10].interval = frames[60].interval = 40.0;
-    CaseResult result;
+    report::CaseResult result;
     addOverlappedMetrics(frames, result);
     for (const char* name : {"fps.low_1.percentile", "fps.low_1.mean", "fps.low_1.integral"}) {
         EXPECT_THAT(metricOf(result, name).samples, ElementsAre(25.0)) << name;
@@ -72,9 +73,9 @@ TEST(Metrics, HaveLowsOfThreeKinds) {
 // Where the share is less than a frame, a low would be the slowest frame under another name.
 TEST(Metrics, HaveLowsOfEnoughFramesOnly) {
     const auto lows = [](std::size_t frames) {
-        CaseResult result;
+        report::CaseResult result;
         addOverlappedMetrics(framesOf(frames), result);
-        return std::ranges::count_if(result.metrics, [](const Metric& metric) {
+        return std::ranges::count_if(result.metrics, [](const report::Metric& metric) {
             return metric.name().starts_with("fps.low");
         });
     };
@@ -84,35 +85,35 @@ TEST(Metrics, HaveLowsOfEnoughFramesOnly) {
     EXPECT_EQ(lows(1000), 6);
 }
 
-FrameRecord used(double cpu, std::optional<double> instructions) {
-    FrameRecord frame;
+engine::FrameRecord used(double cpu, std::optional<double> instructions) {
+    engine::FrameRecord frame;
     frame.use = {cpu, instructions};
     frame.passes = {{"wind", 1.0, {cpu / 4.0, instructions}}, {"strands", 1.0, {cpu / 2.0, {}}}};
     return frame;
 }
 
 TEST(Metrics, CountInstructionsWhereTheMachineDoes) {
-    CaseResult result;
+    report::CaseResult result;
     addFrameUse(std::vector{used(8.0, 1e6), used(10.0, 2e6)}, result);
     EXPECT_THAT(names(result), ElementsAre("frame.cpu.time", "frame.instructions"));
     EXPECT_THAT(metricOf(result, "frame.cpu.time").samples, ElementsAre(8.0, 10.0));
     EXPECT_THAT(metricOf(result, "frame.instructions").samples, ElementsAre(1e6, 2e6));
     EXPECT_EQ(metricOf(result, "frame.instructions").unit, "1");
-    CaseResult uncounted;
+    report::CaseResult uncounted;
     addFrameUse(std::vector{used(8.0, 1e6), used(10.0, {})}, uncounted);
     EXPECT_THAT(names(uncounted), ElementsAre("frame.cpu.time"));
 }
 
 TEST(Metrics, TellWhatPassesUsed) {
-    CaseResult result;
+    report::CaseResult result;
     addPassUse(std::vector{used(8.0, 1e6), used(12.0, 2e6)}, result);
     EXPECT_THAT(
         names(result),
         ElementsAre("pass.wind.cpu.time", "pass.wind.instructions", "pass.strands.cpu.time"));
     EXPECT_THAT(metricOf(result, "pass.wind.cpu.time").samples, ElementsAre(2.0, 3.0));
     EXPECT_THAT(metricOf(result, "pass.strands.cpu.time").samples, ElementsAre(4.0, 6.0));
-    EXPECT_EQ(metricOf(result, "pass.strands.cpu.time").mode, Mode::wall_clock);
+    EXPECT_EQ(metricOf(result, "pass.strands.cpu.time").mode, report::Mode::wall_clock);
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::measure

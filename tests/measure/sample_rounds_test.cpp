@@ -1,15 +1,14 @@
-#include "benchmarks/measure/sample_rounds.h"
+#include "benchmarks/measure/sampling.h"
 
 #include <functional>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/measure/sample_mode.h"
 #include "tests/decide/noise.h"
 #include "tests/error_text.h"
 
-namespace benchmarks {
+namespace benchmarks::measure {
 namespace {
 
 using testing::DoubleNear;
@@ -54,7 +53,7 @@ struct Machine {
                    .begin_watch = [] {},
                    .end_watch =
                        [&] {
-                           return Conditions{
+                           return report::Conditions{
                                .clock_mhz = clock(rounds - 1), .base_clock_mhz = kBaseClock};
                        },
                    .seconds = [&] { return now; },
@@ -214,4 +213,4 @@ TEST(SampleRounds, GivesUpWhereAllAreThrottled) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::measure

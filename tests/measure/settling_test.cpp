@@ -1,4 +1,4 @@
-#include "benchmarks/measure/settling.h"
+#include "benchmarks/measure/steady_state.h"
 
 #include <cmath>
 #include <functional>
@@ -8,7 +8,7 @@
 
 #include "tests/decide/noise.h"
 
-namespace benchmarks {
+namespace benchmarks::measure {
 namespace {
 
 std::vector<double> levels(std::size_t count, const std::function<double(double)>& level) {
@@ -94,4 +94,4 @@ TEST(Settling, LooksAtLongSeriesInBlocks) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::measure

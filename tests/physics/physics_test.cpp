@@ -28,9 +28,9 @@ void expectPass(const Findings& findings) {
 
 using Physics = GpuTest;
 
-class EverySolver : public GpuTest, public testing::WithParamInterface<hair::Named<Solver>> {
+class EverySolver : public GpuTest, public testing::WithParamInterface<hair::Named<hair::Solver>> {
 protected:
-    Solver solver() const { return GetParam().value; }
+    hair::Solver solver() const { return GetParam().value; }
 };
 
 INSTANTIATE_TEST_SUITE_P(, EverySolver, testing::ValuesIn(checkedSolvers()), [](const auto& each) {
@@ -38,8 +38,8 @@ INSTANTIATE_TEST_SUITE_P(, EverySolver, testing::ValuesIn(checkedSolvers()), [](
 });
 
 TEST_F(Physics, ShapeFliesLikeVerlet) {
-    Findings findings("projectile", Solver::shape);
-    checkProjectile(device(), Solver::shape, findings);
+    Findings findings("projectile", hair::Solver::shape);
+    checkProjectile(device(), hair::Solver::shape, findings);
     expectPass(findings);
 }
 
@@ -50,38 +50,38 @@ TEST_P(EverySolver, KeepsItsShapeInFreeFall) {
 }
 
 TEST_F(Physics, ShapeSwingsLikeADoublePendulum) {
-    Findings findings("pendulum", Solver::shape);
-    checkPendulum(device(), Solver::shape, std::array{2u}, findings);
+    Findings findings("pendulum", hair::Solver::shape);
+    checkPendulum(device(), hair::Solver::shape, std::array{2u}, findings);
     expectPass(findings);
 }
 
 TEST_F(Physics, ShapeHangsInACatenary) {
-    Findings findings("catenary", Solver::shape);
-    checkCatenary(device(), Solver::shape, findings);
+    Findings findings("catenary", hair::Solver::shape);
+    checkCatenary(device(), hair::Solver::shape, findings);
     expectPass(findings);
 }
 
 TEST_F(Physics, RodHangsInACatenary) {
-    Findings findings("catenary", Solver::rod);
-    checkCatenary(device(), Solver::rod, findings);
+    Findings findings("catenary", hair::Solver::rod);
+    checkCatenary(device(), hair::Solver::rod, findings);
     expectPass(findings);
 }
 
 TEST_F(Physics, RodMovesTheSameAtAnyTimeStep) {
-    Findings findings("step_invariance", Solver::rod);
-    checkStepInvariance(device(), Solver::rod, findings);
+    Findings findings("step_invariance", hair::Solver::rod);
+    checkStepInvariance(device(), hair::Solver::rod, findings);
     expectPass(findings);
 }
 
 TEST_F(Physics, RodSagsLikeAnElastica) {
-    Findings findings("cantilever", Solver::rod);
-    checkCantilever(device(), Solver::rod, std::array{1.0, 10.0, 100.0}, findings);
+    Findings findings("cantilever", hair::Solver::rod);
+    checkCantilever(device(), hair::Solver::rod, std::array{1.0, 10.0, 100.0}, findings);
     expectPass(findings);
 }
 
 TEST_F(Physics, RodSwingsAtTheFirstBendingFrequency) {
-    Findings findings("bending_frequency", Solver::rod);
-    checkBendingFrequency(device(), Solver::rod, findings);
+    Findings findings("bending_frequency", hair::Solver::rod);
+    checkBendingFrequency(device(), hair::Solver::rod, findings);
     expectPass(findings);
 }
 

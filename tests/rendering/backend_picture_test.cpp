@@ -5,7 +5,7 @@
 
 // Every back end and every way to split its draws gives the same picture, bit for bit: they draw
 // the same lines in the same order with the same functions.
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 struct Way {
@@ -46,7 +46,8 @@ protected:
 // Unsplit it would be one draw of 304,640 vertices, 4.6 times what lavapipe's tessellator can
 // index.
 TEST_F(BackendPictureTest, AreEqualAtTheThesissCase) {
-    const benchmarks::Case thesis(device(), thesisAtRest(), HAIRBENCH_SOURCE_DIR "/scenes");
+    const benchmarks::measure::Case thesis(
+        device(), thesisAtRest(), HAIRBENCH_SOURCE_DIR "/scenes");
     ASSERT_EQ(thesis.plan().patches() * thesis.plan().verticesPerPatch(), 304640u);
     ASSERT_GT(thesis.plan().patches() * thesis.plan().verticesPerPatch(), 65536u);
     // The head of 0.2 m and hair of 0.15 m round it fill over 100 px square at 604 px/m.
@@ -92,7 +93,7 @@ TEST_F(BackendPictureTest, CountsAreThoseOfThePlan) {
     Settings settings = small();
     settings.strands.density = 100;
     settings.strands.tessellation = 3;
-    benchmarks::Case picture(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
+    benchmarks::measure::Case picture(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
     engine::FrameLoop loop(device(), engine::Timing::statistics);
     loop.frame([&](engine::Passes& passes) { picture.frame(passes); });
     const std::vector<engine::FrameRecord> records = loop.finish();
@@ -110,4 +111,4 @@ TEST_F(BackendPictureTest, CountsAreThoseOfThePlan) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -1,4 +1,4 @@
-#include "hair/rendering/body_lines.h"
+#include "hair/rendering/overlay_pass.h"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 
 #include "tests/largest_difference.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 float distanceToAxis(const glm::vec3& p, const Collider& c) {
@@ -47,7 +47,7 @@ TEST(BodyLines, ASphereHasThreeGreatCircles) {
 
 // A tetrahedron has six edges, each of two triangles.
 TEST(BodyLines, AMeshHasEachEdgeOnce) {
-    const Mesh tetrahedron{
+    const groom::Mesh tetrahedron{
         .positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
         .triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
     EXPECT_EQ(meshLines(tetrahedron, Follows::head).size(), 6u);
@@ -57,4 +57,4 @@ TEST(BodyLines, AMeshHasEachEdgeOnce) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

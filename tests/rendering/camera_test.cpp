@@ -1,4 +1,4 @@
-#include "hair/rendering/camera.h"
+#include "hair/rendering/lights.h"
 
 #include <cmath>
 #include <numbers>
@@ -7,7 +7,7 @@
 #include <glm/vec4.hpp>
 #include <gtest/gtest.h>
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 // A float matrix product of numbers of size 1: some ten roundings of 6e-8, and as much again where
@@ -78,4 +78,4 @@ TEST(Camera, LooksFromAnywhereWithItsUpUpward) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -7,14 +7,14 @@
 #include "tests/rendering/device_hair.h"
 
 // The curve of a strand: thesis equation (4), as the shaders evaluate it.
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 constexpr float kUlp = 0x1p-24f;  // rounding of a float, relative
 
 class CurveTest : public GpuTest {
 protected:
-    static StrandPoints evaluate(const Groom& groom, const StrandSettings& strands) {
+    static StrandPoints evaluate(const groom::Groom& groom, const StrandSettings& strands) {
         const DeviceHair hair(device(), groom);
         return evaluateStrandPoints(device(), {.strands = strands}, hair.view());
     }
@@ -143,7 +143,7 @@ TEST_F(CurveTest, CatmullRomGoesThroughEveryVertex) {
 
 // Two patches meet in the same point, with the same tangent and width: there is no seam to see.
 TEST_F(CurveTest, JointsAreEqualToTheLastBit) {
-    const Groom groom = tangledGroom(8);
+    const groom::Groom groom = tangledGroom(8);
     for (const Curve curve : {Curve::bspline, Curve::bspline_unpinned, Curve::catmull_rom}) {
         for (const std::uint32_t tessellation : {1u, 3u, 4u, 7u, 8u}) {
             const StrandPoints points =
@@ -212,4 +212,4 @@ TEST_F(CurveTest, SegmentTaperRestarts) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -10,15 +10,15 @@
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
-#include "engine/transfer.h"
+#include "engine/buffer_image.h"
 #include "hair/groom/groom.h"
 #include "hair/rendering/groom_buffers.h"
 
-namespace hair {
+namespace hair::rendering {
 
 // Contacts as a simulation could mark them, [guide][vertex]: two guides of three touch a body, each
 // somewhere else, and what is below is marked too.
-inline std::vector<bool> madeUpContacts(const Groom& groom) {
+inline std::vector<bool> madeUpContacts(const groom::Groom& groom) {
     std::vector<bool> contacts;
     for (std::uint32_t guide = 0; guide < groom.strand_count; ++guide) {
         const std::uint32_t first = guide % 3 == 0 ? groom.vertices_per_strand
@@ -33,8 +33,8 @@ inline std::vector<bool> madeUpContacts(const Groom& groom) {
 class DeviceHair {
 public:
     DeviceHair(
-        const engine::Device& device, const Groom& groom, const Settings& settings = {},
-        const StrandSet* offsets = nullptr)
+        const engine::Device& device, const groom::Groom& groom, const Settings& settings = {},
+        const groom::StrandSet* offsets = nullptr)
         : buffers_(device, groom, settings, offsets),
           guides_(engine::makeBuffer(
               device, std::span<const glm::vec4>(withoutW(groom.points)), "guides")),
@@ -73,8 +73,8 @@ private:
 };
 
 // A groom of one root triangle whose guides have these points.
-inline Groom oneTriangle(const std::array<std::vector<glm::vec3>, 3>& guides) {
-    Groom groom{
+inline groom::Groom oneTriangle(const std::array<std::vector<glm::vec3>, 3>& guides) {
+    groom::Groom groom{
         .strand_count = 3,
         .vertices_per_strand = static_cast<std::uint32_t>(guides[0].size()),
         .root_triangles = {{0, 1, 2}}};
@@ -84,16 +84,16 @@ inline Groom oneTriangle(const std::array<std::vector<glm::vec3>, 3>& guides) {
     return groom;
 }
 
-inline Groom oneTriangle(const std::vector<glm::vec3>& guide) {
+inline groom::Groom oneTriangle(const std::vector<glm::vec3>& guide) {
     return oneTriangle({guide, guide, guide});
 }
 
 // Three guides with their roots at the unit vectors, so that a strand's root is its barycentric
 // coordinates, under any number of root triangles.
-inline Groom unitTriangles(std::uint32_t triangles) {
+inline groom::Groom unitTriangles(std::uint32_t triangles) {
     const glm::vec3 up(1.0f, 1.0f, 1.0f);
     const std::array<glm::vec3, 3> roots{glm::vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    Groom groom = oneTriangle(
+    groom::Groom groom = oneTriangle(
         {std::vector{roots[0], roots[0] + up}, std::vector{roots[1], roots[1] + up},
          std::vector{roots[2], roots[2] + up}});
     groom.root_triangles.assign(triangles, {0, 1, 2});
@@ -102,9 +102,9 @@ inline Groom unitTriangles(std::uint32_t triangles) {
 
 // Curved guides with bulging roots, in no order: nothing about them is special. Sizes of about 0.5
 // m.
-inline Groom tangledGroom(std::uint32_t vertices) {
+inline groom::Groom tangledGroom(std::uint32_t vertices) {
     constexpr std::uint32_t kGuides = 6;
-    Groom groom{
+    groom::Groom groom{
         .strand_count = kGuides,
         .vertices_per_strand = vertices,
         .root_triangles = {{0, 1, 2}, {2, 1, 3}, {5, 3, 4}, {4, 0, 5}}};
@@ -122,4 +122,4 @@ inline Groom tangledGroom(std::uint32_t vertices) {
     return groom;
 }
 
-}  // namespace hair
+}  // namespace hair::rendering

@@ -1,4 +1,4 @@
-#include "hair/rendering/reference_dual_scattering.h"
+#include "hair/rendering/fiber.h"
 
 #include <cmath>
 #include <numbers>
@@ -7,7 +7,7 @@
 
 #include "tests/rendering/fiber_rig.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -113,4 +113,4 @@ TEST(DualScattering, IsTheFibersOwnWhereNothingElseIs) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -1,4 +1,4 @@
-#include "hair/rendering/reference_dual_scattering.h"
+#include "hair/rendering/fiber.h"
 
 #include <array>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "tests/rendering/fiber_rig.h"
 
 // Dual scattering against light that is followed from fibre to fibre.
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -196,4 +196,4 @@ TEST(DualScattering, ScattersWhatComesThroughOthersAsARandomWalk) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -8,15 +8,15 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "engine/transfer.h"
+#include "engine/buffer_image.h"
 #include "hair/gpu_structs.h"
-#include "hair/rendering/environment_pass.h"
+#include "hair/rendering/environment.h"
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/device_hair.h"
 #include "tests/rendering/environments.h"
 #include "tests/rendering/pictures.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 Settings bald(std::uint32_t size) {
@@ -83,8 +83,9 @@ protected:
         }
     };
 
-    static Picture
-    draw(const Settings& settings, engine::FloatPixels environment, const Mesh* head = nullptr) {
+    static Picture draw(
+        const Settings& settings, engine::FloatPixels environment,
+        const groom::Mesh* head = nullptr) {
         const std::vector<glm::vec3> line{{0, 0, 0}, {0, 0.1f, 0}};
         const DeviceHair hair(device(), oneTriangle({line, line, line}), settings);
         RenderAssets assets{.head = head};
@@ -204,7 +205,7 @@ TEST_F(EnvironmentTest, IsSeenWhereItIs) {
 }
 
 // A square of 0.2 m that faces the camera 0.5 m away.
-Mesh wall() {
+groom::Mesh wall() {
     return {
         .positions =
             {{-0.1f, -0.1f, 0.0f}, {0.1f, -0.1f, 0.0f}, {0.1f, 0.1f, 0.0f}, {-0.1f, 0.1f, 0.0f}},
@@ -222,7 +223,7 @@ TEST_F(EnvironmentTest, IsBehindMeshesSampleBySample) {
     settings.render.msaa = 4;
     settings.camera.up = {0.3f, 1.0f, 0.0f};  // slanted edges
     settings.shading.diffuse = 0.0f;  // the same light all over the wall
-    const Mesh mesh = wall();
+    const groom::Mesh mesh = wall();
     const Picture picture = draw(settings, environmentOf([](auto) { return 8.0; }, 16), &mesh);
     const double front = picture.at(32, 32);
     ASSERT_LT(front, 4.0);
@@ -240,4 +241,4 @@ TEST_F(EnvironmentTest, IsBehindMeshesSampleBySample) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

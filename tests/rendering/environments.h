@@ -8,9 +8,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "engine/image_file.h"
+#include "engine/pictures.h"
 
-namespace hair {
+namespace hair::rendering {
 
 // Turned about +y by the right-hand rule: +z goes to +x.
 inline glm::dvec3 turned(const glm::dvec3& d, double turn) {
@@ -51,4 +51,4 @@ inline std::vector<glm::dvec3> someDirections() {
     return directions;
 }
 
-}  // namespace hair
+}  // namespace hair::rendering

@@ -5,13 +5,13 @@
 #include "hair/rendering/strand_points.h"
 #include "tests/rendering/strand_reference.h"
 
-namespace hair {
+namespace hair::rendering {
 
 // All points against the reference: guides within 0.5 m have control points within 1.5 m, the sums
 // of weights and of slopes are at most 2 (of Catmull and Rom's slopes 3), and a point takes about
 // 20 roundings of 2^-24 of that.
 inline void expectNearReference(
-    const StrandPoints& points, const Groom& groom, const Settings& settings,
+    const StrandPoints& points, const groom::Groom& groom, const Settings& settings,
     const std::vector<bool>& contacts = {}) {
     const double sum = settings.strands.curve == Curve::catmull_rom ? 3.0 : 2.0;
     const double tolerance = 20 * 0x1p-24 * 1.5 * sum;
@@ -41,4 +41,4 @@ inline void expectNearReference(
     }
 }
 
-}  // namespace hair
+}  // namespace hair::rendering

@@ -1,4 +1,4 @@
-#include "hair/rendering/reference_fiber.h"
+#include "hair/rendering/fiber.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 
 #include "tests/rendering/fiber_rig.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -210,4 +210,4 @@ TEST(FiberScattering, IsFiniteAtTheEdges) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

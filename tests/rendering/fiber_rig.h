@@ -10,7 +10,7 @@
 #include "hair/shading_settings.h"
 
 // Fibres and directions to test their scattering with.
-namespace hair {
+namespace hair::rendering {
 
 constexpr float kRoughnesses[]{0.1f, 0.3f, 0.5f, 0.7f, 0.9f};
 
@@ -65,4 +65,4 @@ uniformSamples(float longitudinal_roughness, float azimuthal_roughness) {
     return samples;
 }
 
-}  // namespace hair
+}  // namespace hair::rendering

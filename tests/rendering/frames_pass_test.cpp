@@ -1,4 +1,4 @@
-#include "hair/rendering/frames_pass.h"
+#include "hair/rendering/strand_offsets.h"
 
 #include <cmath>
 #include <numbers>
@@ -7,19 +7,20 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "hair/groom/style/strand_frames.h"
+#include "hair/groom/style/displace.h"
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/device_hair.h"
 
 // Frames that don't turn about the guides, against what is known of them.
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 class FramesPassTest : public GpuTest {
 protected:
     // [guide][vertex], of guides that moved from rest to `now`.
-    static std::vector<glm::dvec3>
-    normals(const Groom& rest, const Groom& now, const glm::mat4& head = glm::mat4(1.0f)) {
+    static std::vector<glm::dvec3> normals(
+        const groom::Groom& rest, const groom::Groom& now,
+        const glm::mat4& head = glm::mat4(1.0f)) {
         const Settings settings{.strands = {.curl = {.radius = 0.001f}}};
         const DeviceHair at_rest(device(), rest, settings);
         const DeviceHair moved(device(), now);
@@ -32,7 +33,9 @@ protected:
         return {floats.begin(), floats.end()};
     }
 
-    static std::vector<glm::dvec3> normals(const Groom& groom) { return normals(groom, groom); }
+    static std::vector<glm::dvec3> normals(const groom::Groom& groom) {
+        return normals(groom, groom);
+    }
 };
 
 constexpr double kUlp = 0x1p-24;
@@ -89,10 +92,11 @@ TEST_F(FramesPassTest, TurnByMinusTheTorsionOfAHelix) {
 // The same method in double, by who styles grooms: the angle between two frames that don't turn is
 // the same all along the strand, whatever they start with.
 TEST_F(FramesPassTest, AgreeWithThoseOfStyling) {
-    const Groom groom = tangledGroom(16);
+    const groom::Groom groom = tangledGroom(16);
     const std::vector<glm::dvec3> n = normals(groom);
     for (std::uint32_t guide = 0; guide < groom.strand_count; ++guide) {
-        const std::vector<StrandFrame> frames = strandFrames(groom.strand(guide), nullptr);
+        const std::vector<groom::StrandFrame> frames =
+            groom::strandFrames(groom.strand(guide), nullptr);
         const auto angle = [&](std::size_t v) {
             const glm::dvec3& normal = n[guide * 16 + v];
             return std::atan2(
@@ -113,8 +117,8 @@ TEST_F(FramesPassTest, AgreeWithThoseOfStyling) {
 TEST_F(FramesPassTest, MoveWithTheHead) {
     glm::mat4 head = glm::translate(glm::mat4(1.0f), {0.1f, -0.2f, 0.3f});
     head = glm::rotate(head, 2.0f, glm::normalize(glm::vec3(1.0f, -2.0f, 3.0f)));
-    const Groom groom = tangledGroom(8);
-    Groom moved = groom;
+    const groom::Groom groom = tangledGroom(8);
+    groom::Groom moved = groom;
     for (glm::vec3& point : moved.points) point = glm::vec3(head * glm::vec4(point, 1.0f));
     const std::vector<glm::dvec3> before = normals(groom);
     const std::vector<glm::dvec3> after = normals(groom, moved, head);
@@ -157,4 +161,4 @@ TEST_F(FramesPassTest, AreUnitVectorsWherePointsCoincide) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

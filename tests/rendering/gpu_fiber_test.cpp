@@ -5,17 +5,16 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/pipeline.h"
-#include "engine/transfer.h"
-#include "hair/rendering/hair_optics.h"
-#include "hair/rendering/reference_dual_scattering.h"
-#include "hair/simulation/dispatch_groups.h"
+#include "hair/rendering/fiber.h"
+#include "hair/simulation/stiffness.h"
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/fiber_rig.h"
 #include "tests/rendering/published_fiber.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -38,7 +37,7 @@ protected:
             .count = static_cast<std::uint32_t>(probes.size())};
         device().runOnce([&](engine::Commands& commands) {
             commands.bind(pipeline, push);
-            dispatchInvocations(commands, push.count, 64);
+            simulation::dispatchInvocations(commands, push.count, 64);
             commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);
         });
         return engine::downloadAs<gpu::FiberProbe>(device(), buffer);
@@ -209,4 +208,4 @@ TEST_F(GpuFiberTest, IsFiniteAtTheEdges) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -12,14 +12,14 @@
 #include "tests/rendering/strand_reference.h"
 
 // The groom's own strands and widths.
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 constexpr double kTolerance = 20 * 0x1p-24 * 1.5 * 2.0;  // as in strand_points_test.cpp
 
 // Every third strand is a guide bound to itself.
-Groom boundGroom(std::uint32_t vertices, std::uint32_t strands) {
-    Groom groom = tangledGroom(vertices);
+groom::Groom boundGroom(std::uint32_t vertices, std::uint32_t strands) {
+    groom::Groom groom = tangledGroom(vertices);
     groom.root_triangles.clear();
     std::mt19937 random(3);
     const auto number = [&] { return static_cast<float>(random() >> 8u) * 0x1p-24f; };
@@ -41,18 +41,19 @@ Groom boundGroom(std::uint32_t vertices, std::uint32_t strands) {
 }
 
 // The bindings in the order in which they are drawn.
-std::vector<StrandBinding> inOrder(const Groom& groom, std::uint32_t seed) {
+std::vector<groom::StrandBinding> inOrder(const groom::Groom& groom, std::uint32_t seed) {
     std::vector<std::pair<std::uint32_t, std::size_t>> order;
     for (std::size_t i = 0; i < groom.bindings.size(); ++i)
         order.emplace_back(hash(seed, static_cast<std::uint32_t>(i), gpu::kOrderPurpose), i);
     std::ranges::sort(order);
-    std::vector<StrandBinding> bindings;
+    std::vector<groom::StrandBinding> bindings;
     for (const auto& [key, i] : order) bindings.push_back(groom.bindings[i]);
     return bindings;
 }
 
 // A groom of the one strand, as the guides that it is bound to give it.
-Groom alone(const Groom& groom, const StrandBinding& binding, const glm::dmat3& head) {
+groom::Groom
+alone(const groom::Groom& groom, const groom::StrandBinding& binding, const glm::dmat3& head) {
     std::vector<glm::vec3> strand;
     for (std::uint32_t v = 0; v < groom.vertices_per_strand; ++v) {
         glm::dvec3 point = head * glm::dvec3(binding.offset);
@@ -64,7 +65,9 @@ Groom alone(const Groom& groom, const StrandBinding& binding, const glm::dmat3& 
     return oneTriangle(strand);
 }
 
-double widthAt(const Groom& groom, const StrandBinding& binding, std::uint32_t segment, double t) {
+double widthAt(
+    const groom::Groom& groom, const groom::StrandBinding& binding, std::uint32_t segment,
+    double t) {
     double width = 0.0;
     for (std::uint32_t i = 0; i < 3; ++i) {
         const std::size_t at = std::size_t{binding.guides[i]} * groom.vertices_per_strand + segment;
@@ -77,7 +80,8 @@ double widthAt(const Groom& groom, const StrandBinding& binding, std::uint32_t s
 class GroomStrandsTest : public GpuTest {
 protected:
     static StrandPoints evaluate(
-        const Groom& groom, const Settings& settings, const glm::mat4& head = glm::mat4(1.0f)) {
+        const groom::Groom& groom, const Settings& settings,
+        const glm::mat4& head = glm::mat4(1.0f)) {
         const DeviceHair hair(device(), groom, settings);
         StrandView view = hair.view();
         view.head = head;
@@ -89,15 +93,15 @@ constexpr StrandSettings kGroomStrands{
     .source = StrandSource::groom, .tessellation = 4, .width = WidthSource::groom};
 
 TEST_F(GroomStrandsTest, AreTheSumsOfTheirGuides) {
-    const Groom groom = boundGroom(8, 100);
+    const groom::Groom groom = boundGroom(8, 100);
     const glm::mat4 head =
         glm::rotate(glm::mat4(1.0f), 2.0f, glm::normalize(glm::vec3(1.0f, -2.0f, 3.0f)));
     const Settings settings{.seed = 9, .strands = kGroomStrands};
     const StrandPoints points = evaluate(groom, settings, head);
     ASSERT_EQ(points.plan.strands(), 100u);
-    const std::vector<StrandBinding> bindings = inOrder(groom, 9);
+    const std::vector<groom::StrandBinding> bindings = inOrder(groom, 9);
     for (std::uint32_t strand = 0; strand < 100; ++strand) {
-        const Groom expected = alone(groom, bindings[strand], glm::dmat3(glm::mat3(head)));
+        const groom::Groom expected = alone(groom, bindings[strand], glm::dmat3(glm::mat3(head)));
         for (std::uint32_t i = 0; i < 7 * 5; ++i) {
             const double t = (i % 5) / 4.0;
             const auto& record = points.at(0, strand, i / 5, i % 5);
@@ -113,7 +117,7 @@ TEST_F(GroomStrandsTest, AreTheSumsOfTheirGuides) {
 
 // Weights and widths of strands between root triangles.
 TEST_F(GroomStrandsTest, WidthsOfTheGroomAreMixedBetweenRootTriangles) {
-    Groom groom = boundGroom(5, 0);
+    groom::Groom groom = boundGroom(5, 0);
     groom.root_triangles = {{0, 1, 2}, {3, 5, 4}};
     const Settings settings{
         .strands = {.density = 20, .tessellation = 4, .width = WidthSource::groom},
@@ -124,7 +128,7 @@ TEST_F(GroomStrandsTest, WidthsOfTheGroomAreMixedBetweenRootTriangles) {
         const std::uint32_t triangle = i / 120;
         const std::uint32_t strand = i / 12 % 10;
         const auto weights = reference::weights(settings.seed, triangle, strand);
-        const StrandBinding binding{
+        const groom::StrandBinding binding{
             .guides = groom.root_triangles[triangle],
             .weights = {weights[0], weights[1], weights[2]}};
         const std::uint32_t segment = i / 3 % 4;
@@ -136,7 +140,7 @@ TEST_F(GroomStrandsTest, WidthsOfTheGroomAreMixedBetweenRootTriangles) {
 }
 
 TEST_F(GroomStrandsTest, LowerLevelsKeepTheFirstStrandsAndWidenThem) {
-    const Groom groom = boundGroom(4, 301);
+    const groom::Groom groom = boundGroom(4, 301);
     Settings settings{.strands = kGroomStrands};
     const StrandPoints fine = evaluate(groom, settings);
     for (const auto& [level, kept, tessellation] :
@@ -158,7 +162,7 @@ TEST_F(GroomStrandsTest, LowerLevelsKeepTheFirstStrandsAndWidenThem) {
 
 // near 1 m, far 4 m, level 2 there. Guides at the origin, half of the strands 4 m away.
 TEST_F(GroomStrandsTest, EveryStrandHasTheLevelOfItsOwnRoot) {
-    Groom groom = boundGroom(3, 400);
+    groom::Groom groom = boundGroom(3, 400);
     for (std::size_t i = 0; i < 200; ++i) groom.bindings[2 * i].offset.z = -10.0f;
     const Settings settings{
         .strands = kGroomStrands,
@@ -169,7 +173,7 @@ TEST_F(GroomStrandsTest, EveryStrandHasTheLevelOfItsOwnRoot) {
              .maximum_level = 2.0f},
         .camera = {.position = {0.0f, 0.0f, 0.5f}}};
     const StrandPoints points = evaluate(groom, settings);
-    const std::vector<StrandBinding> bindings = inOrder(groom, settings.seed);
+    const std::vector<groom::StrandBinding> bindings = inOrder(groom, settings.seed);
     for (std::uint32_t strand = 0; strand < 400; ++strand) {
         const bool far = bindings[strand].offset.z < -5.0f;
         const auto& record = points.at(0, strand, 1, 0);
@@ -184,7 +188,7 @@ TEST_F(GroomStrandsTest, EveryStrandHasTheLevelOfItsOwnRoot) {
 
 // In the order of the file the first half would be one side of the head.
 TEST_F(GroomStrandsTest, StrandsAreDroppedAllOverTheGroom) {
-    Groom groom = boundGroom(2, 2000);
+    groom::Groom groom = boundGroom(2, 2000);
     for (std::size_t i = 0; i < 2000; ++i)
         groom.bindings[i] = {.offset = {0.0f, static_cast<float>(i), 0.0f}};
     const StrandPoints points =
@@ -196,7 +200,7 @@ TEST_F(GroomStrandsTest, StrandsAreDroppedAllOverTheGroom) {
 }
 
 TEST(CheckStrands, NamesWhatTheGroomLacks) {
-    Groom groom = boundGroom(3, 5);
+    groom::Groom groom = boundGroom(3, 5);
     EXPECT_EQ(errorText([&] { checkStrands(kGroomStrands, groom); }), "no error");
     groom.widths.clear();
     EXPECT_EQ(
@@ -210,4 +214,4 @@ TEST(CheckStrands, NamesWhatTheGroomLacks) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "hair/rendering/hair_color.h"
-#include "hair/rendering/working_color.h"
+#include "hair/rendering/render_assets.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 void expectNear(const glm::dvec3& value, const glm::dvec3& expected, double tolerance) {
@@ -54,4 +53,4 @@ TEST(HairColor, IsLinearAndComesBackFromPigments) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -8,7 +8,7 @@
 #include "tests/rendering/shadow_probe.h"
 
 // Deep opacity maps of strands whose mean number before a point is known.
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 using HairShadowTest = GpuTest;
@@ -22,8 +22,8 @@ struct Fans {
 
 constexpr float kReach = 0.1f;  // m: fans are from -kReach to kReach across and along strands
 
-Groom fansOfStrands(const Fans& fans) {
-    Groom groom{.vertices_per_strand = 3};
+groom::Groom fansOfStrands(const Fans& fans) {
+    groom::Groom groom{.vertices_per_strand = 3};
     const glm::vec3 along(std::sin(fans.angle), std::cos(fans.angle), 0.0f);
     const glm::vec3 across(along.y, -along.x, 0.0f);
     const int half = static_cast<int>(kReach / fans.pitch);
@@ -83,7 +83,7 @@ TEST_F(HairShadowTest, CountsTheFansBeforeAPoint) {
     constexpr float kWidth = 0.0004f;
     ASSERT_LT(fans.pitch, 0.5f * kTexel);  // the first fan, a texel wide, is in every texel
     const double c = kWidth / fans.pitch;
-    const Groom groom = fansOfStrands(fans);
+    const groom::Groom groom = fansOfStrands(fans);
     Settings settings = litFromAbove(kWidth);
     settings.shading.shadows.layer_depth = 0.01f;
     for (const LightType type : {LightType::directional, LightType::point, LightType::sphere}) {
@@ -128,7 +128,7 @@ TEST_F(HairShadowTest, ThinStrandsCoverTheirArea) {
             p.x * std::cos(fans.angle) + p.y * std::sin(fans.angle),
             p.y * std::cos(fans.angle) - p.x * std::sin(fans.angle), -0.05f};
     }
-    const Groom groom = fansOfStrands(fans);
+    const groom::Groom groom = fansOfStrands(fans);
     for (const float texels : {0.1f, 0.3f, 0.7f, 1.0f, 1.3f, 2.0f}) {
         Settings settings = litFromAbove(texels * kFine);
         settings.shading.shadows.softness = 3.0f;
@@ -171,8 +171,8 @@ TEST_F(HairShadowTest, OpacityCountsWhereItIsDrawn) {
 TEST_F(HairShadowTest, FollowsTheHead) {
     glm::mat4 head = glm::translate(glm::mat4(1.0f), {0.4f, -0.2f, 0.3f});
     head = glm::rotate(head, 2.0f, glm::normalize(glm::vec3(1.0f, -2.0f, 3.0f)));
-    const Groom groom = fansOfStrands({.pitch = 0.0015f});
-    Groom moved = groom;
+    const groom::Groom groom = fansOfStrands({.pitch = 0.0015f});
+    groom::Groom moved = groom;
     for (glm::vec3& point : moved.points) point = glm::vec3(head * glm::vec4(point, 1.0f));
     std::vector<glm::vec3> points = plane(0.2f);
     for (glm::vec3& point : points) point = glm::vec3(head * glm::vec4(point, 1.0f));
@@ -190,7 +190,7 @@ TEST_F(HairShadowTest, FollowsTheHead) {
 
 // Each light has its part of the atlas, and those without shadows none.
 TEST_F(HairShadowTest, LightsDoNotDisturbEachOther) {
-    const Groom groom = fansOfStrands({.depths = {0.0f, 0.03f}, .pitch = 0.0015f});
+    const groom::Groom groom = fansOfStrands({.depths = {0.0f, 0.03f}, .pitch = 0.0015f});
     Settings settings = litFromAbove(0.0006f);
     settings.shading.lights = {
         {.type = LightType::directional, .direction = {0.3f, 0.0f, -1.0f}},
@@ -217,7 +217,7 @@ TEST_F(HairShadowTest, LightsDoNotDisturbEachOther) {
 
 // A light among the hair throws the shadows of what is before it, and none behind it.
 TEST_F(HairShadowTest, LightMayBeAmongTheHair) {
-    const Groom groom = fansOfStrands({.depths = {-0.1f, 0.0f, 0.1f}, .pitch = 0.0011f});
+    const groom::Groom groom = fansOfStrands({.depths = {-0.1f, 0.0f, 0.1f}, .pitch = 0.0011f});
     Settings settings = litFromAbove(0.00044f);
     settings.shading.lights = {{.position = {0.0f, -kReach, 0.05f}}};
     const DeviceHair hair(device(), groom, settings);
@@ -235,7 +235,7 @@ TEST_F(HairShadowTest, LightMayBeAmongTheHair) {
 }
 
 TEST_F(HairShadowTest, BackEndsThrowTheSame) {
-    const Groom groom = tangledGroom(6);
+    const groom::Groom groom = tangledGroom(6);
     Settings settings = litFromAbove(0.002f);
     settings.strands.density = 30;
     const DeviceHair hair(device(), groom, settings);
@@ -249,4 +249,4 @@ TEST_F(HairShadowTest, BackEndsThrowTheSame) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

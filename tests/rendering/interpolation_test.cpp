@@ -11,19 +11,19 @@
 #include "tests/rendering/expect_near_reference.h"
 
 // Strands between three guides: thesis 2.3.1 to 2.3.4.
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 constexpr double kTolerance = 20 * 0x1p-24 * 1.5 * 2.0;  // as in expect_near_reference.h
 
 class InterpolationTest : public GpuTest {
 protected:
-    static StrandPoints evaluate(const Groom& groom, const StrandSettings& strands) {
+    static StrandPoints evaluate(const groom::Groom& groom, const StrandSettings& strands) {
         const DeviceHair hair(device(), groom, {.strands = strands});
         return evaluateStrandPoints(device(), {.strands = strands}, hair.view());
     }
 
-    static void expectReference(const Groom& groom, const StrandSettings& strands) {
+    static void expectReference(const groom::Groom& groom, const StrandSettings& strands) {
         expectNearReference(
             evaluate(groom, strands), groom, {.strands = strands}, madeUpContacts(groom));
     }
@@ -70,7 +70,7 @@ TEST_F(InterpolationTest, CollisionRuleAgreesWithTheReference) {
 }
 
 TEST_F(InterpolationTest, RootsAreTheSame) {
-    const Groom groom = tangledGroom(5);
+    const groom::Groom groom = tangledGroom(5);
     const StrandSettings plain{.density = 50, .tessellation = 1};
     const StrandPoints expected = evaluate(groom, plain);
     for (const Interpolation interpolation : kAll) {
@@ -96,7 +96,7 @@ TEST_F(InterpolationTest, RootsAreTheSame) {
 TEST_F(InterpolationTest, GuidesHaveEqualTerritories) {
     constexpr std::uint32_t kDensity = 1000;
     const glm::vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
-    Groom groom =
+    groom::Groom groom =
         oneTriangle({std::vector{x, x + x}, std::vector{y, y + y}, std::vector{z, z + z}});
     groom.root_triangles.assign(10, {0, 1, 2});
     const StrandPoints points = evaluate(
@@ -118,11 +118,11 @@ TEST_F(InterpolationTest, GuidesHaveEqualTerritories) {
 
 // The offset from the guide turns with the head.
 TEST_F(InterpolationTest, TurnsWithTheGuides) {
-    Groom groom = tangledGroom(5);
+    groom::Groom groom = tangledGroom(5);
     groom.root_normals.clear();
     const glm::mat3 turn(
         glm::rotate(glm::mat4(1.0f), 2.0f, glm::normalize(glm::vec3(1.0f, -2.0f, 3.0f))));
-    Groom turned = groom;
+    groom::Groom turned = groom;
     for (glm::vec3& point : turned.points) point = turn * point;
     for (const Interpolation interpolation : kAll) {
         const StrandSettings strands{
@@ -176,4 +176,4 @@ TEST_F(InterpolationTest, ThesissPatternIsThatOfEveryTriangle) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -1,5 +1,5 @@
 // Light on matt surfaces under a picture of light from all around.
-#include "hair/rendering/irradiance.h"
+#include "hair/rendering/environment.h"
 
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@
 
 #include "tests/rendering/environments.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 const glm::dvec3 kAxis = glm::normalize(glm::dvec3(0.3, 0.8, -0.5));
@@ -84,4 +84,4 @@ TEST(Irradiance, OfACosineLobeIsWithinAPerCent) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

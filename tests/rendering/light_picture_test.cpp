@@ -8,7 +8,7 @@
 #include "tests/largest_difference.h"
 #include "tests/rendering/linear_picture.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 class LightPictures : public GpuTest {};
@@ -32,7 +32,7 @@ std::vector<LightSettings> manyLights() {
 TEST_F(LightPictures, OfManyLightsAreTheSumOfEachAlone) {
     Settings settings = linearPicture(32, 32);
     settings.shading.lights = manyLights();
-    const Groom groom = tangledGroom(4);
+    const groom::Groom groom = tangledGroom(4);
     const std::vector<float> together = drawLinear(device(), settings, groom);
     std::vector<double> sum(together.size());
     for (const LightSettings& light : manyLights()) {
@@ -52,4 +52,4 @@ TEST_F(LightPictures, OfManyLightsAreTheSumOfEachAlone) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

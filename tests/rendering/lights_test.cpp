@@ -8,7 +8,7 @@
 
 #include "tests/rendering/model_probe.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 constexpr double kRounding = 4e-6;  // relative: some thirty of single precision
@@ -143,4 +143,4 @@ TEST_F(Lights, SizeWidensHighlights) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -7,7 +7,7 @@
 #include "hair/rendering/renderer.h"
 #include "tests/rendering/device_hair.h"
 
-namespace hair {
+namespace hair::rendering {
 
 // Small pictures in linear light on black, without shadows.
 inline Settings linearPicture(std::uint32_t width, std::uint32_t height) {
@@ -22,7 +22,7 @@ inline Settings linearPicture(std::uint32_t width, std::uint32_t height) {
 
 // Linear light of a groom, [row][column] RGB.
 inline std::vector<float>
-drawLinear(const engine::Device& device, const Settings& settings, const Groom& groom) {
+drawLinear(const engine::Device& device, const Settings& settings, const groom::Groom& groom) {
     const DeviceHair hair(device, groom, settings);
     Renderer renderer(device, settings, hair.view(), {});
     engine::FrameLoop loop(device, engine::Timing::overlapped);
@@ -31,4 +31,4 @@ drawLinear(const engine::Device& device, const Settings& settings, const Groom& 
     return engine::readRadiance(device, renderer.target());
 }
 
-}  // namespace hair
+}  // namespace hair::rendering

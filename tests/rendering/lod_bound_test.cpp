@@ -1,17 +1,17 @@
-#include "hair/rendering/lod_bound.h"
+#include "hair/rendering/strand_plan.h"
 
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 // Guides from the origin to points on a sphere have half of their points on it: the root of the
 // mean square distance is its radius over sqrt(2), but for the mean, which is the centre.
-Groom hedgehog(float radius, std::uint32_t guides) {
-    Groom groom{.strand_count = guides, .vertices_per_strand = 2};
+groom::Groom hedgehog(float radius, std::uint32_t guides) {
+    groom::Groom groom{.strand_count = guides, .vertices_per_strand = 2};
     for (std::uint32_t i = 0; i < guides; ++i) {
         const float angle =
             2.0f * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(guides);
@@ -29,7 +29,7 @@ TEST(LodBound, LetsTheOutlineGrowByItsPart) {
 }
 
 TEST(LodBound, KnowsTheTaperAndTheGroomsWidths) {
-    Groom groom = hedgehog(0.2f, 10);
+    groom::Groom groom = hedgehog(0.2f, 10);
     const auto bound = [&](const StrandSettings& strands) {
         return greatestWidthScale(groom, strands) - 1.0f;
     };
@@ -48,4 +48,4 @@ TEST(LodBound, IsNoneOfStrandsWithoutWidth) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

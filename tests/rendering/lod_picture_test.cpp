@@ -1,12 +1,12 @@
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
-#include "benchmarks/lod_difference.h"
+#include "benchmarks/lod/walk.h"
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/pictures.h"
 
 // Level of detail as it is seen: thesis 2.3.8.1.
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 class LodPictureTest : public GpuTest {
@@ -48,7 +48,7 @@ TEST_F(LodPictureTest, FarHairIsThatOfTheMaximumLevel) {
     EXPECT_EQ(differingPixels(draw(settings), forced), 0u);
 }
 
-// Where lod_bound.h keeps strands from getting wider, distance alone draws no coarser ones.
+// Where strand_plan.h keeps strands from getting wider, distance alone draws no coarser ones.
 TEST_F(LodPictureTest, StrandsStopAtTheirGreatestWidth) {
     Settings settings = small();
     settings.strands.tessellation = 1;
@@ -62,7 +62,7 @@ TEST_F(LodPictureTest, StrandsStopAtTheirGreatestWidth) {
 }
 
 // From 1 m to 20 m, the hair as large in the picture at all of them and 16 samples a pixel. Level 0
-// covers some 160,000 samples, which chance spreads by 0.1 %; lod_bound.h lets the outline grow by
+// covers some 160,000 samples, which chance spreads by 0.1 %; strand_plan.h lets the outline grow by
 // 3 %.
 TEST_F(LodPictureTest, KeepsCoverageFromOneToTwentyMetres) {
     Settings settings = thesisAtRest();
@@ -74,7 +74,7 @@ TEST_F(LodPictureTest, KeepsCoverageFromOneToTwentyMetres) {
     settings.shading.specular = 0.0f;
     const auto coverage = [&](LodMode mode) {
         settings.lod.mode = mode;
-        return benchmarks::whiteShare(draw(settings));
+        return benchmarks::lod::whiteShare(draw(settings));
     };
     for (const float distance : {1.0f, 3.0f, 8.0f, 20.0f}) {
         settings.camera.position = {0.0f, 0.0f, distance};
@@ -116,4 +116,4 @@ TEST_F(LodPictureTest, CoveredAreaIsKept) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -6,14 +6,14 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "hair/rendering/lod_levels.h"
+#include "hair/rendering/strand_plan.h"
 #include "hair/rendering/strand_points.h"
 #include "tests/gpu_fixture.h"
 #include "tests/largest_difference.h"
 #include "tests/rendering/device_hair.h"
 
 // Levels of detail of strands as points: thesis 2.3.8.1, but without jumps.
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 // A strand's polyline: in each segment, at `t`. Absent where it is not drawn.
@@ -41,7 +41,7 @@ std::optional<Place> placeOnLine(
 
 class LodStrandsTest : public GpuTest {
 protected:
-    static StrandPoints evaluate(const Groom& groom, const Settings& settings) {
+    static StrandPoints evaluate(const groom::Groom& groom, const Settings& settings) {
         const DeviceHair hair(device(), groom, settings);
         return evaluateStrandPoints(device(), settings, hair.view());
     }
@@ -223,7 +223,7 @@ TEST_F(LodStrandsTest, JointsHaveNoGaps) {
 // is longer than that of level 0 or shorter than the chords of the guide segments. The widths of
 // all strands add up to the same everywhere; sums of 50 floats are off by some 1e-6.
 TEST_F(LodStrandsTest, AreaIsKept) {
-    Groom groom = tangledGroom(8);
+    groom::Groom groom = tangledGroom(8);
     groom.root_triangles = {{0, 0, 0}};  // all strands of a length
     const auto pointsAt = [&](float level) {
         return evaluate(
@@ -271,7 +271,7 @@ TEST_F(LodStrandsTest, StrandsLeaveInOneOrder) {
             .far_distance = 16.0f,
             .maximum_level = 4.0f}};
     std::uint32_t before = 40;
-    const Groom groom = tangledGroom(3);
+    const groom::Groom groom = tangledGroom(3);
     for (const float distance : {1.0f, 1.6f, 2.9f, 6.0f, 13.0f, 30.0f}) {
         settings.camera.position = {0.0f, 0.0f, distance};
         const StrandPoints points = evaluate(groom, settings);
@@ -287,7 +287,7 @@ TEST_F(LodStrandsTest, StrandsLeaveInOneOrder) {
 
 // What the host says of a path is what the device draws.
 TEST_F(LodStrandsTest, HostCountsWhatTheDeviceDraws) {
-    const Groom groom = tangledGroom(3);
+    const groom::Groom groom = tangledGroom(3);
     Settings settings{
         .strands = {.density = 40, .tessellation = 2, .root_width = 1e-4f, .tip_width = 1e-4f},
         .lod = {
@@ -308,4 +308,4 @@ TEST_F(LodStrandsTest, HostCountsWhatTheDeviceDraws) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

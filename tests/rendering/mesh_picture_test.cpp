@@ -8,7 +8,7 @@
 #include "tests/rendering/mesh_pictures.h"
 #include "tests/rendering/surface_reference.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 constexpr Rgb kRed{255, 0, 0};
@@ -27,19 +27,21 @@ engine::Pixels picture(std::uint32_t width, const std::vector<Rgb>& colors, int 
 }
 
 // A texture whose pixels are seen as squares.
-MaterialTexture sharp(std::uint32_t index = 0) { return {.picture = index, .is_smooth = false}; }
+groom::MaterialTexture sharp(std::uint32_t index = 0) {
+    return {.picture = index, .is_smooth = false};
+}
 
 class MeshPictureTest : public GpuTest {
 protected:
-    static Mesh painted() {
-        Mesh mesh = quad({.base_color = {1, 1, 1}, .base_color_texture = sharp()});
+    static groom::Mesh painted() {
+        groom::Mesh mesh = quad({.base_color = {1, 1, 1}, .base_color_texture = sharp()});
         mesh.pictures = {picture(2, {kRed, kGreen, kBlue, kGrey})};
         return mesh;
     }
 
     // A square of white with this normal everywhere, as bytes of the map.
-    static Mesh tilted(const Rgb& normal) {
-        Mesh mesh = quad({.base_color = {1, 1, 1}, .normal_texture = sharp()});
+    static groom::Mesh tilted(const Rgb& normal) {
+        groom::Mesh mesh = quad({.base_color = {1, 1, 1}, .normal_texture = sharp()});
         mesh.pictures = {picture(1, {normal})};
         return mesh;
     }
@@ -73,22 +75,22 @@ TEST_F(MeshPictureTest, ShowsPicturesInLinearLight) {
 }
 
 TEST_F(MeshPictureTest, RepeatsMirrorsAndClampsPictures) {
-    Mesh mesh = painted();
+    groom::Mesh mesh = painted();
     // From -1 to 2: the picture is the middle third.
     for (glm::vec2& c : mesh.texture_coordinates) c = 3.0f * c - 1.0f;
-    mesh.materials[0].base_color_texture->vertical = Wrap::clamp;
+    mesh.materials[0].base_color_texture->vertical = groom::Wrap::clamp;
     Pixels pixels = drawQuad(device(), quadSettings(24), mesh);
     EXPECT_EQ(at(pixels, 24, 2, 2), kRed);
     EXPECT_EQ(at(pixels, 24, 6, 2), kGreen);
     EXPECT_EQ(at(pixels, 24, 2, 21), kBlue);
-    mesh.materials[0].base_color_texture->horizontal = Wrap::mirror;
+    mesh.materials[0].base_color_texture->horizontal = groom::Wrap::mirror;
     pixels = drawQuad(device(), quadSettings(24), mesh);
     EXPECT_EQ(at(pixels, 24, 2, 2), kGreen);
     EXPECT_EQ(at(pixels, 24, 6, 2), kRed);
 }
 
 TEST_F(MeshPictureTest, LeavesPicturesWithoutCoordinates) {
-    Mesh mesh = painted();
+    groom::Mesh mesh = painted();
     mesh.texture_coordinates.clear();
     EXPECT_EQ(at(drawQuad(device(), quadSettings(16), mesh), 16, 4, 4), (Rgb{255, 255, 255}));
 }
@@ -99,7 +101,8 @@ TEST_F(MeshPictureTest, AveragesPicturesFromFar) {
     std::vector<Rgb> board;
     for (std::uint32_t i = 0; i < kSide * kSide; ++i)
         board.push_back((i + i / kSide) % 2 == 0 ? Rgb{0, 0, 0} : Rgb{255, 255, 255});
-    Mesh mesh = quad({.base_color = {1, 1, 1}, .base_color_texture = MaterialTexture{}});
+    groom::Mesh mesh =
+        quad({.base_color = {1, 1, 1}, .base_color_texture = groom::MaterialTexture{}});
     mesh.pictures = {picture(kSide, board)};
     const Pixels display = drawQuad(device(), quadSettings(8), mesh);
     const Pixels light = drawQuad(device(), linearSettings(8), mesh);
@@ -120,7 +123,7 @@ TEST_F(MeshPictureTest, TiltsNormalsByTheirMap) {
     const glm::dvec3 to_light = glm::normalize(glm::dvec3(0.3, 0.5, 0.8));
     Settings settings = quadSettings(9);
     lightFrom(settings, to_light);
-    Mesh mesh = tilted(kTilt);
+    groom::Mesh mesh = tilted(kTilt);
     // Red is to the right of the picture, green up.
     expectNear(
         at(drawQuad(device(), settings, mesh), 9, 4, 4),
@@ -138,14 +141,14 @@ TEST_F(MeshPictureTest, TiltsNormalsWithThePicture) {
     lightFrom(settings, to_light);
     const glm::dvec3 normal = normalOf(kTilt);
 
-    Mesh mirrored = tilted(kTilt);
+    groom::Mesh mirrored = tilted(kTilt);
     for (glm::vec2& c : mirrored.texture_coordinates) c.x = 1.0f - c.x;
     expectNear(
         at(drawQuad(device(), settings, mirrored), 9, 4, 4),
         255.0 * glm::dot(glm::dvec3(-normal.x, normal.y, normal.z), to_light));
 
     // u grows upward and v to the right: a quarter turn against the clock.
-    Mesh turned = tilted(kTilt);
+    groom::Mesh turned = tilted(kTilt);
     for (glm::vec2& c : turned.texture_coordinates) c = {1.0f - c.y, c.x};
     expectNear(
         at(drawQuad(device(), settings, turned), 9, 4, 4),
@@ -159,7 +162,7 @@ TEST_F(MeshPictureTest, ReflectsByItsMaterialInLinearLight) {
     settings.render.tone_map = ToneMap::srgb;
     settings.shading.lights = {{.type = LightType::directional, .direction = -glm::vec3(to_light)}};
     settings.shading.ambient = 0.0f;
-    Mesh mesh = quad(
+    groom::Mesh mesh = quad(
         {.base_color = {1, 1, 1},
          .metallic = 0.5f,
          .roughness = 0.5f,
@@ -174,7 +177,7 @@ TEST_F(MeshPictureTest, ReflectsByItsMaterialInLinearLight) {
 }
 
 TEST_F(MeshPictureTest, IsNotWhereItsMaskIsNot) {
-    Mesh mesh = painted();
+    groom::Mesh mesh = painted();
     mesh.pictures[0].rgba[3] = 100;  // red
     mesh.materials[0].opacity = 0.5f;
     EXPECT_EQ(at(drawQuad(device(), quadSettings(16), mesh), 16, 4, 4), kRed);  // opaque
@@ -189,11 +192,11 @@ TEST_F(MeshPictureTest, HasTwoSidesIfItsMaterialHas) {
     settings.camera.position.z = -0.5f;  // behind
     const glm::vec3 to_light(0.0f, 0.6f, -0.8f);
     lightFrom(settings, to_light);
-    Mesh mesh = quad({.base_color = {1, 1, 1}});
+    groom::Mesh mesh = quad({.base_color = {1, 1, 1}});
     EXPECT_EQ(at(drawQuad(device(), settings, mesh), 9, 4, 4), kBackground);
     mesh.materials[0].double_sided = true;
     expectNear(at(drawQuad(device(), settings, mesh), 9, 4, 4), 255.0 * 0.8);
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -11,13 +11,13 @@
 #include "tests/rendering/device_hair.h"
 #include "tests/rendering/pictures.h"
 
-namespace hair {
+namespace hair::rendering {
 
 using Rgb = std::array<int, 3>;
 
 // A square of 1 m in the plane z = 0 that faces +z, with the texture coordinates of glTF: (0, 0) is
 // up left.
-inline Mesh quad(const Material& material = {}) {
+inline groom::Mesh quad(const groom::Material& material = {}) {
     return {
         .positions =
             {{-0.5f, -0.5f, 0.0f}, {0.5f, -0.5f, 0.0f}, {0.5f, 0.5f, 0.0f}, {-0.5f, 0.5f, 0.0f}},
@@ -58,7 +58,8 @@ inline void lightFrom(Settings& settings, const glm::vec3& to_light) {
 inline Pixels drawScene(
     const engine::Device& device, const Settings& settings, const RenderAssets& assets,
     const glm::mat4& head = glm::mat4(1.0f),
-    const Groom& groom = oneTriangle(std::vector{glm::vec3(0, 0, 5), glm::vec3(0, 0.1, 5)})) {
+    const groom::Groom& groom = oneTriangle(std::vector{
+        glm::vec3(0, 0, 5), glm::vec3(0, 0.1, 5)})) {
     const DeviceHair hair(device, groom, settings);
     StrandView view = hair.view();
     view.head = head;
@@ -69,7 +70,8 @@ inline Pixels drawScene(
     return engine::readOutput(device, renderer.target());
 }
 
-inline Pixels drawQuad(const engine::Device& device, const Settings& settings, const Mesh& mesh) {
+inline Pixels
+drawQuad(const engine::Device& device, const Settings& settings, const groom::Mesh& mesh) {
     return drawScene(device, settings, {.head = &mesh});
 }
 
@@ -84,4 +86,4 @@ inline double displayByte(double linear) {
            (linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055);
 }
 
-}  // namespace hair
+}  // namespace hair::rendering

@@ -2,23 +2,23 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "benchmarks/assets.h"
-#include "hair/rendering/mesh_geometry.h"
+#include "benchmarks/measure/case.h"
+#include "hair/rendering/scene_meshes.h"
 #include "tests/error_text.h"
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/mesh_pictures.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 constexpr Rgb kWhite{255, 255, 255};
 constexpr Rgb kBackground{64, 38, 46};
 
-Mesh white() { return quad({.base_color = {1, 1, 1}}); }
+groom::Mesh white() { return quad({.base_color = {1, 1, 1}}); }
 
 // The turns take +y to +z, then that to +x, then that to +y.
 TEST(MeshPlacement, ScalesTurnsAboutXThenYThenZAndMoves) {
-    Mesh mesh = white();
+    groom::Mesh mesh = white();
     mesh.positions[0] = {0, 1, 0};
     mesh.normals[0] = {0, 1, 0};
     const auto place = [&](const glm::vec3& rotation) {
@@ -41,7 +41,7 @@ TEST_F(MeshPlacementTest, OnlyTheHeadMoves) {
     Settings settings = quadSettings(20);
     // Seen from 0.5 m, half a metre is the picture's half: each square is an eighth of its side.
     settings.render.meshes = {{.translation = {0.25f, 0.25f, 0.0f}, .scale = 0.125f}};
-    Mesh head = white();
+    groom::Mesh head = white();
     for (glm::vec3& position : head.positions) position *= 0.125f;
     const RenderAssets assets{.head = &head, .meshes = {white()}};
     const Pixels still = drawScene(device(), settings, assets);
@@ -59,7 +59,7 @@ TEST_F(MeshPlacementTest, OnlyTheHeadIsHidden) {
     Settings settings = quadSettings(20);
     settings.render.meshes = {{.translation = {0.25f, 0.25f, 0.0f}, .scale = 0.125f}};
     settings.render.head = false;
-    const Mesh head = white();
+    const groom::Mesh head = white();
     const Pixels pixels = drawScene(device(), settings, {.head = &head, .meshes = {white()}});
     EXPECT_EQ(at(pixels, 20, 15, 5), kWhite);
     EXPECT_EQ(at(pixels, 20, 5, 15), kBackground);
@@ -70,13 +70,13 @@ TEST(MeshAssets, NeedFiles) {
     settings.render.meshes = {{.file = "assets/head.glb"}, {}};
     const std::string scene = HAIRBENCH_SCENES_DIR "/rest.json";
     EXPECT_EQ(
-        errorText([&] { benchmarks::checkAssets(settings, scene); }),
+        errorText([&] { benchmarks::measure::checkAssets(settings, scene); }),
         scene + ": /render/meshes/1/file: is empty");
     settings.render.meshes[1].file = "nowhere.glb";
     EXPECT_EQ(
-        errorText([&] { benchmarks::checkAssets(settings, scene); }),
+        errorText([&] { benchmarks::measure::checkAssets(settings, scene); }),
         HAIRBENCH_SCENES_DIR "/nowhere.glb: no such file");
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -7,7 +7,7 @@
 #include "tests/rendering/shadow_probe.h"
 
 // Shadow maps of a square.
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 using MeshShadowTest = GpuTest;
@@ -18,7 +18,7 @@ constexpr float kHalf = 0.05f;  // m, of the square's side
 constexpr float kRounding = 1e-5f;
 
 // Round the origin, with this normal.
-Mesh square(const glm::vec3& normal) {
+groom::Mesh square(const glm::vec3& normal) {
     const glm::vec3 a = glm::normalize(glm::cross(normal, glm::vec3(0.3f, 1.0f, 0.2f)));
     const glm::vec3 b = glm::cross(normal, a);
     return {
@@ -30,8 +30,8 @@ Mesh square(const glm::vec3& normal) {
 }
 
 // One across z, its sides along x and y.
-Mesh squareAcrossZ() {
-    Mesh mesh = square({0.0f, 0.0f, 1.0f});
+groom::Mesh squareAcrossZ() {
+    groom::Mesh mesh = square({0.0f, 0.0f, 1.0f});
     mesh.positions = {
         {-kHalf, -kHalf, 0.0f}, {kHalf, -kHalf, 0.0f}, {kHalf, kHalf, 0.0f}, {-kHalf, kHalf, 0.0f}};
     return mesh;
@@ -91,7 +91,7 @@ void expectGeometry(
 }
 
 TEST_F(MeshShadowTest, SquareShadesWhatIsBehindIt) {
-    const Mesh mesh = squareAcrossZ();
+    const groom::Mesh mesh = squareAcrossZ();
     const LightSettings directional{
         .type = LightType::directional, .direction = {0.0f, 0.0f, -1.0f}};
     const LightSettings oblique{.type = LightType::directional, .direction = {0.3f, -0.2f, -1.0f}};
@@ -109,7 +109,7 @@ TEST_F(MeshShadowTest, SquareShadesWhatIsBehindIt) {
 }
 
 TEST_F(MeshShadowTest, WhatIsBeforeTheSquareIsLit) {
-    const Mesh mesh = squareAcrossZ();
+    const groom::Mesh mesh = squareAcrossZ();
     const Settings settings = meshShadows({.position = {0.1f, 0.2f, 1.0f}});
     for (const FoundPath& path :
          findPaths(device(), settings, bald(), {.head = &mesh}, grid(0.09f, 0.01f)))
@@ -125,7 +125,7 @@ TEST_F(MeshShadowTest, SurfacesShadeNotThemselvesButWhatIsCloseBehind) {
         const float angle = degrees * 0.0174533f;
         const glm::vec3 normal = glm::normalize(
             glm::vec3(0.8f * std::sin(angle), 0.6f * std::sin(angle), std::cos(angle)));
-        const Mesh mesh = square(normal);
+        const groom::Mesh mesh = square(normal);
         for (const LightType type : {LightType::directional, LightType::point}) {
             Settings settings =
                 meshShadows({.type = type, .position = {0.0f, 0.0f, 1.0f}, .direction = down});
@@ -160,7 +160,7 @@ TEST_F(MeshShadowTest, SurfacesShadeNotThemselvesButWhatIsCloseBehind) {
 TEST_F(MeshShadowTest, StrandsOnASurfaceAreLit) {
     const glm::vec3 down(0.0f, 0.0f, -1.0f);
     const glm::vec3 normal = glm::normalize(glm::vec3(1.0f, 0.0f, 1.0f));
-    const Mesh mesh = square(normal);
+    const groom::Mesh mesh = square(normal);
     const Settings settings = meshShadows({.type = LightType::directional, .direction = down});
     const glm::vec3 a = 0.5f * (mesh.positions[1] - mesh.positions[0]);
     const glm::vec3 b = 0.5f * (mesh.positions[2] - mesh.positions[1]);
@@ -178,4 +178,4 @@ TEST_F(MeshShadowTest, StrandsOnASurfaceAreLit) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

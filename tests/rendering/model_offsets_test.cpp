@@ -12,7 +12,7 @@
 #include "tests/rendering/device_hair.h"
 
 // Offsets that are taken from the strands of a model.
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
@@ -31,8 +31,8 @@ std::vector<glm::vec3> helix(std::size_t points) {
     return strand;
 }
 
-StrandSet strandSet(const std::vector<std::vector<glm::vec3>>& strands) {
-    StrandSet set;
+groom::StrandSet strandSet(const std::vector<std::vector<glm::vec3>>& strands) {
+    groom::StrandSet set;
     for (const std::vector<glm::vec3>& strand : strands) {
         set.points.insert(set.points.end(), strand.begin(), strand.end());
         set.ends.push_back(static_cast<std::uint32_t>(set.points.size()));
@@ -40,11 +40,11 @@ StrandSet strandSet(const std::vector<std::vector<glm::vec3>>& strands) {
     return set;
 }
 
-Groom straight(double length) {
+groom::Groom straight(double length) {
     return oneTriangle({{0.0f, 0.0f, 0.0f}, {0.0f, static_cast<float>(length), 0.0f}});
 }
 
-StrandOffsets make(const StrandSet& model, double length) {
+StrandOffsets make(const groom::StrandSet& model, double length) {
     return makeStrandOffsets({.offsets = "model"}, straight(length), &model, 1);
 }
 
@@ -149,4 +149,4 @@ TEST(ModelOffsets, AreFiniteForAnyStrand) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -4,14 +4,14 @@
 #include <span>
 #include <vector>
 
+#include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/pipeline.h"
-#include "engine/transfer.h"
 #include "hair/gpu_structs.h"
 #include "hair/rendering/lights.h"
 #include "tests/gpu_fixture.h"
 
-namespace hair {
+namespace hair::rendering {
 
 // What the device's functions of lights and models say at points, of the lights of settings.
 inline std::vector<gpu::ModelProbe> probeModels(
@@ -39,4 +39,4 @@ inline std::vector<gpu::ModelProbe> probeModels(
     return engine::downloadAs<gpu::ModelProbe>(device, buffer);
 }
 
-}  // namespace hair
+}  // namespace hair::rendering

@@ -10,7 +10,7 @@
 #include "tests/rendering/pictures.h"
 
 // Pictures of a head that has moved.
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 using MovedHeadTest = GpuTest;
@@ -20,14 +20,14 @@ using MovedHeadTest = GpuTest;
 TEST_F(MovedHeadTest, StrandsMoveWithTheHead) {
     glm::mat4 head = glm::translate(glm::mat4(1.0f), {0.1f, -0.2f, 0.3f});
     head = glm::rotate(head, 2.0f, glm::normalize(glm::vec3(1.0f, -2.0f, 3.0f)));
-    const Groom groom = tangledGroom(6);
-    Groom moved = groom;
+    const groom::Groom groom = tangledGroom(6);
+    groom::Groom moved = groom;
     for (glm::vec3& point : moved.points) point = glm::vec3(head * glm::vec4(point, 1.0f));
-    Groom flat = moved;
+    groom::Groom flat = moved;
     flat.root_normals.clear();
 
     const Settings settings{.strands = {.density = 30, .tessellation = 2}};
-    const auto evaluate = [&](const Groom& of, const glm::mat4& where) {
+    const auto evaluate = [&](const groom::Groom& of, const glm::mat4& where) {
         const DeviceHair hair(device(), of);
         StrandView view = hair.view();
         view.head = where;
@@ -96,7 +96,7 @@ TEST_F(MovedHeadTest, FrozenHairFollowsInEveryFrame) {
     Settings settings = small();
     settings.simulation.motion = {
         .keyframes = {{.time = 0.0f}, {.time = 0.5f, .rotation = {0.0f, 60.0f, 0.0f}}}};
-    benchmarks::Case picture(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
+    benchmarks::measure::Case picture(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
     engine::FrameLoop loop(device(), engine::Timing::overlapped);
     for (int i = 0; i < 31; ++i) loop.frame([&](engine::Passes& passes) { picture.frame(passes); });
     loop.finish();
@@ -108,4 +108,4 @@ TEST_F(MovedHeadTest, FrozenHairFollowsInEveryFrame) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

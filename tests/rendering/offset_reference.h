@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "hair/groom/style/strand_frames.h"
+#include "hair/groom/style/displace.h"
 #include "hair/rendering/strand_offsets.h"
 #include "tests/rendering/strand_reference.h"
 
@@ -18,7 +18,8 @@ struct Offset {
 };
 
 // Catmull and Rom 1974 with tension 1/2, as a matrix.
-inline Offset offsetAt(const StrandOffsets& offsets, std::uint32_t profile, double along) {
+inline Offset
+offsetAt(const rendering::StrandOffsets& offsets, std::uint32_t profile, double along) {
     constexpr double kBasis[4][4] = {{0, 2, 0, 0}, {-1, 0, 1, 0}, {2, -5, 4, -1}, {-1, 3, -3, 1}};
     const double intervals = offsets.samples - 1;
     const double interval = std::min(std::floor(along * intervals), intervals - 1.0);
@@ -41,12 +42,12 @@ inline Offset offsetAt(const StrandOffsets& offsets, std::uint32_t profile, doub
 // The frame of the guide that counts most, at rest: its normals as a B-spline, made square to the
 // strand.
 inline glm::dmat3 frameAt(
-    const Groom& groom, std::uint32_t guide, std::uint32_t segment, double t,
+    const groom::Groom& groom, std::uint32_t guide, std::uint32_t segment, double t,
     const glm::dvec3& tangent) {
     constexpr double kBasis[4][4] = {{-1, 3, -3, 1}, {3, -6, 3, 0}, {-3, 0, 3, 0}, {1, 4, 1, 0}};
     const double powers[4] = {t * t * t, t * t, t, 1.0};
-    const glm::vec3 start(across(rootDirection(groom.strand(guide))));
-    const std::vector<StrandFrame> frames = strandFrames(groom.strand(guide), &start);
+    const glm::vec3 start(groom::across(groom::rootDirection(groom.strand(guide))));
+    const std::vector<groom::StrandFrame> frames = groom::strandFrames(groom.strand(guide), &start);
     glm::dvec3 normal(0.0);
     for (int column = 0; column < 4; ++column) {
         const int index = std::clamp(
@@ -61,7 +62,7 @@ inline glm::dmat3 frameAt(
 }
 
 inline Point offsetPoint(
-    const Groom& groom, const Settings& settings, const StrandOffsets& offsets,
+    const groom::Groom& groom, const Settings& settings, const rendering::StrandOffsets& offsets,
     std::uint32_t triangle, std::uint32_t strand, std::uint32_t segment, double t) {
     Point point = pointOnStrand(groom, settings, triangle, strand, segment, t);
     const auto w = weights(settings.seed, triangle, strand);

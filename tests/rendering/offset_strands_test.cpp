@@ -10,20 +10,20 @@
 #include "tests/rendering/offset_reference.h"
 
 // Strands off their smooth shape, as the shaders draw them: thesis 2.3.8.2 and 2.3.8.3.
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 class OffsetStrandsTest : public GpuTest {
 protected:
-    static StrandPoints evaluate(const Groom& groom, const Settings& settings) {
+    static StrandPoints evaluate(const groom::Groom& groom, const Settings& settings) {
         const DeviceHair hair(device(), groom, settings);
         return evaluateStrandPoints(device(), settings, hair.view());
     }
 
     // The same strands without what moves them off their shape.
-    static StrandPoints evaluateSmooth(const Groom& groom, Settings settings) {
+    static StrandPoints evaluateSmooth(const groom::Groom& groom, Settings settings) {
         settings.strands.curl.radius = 0.0f;
         settings.strands.variation.amplitude = 0.0f;
         return evaluate(groom, settings);
@@ -34,7 +34,7 @@ constexpr StrandCurlSettings kCurl{
     .radius = 0.004f, .frequency = 40.0f, .frequency_variation = 0.0f, .start = 0.2f};
 
 // Parallel guides of 0.3 m: 12 turns.
-Groom straight() {
+groom::Groom straight() {
     std::array<std::vector<glm::vec3>, 3> guides;
     for (int v = 0; v < 16; ++v) {
         const float height = 0.02f * static_cast<float>(v);
@@ -50,7 +50,7 @@ Groom straight() {
 // offset of 0.01 m, and the place in the table to 2^-24 of a slope of 2 pi 5 turns 0.01 m.
 TEST_F(OffsetStrandsTest, AgreeWithTheReference) {
     constexpr double kTolerance = 20 * 0x1p-24 * 1.5 * 2.0 + 1e-6;
-    const Groom groom = tangledGroom(8);
+    const groom::Groom groom = tangledGroom(8);
     const Settings settings{
         .seed = 5,
         .strands = {
@@ -136,8 +136,8 @@ Settings everything(std::uint32_t tessellation, Curve curve) {
             .curve = curve}};
 }
 
-Groom tangledWithWidths() {
-    Groom groom = tangledGroom(8);
+groom::Groom tangledWithWidths() {
+    groom::Groom groom = tangledGroom(8);
     for (std::size_t i = 0; i < groom.points.size(); ++i)
         groom.widths.push_back(1e-4f * static_cast<float>(1 + i * 7 % 11));
     return groom;
@@ -204,4 +204,4 @@ TEST_F(OffsetStrandsTest, VariationMovesItsShareOfTheStrands) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

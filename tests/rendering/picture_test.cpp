@@ -6,7 +6,7 @@
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/pictures.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 class PictureTest : public GpuTest {
@@ -42,7 +42,7 @@ TEST_F(PictureTest, SampleCountsTheDeviceLacksAreUnsupported) {
 }
 
 // A square of 0.4 m in the plane z = 0 that faces the camera.
-Mesh wall() {
+groom::Mesh wall() {
     return {
         .positions =
             {{-0.2f, -0.2f, 0.0f}, {0.2f, -0.2f, 0.0f}, {0.2f, 0.2f, 0.0f}, {-0.2f, 0.2f, 0.0f}},
@@ -53,7 +53,7 @@ Mesh wall() {
 }
 
 // A tuft at this depth, small enough that the wall covers it from the camera at z = 0.5.
-Groom tuft(float z) {
+groom::Groom tuft(float z) {
     const auto guide = [&](float x, float y) {
         return std::vector<glm::vec3>{{x, y, z}, {x, y + 0.03f, z}, {x + 0.02f, y + 0.06f, z}};
     };
@@ -62,7 +62,7 @@ Groom tuft(float z) {
 
 TEST_F(PictureTest, HairIsHiddenBehindAMeshAndSeenBeforeIt) {
     Settings settings = square(200);
-    const Mesh mesh = wall();
+    const groom::Mesh mesh = wall();
     Settings bald = settings;
     bald.strands.root_width = 0.0f;
     bald.strands.tip_width = 0.0f;
@@ -89,13 +89,13 @@ TEST_F(PictureTest, HairIsHiddenBehindAMeshAndSeenBeforeIt) {
 // Depth is decided pixel by pixel: of hair that passes through the wall, the half before it is
 // seen.
 TEST_F(PictureTest, HairThroughAMeshIsCutByIt) {
-    Groom groom = tuft(0.0f);
+    groom::Groom groom = tuft(0.0f);
     for (glm::vec3& point : groom.points) point.z = point.x;  // half before, half behind the wall
     Settings settings = square(200);
     Settings bald = settings;
     bald.strands.root_width = 0.0f;
     bald.strands.tip_width = 0.0f;
-    const Mesh mesh = wall();
+    const groom::Mesh mesh = wall();
     const Pixels both = drawGroom(device(), settings, groom, &mesh);
     const Pixels wall_alone = drawGroom(device(), bald, groom, &mesh);
     std::size_t left = 0;
@@ -122,7 +122,7 @@ Pixels drawStraightStrand(const engine::Device& device, double pixels, Settings 
     settings.strands.tessellation = 2;
     settings.strands.root_width = static_cast<float>(pixels * 0.1 / 64.0);
     settings.strands.tip_width = settings.strands.root_width;
-    const Groom groom = oneTriangle(
+    const groom::Groom groom = oneTriangle(
         std::vector<glm::vec3>{{0.0f, -0.3f, 0.0f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.3f, 0.0f}});
     return drawGroom(device, settings, groom, nullptr);
 }
@@ -183,4 +183,4 @@ TEST_F(PictureTest, APixelIsTheMeanOfItsSamples) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

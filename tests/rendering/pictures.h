@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/case.h"
+#include "benchmarks/measure/case.h"
 #include "engine/frame_loop.h"
 #include "hair/rendering/renderer.h"
 #include "tests/rendering/device_hair.h"
 
-namespace hair {
+namespace hair::rendering {
 
 using Pixels = std::vector<std::uint8_t>;  // [row][column] RGBA, top row first
 
@@ -37,7 +37,7 @@ inline Settings thesisAtRest() {
 
 // The first frame of a case.
 inline Pixels drawCase(const engine::Device& device, const Settings& settings) {
-    benchmarks::Case picture(device, settings, HAIRBENCH_SOURCE_DIR "/scenes");
+    benchmarks::measure::Case picture(device, settings, HAIRBENCH_SOURCE_DIR "/scenes");
     engine::FrameLoop loop(device, engine::Timing::overlapped);
     loop.frame([&](engine::Passes& passes) { picture.frame(passes); });
     loop.finish();
@@ -55,8 +55,8 @@ inline Pixels drawBald(const engine::Device& device, Settings settings) {
 
 // A groom and a mesh of the test's own making.
 inline Pixels drawGroom(
-    const engine::Device& device, const Settings& settings, const Groom& groom, const Mesh* mesh,
-    const StrandSet* offsets = nullptr) {
+    const engine::Device& device, const Settings& settings, const groom::Groom& groom,
+    const groom::Mesh* mesh, const groom::StrandSet* offsets = nullptr) {
     const DeviceHair hair(device, groom, settings, offsets);
     Renderer renderer(device, settings, hair.view(), {.head = mesh});
     engine::FrameLoop loop(device, engine::Timing::overlapped);
@@ -65,4 +65,4 @@ inline Pixels drawGroom(
     return engine::readOutput(device, renderer.target());
 }
 
-}  // namespace hair
+}  // namespace hair::rendering

@@ -16,8 +16,8 @@
 // What the papers define, from the settings on and by brute force: integrals are sums over points,
 // paths are traced through the fibre's cross-section, series are summed term by term. Nothing is
 // shared with the program, which makes the device's parameters and tables from its own reference:
-// an error in those would be in both. Directions, h and the lobes as in reference_fiber.h.
-namespace hair::published {
+// an error in those would be in both. Directions, h and the lobes as in fiber.h.
+namespace hair::rendering::published {
 
 inline constexpr double kPi = std::numbers::pi;
 inline constexpr std::size_t kLobes = 4;  // R, TT, TRT, all that is left
@@ -291,4 +291,4 @@ dualScattering(const Fiber& fiber, double density, const View& view, double h, d
     return sum;
 }
 
-}  // namespace hair::published
+}  // namespace hair::rendering::published

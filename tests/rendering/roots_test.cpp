@@ -10,7 +10,7 @@
 #include "tests/rendering/device_hair.h"
 
 // Where strands grow in their root triangles: thesis 2.3.2.
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 constexpr float kUlp = 0x1p-24f;
@@ -19,7 +19,7 @@ class RootsTest : public GpuTest {
 protected:
     // Roots of all strands, [triangle][strand].
     static std::vector<glm::vec3>
-    roots(const Groom& groom, std::uint32_t density, std::uint32_t seed = 1) {
+    roots(const groom::Groom& groom, std::uint32_t density, std::uint32_t seed = 1) {
         const DeviceHair hair(device(), groom);
         const StrandPoints points = evaluateStrandPoints(
             device(), {.seed = seed, .strands = {.density = density, .tessellation = 1}},
@@ -89,7 +89,7 @@ TEST_F(RootsTest, SeedChoosesTheStrands) {
 }
 
 // A root triangle with corners on the unit sphere, `edge` apart, and the sphere's normals.
-Groom onSphere(double edge) {
+groom::Groom onSphere(double edge) {
     const double sine = edge / std::sqrt(3.0);  // of the angle to the axis
     std::array<std::vector<glm::vec3>, 3> guides;
     std::vector<glm::vec3> normals;
@@ -100,7 +100,7 @@ Groom onSphere(double edge) {
         guides[i] = {root, 1.25 * root};
         normals.push_back(root);
     }
-    Groom groom = oneTriangle(guides);
+    groom::Groom groom = oneTriangle(guides);
     groom.root_normals = normals;
     return groom;
 }
@@ -121,7 +121,7 @@ TEST_F(RootsTest, LiftPutsThemOnASphereToFourthOrder) {
             EXPECT_GE(glm::dot(root, root) - 1.0, -fourth / 6.0 - kRounding) << edge;
             EXPECT_LE(glm::dot(root, root) - 1.0, fourth / 36.0 + kRounding) << edge;
         }
-        Groom flat = onSphere(edge);
+        groom::Groom flat = onSphere(edge);
         flat.root_normals.clear();
         Extremes squares;
         for (const glm::dvec3 root : roots(flat, 1000)) squares.add(glm::dot(root, root));
@@ -132,8 +132,8 @@ TEST_F(RootsTest, LiftPutsThemOnASphereToFourthOrder) {
 
 // The whole strand moves with its root.
 TEST_F(RootsTest, LiftMovesTheStrandAsAWhole) {
-    const Groom lifted = tangledGroom(6);
-    Groom flat = lifted;
+    const groom::Groom lifted = tangledGroom(6);
+    groom::Groom flat = lifted;
     flat.root_normals.clear();
     const Settings settings{.strands = {.density = 30, .tessellation = 2}};
     const DeviceHair lifted_hair(device(), lifted);
@@ -154,4 +154,4 @@ TEST_F(RootsTest, LiftMovesTheStrandAsAWhole) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

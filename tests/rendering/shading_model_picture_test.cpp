@@ -8,7 +8,7 @@
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/linear_picture.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 constexpr std::uint32_t kWidth = 64;  // px, of the strand too
@@ -34,7 +34,7 @@ class ShadingModelPictures : public GpuTest {
 protected:
     // Green of a row of pixels.
     static std::vector<double> across(const Settings& settings) {
-        const Groom groom = oneTriangle({{0, -1, 0}, {0, 0, 0}, {0, 1, 0}});
+        const groom::Groom groom = oneTriangle({{0, -1, 0}, {0, 0, 0}, {0, 1, 0}});
         const std::vector<float> light = drawLinear(device(), settings, groom);
         std::vector<double> row;
         for (std::uint32_t x = 0; x < kWidth; ++x) row.push_back(light[3 * (2 * kWidth + x) + 1]);
@@ -127,4 +127,4 @@ TEST_F(ShadingModelPictures, WhiteFibresReturnAllLight) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

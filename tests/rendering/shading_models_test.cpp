@@ -6,7 +6,7 @@
 
 #include "tests/rendering/model_probe.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 // Some ten roundings, of powers up to 50 times as many.
@@ -67,4 +67,4 @@ TEST_F(ShadingModels, KajiyaKayIsTheirEquations) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -5,7 +5,7 @@
 #include "tests/rendering/pictures.h"
 #include "tests/rendering/shadow_probe.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 using ShadowPassTest = GpuTest;
@@ -69,4 +69,4 @@ TEST_F(ShadowPassTest, PictureIsTheSameWhereNoLightThrowsThem) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -6,16 +6,16 @@
 
 #include <glm/vec4.hpp>
 
+#include "engine/buffer_image.h"
 #include "engine/frame_loop.h"
-#include "engine/rendering.h"
-#include "engine/transfer.h"
-#include "hair/rendering/picture_parameters.h"
+#include "engine/target.h"
+#include "hair/rendering/renderer.h"
 #include "hair/rendering/scene_meshes.h"
-#include "hair/rendering/shading_constants.h"
 #include "hair/rendering/shadow_pass.h"
+#include "hair/rendering/strand_pass.h"
 #include "tests/rendering/device_hair.h"
 
-namespace hair {
+namespace hair::rendering {
 
 // What is between a light and a point, as shading finds it.
 struct FoundPath {
@@ -108,4 +108,4 @@ inline double meanStrands(std::span<const FoundPath> paths) {
     return sum / static_cast<double>(paths.size());
 }
 
-}  // namespace hair
+}  // namespace hair::rendering

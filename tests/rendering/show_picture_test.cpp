@@ -9,7 +9,7 @@
 #include "tests/rendering/pictures.h"
 
 // /render/show and the overlay of bodies, as they are seen.
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 class ShowPictureTest : public GpuTest {
@@ -26,7 +26,7 @@ protected:
         return settings;
     }
 
-    static Groom straight() {
+    static groom::Groom straight() {
         const auto guide = [](float x) {
             return std::vector<glm::vec3>{{x, -0.1f, 0}, {x, 0, 0}, {x, 0.1f, 0}};
         };
@@ -124,4 +124,4 @@ TEST_F(ShowPictureTest, BodiesAreSeenThroughHair) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "benchmarks/assets.h"
+#include "benchmarks/measure/case.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
@@ -17,7 +17,7 @@ hair::Settings grown() {
 std::string errorOf(const hair::Settings& settings) {
     const TemporaryFolder folder;
     const auto scene = folder.write("s.json", "{}");
-    return folder.relative(errorText([&] { checkAssets(settings, scene); }));
+    return folder.relative(errorText([&] { measure::checkAssets(settings, scene); }));
 }
 
 TEST(StrandAssets, RefuseWidthsThatTheGroomLacks) {

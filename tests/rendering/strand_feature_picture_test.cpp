@@ -6,7 +6,7 @@
 #include "tests/rendering/pictures.h"
 
 // What strands may have beside the thesis's: every back end draws it alike, and counts it right.
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 struct Feature {
@@ -40,8 +40,8 @@ const Feature kFeatures[] = {
       .curve = Curve::catmull_rom}},
 };
 
-Groom groomWithAll() {
-    Groom groom = tangledGroom(8);
+groom::Groom groomWithAll() {
+    groom::Groom groom = tangledGroom(8);
     for (std::size_t i = 0; i < groom.points.size(); ++i)
         groom.widths.push_back(1e-3f * static_cast<float>(1 + i * 7 % 5));
     for (std::uint32_t i = 0; i < 200; ++i) {
@@ -54,8 +54,8 @@ Groom groomWithAll() {
     return groom;
 }
 
-StrandSet zigzag() {
-    StrandSet set{.ends = {20, 40}};
+groom::StrandSet zigzag() {
+    groom::StrandSet set{.ends = {20, 40}};
     for (int i = 0; i < 40; ++i)
         set.points.emplace_back(i % 2 == 0 ? 0.05f : 0.0f, 0.1f * static_cast<float>(i % 20), 0.0f);
     return set;
@@ -73,7 +73,7 @@ protected:
     }
 
     static Pixels draw(const Settings& settings) {
-        const StrandSet model = zigzag();
+        const groom::StrandSet model = zigzag();
         return drawGroom(
             device(), settings, groomWithAll(), nullptr,
             settings.strands.offsets.empty() ? nullptr : &model);
@@ -88,7 +88,7 @@ protected:
 
     static std::vector<engine::FrameRecord> record(
         const Settings& settings, engine::Timing timing, std::optional<ExpectedCounts>& expected) {
-        const StrandSet model = zigzag();
+        const groom::StrandSet model = zigzag();
         const DeviceHair hair(device(), groomWithAll(), settings, &model);
         Renderer renderer(device(), settings, hair.view(), RenderAssets{});
         engine::FrameLoop loop(device(), timing);
@@ -160,4 +160,4 @@ TEST_F(StrandFeaturePictureTest, FramesAreAPassWhereStrandsAreOffsetOnly) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -11,20 +11,20 @@
 #include "tests/rendering/device_hair.h"
 
 // The table of offsets: thesis 2.3.8.2 and 2.3.8.3.
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 // Three parallel guides of this length, m.
-Groom straight(double length) {
+groom::Groom straight(double length) {
     std::vector<glm::vec3> guide;
     for (int v = 0; v < 16; ++v) guide.emplace_back(0.0, length * v / 15.0, 0.0);
     return oneTriangle(guide);
 }
 
 StrandOffsets
-make(const StrandSettings& settings, double length, const StrandSet* model = nullptr) {
+make(const StrandSettings& settings, double length, const groom::StrandSet* model = nullptr) {
     return makeStrandOffsets(settings, straight(length), model, 7);
 }
 
@@ -177,4 +177,4 @@ TEST(StrandOffsets, RefuseMoreThanATableHolds) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 constexpr std::uint32_t kIsolines = 64;       // what every device has
@@ -209,4 +209,4 @@ TEST(PlanDraws, SplitsTheSegmentsOfLongGuides) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

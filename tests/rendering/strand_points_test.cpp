@@ -8,17 +8,17 @@
 #include "tests/rendering/device_hair.h"
 #include "tests/rendering/expect_near_reference.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 class StrandPointsTest : public GpuTest {
 protected:
-    static StrandPoints evaluate(const Groom& groom, const Settings& settings) {
+    static StrandPoints evaluate(const groom::Groom& groom, const Settings& settings) {
         const DeviceHair hair(device(), groom, settings);
         return evaluateStrandPoints(device(), settings, hair.view());
     }
 
-    static void expectReference(const Groom& groom, const Settings& settings) {
+    static void expectReference(const groom::Groom& groom, const Settings& settings) {
         expectNearReference(evaluate(groom, settings), groom, settings);
     }
 };
@@ -41,14 +41,14 @@ TEST_F(StrandPointsTest, AgreeForThePublishedProgramsOptions) {
 }
 
 TEST_F(StrandPointsTest, AgreeOnGuidesOfOneSegmentAndFlatRoots) {
-    Groom groom = tangledGroom(2);
+    groom::Groom groom = tangledGroom(2);
     groom.root_normals.clear();
     expectReference(groom, {.strands = {.density = 7, .tessellation = 1}});
 }
 
 // 2^k pieces a segment, so that t of the coarse points is exactly that of fine ones.
 TEST_F(StrandPointsTest, LowerLevelKeepsTheFirstStrandsAndWidensThem) {
-    const Groom groom = tangledGroom(8);
+    const groom::Groom groom = tangledGroom(8);
     const StrandSettings strands{.density = 100, .tessellation = 4};
     const StrandPoints fine = evaluate(groom, {.strands = strands});
     for (const auto& [level, density, tessellation] :
@@ -83,7 +83,7 @@ TEST_F(StrandPointsTest, LevelFollowsTheLogarithmOfTheDistance) {
         {1.8f, 64.0f / 1.8f, 8},  // 35.6; 8 / 1.8 = 4.4, of the nested sets 8 and 4
         {4.0f, 16.0f, 2},
         {50.0f, 4.0f, 1}};  // 64 / 16, 8 / 16 and at least 1
-    Groom groom;
+    groom::Groom groom;
     groom.vertices_per_strand = 3;
     for (const Row& row : kRows) {
         groom.root_triangles.push_back(
@@ -122,7 +122,7 @@ TEST_F(StrandPointsTest, LevelFollowsTheLogarithmOfTheDistance) {
 }
 
 TEST_F(StrandPointsTest, NoTrianglesHaveNoPoints) {
-    Groom groom = tangledGroom(4);
+    groom::Groom groom = tangledGroom(4);
     groom.root_triangles.clear();
     EXPECT_TRUE(evaluate(groom, {}).records.empty());
 }
@@ -131,7 +131,7 @@ TEST_F(StrandPointsTest, NoTrianglesHaveNoPoints) {
 // of whole strands; all at once is what the other tests hold against the reference. Offsets are
 // there too, for their frames are made once.
 TEST_F(StrandPointsTest, AreTheSameInParts) {
-    const Groom groom = tangledGroom(8);
+    const groom::Groom groom = tangledGroom(8);
     const Settings settings{
         .strands = {.density = 5, .tessellation = 3, .curl = {.radius = 0.01f}}};
     const DeviceHair hair(device(), groom, settings);
@@ -150,10 +150,10 @@ TEST_F(StrandPointsTest, AreTheSameInParts) {
 }
 
 TEST_F(StrandPointsTest, MorePointsThanShadersNumberAreUnsupported) {
-    Groom groom = unitTriangles(100000);
+    groom::Groom groom = unitTriangles(100000);
     EXPECT_THROW(
         evaluate(groom, {.strands = {.density = 4096, .tessellation = 64}}), engine::Unsupported);
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -9,8 +9,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "hair/groom/groom.h"
 #include "hair/gpu_structs.h"
+#include "hair/groom/groom.h"
 #include "hair/random.h"
 #include "hair/settings.h"
 
@@ -62,8 +62,9 @@ weights(const Settings& settings, std::uint32_t triangle, std::uint32_t strand) 
 // Vertices of a strand between three guides, thesis 2.3.1 to 2.3.4. `contacts`, [guide][vertex],
 // says where guides touch a body or are below such a vertex; empty: nowhere.
 inline std::vector<glm::dvec3> strandVertices(
-    const Groom& groom, const StrandSettings& settings, const std::array<std::uint32_t, 3>& guides,
-    const std::array<double, 3>& w, const std::vector<bool>& contacts) {
+    const groom::Groom& groom, const StrandSettings& settings,
+    const std::array<std::uint32_t, 3>& guides, const std::array<double, 3>& w,
+    const std::vector<bool>& contacts) {
     const auto mean = [&](std::uint32_t v) {
         glm::dvec3 sum(0.0);
         for (std::size_t i = 0; i < 3; ++i) sum += w[i] * glm::dvec3(groom.strand(guides[i])[v]);
@@ -103,7 +104,8 @@ inline glm::dvec3 controlPoint(const std::vector<glm::dvec3>& vertices, int inde
 // How far the point with these weights is moved off its flat triangle: half of the way to the mean
 // of its projections onto the corners' tangent planes (Boubekeur and Alexa 2008, Phong
 // tessellation).
-inline glm::dvec3 lift(const Groom& groom, std::uint32_t triangle, const std::array<double, 3>& t) {
+inline glm::dvec3
+lift(const groom::Groom& groom, std::uint32_t triangle, const std::array<double, 3>& t) {
     if (groom.root_normals.empty()) return glm::dvec3(0.0);
     const auto& corners = groom.root_triangles[triangle];
     glm::dvec3 flat(0.0);
@@ -134,8 +136,8 @@ inline Basis basis(Curve curve) {
 
 // Thesis equations (3) and (4), its derivative, and the width of 2.3.5.
 inline Point pointOnStrand(
-    const Groom& groom, const Settings& settings, std::uint32_t triangle, std::uint32_t strand,
-    std::uint32_t segment, double t, const std::vector<bool>& contacts = {}) {
+    const groom::Groom& groom, const Settings& settings, std::uint32_t triangle,
+    std::uint32_t strand, std::uint32_t segment, double t, const std::vector<bool>& contacts = {}) {
     const Curve curve = settings.strands.curve;
     const Basis rows = basis(curve);
     const double powers[4] = {t * t * t, t * t, t, 1.0};

@@ -4,7 +4,7 @@
 #include "tests/rendering/mesh_pictures.h"
 
 // One wide strand from the picture's lower edge to the upper one, which shows its colour alone.
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 constexpr std::uint32_t kSide = 40;
@@ -78,4 +78,4 @@ TEST_F(StrandTextureTest, HasHolesWhereItIsLessThanHalfOpaque) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

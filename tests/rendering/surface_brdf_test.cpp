@@ -7,15 +7,15 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/pipeline.h"
-#include "engine/transfer.h"
 #include "hair/gpu_structs.h"
-#include "hair/simulation/dispatch_groups.h"
+#include "hair/simulation/stiffness.h"
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/surface_reference.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 using gpu::SurfaceProbe;
@@ -55,7 +55,7 @@ protected:
             .probes = buffer.address(), .count = static_cast<std::uint32_t>(probes.size())};
         device().runOnce([&](engine::Commands& commands) {
             commands.bind(pipeline, push);
-            dispatchInvocations(commands, push.count, 64);
+            simulation::dispatchInvocations(commands, push.count, 64);
             commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);
         });
         return engine::downloadAs<SurfaceProbe>(device(), buffer);
@@ -149,4 +149,4 @@ TEST_F(SurfaceFurnaceTest, IsNotMoreThanAllLight) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

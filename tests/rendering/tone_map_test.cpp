@@ -7,11 +7,11 @@
 
 #include <glm/vec3.hpp>
 
+#include "hair/rendering/render_assets.h"
 #include "hair/rendering/resolve_pass.h"
-#include "hair/rendering/target_description.h"
 #include "tests/gpu_fixture.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -235,4 +235,4 @@ TEST_F(ToneMapTest, OneBadSampleDoesNotSpoilItsPixel) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

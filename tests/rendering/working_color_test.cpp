@@ -1,8 +1,8 @@
-#include "hair/rendering/working_color.h"
+#include "hair/rendering/render_assets.h"
 
 #include <gtest/gtest.h>
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 // IEC 61966-2-1: the ends, the joint of its two parts from both sides, and the middle.
@@ -30,4 +30,4 @@ TEST(WorkingColor, OfTheThesisIsWhatDisplaysShow) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -1,5 +1,5 @@
 // What holds of the page's text, before any browser reads it.
-#include "benchmarks/report_page/assemble_page.h"
+#include "benchmarks/report/page.h"
 
 #include <cstdlib>
 #include <fstream>
@@ -10,14 +10,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/commands.h"
-#include "benchmarks/report_page/page_data.h"
+#include "benchmarks/commands/commands.h"
 #include "engine/error.h"
 #include "tests/report_page/sample_reports.h"
 #include "tests/required.h"
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::report {
 namespace {
 
 using report_page::knownReport;
@@ -28,11 +27,11 @@ using testing::Not;
 constexpr const char* kHostile = "</script><script>window.pwned = 1</script><!-- \"quoted\" \u00fc";
 
 // The page in place of Plotly, which has the addresses of maps' tiles in it.
-std::string pageWithoutPlotly(const Json& data) {
+std::string pageWithoutPlotly(const scene::Json& data) {
     return assemblePage(readPageParts("/* plotly */"), data);
 }
 
-Json knownData() {
+scene::Json knownData() {
     const TemporaryFolder folder;
     return pageData({{writeWithPictures(knownReport(), folder.path() / "a.json", 200)}});
 }
@@ -63,18 +62,18 @@ TEST(AssemblePage, SaysWhichPlaceThePageLacks) {
 }
 
 TEST(AssemblePage, WritesDataThatEndsNoScriptAndIsTheSameData) {
-    const Json data = {{"title", kHostile}, {kHostile, {1, 2.5, nullptr, "\u6f22"}}};
+    const scene::Json data = {{"title", kHostile}, {kHostile, {1, 2.5, nullptr, "\u6f22"}}};
     const std::string text = scriptJson(data);
     EXPECT_THAT(text, Not(HasSubstr("<")));
-    EXPECT_EQ(Json::parse(text), data);
+    EXPECT_EQ(scene::Json::parse(text), data);
 }
 
 TEST(AssemblePage, ReplacesWhatIsNoUtf8) {
-    EXPECT_EQ(Json::parse(scriptJson({{"title", "a\xff"}})).at("title"), "a\ufffd");
+    EXPECT_EQ(scene::Json::parse(scriptJson({{"title", "a\xff"}})).at("title"), "a\ufffd");
 }
 
 TEST(AssemblePage, EscapesTheTitle) {
-    Json data = knownData();
+    scene::Json data = knownData();
     data["title"] = kHostile;
     const std::string page = pageWithoutPlotly(data);
     const std::string title = page.substr(page.find("<title>") + 7);
@@ -99,7 +98,7 @@ TEST(ReportPage, SaysWhatToRunWherePlotlyIsMissing) {
     setenv("HAIRBENCH_PLOTLY", "/nowhere/plotly.min.js", 1);
     std::string said;
     try {
-        writeReportPage({});
+        commands::writeReportPage({});
     } catch (const engine::Error& error) {
         said = error.what();
     }
@@ -114,9 +113,9 @@ TEST(ReportPage, IsOneFileWithTheWholeOfPlotly) {
     const TemporaryFolder folder;
     const auto report = writeWithPictures(knownReport(), folder.path() / "a.json", 200);
     const auto page = folder.path() / "new/page.html";
-    EXPECT_EQ(writeReportPage({.reports = {report}, .out = page}), 0);
+    EXPECT_EQ(commands::writeReportPage({.reports = {report}, .out = page}), 0);
     EXPECT_GT(std::filesystem::file_size(page), std::filesystem::file_size(*findPlotly()));
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::report

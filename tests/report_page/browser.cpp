@@ -7,10 +7,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/report_page/assemble_page.h"
-#include "benchmarks/report_page/page_data.h"
-#include "engine/read_file.h"
-#include "hair/groom/formats/run_tool.h"
+#include "benchmarks/report/page.h"
+#include "engine/files.h"
+#include "hair/groom/formats/usd_import.h"
 #include "tests/temporary_folder.h"
 
 namespace report_page {
@@ -42,7 +41,7 @@ document.body.append(result);
 
 bool isThere(const std::string& program) {
     try {
-        hair::runTool({program, "--version"});
+        hair::groom::runTool({program, "--version"});
         return true;
     } catch (const std::exception&) {
         return false;
@@ -64,16 +63,17 @@ std::optional<std::string> findBrowser() {
 }
 
 std::string pageOf(std::span<const std::filesystem::path> reports) {
-    return benchmarks::assemblePage(
-        benchmarks::readPageParts(benchmarks::readPlotly()), benchmarks::pageData(reports));
+    return benchmarks::report::assemblePage(
+        benchmarks::report::readPageParts(benchmarks::report::readPlotly()),
+        benchmarks::report::pageData(reports));
 }
 
-benchmarks::Json inBrowser(const std::string& page, const std::string& steps, int width) {
+benchmarks::scene::Json inBrowser(const std::string& page, const std::string& steps, int width) {
     const TemporaryFolder folder;
     const std::filesystem::path file = folder.path() / "page.html";
     std::ofstream(file) << watched(page, steps);
     // Virtual time passes as fast as the page's work allows, however busy the machine is.
-    const std::vector<std::byte> bytes = hair::runTool(
+    const std::vector<std::byte> bytes = hair::groom::runTool(
         {"timeout", "300", *findBrowser(), "--headless=new", "--no-sandbox", "--disable-gpu",
          "--disable-dev-shm-usage", "--host-resolver-rules=MAP * ~NOTFOUND",
          "--user-data-dir=" + (folder.path() / "profile").string(),
@@ -84,10 +84,10 @@ benchmarks::Json inBrowser(const std::string& page, const std::string& steps, in
     const std::size_t begin = dom.rfind(mark);
     if (begin == std::string_view::npos) {
         ADD_FAILURE() << "the page never came to the end of the steps";
-        return benchmarks::Json::object();
+        return benchmarks::scene::Json::object();
     }
     const std::string_view result = dom.substr(begin + mark.size());
-    return benchmarks::Json::parse(result.substr(0, result.find("</pre>")));
+    return benchmarks::scene::Json::parse(result.substr(0, result.find("</pre>")));
 }
 
 }  // namespace report_page

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "benchmarks/json_fwd.h"
+#include "benchmarks/scene/json.h"
 
 // Pages in a real browser.
 namespace report_page {
@@ -27,6 +27,7 @@ std::string pageOf(std::span<const std::filesystem::path> reports);
 // Returns what was said, and `errors`: whatever the console, uncaught errors and the page's
 // security policy complained about, and what was asked of the network. A page that never came to
 // the end of the steps is a failure of the test.
-benchmarks::Json inBrowser(const std::string& page, const std::string& steps, int width = 1280);
+benchmarks::scene::Json
+inBrowser(const std::string& page, const std::string& steps, int width = 1280);
 
 }  // namespace report_page

@@ -13,7 +13,7 @@
 namespace report_page {
 namespace {
 
-using benchmarks::Json;
+using benchmarks::scene::Json;
 
 TEST_F(PageInBrowser, PlotsTheReportsFigures) {
     const Json said = one(R"(
@@ -118,17 +118,18 @@ TEST_F(PageInBrowser, FiltersTablesAndPlots) {
 
 // Axes that are tied move together: one of them on x is one line, not one a point.
 TEST_F(PageInBrowser, DrawsOneLineOverTiedAxes) {
-    benchmarks::Report report = oneCaseReport("0", {});
+    benchmarks::report::Report report = oneCaseReport("0", {});
     report.cases.clear();
     for (const int step : {1, 2, 4})
-        for (const char* msaa : {"1", "4"})
-            report.cases.push_back(oneCaseReport(
-                                       std::to_string(step) + "/" + msaa,
-                                       {{"/groom/guides", std::to_string(100 * step)},
-                                        {"/groom/grow/vertices", std::to_string(32 / step)},
-                                        {"/render/msaa", msaa}})
-                                       .cases[0]);
-    const Json said = open({folder_.write("tied.json", reportText(report))}, R"(
+        for (const int msaa : {1, 4})
+            report.cases.push_back(
+                oneCaseReport(
+                    std::to_string(step) + "/" + std::to_string(msaa),
+                    {{"/groom/guides", benchmarks::scene::Document(100 * step)},
+                     {"/groom/grow/vertices", benchmarks::scene::Document(32 / step)},
+                     {"/render/msaa", benchmarks::scene::Document(msaa)}})
+                    .cases[0]);
+    const Json said = open({folder_.write("tied.json", benchmarks::report::reportText(report))}, R"(
         say("x", figure("scaling-plot").map((each) => [...each.x]));
         say("colour", [...document.getElementById("scaling-color").options].map(
             (each) => each.textContent));

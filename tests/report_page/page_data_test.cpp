@@ -1,5 +1,5 @@
 // What a page knows of its reports.
-#include "benchmarks/report_page/page_data.h"
+#include "benchmarks/report/page.h"
 
 #include <array>
 #include <filesystem>
@@ -9,12 +9,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/report_page/picture_uri.h"
 #include "engine/error.h"
 #include "tests/report_page/sample_reports.h"
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::report {
 namespace {
 
 using report_page::knownReport;
@@ -50,10 +49,10 @@ TEST(PageData, KeepsEqualPicturesOnce) {
     const std::array files{
         writeWithPictures(knownReport(), folder.path() / "a.json", 200),
         writeWithPictures(knownReport(), folder.path() / "b.json", 100)};
-    const Json data = pageData(files);
+    const scene::Json data = pageData(files);
     EXPECT_EQ(data.at("pictures").size(), 2u);
-    const Json& of_a = data.at("reports")[0].at("cases");
-    const Json& of_b = data.at("reports")[1].at("cases");
+    const scene::Json& of_a = data.at("reports")[0].at("cases");
+    const scene::Json& of_b = data.at("reports")[1].at("cases");
     EXPECT_EQ(of_a[0].at("picture_id"), of_a[1].at("picture_id"));
     EXPECT_NE(of_a[0].at("picture_id"), of_b[0].at("picture_id"));
     EXPECT_FALSE(of_a[5].contains("picture_id"));  // was skipped
@@ -63,8 +62,8 @@ TEST(PageData, SaysWhichPicturesAreMissing) {
     const TemporaryFolder folder;
     const auto file = writeWithPictures(knownReport(), folder.path() / "a.json", 200);
     std::filesystem::remove(folder.path() / "a.pictures/1.png");
-    const Json data = pageData({{file}});
-    const Json& cases = data.at("reports")[0].at("cases");
+    const scene::Json data = pageData({{file}});
+    const scene::Json& cases = data.at("reports")[0].at("cases");
     EXPECT_EQ(cases[1].at("picture_missing"), "a.pictures/1.png");
     EXPECT_FALSE(cases[0].contains("picture_missing"));
 }
@@ -75,7 +74,7 @@ TEST(PageData, ComparesTheFirstReportWithEachOther) {
         writeWithPictures(knownReport(), folder.path() / "a.json", 200),
         writeWithPictures(knownReport(1.5), folder.path() / "b.json", 200),
         writeWithPictures(knownReport(), folder.path() / "c.json", 200)};
-    const Json data = pageData(files);
+    const scene::Json data = pageData(files);
     ASSERT_EQ(data.at("comparisons").size(), 2u);
     // Half as slow again, of samples within 1 %.
     EXPECT_EQ(data.at("comparisons")[0].at("verdict"), "regressed");
@@ -98,11 +97,11 @@ TEST(PageData, NamesTheFileThatIsNoReport) {
 }
 
 TEST(PageData, ReadsReportsOfTheFirstVersion) {
-    const Json data =
+    const scene::Json data =
         pageData({{HAIRBENCH_SOURCE_DIR "/results/simulation_scale-llvmpipe-76a39ca40bba.json"}});
     EXPECT_EQ(data.at("reports")[0].at("schema"), "hairbench-report/1.0.0");
     EXPECT_EQ(data.at("title"), "simulation_scale");
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::report

@@ -2,17 +2,17 @@
 
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/report_page/page_parts.h"
+#include "benchmarks/report/page.h"
 #include "tests/report_page/browser.h"
 #include "tests/report_page/sample_reports.h"
 #include "tests/required.h"
 
 namespace report_page {
 
-using benchmarks::Json;
+using benchmarks::scene::Json;
 
 void PageInBrowser::SetUp() {
-    if (!benchmarks::findPlotly())
+    if (!benchmarks::report::findPlotly())
         return skipWithout(Need::report, "no Plotly; scripts/setup --report installs it");
     if (!findBrowser())
         return skipWithout(Need::browser, "no Chromium; scripts/setup --browser installs it");

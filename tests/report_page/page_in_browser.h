@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/json_fwd.h"
+#include "benchmarks/scene/json.h"
 #include "tests/temporary_folder.h"
 
 namespace report_page {
@@ -18,10 +18,10 @@ protected:
     void SetUp() override;
 
     // In the page of A, knownReport(); or of A and B, which is half as slow again.
-    benchmarks::Json one(const std::string& steps, int width = 1280);
-    benchmarks::Json two(const std::string& steps);
+    benchmarks::scene::Json one(const std::string& steps, int width = 1280);
+    benchmarks::scene::Json two(const std::string& steps);
 
-    benchmarks::Json open(
+    benchmarks::scene::Json open(
         const std::vector<std::filesystem::path>& files, const std::string& steps,
         int width = 1280);
 

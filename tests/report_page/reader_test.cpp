@@ -13,7 +13,7 @@
 namespace report_page {
 namespace {
 
-using benchmarks::Json;
+using benchmarks::scene::Json;
 using testing::HasSubstr;
 
 TEST_F(PageInBrowser, ChangesTheThemeOfPageAndPlots) {
@@ -99,13 +99,13 @@ TEST_F(PageInBrowser, ShowsTheSamplesOfTheCaseThatIsAskedFor) {
 // Names, values, reasons and descriptions are texts, whatever is in them.
 TEST_F(PageInBrowser, RunsNothingThatIsInAReport) {
     const std::string evil = "</script><img src=x onerror=window.pwned=1><b>\"\u6f22\u00fc\"</b>";
-    benchmarks::Report report =
-        oneCaseReport(evil, {{"/a<i>/" + evil, benchmarks::Document(evil)}});
+    benchmarks::report::Report report =
+        oneCaseReport(evil, {{"/a<i>/" + evil, benchmarks::scene::Document(evil)}});
     report.cases.push_back(
-        oneCaseReport("other", {{"/a<i>/" + evil, benchmarks::Document("plain")}}).cases[0]);
+        oneCaseReport("other", {{"/a<i>/" + evil, benchmarks::scene::Document("plain")}}).cases[0]);
     report.cases[0].trust.warnings = {evil};
-    report.scene.document = benchmarks::Document(Json{{"description", evil}});
-    const auto file = folder_.write("evil.json", reportText(report));
+    report.scene.document = benchmarks::scene::Document(Json{{"description", evil}});
+    const auto file = folder_.write("evil.json", benchmarks::report::reportText(report));
     const Json said = open(
         {file}, R"(
         await settle();

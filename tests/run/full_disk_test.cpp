@@ -9,7 +9,7 @@
 #include "tests/required.h"
 #include "tests/run/tiny_sweep.h"
 
-namespace benchmarks {
+namespace benchmarks::run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,8 +31,8 @@ protected:
         const fs::path out = folder_.file("sized.json");
         ASSERT_EQ(run(out, {"--no-pictures"}).status, 0);
         report_size_ = fs::file_size(out);
-        const Json report = readReport(out);
-        for (const Json& each : report["cases"]) cases_size_ += each.dump().size() + 1;
+        const scene::Json report = report::readReport(out);
+        for (const scene::Json& each : report["cases"]) cases_size_ += each.dump().size() + 1;
     }
 
     // A run that ends for lack of room has said so in one line, has status 1 and keeps some cases.
@@ -52,9 +52,9 @@ protected:
     void expectWhole(const fs::path& out) {
         const Outcome outcome = run(out, {"--no-pictures", "--resume"});
         EXPECT_EQ(outcome.status, 0) << outcome.output;
-        Json expected = whole();
-        for (Json& each : expected["cases"]) each.erase("picture");
-        EXPECT_EQ(difference(lasting(readReport(out)), expected), "[]");
+        scene::Json expected = whole();
+        for (scene::Json& each : expected["cases"]) each.erase("picture");
+        EXPECT_EQ(difference(lasting(report::readReport(out)), expected), "[]");
     }
 
     std::uintmax_t report_size_ = 0;
@@ -122,4 +122,4 @@ TEST_F(FullDisk, KeepsTheJournal) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::run

@@ -1,4 +1,4 @@
-#include "benchmarks/run/journal.h"
+#include "benchmarks/run/record.h"
 
 #include <filesystem>
 
@@ -8,7 +8,7 @@
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::run {
 namespace {
 
 class JournalFile : public testing::Test {
@@ -16,12 +16,12 @@ protected:
     // The lines that another process finds.
     std::string found() {
         Journal journal(path_);
-        return Json(journal.read()).dump();
+        return scene::Json(journal.read()).dump();
     }
     void append(const std::string& json) {
         Journal journal(path_);
         journal.read();
-        journal.append(Json::parse(json));
+        journal.append(scene::Json::parse(json));
     }
     std::string error() {
         return folder_.relative(errorText([&] { Journal(path_).read(); }));
@@ -101,7 +101,7 @@ TEST_F(JournalFile, BeginsAnewAfterClear) {
         Journal journal(path_);
         journal.read();
         journal.clear();
-        journal.append(Json::parse("[3]"));
+        journal.append(scene::Json::parse("[3]"));
     }
     EXPECT_EQ(textOf(path_), "[3]\n");
 }
@@ -112,4 +112,4 @@ TEST_F(JournalFile, SaysWhyItCannotBeOpened) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::run

@@ -6,7 +6,7 @@
 
 #include "tests/run/tiny_sweep.h"
 
-namespace benchmarks {
+namespace benchmarks::run {
 namespace {
 
 using Seconds = std::chrono::duration<double>;
@@ -45,7 +45,7 @@ protected:
             }
             const Outcome outcome = run(out, {"--resume"});
             ASSERT_EQ(outcome.status, 0) << outcome.output;
-            EXPECT_EQ(difference(lasting(readReport(out)), whole()), "[]");
+            EXPECT_EQ(difference(lasting(report::readReport(out)), whole()), "[]");
             EXPECT_FALSE(std::filesystem::exists(journalFile(out)));
             std::filesystem::remove(out);
         }
@@ -64,4 +64,4 @@ TEST_F(Killed, LosesNothingHoweverOften) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::run

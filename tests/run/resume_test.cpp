@@ -4,7 +4,7 @@
 
 #include "tests/run/tiny_sweep.h"
 
-namespace benchmarks {
+namespace benchmarks::run {
 namespace {
 
 using testing::HasSubstr;
@@ -30,7 +30,7 @@ protected:
 
 TEST_F(Resume, GoesOnAfterAnInterrupt) {
     interrupt(out_);
-    const Json partial = readReport(out_);
+    const scene::Json partial = report::readReport(out_);
     EXPECT_EQ(partial["interrupted"], true);
     EXPECT_LT(partial["cases"].size(), kCases);
     EXPECT_EQ(static_cast<long>(partial["cases"].size()), journalled(out_));
@@ -42,11 +42,11 @@ TEST_F(Resume, GoesOnAfterAnInterrupt) {
         outcome.output, HasSubstr(
                             "going on after " + std::to_string(partial["cases"].size()) + " of " +
                             std::to_string(kCases) + " cases"));
-    const Json report = readReport(out_);
+    const scene::Json report = report::readReport(out_);
     EXPECT_EQ(difference(lasting(report), whole()), "[]");
     EXPECT_EQ(difference(report["environment"], partial["environment"]), "[]");
     // What was measured before is there as it was.
-    for (const Json& before : partial["cases"])
+    for (const scene::Json& before : partial["cases"])
         EXPECT_EQ(difference(report["cases"][before["index"].get<std::size_t>()], before), "[]");
     EXPECT_FALSE(std::filesystem::exists(journalFile(out_)));
 }
@@ -62,7 +62,7 @@ TEST_F(Resume, OfACompleteRunDoesNothing) {
 
 TEST_F(Resume, OfNothingIsARun) {
     EXPECT_EQ(run(out_, {"--resume"}).status, 0);
-    EXPECT_EQ(difference(lasting(readReport(out_)), whole()), "[]");
+    EXPECT_EQ(difference(lasting(report::readReport(out_)), whole()), "[]");
 }
 
 TEST_F(Resume, RefusesAnotherSweep) {
@@ -90,9 +90,9 @@ TEST_F(Resume, GoesOnFromAnyByteOfAJournal) {
         folder_.write(std::to_string(size) + ".json.journal", journal.substr(0, size));
         const Outcome outcome = run(out, {"--resume"});
         EXPECT_EQ(outcome.status, 0) << outcome.output;
-        EXPECT_EQ(difference(lasting(readReport(out)), whole()), "[]") << size;
+        EXPECT_EQ(difference(lasting(report::readReport(out)), whole()), "[]") << size;
     }
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::run

@@ -1,4 +1,4 @@
-#include "benchmarks/run/run_plan.h"
+#include "benchmarks/run/plan.h"
 
 #include <algorithm>
 #include <numeric>
@@ -7,18 +7,18 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/hash.h"
+#include "benchmarks/report/environment.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::run {
 namespace {
 
 using testing::ElementsAre;
 using testing::SizeIs;
 
 TEST(Shard, IsTwoNumbers) {
-    const Shard shard = parseShard("2/8");
+    const report::Shard shard = parseShard("2/8");
     EXPECT_EQ(shard.index, 2u);
     EXPECT_EQ(shard.count, 8u);
     for (const char* wrong :
@@ -113,11 +113,11 @@ TEST_F(Plan, OfASuiteHasAllScenesCases) {
     for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(both.cases[i].index, i);
     EXPECT_EQ(both.cases[0].spec.name, "b/density:1");
     EXPECT_EQ(both.cases[9].spec.name, "a/density:5");
-    const Json& document = both.scene.document.json();
+    const scene::Json& document = both.scene.document.json();
     EXPECT_EQ(document["suite"]["b"]["seed"], 2);
     EXPECT_EQ(document["suite"]["a"]["seed"], 1);
-    EXPECT_EQ(both.scene.hash, hashText(both.scene.document.text()));
+    EXPECT_EQ(both.scene.hash, report::hashText(both.scene.document.text()));
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::run

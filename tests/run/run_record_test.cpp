@@ -1,4 +1,4 @@
-#include "benchmarks/run/run_record.h"
+#include "benchmarks/run/record.h"
 
 #include <filesystem>
 #include <memory>
@@ -6,12 +6,12 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/report_file.h"
+#include "benchmarks/report/report.h"
 #include "tests/benchmarks/sample_report.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::run {
 namespace {
 
 using testing::ElementsAre;
@@ -57,23 +57,23 @@ protected:
     std::filesystem::path out_ = folder_.file("r.json");
     std::string filter_;
     RunPlan plan_;
-    ReportHeader header_;
+    report::ReportHeader header_;
 };
 
 TEST_F(Record, RunsInTheSeedsOrderAndReportsInTheSweeps) {
     RunRecord record = open(false);
     EXPECT_EQ(placesLeft(record), shuffledOrder(4, 1));
     run(record, 4);
-    const Json report = record.report(false);
+    const scene::Json report = record.report(false);
     ASSERT_EQ(report["cases"].size(), 4u);
     for (std::size_t place = 0; place < 4; ++place) {
-        const Json& each = report["cases"][place];
+        const scene::Json& each = report["cases"][place];
         EXPECT_EQ(each["index"], 2 * place + 1);
         EXPECT_EQ(shuffledOrder(4, 1)[each["order"].get<std::size_t>()], place);
     }
     record.write(report);
     EXPECT_FALSE(hasJournal());
-    EXPECT_EQ(readReport(out_), report);
+    EXPECT_EQ(report::readReport(out_), report);
 }
 
 TEST_F(Record, GoesOnAsIfNothingHadHappened) {
@@ -106,7 +106,7 @@ TEST_F(Record, KeepsTheJournalOfAnInterruptedRun) {
         run(record, 1);
         record.write(record.report(true));
     }
-    EXPECT_EQ(readReport(out_)["interrupted"], true);
+    EXPECT_EQ(report::readReport(out_)["interrupted"], true);
     EXPECT_TRUE(hasJournal());
     EXPECT_EQ(open(true).done(), 1u);
 }
@@ -136,7 +136,7 @@ TEST_F(Record, SaysInWhatTheJournalIsOfAnotherRun) {
         RunRecord record = open(false);
         run(record, 3);
     }
-    const ReportHeader header = header_;
+    const report::ReportHeader header = header_;
     const RunPlan plan = plan_;
     const auto expect = [&](const char* difference) {
         EXPECT_EQ(error(true), std::string("r.json.journal: can't go on: ") + difference);
@@ -207,7 +207,7 @@ TEST_F(Record, FindsTheCompleteReport) {
     EXPECT_TRUE(completeReport(plan_, header_, out_));
     const auto is_other = [&](auto change) {
         const RunPlan plan = plan_;
-        const ReportHeader header = header_;
+        const report::ReportHeader header = header_;
         change();
         EXPECT_FALSE(completeReport(plan_, header_, out_));
         plan_ = plan;
@@ -221,13 +221,13 @@ TEST_F(Record, FindsTheCompleteReport) {
     is_other([&] { folder_.write("r.json.journal", ""); });
     std::filesystem::remove(journalFile(out_));
     EXPECT_TRUE(completeReport(plan_, header_, out_));
-    Json interrupted = readReport(out_);
+    scene::Json interrupted = report::readReport(out_);
     interrupted["interrupted"] = true;
-    writeReport(interrupted, out_);
+    report::writeReport(interrupted, out_);
     EXPECT_FALSE(completeReport(plan_, header_, out_));
     folder_.write("r.json", "no report");
     EXPECT_FALSE(completeReport(plan_, header_, out_));
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::run

@@ -1,7 +1,7 @@
 // Shards of a sweep, merged.
 #include "tests/run/tiny_sweep.h"
 
-namespace benchmarks {
+namespace benchmarks::run {
 namespace {
 
 using testing::HasSubstr;
@@ -29,13 +29,13 @@ TEST_F(Sharded, MergeToWhatOneRunGives) {
     const Outcome outcome = merge(shards({1, 2, 3}));
     EXPECT_EQ(outcome.status, 0) << outcome.output;
     EXPECT_THAT(outcome.output, HasSubstr("merged.json: 8 cases of 3 reports\n"));
-    const Json report = readReport(merged_);
-    Json expected = whole();
-    Json found = lasting(report);
-    for (Json* const each : {&expected, &found})
-        for (Json& result : (*each)["cases"]) result.erase("order");
+    const scene::Json report = report::readReport(merged_);
+    scene::Json expected = whole();
+    scene::Json found = lasting(report);
+    for (scene::Json* const each : {&expected, &found})
+        for (scene::Json& result : (*each)["cases"]) result.erase("order");
     EXPECT_EQ(difference(found, expected), "[]");
-    for (const Json& each : report["cases"])
+    for (const scene::Json& each : report["cases"])
         if (each.contains("picture")) {
             EXPECT_TRUE(std::filesystem::exists(folder_.file(each["picture"].get<std::string>())));
         }
@@ -47,7 +47,7 @@ TEST_F(Sharded, SaysWhatIsMissing) {
     EXPECT_THAT(
         outcome.output,
         HasSubstr("3 of 8 cases are missing: number 1, 4, 7 of the sweep, counted from 0\n"));
-    EXPECT_EQ(readReport(merged_)["interrupted"], true);
+    EXPECT_EQ(report::readReport(merged_)["interrupted"], true);
 }
 
 TEST_F(Sharded, AreFilesOfTheirOwn) {
@@ -65,4 +65,4 @@ TEST_F(Sharded, WithoutACaseIsNoRun) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::run

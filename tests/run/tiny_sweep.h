@@ -8,15 +8,15 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/json_fwd.h"
-#include "benchmarks/report_file.h"
-#include "benchmarks/run/run_record.h"
+#include "benchmarks/report/report.h"
+#include "benchmarks/run/record.h"
+#include "benchmarks/scene/json.h"
 #include "tests/cli/run_hairbench.h"
 #include "tests/required.h"
 #include "tests/run/child_process.h"
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::run {
 
 // A sweep of eight cases that takes about a second, and its runs. The last two are skipped on
 // lavapipe, which has no two samples a pixel.
@@ -60,26 +60,26 @@ protected:
         long lines = 0;
         for (std::size_t start = 0, end; (end = text.find('\n', start)) != std::string::npos;
              start = end + 1, ++lines)
-            EXPECT_TRUE(Json::accept(text.substr(start, end - start))) << text;
+            EXPECT_TRUE(scene::Json::accept(text.substr(start, end - start))) << text;
         return lines - 1;
     }
 
     // All of a report that lasts: no times, nor what depends on them, nor how the run was called
     // and where it wrote.
-    static Json lasting(Json report) {
-        for (Json& each : report["cases"]) {
+    static scene::Json lasting(scene::Json report) {
+        for (scene::Json& each : report["cases"]) {
             for (const char* member : {"sampling", "conditions", "trust"}) each.erase(member);
             if (!each.contains("metrics")) continue;
             if (each.contains("picture"))
                 each["picture"] =
                     std::filesystem::path(each["picture"].get<std::string>()).filename().string();
             for (auto& [name, metric] : each["metrics"].items()) {
-                Json kept = {{"unit", metric["unit"]}, {"count", metric["samples"].size()}};
+                scene::Json kept = {{"unit", metric["unit"]}, {"count", metric["samples"].size()}};
                 if (metric["unit"] == "B") kept["samples"] = metric["samples"];
                 metric = std::move(kept);
             }
         }
-        Json& path = report["scene"]["path"];
+        scene::Json& path = report["scene"]["path"];
         path = std::filesystem::path(path.get<std::string>()).filename().string();
         report["environment"].erase("started");
         report["environment"].erase("command");
@@ -87,15 +87,17 @@ protected:
     }
 
     // What turns one into the other, as a JSON Patch: "[]" where they are equal.
-    static std::string difference(const Json& a, const Json& b) { return Json::diff(a, b).dump(); }
+    static std::string difference(const scene::Json& a, const scene::Json& b) {
+        return scene::Json::diff(a, b).dump();
+    }
 
     // Of the sweep in one go; made once.
-    Json whole() const {
-        static const Json report = [&] {
+    scene::Json whole() const {
+        static const scene::Json report = [&] {
             const std::filesystem::path out = folder_.file("whole.json");
             const Outcome outcome = run(out);
             EXPECT_EQ(outcome.status, 0) << outcome.output;
-            return lasting(readReport(out));
+            return lasting(report::readReport(out));
         }();
         return report;
     }
@@ -105,4 +107,4 @@ protected:
     std::filesystem::path log_ = folder_.file("log");
 };
 
-}  // namespace benchmarks
+}  // namespace benchmarks::run

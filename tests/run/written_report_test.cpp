@@ -1,11 +1,11 @@
 // What a real run writes.
 #include <set>
 
-#include "benchmarks/json_text.h"
+#include "benchmarks/scene/json.h"
 #include "tests/benchmarks/schema_errors.h"
 #include "tests/run/tiny_sweep.h"
 
-namespace benchmarks {
+namespace benchmarks::run {
 namespace {
 
 using testing::HasSubstr;
@@ -17,11 +17,11 @@ protected:
         return textOf(std::filesystem::path(HAIRBENCH_SOURCE_DIR) / "results/report.schema.json");
     }
     // Of a run of the smoke scene, which must succeed.
-    Json smoke(const std::string& options) {
+    scene::Json smoke(const std::string& options) {
         const Outcome outcome = hairbench(
             "run '" HAIRBENCH_SCENES_DIR "/smoke.json' " + options + " -o '" + out_.string() + "'");
         EXPECT_EQ(outcome.status, 0) << outcome.output;
-        return Json::parse(textOf(out_));
+        return scene::Json::parse(textOf(out_));
     }
 
     std::filesystem::path out_ = folder_.file("smoke.json");
@@ -37,8 +37,8 @@ TEST_F(WrittenReport, FitsTheSchema) {
 // That the other tests compare something: hair is to be seen, and it is another one in each case.
 TEST_F(WrittenReport, DiffersFromCaseToCase) {
     std::set<std::string> images;
-    const Json report = whole();
-    for (const Json& each : report["cases"])
+    const scene::Json report = whole();
+    for (const scene::Json& each : report["cases"])
         if (each["status"] == "ok") images.insert(each["image_hash"].get<std::string>());
     EXPECT_GE(images.size(), 6u);
 }
@@ -49,9 +49,9 @@ TEST_F(WrittenReport, FitsTheSchemaWhateverBecameOfCases) {
 }
 
 TEST_F(WrittenReport, HasItsPicturesBesideIt) {
-    const Json report = smoke("");
+    const scene::Json report = smoke("");
     std::set<std::string> pictures;
-    for (const Json& each : report["cases"]) {
+    for (const scene::Json& each : report["cases"]) {
         const auto picture = each["picture"].get<std::string>();
         EXPECT_EQ(picture, "smoke.pictures/" + each["index"].dump() + ".png");
         EXPECT_TRUE(std::filesystem::is_regular_file(folder_.file(picture)));
@@ -66,8 +66,8 @@ TEST_F(WrittenReport, HasItsPicturesBesideIt) {
 }
 
 TEST_F(WrittenReport, HasNoPicturesWhereNoneAreWanted) {
-    const Json report = smoke("--no-pictures");
-    for (const Json& each : report["cases"]) EXPECT_FALSE(each.contains("picture"));
+    const scene::Json report = smoke("--no-pictures");
+    for (const scene::Json& each : report["cases"]) EXPECT_FALSE(each.contains("picture"));
     EXPECT_FALSE(std::filesystem::exists(folder_.file("smoke.pictures")));
 }
 
@@ -76,7 +76,7 @@ TEST_F(WrittenReport, MovesManySamplesIntoAFileOfTheirOwn) {
           "--set /strands/density=1 --set /groom/guides=4");
     EXPECT_THAT(schemaErrors(schema(), textOf(out_)), IsEmpty());
     EXPECT_TRUE(std::filesystem::exists(folder_.file("smoke.samples.jsonl")));
-    const Json report = readReport(out_);
+    const scene::Json report = report::readReport(out_);
     EXPECT_GE(report["cases"][0]["metrics"]["frame.time"]["samples"].size(), 2001u);
 }
 
@@ -89,4 +89,4 @@ TEST_F(WrittenReport, GoesWhereThereIsNoFile) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::run

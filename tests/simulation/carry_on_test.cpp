@@ -10,7 +10,7 @@
 #include "tests/simulation/pulls.h"
 
 // Simulation::carryOn: other wind, colliders, motion and pulls on the way.
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 constexpr Solver kSolvers[] = {Solver::shape, Solver::ftl, Solver::rod};
@@ -45,7 +45,7 @@ const Change kChanges[] = {
 using CarryOn = GpuTest;
 
 TEST_F(CarryOn, WithTheSameSettingsChangesNothing) {
-    const Groom groom = wavyGroom(9, 8);
+    const groom::Groom groom = wavyGroom(9, 8);
     for (const Solver solver : kSolvers)
         for (const SimulationSettings& settings : {plain(solver), busy(solver)}) {
             Simulation straight(device(), groom, settings, 3);
@@ -65,7 +65,7 @@ TEST_F(CarryOn, WithTheSameSettingsChangesNothing) {
 // A simulation that has been other settings' for 7 steps and one that is made for the new ones and
 // put into its state at the same time go on alike, bit for bit: to each new thing and back.
 TEST_F(CarryOn, GoesOnLikeANewSimulationInItsState) {
-    const Groom groom = wavyGroom(9, 8);
+    const groom::Groom groom = wavyGroom(9, 8);
     for (const Solver solver : kSolversOfPositions)
         for (const Change& change : kChanges)
             for (const auto& [from, to] :
@@ -93,7 +93,7 @@ TEST_F(CarryOn, GoesOnLikeANewSimulationInItsState) {
 // The state of rods is more than positions; the wind must change all the same, and the first step
 // must go on from the velocities that there are.
 TEST_F(CarryOn, KeepsTheRodsVelocities) {
-    const Groom groom = wavyGroom(9, 8);
+    const groom::Groom groom = wavyGroom(9, 8);
     const SimulationSettings settings = plain(Solver::rod);
     SimulationSettings windy = settings;
     windy.wind.strength = 1e-30f;  // adds nothing that a float could hold
@@ -113,8 +113,8 @@ TEST_F(CarryOn, KeepsTheRodsVelocities) {
 
 // Baked once, and still there beside other capsules.
 TEST_F(CarryOn, KeepsDistanceFields) {
-    const Groom groom = straightGroom(3, 8);
-    const std::vector<Mesh> meshes{makeSphere({0.05, -0.1, 0.02}, 0.05, 2)};
+    const groom::Groom groom = straightGroom(3, 8);
+    const std::vector<groom::Mesh> meshes{makeSphere({0.05, -0.1, 0.02}, 0.05, 2)};
     SimulationSettings settings = plain(Solver::shape);
     settings.distance_fields = {{.resolution = 16}};
     SimulationSettings both = settings;
@@ -137,7 +137,7 @@ TEST_F(CarryOn, KeepsDistanceFields) {
 }
 
 TEST_F(CarryOn, TakesFrozenHairWithAHeadThatStartsToMove) {
-    const Groom groom = wavyGroom(3, 6);
+    const groom::Groom groom = wavyGroom(3, 6);
     SimulationSettings settings = plain(Solver::none);
     Simulation simulation(device(), groom, settings, 3);
     EXPECT_FALSE(simulation.moves());
@@ -158,7 +158,7 @@ TEST_F(CarryOn, TakesFrozenHairWithAHeadThatStartsToMove) {
 }
 
 TEST_F(CarryOn, LeavesTheStateThatResetGoesBackTo) {
-    const Groom groom = wavyGroom(5, 8);
+    const groom::Groom groom = wavyGroom(5, 8);
     SimulationSettings settings = plain(Solver::shape);
     settings.settle_steps = 5;
     Simulation simulation(device(), groom, settings, 3);
@@ -174,7 +174,7 @@ TEST_F(CarryOn, LeavesTheStateThatResetGoesBackTo) {
 }
 
 TEST_F(CarryOn, ChangesNothingWhereItThrows) {
-    const Groom groom = wavyGroom(5, 8);
+    const groom::Groom groom = wavyGroom(5, 8);
     const SimulationSettings settings = busy(Solver::shape);
     SimulationSettings still_wind = plain(Solver::shape);
     still_wind.wind = {.strength = 1.0f, .direction = glm::vec3(0.0f)};
@@ -197,4 +197,4 @@ TEST_F(CarryOn, ChangesNothingWhereItThrows) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

@@ -1,4 +1,4 @@
-#include "hair/groom/mesh/closed_mesh.h"
+#include "hair/groom/mesh/surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +12,12 @@
 #include "tests/error_text.h"
 #include "tests/simulation/closed_meshes.h"
 
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 using testing::HasSubstr;
 
-double volumeOf(const ClosedMesh& mesh) {
+double volumeOf(const groom::ClosedMesh& mesh) {
     double volume = 0.0;
     for (const auto& [a, b, c] : mesh.triangles)
         volume += glm::dot(
@@ -27,7 +27,7 @@ double volumeOf(const ClosedMesh& mesh) {
     return volume;
 }
 
-double areaOf(const ClosedMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+double areaOf(const groom::ClosedMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
     const glm::dvec3 a(mesh.positions[triangle[0]]);
     return glm::length(glm::cross(
                glm::dvec3(mesh.positions[triangle[1]]) - a,
@@ -36,7 +36,7 @@ double areaOf(const ClosedMesh& mesh, const std::array<std::uint32_t, 3>& triang
 }
 
 TEST(ClosedMesh, WeldsTheCornersOfABox) {
-    const ClosedMesh box = closeMesh(makeBox({-1, -2, -3}, {1, 2, 3}));
+    const groom::ClosedMesh box = groom::closeMesh(makeBox({-1, -2, -3}, {1, 2, 3}));
     EXPECT_EQ(box.positions.size(), 8u);
     EXPECT_EQ(box.triangles.size(), 12u);
     EXPECT_NEAR(volumeOf(box), 48.0, 1e-12);
@@ -46,10 +46,10 @@ TEST(ClosedMesh, WeldsTheCornersOfABox) {
 // edge's two faces weigh the same; across a face's diagonal they are one. Roundings of numbers
 // below 5.
 TEST(ClosedMesh, PseudonormalsOfABoxAreItsDiagonals) {
-    const ClosedMesh box = closeMesh(makeBox({-1, -1, -1}, {1, 1, 1}));
+    const groom::ClosedMesh box = groom::closeMesh(makeBox({-1, -1, -1}, {1, 1, 1}));
     const double quarter = std::numbers::pi / 2;
     for (std::size_t i = 0; i < box.triangles.size(); ++i) {
-        const Pseudonormals& normals = box.normals[i];
+        const groom::Pseudonormals& normals = box.normals[i];
         for (std::size_t k = 0; k < 3; ++k) {
             const glm::dvec3 corner(box.positions[box.triangles[i][k]]);
             const glm::dvec3 next(box.positions[box.triangles[i][(k + 1) % 3]]);
@@ -65,51 +65,51 @@ TEST(ClosedMesh, PseudonormalsOfABoxAreItsDiagonals) {
 }
 
 TEST(ClosedMesh, SaysWhereAnOpenMeshIsOpen) {
-    Mesh box = makeBox({0, 0, 0}, {1, 2, 3});
+    groom::Mesh box = makeBox({0, 0, 0}, {1, 2, 3});
     box.triangles.erase(box.triangles.begin());  // of the face x = 0
-    const std::string error = errorText([&] { closeMesh(box); });
+    const std::string error = errorText([&] { groom::closeMesh(box); });
     EXPECT_THAT(error, HasSubstr("not closed: edges with one triangle: 3, the first from (0, "));
     EXPECT_THAT(error, testing::Not(HasSubstr("nan")));
-    EXPECT_THAT(errorText([] { closeMesh({}); }), HasSubstr("it has 0 triangles"));
+    EXPECT_THAT(errorText([] { groom::closeMesh({}); }), HasSubstr("it has 0 triangles"));
 }
 
 TEST(ClosedMesh, RefusesATriangleThatFacesTheOtherWay) {
-    Mesh box = makeBox({0, 0, 0}, {1, 2, 3});
+    groom::Mesh box = makeBox({0, 0, 0}, {1, 2, 3});
     std::swap(box.triangles[5][0], box.triangles[5][1]);
     EXPECT_THAT(
-        errorText([&] { closeMesh(box); }),
+        errorText([&] { groom::closeMesh(box); }),
         HasSubstr("not closed: edges whose two triangles face opposite ways: 3, the first from ("));
 }
 
 // Two boxes along the edge x = y = 1.
 TEST(ClosedMesh, RefusesAnEdgeOfFourTriangles) {
-    Mesh boxes = makeBox({0, 0, 0}, {1, 1, 1});
+    groom::Mesh boxes = makeBox({0, 0, 0}, {1, 1, 1});
     append(boxes, makeBox({1, 1, 0}, {2, 2, 1}));
     EXPECT_THAT(
-        errorText([&] { closeMesh(boxes); }),
+        errorText([&] { groom::closeMesh(boxes); }),
         HasSubstr("edges with more than two triangles: 1, the first from (1, 1, "));
 }
 
 TEST(ClosedMesh, RefusesASurfaceWhoseInsideIsOut) {
     EXPECT_THAT(
-        errorText([] { closeMesh(insideOut(makeBox({0, 0, 0}, {1, 1, 2}))); }),
+        errorText([] { groom::closeMesh(insideOut(makeBox({0, 0, 0}, {1, 1, 2}))); }),
         HasSubstr("inside out or encloses nothing: it has 12 triangles and a volume of -2 m^3"));
 }
 
 TEST(ClosedMesh, TakesSeveralPartsAndCavities) {
-    Mesh parts = makeBox({0, 0, 0}, {3, 3, 3});
+    groom::Mesh parts = makeBox({0, 0, 0}, {3, 3, 3});
     append(parts, makeSphere({5, 0, 0}, 1.0, 0));
     append(parts, insideOut(makeBox({1, 1, 1}, {2, 2, 2})));
-    const ClosedMesh closed = closeMesh(parts);
+    const groom::ClosedMesh closed = groom::closeMesh(parts);
     EXPECT_EQ(closed.positions.size(), 8u + 12u + 8u);
     EXPECT_EQ(closed.triangles.size(), 12u + 20u + 12u);
 }
 
 TEST(ClosedMesh, LeavesOutTrianglesWithEqualCorners) {
-    Mesh box = makeBox({0, 0, 0}, {1, 1, 1});
+    groom::Mesh box = makeBox({0, 0, 0}, {1, 1, 1});
     addTriangle(box, {0, 0, 0}, {1, 0, 0}, {0, 0, 0});
     addTriangle(box, {7, 7, 7}, {7, 7, 7}, {7, 7, 7});
-    EXPECT_EQ(closeMesh(box).triangles.size(), 12u);
+    EXPECT_EQ(groom::closeMesh(box).triangles.size(), 12u);
 }
 
 // A tetrahedron of volume 4 with one edge cut in three on one of its two faces; two triangles
@@ -117,7 +117,7 @@ TEST(ClosedMesh, LeavesOutTrianglesWithEqualCorners) {
 TEST(ClosedMesh, TurnsTheEdgesOfTrianglesWithoutArea) {
     const glm::dvec3 a{0, 0, 0}, b{6, 0, 0}, c{0, 2, 0}, d{0, 0, -2};
     const glm::dvec3 m1{2, 0, 0}, m2{4, 0, 0};
-    Mesh mesh;
+    groom::Mesh mesh;
     addTriangle(mesh, a, b, c);
     addTriangle(mesh, b, a, m1);
     addTriangle(mesh, b, m1, m2);
@@ -126,7 +126,7 @@ TEST(ClosedMesh, TurnsTheEdgesOfTrianglesWithoutArea) {
     addTriangle(mesh, m1, a, d);
     addTriangle(mesh, c, b, d);
     addTriangle(mesh, a, c, d);
-    const ClosedMesh closed = closeMesh(mesh);
+    const groom::ClosedMesh closed = groom::closeMesh(mesh);
     EXPECT_EQ(closed.triangles.size(), 8u);
     EXPECT_NEAR(volumeOf(closed), 4.0, 1e-12);
     double area = 0.0;
@@ -140,11 +140,12 @@ TEST(ClosedMesh, TurnsTheEdgesOfTrianglesWithoutArea) {
 
 // Of V - E + F = 2, E = 3 F / 2.
 TEST(ClosedMesh, TheHeadIsClosed) {
-    const Mesh head = importMesh(std::string(HAIRBENCH_SCENES_DIR) + "/assets/head.glb");
-    const ClosedMesh closed = closeMesh(head);
+    const groom::Mesh head =
+        groom::importMesh(std::string(HAIRBENCH_SCENES_DIR) + "/assets/head.glb");
+    const groom::ClosedMesh closed = groom::closeMesh(head);
     EXPECT_EQ(closed.triangles.size(), head.triangles.size());
     EXPECT_EQ(closed.positions.size(), 2 + closed.triangles.size() / 2);
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

@@ -14,29 +14,30 @@
 
 #include "hair/groom/mesh/mesh.h"
 
-namespace hair {
+namespace hair::simulation {
 
 // Adds a triangle with vertices of its own, so that closing the mesh has something to weld.
-inline void addTriangle(Mesh& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+inline void
+addTriangle(groom::Mesh& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (const glm::dvec3& p : {a, b, c}) mesh.positions.emplace_back(p);
     mesh.triangles.push_back({first, first + 1, first + 2});
 }
 
-inline void append(Mesh& mesh, const Mesh& part) {
+inline void append(groom::Mesh& mesh, const groom::Mesh& part) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), part.positions.begin(), part.positions.end());
     for (const auto& [a, b, c] : part.triangles)
         mesh.triangles.push_back({first + a, first + b, first + c});
 }
 
-inline Mesh insideOut(Mesh mesh) {
+inline groom::Mesh insideOut(groom::Mesh mesh) {
     for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
     return mesh;
 }
 
-inline Mesh makeBox(const glm::dvec3& lower, const glm::dvec3& upper) {
-    Mesh mesh;
+inline groom::Mesh makeBox(const glm::dvec3& lower, const glm::dvec3& upper) {
+    groom::Mesh mesh;
     for (int axis = 0; axis < 3; ++axis) {
         for (const bool positive : {false, true}) {
             // u, v and the outward direction are right-handed.
@@ -57,7 +58,7 @@ inline Mesh makeBox(const glm::dvec3& lower, const glm::dvec3& upper) {
 }
 
 // An icosahedron whose triangles are split in four `levels` times, its vertices on the sphere.
-inline Mesh makeSphere(const glm::dvec3& centre, double radius, int levels) {
+inline groom::Mesh makeSphere(const glm::dvec3& centre, double radius, int levels) {
     const double golden = std::numbers::phi;
     const std::array<glm::dvec3, 12> corners{
         {{-1, golden, 0},
@@ -92,7 +93,7 @@ inline Mesh makeSphere(const glm::dvec3& centre, double radius, int levels) {
         }
         triangles = std::move(finer);
     }
-    Mesh mesh;
+    groom::Mesh mesh;
     const auto on_sphere = [&](const glm::dvec3& p) { return centre + radius * glm::normalize(p); };
     for (const auto& [a, b, c] : triangles)
         addTriangle(mesh, on_sphere(a), on_sphere(b), on_sphere(c));
@@ -100,7 +101,7 @@ inline Mesh makeSphere(const glm::dvec3& centre, double radius, int levels) {
 }
 
 // Round the y axis.
-inline Mesh makeTorus(double radius, double tube_radius, int around, int across) {
+inline groom::Mesh makeTorus(double radius, double tube_radius, int around, int across) {
     const auto at = [&](int i, int j) {
         const double turn = 2 * std::numbers::pi * (i % around) / around;
         const double tilt = 2 * std::numbers::pi * (j % across) / across;
@@ -108,7 +109,7 @@ inline Mesh makeTorus(double radius, double tube_radius, int around, int across)
         return glm::dvec3(
             from_axis * std::sin(turn), tube_radius * std::sin(tilt), from_axis * std::cos(turn));
     };
-    Mesh mesh;
+    groom::Mesh mesh;
     for (int i = 0; i < around; ++i) {
         for (int j = 0; j < across; ++j) {
             addTriangle(mesh, at(i, j), at(i + 1, j), at(i + 1, j + 1));
@@ -120,8 +121,8 @@ inline Mesh makeTorus(double radius, double tube_radius, int around, int across)
 
 // From z = -half_depth to half_depth over a counter-clockwise outline that is wholly seen from the
 // origin.
-inline Mesh makePrism(std::span<const glm::dvec2> outline, double half_depth) {
-    Mesh mesh;
+inline groom::Mesh makePrism(std::span<const glm::dvec2> outline, double half_depth) {
+    groom::Mesh mesh;
     const auto at = [&](glm::dvec2 p, double side) { return glm::dvec3(p, side * half_depth); };
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const glm::dvec2 a = outline[i];
@@ -134,14 +135,14 @@ inline Mesh makePrism(std::span<const glm::dvec2> outline, double half_depth) {
     return mesh;
 }
 
-inline Mesh makeLShape() {
+inline groom::Mesh makeLShape() {
     constexpr std::array<glm::dvec2, 6> kOutline{
         {{-0.5, -0.5}, {1.5, -0.5}, {1.5, 0.5}, {0.5, 0.5}, {0.5, 1.5}, {-0.5, 1.5}}};
     return makePrism(kOutline, 0.4);
 }
 
 // Seven spikes of some 15 degrees: pseudonormals that are far from all their faces' normals.
-inline Mesh makeStar() {
+inline groom::Mesh makeStar() {
     std::vector<glm::dvec2> outline;
     for (int i = 0; i < 14; ++i) {
         const double turn = std::numbers::pi * i / 7;
@@ -150,4 +151,4 @@ inline Mesh makeStar() {
     return makePrism(outline, 0.1);
 }
 
-}  // namespace hair
+}  // namespace hair::simulation

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "hair/simulation/reference_constraints.h"
+#include "hair/reference/constraints.h"
 #include "tests/simulation/strands.h"
 
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 const Collider kCapsule{.a = {0, 0, 0}, .b = {0, 2, 0}, .radius = 0.5f};
@@ -82,4 +82,4 @@ TEST(Collision, LeavesARootInsideAlone) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

@@ -9,7 +9,7 @@
 #include "tests/simulation/strands.h"
 
 // Bodies and guides together, on the device.
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 using GpuContact = GpuTest;
@@ -40,7 +40,7 @@ SimulationSettings settingsFor(const Way& way) {
 
 // A ball that is smaller than a segment, beside the fifth vertex of the second of three strands.
 TEST_F(GpuContact, MarksTheVertexThatTouchesAndAllBelow) {
-    const Groom groom = straightGroom(3, 9);
+    const groom::Groom groom = straightGroom(3, 9);
     const std::uint32_t touching = 9 + 4;
     for (const Way& way : kWays) {
         SCOPED_TRACE(nameOf(way));
@@ -67,14 +67,14 @@ TEST_F(GpuContact, KeepsHairOutOfAMovingField) {
     constexpr double kRadius = 0.08;
     constexpr float kMargin = 0.004f;
     constexpr double kField = 5.9e-5 + 1.2e-4 + 1e-6;
-    Groom groom{.strand_count = 12, .vertices_per_strand = 8};
+    groom::Groom groom{.strand_count = 12, .vertices_per_strand = 8};
     for (int s = 0; s < 12; ++s) {
         const double angle = 0.5 * s;
         const glm::dvec3 up =
             glm::normalize(glm::dvec3(0.3 * std::cos(angle), 1.0, 0.3 * std::sin(angle)));
         for (int v = 0; v < 8; ++v) groom.points.emplace_back((kRadius + 0.005 + 0.02 * v) * up);
     }
-    const Mesh sphere = makeSphere(glm::dvec3(0.0), kRadius, 4);
+    const groom::Mesh sphere = makeSphere(glm::dvec3(0.0), kRadius, 4);
     for (const Way& way : kWays) {
         SCOPED_TRACE(nameOf(way));
         SimulationSettings settings = settingsFor(way);
@@ -99,4 +99,4 @@ TEST_F(GpuContact, KeepsHairOutOfAMovingField) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

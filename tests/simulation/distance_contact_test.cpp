@@ -11,7 +11,7 @@
 #include "tests/simulation/strands.h"
 
 // What shaders make of a distance field: shaders/simulation/constraints/distance_field.glsl.
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 const glm::dvec3 kCentre{0.02, -0.01, 0.03};
@@ -213,4 +213,4 @@ TEST_F(DistanceContactTest, OnePushBringsAPointOfASphereToTheMargin) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

@@ -1,4 +1,4 @@
-#include "hair/simulation/distance_field.h"
+#include "hair/simulation/bodies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@
 #include "tests/simulation/closed_meshes.h"
 #include "tests/simulation/surface_reference.h"
 
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 // A distance is some 20 roundings (of the grid point, of the way to a corner, of its square) of
@@ -34,7 +34,7 @@ protected:
         DistanceField field;
         std::vector<float> distances;
 
-        Baked(const Mesh& mesh, std::uint32_t resolution, float padding)
+        Baked(const groom::Mesh& mesh, std::uint32_t resolution, float padding)
             : field(device(), mesh, resolution, padding), distances(field.distances(device())) {}
 
         const gpu::DistanceField& grid() const { return field.parameters(); }
@@ -52,8 +52,8 @@ protected:
         }
     };
 
-    static Mesh head() {
-        return importMesh(std::string(HAIRBENCH_SCENES_DIR) + "/assets/head.glb");
+    static groom::Mesh head() {
+        return groom::importMesh(std::string(HAIRBENCH_SCENES_DIR) + "/assets/head.glb");
     }
 
     // Calls check(position, distance) for `count` random grid points.
@@ -66,7 +66,7 @@ protected:
         }
     }
 
-    static void expectSigns(const Mesh& mesh, std::uint32_t resolution, int count) {
+    static void expectSigns(const groom::Mesh& mesh, std::uint32_t resolution, int count) {
         const Baked baked(mesh, resolution, 0.1f);
         int inside = 0;
         atRandomPoints(baked, count, [&](const glm::dvec3& p, double distance) {
@@ -79,7 +79,7 @@ protected:
         EXPECT_GT(inside, count / 50);
     }
 
-    static void expectDistances(const Mesh& mesh, const Baked& baked, int count) {
+    static void expectDistances(const groom::Mesh& mesh, const Baked& baked, int count) {
         atRandomPoints(baked, count, [&](const glm::dvec3& p, double distance) {
             EXPECT_NEAR(std::abs(distance), reference::distance(mesh, p), roundingOf(baked.size()));
         });
@@ -112,7 +112,7 @@ TEST_F(DistanceFieldTest, OfABoxFarFromTheOriginIsAsExactAsFloats) {
 // in it: distances lie between theirs.
 TEST_F(DistanceFieldTest, OfASphereLiesBetweenThoseOfTheSpheresRoundAndInIt) {
     const glm::dvec3 centre{0.02, -0.01, 0.03};
-    const Mesh mesh = makeSphere(centre, 0.1, 3);
+    const groom::Mesh mesh = makeSphere(centre, 0.1, 3);
     Extremes planes;
     for (const auto& triangle : mesh.triangles) {
         const auto [a, b, c] = reference::corners(mesh, triangle);
@@ -133,24 +133,24 @@ TEST_F(DistanceFieldTest, SignIsThatOfTheWindingNumber) {
     expectSigns(makeTorus(1.0, 0.4, 36, 18), 40, 1500);
     expectSigns(makeLShape(), 41, 4000);
     expectSigns(makeStar(), 97, 8000);
-    Mesh hollow = makeSphere({0, 0, 0}, 1.0, 2);
+    groom::Mesh hollow = makeSphere({0, 0, 0}, 1.0, 2);
     append(hollow, insideOut(makeSphere({0.1, 0, 0}, 0.6, 2)));
     expectSigns(hollow, 30, 2000);
 }
 
 TEST_F(DistanceFieldTest, DistanceIsThatToTheNearestTriangle) {
-    for (const Mesh& mesh : {makeTorus(1.0, 0.4, 36, 18), makeLShape(), makeStar()})
+    for (const groom::Mesh& mesh : {makeTorus(1.0, 0.4, 36, 18), makeLShape(), makeStar()})
         expectDistances(mesh, Baked(mesh, 40, 0.2f), 500);
 }
 
 TEST_F(DistanceFieldTest, OfTheHeadHasTheNearestTrianglesDistanceAndTheWindingNumbersSign) {
-    const Mesh mesh = head();
+    const groom::Mesh mesh = head();
     expectDistances(mesh, Baked(mesh, 48, 0.02f), 300);
     expectSigns(mesh, 48, 300);
 }
 
 TEST_F(DistanceFieldTest, OfTwoPartsIsThatOfTheNearerOne) {
-    Mesh mesh = makeBox({-2, -0.5, -0.5}, {-1, 0.5, 0.5});
+    groom::Mesh mesh = makeBox({-2, -0.5, -0.5}, {-1, 0.5, 0.5});
     append(mesh, makeBox({0.5, -1, -1}, {2.5, 1, 1}));
     const Baked baked(mesh, 36, 0.25f);
     for (std::size_t i = 0; i < baked.distances.size(); ++i) {
@@ -163,7 +163,7 @@ TEST_F(DistanceFieldTest, OfTwoPartsIsThatOfTheNearerOne) {
 
 // Sides 1, 0.5 and 0.3 with 0.125 on either side: 10, 6 and 4.4 cells of 1/8.
 TEST_F(DistanceFieldTest, GridIsAsFineAsAskedAndCoversThePadding) {
-    const Mesh mesh = makeBox({1, 2, 3}, {2, 2.5, 3.3});
+    const groom::Mesh mesh = makeBox({1, 2, 3}, {2, 2.5, 3.3});
     const DistanceField coarse(device(), mesh, 8, 0.125f);
     EXPECT_EQ(coarse.parameters().cell, 0.125f);
     EXPECT_EQ(coarse.parameters().cells_per_metre, 8.0f);
@@ -180,7 +180,7 @@ TEST_F(DistanceFieldTest, GridIsAsFineAsAskedAndCoversThePadding) {
 }
 
 TEST_F(DistanceFieldTest, RefusesAnOpenMesh) {
-    Mesh box = makeBox({0, 0, 0}, {1, 1, 1});
+    groom::Mesh box = makeBox({0, 0, 0}, {1, 1, 1});
     box.triangles.pop_back();
     EXPECT_THAT(
         errorText([&] { DistanceField(device(), box, 8, 0.1f); }),
@@ -188,10 +188,10 @@ TEST_F(DistanceFieldTest, RefusesAnOpenMesh) {
 }
 
 TEST_F(DistanceFieldTest, RefusesAGridThatNoBufferHolds) {
-    const Mesh box = makeBox({0, 0, 0}, {1, 1, 1});
+    const groom::Mesh box = makeBox({0, 0, 0}, {1, 1, 1});
     EXPECT_THROW(DistanceField(device(), box, 100000, 0.0f), engine::Unsupported);
     EXPECT_THROW(DistanceField(device(), box, 0xffffffffu, 1e30f), engine::Unsupported);
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

@@ -4,13 +4,13 @@
 #include <span>
 #include <vector>
 
+#include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/pipeline.h"
-#include "engine/transfer.h"
-#include "hair/simulation/dispatch_groups.h"
-#include "hair/simulation/distance_field.h"
+#include "hair/simulation/bodies.h"
+#include "hair/simulation/stiffness.h"
 
-namespace hair {
+namespace hair::simulation {
 
 struct Contact {
     float margin = 0.0f;
@@ -49,4 +49,4 @@ inline gpu::DistanceProbe probe(
     return probe(device, field, std::span(&asked, 1), contact).front();
 }
 
-}  // namespace hair
+}  // namespace hair::simulation

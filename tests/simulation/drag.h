@@ -1,12 +1,12 @@
 #pragma once
 
 #include "hair/groom/groom.h"
+#include "hair/reference/wind.h"
 #include "hair/settings.h"
-#include "hair/simulation/reference_wind.h"
 #include "tests/simulation/strands.h"
 
 // Hair in air that nothing else acts on.
-namespace hair {
+namespace hair::simulation {
 
 inline SimulationSettings inAir(float time_step) {
     SimulationSettings settings = nothingActs();
@@ -27,8 +27,8 @@ inline constexpr std::uint32_t kLevelVertices = 64;
 inline constexpr int kFreeSteps = 60;
 
 // A strand along +x.
-inline Groom levelHair() {
-    Groom groom{.strand_count = 1, .vertices_per_strand = kLevelVertices};
+inline groom::Groom levelHair() {
+    groom::Groom groom{.strand_count = 1, .vertices_per_strand = kLevelVertices};
     for (std::uint32_t v = 0; v < kLevelVertices; ++v) groom.points.emplace_back(0.01f * v, 0, 0);
     return groom;
 }
@@ -47,4 +47,4 @@ inline double fallingSpeed(const SimulationSettings& settings) {
     return slow;
 }
 
-}  // namespace hair
+}  // namespace hair::simulation

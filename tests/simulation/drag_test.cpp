@@ -4,14 +4,14 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "hair/simulation/reference.h"
-#include "hair/simulation/reference_wind.h"
-#include "hair/simulation/solver.h"
+#include "hair/reference/solvers.h"
+#include "hair/reference/wind.h"
+#include "hair/simulation/solvers.h"
 #include "hair/simulation/wind.h"
 #include "tests/simulation/drag.h"
 #include "tests/simulation/strands.h"
 
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 // One segment along z with the velocity `v` at its tip, whose acceleration is returned.
@@ -52,7 +52,7 @@ TEST(Drag, HasTheFactorsThatTheDeviceIsGiven) {
 TEST(Drag, LetsHairFallAtTheSpeedWhereItBearsTheWeight) {
     for (const float step : {1.0f / 120.0f, 1.0f / 60.0f, 0.1f}) {
         const SimulationSettings settings = fallingThroughAir(step);
-        Reference solver(levelHair(), settings, 1);
+        reference::Reference solver(levelHair(), settings, 1);
         for (int i = 0; i < kFreeSteps; ++i) solver.step();
         const glm::dvec3 moved = solver.positions().back() - solver.previous().back();
         EXPECT_NEAR(-moved.y / double{step} / fallingSpeed(settings), 1.0, 5e-6) << step;
@@ -175,8 +175,8 @@ TEST(Drag, StandsSegmentsWithoutADirectionAndFolds) {
 TEST(Drag, BrakesHairThatSettlesOutOfTheWind) {
     SimulationSettings settings = inAir(1.0f / 60.0f);
     settings.wind.speed = 10.0f;
-    const Groom groom = levelHair();
-    Reference solver(groom, settings, 1);
+    const groom::Groom groom = levelHair();
+    reference::Reference solver(groom, settings, 1);
     const auto positions = toDouble(groom.points);
     auto previous = positions;
     for (glm::dvec3& point : previous) point.z -= 2.0 * double{settings.time_step};
@@ -191,4 +191,4 @@ TEST(Drag, BrakesHairThatSettlesOutOfTheWind) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

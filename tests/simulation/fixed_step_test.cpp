@@ -1,11 +1,11 @@
-#include "hair/simulation/fixed_step.h"
+#include "hair/simulation/simulation.h"
 
 #include <numeric>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 // Times are floats in the settings, so the tests start from floats too.
@@ -67,4 +67,4 @@ TEST(FixedStep, FollowsFramesOfChangingLength) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include "hair/simulation/reference_ftl.h"
+#include "hair/reference/constraints.h"
 #include "tests/simulation/strands.h"
 
 // The reference of `ftl` against what the paper says of it.
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 glm::dvec3 stays(const glm::dvec3& position, const glm::dvec3&) { return position; }
@@ -90,4 +90,4 @@ TEST(ReferenceFtl, PartsVerticesThatCoincide) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 
-#include "hair/simulation/reference.h"
+#include "hair/reference/solvers.h"
 #include "tests/gpu_fixture.h"
 #include "tests/simulation/gpu_simulation.h"
 #include "tests/simulation/parallelisms.h"
 #include "tests/simulation/strands.h"
 
 // Each pass and constraint alone, one step on the device against the reference in double.
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 // Of the strand's length. A float position near 1 m is stored to 6e-8 and an iteration rounds it a
@@ -30,11 +30,11 @@ protected:
     static void expectReference(SimulationSettings settings) {
         settings.parallelism = GetParam();
         for (const Shape& shape : kShapes) {
-            const Groom groom = wavyGroom(shape.strands, shape.vertices);
+            const groom::Groom groom = wavyGroom(shape.strands, shape.vertices);
             const auto positions = disturbed(groom, 0.3 * kReferenceSegment, 11);
             const auto previous = disturbed(groom, 0.3 * kReferenceSegment, 12);
             Simulation simulation(device(), groom, settings, 5);
-            Reference solver(groom, settings, 5);
+            reference::Reference solver(groom, settings, 5);
             simulation.setState(positions, previous);
             solver.setState(toDouble(positions), toDouble(previous));
             advance(device(), simulation, 1);
@@ -109,4 +109,4 @@ TEST_P(GpuConstraints, CollidesLikeTheReference) {
 FOR_EVERY_PARALLELISM(GpuConstraints);
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

@@ -3,19 +3,19 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/transfer.h"
+#include "engine/buffer_image.h"
 #include "hair/gpu_structs.h"
-#include "hair/simulation/reference.h"
-#include "hair/simulation/reference_wind.h"
-#include "hair/simulation/solver.h"
-#include "hair/simulation/wind_pass.h"
+#include "hair/reference/solvers.h"
+#include "hair/reference/wind.h"
+#include "hair/simulation/solvers.h"
+#include "hair/simulation/wind.h"
 #include "tests/gpu_fixture.h"
 #include "tests/largest_difference.h"
 #include "tests/simulation/drag.h"
 #include "tests/simulation/gpu_simulation.h"
 
 // Air on the device against the reference in double.
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 constexpr std::uint32_t kSeed = 5;
@@ -33,7 +33,7 @@ class GpuDrag : public GpuTest {
 protected:
     // What the pass alone gives at `time`, m/s^2.
     static std::vector<glm::vec4> accelerations(
-        const Groom& groom, const SimulationSettings& settings,
+        const groom::Groom& groom, const SimulationSettings& settings,
         const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& previous,
         double time) {
         const auto buffer = [](const std::vector<glm::vec3>& points, const char* name) {
@@ -69,7 +69,7 @@ protected:
 // that a thousandth of a second has moved are exact. The derivative of the noise is some tens in
 // its smallest cells.
 TEST_F(GpuDrag, BlowsLikeTheReferenceAtAnyTime) {
-    const Groom groom = wavyGroom(40, 8);
+    const groom::Groom groom = wavyGroom(40, 8);
     for (const float scale : {10.0f, 0.5f, 0.1f})
         for (const double time : {0.0, 0.77, 1e4, 1e7}) {
             SimulationSettings settings = turbulent(50.0f);
@@ -99,7 +99,7 @@ TEST_F(GpuDrag, BlowsLikeTheReferenceAtAnyTime) {
 TEST_F(GpuDrag, StepsLikeTheReference) {
     for (const std::uint32_t substeps : {1u, 4u})
         for (const WindMode mode : {WindMode::thesis, WindMode::drag}) {
-            const Groom groom = wavyGroom(33, 9);
+            const groom::Groom groom = wavyGroom(33, 9);
             SimulationSettings settings = turbulent(3.0f);
             settings.substeps = substeps;
             settings.wind.mode = mode;
@@ -107,7 +107,7 @@ TEST_F(GpuDrag, StepsLikeTheReference) {
             const auto positions = disturbed(groom, 0.005, 11);
             const auto previous = disturbed(groom, 0.005, 12);
             Simulation simulation(device(), groom, settings, kSeed);
-            Reference solver(groom, settings, kSeed);
+            reference::Reference solver(groom, settings, kSeed);
             simulation.setState(positions, previous);
             solver.setState(toDouble(positions), toDouble(previous));
             advance(device(), simulation, 1);
@@ -144,7 +144,7 @@ TEST_F(GpuDrag, LetsHairFallAtTheSpeedWhereItBearsTheWeight) {
 }
 
 TEST_F(GpuDrag, StaysFiniteInAStorm) {
-    const Groom groom = wavyGroom(40, 8);
+    const groom::Groom groom = wavyGroom(40, 8);
     for (const float step : {0.0005f, 0.1f})
         for (const float radius : {1e-6f, 37e-6f})
             for (const float density : {0.0f, 1.2f, 1000.0f}) {
@@ -166,7 +166,7 @@ TEST_F(GpuDrag, StaysFiniteInAStorm) {
 }
 
 TEST_F(GpuDrag, StandsHairWithoutDirections) {
-    Groom groom{.strand_count = 1, .vertices_per_strand = 5};
+    groom::Groom groom{.strand_count = 1, .vertices_per_strand = 5};
     groom.points = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0.1f, 0}, {0, 0, 0}};
     SimulationSettings settings = turbulent(5.0f);
     const auto result = accelerations(groom, settings, groom.points, groom.points, 0.0);
@@ -185,7 +185,7 @@ TEST_F(GpuDrag, NeedsNoDirectionWithoutWind) {
         SimulationSettings settings = inAir(1.0f / 60.0f);
         settings.wind.mode = mode;
         settings.wind.direction = glm::vec3(0.0f);
-        const Groom groom = wavyGroom(3, 4);
+        const groom::Groom groom = wavyGroom(3, 4);
         Simulation simulation(device(), groom, settings, kSeed);
         advance(device(), simulation, 3);
         for (const glm::vec3& point : simulation.readPositions())
@@ -196,4 +196,4 @@ TEST_F(GpuDrag, NeedsNoDirectionWithoutWind) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

@@ -9,7 +9,7 @@
 #include "tests/simulation/rounding.h"
 
 // Guides on a head that moves.
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 std::vector<glm::vec3> toFloat(const std::vector<glm::dvec3>& points) {
@@ -45,7 +45,7 @@ TEST_F(GpuMotion, TakesAStepLikeTheReference) {
              {StiffnessScaling::thesis, StiffnessScaling::invariant})
             for (const std::uint32_t substeps : {1u, 2u, 5u})
                 for (const std::uint32_t vertices : {2u, 8u, 9u, 64u}) {
-                    const Groom groom = wavyGroom(33, vertices);
+                    const groom::Groom groom = wavyGroom(33, vertices);
                     SimulationSettings settings = withBodies(solver);
                     settings.stiffness_scaling = scaling;
                     settings.substeps = substeps;
@@ -53,7 +53,7 @@ TEST_F(GpuMotion, TakesAStepLikeTheReference) {
                     settings.wind.strength = 10.0f;
                     settings.motion = jerk();
                     Simulation simulation(device(), groom, settings, 5);
-                    Reference solution(groom, settings, 5);
+                    reference::Reference solution(groom, settings, 5);
                     const RigidMotion start = simulation.pose();
                     const double amount = 0.3 * kReferenceSegment;
                     const auto positions = toFloat(carried(start, disturbed(groom, amount, 11)));
@@ -78,12 +78,12 @@ TEST_F(GpuMotion, StaysNearTheReferenceForAHundredSteps) {
     for (const Solver solver : kSolversOfPositions)
         for (const std::uint32_t substeps : {1u, 2u, 5u})
             for (const std::uint32_t vertices : {2u, 8u, 16u}) {
-                const Groom groom = wavyGroom(5, vertices);
+                const groom::Groom groom = wavyGroom(5, vertices);
                 SimulationSettings settings = withBodies(solver);
                 settings.substeps = substeps;
                 settings.motion = nodding();
                 Simulation simulation(device(), groom, settings, 3);
-                Reference solution(groom, settings, 3);
+                reference::Reference solution(groom, settings, 3);
                 advance(device(), simulation, 100);
                 for (int i = 0; i < 100; ++i) solution.step();
                 const Rounding rounding = roundingAfter(100, groom, settings, 3);
@@ -98,7 +98,7 @@ TEST_F(GpuMotion, StaysNearTheReferenceForAHundredSteps) {
 }
 
 TEST_F(GpuMotion, GivesTheSameBitsAgainAfterReset) {
-    const Groom groom = wavyGroom(37, 9);
+    const groom::Groom groom = wavyGroom(37, 9);
     SimulationSettings settings = withBodies(Solver::shape);
     settings.motion = nodding();
     settings.settle_steps = 10;
@@ -114,7 +114,7 @@ TEST_F(GpuMotion, GivesTheSameBitsAgainAfterReset) {
 
 // Where the first keyframe has the head, with the hair hanging from it as it does there.
 TEST_F(GpuMotion, StartsAndSettlesInTheFirstPose) {
-    const Groom groom = wavyGroom(5, 8);
+    const groom::Groom groom = wavyGroom(5, 8);
     SimulationSettings settings = withBodies(Solver::shape);
     settings.motion = nodding();
     const Simulation unsettled(device(), groom, settings, 3);
@@ -135,7 +135,7 @@ TEST_F(GpuMotion, StartsAndSettlesInTheFirstPose) {
 constexpr double kCarried = 20 * 0x1p-24;
 
 TEST_F(GpuMotion, CarriesFrozenHairWithTheHead) {
-    const Groom groom = wavyGroom(9, 16);
+    const groom::Groom groom = wavyGroom(9, 16);
     SimulationSettings settings;
     settings.global.stiffness = 1.0f;
     settings.motion = nodding();
@@ -149,7 +149,7 @@ TEST_F(GpuMotion, CarriesFrozenHairWithTheHead) {
 }
 
 TEST_F(GpuMotion, NoneIsCarriedWithTheHead) {
-    const Groom groom = wavyGroom(9, 16);
+    const groom::Groom groom = wavyGroom(9, 16);
     SimulationSettings settings;
     settings.solver = Solver::none;
     settings.settle_steps = 3;
@@ -176,16 +176,16 @@ glm::vec3 axesTurned(const glm::vec3& v) { return {v.z, v.x, v.y}; }
 // hair does the same. In double, with a turn that takes gravity's floats to floats.
 TEST(ReferenceMotion, DoesTheSameInAnyPose) {
     for (const Solver solver : kSolvers) {
-        const Groom groom = wavyGroom(5, 9);
+        const groom::Groom groom = wavyGroom(5, 9);
         SimulationSettings settings = withBodies(solver);
         settings.colliders[1].follows = Follows::head;
         settings.gravity = {1, -9, 3};
-        Reference upright(groom, settings, 3);
+        reference::Reference upright(groom, settings, 3);
         settings.motion = posed({0, 90, 90}, {0.3f, 0.1f, -0.2f});
         settings.gravity = axesTurned(settings.gravity);
         const RigidMotion pose = HeadMotion(settings.motion).at(0.0);
         ASSERT_LT(glm::distance(pose.rotation * glm::dvec3(1, 2, 3), {3, 1, 2}), 1e-14);
-        Reference turned(groom, settings, 3);
+        reference::Reference turned(groom, settings, 3);
         for (int i = 0; i < 100; ++i) {
             upright.step();
             turned.step();
@@ -199,7 +199,7 @@ TEST(ReferenceMotion, DoesTheSameInAnyPose) {
 
 TEST_F(GpuMotion, DoesTheSameInAnyPose) {
     for (const Solver solver : kSolversOfPositions) {
-        const Groom groom = wavyGroom(5, 9);
+        const groom::Groom groom = wavyGroom(5, 9);
         SimulationSettings settings = withBodies(solver);
         settings.colliders[1].follows = Follows::head;
         Simulation upright(device(), groom, settings, 3);
@@ -220,14 +220,14 @@ TEST_F(GpuMotion, DoesTheSameInAnyPose) {
 
 // A strand with a root segment of no length takes its first frame from the head, too.
 TEST_F(GpuMotion, TurnsStrandsWithoutARootSegment) {
-    Groom groom{.strand_count = 1, .vertices_per_strand = 4};
+    groom::Groom groom{.strand_count = 1, .vertices_per_strand = 4};
     groom.points = {{0, 0, 0}, {0, 0, 0}, {0.02f, 0, 0}, {0.03f, 0.02f, 0}};
     SimulationSettings settings = nothingActs();
     settings.local = {.stiffness = 0.5f, .iterations = 10};
     settings.motion = posed({0, 0, 90}, {});
     const auto expected = carried(HeadMotion(settings.motion).at(0.0), groom.points);
     Simulation simulation(device(), groom, settings, 3);
-    Reference solution(groom, settings, 3);
+    reference::Reference solution(groom, settings, 3);
     advance(device(), simulation, 10);
     for (int i = 0; i < 10; ++i) solution.step();
     EXPECT_LT(largestDifference(solution.positions(), expected), 1e-14);
@@ -237,7 +237,7 @@ TEST_F(GpuMotion, TurnsStrandsWithoutARootSegment) {
 // The head carries a strand through a sphere of the world: the sphere stays, and the strand leaves
 // its inside.
 TEST_F(GpuMotion, LeavesTheWorldsBodiesWhereTheyAre) {
-    const Groom groom = straightGroom(3, 8);
+    const groom::Groom groom = straightGroom(3, 8);
     SimulationSettings settings;
     const glm::vec3 centre{0.05f, -0.1f, 0.2f};
     settings.colliders = {{.a = centre, .b = centre, .radius = 0.05f, .follows = Follows::world}};
@@ -255,4 +255,4 @@ TEST_F(GpuMotion, LeavesTheWorldsBodiesWhereTheyAre) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

@@ -5,20 +5,20 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/buffer_image.h"
 #include "engine/error.h"
-#include "engine/transfer.h"
 #include "hair/gpu_structs.h"
-#include "hair/simulation/pull_pass.h"
-#include "hair/simulation/reference.h"
-#include "hair/simulation/reference_pull.h"
-#include "hair/simulation/solver.h"
+#include "hair/reference/constraints.h"
+#include "hair/reference/solvers.h"
+#include "hair/simulation/pulls.h"
+#include "hair/simulation/solvers.h"
 #include "tests/gpu_fixture.h"
 #include "tests/largest_difference.h"
 #include "tests/simulation/gpu_simulation.h"
 #include "tests/simulation/pulls.h"
 
 // Hands on the device, against theory and against the reference.
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 constexpr Solver kSolvers[] = {Solver::shape, Solver::ftl, Solver::rod};
@@ -33,7 +33,7 @@ protected:
 
     // What `before` has become after the pass alone, m/s^2.
     static std::vector<glm::vec4> accelerations(
-        const Groom& groom, const SimulationSettings& settings,
+        const groom::Groom& groom, const SimulationSettings& settings,
         const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& previous,
         const std::vector<glm::vec3>& before, const gpu::Step& step, double time) {
         const engine::Buffer now = bufferOf(positions, "positions");
@@ -65,7 +65,7 @@ protected:
 // and where some hands don't pull. Velocities are differences of positions of 0.1 m over 4 ms, off
 // by 2^-25 of 0.1 m each: 1.5e-6 m/s, of which a stiff hand makes 1.5e-6 / dt = 1e-4 m/s^2.
 TEST_F(GpuPull, PullsLikeTheReferenceAtAnyTime) {
-    const Groom groom = wavyGroom(37, 6);
+    const groom::Groom groom = wavyGroom(37, 6);
     SimulationSettings settings;
     settings.pulls = manyPulls();
     settings.substeps = 4;
@@ -114,7 +114,7 @@ TEST_F(GpuPull, PullsLikeTheReferenceAtAnyTime) {
 TEST_F(GpuPull, StepsLikeTheReference) {
     for (const Solver solver : {Solver::shape, Solver::ftl})
         for (const std::uint32_t substeps : {1u, 4u}) {
-            const Groom groom = wavyGroom(33, 9);
+            const groom::Groom groom = wavyGroom(33, 9);
             SimulationSettings settings;
             settings.solver = solver;
             settings.substeps = substeps;
@@ -123,7 +123,7 @@ TEST_F(GpuPull, StepsLikeTheReference) {
             const auto positions = disturbed(groom, 0.005, 11);
             const auto previous = disturbed(groom, 0.005, 12);
             Simulation simulation(device(), groom, settings, 3);
-            Reference solution(groom, settings, 3);
+            reference::Reference solution(groom, settings, 3);
             simulation.setState(positions, previous);
             solution.setState(toDouble(positions), toDouble(previous));
             advance(device(), simulation, 1);
@@ -140,7 +140,7 @@ TEST_F(GpuPull, StepsLikeTheReference) {
 // kick in step 0 has moved the vertex by up to n / (1 + s)^n kicks in step n, which sums to (1 + s)
 // / s^2 kicks over all steps before: 12 at s = 1/3. The hand's place is rounded, too.
 TEST_F(GpuPull, ApproachesTheHandAsCriticallyDamped) {
-    const Groom groom = straightGroom(1, 2);
+    const groom::Groom groom = straightGroom(1, 2);
     const glm::vec3 hand(0.4f, 0.2f, -0.1f);
     const float stiffness = 400.0f;
     SimulationSettings settings = nothingActs();
@@ -161,7 +161,7 @@ TEST_F(GpuPull, ApproachesTheHandAsCriticallyDamped) {
 // more than half of the position's rounding, 2^-26 m below 0.5 m, to move it: the offset is found
 // to that times (1 + s)^2 / s^2, which is 110 at s = 0.105.
 TEST_F(GpuPull, BalancesGravity) {
-    const Groom groom = straightGroom(1, 2);
+    const groom::Groom groom = straightGroom(1, 2);
     SimulationSettings settings = nothingActs();
     settings.gravity = {0, -9.8f, 0};
     settings.pulls = {{.stiffness = 40.0f, .path = stays({0, 0.25f, 0})}};
@@ -172,7 +172,7 @@ TEST_F(GpuPull, BalancesGravity) {
 
 // Free tips 0, 5, 10 ... cm from the one that is held.
 TEST_F(GpuPull, FallsOffToOneOverEAtTheRadius) {
-    const Groom groom = straightGroom(5, 2);
+    const groom::Groom groom = straightGroom(5, 2);
     SimulationSettings settings = nothingActs();
     for (const float radius : {0.05f, 0.1f, 0.0f}) {
         settings.pulls = {{.radius = radius, .stiffness = 1e5f, .path = stays({0, 0, 1})}};
@@ -191,7 +191,7 @@ TEST_F(GpuPull, FallsOffToOneOverEAtTheRadius) {
 }
 
 TEST_F(GpuPull, ChangesNothingOutsideItsTime) {
-    const Groom groom = wavyGroom(9, 8);
+    const groom::Groom groom = wavyGroom(9, 8);
     for (const Solver solver : kSolvers) {
         SimulationSettings settings;
         settings.solver = solver;
@@ -215,7 +215,7 @@ TEST_F(GpuPull, ChangesNothingOutsideItsTime) {
 // far than implicit Euler thinks, and what is left of the error shrinks by the root of (1 - 1/n) /
 // 2 in a step: to a third after each third step.
 TEST_F(GpuPull, IsStableAtTheStiffest) {
-    const Groom groom = straightGroom(1, 2);
+    const groom::Groom groom = straightGroom(1, 2);
     const glm::vec3 hand(0.4f, 0.2f, -0.1f);
     for (const std::size_t hands : {1u, 64u})
         for (const std::uint32_t substeps : {1u, 2u, 64u})
@@ -237,7 +237,7 @@ TEST_F(GpuPull, IsStableAtTheStiffest) {
 }
 
 TEST_F(GpuPull, StaysFiniteWithEverySolver) {
-    const Groom groom = wavyGroom(20, 8);
+    const groom::Groom groom = wavyGroom(20, 8);
     for (const Solver solver : kSolvers)
         for (const float step : {0.0005f, 1.0f / 60.0f, 0.1f})
             for (const float stiffness : {0.0f, 1e5f})
@@ -265,7 +265,7 @@ TEST_F(GpuPull, StaysFiniteWithEverySolver) {
 
 // The tip goes with the hand, back to the same bits after reset, and the roots stay.
 TEST_F(GpuPull, GivesTheSameBitsEveryTime) {
-    const Groom groom = straightGroom(20, 8);
+    const groom::Groom groom = straightGroom(20, 8);
     const glm::vec3 hand = groom.points[0] + glm::vec3(0.1f, -0.05f, 0.0f);
     for (const Solver solver : kSolvers) {
         SimulationSettings settings;
@@ -295,7 +295,7 @@ TEST_F(GpuPull, GivesTheSameBitsEveryTime) {
 }
 
 TEST_F(GpuPull, RefusesWhatTheGroomDoesNotHave) {
-    const Groom groom = straightGroom(3, 4);
+    const groom::Groom groom = straightGroom(3, 4);
     SimulationSettings settings;
     settings.pulls = {{.guide = 2, .vertex = 3}, {.guide = 3}};
     try {
@@ -309,4 +309,4 @@ TEST_F(GpuPull, RefusesWhatTheGroomDoesNotHave) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/physics/theory.h"
-#include "hair/simulation/reference.h"
+#include "hair/reference/solvers.h"
 #include "tests/gpu_fixture.h"
 #include "tests/largest_difference.h"
 #include "tests/simulation/gpu_simulation.h"
@@ -14,7 +14,7 @@
 #include "tests/simulation/strands.h"
 
 // The `rod` solver on the device, in 32 bits: against theory, and against the reference in double.
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 SimulationSettings rodSettings() {
@@ -26,8 +26,8 @@ SimulationSettings rodSettings() {
     return settings;
 }
 
-Groom groomOf(const std::vector<std::vector<glm::dvec3>>& strands) {
-    Groom groom{
+groom::Groom groomOf(const std::vector<std::vector<glm::dvec3>>& strands) {
+    groom::Groom groom{
         .strand_count = static_cast<std::uint32_t>(strands.size()),
         .vertices_per_strand = static_cast<std::uint32_t>(strands[0].size())};
     for (const auto& strand : strands)
@@ -59,9 +59,9 @@ protected:
     }
 
     // Largest distance from the reference over the strand's length, after steps from rest.
-    double departure(const Groom& groom, const SimulationSettings& settings, int steps) {
+    double departure(const groom::Groom& groom, const SimulationSettings& settings, int steps) {
         Simulation simulation(device(), groom, settings, 1);
-        Reference reference(groom, settings, 1);
+        reference::Reference reference(groom, settings, 1);
         advance(device(), simulation, steps);
         for (int i = 0; i < steps; ++i) reference.step();
         return largestDifference(simulation.readPositions(), reference.positions()) /
@@ -91,7 +91,7 @@ TEST_F(GpuRod, TakesTheReferencesSteps) {
                 settings.time_step = step;
                 settings.material.youngs_modulus = stiffness;
                 settings.material.shear_modulus = stiffness / 6.0f;
-                const Groom groom = wavyGroom(10, vertices, 0.2 / (vertices - 1.0));
+                const groom::Groom groom = wavyGroom(10, vertices, 0.2 / (vertices - 1.0));
                 EXPECT_LT(departure(groom, settings, 1), 1e-5)
                     << vertices << " " << step << " " << stiffness;
                 if (stiffness < 1e9f) continue;
@@ -118,7 +118,7 @@ TEST_F(GpuRod, FollowsTheHeadAndKeepsOutOfBodiesAsTheReferenceDoes) {
          .radius = 0.05f,
          .follows = Follows::world}};
     settings.collision = {.margin = 0.001f, .friction = 0.2f};
-    const Groom groom = straightGroom(8, 17, 0.015);
+    const groom::Groom groom = straightGroom(8, 17, 0.015);
     EXPECT_LT(departure(groom, settings, 1), 1e-5);
     EXPECT_LT(departure(groom, settings, 30), 1e-4);
 }
@@ -133,7 +133,7 @@ TEST_F(GpuRod, HangsBetweenItsRootAndAPin) {
     settings.friction = 0.1f;
     settings.material.youngs_modulus = 1e5f;
     settings.material.shear_modulus = 1e5f;
-    const Groom groom = groomOf({straightRod(kSegments, kLength, {0.0, -1.0, 0.0})});
+    const groom::Groom groom = groomOf({straightRod(kSegments, kLength, {0.0, -1.0, 0.0})});
     Simulation simulation(device(), groom, settings, 1);
     const std::vector<glm::vec3> points(start.begin(), start.end());
     simulation.setState(points, points);
@@ -149,7 +149,7 @@ TEST_F(GpuRod, HangsBetweenItsRootAndAPin) {
 }
 
 TEST_F(GpuRod, RepeatsItselfToTheBit) {
-    const Groom groom = wavyGroom(50, 17, 0.01);
+    const groom::Groom groom = wavyGroom(50, 17, 0.01);
     SimulationSettings settings = rodSettings();
     settings.wind.strength = 15.0f;
     settings.settle_steps = 3;
@@ -167,7 +167,7 @@ TEST_F(GpuRod, RepeatsItselfToTheBit) {
 // More strands than one dispatch has scratch memory for: equal strands stay equal.
 TEST_F(GpuRod, TreatsEveryStrandAlike) {
     const auto strand = helix(511, 0.005, 0.01, 20.0);
-    const Groom groom = groomOf(std::vector(1200, strand));
+    const groom::Groom groom = groomOf(std::vector(1200, strand));
     Simulation simulation(device(), groom, rodSettings(), 1);
     advance(device(), simulation, 2);
     const auto points = simulation.readPositions();
@@ -191,7 +191,7 @@ TEST_F(GpuRod, EnduresDegenerateInput) {
             strands.back().push_back(strands.back().back() + edge);
         }
     }
-    const Groom groom = groomOf(strands);
+    const groom::Groom groom = groomOf(strands);
     const std::vector<glm::vec3> collapsed(groom.points.size(), glm::vec3(0.0f));
     const auto scattered = disturbed(groom, 0.1, 3);
     for (const float youngs_modulus : {1.0f, 3.9e9f, 1e12f})
@@ -219,4 +219,4 @@ TEST_F(GpuRod, EnduresDegenerateInput) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

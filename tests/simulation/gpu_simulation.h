@@ -6,7 +6,7 @@
 #include "engine/device.h"
 #include "hair/simulation/simulation.h"
 
-namespace hair {
+namespace hair::simulation {
 
 // Runs wind, hair against hair, hands and step `steps` times and waits.
 inline void advance(const engine::Device& device, Simulation& simulation, int steps) {
@@ -20,4 +20,4 @@ inline void advance(const engine::Device& device, Simulation& simulation, int st
     });
 }
 
-}  // namespace hair
+}  // namespace hair::simulation

@@ -4,14 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include "hair/simulation/reference.h"
+#include "hair/reference/solvers.h"
 #include "tests/gpu_fixture.h"
 #include "tests/simulation/gpu_simulation.h"
 #include "tests/simulation/parallelisms.h"
 #include "tests/simulation/strands.h"
 
 // The whole solver on the device.
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 bool sameBits(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
@@ -40,7 +40,7 @@ protected:
 FOR_EVERY_PARALLELISM(GpuShapeSolver);
 
 TEST_F(GpuSolver, FollowsVerletsDiscreteParabola) {
-    const Groom groom = straightGroom(3, 4);
+    const groom::Groom groom = straightGroom(3, 4);
     SimulationSettings settings = nothingActs();
     settings.gravity = {0.5f, -9.8f, 0.25f};
     Simulation simulation(device(), groom, settings, 1);
@@ -66,12 +66,12 @@ TEST_F(GpuSolver, FollowsVerletsDiscreteParabola) {
 TEST_P(GpuShapeSolver, StaysNearTheReferenceForAHundredSteps) {
     for (const StiffnessScaling scaling : {StiffnessScaling::thesis, StiffnessScaling::invariant})
         for (const std::uint32_t vertices : {2u, 3u, 8u, 9u, 16u, 33u, 64u}) {
-            const Groom groom = wavyGroom(5, vertices);
+            const groom::Groom groom = wavyGroom(5, vertices);
             SimulationSettings settings = windy();
             settings.stiffness_scaling = scaling;
             Simulation simulation(device(), groom, settings, 3);
-            Reference solver(groom, settings, 3);
-            Reference rounded(groom, settings, 3);
+            reference::Reference solver(groom, settings, 3);
+            reference::Reference rounded(groom, settings, 3);
             std::mt19937 random(1);
             for (int i = 0; i < 100; ++i) {
                 solver.step();
@@ -95,7 +95,7 @@ TEST_P(GpuShapeSolver, StaysNearTheReferenceForAHundredSteps) {
 }
 
 TEST_P(GpuShapeSolver, GivesTheSameBitsEveryTime) {
-    const Groom groom = wavyGroom(37, 9);
+    const groom::Groom groom = wavyGroom(37, 9);
     Simulation first(device(), groom, windy(), 3);
     Simulation second(device(), groom, windy(), 3);
     advance(device(), first, 50);
@@ -113,8 +113,8 @@ TEST_P(GpuShapeSolver, GivesTheSameBitsEveryTime) {
 
 // A strand's motion depends on neither its neighbours nor its place in a workgroup.
 TEST_P(GpuShapeSolver, MovesAStrandTheSameInAnyCompany) {
-    const Groom many = wavyGroom(21, 9);
-    Groom few = many;
+    const groom::Groom many = wavyGroom(21, 9);
+    groom::Groom few = many;
     few.strand_count = 4;
     few.points.resize(4 * 9);
     Simulation crowd(device(), many, windy(), 3);
@@ -127,7 +127,7 @@ TEST_P(GpuShapeSolver, MovesAStrandTheSameInAnyCompany) {
 }
 
 TEST_F(GpuSolver, SeedChangesTheWind) {
-    const Groom groom = wavyGroom(4, 8);
+    const groom::Groom groom = wavyGroom(4, 8);
     Simulation first(device(), groom, windy(), 3);
     Simulation second(device(), groom, windy(), 4);
     advance(device(), first, 10);
@@ -136,7 +136,7 @@ TEST_F(GpuSolver, SeedChangesTheWind) {
 }
 
 TEST_P(GpuShapeSolver, SettlesWithoutWindOrTime) {
-    const Groom groom = wavyGroom(4, 8);
+    const groom::Groom groom = wavyGroom(4, 8);
     SimulationSettings calm = windy();
     calm.wind.strength = 0.0f;
     Simulation expected(device(), groom, calm, 3);
@@ -153,7 +153,7 @@ TEST_P(GpuShapeSolver, SettlesWithoutWindOrTime) {
 }
 
 TEST_F(GpuSolver, NoneStaysAtRest) {
-    const Groom groom = wavyGroom(4, 8);
+    const groom::Groom groom = wavyGroom(4, 8);
     SimulationSettings settings = windy();
     settings.solver = Solver::none;
     settings.settle_steps = 3;
@@ -163,7 +163,7 @@ TEST_F(GpuSolver, NoneStaysAtRest) {
 }
 
 TEST_F(GpuSolver, ShowsWhereTheGuidesAre) {
-    const Groom groom = wavyGroom(4, 8);
+    const groom::Groom groom = wavyGroom(4, 8);
     const Simulation simulation(device(), groom, windy(), 3);
     const GuideView view = simulation.guides();
     EXPECT_NE(view.positions, 0u);
@@ -173,8 +173,8 @@ TEST_F(GpuSolver, ShowsWhereTheGuidesAre) {
 
 // More workgroups than one row of a dispatch holds (65,535 strands that fill a workgroup each).
 TEST_F(GpuSolver, MovesMoreStrandsThanARowOfWorkgroups) {
-    const Groom one = wavyGroom(1, 33);
-    Groom groom{.strand_count = 66000, .vertices_per_strand = 33};
+    const groom::Groom one = wavyGroom(1, 33);
+    groom::Groom groom{.strand_count = 66000, .vertices_per_strand = 33};
     for (std::uint32_t s = 0; s < groom.strand_count; ++s)
         groom.points.insert(groom.points.end(), one.points.begin(), one.points.end());
     SimulationSettings settings;  // no wind, so that all strands move alike
@@ -193,4 +193,4 @@ TEST_F(GpuSolver, MovesMoreStrandsThanARowOfWorkgroups) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "benchmarks/scene.h"
+#include "benchmarks/scene/scene.h"
 #include "hair/groom/build_groom.h"
 #include "hair/groom/mesh/import_mesh.h"
 #include "hair/simulation/hair_hair.h"
@@ -16,7 +16,7 @@
 #include "tests/simulation/strands.h"
 
 // Hair that is left alone comes to rest with hair on hair switched on, and stays there.
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 constexpr int kWindow = 5 * 60;   // steps
@@ -36,9 +36,9 @@ class HairOnHairRest : public GpuTest, public testing::WithParamInterface<RestCa
 // The thesis's head and hair, which falls from where it was combed onto ten capsules with friction.
 TEST_P(HairOnHairRest, EndsInRest) {
     const std::string scenes = HAIRBENCH_SCENES_DIR;
-    Settings settings = benchmarks::loadScene(scenes + "/thesis.json").settings;
-    const Mesh head = importMesh(scenes + "/" + settings.groom.grow.mesh);
-    const Groom groom = buildGroom(settings.groom, &head, scenes, settings.seed);
+    Settings settings = benchmarks::scene::loadScene(scenes + "/thesis.json").settings;
+    const groom::Mesh head = groom::importMesh(scenes + "/" + settings.groom.grow.mesh);
+    const groom::Groom groom = groom::buildGroom(settings.groom, &head, scenes, settings.seed);
     ASSERT_EQ(groom.strand_count, 86u);
     settings.simulation.settle_steps = 0;
     settings.simulation.solver = GetParam().solver;
@@ -98,4 +98,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& rest_case) { return rest_case.param.name; });
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

@@ -4,14 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include "hair/simulation/reference.h"
+#include "hair/reference/solvers.h"
 #include "tests/gpu_fixture.h"
 #include "tests/largest_difference.h"
 #include "tests/simulation/gpu_simulation.h"
 #include "tests/simulation/volume_rig.h"
 
 // Friction and repulsion of hair on hair.
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 SimulationSettings contact(float friction, float repulsion, float crowding = 1.0f) {
@@ -28,7 +28,7 @@ struct Balance {
 };
 
 template <class Vectors>
-Balance balance(const Groom& groom, const Vectors& vectors) {
+Balance balance(const groom::Groom& groom, const Vectors& vectors) {
     const auto shares = lengthShares(groom);
     Balance result;
     for (std::size_t i = 0; i < shares.size(); ++i) {
@@ -50,8 +50,8 @@ std::vector<glm::vec3> moved(std::vector<glm::vec3> points, const glm::vec3& by)
 }
 
 // Straight strands through a box of `width`, with gaps of random size.
-Groom bundle(std::uint32_t strands, double width, const glm::dvec3& along) {
-    Groom groom{.strand_count = strands, .vertices_per_strand = 8};
+groom::Groom bundle(std::uint32_t strands, double width, const glm::dvec3& along) {
+    groom::Groom groom{.strand_count = strands, .vertices_per_strand = 8};
     std::mt19937 random(3);
     for (std::uint32_t s = 0; s < strands; ++s) {
         const glm::dvec3 middle = 0.5 * width * randomVector(random);
@@ -61,7 +61,7 @@ Groom bundle(std::uint32_t strands, double width, const glm::dvec3& along) {
     return groom;
 }
 
-Groom both(Groom a, const Groom& b) {
+groom::Groom both(groom::Groom a, const groom::Groom& b) {
     a.strand_count += b.strand_count;
     a.points.insert(a.points.end(), b.points.begin(), b.points.end());
     return a;
@@ -77,7 +77,7 @@ constexpr double kPairRounding = 1e-5;
 constexpr glm::vec3 kOthers(1.5f, -9.81f, 0.25f);
 
 TEST_F(HairOnHair, LeavesALoneStrandAlone) {
-    const Groom groom = wavyGroom(1, 16, 0.005);
+    const groom::Groom groom = wavyGroom(1, 16, 0.005);
     const VolumeRig rig(device(), groom, contact(1.0f, 1.0f, 0.1f));
     const auto accelerations =
         rig.accelerations(disturbed(groom, 0.002, 1), disturbed(groom, 0.002, 2), {}, kOthers);
@@ -87,7 +87,7 @@ TEST_F(HairOnHair, LeavesALoneStrandAlone) {
 }
 
 TEST_F(HairOnHair, HasNoFrictionWhereAllMoveAlike) {
-    const Groom groom = wavyGroom(60, 9);
+    const groom::Groom groom = wavyGroom(60, 9);
     const VolumeRig rig(device(), groom, contact(1.0f, 0.0f));
     const glm::vec3 way(0.02f, -0.01f, 0.005f);  // in a step: 1.4 m/s
     const auto accelerations =
@@ -101,8 +101,8 @@ TEST_F(HairOnHair, HasNoFrictionWhereAllMoveAlike) {
 // Strands on top of each other share every cell equally, so each sees their mean velocity, here 0:
 // of v it loses the setting's part in 1/60 s, whatever the step.
 TEST_F(HairOnHair, LosesThePartOfTheDifferenceThatItIsSetTo) {
-    const Groom one = straightGroom(1, 6);
-    const Groom groom = both(one, one);
+    const groom::Groom one = straightGroom(1, 6);
+    const groom::Groom groom = both(one, one);
     for (const float part : {0.05f, 0.5f, 1.0f})
         for (const float steps : {0.25f, 1.0f, 3.0f}) {
             SimulationSettings settings = contact(part, 0.0f);
@@ -126,7 +126,7 @@ TEST_F(HairOnHair, LosesThePartOfTheDifferenceThatItIsSetTo) {
 
 // Two bundles that cross at right angles and move through each other.
 TEST_F(HairOnHair, DragsCrossingBundlesTogether) {
-    const Groom groom = both(bundle(40, 0.03, {1, 0, 0}), bundle(40, 0.03, {0, 1, 0}));
+    const groom::Groom groom = both(bundle(40, 0.03, {1, 0, 0}), bundle(40, 0.03, {0, 1, 0}));
     const std::size_t half = groom.points.size() / 2;
     const VolumeRig rig(device(), groom, contact(0.5f, 0.0f));
     const glm::vec3 way(0.0f, 0.0f, 1.0f / 60.0f / 60.0f);  // 1/60 m/s
@@ -151,7 +151,7 @@ TEST_F(HairOnHair, DragsCrossingBundlesTogether) {
 
 // Any velocities: friction at its most takes energy and never turns the whole around.
 TEST_F(HairOnHair, FrictionOnlyTakesEnergy) {
-    const Groom groom = wavyGroom(80, 9);
+    const groom::Groom groom = wavyGroom(80, 9);
     const auto shares = lengthShares(groom);
     for (const float part : {0.3f, 1.0f}) {
         const VolumeRig rig(device(), groom, contact(part, 0.0f));
@@ -174,7 +174,7 @@ TEST_F(HairOnHair, FrictionOnlyTakesEnergy) {
 }
 
 TEST_F(HairOnHair, ExpandsACompressedBundle) {
-    const Groom groom = bundle(60, 0.08, {0, 1, 0});
+    const groom::Groom groom = bundle(60, 0.08, {0, 1, 0});
     const VolumeRig rig(device(), groom, contact(0.0f, 0.3f));
     auto compressed = groom.points;
     for (glm::vec3& point : compressed) point *= glm::vec3(0.3f, 1.0f, 0.3f);
@@ -193,7 +193,7 @@ TEST_F(HairOnHair, ExpandsACompressedBundle) {
 }
 
 TEST_F(HairOnHair, DoesNotRepelWhereThereIsRoom) {
-    const Groom groom = bundle(60, 0.08, {0, 1, 0});
+    const groom::Groom groom = bundle(60, 0.08, {0, 1, 0});
     const VolumeRig rig(device(), groom, contact(0.0f, 1.0f, 100.0f));
     EXPECT_EQ(
         largestDifference(
@@ -207,7 +207,7 @@ TEST_F(HairOnHair, DoesNotRepelWhereThereIsRoom) {
 TEST_F(HairOnHair, PushesLikeTheGasItStandsFor) {
     constexpr int kSide = 29;  // 14 cells
     constexpr double kGap = 0.1;
-    Groom groom{.strand_count = kSide * kSide * kSide, .vertices_per_strand = 2};
+    groom::Groom groom{.strand_count = kSide * kSide * kSide, .vertices_per_strand = 2};
     const double half = 0.5 * (kSide - 1) * kGap;
     for (int i = 0; i < kSide * kSide * kSide; ++i) {
         const glm::dvec3 root =
@@ -237,7 +237,7 @@ TEST_F(HairOnHair, IsLikeTheReference) {
     for (const std::uint32_t vertices : {2u, 9u, 33u})
         for (const SimulationSettings& settings :
              {contact(0.3f, 0.0f), contact(0.0f, 0.3f, 0.5f), contact(1.0f, 1000.0f, 0.2f)}) {
-            const Groom groom = wavyGroom(67, vertices, 0.15 / vertices);
+            const groom::Groom groom = wavyGroom(67, vertices, 0.15 / vertices);
             const VolumeRig rig(device(), groom, settings);
             const auto positions = disturbed(groom, 0.003, 1);
             const auto previous = disturbed(groom, 0.003, 2);
@@ -257,10 +257,10 @@ TEST_F(HairOnHair, IsLikeTheReference) {
 
 // Positions after a step of everything.
 TEST_F(HairOnHair, StepsLikeTheReference) {
-    const Groom groom = wavyGroom(67, 9);
+    const groom::Groom groom = wavyGroom(67, 9);
     const SimulationSettings settings = contact(0.3f, 0.3f, 0.5f);
     Simulation simulation(device(), groom, settings, 5);
-    Reference solver(groom, settings, 5);
+    reference::Reference solver(groom, settings, 5);
     const auto positions = disturbed(groom, 0.003, 11);
     const auto previous = disturbed(groom, 0.003, 12);
     simulation.setState(positions, previous);
@@ -275,7 +275,7 @@ TEST_F(HairOnHair, StepsLikeTheReference) {
 
     SimulationSettings without = settings;
     without.hair_hair = {};
-    Reference alone(groom, without, 5);
+    reference::Reference alone(groom, without, 5);
     alone.setState(toDouble(positions), toDouble(previous));
     alone.step();
     EXPECT_GT(
@@ -283,7 +283,7 @@ TEST_F(HairOnHair, StepsLikeTheReference) {
 }
 
 TEST_F(HairOnHair, SettlesLikeSteps) {
-    const Groom groom = wavyGroom(67, 9);
+    const groom::Groom groom = wavyGroom(67, 9);
     SimulationSettings settings = contact(0.3f, 0.3f, 0.5f);
     Simulation expected(device(), groom, settings, 5);
     advance(device(), expected, 70);
@@ -294,7 +294,7 @@ TEST_F(HairOnHair, SettlesLikeSteps) {
 }
 
 TEST_F(HairOnHair, IsOffUnlessAsked) {
-    const Groom groom = wavyGroom(3, 9);
+    const groom::Groom groom = wavyGroom(3, 9);
     EXPECT_FALSE(Simulation(device(), groom, SimulationSettings{}, 1).hasVolume());
     EXPECT_TRUE(Simulation(device(), groom, contact(0.1f, 0.0f), 1).hasVolume());
     EXPECT_TRUE(Simulation(device(), groom, contact(0.0f, 0.1f), 1).hasVolume());
@@ -304,7 +304,7 @@ TEST_F(HairOnHair, IsOffUnlessAsked) {
 }
 
 TEST_F(HairOnHair, GivesTheSameBitsEveryTime) {
-    const Groom groom = wavyGroom(200, 9);
+    const groom::Groom groom = wavyGroom(200, 9);
     SimulationSettings settings = contact(0.5f, 0.5f, 0.5f);
     settings.wind.strength = 10.0f;
     Simulation first(device(), groom, settings, 5);
@@ -319,11 +319,11 @@ TEST_F(HairOnHair, GivesTheSameBitsEveryTime) {
 }
 
 TEST_F(HairOnHair, StaysFiniteAtExtremes) {
-    Groom groom = wavyGroom(20, 5);
+    groom::Groom groom = wavyGroom(20, 5);
     groom.points[7] = groom.points[6];
-    Groom point = groom;
+    groom::Groom point = groom;
     point.points.assign(groom.points.size(), glm::vec3(0.5f));
-    for (const Groom& some : {groom, point})
+    for (const groom::Groom& some : {groom, point})
         for (const std::uint32_t resolution : {8u, 128u})
             for (const float step : {0.0005f, 0.1f})
                 for (const float crowding : {0.1f, 100.0f}) {
@@ -345,4 +345,4 @@ TEST_F(HairOnHair, StaysFiniteAtExtremes) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

@@ -10,7 +10,7 @@
 #include "tests/error_text.h"
 #include "tests/largest_difference.h"
 
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 constexpr glm::vec3 kPivot{0.1f, -0.2f, 0.3f};
@@ -232,4 +232,4 @@ TEST(HeadMotion, RefusesTimesThatDoNotAscend) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

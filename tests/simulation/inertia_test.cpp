@@ -9,7 +9,7 @@
 
 // Hair on a head that gains speed at a constant rate is a pendulum in a gravity that leans back by
 // atan(a / g).
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 constexpr double kGravity = 9.8;       // m/s^2, down
@@ -51,7 +51,7 @@ TEST_F(Inertia, HoldsAStrandBackAtTheAngleOfThePendulum) {
     constexpr float kStep = 1.0f / 64.0f;  // exact, as are the times of its keyframes
     const double lean = std::atan(kAcceleration / kGravity);
     for (const Solver solver : {Solver::shape, Solver::ftl}) {
-        const Groom groom = straightGroom(2, 8);
+        const groom::Groom groom = straightGroom(2, 8);
         Simulation simulation(device(), groom, hanging(solver, kStep, kSteps), 1);
         std::vector<glm::vec3> start;
         for (const glm::vec3& point : groom.points) {
@@ -92,7 +92,7 @@ TEST_F(Inertia, SwingsAPendulumToTwiceTheAngle) {
     // The decay is that of small angles at small speed: a tenth of it is neither.
     const double tolerance = 0.2 * (1.0 - left) * lean;
     for (const Solver solver : {Solver::shape, Solver::ftl}) {
-        const Groom groom = straightGroom(1, 2, kLength);
+        const groom::Groom groom = straightGroom(1, 2, kLength);
         Simulation simulation(device(), groom, hanging(solver, kStep, 2 * half), 1);
         advance(device(), simulation, half);
         auto points = simulation.readPositions();
@@ -105,7 +105,7 @@ TEST_F(Inertia, SwingsAPendulumToTwiceTheAngle) {
 
 // A head that stops lets its hair swing on, ahead of it.
 TEST_F(Inertia, CarriesHairPastAHeadThatStops) {
-    const Groom groom = straightGroom(1, 8);
+    const groom::Groom groom = straightGroom(1, 8);
     SimulationSettings settings;
     settings.motion.keyframes = {{.time = 0.0f}, {.time = 0.5f, .translation = {0.5f, 0, 0}}};
     Simulation simulation(device(), groom, settings, 1);
@@ -118,4 +118,4 @@ TEST_F(Inertia, CarriesHairPastAHeadThatStops) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

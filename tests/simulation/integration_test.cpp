@@ -2,14 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include "hair/simulation/reference.h"
+#include "hair/reference/solvers.h"
 #include "tests/simulation/strands.h"
 
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 // Sets every vertex of a groom going at `velocity`: Verlet keeps it as the step before.
-std::vector<glm::dvec3> comingFrom(const Groom& groom, const glm::dvec3& velocity, double step) {
+std::vector<glm::dvec3>
+comingFrom(const groom::Groom& groom, const glm::dvec3& velocity, double step) {
     std::vector<glm::dvec3> previous = toDouble(groom.points);
     for (glm::dvec3& point : previous) point -= velocity * step;
     return previous;
@@ -17,14 +18,14 @@ std::vector<glm::dvec3> comingFrom(const Groom& groom, const glm::dvec3& velocit
 
 // X_n = X_0 + n v dt + n (n + 1) / 2 g dt^2: the sum of the discrete velocities v dt + m g dt^2.
 TEST(Verlet, FollowsItsDiscreteParabola) {
-    const Groom groom = straightGroom(1, 2);
+    const groom::Groom groom = straightGroom(1, 2);
     SimulationSettings settings = nothingActs();
     settings.gravity = {0.5f, -9.8f, 0.25f};
     const double dt = settings.time_step;
     const glm::dvec3 velocity{1.0, 3.0, -2.0};
     const glm::dvec3 gravity = settings.gravity;
 
-    Reference solver(groom, settings, 1);
+    reference::Reference solver(groom, settings, 1);
     solver.setState(toDouble(groom.points), comingFrom(groom, velocity, dt));
     const glm::dvec3 start = solver.positions()[1];
     for (int n = 1; n <= 200; ++n) {
@@ -38,7 +39,7 @@ TEST(Verlet, FollowsItsDiscreteParabola) {
 // With q = 1 - friction left of the velocity the displacements are d_m = q^m d_0 + a (1 - q^m) / (1
 // - q), a = g dt^2; X_n is their sum.
 TEST(Verlet, LosesVelocityInAGeometricSeries) {
-    const Groom groom = straightGroom(1, 2);
+    const groom::Groom groom = straightGroom(1, 2);
     SimulationSettings settings = nothingActs();
     settings.stiffness_scaling = StiffnessScaling::thesis;
     settings.gravity = {0.0f, -9.8f, 0.0f};
@@ -47,7 +48,7 @@ TEST(Verlet, LosesVelocityInAGeometricSeries) {
     const glm::dvec3 velocity{2.0, 1.0, 0.0};
     const glm::dvec3 pull = glm::dvec3(settings.gravity) * dt * dt;
 
-    Reference solver(groom, settings, 1);
+    reference::Reference solver(groom, settings, 1);
     solver.setState(toDouble(groom.points), comingFrom(groom, velocity, dt));
     const glm::dvec3 start = solver.positions()[1];
     const double q = 0.75;
@@ -60,10 +61,10 @@ TEST(Verlet, LosesVelocityInAGeometricSeries) {
 }
 
 TEST(Verlet, LeavesTheRootWhereItRests) {
-    const Groom groom = wavyGroom(3, 5);
+    const groom::Groom groom = wavyGroom(3, 5);
     SimulationSettings settings;
     settings.wind.strength = 50.0f;
-    Reference solver(groom, settings, 1);
+    reference::Reference solver(groom, settings, 1);
     for (int i = 0; i < 50; ++i) solver.step();
     for (std::uint32_t s = 0; s < 3; ++s)
         EXPECT_EQ(solver.positions()[5 * s], glm::dvec3(groom.strand(s)[0]));
@@ -71,13 +72,13 @@ TEST(Verlet, LeavesTheRootWhereItRests) {
 
 // The fixed point of the pull under a constant acceleration a is off by a dt^2 (1 - k) / k.
 TEST(GlobalConstraint, BalancesGravityWhereTheorySays) {
-    const Groom groom = straightGroom(1, 3);
+    const groom::Groom groom = straightGroom(1, 3);
     SimulationSettings settings = nothingActs();
     settings.stiffness_scaling = StiffnessScaling::thesis;
     settings.gravity = {0.0f, -9.8f, 0.0f};
     settings.friction = 0.05f;
     settings.global.stiffness = 0.125f;
-    Reference solver(groom, settings, 1);
+    reference::Reference solver(groom, settings, 1);
     for (int i = 0; i < 2000; ++i) solver.step();
     const double dt = settings.time_step;
     const double sag = double{settings.gravity.y} * dt * dt * (1.0 - 0.125) / 0.125;
@@ -87,7 +88,7 @@ TEST(GlobalConstraint, BalancesGravityWhereTheorySays) {
 
 // In invariant scaling that is g h0^2 (1 - k) / k whatever the step.
 TEST(GlobalConstraint, BalancesGravityInTheSamePlaceAtEveryStep) {
-    const Groom groom = straightGroom(1, 2);
+    const groom::Groom groom = straightGroom(1, 2);
     SimulationSettings settings = nothingActs();
     settings.gravity = {0.0f, -9.8f, 0.0f};
     settings.friction = 0.05f;
@@ -95,7 +96,7 @@ TEST(GlobalConstraint, BalancesGravityInTheSamePlaceAtEveryStep) {
     const double sag = double{settings.gravity.y} / 3600.0 * (1.0 - 0.125) / 0.125;
     for (const float step : {0.1f, 1.0f / 30.0f, 1.0f / 144.0f, 0.0005f}) {
         settings.time_step = step;
-        Reference solver(groom, settings, 1);
+        reference::Reference solver(groom, settings, 1);
         const int steps = static_cast<int>(30.0f / step);
         for (int i = 0; i < steps; ++i) solver.step();
         // What is left of the swing after 30 s at 0.95 per 1/60 s is below 1e-20.
@@ -104,10 +105,10 @@ TEST(GlobalConstraint, BalancesGravityInTheSamePlaceAtEveryStep) {
 }
 
 TEST(GlobalConstraint, RestoresRestAtStiffnessOne) {
-    const Groom groom = wavyGroom(2, 6);
+    const groom::Groom groom = wavyGroom(2, 6);
     SimulationSettings settings = nothingActs();
     settings.global.stiffness = 1.0f;
-    Reference solver(groom, settings, 1);
+    reference::Reference solver(groom, settings, 1);
     const auto state = toDouble(disturbed(groom, 0.01, 3));
     solver.setState(state, state);
     solver.step();
@@ -115,4 +116,4 @@ TEST(GlobalConstraint, RestoresRestAtStiffnessOne) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

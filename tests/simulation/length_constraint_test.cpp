@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include "hair/simulation/reference_constraints.h"
+#include "hair/reference/constraints.h"
 #include "tests/largest_difference.h"
 #include "tests/simulation/strands.h"
 
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 // Largest |length / rest length - 1| of the strand's segments.
@@ -22,7 +22,7 @@ double lengthError(std::span<const glm::dvec3> points, std::span<const glm::dvec
 }
 
 TEST(LengthConstraint, LeavesRestAndPinnedRootInPlace) {
-    const Groom groom = wavyGroom(1, 9);
+    const groom::Groom groom = wavyGroom(1, 9);
     const auto rest = toDouble(groom.points);
     auto points = rest;
     reference::projectLengths(points, rest);
@@ -69,7 +69,7 @@ TEST(LengthConstraint, ConvergesAtTheRateOfTheory) {
 }
 
 TEST(LengthConstraint, ConvergesFromADisturbedStrand) {
-    const Groom groom = wavyGroom(1, 8);
+    const groom::Groom groom = wavyGroom(1, 8);
     const auto rest = toDouble(groom.points);
     auto points = toDouble(disturbed(groom, 0.01, 4));
     for (int i = 0; i < 500; ++i) reference::projectLengths(points, rest);
@@ -84,4 +84,4 @@ TEST(LengthConstraint, PartsVerticesThatCoincide) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

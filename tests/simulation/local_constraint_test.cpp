@@ -7,11 +7,11 @@
 #include <glm/mat4x4.hpp>
 #include <gtest/gtest.h>
 
-#include "hair/simulation/reference_constraints.h"
+#include "hair/reference/constraints.h"
 #include "tests/largest_difference.h"
 #include "tests/simulation/strands.h"
 
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 constexpr double kExact = 1e-13;  // rounding of double, m
@@ -81,7 +81,7 @@ TEST(LocalConstraint, TurnsFramesByTheAngleOfTheTangentInAPlane) {
 
 // Frames turn rest tangents into current ones, and are rotations, in space as well.
 TEST(LocalConstraint, TurnsRestTangentsIntoCurrentOnes) {
-    const Groom groom = wavyGroom(1, 20);
+    const groom::Groom groom = wavyGroom(1, 20);
     const auto rest = toDouble(groom.points);
     const auto points = toDouble(disturbed(groom, 0.01, 5));
     const auto frames = reference::segmentFrames(points, rest);
@@ -127,7 +127,7 @@ TEST(LocalConstraint, TurnsHalfRoundWhereTangentsAreOpposite) {
 
 // A repeated vertex, at rest and now, changes nothing for the rest of the strand.
 TEST(LocalConstraint, SeesThroughSegmentsWithoutLength) {
-    const Groom groom = wavyGroom(1, 8);
+    const groom::Groom groom = wavyGroom(1, 8);
     auto rest = toDouble(groom.points);
     auto points = toDouble(disturbed(groom, 0.01, 5));
     const auto frames = reference::segmentFrames(points, rest);
@@ -149,4 +149,4 @@ TEST(LocalConstraint, SeesThroughSegmentsWithoutLength) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

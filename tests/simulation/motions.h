@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "hair/settings.h"
-#include "hair/simulation/rigid_motion.h"
+#include "hair/simulation/head_motion.h"
 
-namespace hair {
+namespace hair::simulation {
 
 // Where the neck of a head at the origin would be, m.
 inline constexpr glm::vec3 kNeck{0.0f, -0.08f, -0.02f};
@@ -43,4 +43,4 @@ carried(const RigidMotion& motion, std::span<const glm::vec3> points) {
     return result;
 }
 
-}  // namespace hair
+}  // namespace hair::simulation

@@ -6,7 +6,7 @@
 
 #include "hair/settings.h"
 
-namespace hair {
+namespace hair::simulation {
 
 inline std::string nameOf(const testing::TestParamInfo<Parallelism>& info) {
     switch (info.param) {
@@ -28,4 +28,4 @@ inline std::string nameOf(const testing::TestParamInfo<Parallelism>& info) {
         , SUITE, testing::Values(Parallelism::vertex, Parallelism::strand, Parallelism::serial),   \
         nameOf)
 
-}  // namespace hair
+}  // namespace hair::simulation

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "engine/error.h"
-#include "hair/simulation/hand.h"
-#include "hair/simulation/reference.h"
+#include "hair/reference/solvers.h"
+#include "hair/simulation/pulls.h"
 #include "tests/simulation/pulls.h"
 
 // Hands, and what they do to hair in the reference.
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 constexpr double kExact = 1e-12;  // rounding of double
@@ -89,7 +89,7 @@ TEST(CheckPulls, NamesWhatIsNotThere) {
 
 // A free vertex, in the frame of a hand that goes at constant speed.
 TEST(ReferencePull, ApproachesTheHandAsCriticallyDamped) {
-    const Groom groom = straightGroom(1, 2);
+    const groom::Groom groom = straightGroom(1, 2);
     for (const float stiffness : {25.0f, 400.0f, 1e5f})
         for (const float step : {0.0005f, static_cast<float>(kStep), 0.1f}) {
             const double dt = step;
@@ -100,7 +100,7 @@ TEST(ReferencePull, ApproachesTheHandAsCriticallyDamped) {
             settings.time_step = step;
             settings.pulls = {
                 {.stiffness = stiffness, .path = goes(glm::vec3(start - away), velocity)}};
-            Reference solver(groom, settings, 1);
+            reference::Reference solver(groom, settings, 1);
             solver.setState(
                 std::vector{glm::dvec3(groom.points[0]), start},
                 std::vector{glm::dvec3(groom.points[0]), start - dt * velocity});
@@ -118,7 +118,7 @@ TEST(ReferencePull, ApproachesTheHandAsCriticallyDamped) {
 
 // What hangs on a spring lies g / k lower than without weight, at any step.
 TEST(ReferencePull, BalancesGravity) {
-    const Groom groom = straightGroom(1, 2);
+    const groom::Groom groom = straightGroom(1, 2);
     for (const float step : {0.005f, 0.1f})
         for (const std::uint32_t substeps : {1u, 5u}) {
             SimulationSettings settings = nothingActs();
@@ -126,18 +126,18 @@ TEST(ReferencePull, BalancesGravity) {
             settings.time_step = step;
             settings.substeps = substeps;
             settings.pulls = {{.stiffness = 50.0f, .path = stays({0, 1, 0})}};
-            Reference solver(groom, settings, 1);
+            reference::Reference solver(groom, settings, 1);
             for (int i = 0; i < 2000; ++i) solver.step();
             EXPECT_LT(glm::distance(solver.positions()[1], {0, 1 - 10.0 / 50.0, 0}), 1e-10);
         }
 }
 
 TEST(ReferencePull, LetsHairSettleWithoutHands) {
-    const Groom groom = wavyGroom(3, 6);
+    const groom::Groom groom = wavyGroom(3, 6);
     SimulationSettings settings;
-    Reference alone(groom, settings, 1);
+    reference::Reference alone(groom, settings, 1);
     settings.pulls = manyPulls();
-    Reference held(groom, settings, 1);
+    reference::Reference held(groom, settings, 1);
     for (int i = 0; i < 10; ++i) {
         alone.settle();
         held.settle();
@@ -146,4 +146,4 @@ TEST(ReferencePull, LetsHairSettleWithoutHands) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

@@ -9,7 +9,7 @@
 #include "tests/simulation/strands.h"
 
 // Hands for tests.
-namespace hair {
+namespace hair::simulation {
 
 // A hand that stays in one place for ever.
 inline std::vector<PullKey> stays(const glm::vec3& place) {
@@ -68,4 +68,4 @@ inline std::vector<PullSettings> manyPulls() {
         {.guide = 1, .vertex = 1, .path = {}}};
 }
 
-}  // namespace hair
+}  // namespace hair::simulation

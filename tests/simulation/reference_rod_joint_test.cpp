@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hair/simulation/reference_rod_joint.h"
+#include "hair/reference/rod.h"
 #include "tests/simulation/strands.h"
 
 namespace hair::reference {
@@ -20,11 +20,12 @@ TEST(RodJoint, TorqueIsTheGradientOfTheEnergy) {
     std::mt19937 random(5);
     for (const Clamp clamp : {Clamp::no, Clamp::yes})
         for (int i = 0; i < 200; ++i) {
-            const glm::dquat first = about(glm::normalize(randomVector(random)), 1.0 + i);
-            const glm::dvec3 bend_axis =
-                glm::normalize(glm::dvec3(randomSigned(random), randomSigned(random), 0.0));
-            const double bend = 2.9 * randomSigned(random);
-            const double twist = 2.5 * randomSigned(random);
+            const glm::dquat first =
+                about(glm::normalize(simulation::randomVector(random)), 1.0 + i);
+            const glm::dvec3 bend_axis = glm::normalize(glm::dvec3(
+                simulation::randomSigned(random), simulation::randomSigned(random), 0.0));
+            const double bend = 2.9 * simulation::randomSigned(random);
+            const double twist = 2.5 * simulation::randomSigned(random);
             const glm::dquat second =
                 first * about(bend_axis, bend) * about({0.0, 0.0, 1.0}, twist);
             const Joint joint = bendAndTwist(first, second, 2.0, 0.7, clamp);
@@ -81,8 +82,8 @@ TEST(RodJoint, StaysFiniteWhereAxesAreOpposite) {
 TEST(RodJoint, TurnsBetweenAnyTwoVectorsAndHalfWay) {
     std::mt19937 random(3);
     for (int i = 0; i < 100; ++i) {
-        const glm::dvec3 from = glm::normalize(randomVector(random));
-        const glm::dvec3 to = i % 3 == 0 ? -from : glm::normalize(randomVector(random));
+        const glm::dvec3 from = glm::normalize(simulation::randomVector(random));
+        const glm::dvec3 to = i % 3 == 0 ? -from : glm::normalize(simulation::randomVector(random));
         const glm::dquat turn = rotationBetween(from, to);
         EXPECT_LT(glm::distance(turn * from, to), 1e-12);
         const glm::dquat half = halfOf(turn);

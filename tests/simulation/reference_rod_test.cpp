@@ -1,4 +1,4 @@
-#include "hair/simulation/reference_rod.h"
+#include "hair/reference/rod.h"
 
 #include <cmath>
 #include <random>
@@ -13,7 +13,7 @@
 namespace hair::reference {
 namespace {
 
-const glm::dvec3 kGravity(0.0, -kEarth, 0.0);
+const glm::dvec3 kGravity(0.0, -simulation::kEarth, 0.0);
 
 // A rod with what acts on it.
 struct Rod {
@@ -44,10 +44,12 @@ struct Rod {
 };
 
 double hangingRatio(int segments, double gamma, double turn = 0.0) {
-    const double length = lengthFor(gamma, {});
-    Rod rod(turn == 0.0 ? straightRod(segments, length) : arc(segments, length, turn));
+    const double length = simulation::lengthFor(gamma, {});
+    Rod rod(
+        turn == 0.0 ? simulation::straightRod(segments, length)
+                    : simulation::arc(segments, length, turn));
     rod.comeToRest();
-    return dropOverReach(rod.state.positions());
+    return simulation::dropOverReach(rod.state.positions());
 }
 
 // The table of Romero et al. 2021's curve in this project's notes.
@@ -99,7 +101,7 @@ TEST(ReferenceRod, HangsFromItsNaturalCurve) {
 TEST(ReferenceRod, TwistsByItsTorsionalStiffness) {
     constexpr int kShaft = 24, kArm = 8;
     constexpr double kLength = 5e-4;
-    std::vector<glm::dvec3> points = straightRod(kShaft, kLength * kShaft);
+    std::vector<glm::dvec3> points = simulation::straightRod(kShaft, kLength * kShaft);
     for (int i = 1; i <= kArm; ++i)
         points.push_back(points[kShaft] + kLength * i * glm::dvec3(0.0, 0.0, 1.0));
     const RodMaterial material;
@@ -109,8 +111,9 @@ TEST(ReferenceRod, TwistsByItsTorsionalStiffness) {
     const glm::dquat turn =
         rod.state.orientations[kShaft] * glm::conjugate(rod.rest.orientations[kShaft]);
     const double arm = kArm * kLength;
-    const double moment = lineDensity(material) * kEarth * arm * arm / 2.0;
-    const double theory = moment * (kShaft - 0.5) * kLength / twistingStiffness(material);
+    const double moment = simulation::lineDensity(material) * simulation::kEarth * arm * arm / 2.0;
+    const double theory =
+        moment * (kShaft - 0.5) * kLength / simulation::twistingStiffness(material);
     ASSERT_LT(theory, 1e-2);
     EXPECT_NEAR(2.0 * turn.x / theory, 1.0, 1e-3);
 }
@@ -133,11 +136,12 @@ double periodOfTip(Rod& rod, double time_step, int axis) {
 TEST(ReferenceRod, VibratesAtItsFirstFrequency) {
     constexpr double kZ = 1.87510406871196, kLength = 0.05;
     const RodMaterial material;
-    const double frequency =
-        kZ * kZ / (2.0 * kPi) *
-        std::sqrt(bendingStiffness(material) / lineDensity(material) / std::pow(kLength, 4.0));
+    const double frequency = kZ * kZ / (2.0 * simulation::kPi) *
+                             std::sqrt(
+                                 simulation::bendingStiffness(material) /
+                                 simulation::lineDensity(material) / std::pow(kLength, 4.0));
 
-    const auto rest = straightRod(64, kLength);
+    const auto rest = simulation::straightRod(64, kLength);
     auto bent = rest;
     for (auto& point : bent) {
         const double z = kZ * point.x / kLength;
@@ -155,12 +159,12 @@ TEST(ReferenceRod, VibratesAtItsFirstFrequency) {
 // the first mode, J0(j sqrt(z / L)) at the height z above the tip.
 TEST(ReferenceRod, SwingsAsAChainWhereItIsLimp) {
     constexpr double kLength = 0.2, kZero = 2.40482555769577;
-    const auto rest = straightRod(64, kLength, {0.0, -1.0, 0.0});
+    const auto rest = simulation::straightRod(64, kLength, {0.0, -1.0, 0.0});
     auto swung = rest;
     for (auto& point : swung)
         point.x = 1e-4 * std::cyl_bessel_j(0.0, kZero * std::sqrt(1.0 + point.y / kLength));
     Rod rod(rest, {.youngs_modulus = 1.0, .shear_modulus = 1.0});
-    const double period = 5.2255 * std::sqrt(kLength / kEarth);
+    const double period = 5.2255 * std::sqrt(kLength / simulation::kEarth);
     rod.state = rodFrom(rod.rest, swung, swung, period / 1000.0);
     EXPECT_NEAR(periodOfTip(rod, period / 1000.0, 0) / period, 1.0, 0.005);
 }
@@ -171,20 +175,20 @@ TEST(ReferenceRod, HangsAsACatenaryBetweenItsRootAndAPin) {
     constexpr int kSegments = 64;
     constexpr double kLength = 0.2, kSpan = 0.14;
     Rod rod(
-        straightRod(kSegments, kLength, {0.0, -1.0, 0.0}),
+        simulation::straightRod(kSegments, kLength, {0.0, -1.0, 0.0}),
         {.youngs_modulus = 1e5, .shear_modulus = 1e5});
-    const auto start = vee(kSegments, kLength, kSpan);
+    const auto start = simulation::vee(kSegments, kLength, kSpan);
     rod.state = rodFrom(rod.rest, start, start, 1.0 / 60.0);
     rod.state.pins[kSegments] = start.back();
     for (int i = 0; i < 600; ++i) rod.step(1.0 / 60.0, 0.9);
     Extremes heights;
     for (const auto& point : rod.state.positions()) heights.add(point.y);
-    EXPECT_NEAR(-heights.least() / catenarySag(kLength, kSpan), 1.0, 2e-3);
+    EXPECT_NEAR(-heights.least() / simulation::catenarySag(kLength, kSpan), 1.0, 2e-3);
     EXPECT_LT(glm::distance(rod.state.positions().back(), start.back()), 1e-4);
 }
 
 TEST(ReferenceRod, StaysAtRestWithoutWeight) {
-    Rod rod(helix(40, 0.005, 0.01, 4.0));
+    Rod rod(simulation::helix(40, 0.005, 0.01, 4.0));
     rod.gravity = glm::dvec3(0.0);
     for (int i = 0; i < 200; ++i) rod.step(1.0 / 60.0);
     EXPECT_LT(largestDifference(rod.state.positions(), rod.rest.points), 1e-12);
@@ -192,7 +196,7 @@ TEST(ReferenceRod, StaysAtRestWithoutWeight) {
 
 // A free body: what moves it rigidly leaves its shape alone.
 TEST(ReferenceRod, FollowsItsFollicle) {
-    Rod rod(helix(40, 0.005, 0.01, 4.0));
+    Rod rod(simulation::helix(40, 0.005, 0.01, 4.0));
     rod.gravity = glm::dvec3(0.0);
     for (int i = 1; i <= 40; ++i) {
         rod.root.rotation = glm::angleAxis(0.05 * i, glm::normalize(glm::dvec3(1.0, 2.0, -0.5)));
@@ -215,13 +219,14 @@ TEST(ReferenceRod, NeverGainsEnergy) {
         for (const double time_step : {1.0 / 60.0, 1.0 / 1000.0})
             for (const std::uint32_t iterations : {1u, 2u, 8u}) {
                 Rod rod(
-                    helix(32, 0.01, 0.03, 3.0),
+                    simulation::helix(32, 0.01, 0.03, 3.0),
                     {.youngs_modulus = youngs_modulus, .shear_modulus = youngs_modulus / 6.0});
-                rod.gravity = {kEarth, -kEarth, 0.0};
+                rod.gravity = {simulation::kEarth, -simulation::kEarth, 0.0};
                 rod.iterations = iterations;
                 double mass = 0.0;
                 for (const double m : rod.rest.masses) mass += m;
-                const double left = (iterations < 8 ? 1e-6 : 1e-10) * mass * kEarth * 0.1;
+                const double left =
+                    (iterations < 8 ? 1e-6 : 1e-10) * mass * simulation::kEarth * 0.1;
                 double before = rod.energy();
                 for (int i = 0; i < 500; ++i) {
                     rod.step(time_step);
@@ -239,7 +244,7 @@ TEST(ReferenceRod, EnduresDegenerateInput) {
     for (int shape = 0; shape < 6; ++shape) {
         std::vector<glm::dvec3> points{glm::dvec3(0.0)};
         for (int i = 0; i < 16; ++i) {
-            glm::dvec3 edge = 0.01 * glm::normalize(randomVector(random));
+            glm::dvec3 edge = 0.01 * glm::normalize(simulation::randomVector(random));
             if (shape == 1 && i % 3 == 1) edge = glm::dvec3(0.0);
             if (shape == 2) edge = glm::dvec3(0.0);
             if (shape == 3) edge = {0.0, i % 2 == 0 ? 0.01 : -0.01, 0.0};
@@ -249,13 +254,14 @@ TEST(ReferenceRod, EnduresDegenerateInput) {
         }
         for (const double youngs_modulus : {1.0, 3.9e9, 1e12})
             for (const double time_step : {0.0005, 1.0 / 60.0, 0.1})
-                for (const double acceleration : {0.0, kEarth, 1e5}) {
+                for (const double acceleration : {0.0, simulation::kEarth, 1e5}) {
                     Rod rod(
                         points,
                         {.youngs_modulus = youngs_modulus, .shear_modulus = youngs_modulus / 6.0});
                     auto start = points;
                     for (std::size_t i = 1; i < start.size(); ++i)
-                        start[i] = i % 2 == 0 ? start[0] : points[i] + 0.05 * randomVector(random);
+                        start[i] = i % 2 == 0 ? start[0]
+                                              : points[i] + 0.05 * simulation::randomVector(random);
                     rod.state = rodFrom(rod.rest, start, points, time_step);
                     for (int i = 0; i < 50; ++i) {
                         rod.gravity = {0.0, i < 25 ? -acceleration : acceleration, acceleration};

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hair/simulation/reference.h"
+#include "hair/reference/solvers.h"
 #include "tests/gpu_fixture.h"
 #include "tests/simulation/gpu_simulation.h"
 #include "tests/simulation/parallelisms.h"
@@ -11,7 +11,7 @@
 
 // Never NaN and never infinite, on the device and in the reference, whatever the groom and the
 // parameters.
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 bool finite(const glm::dvec3& v) {
@@ -20,8 +20,8 @@ bool finite(const glm::dvec3& v) {
 
 // Strands with every kind of bad segment: none at the root, in the middle and at the tip, all
 // vertices in one point, folded back onto itself, and almost no length.
-Groom badGroom() {
-    Groom groom{.strand_count = 6, .vertices_per_strand = 5};
+groom::Groom badGroom() {
+    groom::Groom groom{.strand_count = 6, .vertices_per_strand = 5};
     groom.points = {
         {0, 0, 0},    {0, 0, 0},       {0, -0.02f, 0},  {0, -0.04f, 0},   {0, -0.06f, 0},
         {0.1f, 0, 0}, {0.1f, 0.1f, 0}, {0.1f, 0.1f, 0}, {0.2f, 0.1f, 0},  {0.2f, 0.1f, 0},
@@ -60,9 +60,9 @@ std::vector<SimulationSettings> extremes() {
 }
 
 TEST(ReferenceRobustness, StaysFinite) {
-    const Groom groom = badGroom();
+    const groom::Groom groom = badGroom();
     for (const SimulationSettings& settings : extremes()) {
-        Reference solver(groom, settings, 1);
+        reference::Reference solver(groom, settings, 1);
         for (int i = 0; i < 200; ++i) solver.step();
         for (const glm::dvec3& point : solver.positions()) ASSERT_TRUE(finite(point));
     }
@@ -73,7 +73,7 @@ class GpuRobustness : public GpuTest, public testing::WithParamInterface<Paralle
 FOR_EVERY_PARALLELISM(GpuRobustness);
 
 TEST_P(GpuRobustness, StaysFinite) {
-    const Groom groom = badGroom();
+    const groom::Groom groom = badGroom();
     const std::vector<glm::vec3> collapsed(groom.points.size(), glm::vec3(0.0f));
     for (SimulationSettings settings : extremes()) {
         if (settings.solver != Solver::shape && GetParam() != Parallelism::serial) continue;
@@ -89,14 +89,14 @@ TEST_P(GpuRobustness, StaysFinite) {
 
 // The conventions for segments without a direction are the same on both sides.
 TEST_P(GpuRobustness, TakesBadSegmentsLikeTheReference) {
-    const Groom groom = badGroom();
+    const groom::Groom groom = badGroom();
     for (const float wind : {0.0f, 15.0f}) {
         SimulationSettings settings;
         settings.parallelism = GetParam();
         settings.local.stiffness = 0.5f;
         settings.wind.strength = wind;
         Simulation simulation(device(), groom, settings, 1);
-        Reference solver(groom, settings, 1);
+        reference::Reference solver(groom, settings, 1);
         advance(device(), simulation, 1);
         solver.step();
         // Directions of segments that are as short as rounding are anyone's guess: 1e-6 m is of
@@ -108,4 +108,4 @@ TEST_P(GpuRobustness, TakesBadSegmentsLikeTheReference) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

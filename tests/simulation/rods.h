@@ -7,10 +7,10 @@
 
 #include <glm/vec3.hpp>
 
-#include "hair/simulation/reference_rod.h"
+#include "hair/reference/rod.h"
 
 // Rods for tests, of hair's own material where nothing else is said.
-namespace hair {
+namespace hair::simulation {
 
 constexpr double kEarth = 9.81;  // m/s^2
 constexpr double kPi = 3.14159265358979323846;
@@ -89,4 +89,4 @@ inline double dropOverReach(std::span<const glm::dvec3> points) {
     return -tip.y / std::hypot(tip.x, tip.z);
 }
 
-}  // namespace hair
+}  // namespace hair::simulation

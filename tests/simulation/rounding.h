@@ -4,10 +4,10 @@
 #include <random>
 #include <vector>
 
-#include "hair/simulation/reference.h"
+#include "hair/reference/solvers.h"
 #include "tests/simulation/strands.h"
 
-namespace hair {
+namespace hair::simulation {
 
 // How far the device may be from the reference after some steps. The bound comes from the problem
 // and not from the device: a second reference is disturbed by the rounding of a float in every
@@ -24,9 +24,9 @@ struct Rounding {
 };
 
 inline Rounding roundingAfter(
-    int steps, const Groom& groom, const SimulationSettings& settings, std::uint32_t seed) {
-    Reference solver(groom, settings, seed);
-    Reference rounded(groom, settings, seed);
+    int steps, const groom::Groom& groom, const SimulationSettings& settings, std::uint32_t seed) {
+    reference::Reference solver(groom, settings, seed);
+    reference::Reference rounded(groom, settings, seed);
     std::mt19937 random(1);
     for (int i = 0; i < steps; ++i) {
         solver.step();
@@ -43,4 +43,4 @@ inline Rounding roundingAfter(
     return {largestDifference(rounded.positions(), solver.positions()), 2.0 + 2.0 * pulls};
 }
 
-}  // namespace hair
+}  // namespace hair::simulation

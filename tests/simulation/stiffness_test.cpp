@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "hair/simulation/solver.h"
+#include "hair/simulation/solvers.h"
 
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 // time_step is a float: 1/60 is off by 5e-8, which enters squared.
@@ -103,4 +103,4 @@ TEST(Stiffness, StaysInRangeAtTheEndsOfEveryParameter) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

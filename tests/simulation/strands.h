@@ -14,7 +14,7 @@
 #include "tests/largest_difference.h"
 
 // Grooms and states for the simulation's tests. Everything is deterministic on every platform.
-namespace hair {
+namespace hair::simulation {
 
 // In [-1, 1).
 inline double randomSigned(std::mt19937& random) {
@@ -28,9 +28,9 @@ inline glm::dvec3 randomVector(std::mt19937& random) {
 }
 
 // Strands that hang from points 5 cm apart, made of `segment` long pieces.
-inline Groom
+inline groom::Groom
 straightGroom(std::uint32_t strands, std::uint32_t vertices, double segment = kReferenceSegment) {
-    Groom groom{.strand_count = strands, .vertices_per_strand = vertices};
+    groom::Groom groom{.strand_count = strands, .vertices_per_strand = vertices};
     for (std::uint32_t s = 0; s < strands; ++s)
         for (std::uint32_t v = 0; v < vertices; ++v)
             groom.points.emplace_back(0.05 * s, -segment * v, 0.0);
@@ -38,9 +38,9 @@ straightGroom(std::uint32_t strands, std::uint32_t vertices, double segment = kR
 }
 
 // Wavy strands: each piece is bent from the one before by a random angle of up to about 40 degrees.
-inline Groom
+inline groom::Groom
 wavyGroom(std::uint32_t strands, std::uint32_t vertices, double segment = kReferenceSegment) {
-    Groom groom{.strand_count = strands, .vertices_per_strand = vertices};
+    groom::Groom groom{.strand_count = strands, .vertices_per_strand = vertices};
     std::mt19937 random(7);
     for (std::uint32_t s = 0; s < strands; ++s) {
         glm::dvec3 point = 0.1 * randomVector(random);
@@ -55,7 +55,8 @@ wavyGroom(std::uint32_t strands, std::uint32_t vertices, double segment = kRefer
 }
 
 // The groom's points, all but the roots moved by up to `amount` along each axis, m.
-inline std::vector<glm::vec3> disturbed(const Groom& groom, double amount, std::uint32_t seed) {
+inline std::vector<glm::vec3>
+disturbed(const groom::Groom& groom, double amount, std::uint32_t seed) {
     std::mt19937 random(seed);
     std::vector<glm::vec3> points = groom.points;
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -69,7 +70,7 @@ inline std::vector<glm::dvec3> toDouble(std::span<const glm::vec3> points) {
 }
 
 // Length of the groom's longest strand, m: what errors are relative to.
-inline double longestStrand(const Groom& groom) {
+inline double longestStrand(const groom::Groom& groom) {
     Extremes lengths;
     for (std::uint32_t s = 0; s < groom.strand_count; ++s) {
         double length = 0.0;
@@ -92,4 +93,4 @@ inline SimulationSettings nothingActs() {
     return settings;
 }
 
-}  // namespace hair
+}  // namespace hair::simulation

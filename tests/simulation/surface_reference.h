@@ -14,7 +14,7 @@
 // What is true of a triangle mesh, in double and by going through all of its triangles.
 namespace hair::reference {
 
-inline std::array<glm::dvec3, 3> corners(const Mesh& mesh, const auto& triangle) {
+inline std::array<glm::dvec3, 3> corners(const groom::Mesh& mesh, const auto& triangle) {
     return {
         glm::dvec3(mesh.positions[triangle[0]]), glm::dvec3(mesh.positions[triangle[1]]),
         glm::dvec3(mesh.positions[triangle[2]])};
@@ -40,7 +40,7 @@ inline glm::dvec3 closestPoint(const glm::dvec3& p, const std::array<glm::dvec3,
     return a + (ab * vb + ac * vc) / (va + vb + vc);
 }
 
-inline double distance(const Mesh& mesh, const glm::dvec3& p) {
+inline double distance(const groom::Mesh& mesh, const glm::dvec3& p) {
     Extremes distances;
     for (const auto& triangle : mesh.triangles)
         distances.add(glm::distance(p, closestPoint(p, corners(mesh, triangle))));
@@ -50,7 +50,7 @@ inline double distance(const Mesh& mesh, const glm::dvec3& p) {
 // How often the surface goes round p: 1 inside a closed one, 0 outside. Jacobson et al. 2013,
 // Robust inside-outside segmentation using generalized winding numbers; the solid angles are van
 // Oosterom and Strackee's 1983, The solid angle of a plane triangle, eq. 8.
-inline double windingNumber(const Mesh& mesh, const glm::dvec3& p) {
+inline double windingNumber(const groom::Mesh& mesh, const glm::dvec3& p) {
     double angles = 0.0;
     for (const auto& triangle : mesh.triangles) {
         auto [a, b, c] = corners(mesh, triangle);

@@ -1,4 +1,4 @@
-#include "hair/simulation/triangle_tree.h"
+#include "hair/simulation/bodies.h"
 
 #include <algorithm>
 
@@ -6,11 +6,11 @@
 
 #include "tests/simulation/closed_meshes.h"
 
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 struct Walk {
-    const ClosedMesh& mesh;
+    const groom::ClosedMesh& mesh;
     const TriangleTree& tree;
     std::vector<int> visits;  // [triangle]
     std::uint32_t depth = 0;
@@ -42,16 +42,16 @@ struct Walk {
     }
 };
 
-Walk walk(const ClosedMesh& mesh, const TriangleTree& tree) {
+Walk walk(const groom::ClosedMesh& mesh, const TriangleTree& tree) {
     Walk result{mesh, tree, std::vector<int>(mesh.triangles.size())};
     result.visit(0, 1, glm::vec3(-1e30f), glm::vec3(1e30f));
     return result;
 }
 
 TEST(TriangleTree, HoldsEveryTriangleOnceInItsBoxes) {
-    for (const Mesh& mesh :
+    for (const groom::Mesh& mesh :
          {makeBox({0, 0, 0}, {1, 2, 3}), makeTorus(1.0, 0.3, 40, 20), makeStar()}) {
-        const ClosedMesh closed = closeMesh(mesh);
+        const groom::ClosedMesh closed = groom::closeMesh(mesh);
         const TriangleTree tree = buildTriangleTree(closed);
         const Walk seen = walk(closed, tree);
         EXPECT_EQ(seen.visits, std::vector<int>(closed.triangles.size(), 1));
@@ -62,10 +62,10 @@ TEST(TriangleTree, HoldsEveryTriangleOnceInItsBoxes) {
 
 // Halves of 20 * 4^4 triangles: 10 are left on level 10, a leaf.
 TEST(TriangleTree, IsAsShallowAsHalvingMakesIt) {
-    const ClosedMesh closed = closeMesh(makeSphere({0, 0, 0}, 1.0, 4));
+    const groom::ClosedMesh closed = groom::closeMesh(makeSphere({0, 0, 0}, 1.0, 4));
     const TriangleTree tree = buildTriangleTree(closed);
     EXPECT_EQ(walk(closed, tree).depth, 10u);
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

@@ -7,12 +7,11 @@
 #include <glm/matrix.hpp>
 #include <gtest/gtest.h>
 
-#include "hair/simulation/reference_turbulence.h"
-#include "hair/simulation/reference_wind.h"
+#include "hair/reference/wind.h"
 #include "tests/largest_difference.h"
 #include "tests/simulation/strands.h"
 
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 using reference::curlNoise;
@@ -45,8 +44,9 @@ glm::dmat3 derivatives(const glm::dvec3& point) {
     for (int axis = 0; axis < 3; ++axis) {
         glm::dvec3 step{0.0};
         step[axis] = kStep;
-        result[axis] =
-            (turbulence(point + step, 3, 1) - turbulence(point - step, 3, 1)) / (2.0 * kStep);
+        result[axis] = (reference::turbulence(point + step, 3, 1) -
+                        reference::turbulence(point - step, 3, 1)) /
+                       (2.0 * kStep);
     }
     return result;
 }
@@ -84,7 +84,7 @@ TEST(Turbulence, HasMeanZeroAndUnitVariance) {
         glm::dvec3 mean{0.0};
         glm::dmat3 products{0.0};
         for (const glm::dvec3& point : points) {
-            const glm::dvec3 w = turbulence(point, octaves, 5);
+            const glm::dvec3 w = reference::turbulence(point, octaves, 5);
             mean += w / count;
             products += glm::outerProduct(w, w) / count;
         }
@@ -107,7 +107,7 @@ TEST(Turbulence, IsSmooth) {
         glm::dvec3 step{0.0};
         step[axis] = 1e-6;
         const auto at = [&](int steps) {
-            return curlNoise(face + static_cast<double>(steps) * step, 1);
+            return reference::curlNoise(face + static_cast<double>(steps) * step, 1);
         };
         // A derivative is some tens, a second one some hundreds.
         EXPECT_LT(glm::distance(at(-1), at(1)), 1e-4);
@@ -124,8 +124,8 @@ TEST(Turbulence, HasOctavesAsInKolmogorovsSpectrum) {
         const double next = energy + amplitude * amplitude;
         const double added = meanSquare(points, [&](const glm::dvec3& point) {
             glm::dvec3 less{0.0};
-            if (octaves > 0) less = std::sqrt(energy) * turbulence(point, octaves, 1);
-            return std::sqrt(next) * turbulence(point, octaves + 1, 1) - less;
+            if (octaves > 0) less = std::sqrt(energy) * reference::turbulence(point, octaves, 1);
+            return std::sqrt(next) * reference::turbulence(point, octaves + 1, 1) - less;
         });
         // As above for three components' mean of n samples, and half of that for the root.
         const double tolerance = 2.0 * std::sqrt(2.0 / (3.0 * static_cast<double>(points.size())));
@@ -141,7 +141,8 @@ TEST(Turbulence, FollowsTheTwoThirdsLaw) {
     const auto points = apart(16);
     const auto difference = [&](double distance) {
         return meanSquare(points, [&](const glm::dvec3& point) {
-            return turbulence(point + glm::dvec3(distance, 0, 0), 8, 1) - turbulence(point, 8, 1);
+            return reference::turbulence(point + glm::dvec3(distance, 0, 0), 8, 1) -
+                   reference::turbulence(point, 8, 1);
         });
     };
     const double exponent = std::log(difference(0.25) / difference(1.0 / 32.0)) / std::log(8.0);
@@ -151,7 +152,7 @@ TEST(Turbulence, FollowsTheTwoThirdsLaw) {
 TEST(Turbulence, DependsOnTheSeed) {
     const auto points = apart(12);
     const double apart_by = meanSquare(points, [](const glm::dvec3& point) {
-        return turbulence(point, 3, 1) - turbulence(point, 3, 2);
+        return reference::turbulence(point, 3, 1) - reference::turbulence(point, 3, 2);
     });
     // Of independent fields, 2; n = 1728 with three components: 4 sqrt(2 / 3n) of it.
     EXPECT_NEAR(apart_by, 2.0, 2.0 * 0.08);
@@ -192,4 +193,4 @@ TEST(Wind, IsStillWithoutSpeed) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

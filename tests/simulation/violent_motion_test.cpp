@@ -12,7 +12,7 @@
 #include "tests/simulation/strands.h"
 
 // A head that is thrown about: 720 degrees/s and 5 m/s, reached and given up within 0.05 s.
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 constexpr double kMoving = 1.0;  // s
@@ -42,7 +42,7 @@ double lengthOf(std::span<const glm::vec3> strand) {
 }
 
 // By which a strand is longer than at rest, at most, m.
-double greatestStretch(const Groom& groom, std::span<const glm::vec3> points) {
+double greatestStretch(const groom::Groom& groom, std::span<const glm::vec3> points) {
     Extremes stretches;
     for (std::uint32_t s = 0; s < groom.strand_count; ++s) {
         const std::size_t vertices = groom.vertices_per_strand;
@@ -52,7 +52,7 @@ double greatestStretch(const Groom& groom, std::span<const glm::vec3> points) {
 }
 
 // How far the violent motion takes a root in a step, at most, m.
-double longestWay(const Groom& groom, double time_step) {
+double longestWay(const groom::Groom& groom, double time_step) {
     const HeadMotion motion(violent());
     Extremes ways;
     for (double time = 0.0; time < kMoving; time += time_step)
@@ -69,18 +69,18 @@ double longestWay(const Groom& groom, double time_step) {
 // chain. What the root moves every step then adds up to q / (1 - q) of it, where the sweeps of a
 // step leave q. Twice that, for a jump at the root is more than the slowest error, and corrections
 // are speed for the next step.
-double shapeStretch(const Groom& groom, const SimulationSettings& settings, double way) {
+double shapeStretch(const groom::Groom& groom, const SimulationSettings& settings, double way) {
     const double cosine = std::cos(0.5 * std::numbers::pi / groom.segmentsPerStrand());
     const double left = std::pow(cosine, 2.0 * settings.length.iterations);
     return 2.0 * left / (1.0 - left) * way;
 }
 
 // `ftl` and `rod` keep every length.
-double noStretch(const Groom&, const SimulationSettings&, double) { return 0.0; }
+double noStretch(const groom::Groom&, const SimulationSettings&, double) { return 0.0; }
 
 struct Row {
     Solver solver;
-    double (*stretch)(const Groom&, const SimulationSettings&, double way);  // at most, m
+    double (*stretch)(const groom::Groom&, const SimulationSettings&, double way);  // at most, m
 };
 constexpr Row kRows[] = {
     {Solver::shape, shapeStretch}, {Solver::ftl, noStretch}, {Solver::rod, noStretch}};
@@ -98,7 +98,7 @@ TEST_F(ViolentMotion, LeavesHairWholeAndComesToRest) {
                 SCOPED_TRACE(
                     testing::Message() << "solver " << static_cast<int>(row.solver) << ", " << rate
                                        << " steps/s, " << length << " m");
-                const Groom groom = wavyGroom(9, 8, length / 7.0);
+                const groom::Groom groom = wavyGroom(9, 8, length / 7.0);
                 SimulationSettings settings;
                 settings.solver = row.solver;
                 settings.time_step = static_cast<float>(1.0 / rate);
@@ -129,7 +129,7 @@ TEST_F(ViolentMotion, LeavesHairWholeAndComesToRest) {
 
 // What it takes to keep lengths in such a motion: sweeps.
 TEST_F(ViolentMotion, SweepsKeepLengths) {
-    const Groom groom = wavyGroom(9, 8);
+    const groom::Groom groom = wavyGroom(9, 8);
     SimulationSettings settings;
     settings.motion = violent();
     const double way = longestWay(groom, double{settings.time_step});
@@ -147,4 +147,4 @@ TEST_F(ViolentMotion, SweepsKeepLengths) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

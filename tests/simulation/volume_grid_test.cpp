@@ -8,7 +8,7 @@
 #include "tests/simulation/volume_rig.h"
 
 // The grid of hair on hair: its place, and what is summed up in it.
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 SimulationSettings withFriction() {
@@ -18,7 +18,7 @@ SimulationSettings withFriction() {
 }
 
 TEST(VolumeGrid, HoldsWhateverHairCanReach) {
-    const Groom groom = wavyGroom(20, 9);
+    const groom::Groom groom = wavyGroom(20, 9);
     for (const std::uint32_t resolution : {8u, 33u, 128u}) {
         const VolumeGrid grid = volumeGrid(groom, resolution);
         for (std::uint32_t s = 0; s < groom.strand_count; ++s)
@@ -37,7 +37,7 @@ TEST(VolumeGrid, HoldsWhateverHairCanReach) {
 }
 
 TEST(VolumeGrid, SharesAreOfTheLength) {
-    Groom groom{.strand_count = 2, .vertices_per_strand = 3};
+    groom::Groom groom{.strand_count = 2, .vertices_per_strand = 3};
     groom.points = {{0, 0, 0}, {0, 1, 0}, {0, 1, 3}, {5, 0, 0}, {7, 0, 0}, {7, 0, 2}};
     const std::vector<double> expected{0.5 / 8, 2.0 / 8, 1.5 / 8, 1.0 / 8, 2.0 / 8, 1.0 / 8};
     const auto shares = lengthShares(groom);
@@ -52,7 +52,7 @@ TEST(VolumeGrid, SharesAreOfTheLength) {
 // on the face of two cells half to each, and one in the middle of a cell 3/4 to that and 1/8 to
 // both of its neighbours.
 TEST(VolumeGrid, MeanRestDensityIsThatOfAPoint) {
-    const Groom groom{
+    const groom::Groom groom{
         .strand_count = 1, .vertices_per_strand = 2, .points = {glm::vec3(1.0f), glm::vec3(1.0f)}};
     const double on_corner = std::pow(2.0 * 0.25, 3.0);
     const double in_middle = std::pow(0.5625 + 2.0 / 64.0, 3.0);
@@ -92,7 +92,7 @@ protected:
 // vertices'. A vertex's part in each of 27 cells is rounded to a float, 6e-8 of it, and to 2^-30
 // of the whole; places in cells, up to 24, are rounded to 24 * 6e-8 a few times.
 TEST_F(GpuVolume, SumsUpShareAndMomentum) {
-    const Groom groom = wavyGroom(50, 9);
+    const groom::Groom groom = wavyGroom(50, 9);
     const VolumeRig rig(device(), groom, withFriction());
     const auto positions = disturbed(groom, 0.01, 1);
     const auto previous = disturbed(groom, 0.01, 2);
@@ -124,7 +124,7 @@ TEST_F(GpuVolume, SumsUpShareAndMomentum) {
 
 // The worst that can happen: all hair in one cell at the same, great speed.
 TEST_F(GpuVolume, HoldsAllHairInOnePoint) {
-    const Groom groom = wavyGroom(2000, 33);
+    const groom::Groom groom = wavyGroom(2000, 33);
     const VolumeRig rig(device(), groom, withFriction());
     for (const float speed : {1e-3f, 1.0f, 1e6f}) {
         const glm::vec3 moved = glm::vec3(1.0f, -1.0f, 1.0f) * (speed / 60.0f);
@@ -144,7 +144,7 @@ TEST_F(GpuVolume, HoldsAllHairInOnePoint) {
 // The grid is the head's: where head and hair are moved and turned, the same is summed up, but for
 // the rounding of places, 1e-7 m of cells of 20 mm.
 TEST_F(GpuVolume, MovesWithTheHead) {
-    const Groom groom = wavyGroom(50, 9);
+    const groom::Groom groom = wavyGroom(50, 9);
     const VolumeRig rig(device(), groom, withFriction());
     const auto positions = disturbed(groom, 0.01, 1);
     const auto previous = disturbed(groom, 0.01, 2);
@@ -174,4 +174,4 @@ TEST_F(GpuVolume, MovesWithTheHead) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

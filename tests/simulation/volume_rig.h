@@ -6,13 +6,13 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "engine/transfer.h"
+#include "engine/buffer_image.h"
+#include "hair/reference/hair_hair.h"
 #include "hair/simulation/hair_hair.h"
-#include "hair/simulation/reference_volume.h"
-#include "hair/simulation/solver.h"
+#include "hair/simulation/solvers.h"
 #include "tests/simulation/strands.h"
 
-namespace hair {
+namespace hair::simulation {
 
 // What hair gives hair, without a solver: given positions to accelerations.
 class VolumeRig {
@@ -22,7 +22,8 @@ public:
         double share;
     };
 
-    VolumeRig(const engine::Device& device, const Groom& groom, const SimulationSettings& settings)
+    VolumeRig(
+        const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings)
         : device_(device), groom_(groom), settings_(settings),
           positions_(device, vectors("positions")), previous_(device, vectors("previous")),
           accelerations_(device, vectors("accelerations")),
@@ -101,7 +102,7 @@ private:
     }
 
     const engine::Device& device_;
-    Groom groom_;
+    groom::Groom groom_;
     SimulationSettings settings_;
     engine::Buffer positions_;
     engine::Buffer previous_;
@@ -110,4 +111,4 @@ private:
     HairHair hair_hair_;
 };
 
-}  // namespace hair
+}  // namespace hair::simulation

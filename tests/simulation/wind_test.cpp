@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "engine/error.h"
-#include "hair/simulation/reference_wind.h"
+#include "hair/reference/wind.h"
 
-namespace hair {
+namespace hair::simulation {
 namespace {
 
 constexpr double kExact = 1e-12;  // rounding of double
@@ -104,4 +104,4 @@ TEST(ReferenceWind, FollowsEquation14) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::simulation

@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/shell/action.h"
+#include "benchmarks/viewer/actions.h"
 
 #include <map>
 #include <set>
@@ -7,9 +7,7 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
-#include "benchmarks/viewer/shell/setting_actions.h"
-
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 // Keys that fly the camera: benchmarks/viewer/tools/.
@@ -165,4 +163,4 @@ TEST_F(Keys, DoNothingWhileTextIsTyped) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

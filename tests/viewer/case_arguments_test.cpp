@@ -1,24 +1,23 @@
-#include "benchmarks/viewer/files/case_arguments.h"
+#include "benchmarks/viewer/scene_file.h"
 
 #include <cstdio>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/check_settings.h"
-#include "benchmarks/select_cases.h"
-#include "benchmarks/sweep.h"
-#include "benchmarks/write_settings.h"
+#include "benchmarks/scene/schema.h"
+#include "benchmarks/scene/settings_json.h"
+#include "benchmarks/scene/sweep.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 #include "tests/viewer/random_settings.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 using testing::HasSubstr;
 
-std::string allOf(const hair::Settings& settings) { return writeSettings(settings).dump(); }
+std::string allOf(const hair::Settings& settings) { return scene::writeSettings(settings).dump(); }
 
 // The words that a POSIX shell makes of a command line.
 std::vector<std::string> words(const TemporaryFolder& folder, const std::string& line) {
@@ -35,8 +34,8 @@ std::vector<std::string> words(const TemporaryFolder& folder, const std::string&
 }
 
 // As the program sorts its arguments.
-SceneOptions options(const std::vector<std::string>& words) {
-    SceneOptions options;
+scene::SceneOptions options(const std::vector<std::string>& words) {
+    scene::SceneOptions options;
     for (std::size_t i = 0; i + 1 < words.size(); i += 2) {
         EXPECT_TRUE(words[i] == "-a" || words[i] == "--set") << words[i];
         (words[i] == "-a" ? options.axes : options.sets).push_back(words[i + 1]);
@@ -47,22 +46,24 @@ SceneOptions options(const std::vector<std::string>& words) {
 
 class CaseArguments : public testing::Test {
 protected:
-    Scene load(std::string_view text) const { return loadScene(folder_.write("s.json", text)); }
+    scene::Scene load(std::string_view text) const {
+        return scene::loadScene(folder_.write("s.json", text));
+    }
 
     // What `hairbench run` plays, with every asset read.
-    std::vector<CaseSpec> cases(Scene scene, const std::string& arguments) const {
-        return selectCases(scene, options(words(folder_, arguments)));
+    std::vector<scene::CaseSpec> cases(scene::Scene scene, const std::string& arguments) const {
+        return scene::selectCases(scene, options(words(folder_, arguments)));
     }
 
     // Expects one case with these settings.
-    void expectThese(const Scene& scene, const hair::Settings& settings) const {
+    void expectThese(const scene::Scene& scene, const hair::Settings& settings) const {
         const std::string arguments = caseArguments(scene, settings);
         const auto played = cases(scene, arguments);
         ASSERT_EQ(played.size(), 1u) << arguments;
         EXPECT_EQ(allOf(played.front().settings), allOf(settings)) << arguments;
     }
 
-    std::string error(const Scene& scene, const hair::Settings& settings) const {
+    std::string error(const scene::Scene& scene, const hair::Settings& settings) const {
         return folder_.relative(errorText([&] { caseArguments(scene, settings); }));
     }
 
@@ -70,12 +71,12 @@ protected:
 };
 
 TEST_F(CaseArguments, AreNoneForTheSceneItself) {
-    const Scene scene = load(R"({"strands": {"density": 16}})");
+    const scene::Scene scene = load(R"({"strands": {"density": 16}})");
     EXPECT_EQ(caseArguments(scene, scene.settings), "");
 }
 
 TEST_F(CaseArguments, NameEveryChangedField) {
-    const Scene scene = load("{}");
+    const scene::Scene scene = load("{}");
     hair::Settings settings = scene.settings;
     settings.description = "It's mine";
     settings.groom.file = "a b.hair";
@@ -92,25 +93,25 @@ TEST_F(CaseArguments, NameEveryChangedField) {
 }
 
 TEST_F(CaseArguments, GiveTheSettingsBackWhateverTheyAre) {
-    const Scene scene = load(R"({"strands": {"density": 16}, "render": {"width": 640}})");
+    const scene::Scene scene = load(R"({"strands": {"density": 16}, "render": {"width": 640}})");
     RandomSettings random(3, 0.02);
     int tried = 0;
     for (int i = 0; i < 400; ++i) {
         const hair::Settings settings = random();
-        if (errorText([&] { checkSettings(settings); }) != "no error") continue;
+        if (errorText([&] { scene::checkSettings(settings); }) != "no error") continue;
         ++tried;
         const std::string arguments = caseArguments(scene, settings);
         // The files that these settings name are not there, so not by selectCases().
-        Scene changed = scene;
-        const SceneOptions given = options(words(folder_, arguments));
+        scene::Scene changed = scene;
+        const scene::SceneOptions given = options(words(folder_, arguments));
         for (const std::string& set : given.sets) {
-            const Axis field = parseAxis(set);
+            const scene::Axis field = scene::parseAxis(set);
             ASSERT_EQ(field.values.size(), 1u) << set;
-            setField(changed, field.pointer, field.values.front().json());
+            scene::setField(changed, field.pointer, field.values.front().json());
         }
-        std::vector<Axis> axes;
-        for (const std::string& axis : given.axes) axes.push_back(parseAxis(axis));
-        const auto played = expand(changed, axes);
+        std::vector<scene::Axis> axes;
+        for (const std::string& axis : given.axes) axes.push_back(scene::parseAxis(axis));
+        const auto played = scene::expand(changed, axes);
         ASSERT_EQ(played.size(), 1u) << arguments;
         ASSERT_EQ(allOf(played.front().settings), allOf(settings)) << arguments;
     }
@@ -118,7 +119,7 @@ TEST_F(CaseArguments, GiveTheSettingsBackWhateverTheyAre) {
 }
 
 TEST_F(CaseArguments, AreWhatTheProgramTakes) {
-    const Scene scene = loadScene(HAIRBENCH_SCENES_DIR "/rest.json");
+    const scene::Scene scene = scene::loadScene(HAIRBENCH_SCENES_DIR "/rest.json");
     hair::Settings settings = scene.settings;
     expectThese(scene, settings);
     settings.description = "\"Rest\", 50 % of it: $HOME\n[a,b";
@@ -134,7 +135,7 @@ TEST_F(CaseArguments, AreWhatTheProgramTakes) {
 }
 
 TEST_F(CaseArguments, LeaveOneCaseOfASweep) {
-    const Scene scene = loadScene(HAIRBENCH_SCENES_DIR "/smoke.json");
+    const scene::Scene scene = scene::loadScene(HAIRBENCH_SCENES_DIR "/smoke.json");
     ASSERT_FALSE(scene.axes.empty());
     EXPECT_EQ(caseArguments(scene, scene.settings), "-a /render/msaa=1");
     hair::Settings settings = scene.settings;
@@ -145,7 +146,7 @@ TEST_F(CaseArguments, LeaveOneCaseOfASweep) {
 }
 
 TEST_F(CaseArguments, KnowAxesOfGroupsAndOfListElements) {
-    const Scene scene = load(R"({
+    const scene::Scene scene = load(R"({
         "groom": {"grow": {"mesh": ")" HAIRBENCH_SCENES_DIR R"(/assets/head.glb"}},
         "simulation": {"colliders": [{"radius": 1}]},
         "sweep": {"/lod": [{"level": 1}, {"level": 2}],
@@ -158,10 +159,10 @@ TEST_F(CaseArguments, KnowAxesOfGroupsAndOfListElements) {
 }
 
 TEST_F(CaseArguments, AreRefusedWhereTheyWouldSaySomethingElse) {
-    const Scene tied = load(R"({"sweep": {"zip": [{"/groom/guides": [10, 86],
+    const scene::Scene tied = load(R"({"sweep": {"zip": [{"/groom/guides": [10, 86],
                                                    "/strands/tessellation": [8, 4]}]}})");
     EXPECT_THAT(error(tied, tied.settings), HasSubstr("s.json: the sweep ties /groom/guides to"));
-    const Scene excluding = load(R"({"sweep": {
+    const scene::Scene excluding = load(R"({"sweep": {
         "/strands/density": [16, 64], "exclude": [{"/strands/density": [64]}]}})");
     EXPECT_EQ(error(excluding, excluding.settings), "s.json: /sweep/exclude: leaves no case");
     hair::Settings impossible;
@@ -170,4 +171,4 @@ TEST_F(CaseArguments, AreRefusedWhereTheyWouldSaySomethingElse) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -2,9 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include "benchmarks/viewer/picture/settings_differences.h"
+#include "benchmarks/viewer/compare_panel.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 
 void PrintTo(const SettingDifference& difference, std::ostream* stream) {
     *stream << difference.pointer << ": " << difference.a << " | " << difference.b;
@@ -54,4 +54,4 @@ TEST(SettingsDifferences, CompareListsMemberByMember) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -6,13 +6,12 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/viewer/picture/difference_pass.h"
-#include "benchmarks/viewer/picture/difference_text.h"
+#include "benchmarks/viewer/difference.h"
+#include "engine/buffer_image.h"
 #include "engine/commands.h"
-#include "engine/transfer.h"
 #include "tests/gpu_fixture.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 using engine::Access;
@@ -65,12 +64,12 @@ protected:
         device().runOnce([&](engine::Commands& commands) {
             commands.transition(
                 made, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                Access::anything, Access::transfer_write);
+                engine::Access::anything, engine::Access::transfer_write);
             commands.copy(staging, 0, made, 0);
             commands.transition(
                 made, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, Access::transfer_write,
-                Access::compute_read);
+                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, engine::Access::transfer_write,
+                engine::Access::compute_read);
         });
         return made;
     }
@@ -82,12 +81,12 @@ protected:
             image(size, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
         device().runOnce([&](engine::Commands& commands) {
             commands.transition(
-                output, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, Access::anything,
-                Access::compute_write);
+                output, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL,
+                engine::Access::anything, engine::Access::compute_write);
             pass.record(commands, a_image, b_image, output, gain);
             commands.transition(
                 output, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                Access::compute_write, Access::transfer_read);
+                engine::Access::compute_write, engine::Access::transfer_read);
         });
         const engine::Buffer pixels = engine::readImage(device(), output, 4);
         const auto* first = reinterpret_cast<const std::uint8_t*>(pixels.mapped().data());
@@ -162,4 +161,4 @@ TEST(DifferenceText, SaysWhatWasCounted) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -1,58 +1,58 @@
-#include "benchmarks/viewer/settings/edit_history.h"
+#include "benchmarks/viewer/player.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 TEST(EditHistory, GoesBackAndForth) {
-    EditHistory history{Document("a")};
+    EditHistory history{scene::Document("a")};
     EXPECT_FALSE(history.canUndo());
-    history.edit(Document("b"), false);
-    history.edit(Document("c"), false);
-    EXPECT_EQ(history.undo(), Document("b"));
-    EXPECT_EQ(history.undo(), Document("a"));
+    history.edit(scene::Document("b"), false);
+    history.edit(scene::Document("c"), false);
+    EXPECT_EQ(history.undo(), scene::Document("b"));
+    EXPECT_EQ(history.undo(), scene::Document("a"));
     EXPECT_FALSE(history.canUndo());
-    EXPECT_EQ(history.undo(), Document("a"));
-    EXPECT_EQ(history.redo(), Document("b"));
-    EXPECT_EQ(history.redo(), Document("c"));
+    EXPECT_EQ(history.undo(), scene::Document("a"));
+    EXPECT_EQ(history.redo(), scene::Document("b"));
+    EXPECT_EQ(history.redo(), scene::Document("c"));
     EXPECT_FALSE(history.canRedo());
 }
 
 TEST(EditHistory, TakesADragForOneEdit) {
-    EditHistory history{Document("0")};
-    for (const char* document : {"1", "2", "3"}) history.edit(Document(document), true);
+    EditHistory history{scene::Document("0")};
+    for (const char* document : {"1", "2", "3"}) history.edit(scene::Document(document), true);
     history.settle();
-    for (const char* document : {"4", "5"}) history.edit(Document(document), true);
-    history.edit(Document("6"), false);
-    EXPECT_EQ(history.undo(), Document("5"));
-    EXPECT_EQ(history.undo(), Document("3"));
-    EXPECT_EQ(history.undo(), Document("0"));
+    for (const char* document : {"4", "5"}) history.edit(scene::Document(document), true);
+    history.edit(scene::Document("6"), false);
+    EXPECT_EQ(history.undo(), scene::Document("5"));
+    EXPECT_EQ(history.undo(), scene::Document("3"));
+    EXPECT_EQ(history.undo(), scene::Document("0"));
 }
 
 TEST(EditHistory, ForgetsWhatWasUndoneWhenSomethingElseIsDone) {
-    EditHistory history{Document("a")};
-    history.edit(Document("b"), false);
+    EditHistory history{scene::Document("a")};
+    history.edit(scene::Document("b"), false);
     history.undo();
-    history.edit(Document("c"), false);
+    history.edit(scene::Document("c"), false);
     EXPECT_FALSE(history.canRedo());
-    EXPECT_EQ(history.undo(), Document("a"));
+    EXPECT_EQ(history.undo(), scene::Document("a"));
 }
 
 // A click that moved nothing must not swallow the state that a later drag starts from.
 TEST(EditHistory, DoesNotContinueAnEditThatChangedNothing) {
-    EditHistory history{Document("a")};
-    history.edit(Document("a"), true);
-    history.edit(Document("b"), true);
-    EXPECT_EQ(history.undo(), Document("a"));
+    EditHistory history{scene::Document("a")};
+    history.edit(scene::Document("a"), true);
+    history.edit(scene::Document("b"), true);
+    EXPECT_EQ(history.undo(), scene::Document("a"));
 }
 
 TEST(EditHistory, KeepsNoEditThatChangesNothing) {
-    EditHistory history{Document("a")};
-    history.edit(Document("a"), false);
+    EditHistory history{scene::Document("a")};
+    history.edit(scene::Document("a"), false);
     EXPECT_FALSE(history.canUndo());
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/tools/gizmo.h"
+#include "benchmarks/viewer/gizmo.h"
 
 #include <numbers>
 
@@ -7,12 +7,11 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "benchmarks/viewer/tools/collider_handles.h"
-#include "benchmarks/viewer/tools/head_keys.h"
-#include "benchmarks/viewer/tools/head_tool.h"
+#include "benchmarks/viewer/collider_tool.h"
+#include "benchmarks/viewer/head_tool.h"
 #include "hair/simulation/head_motion.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 constexpr double kFrame = 1.0 / 60.0;  // s
@@ -98,7 +97,7 @@ TEST(HeadGizmo, RingsAreTheAnglesOfAKeyframe) {
     const auto rotationOf = [&](const HeadPose& of) {
         hair::MotionSettings motion{.keyframes = {{0.0f, of.rotation, of.translation}}};
         motion.pivot = pivot;
-        return hair::HeadMotion(motion).at(0.0).rotation;
+        return hair::simulation::HeadMotion(motion).at(0.0).rotation;
     };
     const Gizmo gizmo = headGizmo(pivot, pose, 0.1f);
     EXPECT_EQ(gizmo.origin, pivot + pose.translation);
@@ -159,10 +158,10 @@ TEST(HeadKeys, KeepWhereTheHeadWas) {
             const hair::MotionSettings until = motionUntil(nod, moment, kFrame);
             EXPECT_FALSE(until.repeat);
             expectAscending(until);
-            const hair::HeadMotion before(nod), after(until);
+            const hair::simulation::HeadMotion before(nod), after(until);
             for (std::uint32_t i = 0; i <= frame; ++i) {
                 const double time = (i + 1.0) * kFrame;
-                const hair::RigidMotion a = before.at(time), b = after.at(time);
+                const hair::simulation::RigidMotion a = before.at(time), b = after.at(time);
                 // A thousandth of a degree, or a keyframe's float of time at 1.7 m/s.
                 EXPECT_NEAR(std::abs(glm::dot(a.rotation, b.rotation)), 1.0, 1e-9);
                 EXPECT_LT(glm::length(a.translation - b.translation), 2e-6);
@@ -183,7 +182,7 @@ TEST(HeadKeys, StayFewWhereTheMotionHadEnded) {
 }
 
 TEST(ColliderHandles, MoveTheColliderByWhatIsDragged) {
-    const hair::RigidMotion head{
+    const hair::simulation::RigidMotion head{
         .rotation = glm::angleAxis(0.7, glm::normalize(glm::dvec3{1, 2, 3})),
         .translation = {0.1, -0.05, 0.02}};
     const glm::vec3 by{0.03f, -0.02f, 0.01f};
@@ -231,4 +230,4 @@ TEST(ColliderInFront, TouchesTheGroomsSphereAtTheFace) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/tools/hand_path.h"
+#include "benchmarks/viewer/grab_tool.h"
 
 #include <vector>
 
@@ -6,9 +6,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "benchmarks/viewer/play/pacer.h"
+#include "benchmarks/viewer/player.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 constexpr double kFrame = 1.0 / 60.0;  // s
@@ -119,4 +119,4 @@ TEST(HandPath, EndsWhereThereIsNoRoom) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -5,7 +5,7 @@
 #include "tests/viewer/headless_ui.h"
 
 // Each fault is planted, and there is one layout without any.
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 using testing::Contains;
@@ -226,4 +226,4 @@ TEST(LayoutFaults, AreNoneForAPopupOnAPanel) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

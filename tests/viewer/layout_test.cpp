@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/shell/layout.h"
+#include "benchmarks/viewer/preferences.h"
 
 #include <array>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 constexpr float kLetter = 15.0f;  // px at scale 1
@@ -134,4 +134,4 @@ TEST(Layout, IsTheSameAtAnyScale) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

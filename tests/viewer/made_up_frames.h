@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "benchmarks/viewer/timings/timing_history.h"
+#include "benchmarks/viewer/player.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 
 // An isolated frame of two passes; it took `rest` ms more than they did.
 inline engine::FrameRecord isolatedFrame(double wind, double strands, double rest = 0.0) {
@@ -41,4 +41,4 @@ inline TimingHistory madeUpHistory() {
     return history;
 }
 
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -5,14 +5,13 @@
 
 #include <gmock/gmock.h>
 
-#include "benchmarks/viewer/play/player.h"
-#include "benchmarks/viewer/timings/count_statistics.h"
-#include "benchmarks/viewer/timings/side_measurement.h"
-#include "engine/buffer.h"
+#include "benchmarks/viewer/measure_panel.h"
+#include "benchmarks/viewer/player.h"
+#include "engine/buffer_image.h"
 #include "tests/golden/features.h"
 #include "tests/gpu_fixture.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 using testing::ElementsAre;
@@ -30,16 +29,16 @@ hair::Settings tinySettings() {
     return settings;
 }
 
-std::map<std::string, double> memoryOf(const CaseResult& result) {
+std::map<std::string, double> memoryOf(const report::CaseResult& result) {
     std::map<std::string, double> memory;
-    for (const Metric& metric : result.metrics)
+    for (const report::Metric& metric : result.metrics)
         if (metric.name().starts_with("memory.")) memory[metric.name()] = metric.samples.front();
     return memory;
 }
 
 class MeasuredSide : public GpuTest {
 protected:
-    static SideMeasurement measured(const MeasureHooks& hooks) {
+    static SideMeasurement measured(const measure::MeasureHooks& hooks) {
         return measureSide(device(), tinySettings(), HAIRBENCH_SCENES_DIR, "tiny", hooks);
     }
     static bool goOn() { return false; }
@@ -61,18 +60,18 @@ TEST_F(MeasuredSide, EndsWithTheFrameThatTheViewerShowsThere) {
 }
 
 TEST_F(MeasuredSide, HasTheMetricsOfARun) {
-    CaseResult run;
+    report::CaseResult run;
     {
-        Case test_case(device(), tinySettings(), HAIRBENCH_SCENES_DIR);
+        measure::Case test_case(device(), tinySettings(), HAIRBENCH_SCENES_DIR);
         const hair::RunSettings settings = tinySettings().run;
-        measure(device(), test_case, settings, {.stop = goOn}, run);
+        measure::measure(device(), test_case, settings, {.stop = goOn}, run);
     }
     // Other things are on the device, and one more joins in the middle.
     Player player(device(), tinySettings(), HAIRBENCH_SCENES_DIR);
     std::optional<engine::Buffer> window;
     std::vector<std::string> modes;
     const SideMeasurement side =
-        measured({.stop = goOn, .progress = [&](const SamplingState& state) {
+        measured({.stop = goOn, .progress = [&](const measure::SamplingState& state) {
                       modes.push_back(state.mode);
                       window.emplace(
                           device(), engine::BufferDescription{.size = 1u << 20, .name = "window"});
@@ -80,15 +79,15 @@ TEST_F(MeasuredSide, HasTheMetricsOfARun) {
     EXPECT_THAT(modes, testing::IsSupersetOf({"overlapped", "isolated"}));
     EXPECT_EQ(memoryOf(side.result), memoryOf(run));
     EXPECT_EQ(side.result.counts, run.counts);
-    const auto names = [](const CaseResult& result) {
+    const auto names = [](const report::CaseResult& result) {
         std::vector<std::string> all;
-        for (const Metric& metric : result.metrics)
-            if (metric.mode != Mode::wall_clock) all.push_back(metric.name());
+        for (const report::Metric& metric : result.metrics)
+            if (metric.mode != report::Mode::wall_clock) all.push_back(metric.name());
         std::ranges::sort(all);
         return all;
     };
     // But for passes, which are by another clock where the device's timestamps were found wrong.
-    const auto whole = [&](const CaseResult& result) {
+    const auto whole = [&](const report::CaseResult& result) {
         std::vector<std::string> all = names(result);
         std::erase_if(all, [](const std::string& name) { return name.starts_with("pass."); });
         return all;
@@ -99,7 +98,7 @@ TEST_F(MeasuredSide, HasTheMetricsOfARun) {
 
 TEST_F(MeasuredSide, IsNoneWhereTheUserCancels) {
     int asked = 0;
-    EXPECT_THROW(measured({.stop = [&] { return ++asked > 3; }}), Interrupted);
+    EXPECT_THROW(measured({.stop = [&] { return ++asked > 3; }}), engine::Interrupted);
 }
 
 TEST_F(MeasuredSide, CountsWithoutTouchingTheFrame) {
@@ -108,7 +107,7 @@ TEST_F(MeasuredSide, CountsWithoutTouchingTheFrame) {
     player.seek(2);
     const std::string picture = player.played().pictureHash();
     const std::string state = player.played().stateHash();
-    const CaseResult counted = countStatistics(device(), player.played());
+    const report::CaseResult counted = countStatistics(device(), player.played());
     EXPECT_EQ(counted.statistics.size(), engine::kStatisticNames.size());
     EXPECT_EQ(player.frame(), 2u);
     EXPECT_EQ(player.played().pictureHash(), picture);
@@ -120,10 +119,12 @@ TEST_F(MeasuredSide, CountsWithoutTouchingTheFrame) {
     EXPECT_EQ(player.played().pictureHash(), next);
     // What follows from the settings.
     EXPECT_THAT(counted.trust.warnings, IsEmpty());
-    const auto compared = std::ranges::count_if(
-        counted.statistics, [](const Statistic& each) { return each.expected.has_value(); });
+    const auto compared =
+        std::ranges::count_if(counted.statistics, [](const report::Statistic& each) {
+            return each.expected.has_value();
+        });
     EXPECT_GT(compared, 0);
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

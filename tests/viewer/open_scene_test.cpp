@@ -1,11 +1,11 @@
-#include "benchmarks/viewer/play/open_scene.h"
+#include "benchmarks/viewer/open_scene.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/golden/features.h"
 #include "tests/gpu_fixture.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 SceneFile fileOf(const hair::Settings& settings) {
@@ -138,4 +138,4 @@ TEST_F(OpenScenes, AreMarkedAgainstWhatIsOnDisk) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/tools/orbit_camera.h"
+#include "benchmarks/viewer/camera_tool.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +12,9 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
-#include "hair/rendering/camera.h"
+#include "hair/rendering/lights.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 constexpr float kHeight = 600.0f;  // px
@@ -36,7 +36,8 @@ float distanceOf(const hair::CameraSettings& camera) {
 
 // Where the picture shows a point, px from its upper left corner.
 glm::vec2 pixelOf(const hair::CameraSettings& camera, glm::vec3 point) {
-    const glm::vec4 clip = hair::viewProjection(camera, kAspect) * glm::vec4(point, 1.0f);
+    const glm::vec4 clip =
+        hair::rendering::viewProjection(camera, kAspect) * glm::vec4(point, 1.0f);
     const glm::vec2 unit = (glm::vec2(clip) / clip.w + 1.0f) / 2.0f;
     return unit * glm::vec2(kHeight * kAspect, kHeight);
 }
@@ -184,4 +185,4 @@ TEST(Focus, NeverLooksAlongUp) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

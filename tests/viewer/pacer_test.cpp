@@ -1,8 +1,8 @@
-#include "benchmarks/viewer/play/pacer.h"
+#include "benchmarks/viewer/player.h"
 
 #include <gtest/gtest.h>
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 constexpr double kFrame = 1.0 / 64.0;  // simulated s; sums of it are exact
@@ -70,4 +70,4 @@ TEST(Pacer, ForgetsWhatWasDueWhereEveryFrameIsPlayed) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/tools/picking.h"
+#include "benchmarks/viewer/picking.h"
 
 #include <array>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 // Of a point that goes to a pixel and back in floats: pixels of a thousand have steps of 6e-5.
@@ -136,7 +136,7 @@ TEST(PickHair, FindsNothingBetweenGuides) {
 }
 
 TEST(PickMesh, HitsATriangleThatMovedWithTheHead) {
-    hair::Mesh mesh;
+    hair::groom::Mesh mesh;
     mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
     mesh.triangles = {{0, 1, 2}};
     const Ray ray{{0, 0, 2}, {0, 0, -1}};
@@ -147,7 +147,7 @@ TEST(PickMesh, HitsATriangleThatMovedWithTheHead) {
     ASSERT_TRUE(moved);
     EXPECT_NEAR(*moved, 1.5, 1e-12);
     // A quarter turn about +y has it seen from its edge.
-    const hair::RigidMotion turned{
+    const hair::simulation::RigidMotion turned{
         .rotation = glm::angleAxis(std::numbers::pi / 2, glm::dvec3{0, 1, 0}),
         .translation = {0.1, 0, 0}};
     EXPECT_FALSE(pickMesh(ray, mesh, turned));
@@ -171,4 +171,4 @@ TEST(PickCapsule, HitsSidesAndEnds) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/viewer/picture/arrange.h"
+#include "benchmarks/viewer/picture_area.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 // Corners are sums of a few floats of up to some thousand px, which are exact to 2^-12 or so.
@@ -137,4 +137,4 @@ TEST(Arrange, FindsWhatTwoRectsHaveInCommon) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

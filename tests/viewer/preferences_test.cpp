@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/shell/preferences.h"
+#include "benchmarks/viewer/preferences.h"
 
 #include <cstdlib>
 #include <fstream>
@@ -6,10 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/viewer/shell/preferences_file.h"
 #include "engine/error.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 class PreferencesFiles : public testing::Test {
@@ -145,4 +144,4 @@ TEST_F(PreferencesFiles, ThatCantBeWrittenAreAProblemOnce) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

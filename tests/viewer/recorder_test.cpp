@@ -1,13 +1,13 @@
-#include "benchmarks/viewer/files/recorder.h"
+#include "benchmarks/viewer/recorder.h"
 
 #include <gmock/gmock.h>
 
-#include "engine/image_file.h"
+#include "engine/pictures.h"
 #include "tests/error_text.h"
 #include "tests/gpu_fixture.h"
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 using testing::HasSubstr;
@@ -93,4 +93,4 @@ TEST_F(RecorderTest, StopsWhereAPictureCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -1,24 +1,23 @@
-#include "benchmarks/viewer/files/save_scene.h"
+#include "benchmarks/viewer/scene_file.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/json_text.h"
-#include "benchmarks/read_settings.h"
-#include "benchmarks/scene.h"
-#include "benchmarks/write_settings.h"
+#include "benchmarks/scene/json.h"
+#include "benchmarks/scene/scene.h"
+#include "benchmarks/scene/settings_json.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 #include "tests/viewer/random_settings.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 // Every member; floats by their shortest decimal, which is another one for other bits.
-std::string allOf(const hair::Settings& settings) { return writeSettings(settings).dump(); }
+std::string allOf(const hair::Settings& settings) { return scene::writeSettings(settings).dump(); }
 
 std::size_t longestLine(const std::string& text) {
     std::size_t longest = 0;
@@ -67,7 +66,7 @@ TEST(SceneText, ReadsBackBitEqual) {
     for (int i = 0; i < 300; ++i) {
         const hair::Settings settings = random();
         const std::string text = sceneText(settings, "a", "a");
-        const hair::Settings read = readSettings(parseJson(text, "scene"));
+        const hair::Settings read = scene::readSettings(scene::parseJson(text, "scene"));
         ASSERT_EQ(allOf(read), allOf(settings)) << text;
     }
 }
@@ -142,7 +141,7 @@ TEST(SaveScene, IsReadAsTheSettingsWithFilesInTheirPlace) {
     settings.groom.guides = 12;
     const fs::path file = folder.file("kept/new/b.json");
     saveScene(settings, folder.file("scenes"), file);
-    const Scene scene = loadScene(file);
+    const scene::Scene scene = scene::loadScene(file);
     EXPECT_EQ(scene.settings.groom.guides, 12u);
     EXPECT_EQ(scene.settings.groom.file, "../../scenes/hair/a.hair");
     EXPECT_TRUE(fs::equivalent(
@@ -164,4 +163,4 @@ TEST(SaveScene, SaysWhatItCannotWrite) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -1,19 +1,19 @@
-#include "benchmarks/viewer/files/scene_file.h"
+#include "benchmarks/viewer/scene_file.h"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 
-#include "benchmarks/assets.h"
-#include "benchmarks/check_settings.h"
-#include "benchmarks/viewer/files/screenshot.h"
-#include "engine/image_file.h"
+#include "benchmarks/measure/case.h"
+#include "benchmarks/scene/schema.h"
+#include "benchmarks/viewer/recorder.h"
+#include "engine/pictures.h"
 #include "hair/groom/build_groom.h"
 #include "hair/groom/mesh/import_mesh.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 namespace fs = std::filesystem;
@@ -138,10 +138,10 @@ protected:
         return withDropped(settings, folder_.path(), file);
     }
 
-    hair::Groom build(const hair::Settings& settings) const {
-        checkSettings(settings);
-        const auto mesh = loadMesh(settings, folder_.path());
-        return hair::buildGroom(
+    hair::groom::Groom build(const hair::Settings& settings) const {
+        scene::checkSettings(settings);
+        const auto mesh = measure::loadMesh(settings, folder_.path());
+        return hair::groom::buildGroom(
             settings.groom, mesh ? &*mesh : nullptr, folder_.path(), settings.seed);
     }
 
@@ -155,7 +155,7 @@ TEST_F(DroppedOn, AGroomIsInPlaceOfTheHair) {
     EXPECT_EQ(settings.groom.placement.scale, 0.01f);  // the unit that it was written in
     EXPECT_EQ(settings.groom.style.cut.length, 0.0f);
     EXPECT_TRUE(settings.simulation.pulls.empty());
-    const hair::Groom groom = build(settings);
+    const hair::groom::Groom groom = build(settings);
     EXPECT_EQ(groom.strand_count, 40u);
 }
 
@@ -168,7 +168,7 @@ TEST_F(DroppedOn, AGroomThatIsElsewhereHasNoHead) {
 }
 
 TEST_F(DroppedOn, AGroomOnTheHeadKeepsIt) {
-    const hair::Mesh head = hair::importMesh(kScenes + "/assets/head.glb");
+    const hair::groom::Mesh head = hair::groom::importMesh(kScenes + "/assets/head.glb");
     std::string text;
     int vertex = 0;
     std::string lines;
@@ -193,7 +193,7 @@ TEST_F(DroppedOn, ADenseGroomGetsGuidesAndIsDrawnAsItIs) {
     const hair::Settings settings = dropped(folder_.write("dense.obj", objOf(1500, 0.01, 5.0)));
     EXPECT_EQ(settings.groom.guides, 300u);
     EXPECT_EQ(settings.strands.source, hair::StrandSource::groom);
-    const hair::Groom groom = build(settings);
+    const hair::groom::Groom groom = build(settings);
     EXPECT_EQ(groom.strand_count, 300u);
     EXPECT_EQ(groom.bindings.size(), 1500u);
 }
@@ -238,4 +238,4 @@ TEST_F(DroppedOn, WhatCannotBeUsedSaysWhy) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

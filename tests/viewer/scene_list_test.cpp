@@ -1,11 +1,11 @@
-#include "benchmarks/viewer/files/scene_list.h"
+#include "benchmarks/viewer/scene_list.h"
 
 #include <gmock/gmock.h>
 #include <imgui.h>
 
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 using testing::ElementsAre;
@@ -134,4 +134,4 @@ TEST_F(SceneListPanel, StaysWithinItsPanel) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -1,15 +1,14 @@
-#include "benchmarks/viewer/files/screenshot.h"
+#include "benchmarks/viewer/recorder.h"
 
 #include <gmock/gmock.h>
 
-#include "benchmarks/scene.h"
-#include "benchmarks/screenshot_scene.h"
-#include "engine/image_file.h"
+#include "benchmarks/scene/scene.h"
+#include "engine/pictures.h"
 #include "engine/png_text.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 using testing::HasSubstr;
@@ -50,7 +49,7 @@ protected:
     }
 
     std::optional<std::string> sceneIn(std::string_view file) const {
-        return sceneOfScreenshot(folder_.write("b.png", file));
+        return scene::sceneOfScreenshot(folder_.write("b.png", file));
     }
 
     std::string errorOf(std::string_view file) const {
@@ -63,11 +62,11 @@ protected:
 TEST_F(Screenshot, HasThePictureAndTheScene) {
     const auto path = shot();
     EXPECT_EQ(engine::readImage(path).rgba, kPixels);
-    EXPECT_EQ(sceneOfScreenshot(path), kScene);
+    EXPECT_EQ(scene::sceneOfScreenshot(path), kScene);
 }
 
 TEST_F(Screenshot, IsASceneFile) {
-    const Scene scene = loadScene(shot());
+    const scene::Scene scene = scene::loadScene(shot());
     EXPECT_EQ(scene.settings.seed, 7u);
     EXPECT_EQ(scene.settings.description, "größer");
     EXPECT_EQ(scene.directory, folder_.path());
@@ -83,9 +82,9 @@ TEST_F(Screenshot, KeepsItsSceneInOtherKindsOfText) {
 TEST_F(Screenshot, MayHaveNoScene) {
     EXPECT_EQ(sceneIn(pngWith("")), std::nullopt);
     engine::writePng(folder_.file("c.png"), 2, 2, kPixels);
-    EXPECT_EQ(sceneOfScreenshot(folder_.file("c.png")), std::nullopt);
+    EXPECT_EQ(scene::sceneOfScreenshot(folder_.file("c.png")), std::nullopt);
     EXPECT_EQ(
-        folder_.relative(errorText([&] { loadScene(folder_.file("c.png")); })),
+        folder_.relative(errorText([&] { scene::loadScene(folder_.file("c.png")); })),
         "c.png: is a picture without a scene in it");
 }
 
@@ -130,4 +129,4 @@ TEST_F(Screenshot, GetsANameThatIsFree) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -5,7 +5,7 @@
 #include "tests/temporary_folder.h"
 #include "tests/viewer/headless_ui.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 class ScriptFile : public testing::Test {
@@ -104,4 +104,4 @@ TEST_F(ScriptFile, KnowsKeys) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -1,13 +1,13 @@
-#include "benchmarks/viewer/settings/settings_panel.h"
+#include "benchmarks/viewer/settings_panel.h"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "engine/ui_items.h"
+#include "engine/ui.h"
 #include "tests/viewer/headless_ui.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 class SettingsPanel : public testing::Test {
@@ -142,4 +142,4 @@ TEST_F(SettingsPanel, KeepsNamesAndWidgetsWithinTheNarrowestColumn) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

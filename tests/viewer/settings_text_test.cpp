@@ -1,6 +1,4 @@
-#include "benchmarks/viewer/settings/list_pages.h"
-#include "benchmarks/viewer/settings/names.h"
-#include "benchmarks/viewer/settings/number_text.h"
+#include "benchmarks/viewer/setting_text.h"
 
 #include <cstdio>
 
@@ -9,7 +7,7 @@
 #include "hair/fields.h"
 #include "hair/settings.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 TEST(SettingNames, AreShownAsPeopleReadThem) {
@@ -80,20 +78,20 @@ TEST(ListPages, EndWithTheLastElement) {
 TEST(Differ, LooksIntoGroupsAndLists) {
     const hair::Settings settings;
     hair::Settings other = settings;
-    EXPECT_FALSE(differ(settings, other));
+    EXPECT_FALSE(hair::differ(settings, other));
     other.simulation.wind.direction.z = 0.5f;
-    EXPECT_TRUE(differ(settings, other));
-    EXPECT_TRUE(differ(settings.simulation, other.simulation));
-    EXPECT_FALSE(differ(settings.render, other.render));
+    EXPECT_TRUE(hair::differ(settings, other));
+    EXPECT_TRUE(hair::differ(settings.simulation, other.simulation));
+    EXPECT_FALSE(hair::differ(settings.render, other.render));
 
     other = settings;
     other.simulation.colliders.resize(2);
-    EXPECT_TRUE(differ(settings, other));
+    EXPECT_TRUE(hair::differ(settings, other));
     hair::Settings third = other;
-    EXPECT_FALSE(differ(other, third));
+    EXPECT_FALSE(hair::differ(other, third));
     third.simulation.colliders[1].radius *= 2.0f;
-    EXPECT_TRUE(differ(other, third));
+    EXPECT_TRUE(hair::differ(other, third));
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/shaders/shader_reload.h"
+#include "benchmarks/viewer/shader_reload.h"
 
 #include <algorithm>
 #include <chrono>
@@ -7,14 +7,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/case.h"
+#include "benchmarks/measure/case.h"
 #include "engine/frame_loop.h"
-#include "engine/shader_library.h"
+#include "engine/shaders.h"
 #include "tests/gpu_fixture.h"
 #include "tests/required.h"
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 using testing::ElementsAre;
@@ -75,7 +75,7 @@ protected:
         settings.strands.tessellation = 1;
         settings.render.width = 64;
         settings.render.height = 36;
-        Case picture(device(), settings, HAIRBENCH_SCENES_DIR);
+        measure::Case picture(device(), settings, HAIRBENCH_SCENES_DIR);
         engine::FrameLoop loop(device(), engine::Timing::overlapped);
         loop.frame([&](engine::Passes& passes) { picture.frame(passes); });
         loop.finish();
@@ -239,4 +239,4 @@ TEST_F(ShaderReloadTest, WatchesNothingWhereThereIsNothing) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -1,11 +1,11 @@
-#include "benchmarks/viewer/shell/theme.h"
+#include "benchmarks/viewer/preferences.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 #include <imgui.h>
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 // Relative luminance and contrast ratio: Web Content Accessibility Guidelines 2.1, 1.4.3.
@@ -63,4 +63,4 @@ TEST(Theme, IsDarkOrLight) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

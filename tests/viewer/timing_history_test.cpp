@@ -1,9 +1,9 @@
-#include "benchmarks/viewer/timings/timing_history.h"
+#include "benchmarks/viewer/player.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 using engine::Timing;
@@ -18,9 +18,10 @@ engine::FrameRecord frameOf(double wall) {
 TEST(TimingHistory, KeepsTheNewestOfEachWay) {
     constexpr std::uint32_t kMore = 5;
     TimingHistory history;
-    for (std::uint32_t i = 0; i < 3; ++i) history.add(frameOf(-1.0), Timing::overlapped, 1000 + i);
+    for (std::uint32_t i = 0; i < 3; ++i)
+        history.add(frameOf(-1.0), engine::Timing::overlapped, 1000 + i);
     for (std::uint32_t i = 0; i < TimingHistory::kFrames + kMore; ++i)
-        history.add(frameOf(i), Timing::isolated, 2 * i);
+        history.add(frameOf(i), engine::Timing::isolated, 2 * i);
 
     EXPECT_THAT(history.overlapped().numbers, ElementsAre(1000, 1001, 1002));
     const TimedFrames& isolated = history.isolated();
@@ -34,8 +35,8 @@ TEST(TimingHistory, KeepsTheNewestOfEachWay) {
 
 TEST(TimingHistory, IsAnotherOneOnceItIsCleared) {
     TimingHistory history;
-    history.add(frameOf(1.0), Timing::isolated, 0);
-    history.add(frameOf(1.0), Timing::overlapped, 1);
+    history.add(frameOf(1.0), engine::Timing::isolated, 0);
+    history.add(frameOf(1.0), engine::Timing::overlapped, 1);
     const std::uint64_t before = history.revision();
     history.clear();
     EXPECT_EQ(history.isolated().size(), 0u);
@@ -44,4 +45,4 @@ TEST(TimingHistory, IsAnotherOneOnceItIsCleared) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

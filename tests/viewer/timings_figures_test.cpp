@@ -2,11 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "benchmarks/viewer/timings/frame_metrics.h"
-#include "benchmarks/viewer/timings/shown_side.h"
+#include "benchmarks/viewer/timings.h"
 #include "tests/viewer/made_up_frames.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 using testing::Contains;
@@ -16,34 +15,42 @@ using testing::IsEmpty;
 using testing::Optional;
 using testing::Pair;
 
-std::vector<std::string> names(const CaseResult& result) {
+std::vector<std::string> names(const report::CaseResult& result) {
     std::vector<std::string> all;
-    for (const Metric& metric : result.metrics) all.push_back(metric.name());
+    for (const report::Metric& metric : result.metrics) all.push_back(metric.name());
     return all;
 }
 
 // The viewer draws one frame at a time: what the runner says of two in flight is not known.
 TEST(TimingsFigures, AreTheRunnersThatHoldForOneFrameAtATime) {
-    const CaseResult result = frameMetrics(madeUpHistory(), "discrete");
+    const report::CaseResult result = frameMetrics(madeUpHistory(), "discrete");
     EXPECT_THAT(
         names(result), ElementsAre(
                            "frame.device.time", "cpu.record.time", "cpu.submit.time",
                            "frame.isolated.time", "pass.wind.time", "pass.strands.time"));
-    const auto samples = [&](const MetricId& id) { return metricOf(result, id)->samples; };
-    EXPECT_THAT(samples(ofFrame(Measured::device_time)), ElementsAre(22.0, 17.0, 18.0));
-    EXPECT_THAT(samples(ofCpu(Measured::record_time)), ElementsAre(3.0, 3.0, 3.0));
-    EXPECT_THAT(samples(ofFrame(Measured::isolated_time)), ElementsAre(12.0, 25.0, 63.0));
-    EXPECT_THAT(samples(ofPass("strands", Measured::time)), ElementsAre(10.0, 20.0, 60.0));
-    EXPECT_EQ(metricOf(result, ofFrame(Measured::device_time))->mode, Mode::overlapped);
-    EXPECT_EQ(metricOf(result, ofPass("wind", Measured::time))->mode, Mode::isolated);
-    EXPECT_EQ(metricOf(result, ofFrame(Measured::rate)), nullptr);
+    const auto samples = [&](const report::MetricId& id) { return metricOf(result, id)->samples; };
+    EXPECT_THAT(
+        samples(report::ofFrame(report::Measured::device_time)), ElementsAre(22.0, 17.0, 18.0));
+    EXPECT_THAT(samples(report::ofCpu(report::Measured::record_time)), ElementsAre(3.0, 3.0, 3.0));
+    EXPECT_THAT(
+        samples(report::ofFrame(report::Measured::isolated_time)), ElementsAre(12.0, 25.0, 63.0));
+    EXPECT_THAT(
+        samples(report::ofPass("strands", report::Measured::time)), ElementsAre(10.0, 20.0, 60.0));
+    EXPECT_EQ(
+        metricOf(result, report::ofFrame(report::Measured::device_time))->mode,
+        report::Mode::overlapped);
+    EXPECT_EQ(
+        metricOf(result, report::ofPass("wind", report::Measured::time))->mode,
+        report::Mode::isolated);
+    EXPECT_EQ(metricOf(result, report::ofFrame(report::Measured::rate)), nullptr);
 }
 
 TEST(TimingsFigures, HaveCpuTimeOfSoftwareDevices) {
-    const CaseResult result = frameMetrics(madeUpHistory(), "cpu");
-    ASSERT_NE(metricOf(result, ofFrame(Measured::cpu_time)), nullptr);
+    const report::CaseResult result = frameMetrics(madeUpHistory(), "cpu");
+    ASSERT_NE(metricOf(result, report::ofFrame(report::Measured::cpu_time)), nullptr);
     EXPECT_THAT(
-        metricOf(result, ofFrame(Measured::cpu_time))->samples, ElementsAre(24.0, 50.0, 126.0));
+        metricOf(result, report::ofFrame(report::Measured::cpu_time))->samples,
+        ElementsAre(24.0, 50.0, 126.0));
 }
 
 TEST(TimingsFigures, TellHowFastFramesAre) {
@@ -119,12 +126,12 @@ TEST(TimingsFigures, SplitAFrame) {
 
 // 11/12, 23/25 and 62/63: the median is 23/25.
 TEST(TimingsFigures, SayHowFarPassesAreTheFrame) {
-    const CaseResult good = frameMetrics(madeUpHistory(), "discrete");
+    const report::CaseResult good = frameMetrics(madeUpHistory(), "discrete");
     EXPECT_THAT(good.trust.pass_sum_over_wall, Optional(0.92));
     EXPECT_THAT(good.trust.warnings, IsEmpty());
     TimingHistory history;
     history.add(isolatedFrame(1.0, 4.0, 5.0), engine::Timing::isolated, 0);
-    const CaseResult bad = frameMetrics(history, "discrete");
+    const report::CaseResult bad = frameMetrics(history, "discrete");
     EXPECT_THAT(bad.trust.warnings, Contains(HasSubstr("add up to 0.500 of")));
 }
 
@@ -138,4 +145,4 @@ TEST(TimingsFigures, OfNothingAreNone) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

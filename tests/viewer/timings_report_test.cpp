@@ -4,18 +4,17 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/commands.h"
-#include "benchmarks/exit_codes.h"
-#include "benchmarks/report_file.h"
-#include "benchmarks/table.h"
-#include "benchmarks/viewer/timings/frozen_side.h"
-#include "benchmarks/viewer/timings/viewer_report.h"
+#include "benchmarks/commands/commands.h"
+#include "benchmarks/report/change.h"
+#include "benchmarks/report/report.h"
+#include "benchmarks/report/text.h"
+#include "benchmarks/viewer/measure_panel.h"
 #include "tests/benchmarks/schema_errors.h"
 #include "tests/gpu_fixture.h"
 #include "tests/temporary_folder.h"
 #include "tests/viewer/made_up_frames.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 using testing::Contains;
@@ -25,7 +24,7 @@ using Samples = std::vector<double>;
 
 class TimingsReport : public GpuTest {
 protected:
-    Json saved(const CaseResult& result) {
+    scene::Json saved(const report::CaseResult& result) {
         hair::Settings settings;
         settings.seed = 7;
         const ReportOrigin origin{
@@ -33,10 +32,10 @@ protected:
             .name = "made_up",
             .command = {"hairbench", "view", "scenes/made_up.json"}};
         saveReport(viewerReport(device(), origin, settings, result), settings.render, {}, file_);
-        return readReport(file_);
+        return report::readReport(file_);
     }
 
-    static CaseResult frozen(const CaseResult& statistics = {}) {
+    static report::CaseResult frozen(const report::CaseResult& statistics = {}) {
         return frozenResult(
             {.shown = shownTimings(madeUpHistory(), "cpu"), .settings = {}}, statistics);
     }
@@ -46,7 +45,7 @@ protected:
 };
 
 TEST_F(TimingsReport, FitsTheSchema) {
-    CaseResult statistics;
+    report::CaseResult statistics;
     statistics.statistics = {
         {.name = "geometry_primitives", .measured = 6, .expected = 6, .note = ""}};
     saved(frozen(statistics));
@@ -56,8 +55,8 @@ TEST_F(TimingsReport, FitsTheSchema) {
 }
 
 TEST_F(TimingsReport, HasTheSamplesThatWentIn) {
-    const Json report = saved(frozen());
-    const Json& metrics = report.at("cases").at(0).at("metrics");
+    const scene::Json report = saved(frozen());
+    const scene::Json& metrics = report.at("cases").at(0).at("metrics");
     EXPECT_EQ(metrics.at("pass.wind.time").at("samples").get<Samples>(), (Samples{1, 3, 2}));
     EXPECT_EQ(metrics.at("pass.wind.time").at("mode"), "isolated");
     EXPECT_EQ(
@@ -73,9 +72,9 @@ TEST_F(TimingsReport, HasTheSamplesThatWentIn) {
 }
 
 TEST_F(TimingsReport, SaysThatItIsTheViewers) {
-    CaseResult statistics;
+    report::CaseResult statistics;
     statistics.trust.warnings = {"geometry_primitives: measured 6, expected 7"};
-    const CaseResult result = frozen(statistics);
+    const report::CaseResult result = frozen(statistics);
     EXPECT_THAT(
         result.trust.warnings,
         Contains(HasSubstr(
@@ -84,10 +83,14 @@ TEST_F(TimingsReport, SaysThatItIsTheViewers) {
 }
 
 TEST_F(TimingsReport, IsReadByTheOtherCommands) {
-    EXPECT_THAT(table(saved(frozen())), HasSubstr("made_up"));
+    EXPECT_THAT(report::table(saved(frozen())), HasSubstr("made_up"));
     testing::internal::CaptureStdout();  // they print what they did
-    EXPECT_EQ(compareReports({.a = file_, .b = file_, .baseline = {}, .verdict = {}}), kOk);
-    EXPECT_EQ(writeReportPage({.reports = {file_}, .out = folder_.file("page.html")}), kOk);
+    EXPECT_EQ(
+        commands::compareReports({.a = file_, .b = file_, .baseline = {}, .verdict = {}}),
+        report::kOk);
+    EXPECT_EQ(
+        commands::writeReportPage({.reports = {file_}, .out = folder_.file("page.html")}),
+        report::kOk);
     EXPECT_THAT(testing::internal::GetCapturedStdout(), testing::Not(IsEmpty()));
     EXPECT_THAT(textOf(folder_.file("page.html")), HasSubstr("made_up"));
 }
@@ -104,4 +107,4 @@ TEST(TimingsReportPath, IsBesideTheRunners) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -5,13 +5,12 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include "benchmarks/viewer/script/find_item.h"
-#include "benchmarks/viewer/script/user_input.h"
-#include "engine/ui_items.h"
+#include "benchmarks/viewer/script/input.h"
+#include "engine/ui.h"
 #include "tests/error_text.h"
 #include "tests/viewer/headless_ui.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 // Where Dear ImGui says that its last widget is.
@@ -147,4 +146,4 @@ TEST(UserInput, PressesWhatIsUnderTheMouseAndLeavesOtherEventsOut) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/shaders/watched_files.h"
+#include "benchmarks/viewer/shader_reload.h"
 
 #include <chrono>
 
@@ -6,7 +6,7 @@
 
 #include "tests/temporary_folder.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 class WatchedFilesTest : public testing::Test {
@@ -102,4 +102,4 @@ TEST_F(WatchedFilesTest, ReadAndWatchAFileThatIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -1,4 +1,4 @@
-#include "benchmarks/viewer/tools/wind_arrow.h"
+#include "benchmarks/viewer/grab_tool.h"
 
 #include <cmath>
 
@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 namespace {
 
 const Sphere kGroom{{0.01f, -0.03f, 0.02f}, 0.2f};
@@ -76,4 +76,4 @@ TEST(WindArrow, GivesAWindWithoutADirectionOne) {
 }
 
 }  // namespace
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/ui_items.h"
+#include "engine/ui.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 
 // What can't be read in the last picture of Dear ImGui's current context, one line each: letters
 // that are cut off at the left or right, labels that are wider than their widgets, contents that
@@ -17,4 +17,4 @@ std::vector<std::string> clippedText(const engine::UiItems& items);
 // panels that don't scroll. Popups may lie on panels.
 std::vector<std::string> outsideItems(const engine::UiItems& items);
 
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -6,20 +6,18 @@
 
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/json_text.h"
-#include "benchmarks/viewer/script/driver.h"
-#include "benchmarks/viewer/script/members.h"
+#include "benchmarks/scene/json.h"
+#include "benchmarks/viewer/script/input.h"
 #include "benchmarks/viewer/script/verbs.h"
-#include "engine/read_file.h"
+#include "engine/files.h"
 
-namespace benchmarks {
-
+namespace benchmarks::viewer {
 namespace {
 
 // Pictures until panels that fit their contents have their sizes.
 constexpr int kFirstPictures = 3;
 
-Act readStep(const Json& step, const std::string& pointer, const ScriptFolders& folders) {
+Act readStep(const scene::Json& step, const std::string& pointer, const ScriptFolders& folders) {
     if (!step.is_object() || step.size() != 1)
         throw engine::Error(pointer, "a step is an object with one verb, as in {\"wait\": 2}");
     const auto only = step.begin();
@@ -38,13 +36,13 @@ struct Script::Parts {
 
 Script::Script(const std::filesystem::path& path) : parts_(std::make_unique<Parts>()) {
     parts_->path = path.string();
-    const Json document = parseJson(engine::readFile(path), path.string());
+    const scene::Json document = scene::parseJson(engine::readFile(path), path.string());
     try {
         const Members members(document, "", {"description", "out", "steps"});
         members.text("description");
         ScriptFolders folders{.script = path.parent_path(), .out = {}};
         if (const auto out = members.text("out")) folders.out = *out;
-        const Json& steps = members.at("steps");
+        const scene::Json& steps = members.at("steps");
         if (!steps.is_array()) throw engine::Error("/steps", "must be an array");
         for (std::size_t i = 0; i < steps.size(); ++i)
             parts_->steps.push_back(readStep(steps[i], "/steps/" + std::to_string(i), folders));
@@ -82,4 +80,4 @@ void Script::finish() const {
             "the window was closed before");
 }
 
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

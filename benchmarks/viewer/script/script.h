@@ -6,12 +6,12 @@
 #include "benchmarks/viewer/viewer.h"
 #include "engine/error.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 
 // A step could not be done, or an expectation does not hold.
 class ScriptFailure : public engine::Error {
 public:
-    using Error::Error;
+    using engine::Error::Error;
 };
 
 // A file of steps that drive the viewer as a user would: docs/viewer.md has them all. While it
@@ -38,4 +38,4 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

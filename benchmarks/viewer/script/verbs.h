@@ -5,10 +5,10 @@
 #include <span>
 #include <string>
 
-#include "benchmarks/json_fwd.h"
-#include "benchmarks/viewer/script/driver.h"
+#include "benchmarks/scene/json.h"
+#include "benchmarks/viewer/script/input.h"
 
-namespace benchmarks {
+namespace benchmarks::viewer {
 
 // What one step does. Throws engine::Error, the reason alone.
 using Act = std::function<void(Driver&)>;
@@ -25,7 +25,7 @@ struct Verb {
     const char* name;
     // `value` is what the step gives it, at `pointer` in the script. Throws engine::Error
     // "<JSON pointer>: <reason>".
-    Act (*read)(const Json& value, const std::string& pointer, const ScriptFolders& folders);
+    Act (*read)(const scene::Json& value, const std::string& pointer, const ScriptFolders& folders);
 };
 
 std::span<const Verb> verbTable();
@@ -34,24 +34,24 @@ const Verb& verbNamed(const std::string& name, const std::string& pointer);
 
 // ---- One for each row ---------------------------------------------------------------------------
 
-Act readWait(const Json&, const std::string&, const ScriptFolders&);
-Act readFrames(const Json&, const std::string&, const ScriptFolders&);
-Act readPlay(const Json&, const std::string&, const ScriptFolders&);
-Act readSeek(const Json&, const std::string&, const ScriptFolders&);
-Act readSet(const Json&, const std::string&, const ScriptFolders&);
-Act readPerform(const Json&, const std::string&, const ScriptFolders&);
-Act readDrop(const Json&, const std::string&, const ScriptFolders&);
-Act readResize(const Json&, const std::string&, const ScriptFolders&);
-Act readMove(const Json&, const std::string&, const ScriptFolders&);
-Act readClick(const Json&, const std::string&, const ScriptFolders&);
-Act readDrag(const Json&, const std::string&, const ScriptFolders&);
-Act readScroll(const Json&, const std::string&, const ScriptFolders&);
-Act readKey(const Json&, const std::string&, const ScriptFolders&);
-Act readType(const Json&, const std::string&, const ScriptFolders&);
-Act readScreenshot(const Json&, const std::string&, const ScriptFolders&);
-Act readPicture(const Json&, const std::string&, const ScriptFolders&);
-Act readSave(const Json&, const std::string&, const ScriptFolders&);
-Act readState(const Json&, const std::string&, const ScriptFolders&);
-Act readExpect(const Json&, const std::string&, const ScriptFolders&);
+Act readWait(const scene::Json&, const std::string&, const ScriptFolders&);
+Act readFrames(const scene::Json&, const std::string&, const ScriptFolders&);
+Act readPlay(const scene::Json&, const std::string&, const ScriptFolders&);
+Act readSeek(const scene::Json&, const std::string&, const ScriptFolders&);
+Act readSet(const scene::Json&, const std::string&, const ScriptFolders&);
+Act readPerform(const scene::Json&, const std::string&, const ScriptFolders&);
+Act readDrop(const scene::Json&, const std::string&, const ScriptFolders&);
+Act readResize(const scene::Json&, const std::string&, const ScriptFolders&);
+Act readMove(const scene::Json&, const std::string&, const ScriptFolders&);
+Act readClick(const scene::Json&, const std::string&, const ScriptFolders&);
+Act readDrag(const scene::Json&, const std::string&, const ScriptFolders&);
+Act readScroll(const scene::Json&, const std::string&, const ScriptFolders&);
+Act readKey(const scene::Json&, const std::string&, const ScriptFolders&);
+Act readType(const scene::Json&, const std::string&, const ScriptFolders&);
+Act readScreenshot(const scene::Json&, const std::string&, const ScriptFolders&);
+Act readPicture(const scene::Json&, const std::string&, const ScriptFolders&);
+Act readSave(const scene::Json&, const std::string&, const ScriptFolders&);
+Act readState(const scene::Json&, const std::string&, const ScriptFolders&);
+Act readExpect(const scene::Json&, const std::string&, const ScriptFolders&);
 
-}  // namespace benchmarks
+}  // namespace benchmarks::viewer

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 constexpr std::size_t kBlock = 4096;
@@ -40,4 +40,4 @@ void requireNotNegative(
         std::string(name) + ' ' + std::to_string(index) + " is negative: " + std::to_string(*at));
 }
 
-}  // namespace hair
+}  // namespace hair::groom

@@ -16,7 +16,7 @@
 #include "engine/error.h"
 
 // Numbers and arrays of little-endian files in memory. Who reads has checked that they are there.
-namespace hair {
+namespace hair::groom {
 
 static_assert(std::endian::native == std::endian::little, "files are read as they lie in memory");
 
@@ -78,4 +78,4 @@ void requireFinite(
 void requireNotNegative(
     const std::vector<float>& widths, std::uint64_t offset, std::string_view name);
 
-}  // namespace hair
+}  // namespace hair::groom

@@ -4,8 +4,12 @@
 #include <limits>
 #include <string>
 
-namespace hair {
+#include "engine/error.h"
+
+namespace hair::groom {
 namespace {
+
+// ---- Polylines ----------------------------------------------------------------------------------
 
 std::size_t countUnused(const Polylines& lines, std::size_t vertex_count) {
     std::vector<bool> used(vertex_count);
@@ -48,4 +52,124 @@ void arrangePoints(StrandSet& set, Polylines lines) {
     gather(set.colors.values, lines.vertices);
 }
 
-}  // namespace hair
+namespace {
+
+// ---- Chain edges --------------------------------------------------------------------------------
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+std::string vertexName(std::uint32_t vertex) { return "vertex " + std::to_string(vertex); }
+
+// The vertices that edges join each one to.
+class Neighbours {
+public:
+    explicit Neighbours(std::size_t vertex_count) : of_(vertex_count, {kNone, kNone}) {}
+
+    // False where the vertex has two already.
+    bool add(std::uint32_t vertex, std::uint32_t neighbour) {
+        for (std::uint32_t& slot : of_[vertex]) {
+            if (slot != kNone) continue;
+            slot = neighbour;
+            return true;
+        }
+        return false;
+    }
+
+    // The vertex that follows on `from`, seen from the one before that; kNone at an end.
+    std::uint32_t next(std::uint32_t before, std::uint32_t from) const {
+        const Edge& pair = of_[from];
+        return pair[0] == before ? pair[1] : pair[0];
+    }
+
+    // The last vertex of the chain that runs from `first` over `second`; kNone in a closed loop.
+    std::uint32_t lastOf(std::uint32_t first, std::uint32_t second) const {
+        std::uint32_t before = first;
+        std::uint32_t at = second;
+        for (;;) {
+            const std::uint32_t after = next(before, at);
+            if (after == kNone) return at;
+            if (at == first) return kNone;
+            before = at;
+            at = after;
+        }
+    }
+
+private:
+    std::vector<Edge> of_;
+};
+
+Neighbours join(
+    std::span<const Edge> edges, std::size_t vertex_count,
+    const std::function<std::string(std::size_t)>& place) {
+    Neighbours neighbours(vertex_count);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const auto [a, b] = edges[i];
+        for (const std::uint32_t vertex : {a, b}) {
+            if (vertex < vertex_count) continue;
+            throw engine::Error(
+                place(i), "the edge names " + vertexName(vertex) + ", there are " +
+                              std::to_string(vertex_count));
+        }
+        if (a == b) throw engine::Error(place(i), "the edge joins " + vertexName(a) + " to itself");
+        for (const auto& [vertex, neighbour] : {Edge{a, b}, Edge{b, a}}) {
+            if (neighbours.add(vertex, neighbour)) continue;
+            throw engine::Error(
+                place(i), "this is a third edge at " + vertexName(vertex) +
+                              ": strands don't branch, two at most are expected");
+        }
+    }
+    return neighbours;
+}
+
+}  // namespace
+
+Polylines chainEdges(
+    std::span<const Edge> edges, std::size_t vertex_count,
+    const std::function<std::string(std::size_t edge)>& place) {
+    const Neighbours neighbours = join(edges, vertex_count, place);
+    Polylines lines;
+    lines.vertices.reserve(vertex_count);
+    std::vector<bool> done(vertex_count);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const auto [a, b] = edges[i];
+        if (done[a]) continue;
+        const std::uint32_t one_end = neighbours.lastOf(a, b);
+        if (one_end == kNone) {
+            throw engine::Error(
+                place(i), "the edge belongs to a closed loop, a strand has two ends");
+        }
+        const std::uint32_t other_end = neighbours.lastOf(b, a);
+        std::uint32_t before = kNone;
+        std::uint32_t at = std::min(one_end, other_end);
+        while (at != kNone) {
+            done[at] = true;
+            lines.vertices.push_back(at);
+            const std::uint32_t after = neighbours.next(before, at);
+            before = at;
+            at = after;
+        }
+        lines.ends.push_back(static_cast<std::uint32_t>(lines.vertices.size()));
+    }
+    return lines;
+}
+
+std::vector<Edge> edgesOf(const StrandSet& strands, std::vector<std::string>& warnings) {
+    std::vector<Edge> edges;
+    edges.reserve(strands.points.size() - strands.ends.size());
+    std::uint32_t first = 0;
+    std::size_t single = 0;
+    for (const std::uint32_t end : strands.ends) {
+        for (std::uint32_t i = first; i + 1 < end; ++i) edges.push_back({i, i + 1});
+        if (end - first == 1) ++single;
+        first = end;
+    }
+    if (edges.empty()) throw engine::Error("no strand has two points, which a line is between");
+    if (single > 0) {
+        warnings.push_back(
+            std::to_string(single) +
+            " strands of a single point are left out, only the points stay");
+    }
+    return edges;
+}
+
+}  // namespace hair::groom

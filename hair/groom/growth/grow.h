@@ -3,14 +3,42 @@
 #include <cstdint>
 #include <filesystem>
 
+#include <glm/vec3.hpp>
+
 #include "hair/groom/groom.h"
+#include "hair/groom/growth/parting.h"
+#include "hair/groom/growth/scalp.h"
 #include "hair/groom/mesh/mesh.h"
+#include "hair/groom/mesh/surface.h"
+#include "hair/groom_settings.h"
 #include "hair/settings.h"
 
-namespace hair {
+namespace hair::groom {
+
+// The direction in which hair leaves the scalp:
+//     normalize(normal + comb + whorl + parting),     the normal alone where they cancel it.
+// whorl    along the surface, round the point c of the scalp that is nearest to its position, at
+//          the distance r from it: strength (r / radius) exp((1 - (r / radius)^2) / 2), which is
+//          `strength` at the radius and less everywhere else.
+// parting  along the surface, away from the line at the distance d: strength exp(-d / reach); past
+//          an end, times the cosine between the way from there and the way across the line.
+// With a whorl or a parting, no direction is nearer to the surface than asin 0.05.
+class DirectionField {
+public:
+    // Borrows all of them; `parting` may be null.
+    DirectionField(
+        const GrowSettings& settings, const NearestSurface& surface, const PartingLine* parting);
+
+    glm::dvec3 operator()(const SurfacePoint& root) const;
+
+private:
+    const GrowSettings& settings_;
+    const PartingLine* parting_;
+    glm::dvec3 whorl_centre_{0.0};
+};
 
 // Grows `guides` >= 1 guides on the part of the mesh that settings.scalp names; roots.h says where,
-// direction_field.h in which direction. Along the arc length s the direction d turns toward
+// grow.h in which direction. Along the arc length s the direction d turns toward
 // g = (0, -1, 0):
 //     d(d)/ds = droop (g - (g . d) d),
 // that is, its angle t to g obeys dt/ds = -droop sin t, so tan(t / 2) = tan(t0 / 2) exp(-droop s).
@@ -24,4 +52,4 @@ Groom grow(
     const Mesh& mesh, const GrowSettings& settings, const std::filesystem::path& directory,
     std::uint32_t guides, std::uint32_t seed);
 
-}  // namespace hair
+}  // namespace hair::groom

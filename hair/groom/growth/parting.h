@@ -1,15 +1,35 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
 #include "hair/groom/growth/scalp.h"
-#include "hair/groom/mesh/nearest_surface.h"
+#include "hair/groom/mesh/surface.h"
 #include "hair/groom_settings.h"
 
-namespace hair {
+namespace hair::groom {
+
+// The edge of a scalp that is a disc: one piece of surface with one boundary.
+struct Hairline {
+    std::vector<std::uint32_t> vertices;   // of the scalp, which is on their left
+    std::vector<std::uint32_t> triangles;  // [edge], of the scalp; from a vertex to the next
+    std::vector<double> arc;  // [edge], m, up to its start; the whole length at the end
+
+    double length() const { return arc.back(); }
+};
+
+// Throws engine::Error if the scalp is no disc.
+Hairline traceHairline(const Scalp& scalp);
+
+// The point of the hairline after this length; one beyond its end goes on from its start.
+SurfacePoint hairlinePoint(const Scalp& scalp, const Hairline& hairline, double length);
+
+// The length at which the hairline is nearest to a point.
+double nearestLength(const Scalp& scalp, const Hairline& hairline, const glm::dvec3& point);
 
 // The line on a scalp from which hair is combed away: the straight line between the ends, taken to
 // the scalp in the plane at right angles to it, as far as that is not off the scalp's boundary.
@@ -66,4 +86,4 @@ void eraseCrossing(
     std::vector<std::array<std::uint32_t, 3>>& triangles, const std::vector<glm::dvec3>& positions,
     const PartingLine& line, double margin);
 
-}  // namespace hair
+}  // namespace hair::groom

@@ -1,14 +1,146 @@
 #include "hair/groom/growth/roots.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "engine/error.h"
-#include "hair/groom/growth/disc_roots.h"
-#include "hair/groom/growth/surface_roots.h"
+#include "hair/groom/growth/parting.h"
+#include "hair/groom/growth/root_density.h"
+#include "hair/groom/growth/scalp.h"
+#include "hair/groom/growth/spread.h"
+#include "hair/groom/growth/triangulate.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
+
+// ---- Surface roots ------------------------------------------------------------------------------
+
+// Puts roots on a scalp of any shape and spans them as triangulate.h says. How many there are
+// in an area is in proportion to the mask there. `random` roots are independent of each other;
+
+constexpr std::uint32_t kCandidatesPerRoot = 10;
+constexpr std::uint32_t kLeastProbes = 4096;
+constexpr std::uint64_t kTriesPerRoot = 1000;
+
+// For a mask so uneven that more would have to be spread for each that is kept, the rest of the
+// roots is independent.
+constexpr double kMostSpreadPerRoot = 4.0;
+
+// A triangle is bald where the density is below this.
+constexpr double kBlack = 0.01;
+
+// Where roots may be: not in the way of a parting's rows, and not where the mask is black.
+struct Ground {
+    const Scalp& scalp;
+    const RootOptions& options;
+    const PartingRows* rows;
+    RootDensity density;
+
+    bool isFree(const SurfacePoint& point) const {
+        return density(point) > 0.0 &&
+               !(rows && options.parting->isNear(point.position, rows->reach()));
+    }
+    // Below 1 for the samples that the mask keeps. Of these, those that are smallest are as good a
+    // choice as any.
+    double chance(std::uint32_t number) const {
+        return random01(options.seed, number, purpose::root_mask) /
+               density(rootSample(scalp, options.seed, number));
+    }
+};
+
+// Numbers of at most `count` samples.
+std::vector<std::uint32_t>
+spreadRoots(const Ground& ground, std::uint32_t count, const std::vector<glm::vec3>& fixed) {
+    // Where some aren't kept, four standard deviations more than are on average.
+    const double mean = ground.density.mean();
+    const double needed = mean < 1.0 ? (count + 4.0 * std::sqrt(count) + 4.0) / mean : count;
+    const auto total =
+        static_cast<std::uint32_t>(std::min(std::ceil(needed), kMostSpreadPerRoot * count));
+    const RootSamples candidates = takeSamples(
+        ground.scalp, ground.options.seed, total * kCandidatesPerRoot, kTriesPerRoot * total,
+        [&](std::uint32_t, const SurfacePoint& sample) { return ground.isFree(sample); });
+    const auto most = std::min(total, static_cast<std::uint32_t>(candidates.numbers.size()));
+
+    std::vector<std::pair<double, std::uint32_t>> kept;  // chance, number
+    for (const std::uint32_t i : spread(candidates.positions, fixed, most, ground.density.area())) {
+        const double chance = ground.chance(candidates.numbers[i]);
+        if (chance < 1.0) kept.emplace_back(chance, candidates.numbers[i]);
+    }
+    std::ranges::sort(kept);
+    std::vector<std::uint32_t> numbers;
+    for (const auto& [chance, number] : kept) {
+        if (numbers.size() < count) numbers.push_back(number);
+    }
+    std::ranges::sort(numbers);
+    return numbers;
+}
+
+// Independent samples, none of them among `taken`.
+std::vector<std::uint32_t> independentRoots(
+    const Ground& ground, std::uint32_t count, const std::vector<std::uint32_t>& taken) {
+    const RootSamples samples = takeSamples(
+        ground.scalp, ground.options.seed, count, kTriesPerRoot * count,
+        [&](std::uint32_t number, const SurfacePoint& sample) {
+            return ground.isFree(sample) && ground.chance(number) < 1.0 &&
+                   !std::ranges::binary_search(taken, number);
+        });
+    if (samples.numbers.size() < count)
+        throw engine::Error("the scalp has too little room for the roots");
+    return samples.numbers;
+}
+
+void eraseBald(
+    std::vector<std::array<std::uint32_t, 3>>& triangles, const std::vector<SurfacePoint>& points,
+    const Ground& ground, const NearestSurface& surface) {
+    const auto isBald = [&](const glm::dvec3& at) {
+        const MeshPoint point = surface(at);
+        return ground.density(surfacePoint(ground.scalp, point.triangle, point.weights)) < kBlack;
+    };
+    std::erase_if(triangles, [&](const std::array<std::uint32_t, 3>& triangle) {
+        const glm::dvec3 a(points[triangle[0]].position);
+        const glm::dvec3 b(points[triangle[1]].position);
+        const glm::dvec3 c(points[triangle[2]].position);
+        return isBald((a + b + c) / 3.0) || isBald(0.5 * (a + b)) || isBald(0.5 * (b + c)) ||
+               isBald(0.5 * (c + a));
+    });
+}
+
+// `poisson_disc` ones are spread over what isn't black, then each is kept with the probability that
+// the mask gives. No triangle reaches over what is black. Throws engine::Error if the scalp has no
+// room for them or the mask can't be used.
+Roots surfaceRoots(
+    const Scalp& scalp, const NearestSurface& surface, const RootOptions& options,
+    const PartingRows* rows) {
+    const std::uint32_t probes = std::max(kLeastProbes, options.guides);
+    const Ground ground{
+        scalp, options, rows, RootDensity(scalp, options.mask, probes, options.seed)};
+    Roots roots;
+    std::vector<glm::vec3> fixed;
+    if (rows) {
+        for (const auto& pair : rows->pairs) {
+            if (ground.density(pair[0]) < kBlack || ground.density(pair[1]) < kBlack) continue;
+            for (const SurfacePoint& root : pair) roots.points.push_back(root);
+            for (const SurfacePoint& root : pair) fixed.push_back(root.position);
+        }
+    }
+    const auto count = options.guides - static_cast<std::uint32_t>(roots.points.size());
+    std::vector<std::uint32_t> numbers;
+    if (options.placement == RootPlacement::poisson_disc)
+        numbers = spreadRoots(ground, count, fixed);
+    const auto missing = count - static_cast<std::uint32_t>(numbers.size());
+    std::ranges::copy(independentRoots(ground, missing, numbers), std::back_inserter(numbers));
+    for (const std::uint32_t number : numbers)
+        roots.points.push_back(rootSample(scalp, options.seed, number));
+
+    roots.triangles = surfaceTriangles(scalp, roots.points);
+    if (options.mask && options.guides > 2)
+        eraseBald(roots.triangles, roots.points, ground, surface);
+    return roots;
+}
+
+// ---- Roots --------------------------------------------------------------------------------------
 
 // Mean distance to the nearest neighbour of roots that are spread, as a part of the root of their
 // share of the area: the best there is, a hexagonal packing, has 1.07.
@@ -45,4 +177,107 @@ Roots placeRoots(const Scalp& scalp, const NearestSurface& surface, const RootOp
     return roots;
 }
 
-}  // namespace hair
+namespace {
+
+// ---- Disc roots ---------------------------------------------------------------------------------
+
+glm::dvec3 middle(const std::array<SurfacePoint, 2>& pair) {
+    return 0.5 * (glm::dvec3(pair[0].position) + glm::dvec3(pair[1].position));
+}
+
+// Rows that end at the hairline end with two of its roots: where it is cut for that.
+std::vector<double> hairlineCuts(
+    const Scalp& scalp, const Hairline& hairline, const PartingLine& parting,
+    const PartingRows& rows) {
+    std::vector<double> cuts;
+    if (parting.endsAtBoundary()[0])
+        cuts.push_back(nearestLength(scalp, hairline, middle(rows.pairs.front())));
+    if (parting.endsAtBoundary()[1])
+        cuts.push_back(nearestLength(scalp, hairline, middle(rows.pairs.back())));
+    return cuts;
+}
+
+}  // namespace
+
+std::uint32_t boundaryRootCount(std::uint32_t guides) {
+    const double count = std::round(34.0 * std::sqrt(guides / 86.0));
+    return std::min(guides, std::max(3u, static_cast<std::uint32_t>(count)));
+}
+
+std::vector<double>
+hairlineLengths(double total, std::uint32_t count, std::vector<double> cuts, double gap) {
+    std::vector<double> lengths;
+    if (cuts.empty()) {
+        for (std::uint32_t i = 0; i < count; ++i) lengths.push_back(total * i / count);
+        return lengths;
+    }
+    std::ranges::sort(cuts);
+    const double cut_away = 2.0 * gap * static_cast<double>(cuts.size());
+    for (std::size_t i = 0; i < cuts.size(); ++i) {
+        const double from = cuts[i] + gap;
+        const double to = (i + 1 < cuts.size() ? cuts[i + 1] : cuts[0] + total) - gap;
+        const auto left = count - static_cast<std::uint32_t>(lengths.size());
+        const double share = std::round(count * (to - from) / (total - cut_away));
+        // The last part takes what is left; each has its two ends.
+        const std::uint32_t here =
+            i + 1 == cuts.size() ? left
+                                 : std::clamp(static_cast<std::uint32_t>(share), 2u, left - 2);
+        for (std::uint32_t k = 0; k < here; ++k)
+            lengths.push_back(from + (to - from) * k / (here - 1));
+    }
+    return lengths;
+}
+
+Roots discRoots(const Scalp& scalp, const RootOptions& options, const PartingRows* rows) {
+    const Hairline hairline = traceHairline(scalp);
+    const Flattening flattening = flatten(scalp);
+    std::vector<std::array<SurfacePoint, 2>> pairs;
+    std::vector<double> cuts;
+    if (rows) {
+        pairs = rows->pairs;
+        cuts = hairlineCuts(scalp, hairline, *options.parting, *rows);
+        if (options.parting->endsAtBoundary()[0]) pairs.erase(pairs.begin());
+        if (options.parting->endsAtBoundary()[1]) pairs.pop_back();
+    }
+    const auto in_rows = static_cast<std::uint32_t>(2 * pairs.size());
+    const auto cut_roots = static_cast<std::uint32_t>(2 * cuts.size());
+    Roots roots;
+    roots.boundary_count = std::max(boundaryRootCount(options.guides - in_rows), cut_roots);
+    for (const double length :
+         hairlineLengths(hairline.length(), roots.boundary_count, cuts, rows ? rows->gap : 0.0))
+        roots.points.push_back(hairlinePoint(scalp, hairline, length));
+    std::vector<glm::dvec2> flat;
+    for (const SurfacePoint& point : roots.points) flat.push_back(flattening(point.position));
+    const Outline outline(flat);
+    const auto add = [&](const SurfacePoint& point) {
+        roots.points.push_back(point);
+        flat.push_back(flattening(point.position));
+    };
+    for (const auto& pair : pairs) {
+        if (!outline.contains(flattening(pair[0].position)) ||
+            !outline.contains(flattening(pair[1].position)))
+            continue;
+        for (const SurfacePoint& root : pair) add(root);
+    }
+
+    // Between neighbouring roots the hairline is a straight line of the flattened scalp: candidates
+    // beyond it don't count.
+    const auto inside = options.guides - static_cast<std::uint32_t>(roots.points.size());
+    const std::uint32_t wanted = inside * kCandidatesPerRoot;
+    const auto isFree = [&](std::uint32_t, const SurfacePoint& sample) {
+        return outline.contains(flattening(sample.position)) &&
+               !(rows && options.parting->isNear(sample.position, rows->reach()));
+    };
+    const RootSamples candidates =
+        takeSamples(scalp, options.seed, wanted, std::uint64_t{wanted} * 10, isFree);
+    if (candidates.numbers.size() < wanted)
+        throw engine::Error("too little of the scalp lies inside its hairline");
+    std::vector<glm::vec3> fixed;
+    for (const SurfacePoint& point : roots.points) fixed.push_back(point.position);
+    for (const std::uint32_t i : spread(candidates.positions, fixed, inside, scalp.area()))
+        add(rootSample(scalp, options.seed, candidates.numbers[i]));
+    roots.triangles = triangulate(flat, roots.boundary_count);
+    return roots;
+}
+
+}  // namespace hair::groom

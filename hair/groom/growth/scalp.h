@@ -10,7 +10,7 @@
 
 #include "hair/groom/mesh/mesh.h"
 
-namespace hair {
+namespace hair::groom {
 
 // The part of a mesh on which hair grows.
 struct Scalp {
@@ -31,7 +31,7 @@ struct SurfacePoint {
     glm::vec3 weights;       // of the triangle's corners, sum 1
 };
 
-// Takes the triangles of what has the name: see scalp_triangles.h. Vertices at the same position
+// Takes the triangles of what has the name: see scalp.h. Vertices at the same position
 // become one, with the mean of their normals; triangles that vanish by that are left out. Throws
 // engine::Error if nothing has the name or the triangles have no area.
 Scalp extractScalp(const Mesh& mesh, const std::string& name = "scalp");
@@ -45,4 +45,46 @@ SurfacePoint sampleSurface(const Scalp& scalp, const std::array<float, 3>& rando
 // Only of a scalp that has texture coordinates.
 glm::dvec2 textureCoordinate(const Scalp& scalp, const SurfacePoint& point);
 
-}  // namespace hair
+// A map from the scalp to the plane: the direction in which a point is seen from `centre`,
+// projected stereographically from the direction opposite `axis`. Circles on the sphere of
+// directions stay circles, so a Delaunay triangulation in the plane is one on the sphere.
+// Orientation is that seen from outside. (Snyder 1987, Map projections, USGS professional paper
+// 1395, section 21.)
+struct Flattening {
+    glm::dvec3 centre{0.0};
+    glm::dvec3 axis{0.0, 0.0, 1.0};   // unit length; maps to the origin
+    glm::dvec3 right{1.0, 0.0, 0.0};  // unit length, at right angles; maps to +x
+    glm::dvec3 up{0.0, 1.0, 0.0};     // axis x right; maps to +y
+
+    glm::dvec2 operator()(const glm::vec3& position) const;
+};
+
+// The axis is the scalp's mean normal. The centre lies on the line along it through the scalp's
+// centroid, where the scalp is seen most squarely: at the centre of curvature of a spherical cap.
+// Throws engine::Error if from no such centre the whole scalp is seen from its inner side.
+Flattening flatten(const Scalp& scalp);
+
+// A polygon in the plane that many points are tried against.
+class Outline {
+public:
+    explicit Outline(std::vector<glm::dvec2> polygon);
+
+    // Inside by crossing parity, and further from each edge than a thousandth of the edge's length:
+    // rounding puts no such point on it.
+    bool contains(const glm::dvec2& point) const;
+
+private:
+    std::vector<glm::dvec2> polygon_;
+    double low_ = 0.0;  // of the rows' y
+    double per_row_ = 0.0;  // rows per unit of y
+    std::vector<std::uint32_t> starts_;  // [row], first of its edges; one more at the end
+    std::vector<std::uint32_t> edges_;  // those that meet each row, by their first vertex
+};
+
+// The triangles of what has that name: a material, else a part, else a vertex group, which takes
+// the triangles whose three corners have at least half of the full weight; of all that share the
+// name. "*" takes every triangle. Throws engine::Error that lists what the mesh has if nothing has
+// the name or it has no triangles.
+std::vector<std::uint32_t> scalpTriangles(const Mesh& mesh, const std::string& name);
+
+}  // namespace hair::groom

@@ -1,13 +1,149 @@
 #include "hair/groom/growth/spread.h"
 
+#include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
-#include "hair/groom/growth/falling_queue.h"
-#include "hair/groom/growth/point_grid.h"
+#include "hair/random.h"
 
-namespace hair {
+namespace hair::groom {
+namespace {
+
+// ---- Point grid ---------------------------------------------------------------------------------
+
+constexpr int kCubeBits = 10;
+constexpr std::uint32_t kCubeMask = (1u << kCubeBits) - 1;
+
+// Every third bit from the lowest.
+std::uint32_t spreadBits(std::uint32_t value) {
+    std::uint32_t spread = 0;
+    for (int bit = 0; bit < kCubeBits; ++bit) spread |= (value >> bit & 1) << 3 * bit;
+    return spread;
+}
+
+// Of a key, so that buckets of near cubes follow each other. Morton 1966, A computer oriented
+// geodetic data base.
+std::uint32_t mortonCode(std::uint32_t key) {
+    return spreadBits(key & kCubeMask) | spreadBits(key >> kCubeBits & kCubeMask) << 1 |
+           spreadBits(key >> 2 * kCubeBits) << 2;
+}
+
+void prefetch([[maybe_unused]] const void* address) {
+#ifdef __GNUC__
+    __builtin_prefetch(address);
+#endif
+}
+
+}  // namespace
+
+PointGrid::PointGrid(std::span<const glm::vec3> points, double radius)
+    : radius_(radius), square_limit_(static_cast<float>(radius * radius * 1.0001)),
+      buckets_(std::bit_ceil(points.size() / 4 + 1)) {
+    std::vector<std::uint32_t> homes;  // [source], number of its bucket
+    std::vector<std::uint32_t> keys;  // [bucket], of a cube in it
+    keys.resize(buckets_.size());
+    for (const glm::vec3& point : points) {
+        const Cube home = cube(point);
+        homes.push_back(static_cast<std::uint32_t>(number(home)));
+        keys[homes.back()] = key(home);
+        ++buckets_[homes.back()].end;
+    }
+    struct Entry {
+        std::uint32_t code;
+        std::uint32_t bucket;
+        auto operator<=>(const Entry&) const = default;
+    };
+    std::vector<Entry> order;
+    std::vector<std::uint32_t> ranks(buckets_.size());  // [bucket], of its next point
+    std::uint32_t rank = 0;
+    for (std::uint32_t i = 0; i < buckets_.size(); ++i) {
+        ranks[i] = rank;
+        rank += buckets_[i].end;
+        if (buckets_[i].end > 0) order.push_back({mortonCode(keys[i]), i});
+    }
+    std::ranges::sort(order);
+    std::uint32_t next = 0;
+    for (const Entry& entry : order) {
+        Bucket& bucket = buckets_[entry.bucket];
+        const std::uint32_t count = std::exchange(bucket.end, next);
+        bucket.first = next;
+        next += count;
+    }
+    points_.resize(points.size());
+    positions_.resize(points.size());
+    ranks_.resize(points.size());
+    sources_.resize(points.size());
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        const std::uint32_t place = buckets_[homes[i]].end++;
+        points_[place] = {points[i], place, key(cube(points[i]))};
+        positions_[place] = points[i];
+        ranks_[place] = ranks[homes[i]]++;
+        sources_[place] = i;
+    }
+    where_.resize(points.size());
+    std::iota(where_.begin(), where_.end(), 0u);
+}
+
+void PointGrid::erase(std::uint32_t place) {
+    const std::uint32_t last = --buckets_[number(cube(positions_[place]))].end;
+    const std::uint32_t at = where_[place];
+    std::swap(points_[at], points_[last]);
+    where_[points_[at].place] = at;
+    where_[place] = last;
+}
+
+PointGrid::Cube PointGrid::cube(const glm::vec3& point) const {
+    static constexpr double limit = 1e9;  // what lies further out shares the last cube
+    const auto along = [this](float coordinate) {
+        return static_cast<int>(std::clamp(std::floor(coordinate / radius_), -limit, limit));
+    };
+    return {along(point.x), along(point.y), along(point.z)};
+}
+
+std::size_t PointGrid::number(const Cube& cube) const {
+    return hash(
+               static_cast<std::uint32_t>(cube.x), static_cast<std::uint32_t>(cube.y),
+               static_cast<std::uint32_t>(cube.z)) &
+           (buckets_.size() - 1);
+}
+
+// Differs between cubes that are less than 2^10 apart.
+std::uint32_t PointGrid::key(const Cube& cube) {
+    const auto along = [](int coordinate) {
+        return static_cast<std::uint32_t>(coordinate) & kCubeMask;
+    };
+    return along(cube.x) | along(cube.y) << kCubeBits | along(cube.z) << 2 * kCubeBits;
+}
+
+// All buckets are asked for before the first is needed, and so are the points: what takes time is
+// memory.
+std::size_t PointGrid::findNear(const glm::vec3& point, Neighbours& neighbours) const {
+    const Cube centre = cube(point);
+    std::array<const Bucket*, 27> buckets;
+    for (int i = 0; i < 27; ++i) {
+        const Cube at{centre.x + i % 3 - 1, centre.y + i / 3 % 3 - 1, centre.z + i / 9 - 1};
+        const auto index = static_cast<std::size_t>(i);
+        buckets[index] = &buckets_[number(at)];
+        prefetch(buckets[index]);
+        neighbours[index].key = key(at);
+    }
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < 27; ++i) {
+        const Bucket bucket = *buckets[i];
+        neighbours[count] = {bucket, neighbours[i].key};
+        if (bucket.first == bucket.end) continue;
+        prefetch(&points_[bucket.first]);
+        prefetch(&points_[bucket.end - 1]);
+        ++count;
+    }
+    return count;
+}
+
+// ---- Spread -------------------------------------------------------------------------------------
+
 std::vector<std::uint32_t> spread(
     std::span<const glm::vec3> candidates, std::span<const glm::vec3> fixed, std::uint32_t count,
     double area) {
@@ -51,4 +187,4 @@ std::vector<std::uint32_t> spread(
     return kept;
 }
 
-}  // namespace hair
+}  // namespace hair::groom

@@ -1,12 +1,176 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <compare>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-namespace hair {
+namespace hair::groom {
+
+// Gives out the greatest of many entries whose weights only fall. Entries wait unsorted in bins by
+// weight; only the highest bin is a heap.
+class FallingQueue {
+public:
+    struct Entry {
+        double weight;      // at least 0
+        std::uint32_t tie;  // decides between equal weights
+        std::uint32_t item;
+        auto operator<=>(const Entry&) const = default;
+    };
+
+    explicit FallingQueue(std::vector<Entry> entries) : bins_(entries.size() / 256 + 1) {
+        double most = 0.0;
+        for (const Entry& entry : entries) most = std::max(most, entry.weight);
+        if (most > 0.0) per_weight_ = static_cast<double>(bins_.size() - 1) / most;
+        for (const Entry& entry : entries) bins_[bin(entry.weight)].push_back(entry);
+        open_ = bins_.size() - 1;
+        std::ranges::make_heap(bins_[open_]);
+    }
+
+    // Only of a queue that isn't empty. weightOf(item) is its weight now.
+    template <class WeightOf>
+    std::uint32_t pop(WeightOf&& weightOf) {
+        while (true) {
+            std::vector<Entry>& heap = bins_[open_];
+            if (heap.empty()) {
+                openNext(weightOf);
+                continue;
+            }
+            std::ranges::pop_heap(heap);
+            Entry entry = heap.back();
+            heap.pop_back();
+            const double weight = weightOf(entry.item);
+            if (weight == entry.weight) return entry.item;
+            entry.weight = weight;
+            bins_[bin(weight)].push_back(entry);
+            if (bin(weight) == open_) std::ranges::push_heap(heap);
+        }
+    }
+
+private:
+    std::size_t bin(double weight) const {
+        return static_cast<std::size_t>(std::max(weight, 0.0) * per_weight_);
+    }
+
+    template <class WeightOf>
+    void openNext(WeightOf&& weightOf) {
+        --open_;
+        std::vector<Entry> entries = std::exchange(bins_[open_], {});
+        for (Entry& entry : entries) {
+            entry.weight = weightOf(entry.item);
+            bins_[bin(entry.weight)].push_back(entry);
+        }
+        std::ranges::make_heap(bins_[open_]);
+    }
+
+    std::vector<std::vector<Entry>> bins_;
+    double per_weight_ = 0.0;
+    std::size_t open_ = 0;
+};
+
+// Points of the plane with whole coordinates, on which geometric questions have exact answers.
+
+// |coordinate| < 2^kGridBits: then the largest intermediate of inCircle() is below 2^(4 kGridBits +
+// 6) < 2^127.
+inline constexpr int kGridBits = 29;
+
+struct GridPoint {
+    std::int64_t x = 0;
+    std::int64_t y = 0;
+
+    friend bool operator==(const GridPoint&, const GridPoint&) = default;
+};
+
+// Twice the signed area of a triangle: positive if it is counter-clockwise, 0 if it is flat.
+constexpr std::int64_t orientation(GridPoint a, GridPoint b, GridPoint c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+// Whether d lies strictly inside the circle through a, b and c, which are counter-clockwise. The
+// usual determinant of the paraboloid lift; Guibas and Stolfi 1985, Primitives for the manipulation
+// of general subdivisions and the computation of Voronoi diagrams, lemma 8.1.
+constexpr bool inCircle(GridPoint a, GridPoint b, GridPoint c, GridPoint d) {
+    __extension__ using Wide = __int128;
+    const auto term = [&d](GridPoint p, GridPoint q, GridPoint r) {
+        const std::int64_t px = p.x - d.x;
+        const std::int64_t py = p.y - d.y;
+        const std::int64_t minor = (q.x - d.x) * (r.y - d.y) - (q.y - d.y) * (r.x - d.x);
+        return Wide{px * px + py * py} * Wide{minor};
+    };
+    return term(a, b, c) + term(b, c, a) + term(c, a, b) > 0;
+}
+
+// Points sorted into cubes as wide as a radius. A point is known by its place; places that are near
+// in space are near in memory.
+class PointGrid {
+public:
+    PointGrid(std::span<const glm::vec3> points, double radius);
+
+    std::uint32_t size() const { return static_cast<std::uint32_t>(points_.size()); }
+    std::uint32_t source(std::uint32_t place) const { return sources_[place]; }
+    // A number of the point that depends on its cube and the other points alone.
+    std::uint32_t rank(std::uint32_t place) const { return ranks_[place]; }
+
+    // Calls visit(place, distance) for every other point that is left and closer than the radius.
+    template <class Visit>
+    void forEachNear(std::uint32_t place, Visit&& visit) const {
+        const glm::vec3 point = positions_[place];
+        Neighbours neighbours;
+        for (const NearCube& cube : std::span(neighbours.begin(), findNear(point, neighbours))) {
+            for (std::uint32_t i = cube.bucket.first; i < cube.bucket.end; ++i) {
+                const Point& other = points_[i];
+                const glm::vec3 gap = other.position - point;
+                // Most end here, without a root. Cubes can share a bucket.
+                if (glm::dot(gap, gap) > square_limit_ || other.key != cube.key) continue;
+                const double distance = glm::distance(other.position, point);
+                if (distance < radius_ && other.place != place) visit(other.place, distance);
+            }
+        }
+    }
+
+    // Near points don't see it any more.
+    void erase(std::uint32_t place);
+
+private:
+    struct Cube {
+        int x, y, z;
+    };
+    struct Bucket {
+        std::uint32_t first = 0;
+        std::uint32_t end = 0;  // after its last point that is left
+    };
+    struct Point {
+        glm::vec3 position;
+        std::uint32_t place;
+        std::uint32_t key;  // of its cube
+    };
+    struct NearCube {
+        Bucket bucket;
+        std::uint32_t key;
+    };
+    using Neighbours = std::array<NearCube, 27>;
+
+    // Fills in the cubes round a point that may have points, and returns how many.
+    std::size_t findNear(const glm::vec3& point, Neighbours& neighbours) const;
+    Cube cube(const glm::vec3& point) const;
+    std::size_t number(const Cube& cube) const;  // of its bucket
+    static std::uint32_t key(const Cube& cube);
+
+    double radius_;
+    float square_limit_;  // a little more than the radius squared
+    std::vector<Bucket> buckets_;
+    std::vector<Point> points_;  // by bucket; those that are left first
+    std::vector<std::uint32_t> where_;  // [place], index into points_
+    std::vector<glm::vec3> positions_;  // [place]
+    std::vector<std::uint32_t> ranks_;  // [place]
+    std::vector<std::uint32_t> sources_;  // [place], index of the point as given
+};
 
 // Picks `count` of the candidates, far from each other and from the fixed points. The candidates
 // are uniform over a surface of `area` m^2 and the fixed points lie on its boundary. Returns
@@ -16,4 +180,4 @@ std::vector<std::uint32_t> spread(
     std::span<const glm::vec3> candidates, std::span<const glm::vec3> fixed, std::uint32_t count,
     double area);
 
-}  // namespace hair
+}  // namespace hair::groom

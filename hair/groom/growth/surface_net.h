@@ -8,9 +8,78 @@
 #include <glm/vec3.hpp>
 
 #include "hair/groom/growth/scalp.h"
-#include "hair/groom/growth/triangle_net.h"
 
-namespace hair {
+namespace hair::groom {
+
+// Triangles that know their neighbours, to be changed by flips. Corner c of cell t has the number
+// 3 t + c; it also stands for the edge opposite, which runs from the next corner's vertex to the
+// one after it.
+class TriangleNet {
+public:
+    static constexpr std::uint32_t kNone = ~0u;
+
+    static constexpr std::uint32_t after(std::uint32_t corner) {
+        return corner % 3 == 2 ? corner - 2 : corner + 1;
+    }
+    static constexpr std::uint32_t before(std::uint32_t corner) {
+        return corner % 3 == 0 ? corner + 2 : corner - 1;
+    }
+
+    // Triangles are neighbours where two, and no third one, run along an edge in opposite
+    // directions.
+    explicit TriangleNet(std::span<const std::array<std::uint32_t, 3>> triangles);
+
+    std::uint32_t cornerCount() const { return static_cast<std::uint32_t>(vertices_.size()); }
+    std::uint32_t vertex(std::uint32_t corner) const { return vertices_[corner]; }
+    // The corner opposite the same edge on its other side, or kNone.
+    std::uint32_t twin(std::uint32_t corner) const { return twins_[corner]; }
+    // False for a cell that was erased.
+    bool exists(std::uint32_t cell) const { return vertices_[3 * cell] != kNone; }
+    std::vector<std::array<std::uint32_t, 3>> triangles() const;
+
+    // Corners of the triangles round a corner's vertex, counter-clockwise; from one boundary to the
+    // other where it is on the boundary.
+    struct Fan {
+        std::vector<std::uint32_t> corners;
+        bool closed = false;
+    };
+    Fan fan(std::uint32_t corner) const;
+
+    // The edge opposite, which has a twin, becomes the quadrilateral's other diagonal, from the
+    // corner's vertex to the twin's. Returns the quadrilateral's sides.
+    std::array<std::uint32_t, 4> flip(std::uint32_t corner);
+    // Cuts a cell into three; edge 2 of each is one of the old sides. Returns the cells.
+    std::array<std::uint32_t, 3> split(std::uint32_t cell, std::uint32_t vertex);
+    // Makes one cell, which it returns, of the three round a corner's vertex.
+    std::uint32_t join(const std::array<std::uint32_t, 3>& corners);
+    void erase(std::uint32_t cell);
+    void renameVertex(std::uint32_t corner, std::uint32_t vertex) { vertices_[corner] = vertex; }
+
+private:
+    void setCell(
+        std::uint32_t cell, const std::array<std::uint32_t, 3>& vertices,
+        const std::array<std::uint32_t, 3>& twins);
+
+    std::vector<std::uint32_t> vertices_;  // [corner]
+    std::vector<std::uint32_t> twins_;  // [corner]
+};
+
+// Flips edges until shouldFlip(corner) holds for none of the suspects and of those that flips make
+// suspect; ends after `most` flips. Calls flipped(corner) after each. Lawson 1977, Software for C1
+// surface interpolation.
+template <class Test, class Flipped>
+void flipEdges(
+    TriangleNet& net, std::vector<std::uint32_t>& suspects, std::size_t most, Test&& shouldFlip,
+    Flipped&& flipped) {
+    while (!suspects.empty()) {
+        const std::uint32_t corner = suspects.back();
+        suspects.pop_back();
+        if (most == 0 || net.twin(corner) == TriangleNet::kNone || !shouldFlip(corner)) continue;
+        --most;
+        for (const std::uint32_t side : net.flip(corner)) suspects.push_back(side);
+        flipped(corner);
+    }
+}
 
 // A scalp cut at roots, from which the scalp's own vertices are then taken out.
 // Lengths and angles are those of the straight triangles in space.
@@ -51,4 +120,4 @@ private:
     std::vector<std::uint32_t> suspects_;
 };
 
-}  // namespace hair
+}  // namespace hair::groom

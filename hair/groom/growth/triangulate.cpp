@@ -5,20 +5,124 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <string>
 
+#include <glm/common.hpp>
+
 #include "engine/error.h"
-#include "hair/groom/growth/ear_clipping.h"
-#include "hair/groom/growth/triangle_net.h"
+#include "hair/groom/growth/surface_net.h"
 #include "hair/random.h"
+
+namespace hair::groom {
+namespace {
+
+// ---- Ear clipping -------------------------------------------------------------------------------
+
+struct Edge {
+    GridPoint a;
+    GridPoint b;
+};
+
+bool boxesMeet(const Edge& p, const Edge& q) {
+    const auto meet = [](std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
+        return std::max(a, b) >= std::min(c, d) && std::max(c, d) >= std::min(a, b);
+    };
+    return meet(p.a.x, p.b.x, q.a.x, q.b.x) && meet(p.a.y, p.b.y, q.a.y, q.b.y);
+}
+
+int sign(std::int64_t value) { return (value > 0) - (value < 0); }
+
+// End points count. Where the boxes meet, collinear edges overlap.
+bool edgesMeet(const Edge& p, const Edge& q) {
+    if (!boxesMeet(p, q)) return false;
+    return sign(orientation(p.a, p.b, q.a)) * sign(orientation(p.a, p.b, q.b)) <= 0 &&
+           sign(orientation(q.a, q.b, p.a)) * sign(orientation(q.a, q.b, p.b)) <= 0;
+}
+
+// Whether the edges from b go back along each other.
+bool foldsBack(GridPoint a, GridPoint b, GridPoint c) {
+    return orientation(a, b, c) == 0 && (a.x - b.x) * (c.x - b.x) + (a.y - b.y) * (c.y - b.y) >= 0;
+}
+
+void checkSimple(std::span<const GridPoint> polygon) {
+    const std::size_t n = polygon.size();
+    const auto fail = [](std::size_t i, std::size_t j) {
+        throw engine::Error(
+            "the boundary meets itself: edges " + std::to_string(i) + " and " + std::to_string(j));
+    };
+    const auto edge = [&](std::size_t i) { return Edge{polygon[i], polygon[(i + 1) % n]}; };
+    for (std::size_t i = 0; i < n; ++i) {
+        if (foldsBack(polygon[i], polygon[(i + 1) % n], polygon[(i + 2) % n])) fail(i, (i + 1) % n);
+        for (std::size_t j = i + 2; j < n; ++j) {
+            const bool adjacent = i == 0 && j == n - 1;
+            if (!adjacent && edgesMeet(edge(i), edge(j))) fail(i, j);
+        }
+    }
+}
+
+// Twice the area, counter-clockwise positive. Below 2^(2 kGridBits + 1) for a simple polygon, and
+// sums that overflow on the way wrap back.
+bool isClockwise(std::span<const GridPoint> polygon) {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const GridPoint& next = polygon[(i + 1) % polygon.size()];
+        sum += static_cast<std::uint64_t>(orientation(polygon[0], polygon[i], next));
+    }
+    return static_cast<std::int64_t>(sum) < 0;
+}
+
+bool contains(GridPoint a, GridPoint b, GridPoint c, GridPoint p) {
+    return orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 && orientation(c, a, p) >= 0;
+}
+
+}  // namespace
+
+std::vector<std::array<std::uint32_t, 3>> clipEars(std::span<const GridPoint> polygon) {
+    if (polygon.size() < 3) throw engine::Error("a boundary needs at least 3 points");
+    checkSimple(polygon);
+    std::vector<std::uint32_t> rest(polygon.size());  // of the polygon, counter-clockwise
+    std::iota(rest.begin(), rest.end(), 0u);
+    if (isClockwise(polygon)) std::ranges::reverse(rest);
+
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    const auto isEar = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        if (orientation(polygon[a], polygon[b], polygon[c]) <= 0) return false;
+        return std::ranges::none_of(rest, [&](std::uint32_t i) {
+            return i != a && i != b && i != c &&
+                   contains(polygon[a], polygon[b], polygon[c], polygon[i]);
+        });
+    };
+    std::size_t at = 0;
+    for (std::size_t failures = 0; rest.size() > 3;) {
+        const std::size_t n = rest.size();
+        at %= n;
+        const std::uint32_t a = rest[(at + n - 1) % n];
+        const std::uint32_t b = rest[at];
+        const std::uint32_t c = rest[(at + 1) % n];
+        if (isEar(a, b, c)) {
+            triangles.push_back({a, b, c});
+            rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(at));
+            failures = 0;
+        } else {
+            assert(failures < n);
+            ++failures;
+        }
+        ++at;  // after a cut too: the next ear elsewhere, so that no vertex gets a fan of thin ones
+    }
+    triangles.push_back({rest[0], rest[1], rest[2]});
+    return triangles;
+}
+
+namespace {
+
+// ---- Triangulate --------------------------------------------------------------------------------
 
 // The polygon is cut into ears, the points inside are inserted one after the other, and edges are
 // flipped until they are all Delaunay. Boundary edges have a triangle on one side only, so nothing
 // flips them. Lawson 1977, Software for C1 surface interpolation; Guibas and Stolfi 1985 for the
 // walk to a point.
-namespace hair {
-namespace {
 
 class Triangulation {
 public:
@@ -182,4 +286,102 @@ triangulate(std::span<const glm::dvec2> points, std::uint32_t boundary_count) {
     return triangulation.triangles();
 }
 
-}  // namespace hair
+namespace {
+
+// ---- Cut at roots -------------------------------------------------------------------------------
+
+// Roots keep this weight of each corner, so that rounding puts none on an edge.
+constexpr double kLeastWeight = 1e-6;
+
+// The triangle's corners and its roots, in weights: affine, so the triangles are Delaunay only
+// after makeDelaunay().
+void cut(
+    std::vector<std::array<std::uint32_t, 3>>& triangles,
+    const std::array<std::uint32_t, 3>& corners, std::span<const std::uint32_t> members,
+    std::span<const SurfacePoint> roots) {
+    if (members.empty()) {
+        triangles.push_back(corners);
+        return;
+    }
+    std::vector<glm::dvec2> flat{{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}};
+    for (const std::uint32_t root : members) {
+        const glm::dvec3 weights = glm::max(glm::dvec3(roots[root].weights), kLeastWeight);
+        flat.push_back(glm::dvec2(weights.y, weights.z) / (weights.x + weights.y + weights.z));
+    }
+    for (const auto& triangle : triangulate(flat, 3)) {
+        auto& vertices = triangles.emplace_back();
+        for (std::size_t i = 0; i < 3; ++i)
+            vertices[i] = triangle[i] < 3 ? corners[triangle[i]] : members[triangle[i] - 3];
+    }
+}
+
+}  // namespace
+
+std::vector<std::array<std::uint32_t, 3>>
+cutAtRoots(const Scalp& scalp, std::span<const SurfacePoint> roots) {
+    std::vector<std::vector<std::uint32_t>> members(scalp.triangles.size());
+    for (std::uint32_t i = 0; i < roots.size(); ++i) members[roots[i].triangle].push_back(i);
+    const auto first = static_cast<std::uint32_t>(roots.size());
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::size_t i = 0; i < scalp.triangles.size(); ++i) {
+        const auto [a, b, c] = scalp.triangles[i];
+        cut(triangles, {first + a, first + b, first + c}, members[i], roots);
+    }
+    return triangles;
+}
+
+namespace {
+
+// ---- Surface triangles --------------------------------------------------------------------------
+
+// [triangle of the scalp], a number that triangles have in common if a way over edges joins them.
+std::vector<std::uint32_t> pieces(const Scalp& scalp) {
+    const TriangleNet net(scalp.triangles);
+    std::vector<std::uint32_t> parent(scalp.triangles.size());
+    std::iota(parent.begin(), parent.end(), 0u);
+    const auto root = [&](std::uint32_t i) {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    for (std::uint32_t corner = 0; corner < net.cornerCount(); ++corner) {
+        if (net.twin(corner) != TriangleNet::kNone)
+            parent[root(corner / 3)] = root(net.twin(corner) / 3);
+    }
+    for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = root(i);
+    return parent;
+}
+
+// For pieces without a triangle.
+void joinLonely(
+    std::vector<std::array<std::uint32_t, 3>>& triangles, const Scalp& scalp,
+    std::span<const SurfacePoint> roots) {
+    const std::vector<std::uint32_t> piece = pieces(scalp);
+    std::vector<bool> spanned(scalp.triangles.size(), false);  // [piece]
+    for (const auto& triangle : triangles) spanned[piece[roots[triangle[0]].triangle]] = true;
+    std::map<std::uint32_t, std::vector<std::uint32_t>> lonely;  // roots by piece
+    for (std::uint32_t i = 0; i < roots.size(); ++i) {
+        const std::uint32_t home = piece[roots[i].triangle];
+        if (!spanned[home]) lonely[home].push_back(i);
+    }
+    for (const auto& [home, members] : lonely) {
+        if (members.size() == 1) triangles.push_back({members[0], members[0], members[0]});
+        for (std::size_t i = 1; i < members.size(); ++i)
+            triangles.push_back({members[i - 1], members[i], members[i]});
+    }
+}
+
+}  // namespace
+
+std::vector<std::array<std::uint32_t, 3>>
+surfaceTriangles(const Scalp& scalp, std::span<const SurfacePoint> roots) {
+    SurfaceNet net(scalp, roots);
+    net.makeDelaunay();
+    net.removeScalpVertices();
+    net.makeDelaunay();
+    net.peel();
+    std::vector<std::array<std::uint32_t, 3>> triangles = net.triangles();
+    joinLonely(triangles, scalp, roots);
+    return triangles;
+}
+
+}  // namespace hair::groom

@@ -1,11 +1,16 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "hair/groom/groom.h"
 
-namespace hair {
+namespace hair::groom {
 
 // Binds every strand of a dense groom to three of its guides, whose roots are near and whose mean
 // is like it. `guides` are the dense strands, in ascending order, that became the guides 0, 1, …:
@@ -26,4 +31,43 @@ struct ReconstructionError {
 ReconstructionError reconstructionError(
     const Groom& dense, const Groom& guides, const std::vector<StrandBinding>& bindings);
 
-}  // namespace hair
+inline constexpr std::size_t kMostCandidates = 8;
+
+// The inner products of the vectors from one point to several others, in any number of dimensions.
+struct Products {
+    std::size_t count = 0;  // at least 1
+    std::array<std::array<double, kMostCandidates>, kMostCandidates> of{};
+};
+
+// A weighted mean of three of those points, heaviest first; where fewer have a weight, the first
+// stands in for the rest.
+struct Mean {
+    std::array<std::size_t, 3> members{};
+    std::array<double, 3> weights{1.0, 0.0, 0.0};  // sum 1, none negative
+};
+
+// The mean of at most three points that comes nearest to the one point. Of means that come about as
+// near it takes that of points which are near themselves: in a plane, where several triangles hold
+// the point, the Delaunay triangle.
+Mean nearestMean(const Products& products);
+
+// Finds those of many points that are nearest to a place. Bentley 1975, Multidimensional binary
+// search trees used for associative searching.
+class RootTree {
+public:
+    explicit RootTree(std::span<const glm::vec3> points);
+
+    // Fills `nearest` with the indices of the nearest points, nearest first, of equally far ones
+    // the lower index first. Returns how many there are: fewer only where there are fewer points.
+    std::size_t find(const glm::vec3& place, std::span<std::uint32_t> nearest) const;
+
+private:
+    struct Node {
+        glm::vec3 point;
+        std::uint32_t source;  // the point's index
+        int axis;  // along which the points before and after it are apart
+    };
+    std::vector<Node> nodes_;  // the middle one of each range splits it
+};
+
+}  // namespace hair::groom

@@ -14,12 +14,13 @@
 #include "engine/error.h"
 #include "hair/random.h"
 
+namespace hair::groom {
+namespace {
+
 // The farthest-point traversal: again and again the strand that is least like all guides so far
 // becomes one. No set of as many guides has a strand less than half as far from all of them.
 // Gonzalez 1985, Clustering to minimize the maximum intercluster distance. It takes what lies
 // furthest out first, so that the edge of the hair is among the guides.
-namespace hair {
-namespace {
 
 constexpr std::uint32_t kParts = 4;  // of a strand, that its shape is known by
 
@@ -221,4 +222,4 @@ Groom pickStrands(const Groom& dense, const std::vector<std::uint32_t>& strands)
     return picked;
 }
 
-}  // namespace hair
+}  // namespace hair::groom

@@ -5,7 +5,7 @@
 
 #include "hair/groom/groom.h"
 
-namespace hair {
+namespace hair::groom {
 
 // Picks `count` strands of a dense groom to be its guides, spread over roots and shapes: strands
 // that stand far apart, or next to each other but unlike, are both worth a guide. Returns indices
@@ -18,4 +18,4 @@ chooseGuides(const Groom& dense, std::uint32_t count, std::uint32_t seed);
 // The groom of those strands alone, with their normals and widths, without triangles and bindings.
 Groom pickStrands(const Groom& dense, const std::vector<std::uint32_t>& strands);
 
-}  // namespace hair
+}  // namespace hair::groom

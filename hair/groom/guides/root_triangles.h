@@ -7,7 +7,7 @@
 #include "hair/groom/groom.h"
 #include "hair/groom/mesh/mesh.h"
 
-namespace hair {
+namespace hair::groom {
 
 // The triangles between the roots of guides that come without them (thesis 2.3.2): Delaunay on the
 // surface that the roots lie on, outer side counter-clockwise, without those that are much longer
@@ -18,4 +18,4 @@ std::vector<std::array<std::uint32_t, 3>> triangulateRoots(const Groom& guides, 
 // The mesh's unit normals at the points of its surface that are nearest to the roots.
 std::vector<glm::vec3> rootNormals(const Groom& guides, const Mesh& mesh);
 
-}  // namespace hair
+}  // namespace hair::groom

@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstring>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,11 +18,135 @@
 #include <vector>
 
 #include "engine/error.h"
-#include "hair/groom/mesh/base64.h"
-#include "hair/groom/mesh/glb_file.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
+
+// ---- Base64 -------------------------------------------------------------------------------------
+
+constexpr std::string_view kAlphabet =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+constexpr std::uint32_t kWrong = 64;
+
+constexpr std::array<std::uint8_t, 256> kValues = [] {
+    std::array<std::uint8_t, 256> values{};
+    values.fill(kWrong);
+    for (std::size_t i = 0; i < kAlphabet.size(); ++i)
+        values[static_cast<unsigned char>(kAlphabet[i])] = static_cast<std::uint8_t>(i);
+    return values;
+}();
+
+}  // namespace
+
+std::optional<std::string> decodeBase64(std::string_view text) {
+    if (text.size() % 4 != 0) return {};
+    const std::size_t padding = text.ends_with("==") ? 2 : text.ends_with('=') ? 1 : 0;
+    std::string bytes(text.size() / 4 * 3, '\0');
+    std::uint32_t seen = 0;
+    for (std::size_t group = 0; group < text.size() / 4; ++group) {
+        const bool is_last = 4 * (group + 1) == text.size();
+        std::uint32_t bits = 0;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const bool is_padding = is_last && i >= 4 - padding;
+            const auto c = static_cast<unsigned char>(text[4 * group + i]);
+            const std::uint32_t value = is_padding ? 0 : kValues[c];
+            seen |= value;
+            bits = bits << 6 | value;
+        }
+        for (std::size_t i = 0; i < 3; ++i)
+            bytes[3 * group + i] = static_cast<char>(bits >> (16 - 8 * i) & 0xff);
+    }
+    if (seen >= kWrong) return {};
+    bytes.resize(bytes.size() - padding);
+    return bytes;
+}
+
+namespace {
+
+// ---- Glb file -----------------------------------------------------------------------------------
+
+constexpr std::string_view kMagic = "glTF";
+constexpr std::size_t kHeaderSize = 12;  // magic, version, length
+constexpr std::size_t kChunkHeaderSize = 8;  // length, type
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
+constexpr std::uint32_t kBinaryChunk = 0x004E4942;
+
+[[noreturn]] void fail(std::size_t byte, const std::string& reason) {
+    throw engine::Error("byte " + std::to_string(byte), reason);
+}
+
+std::uint32_t wordAt(std::string_view file, std::size_t offset) {
+    std::array<unsigned char, 4> b{};
+    std::memcpy(b.data(), file.data() + offset, b.size());
+    return b[0] | (std::uint32_t{b[1]} << 8) | (std::uint32_t{b[2]} << 16) |
+           (std::uint32_t{b[3]} << 24);
+}
+
+void appendWord(std::string& file, std::size_t word) {
+    for (int shift = 0; shift < 32; shift += 8) file += static_cast<char>(word >> shift & 0xff);
+}
+
+// The data of a chunk.
+std::string_view chunkAt(std::string_view file, std::size_t offset, std::uint32_t type) {
+    if (file.size() - offset < kChunkHeaderSize) {
+        fail(file.size(), "truncated: a chunk's header is expected");
+    }
+    const std::size_t size = wordAt(file, offset);
+    if (wordAt(file, offset + 4) != type) {
+        fail(offset + 4, std::string("the chunk isn't ") + (type == kJsonChunk ? "JSON" : "BIN"));
+    }
+    if (size > file.size() - offset - kChunkHeaderSize) {
+        fail(
+            offset, "truncated: the chunk has " + std::to_string(size) + " bytes, " +
+                        std::to_string(file.size() - offset - kChunkHeaderSize) + " are there");
+    }
+    return file.substr(offset + kChunkHeaderSize, size);
+}
+
+void appendChunk(std::string& file, std::uint32_t type, std::string_view data, char padding) {
+    const std::size_t padded = (data.size() + 3) / 4 * 4;
+    appendWord(file, padded);
+    appendWord(file, type);
+    file.append(data).append(padded - data.size(), padding);
+}
+
+}  // namespace
+
+bool isGlb(std::string_view file) { return file.starts_with(kMagic); }
+
+// tinygltf looks for the end of the second chunk 8 bytes too late.
+GlbChunks glbChunks(std::string_view file) {
+    if (file.size() < kHeaderSize) fail(file.size(), "truncated: the header alone is 12 bytes");
+    const std::uint32_t version = wordAt(file, 4);
+    const std::uint32_t length = wordAt(file, 8);
+    if (version != 2) fail(4, "version " + std::to_string(version) + " of glTF, expected 2");
+    if (length != file.size()) {
+        fail(
+            8, "the header says that there are " + std::to_string(length) + " bytes, there are " +
+                   std::to_string(file.size()));
+    }
+    const std::string_view json = chunkAt(file, kHeaderSize, kJsonChunk);
+    const std::size_t end = kHeaderSize + kChunkHeaderSize + json.size();
+    if (end == file.size()) return {json, {}};
+    return {json, chunkAt(file, end, kBinaryChunk)};
+}
+
+std::string glbFile(const GlbChunks& chunks) {
+    std::string data;
+    data.reserve(chunks.json.size() + chunks.binary.size() + 64);
+    data.append(kMagic);
+    appendWord(data, 2);
+    appendWord(data, 0);
+    appendChunk(data, kJsonChunk, chunks.json, ' ');
+    if (!chunks.binary.empty()) appendChunk(data, kBinaryChunk, chunks.binary, '\0');
+    std::string length;
+    appendWord(length, data.size());
+    return data.replace(8, 4, length);
+}
+
+namespace {
+
+// ---- Gltf model ---------------------------------------------------------------------------------
 
 using json = nlohmann::json;
 
@@ -45,10 +172,6 @@ constexpr std::array<std::string_view, 11> kSections{
     "extensionsUsed",
     "extensionsRequired"};
 constexpr std::array<std::string_view, 3> kImageSections{"images", "textures", "samplers"};
-
-[[noreturn]] void fail(std::size_t byte, const std::string& reason) {
-    throw engine::Error("byte " + std::to_string(byte), reason);
-}
 
 // The first line of what tinygltf or nlohmann says, which may go on with all the file's data.
 std::string firstLine(std::string_view text) {
@@ -204,4 +327,174 @@ loadGltf(std::span<const std::byte> bytes, const std::filesystem::path& path, Gl
     return model;
 }
 
-}  // namespace hair
+namespace {
+
+// ---- Gltf accessors -----------------------------------------------------------------------------
+
+// An accessor's elements where they lie in the file, every one of them inside its buffer.
+struct Elements {
+    const tinygltf::Accessor& accessor;
+    std::string name;  // for messages
+    const unsigned char* first = nullptr;
+    std::size_t stride = 0;  // bytes
+
+    template <class Value>
+    Value read(std::size_t index) const {
+        Value value;
+        std::memcpy(&value, first + index * stride, sizeof value);
+        return value;
+    }
+
+    [[noreturn]] void refuse(const std::string& expected) const {
+        throw engine::Error(name, "is not " + expected);
+    }
+};
+
+Elements elementsOf(const tinygltf::Model& model, int index) {
+    const std::string name = numbered("accessor", index);
+    const tinygltf::Accessor& accessor = at(model.accessors, index, "accessor");
+    if (accessor.sparse.isSparse) throw engine::Error(name, "sparse accessors are not supported");
+    const tinygltf::BufferView& view = at(model.bufferViews, accessor.bufferView, "buffer view");
+    const tinygltf::Buffer& buffer = at(model.buffers, view.buffer, "buffer");
+    const int stride = accessor.ByteStride(view);
+    const int size =
+        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType)) *
+        tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+    if (stride <= 0 || size <= 0) throw engine::Error(name, "unknown type");
+    const auto step = static_cast<std::size_t>(stride);
+    const auto width = static_cast<std::size_t>(size);
+    const std::size_t available = buffer.data.size();
+    const bool view_fits =
+        view.byteOffset <= available && view.byteLength <= available - view.byteOffset;
+    if (!view_fits || accessor.byteOffset > view.byteLength) {
+        throw engine::Error(name, "lies outside its buffer");
+    }
+    const std::size_t room = view.byteLength - accessor.byteOffset;
+    if (accessor.count > 0 && (room < width || (room - width) / step < accessor.count - 1)) {
+        throw engine::Error(name, "lies outside its buffer");
+    }
+    return {accessor, name, buffer.data.data() + view.byteOffset + accessor.byteOffset, step};
+}
+
+// Each element as it lies there.
+template <class Value>
+std::vector<Value> copy(const Elements& elements) {
+    std::vector<Value> values(elements.accessor.count);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = elements.read<Value>(i);
+    return values;
+}
+
+// Vectors of integers that stand for 0 to 1.
+template <class Vector, class Stored>
+std::vector<Vector> copyNormalized(const Elements& elements) {
+    using Integer = typename Stored::value_type;
+    constexpr auto kOne = static_cast<float>(std::numeric_limits<Integer>::max());
+    std::vector<Vector> vectors(elements.accessor.count);
+    for (std::size_t i = 0; i < vectors.size(); ++i)
+        vectors[i] = Vector(elements.read<Stored>(i)) / kOne;
+    return vectors;
+}
+
+// `type` is tinygltf's for Vector.
+template <glm::length_t size>
+std::vector<glm::vec<size, float>> readShares(const Elements& elements, int type) {
+    using Vector = glm::vec<size, float>;
+    const tinygltf::Accessor& accessor = elements.accessor;
+    const std::string expected =
+        "VEC" + std::to_string(size) + " of float, or of normalized unsigned bytes or shorts";
+    if (accessor.type != type) elements.refuse(expected);
+    if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT) return copy<Vector>(elements);
+    if (!accessor.normalized) elements.refuse(expected);
+    switch (accessor.componentType) {
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return copyNormalized<Vector, glm::vec<size, std::uint8_t>>(elements);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return copyNormalized<Vector, glm::vec<size, std::uint16_t>>(elements);
+    default:
+        elements.refuse(expected);
+    }
+}
+
+template <class Integer>
+std::vector<std::uint32_t> widen(const Elements& elements) {
+    std::vector<std::uint32_t> indices(elements.accessor.count);
+    for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = elements.read<Integer>(i);
+    return indices;
+}
+
+std::vector<std::uint32_t> readUnsigned(const Elements& elements) {
+    if (elements.accessor.type != TINYGLTF_TYPE_SCALAR) elements.refuse("SCALAR, for indices");
+    switch (elements.accessor.componentType) {
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return widen<std::uint8_t>(elements);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return widen<std::uint16_t>(elements);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        return widen<std::uint32_t>(elements);
+    default:
+        elements.refuse("of unsigned integers, for indices");
+    }
+}
+
+void requireFloat(const Elements& elements, int type, const char* expected) {
+    if (elements.accessor.type == type &&
+        elements.accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT)
+        return;
+    elements.refuse(expected);
+}
+
+}  // namespace
+
+std::optional<int> findAttribute(const tinygltf::Primitive& primitive, const std::string& name) {
+    const auto attribute = primitive.attributes.find(name);
+    if (attribute == primitive.attributes.end()) return {};
+    return attribute->second;
+}
+
+std::vector<float> readScalars(const tinygltf::Model& model, int accessor) {
+    const Elements elements = elementsOf(model, accessor);
+    requireFloat(elements, TINYGLTF_TYPE_SCALAR, "SCALAR of float");
+    return copy<float>(elements);
+}
+
+std::vector<glm::vec3> readVectors(const tinygltf::Model& model, int accessor) {
+    const Elements elements = elementsOf(model, accessor);
+    requireFloat(elements, TINYGLTF_TYPE_VEC3, "VEC3 of float");
+    return copy<glm::vec3>(elements);
+}
+
+std::vector<glm::vec2> readTextureCoordinates(const tinygltf::Model& model, int accessor) {
+    return readShares<2>(elementsOf(model, accessor), TINYGLTF_TYPE_VEC2);
+}
+
+GltfColors readColors(const tinygltf::Model& model, int accessor) {
+    const Elements elements = elementsOf(model, accessor);
+    if (elements.accessor.type != TINYGLTF_TYPE_VEC4) {
+        return {readShares<3>(elements, TINYGLTF_TYPE_VEC3), {}};
+    }
+    GltfColors read;
+    for (const glm::vec4& color : readShares<4>(elements, TINYGLTF_TYPE_VEC4)) {
+        read.colors.emplace_back(color);
+        read.opacities.push_back(color.a);
+    }
+    return read;
+}
+
+std::vector<std::uint32_t> readIndices(
+    const tinygltf::Model& model, const tinygltf::Primitive& primitive, std::size_t vertex_count) {
+    if (primitive.indices < 0) {
+        std::vector<std::uint32_t> all(vertex_count);
+        std::iota(all.begin(), all.end(), 0u);
+        return all;
+    }
+    std::vector<std::uint32_t> indices = readUnsigned(elementsOf(model, primitive.indices));
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        if (indices[i] < vertex_count) continue;
+        throw engine::Error(
+            "index " + std::to_string(i) + " names vertex " + std::to_string(indices[i]) +
+            ", there are " + std::to_string(vertex_count));
+    }
+    return indices;
+}
+
+}  // namespace hair::groom

@@ -1,16 +1,45 @@
 #pragma once
 
-#include <cstddef>
-#include <filesystem>
-#include <span>
-
 // tinygltf's classes differ with these.
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_EXTERNAL_IMAGE
 #include <tiny_gltf.h>
 
-namespace hair {
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "engine/error.h"
+
+namespace hair::groom {
+
+// The bytes that base 64 text is of (RFC 4648, section 4), padded to whole groups of 4 characters;
+// absent where it is no such text.
+std::optional<std::string> decodeBase64(std::string_view text);
+
+// What a binary glTF file holds (glTF 2.0, section 4.4).
+struct GlbChunks {
+    std::string_view json;
+    std::string_view binary;  // empty where there is none
+};
+
+bool isGlb(std::string_view file);
+
+// Throws engine::Error "byte N: reason" for a header and chunks that the file doesn't bear out.
+GlbChunks glbChunks(std::string_view file);
+
+// A file of these chunks.
+std::string glbFile(const GlbChunks& chunks);
 
 // What of a file's images there is.
 enum class GltfImages {
@@ -27,4 +56,42 @@ tinygltf::Model loadGltf(
     std::span<const std::byte> bytes, const std::filesystem::path& path,
     GltfImages images = GltfImages::skipped);
 
-}  // namespace hair
+// What a glTF file's numbers lead to, with every index and range looked at. Errors begin with what
+// is wrong: "accessor 2: ...".
+
+inline std::string numbered(const char* kind, int index) {
+    return kind + (" " + std::to_string(index));
+}
+
+template <class Element>
+const Element& at(const std::vector<Element>& elements, int index, const char* kind) {
+    if (index < 0 || static_cast<std::size_t>(index) >= elements.size()) {
+        throw engine::Error(
+            "the file names " + numbered(kind, index) + ", it has " +
+            std::to_string(elements.size()));
+    }
+    return elements[static_cast<std::size_t>(index)];
+}
+
+// The accessor of a primitive's attribute.
+std::optional<int> findAttribute(const tinygltf::Primitive& primitive, const std::string& name);
+
+// Accessors of float.
+std::vector<float> readScalars(const tinygltf::Model& model, int accessor);
+std::vector<glm::vec3> readVectors(const tinygltf::Model& model, int accessor);
+
+// Accessors of float, or of normalized unsigned bytes or shorts.
+std::vector<glm::vec2> readTextureCoordinates(const tinygltf::Model& model, int accessor);
+
+struct GltfColors {
+    std::vector<glm::vec3> colors;
+    std::vector<float> opacities;  // empty where the accessor is a VEC3
+};
+GltfColors readColors(const tinygltf::Model& model, int accessor);
+
+// The vertices that a primitive names, all of them below `vertex_count`; 0, 1, 2 ... where it has
+// no indices.
+std::vector<std::uint32_t> readIndices(
+    const tinygltf::Model& model, const tinygltf::Primitive& primitive, std::size_t vertex_count);
+
+}  // namespace hair::groom

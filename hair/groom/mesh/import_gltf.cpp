@@ -1,19 +1,281 @@
 #include "hair/groom/mesh/import_gltf.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
 
 #include "engine/error.h"
-#include "hair/groom/mesh/gltf_accessors.h"
-#include "hair/groom/mesh/gltf_materials.h"
-#include "hair/groom/mesh/gltf_scene.h"
+#include "engine/pictures.h"
+#include "hair/groom/mesh/gltf_model.h"
+#include "hair/groom/mesh/mesh.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
+
+// ---- Gltf images --------------------------------------------------------------------------------
+
+std::string_view bytesOfView(const tinygltf::Model& model, int index) {
+    const tinygltf::BufferView& view = at(model.bufferViews, index, "buffer view");
+    const tinygltf::Buffer& buffer = at(model.buffers, view.buffer, "buffer");
+    const std::size_t available = buffer.data.size();
+    if (view.byteOffset > available || view.byteLength > available - view.byteOffset)
+        throw engine::Error(numbered("buffer view", index), "lies outside its buffer");
+    return {reinterpret_cast<const char*>(buffer.data.data()) + view.byteOffset, view.byteLength};
+}
+
+// RFC 2397, in base 64: what is behind the comma.
+std::string bytesOfDataUri(std::string_view uri) {
+    constexpr std::string_view kMark = ";base64,";
+    const std::size_t mark = uri.find(kMark);
+    if (mark == std::string_view::npos) throw engine::Error("its data are not in base 64");
+    std::optional<std::string> bytes = decodeBase64(uri.substr(mark + kMark.size()));
+    if (!bytes) throw engine::Error("its base 64 is damaged");
+    return *std::move(bytes);
+}
+
+// RFC 3986, section 2.1: "%20" is a space.
+std::string decodePercents(std::string_view uri) {
+    std::string decoded;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        unsigned char byte = 0;
+        const char* digits = uri.data() + i + 1;
+        if (uri[i] == '%' && i + 2 < uri.size() &&
+            std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
+            decoded += static_cast<char>(byte);
+            i += 2;
+        } else {
+            decoded += uri[i];
+        }
+    }
+    return decoded;
+}
+
+// Image `index` of a model that was loaded with GltfImages::named: a PNG or JPEG in a buffer, in
+// base 64, or in a file of `folder`. Throws engine::Error "image 2 'skin': reason".
+engine::Pixels
+decodeGltfImage(const tinygltf::Model& model, int index, const std::filesystem::path& folder) {
+    const tinygltf::Image& image = at(model.images, index, "image");
+    const std::string name = image.name.empty() ? "" : " '" + image.name + "'";
+    try {
+        if (image.bufferView >= 0) return engine::decodeImage(bytesOfView(model, image.bufferView));
+        if (image.uri.empty()) throw engine::Error("has neither a bufferView nor a uri");
+        if (image.uri.starts_with("data:")) return engine::decodeImage(bytesOfDataUri(image.uri));
+        return engine::readImage(folder / decodePercents(image.uri));
+    } catch (const engine::Error& error) {
+        throw engine::Error(numbered("image", index) + name, error.what());
+    }
+}
+
+// ---- Gltf materials -----------------------------------------------------------------------------
+
+struct GltfMaterials {
+    std::vector<Material> materials;  // of triangles without one, then the file's
+    std::vector<engine::Pixels> pictures;
+};
+
+constexpr std::size_t kMostPixels = std::size_t{1} << 27;
+
+// glTF's factors are linear, ours are display RGB; IEC 61966-2-1.
+float encodeSrgb(double linear) {
+    return static_cast<float>(
+        linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055);
+}
+
+float share(double value, const char* name) {
+    if (value >= 0.0 && value <= 1.0) return static_cast<float>(value);
+    throw engine::Error(name, "is outside [0, 1]");
+}
+
+Wrap toWrap(int mode) {
+    switch (mode) {
+    case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+        return Wrap::clamp;
+    case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+        return Wrap::mirror;
+    default:
+        return Wrap::repeat;
+    }
+}
+
+class MaterialReader {
+public:
+    MaterialReader(
+        const tinygltf::Model& model, Textures textures, const std::filesystem::path& folder)
+        : model_(model), textures_(textures), folder_(folder) {}
+
+    Material read(const tinygltf::Material& source) {
+        const tinygltf::PbrMetallicRoughness& surface = source.pbrMetallicRoughness;
+        Material material{
+            .name = source.name,
+            .metallic = share(surface.metallicFactor, "metallicFactor"),
+            .roughness = share(surface.roughnessFactor, "roughnessFactor"),
+            .normal_scale = static_cast<float>(source.normalTexture.scale),
+            .cutoff = {},
+            .double_sided = source.doubleSided,
+            .base_color_texture = texture(surface.baseColorTexture, "baseColorTexture"),
+            .metallic_roughness_texture =
+                texture(surface.metallicRoughnessTexture, "metallicRoughnessTexture"),
+            .normal_texture = texture(source.normalTexture, "normalTexture")};
+        const std::vector<double>& color = surface.baseColorFactor;
+        if (color.size() >= 3)
+            material.base_color = {
+                encodeSrgb(color[0]), encodeSrgb(color[1]), encodeSrgb(color[2])};
+        if (color.size() >= 4) material.opacity = share(color[3], "baseColorFactor");
+        if (source.alphaMode == "MASK") material.cutoff = static_cast<float>(source.alphaCutoff);
+        if (source.alphaMode == "BLEND") material.cutoff = 0.5f;
+        return material;
+    }
+
+    std::vector<engine::Pixels> takePictures() { return std::move(pictures_); }
+
+private:
+    template <class Info>
+    std::optional<MaterialTexture> texture(const Info& info, const char* name) {
+        if (info.index < 0 || textures_ == Textures::skipped) return {};
+        try {
+            return textureOf(info);
+        } catch (const engine::Error& error) {
+            throw engine::Error(name, error.what());
+        }
+    }
+
+    template <class Info>
+    MaterialTexture textureOf(const Info& info) {
+        if (info.texCoord != 0) {
+            throw engine::Error(
+                "TEXCOORD_" + std::to_string(info.texCoord) + " is not supported, TEXCOORD_0 is");
+        }
+        if (info.extensions.contains("KHR_texture_transform"))
+            throw engine::Error("KHR_texture_transform is not supported");
+        const tinygltf::Texture& source = at(model_.textures, info.index, "texture");
+        MaterialTexture texture{.picture = picture(source.source)};
+        if (source.sampler >= 0) {
+            const tinygltf::Sampler& sampler = at(model_.samplers, source.sampler, "sampler");
+            texture.horizontal = toWrap(sampler.wrapS);
+            texture.vertical = toWrap(sampler.wrapT);
+            texture.is_smooth = sampler.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST;
+        }
+        return texture;
+    }
+
+    // Each image once.
+    std::uint32_t picture(int image) {
+        const auto [known, is_new] =
+            numbers_.try_emplace(image, static_cast<std::uint32_t>(pictures_.size()));
+        if (!is_new) return known->second;
+        const engine::Pixels& added =
+            pictures_.emplace_back(decodeGltfImage(model_, image, folder_));
+        pixels_ += added.rgba.size() / 4;
+        if (pixels_ > kMostPixels)
+            throw engine::Error("the images have more than 2^27 pixels in all");
+        return known->second;
+    }
+
+    const tinygltf::Model& model_;
+    Textures textures_;
+    const std::filesystem::path& folder_;
+    std::map<int, std::uint32_t> numbers_;  // of images among the pictures
+    std::vector<engine::Pixels> pictures_;
+    std::size_t pixels_ = 0;
+};
+
+// glTF 2.0, section 3.9: base colour, metallic, roughness, normals, alpha mode, double sided; other
+// parts and extensions of materials are ignored. BLEND is read as MASK at one half. What has no
+// material is matt grey. Textures, where they are wanted, have to be on TEXCOORD_0 without
+// KHR_texture_transform. Throws engine::Error that names the material and the image.
+GltfMaterials readMaterials(
+    const tinygltf::Model& model, Textures textures, const std::filesystem::path& folder) {
+    MaterialReader reader(model, textures, folder);
+    std::vector<Material> materials{{.name = "default"}};
+    for (std::size_t i = 0; i < model.materials.size(); ++i) {
+        try {
+            materials.push_back(reader.read(model.materials[i]));
+        } catch (const engine::Error& error) {
+            throw engine::Error("material " + std::to_string(i), error.what());
+        }
+    }
+    return {std::move(materials), reader.takePictures()};
+}
+
+// ---- Gltf scene ---------------------------------------------------------------------------------
+
+using Visit = std::function<void(const GltfPlace& place)>;
+
+glm::dmat4 localTransform(const tinygltf::Node& node) {
+    if (node.matrix.size() == 16) return glm::make_mat4(node.matrix.data());  // both column-major
+    glm::dmat4 transform(1.0);
+    if (node.translation.size() == 3) {
+        transform[3] = glm::dvec4(glm::make_vec3(node.translation.data()), 1.0);
+    }
+    if (node.rotation.size() == 4) {
+        const std::vector<double>& r = node.rotation;  // x, y, z, w
+        transform *= glm::mat4_cast(glm::normalize(glm::dquat(r[3], r[0], r[1], r[2])));
+    }
+    if (node.scale.size() == 3) {
+        for (int axis = 0; axis < 3; ++axis)
+            transform[axis] *= node.scale[static_cast<std::size_t>(axis)];
+    }
+    return transform;
+}
+
+void visitMesh(
+    const tinygltf::Model& model, int node_index, const glm::dmat4& transform, const Visit& visit) {
+    const tinygltf::Node& node = at(model.nodes, node_index, "node");
+    const tinygltf::Mesh& mesh = at(model.meshes, node.mesh, "mesh");
+    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+        try {
+            visit(
+                {mesh.primitives[i], transform, node.name.empty() ? mesh.name : node.name,
+                 node_index});
+        } catch (const engine::Error& error) {
+            throw engine::Error(
+                numbered("mesh", node.mesh) + ", primitive " + std::to_string(i), error.what());
+        }
+    }
+}
+
+}  // namespace
+
+void forEachPrimitive(const tinygltf::Model& model, const Visit& visit) {
+    struct Step {
+        int node;
+        glm::dmat4 parent;
+    };
+    if (model.scenes.empty()) throw engine::Error("the file has no scene");
+    std::vector<Step> steps;
+    for (const int root : at(model.scenes, std::max(model.defaultScene, 0), "scene").nodes) {
+        steps.push_back({root, glm::dmat4(1.0)});
+    }
+    std::vector<bool> visited(model.nodes.size());
+    for (std::size_t next = 0; next < steps.size(); ++next) {
+        const auto [index, parent] = steps[next];
+        const tinygltf::Node& node = at(model.nodes, index, "node");
+        if (visited[static_cast<std::size_t>(index)]) {
+            throw engine::Error(numbered("node", index), "is reached twice");
+        }
+        visited[static_cast<std::size_t>(index)] = true;
+        const glm::dmat4 transform = parent * localTransform(node);
+        if (node.mesh >= 0) visitMesh(model, index, transform, visit);
+        for (const int child : node.children) steps.push_back({child, transform});
+    }
+}
+
+namespace {
+
+// ---- Import gltf --------------------------------------------------------------------------------
 
 using Corners = std::array<std::size_t, 3>;  // numbers of indices
 
@@ -192,4 +454,4 @@ Mesh importGltf(const std::filesystem::path& path, Textures textures) {
     return mesh;
 }
 
-}  // namespace hair
+}  // namespace hair::groom

@@ -7,7 +7,7 @@
 
 #include "hair/groom/mesh/mesh.h"
 
-namespace hair {
+namespace hair::groom {
 
 // A reader of mesh files. It gives triangles whose indices are in range, members of the sizes that
 // mesh.h says, and a name and colour per material; normals may be missing or zero. Its errors don't
@@ -26,4 +26,4 @@ std::span<const MeshImporter> meshImporters();
 // reason".
 Mesh importMesh(const std::filesystem::path& path, Textures textures = Textures::skipped);
 
-}  // namespace hair
+}  // namespace hair::groom

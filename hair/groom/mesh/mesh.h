@@ -9,9 +9,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "engine/image_file.h"
+#include "engine/pictures.h"
 
-namespace hair {
+namespace hair::groom {
 
 // What is beyond a picture's edges.
 enum class Wrap { repeat, mirror, clamp };
@@ -62,4 +62,4 @@ struct Mesh {
 // Whether who reads a mesh wants its materials' textures.
 enum class Textures { skipped, decoded };
 
-}  // namespace hair
+}  // namespace hair::groom

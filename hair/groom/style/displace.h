@@ -1,33 +1,62 @@
 #pragma once
 
-#include <utility>
+#include <cstdint>
+#include <span>
+#include <vector>
 
-#include "hair/groom/groom.h"
-#include "hair/groom/style/along_strand.h"
+#include <glm/vec3.hpp>
 
-namespace hair {
+namespace hair::groom {
 
-// Moves the points of every strand but its root. `offsets(groom, strand, along)` gives a function
-// from a point's index to its displacement, which grows from 0 at the root to all of it at the
-// fraction `start` of the strand's length.
-template <class Offsets>
-Groom displace(Groom groom, double start, Offsets&& offsets) {
-    for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand) {
-        const AlongStrand along(groom.strand(strand));
-        const auto offset = offsets(std::as_const(groom), strand, along);
-        glm::vec3* const points =
-            groom.points.data() + std::size_t{strand} * groom.vertices_per_strand;
-        for (std::uint32_t i = 1; i < groom.vertices_per_strand; ++i) {
-            const double share = ease(0.0, start, along.fraction(i));
-            points[i] = glm::vec3(glm::dvec3(points[i]) + share * offset(i));
-        }
+// Where the points of a strand are along it.
+class AlongStrand {
+public:
+    explicit AlongStrand(std::span<const glm::vec3> points);
+
+    double arc(std::size_t point) const { return arcs_[point]; }  // from the root
+    double length() const { return arcs_.back(); }
+    // Of the length, 0 to 1; 0 everywhere on a strand without length.
+    double fraction(std::size_t point) const {
+        return length() > 0.0 ? arcs_[point] / length() : 0.0;
     }
-    return groom;
+
+private:
+    std::vector<double> arcs_;  // [point]
+};
+
+// From 0 at `from`, and before it, to 1 at `to`, and after it, level at both: smoothstep, whatever
+// the order of the two.
+constexpr double ease(double from, double to, double x) {
+    if (x <= from) return 0.0;
+    if (x >= to) return 1.0;
+    const double t = (x - from) / (to - from);
+    return t * t * (3.0 - 2.0 * t);
 }
 
-// The normal of the scalp at the root of a strand, if it is known.
-inline const glm::vec3* rootNormalOf(const Groom& groom, std::uint32_t strand) {
-    return groom.root_normals.empty() ? nullptr : &groom.root_normals[strand];
-}
+// Value noise of vectors: a random point of the unit ball at every whole number, eased between, so
+// always within the ball. `purpose` and the two after it are its purposes of random numbers.
+glm::dvec3 smoothNoise(std::uint32_t seed, std::uint32_t purpose, double x);
 
-}  // namespace hair
+// Unit vectors at a point of a strand: along it, across it, and the cross product of the two.
+struct StrandFrame {
+    glm::dvec3 tangent;
+    glm::dvec3 normal;
+    glm::dvec3 binormal;
+};
+
+// The direction of the first segment that has a length; (0, 0, 1) on a strand without length.
+glm::dvec3 rootDirection(std::span<const glm::vec3> points);
+
+// A unit vector across a unit vector, always the same one.
+glm::dvec3 across(const glm::dvec3& direction);
+
+// Frames that don't turn about the strand, one at each point. The first one's normal is in the
+// plane of the strand's direction at the root and `root_normal`; where the two are parallel (less
+// than 0.001 rad) or `root_normal` is null, towards the point that is furthest from the line of
+// that direction; on a straight strand, across().
+// Wang, Jüttler, Zheng and Liu 2008, Computation of rotation minimizing frames, table I (double
+// reflection).
+std::vector<StrandFrame>
+strandFrames(std::span<const glm::vec3> points, const glm::vec3* root_normal);
+
+}  // namespace hair::groom

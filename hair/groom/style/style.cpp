@@ -1,6 +1,24 @@
 #include "hair/groom/style/style.h"
 
-namespace hair {
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <unordered_map>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/error.h"
+#include "hair/groom/style/displace.h"
+#include "hair/random.h"
+
+namespace hair::groom {
+
+// ---- Style --------------------------------------------------------------------------------------
 
 Groom style(Groom groom, const StyleSettings& settings, std::uint32_t seed) {
     groom = clump(std::move(groom), settings.clump, seed);
@@ -11,4 +29,305 @@ Groom style(Groom groom, const StyleSettings& settings, std::uint32_t seed) {
     return taper(std::move(groom), settings.taper);
 }
 
-}  // namespace hair
+namespace {
+
+// ---- Clump --------------------------------------------------------------------------------------
+
+// Centre strands by the place of their root, in cubes as wide as the distance between centres.
+class Centres {
+public:
+    Centres(const Groom& groom, double spacing) : groom_(groom), spacing_(spacing) {}
+
+    void add(std::uint32_t strand) { cubes_[cube(strand)].push_back(strand); }
+
+    // The nearest to a strand's root, if one is nearer than the spacing.
+    std::optional<std::uint32_t> nearest(std::uint32_t strand) const {
+        std::optional<std::uint32_t> found;
+        double least = spacing_;
+        const Cube home = cube(strand);
+        for (int neighbour = 0; neighbour < 27; ++neighbour) {
+            const auto at = cubes_.find(
+                {home.x + neighbour % 3 - 1, home.y + neighbour / 3 % 3 - 1,
+                 home.z + neighbour / 9 - 1});
+            if (at == cubes_.end()) continue;
+            for (const std::uint32_t centre : at->second) {
+                const double distance = glm::distance(root(centre), root(strand));
+                if (distance >= least) continue;
+                least = distance;
+                found = centre;
+            }
+        }
+        return found;
+    }
+
+private:
+    struct Cube {
+        int x, y, z;
+        friend bool operator==(const Cube&, const Cube&) = default;
+    };
+    struct CubeHash {
+        std::size_t operator()(const Cube& cube) const {
+            return hash(
+                static_cast<std::uint32_t>(cube.x), static_cast<std::uint32_t>(cube.y),
+                static_cast<std::uint32_t>(cube.z));
+        }
+    };
+
+    glm::dvec3 root(std::uint32_t strand) const { return groom_.strand(strand).front(); }
+
+    Cube cube(std::uint32_t strand) const {
+        static constexpr double kLimit = 1e9;  // what lies further out shares the last cube
+        const glm::dvec3 place = glm::floor(root(strand) / spacing_);
+        const auto whole = [](double x) {
+            return static_cast<int>(std::clamp(x, -kLimit, kLimit));
+        };
+        return {whole(place.x), whole(place.y), whole(place.z)};
+    }
+
+    const Groom& groom_;
+    double spacing_;
+    std::unordered_map<Cube, std::vector<std::uint32_t>, CubeHash> cubes_;
+};
+
+// The centre of each strand's clump; a centre's own is itself. Centres are taken greedily, in the
+// order of a hash, wherever none is nearer than the spacing yet.
+std::vector<std::uint32_t> clumpCentres(const Groom& groom, double spacing, std::uint32_t seed) {
+    std::vector<std::uint32_t> order(groom.strand_count);
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::sort(order, {}, [seed](std::uint32_t strand) {
+        return std::pair(hash(seed, strand, purpose::clump_centre), strand);
+    });
+    Centres centres(groom, spacing);
+    for (const std::uint32_t strand : order)
+        if (!centres.nearest(strand)) centres.add(strand);
+    for (std::uint32_t i = 0; i < groom.strand_count; ++i) order[i] = centres.nearest(i).value();
+    return order;
+}
+
+}  // namespace
+
+Groom clump(Groom groom, const ClumpSettings& settings, std::uint32_t seed) {
+    if (settings.strength == 0.0f) return groom;
+    const std::vector<std::uint32_t> centres = clumpCentres(groom, settings.spacing, seed);
+    const std::size_t vertices = groom.vertices_per_strand;
+    for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand) {
+        if (centres[strand] == strand) continue;
+        const AlongStrand along(groom.strand(strand));
+        const std::span<const glm::vec3> centre = groom.strand(centres[strand]);
+        for (std::size_t i = 0; i < vertices; ++i) {
+            const double share = settings.strength * ease(settings.start, 1.0, along.fraction(i));
+            glm::vec3& point = groom.points[strand * vertices + i];
+            point = glm::vec3(glm::mix(glm::dvec3(point), glm::dvec3(centre[i]), share));
+        }
+    }
+    return groom;
+}
+
+namespace {
+
+// ---- Cut ----------------------------------------------------------------------------------------
+
+constexpr double kLeast = 1e-3;  // part of a strand that is always left
+
+// Arc length at which the strand first passes the plane; infinite if it never does.
+double
+arcAtPlane(std::span<const glm::vec3> points, const AlongStrand& along, const CutSettings& plane) {
+    const auto beyond = [&](std::size_t i) {
+        return glm::dot(glm::dvec3(points[i]) - glm::dvec3(plane.point), glm::dvec3(plane.normal));
+    };
+    if (beyond(0) > 0.0) return 0.0;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const double before = beyond(i - 1);
+        const double after = beyond(i);
+        if (after > 0.0)
+            return std::lerp(along.arc(i - 1), along.arc(i), before / (before - after));
+    }
+    return std::numeric_limits<double>::infinity();
+}
+
+double arcLeft(std::span<const glm::vec3> points, const AlongStrand& along, const CutSettings& s) {
+    double left = s.length > 0.0f ? s.length : std::numeric_limits<double>::infinity();
+    if (s.normal != glm::vec3(0.0f)) left = std::min(left, arcAtPlane(points, along, s));
+    return std::max(left, kLeast * along.length());
+}
+
+// The points of the groom that a strand's new points lie between, the greater one's share.
+struct Between {
+    std::size_t point;
+    double share;
+};
+
+// Even spacing over the first `length` of a strand, which is less than all of it and not 0.
+std::vector<Between> evenly(const AlongStrand& along, std::uint32_t vertices, double length) {
+    std::vector<Between> places(vertices);
+    std::size_t segment = 0;
+    for (std::uint32_t i = 1; i < vertices; ++i) {
+        const double arc = length * i / (vertices - 1);
+        while (along.arc(segment + 1) < arc) ++segment;
+        const double start = along.arc(segment);
+        places[i] = {segment, (arc - start) / (along.arc(segment + 1) - start)};
+    }
+    return places;
+}
+
+template <class Value, class Wide>
+void moveTo(std::span<Value> values, const std::vector<Between>& places, Wide&& widen) {
+    const std::vector<Value> old(values.begin(), values.end());
+    for (std::size_t i = 1; i < values.size(); ++i) {
+        const auto [point, share] = places[i];
+        values[i] = static_cast<Value>(glm::mix(widen(old[point]), widen(old[point + 1]), share));
+    }
+}
+
+}  // namespace
+
+Groom cut(Groom groom, const CutSettings& settings) {
+    if (settings.length == 0.0f && settings.normal == glm::vec3(0.0f)) return groom;
+    const std::uint32_t vertices = groom.vertices_per_strand;
+    for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand) {
+        const AlongStrand along(groom.strand(strand));
+        const double left = arcLeft(groom.strand(strand), along, settings);
+        if (left >= along.length()) continue;
+        const std::vector<Between> places = evenly(along, vertices, left);
+        const std::size_t first = std::size_t{strand} * vertices;
+        moveTo(std::span(groom.points).subspan(first, vertices), places, [](const glm::vec3& v) {
+            return glm::dvec3(v);
+        });
+        if (!groom.widths.empty())
+            moveTo(std::span(groom.widths).subspan(first, vertices), places, [](float w) {
+                return double{w};
+            });
+    }
+    return groom;
+}
+
+namespace {
+
+// ---- Strand edits -------------------------------------------------------------------------------
+
+template <class Value>
+std::vector<Value> pickPoints(
+    const std::vector<Value>& values, const StrandSet& strands,
+    std::span<const std::uint32_t> indices, std::size_t count) {
+    std::vector<Value> picked;
+    if (values.empty()) return picked;
+    picked.reserve(count);
+    for (const std::uint32_t strand : indices) {
+        const auto first = values.begin() + std::ptrdiff_t{strands.first(strand)};
+        picked.insert(picked.end(), first, first + std::ptrdiff_t{strands.size(strand)});
+    }
+    return picked;
+}
+
+}  // namespace
+
+StrandSet pickStrands(const StrandSet& strands, std::span<const std::uint32_t> indices) {
+    StrandSet picked{
+        .metres_per_unit = strands.metres_per_unit,
+        .comment = strands.comment,
+        .warnings = strands.warnings};
+    std::size_t count = 0;
+    picked.ends.reserve(indices.size());
+    for (const std::uint32_t strand : indices) {
+        count += strands.size(strand);
+        picked.ends.push_back(static_cast<std::uint32_t>(count));
+    }
+    if (count > std::numeric_limits<std::uint32_t>::max())
+        throw engine::Error(
+            std::to_string(indices.size()) + " strands have " + std::to_string(count) +
+            " points, more than 2^32 - 1");
+    const auto pick = [&](const auto& values) {
+        return pickPoints(values, strands, indices, count);
+    };
+    picked.points = pick(strands.points);
+    picked.widths = {strands.widths.everywhere, pick(strands.widths.values)};
+    picked.transparencies = {
+        strands.transparencies.everywhere, pick(strands.transparencies.values)};
+    picked.colors = {strands.colors.everywhere, pick(strands.colors.values)};
+    if (!strands.root_uvs.empty()) {
+        picked.root_uvs.reserve(indices.size());
+        for (const std::uint32_t strand : indices)
+            picked.root_uvs.push_back(strands.root_uvs[strand]);
+    }
+    return picked;
+}
+
+StrandSet scaleLengths(StrandSet strands, double factor) {
+    const auto scale = [factor](float& length) { length = static_cast<float>(length * factor); };
+    for (glm::vec3& point : strands.points) point = glm::vec3(glm::dvec3(point) * factor);
+    for (float& width : strands.widths.values) scale(width);
+    if (strands.widths.everywhere) scale(*strands.widths.everywhere);
+    return strands;
+}
+
+namespace {
+
+// ---- Followers ----------------------------------------------------------------------------------
+
+// A random point of the disc across the strand's direction at the root, uniform in area.
+glm::dvec3 randomInDisc(
+    std::span<const glm::vec3> points, double radius, std::uint32_t follower, std::uint32_t seed) {
+    const glm::dvec3 direction = rootDirection(points);
+    const glm::dvec3 u = across(direction);
+    const glm::dvec3 v = glm::cross(direction, u);
+    const double angle = 2.0 * std::numbers::pi * random01(seed, follower, purpose::follower_angle);
+    const double distance =
+        radius * std::sqrt(double{random01(seed, follower, purpose::follower_radius)});
+    return distance * (std::cos(angle) * u + std::sin(angle) * v);
+}
+
+}  // namespace
+
+StrandSet addFollowers(
+    const StrandSet& strands, std::uint32_t count, float radius, float tip_separation,
+    std::uint32_t seed) {
+    if (count == 0) return strands;
+    const std::uint64_t times = std::uint64_t{count} + 1;
+    const std::uint64_t points = strands.points.size() * times;
+    if (points > 0xffff'ffffu)
+        throw engine::Error(
+            std::to_string(count) + " followers for each strand make " + std::to_string(points) +
+            " points, more than 2^32 - 1");
+
+    std::vector<std::uint32_t> sources;
+    sources.reserve(strands.strandCount() * times);
+    for (std::uint32_t strand = 0; strand < strands.strandCount(); ++strand)
+        sources.insert(sources.end(), times, strand);
+    StrandSet all = pickStrands(strands, sources);
+    for (std::uint32_t i = 0; i < all.strandCount(); ++i) {
+        if (i % times == 0) continue;
+        const glm::dvec3 offset = randomInDisc(strands.strand(sources[i]), radius, i, seed);
+        for (std::uint32_t k = 0; k < all.size(i); ++k) {
+            const double share = k == 0 ? 0.0 : double(k) / (all.size(i) - 1);
+            glm::vec3& point = all.points[all.first(i) + k];
+            point = glm::vec3(
+                glm::dvec3(point) + std::lerp(1.0, double{tip_separation}, share) * offset);
+        }
+    }
+    all.root_triangles = strands.root_triangles;
+    for (auto& triangle : all.root_triangles)
+        for (std::uint32_t& corner : triangle) corner *= static_cast<std::uint32_t>(times);
+    return all;
+}
+
+// ---- Taper --------------------------------------------------------------------------------------
+
+Groom taper(Groom groom, const TaperSettings& settings) {
+    if (settings.root_width == 0.0f) return groom;
+    groom.widths.resize(groom.points.size());
+    const double start = settings.start;
+    for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand) {
+        const AlongStrand along(groom.strand(strand));
+        const std::size_t first = std::size_t{strand} * groom.vertices_per_strand;
+        for (std::uint32_t i = 0; i < groom.vertices_per_strand; ++i) {
+            const double past = along.fraction(i) - start;
+            groom.widths[first + i] = static_cast<float>(
+                past <= 0.0
+                    ? settings.root_width
+                    : std::lerp(settings.root_width, settings.tip_width, past / (1.0 - start)));
+        }
+    }
+    return groom;
+}
+
+}  // namespace hair::groom

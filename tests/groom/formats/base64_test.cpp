@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "hair/groom/mesh/base64.h"
+#include "hair/groom/mesh/gltf_model.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 // RFC 4648, section 10.
@@ -28,4 +28,4 @@ TEST(DecodeBase64, RefusesOtherText) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

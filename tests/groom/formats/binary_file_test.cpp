@@ -4,7 +4,7 @@
 
 #include "tests/groom/formats/bytes.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 TEST(FirstNotFinite, FindsEveryPlace) {
@@ -24,4 +24,4 @@ TEST(FirstNotFinite, FindsEveryPlace) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

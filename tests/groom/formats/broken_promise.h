@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string>
 
-#include "hair/groom/strand_set.h"
+#include "hair/groom/groom.h"
 
-namespace hair {
+namespace hair::groom {
 
 inline bool isFinite(float x) { return std::isfinite(x); }
 template <class Vector>
@@ -23,7 +23,7 @@ bool isRight(const PointAttribute<Value>& attribute, std::size_t points) {
     return attribute.values.empty() || attribute.values.size() == points;
 }
 
-// Which of what strand_set.h says of every set does not hold for this one; empty: all of it does.
+// Which of what groom.h says of every set does not hold for this one; empty: all of it does.
 // Without a test library, for the fuzzers.
 inline std::string brokenPromise(const StrandSet& set) {
     std::uint32_t end = 0;
@@ -49,4 +49,4 @@ inline std::string brokenPromise(const StrandSet& set) {
     return "";
 }
 
-}  // namespace hair
+}  // namespace hair::groom

@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 
-#include "hair/groom/formats/chain_edges.h"
+#include "hair/groom/formats/polylines.h"
 #include "tests/error_text.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::ElementsAre;
@@ -67,4 +67,4 @@ TEST(EdgesOf, RefusesPointsOnly) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -7,7 +7,7 @@
 #include "tests/python.h"
 
 // tests/corpus/README.md says where its files come from.
-namespace hair {
+namespace hair::groom {
 namespace {
 
 namespace fs = std::filesystem;
@@ -74,4 +74,4 @@ TEST(Corpus, FindingsAreErrorsOrSets) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

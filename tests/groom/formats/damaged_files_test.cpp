@@ -1,17 +1,14 @@
 #include <gmock/gmock.h>
 
-#include "hair/groom/formats/export_gltf.h"
-#include "hair/groom/formats/export_obj.h"
-#include "hair/groom/formats/export_ply.h"
-#include "hair/groom/formats/import_gltf_strands.h"
-#include "hair/groom/formats/import_obj.h"
-#include "hair/groom/formats/import_ply.h"
+#include "hair/groom/formats/gltf.h"
+#include "hair/groom/formats/obj.h"
+#include "hair/groom/formats/ply.h"
 #include "tests/groom/formats/broken_promise.h"
 #include "tests/groom/formats/strand_files.h"
 
 // Damage of every byte: an error in one line or strands that hold what StrandSet says, never a
 // crash. The sanitized build of this test is what finds reads outside the file.
-namespace hair {
+namespace hair::groom {
 namespace {
 
 struct Format {
@@ -65,4 +62,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -1,10 +1,9 @@
 #include <gmock/gmock.h>
 
-#include "hair/groom/formats/export_gltf.h"
-#include "hair/groom/formats/import_gltf_strands.h"
+#include "hair/groom/formats/gltf.h"
 #include "tests/groom/formats/strand_files.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::ElementsAre;
@@ -273,4 +272,4 @@ TEST(ExportGltf, SaysWhatItLeavesOut) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

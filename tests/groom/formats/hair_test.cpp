@@ -1,11 +1,10 @@
 #include <gmock/gmock.h>
 
-#include "hair/groom/formats/export_hair.h"
-#include "hair/groom/formats/import_hair.h"
+#include "hair/groom/formats/cyhair.h"
 #include "tests/groom/formats/bytes.h"
 #include "tests/groom/formats/strand_files.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::Each;
@@ -215,4 +214,4 @@ TEST(ExportHair, RefusesWhatTheFormatCannotHold) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

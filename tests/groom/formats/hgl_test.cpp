@@ -1,11 +1,10 @@
 #include <gmock/gmock.h>
 
-#include "hair/groom/formats/export_hgl.h"
-#include "hair/groom/formats/import_hgl.h"
+#include "hair/groom/formats/hgl.h"
 #include "tests/groom/formats/bytes.h"
 #include "tests/groom/formats/strand_files.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::ElementsAre;
@@ -143,4 +142,4 @@ TEST(ExportHgl, SaysWhatItLeavesOut) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

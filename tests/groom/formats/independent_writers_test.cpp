@@ -3,15 +3,15 @@
 
 #include <gmock/gmock.h>
 
-#include "hair/groom/formats/import_gltf_strands.h"
-#include "hair/groom/formats/import_obj.h"
-#include "hair/groom/formats/import_ply.h"
+#include "hair/groom/formats/gltf.h"
+#include "hair/groom/formats/obj.h"
+#include "hair/groom/formats/ply.h"
 #include "hair/groom/mesh/import_mesh.h"
 #include "tests/groom/formats/strand_files.h"
 
 // Files that others' programs have written: tests/corpus/README.md says how, or assimp writes them
 // here.
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::ElementsAre;
@@ -132,4 +132,4 @@ TEST(IndependentWriters, Assimp) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -9,7 +9,7 @@
 
 // What scripts/test --fuzz does with coverage and time, in a second and always the same: damaged
 // files of the corpus make an engine::Error or a set as it ought to be, nothing else.
-namespace hair {
+namespace hair::groom {
 namespace {
 
 namespace fs = std::filesystem;
@@ -94,4 +94,4 @@ TEST(Mutations, AreRefusedOrRead) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -1,10 +1,9 @@
 #include <gmock/gmock.h>
 
-#include "hair/groom/formats/export_obj.h"
-#include "hair/groom/formats/import_obj.h"
+#include "hair/groom/formats/obj.h"
 #include "tests/groom/formats/strand_files.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::ElementsAre;
@@ -133,4 +132,4 @@ TEST(ExportObj, LeavesOutSinglePoints) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

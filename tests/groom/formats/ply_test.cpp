@@ -1,10 +1,9 @@
 #include <gmock/gmock.h>
 
-#include "hair/groom/formats/export_ply.h"
-#include "hair/groom/formats/import_ply.h"
+#include "hair/groom/formats/ply.h"
 #include "tests/groom/formats/strand_files.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::AllOf;
@@ -261,4 +260,4 @@ TEST(ExportPly, SaysWhatItLeavesOut) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

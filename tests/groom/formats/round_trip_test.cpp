@@ -4,7 +4,7 @@
 
 // From format to format through files: strands, their order, points and widths come back to the
 // last bit wherever the formats on the way hold them.
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::HasSubstr;
@@ -89,4 +89,4 @@ TEST(RoundTrip, KeepsRootTrianglesInHgl) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -1,4 +1,4 @@
-#include "hair/groom/formats/run_tool.h"
+#include "hair/groom/formats/usd_import.h"
 
 #include <string>
 #include <system_error>
@@ -7,7 +7,7 @@
 
 #include "tests/error_text.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 std::vector<std::byte> shell(const std::string& script) { return runTool({"sh", "-c", script}); }
@@ -78,4 +78,4 @@ TEST(RunTool, SaysThatThereIsNoSuchProgram) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

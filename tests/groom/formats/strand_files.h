@@ -10,12 +10,11 @@
 
 #include <gtest/gtest.h>
 
-#include "hair/groom/exporters.h"
-#include "hair/groom/importers.h"
+#include "hair/groom/files.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
-namespace hair {
+namespace hair::groom {
 
 using ReadStrands = decltype(StrandImporter::read);
 using WriteStrands = decltype(StrandExporter::write);
@@ -80,4 +79,4 @@ inline StrandSet hardStrands() {
     return set;
 }
 
-}  // namespace hair
+}  // namespace hair::groom

@@ -4,7 +4,7 @@
 #include "tests/groom/formats/strand_files.h"
 
 // importStrands and exportStrands: which row takes a file, and what they say when none can.
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::AllOf;
@@ -100,4 +100,4 @@ TEST(ExportStrands, ReturnsTheWarnings) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

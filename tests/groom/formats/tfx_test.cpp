@@ -1,11 +1,10 @@
 #include <gmock/gmock.h>
 
-#include "hair/groom/formats/export_tfx.h"
-#include "hair/groom/formats/import_tfx.h"
+#include "hair/groom/formats/tfx.h"
 #include "tests/groom/formats/bytes.h"
 #include "tests/groom/formats/strand_files.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::ElementsAre;
@@ -210,4 +209,4 @@ TEST(ExportTfx, SaysWhatItLeavesOut) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -8,7 +8,7 @@
 
 #include "tests/groom/formats/usd_files.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using UsdCubic = UsdFiles;
@@ -113,4 +113,4 @@ TEST_F(UsdCubic, SampledPointsLieOnTheCurves) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

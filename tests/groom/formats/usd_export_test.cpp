@@ -7,15 +7,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "hair/groom/formats/export_usda.h"
-#include "hair/groom/formats/import_usd.h"
-#include "hair/groom/formats/usda_animation.h"
+#include "hair/groom/formats/usd_export.h"
+#include "hair/groom/formats/usd_import.h"
 #include "hair/random.h"
 #include "tests/python.h"
 #include "tests/required.h"
 #include "tests/temporary_folder.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::ElementsAre;
@@ -190,4 +189,4 @@ TEST_F(UsdExportTest, WritesFramesAsTimeSamples) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
-#include "hair/groom/formats/import_usd.h"
+#include "hair/groom/formats/usd_import.h"
 #include "tests/python.h"
 #include "tests/required.h"
 #include "tests/temporary_folder.h"
@@ -27,8 +27,8 @@ protected:
         static const std::unique_ptr<const TemporaryFolder> made = make();
         return made->path();
     }
-    static hair::StrandSet read(const std::string& name) {
-        return hair::importUsd({.bytes = {}, .path = folder() / name});
+    static hair::groom::StrandSet read(const std::string& name) {
+        return hair::groom::importUsd({.bytes = {}, .path = folder() / name});
     }
 
 private:

@@ -11,7 +11,7 @@
 #include "tests/error_text.h"
 #include "tests/groom/formats/usd_files.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::ElementsAre;
@@ -162,4 +162,4 @@ TEST(UsdImport, SaysWhatItNeeds) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -1,4 +1,4 @@
-#include "hair/groom/formats/usd_stream.h"
+#include "hair/groom/formats/usd_import.h"
 
 #include <cstring>
 #include <limits>
@@ -10,7 +10,7 @@
 
 #include "tests/error_text.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::ElementsAre;
@@ -123,4 +123,4 @@ TEST(UsdStream, RefusesNumbersThatMakeNoSense) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -1,8 +1,8 @@
-#include "hair/groom/formats/utf8.h"
+#include "hair/groom/formats/text.h"
 
 #include <gtest/gtest.h>
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 // The forms of RFC 3629, section 4, and their limits.
@@ -22,4 +22,4 @@ TEST(Utf8, KnowsItsForms) {
 TEST(Utf8, TakesLatin1) { EXPECT_EQ(utf8FromLatin1("br\xe4un \xff"), "br\u00e4un \u00ff"); }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

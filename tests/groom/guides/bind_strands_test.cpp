@@ -9,12 +9,11 @@
 #include <gmock/gmock.h>
 
 #include "hair/groom/guides/choose_guides.h"
-#include "hair/groom/guides/nearest_mean.h"
 #include "hair/random.h"
 #include "tests/groom/style/sample_strands.h"
 #include "tests/largest_difference.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::Each;
@@ -244,4 +243,4 @@ TEST(NearestMean, IsTheNearestOfAll) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

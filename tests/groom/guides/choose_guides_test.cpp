@@ -11,7 +11,7 @@
 #include "tests/groom/style/sample_strands.h"
 #include "tests/largest_difference.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::ElementsAre;
@@ -140,4 +140,4 @@ TEST(PickStrands, TakesWhatStrandsHave) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -5,14 +5,13 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
-#include "hair/groom/inspect/spread_of.h"
-#include "hair/groom/resample.h"
+#include "hair/groom/build_groom.h"
 #include "tests/groom/style/sample_strand_set.h"
 #include "tests/groom/style/sample_strands.h"
 #include "tests/groom/test_meshes.h"
 #include "tests/simulation/closed_meshes.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::HasSubstr;
@@ -141,7 +140,7 @@ TEST(Inspect, MeasuresAgainstAClosedMesh) {
                       {-200, 300, 500}};
     strands.ends = {2, 5, 7, 8};
     strands.metres_per_unit = 0.01;
-    const Mesh box = makeBox({0, 0, 0}, {1, 1, 1});
+    const Mesh box = simulation::makeBox({0, 0, 0}, {1, 1, 1});
     const MeshFindings found = *inspect(strands, &box, {}).mesh;
     EXPECT_EQ(found.tolerance, 0.001);
     EXPECT_EQ(found.roots_off_surface, 3u);
@@ -158,7 +157,7 @@ TEST(Inspect, MeasuresAgainstAClosedMesh) {
 
 // Points at known radii about a sphere: its triangles are at most 0.06 mm inside it.
 TEST(Inspect, FindsTheDepthsInASphere) {
-    const Mesh sphere = makeSphere({0, 1, 0}, 0.1, 4);
+    const Mesh sphere = simulation::makeSphere({0, 1, 0}, 0.1, 4);
     const Groom groom = sampleGroom(400, 12, [](std::uint32_t strand, double t) {
         const double y = 1.0 - 2.0 * (strand + 0.5) / 400.0;
         const double r = std::sqrt(1.0 - y * y);
@@ -182,4 +181,4 @@ TEST(Inspect, SaysWhyNothingIsInsideAnOpenMesh) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -1,4 +1,4 @@
-#include "hair/groom/mesh/nearest_surface.h"
+#include "hair/groom/mesh/surface.h"
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@
 #include "tests/groom/test_meshes.h"
 #include "tests/simulation/surface_reference.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 glm::dvec3 randomPoint(std::uint32_t seed, std::uint32_t index, double size) {
@@ -95,4 +95,4 @@ TEST(NearestSurface, TellsFacesEdgesAndCorners) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

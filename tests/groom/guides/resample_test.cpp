@@ -1,4 +1,4 @@
-#include "hair/groom/resample.h"
+#include "hair/groom/build_groom.h"
 
 #include <cmath>
 #include <numbers>
@@ -8,7 +8,7 @@
 
 #include "tests/error_text.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::Each;
@@ -186,4 +186,4 @@ TEST(ToStrandSet, GoesBackAndForth) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -1,4 +1,4 @@
-#include "hair/groom/guides/root_tree.h"
+#include "hair/groom/guides/bind_strands.h"
 
 #include <algorithm>
 #include <numeric>
@@ -9,7 +9,7 @@
 
 #include "hair/random.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 std::vector<std::uint32_t>
@@ -56,4 +56,4 @@ TEST(RootTree, FindsFewerWhereThereAreFewer) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -14,7 +14,7 @@
 #include "tests/groom/style/sample_strands.h"
 #include "tests/groom/test_meshes.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using testing::ElementsAre;
@@ -275,4 +275,4 @@ TEST(RootNormals, TakeACornersWhereTheSumVanishes) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -8,7 +8,7 @@
 #include "hair/random.h"
 #include "tests/groom/style/sample_strands.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 // Roots at random in a square of 1 m, straight up.
@@ -98,4 +98,4 @@ TEST(Clump, TakesEqualRootsAndFarOnes) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

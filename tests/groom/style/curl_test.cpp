@@ -8,7 +8,7 @@
 
 #include "tests/groom/style/sample_strands.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using std::numbers::pi;
@@ -87,4 +87,4 @@ TEST(Curl, HasThePhaseOfItsSeed) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -5,7 +5,7 @@
 
 #include "tests/groom/style/sample_strands.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 TEST(Cut, LeavesSoMuchLengthEvenly) {
@@ -69,4 +69,4 @@ TEST(Cut, LeavesAThousandthOfAStrandWhoseRootIsBeyondThePlane) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

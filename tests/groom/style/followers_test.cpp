@@ -1,4 +1,4 @@
-#include "hair/groom/style/followers.h"
+#include "hair/groom/style/style.h"
 
 #include <cmath>
 
@@ -10,7 +10,7 @@
 #include "tests/groom/style/sample_strand_set.h"
 #include "tests/groom/style/sample_strands.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 TEST(Followers, ComeAfterTheirStrandWithAllThatItHas) {
@@ -86,4 +86,4 @@ TEST(Followers, AreNotMadeWhereTheyAreTooMany) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -9,7 +9,7 @@
 #include "tests/groom/style/sample_strands.h"
 #include "tests/largest_difference.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 constexpr FrizzSettings kFrizz{.amplitude = 0.01f, .frequency = 60.0f, .start = 0.0f};
@@ -80,4 +80,4 @@ TEST(Frizz, TakesStrandsLongerThanItsNoiseCanCount) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

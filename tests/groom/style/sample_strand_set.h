@@ -1,8 +1,8 @@
 #pragma once
 
-#include "hair/groom/strand_set.h"
+#include "hair/groom/groom.h"
 
-namespace hair {
+namespace hair::groom {
 
 // Three strands of two, three and one points that have something of everything.
 inline StrandSet sampleStrandSet() {
@@ -21,4 +21,4 @@ inline StrandSet sampleStrandSet() {
     return strands;
 }
 
-}  // namespace hair
+}  // namespace hair::groom

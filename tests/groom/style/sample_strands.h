@@ -5,10 +5,9 @@
 #include <functional>
 
 #include "hair/groom/groom.h"
-#include "hair/groom/strand_set.h"
 
 // Grooms whose strands are known curves.
-namespace hair {
+namespace hair::groom {
 
 // `point(strand, t)` gives the curve at t, 0 at the root to 1 at the tip.
 inline Groom sampleGroom(
@@ -56,4 +55,4 @@ inline bool allFinite(const Groom& groom) {
     return true;
 }
 
-}  // namespace hair
+}  // namespace hair::groom

@@ -1,10 +1,10 @@
-#include "hair/groom/style/strand_edits.h"
+#include "hair/groom/style/style.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/groom/style/sample_strand_set.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 TEST(PickStrands, TakesAllThatTheyHave) {
@@ -36,4 +36,4 @@ TEST(ScaleLengths, ScalesPointsAndWidthsAlone) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

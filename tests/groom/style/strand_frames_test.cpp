@@ -1,4 +1,4 @@
-#include "hair/groom/style/strand_frames.h"
+#include "hair/groom/style/displace.h"
 
 #include <cmath>
 #include <numbers>
@@ -8,7 +8,7 @@
 
 #include "tests/groom/style/sample_strands.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using std::numbers::pi;
@@ -86,4 +86,4 @@ TEST(StrandFrames, TakeTheStrandsOwnPlaneWhereTheNormalIsAlongIt) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

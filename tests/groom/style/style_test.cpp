@@ -5,10 +5,10 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "hair/groom/style/along_strand.h"
+#include "hair/groom/style/displace.h"
 #include "tests/groom/style/sample_strands.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 StyleSettings everything() {
@@ -91,4 +91,4 @@ TEST(Ease, IsLevelOutsideItsEnds) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -4,7 +4,7 @@
 
 #include "tests/groom/style/sample_strands.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 TEST(Taper, FallsFromItsStartToTheTip) {
@@ -33,4 +33,4 @@ TEST(Taper, WithAStartOfOneIsTheRootWidthEverywhere) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

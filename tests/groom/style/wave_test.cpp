@@ -8,7 +8,7 @@
 
 #include "tests/groom/style/sample_strands.h"
 
-namespace hair {
+namespace hair::groom {
 namespace {
 
 using std::numbers::pi;
@@ -60,4 +60,4 @@ TEST(Wave, MovesNeighboursAlikeUnlessPhasesVary) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::groom

@@ -5,7 +5,7 @@
 #include "tests/rendering/transparency/straight_strands.h"
 
 // What strands cover, summed over the picture, is their length times their width.
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 class FanTest : public TransparencyTest {
@@ -124,4 +124,4 @@ TEST_F(FanTest, ThinStrandsShowTheMeanOverTheirWidth) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -6,7 +6,7 @@
 
 // Broad upright strands behind one another, each of another grey: what a pixel in their middle must
 // be is worked out here from McGuire and Bavoil's equations and from "over", in double precision.
-namespace hair {
+namespace hair::rendering {
 
 struct Layer {
     double depth;  // m towards the eye
@@ -86,4 +86,4 @@ inline double middle(const Pixels& pixels) {
     return sum / 255.0;
 }
 
-}  // namespace hair
+}  // namespace hair::rendering

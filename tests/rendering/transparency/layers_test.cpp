@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "hair/rendering/strand_bounds.h"
+#include "hair/rendering/shadow_pass.h"
 #include "tests/rendering/transparency/layers.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 class LayersTest : public TransparencyTest {
@@ -75,7 +75,7 @@ TEST_F(LayersTest, RandomSamplesOfSeveralLayersAreIndependent) {
 
 // A wall in the middle: what is behind it is not seen, what is before it is.
 TEST_F(LayersTest, MeshesHideWhatIsBehindThem) {
-    const Mesh wall{
+    const groom::Mesh wall{
         .positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
         .normals = std::vector<glm::vec3>(4, {0.0f, 0.0f, 1.0f}),
         .triangles = {{0, 1, 2}, {0, 2, 3}},
@@ -96,4 +96,4 @@ TEST_F(LayersTest, MeshesHideWhatIsBehindThem) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -2,7 +2,7 @@
 
 #include "tests/rendering/transparency/layers.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 class ListedFragmentsTest : public TransparencyTest {
@@ -36,4 +36,4 @@ TEST_F(ListedFragmentsTest, AreCountedThoughThereIsNoRoom) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -3,7 +3,7 @@
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/pictures.h"
 
-namespace hair {
+namespace hair::rendering {
 namespace {
 
 class TransparentPictureTest : public GpuTest {
@@ -66,7 +66,7 @@ TEST_F(TransparentPictureTest, OpaqueListsAreTheOpaquePicture) {
 // on a message of synchronisation validation.
 TEST_F(TransparentPictureTest, FramesInFlightAreAllTheSame) {
     for (const Settings& settings : allKinds()) {
-        benchmarks::Case picture(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
+        benchmarks::measure::Case picture(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
         engine::FrameLoop loop(device(), engine::Timing::overlapped);
         loop.frame([&](engine::Passes& passes) { picture.frame(passes); });
         loop.finish();
@@ -100,4 +100,4 @@ TEST_F(TransparentPictureTest, OverlaysAreSeenThroughTheHair) {
 }
 
 }  // namespace
-}  // namespace hair
+}  // namespace hair::rendering

@@ -12,7 +12,7 @@
 
 // Straight strands of known size in pixels, white on black, so that a picture's value is the part
 // of a pixel that strands cover.
-namespace hair {
+namespace hair::rendering {
 
 inline constexpr std::uint32_t kSide = 192;  // px
 inline constexpr float kPixel = 0.001f;  // m, in the plane z = 0
@@ -60,9 +60,9 @@ struct Line {
 };
 
 // A strand on each line.
-inline Groom straightStrands(const std::vector<Line>& lines) {
+inline groom::Groom straightStrands(const std::vector<Line>& lines) {
     constexpr std::uint32_t kVertices = 4;
-    Groom groom{.vertices_per_strand = kVertices};
+    groom::Groom groom{.vertices_per_strand = kVertices};
     for (const Line& line : lines) {
         const std::uint32_t first = groom.strand_count;
         groom.root_triangles.push_back({first, first + 1, first + 2});
@@ -108,10 +108,11 @@ inline double covered(const Pixels& pixels) {
 
 class TransparencyTest : public GpuTest {
 protected:
-    static Pixels
-    draw(const Settings& settings, const std::vector<Line>& lines, const Mesh* mesh = nullptr) {
+    static Pixels draw(
+        const Settings& settings, const std::vector<Line>& lines,
+        const groom::Mesh* mesh = nullptr) {
         return drawGroom(device(), settings, straightStrands(lines), mesh);
     }
 };
 
-}  // namespace hair
+}  // namespace hair::rendering

@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <iostream>
+
+#include "benchmarks/ablate/ablation.h"
+#include "benchmarks/ablate/ladder_walk.h"
+#include "benchmarks/commands/commands.h"
+#include "benchmarks/measure/progress.h"
+#include "benchmarks/report/change.h"
+#include "benchmarks/report/environment.h"
+#include "benchmarks/run/plan.h"
+#include "engine/files.h"
+#include "engine/process.h"
+
+namespace benchmarks::commands {
+namespace {
+
+std::vector<std::string> notesFor(const report::DeviceRecord& device) {
+    std::vector<std::string> notes{
+        "a marginal cost is what the pass takes longer with a stage, not how long the stage works: "
+        "stages overlap in time"};
+    if (device.type == "cpu")
+        notes.push_back(
+            "on a CPU device what makes primitives is one thread, and fragments are worked on by "
+            "others beside it");
+    return notes;
+}
+
+void ablateAll(
+    const engine::Device& device, const run::RunPlan& plan, std::uint32_t laps,
+    measure::Progress& progress, std::vector<ablate::CaseAblation>& cases) {
+    for (const run::PlannedCase& each : plan.cases) {
+        progress.begin(each.spec.name);
+        const auto update = [&](const std::string& state) { progress.update(state); };
+        ablate::ablateCase(device, each.spec, each.directory, laps, update, cases.emplace_back());
+        for (const std::string& message : device.messages().take())
+            cases.back().warnings.push_back("validation: " + message);
+        progress.clear();
+        std::cout << ablate::ablationTable(cases.back()) << std::endl;
+    }
+}
+
+}  // namespace
+
+int ablateScene(const AblateOptions& options) {
+    const run::RunPlan plan = run::planRun(options.scene, options.filter, "");
+    if (plan.cases.empty()) {
+        std::cerr << "hairbench: no case's name matches '" << options.filter << "'\n";
+        return report::kNothingRan;
+    }
+    const std::filesystem::path out = options.out.empty() ? std::filesystem::path("results/local") /
+                                                                ("ablation-" + plan.name + ".json")
+                                                          : options.out;
+    engine::checkWritable(out);
+
+    engine::catchInterrupts();
+    const engine::Device device(options.scene.device);
+    std::cerr << report::versionText() << " on " << device.info().name << " ("
+              << device.info().driver << ' ' << device.info().driver_version << ")\n";
+    ablate::AblationReport report{
+        .environment = report::describeEnvironment(
+            device, options.command, plan.seed, options.scene.device.validation),
+        .scene = plan.scene,
+        .laps = options.passes};
+    report.notes = notesFor(report.environment.device);
+    measure::Progress progress(plan.cases.size());
+    try {
+        ablateAll(device, plan, options.passes, progress, report.cases);
+    } catch (const engine::Interrupted&) {
+        report.interrupted = true;
+        progress.clear();
+        const ablate::CaseAblation& interrupted_case = report.cases.back();
+        if (interrupted_case.attribution)
+            std::cout << ablate::ablationTable(interrupted_case) << '\n';
+        else
+            report.cases.pop_back();
+    }
+    engine::writeFileAtomically(out, ablate::ablationText(report));
+    for (const std::string& note : report.notes) std::cout << "note: " << note << '\n';
+    std::cout << "report: " << out.string() << '\n';
+    if (report.interrupted) {
+        std::cerr << "interrupted: " << report.cases.size() << " of " << plan.cases.size()
+                  << " cases have results\n";
+        return report::kInterrupted;
+    }
+    const bool any_ran = std::ranges::any_of(
+        report.cases, [](const auto& each) { return each.status == report::Status::ok; });
+    return any_ran ? report::kOk : report::kNothingRan;
+}
+
+}  // namespace benchmarks::commands

@@ -1,0 +1,513 @@
+#include "benchmarks/commands/command_line.h"
+
+#include "benchmarks/report/exporters.h"
+#include "benchmarks/viewer/viewer.h"
+
+namespace benchmarks::commands {
+
+// ---- Check commands -----------------------------------------------------------------------------
+
+void addCheckCommands(const CommandLine& line) {
+    addCommand<PhysicsOptions>(
+        line, line.app, "physics", "holds the solvers against theory and writes a report",
+        checkPhysics, [](CLI::App& command, PhysicsOptions& options) {
+            addRepeated(
+                command, "--solver", options.solvers, "solver to check; repeatable (default all)")
+                ->type_name("NAME");
+            command.add_option("--check", options.check, "run the checks whose name matches")
+                ->type_name("REGEX");
+            command
+                .add_option(
+                    "--out", options.out, "report file (default results/local/physics.json)")
+                ->type_name("FILE");
+            addDeviceOptions(command, options.device);
+        });
+
+    CLI::App* const validate =
+        line.app.add_subcommand("validate", "checks scene files and their assets");
+    const auto scenes = std::make_shared<std::vector<std::filesystem::path>>();
+    validate->add_option("scenes", *scenes, "scene files")->required()->type_name("FILE...");
+    validate->callback(
+        [&chosen = line.chosen, scenes] { chosen = [scenes] { return validateScenes(*scenes); }; });
+    line.app.add_subcommand("schema", "prints the JSON Schema of scene files")
+        ->callback([&chosen = line.chosen] { chosen = printSchema; });
+    line.app.add_subcommand("devices", "lists the Vulkan devices and what they lack")
+        ->callback([&chosen = line.chosen] { chosen = printDevices; });
+}
+
+namespace {
+
+// ---- Groom commands -----------------------------------------------------------------------------
+
+constexpr const char* kConvertNotes = R"(Done in this order: scale, followers, vertices, guides.
+Without --scale lengths stay as they are, but that .hgl is always in metres: what IN states of its
+unit is applied. .hgl gets root triangles if IN has none. What a format can't hold is said on
+stderr. OUT may be IN; it is replaced when all is written, and an interrupt leaves it alone.)";
+
+}  // namespace
+
+void addGroomCommands(const CommandLine& line) {
+    CLI::App* const groom = line.app.add_subcommand("groom", "inspects and converts files of hair");
+    groom->require_subcommand(1);
+    addCommand<GroomInfoOptions>(
+        line, *groom, "info", "says what is in a file of hair and what is odd about it",
+        inspectGroom, [](CLI::App& command, GroomInfoOptions& options) {
+            command.add_option("file", options.file, "file of hair")->required()->type_name("FILE");
+            command
+                .add_option("--mesh", options.mesh, "what the hair grows on: are the roots on it?")
+                ->type_name("FILE");
+            command
+                .add_option(
+                    "--scale", options.scale,
+                    "metres in the file's unit (default stated or guessed)")
+                ->check(CLI::PositiveNumber);
+            command.add_flag("--json", options.json, "as JSON");
+        });
+    addCommand<GroomConvertOptions>(
+        line, *groom, "convert",
+        "rewrites a file of hair: .hair .hgl .tfx .obj .ply .gltf .glb .usda", convertGroom,
+        [](CLI::App& command, GroomConvertOptions& options) {
+            command.add_option("in", options.in, "file of hair")->required()->type_name("IN");
+            command.add_option("out", options.out, "file to write")->required()->type_name("OUT");
+            command
+                .add_option(
+                    "--scale", options.scale,
+                    "metres in IN's unit (0.01: centimetres); OUT is in metres")
+                ->check(CLI::PositiveNumber);
+            command.add_option(
+                "--followers", options.followers,
+                "so many copies round each strand, as TressFX makes them");
+            command
+                .add_option(
+                    "--follower-radius", options.follower_radius,
+                    "radius of the disc that they are in, in IN's unit")
+                ->check(CLI::NonNegativeNumber);
+            command
+                .add_option(
+                    "--tip-separation", options.tip_separation,
+                    "factor of their displacement at the tip (default 1)")
+                ->check(CLI::NonNegativeNumber);
+            command.add_option(
+                "--vertices", options.vertices,
+                "points per strand, even by arc length (2 to 65536)");
+            command
+                .add_option(
+                    "--guides", options.guides,
+                    "keep so many strands, spread over roots and shapes")
+                ->check(CLI::PositiveNumber);
+            command
+                .add_option(
+                    "--mesh", options.mesh,
+                    "what the hair grows on, in metres: for the root triangles of OUT.hgl")
+                ->type_name("FILE");
+            command.add_option(
+                "--seed", options.seed, "of followers and of the choice of guides (default 1)");
+            command.footer(kConvertNotes);
+        });
+}
+
+namespace {
+
+// ---- Measuring commands -------------------------------------------------------------------------
+
+constexpr const char* kGateNotes =
+    R"(A and B are a build folder, a program, or a command line that 'run SCENE --out FILE ...' is added to;
+one with {scene} and {out} in it is taken as it is. Whole processes run as A B, B A, A B ...; a sample
+is a process's median. After 12, 24 and 48 pairs it is over if no metric is inconclusive. Exit status:
+0 nothing is slower, 10 something is, 11 inconclusive (--fail-on inconclusive), 12 pictures or states
+differ.)";
+
+void addRunOptions(CLI::App& command, run::RunOptions& options) {
+    addSceneOptions(command, options.scene);
+    addSamplingOptions(command, options.scene);
+    command.add_option("--filter", options.filter, "run the cases whose name matches")
+        ->type_name("REGEX");
+    command.add_option("-o,--out", options.out, "report file (default results/local/<scene>.json)")
+        ->type_name("FILE");
+    command.add_flag("--list", options.list, "print the cases' names and stop");
+    command.add_flag("--dry-run", options.dry_run, "say what would run, estimate memory and time");
+    command.add_option(
+        "--order-seed", options.order_seed, "of the order of the cases (default: a random one)");
+    command.add_flag("--resume", options.resume, "go on where an interrupted or killed run ended");
+    command
+        .add_option("--shard", options.shard, "run one part of the cases: 2/8 is the second of 8")
+        ->type_name("I/N");
+    command.add_flag_callback(
+        "--no-pictures", [&options] { options.pictures = false; },
+        "no pictures of the cases beside the report");
+    command.add_option("--save-baseline", options.save_baseline, "keep the report under this name")
+        ->type_name("NAME");
+    command
+        .add_option(
+            "--baseline", options.baseline, "compare with the report of that name; see compare")
+        ->type_name("NAME");
+    addVerdictOptions(command, options.verdict);
+}
+
+void addGateOptions(CLI::App& command, gate::GateOptions& options) {
+    command.add_option("--a", options.a, "what to compare with")
+        ->required()
+        ->type_name("CMD_OR_BUILD");
+    command.add_option("--b", options.b, "what may be slower")
+        ->required()
+        ->type_name("CMD_OR_BUILD");
+    command.add_option("--scene", options.scene.scene, "scene file")->required()->type_name("FILE");
+    // No -a beside --a: newer CLI11 takes them for one name.
+    addRepeated(command, "--axis", options.scene.axes, "as for run")->type_name("POINTER=V1,V2");
+    addRepeated(command, "--set", options.scene.sets, "as for run")->type_name("POINTER=VALUE");
+    addRepeated(command, "--set-a", options.a_sets, "the same for A alone")
+        ->type_name("POINTER=VALUE");
+    addRepeated(command, "--set-b", options.b_sets, "the same for B alone")
+        ->type_name("POINTER=VALUE");
+    addSamplingOptions(command, options.scene);
+    command.add_option("--device", options.scene.device.wanted, "as for run");
+    command.add_option("--filter", options.filter, "the cases whose name matches")
+        ->type_name("REGEX");
+    command.add_option("--pairs", options.pairs, "pairs before the first verdict (default 12)")
+        ->check(CLI::IsMember({12, 24, 48}));
+    command
+        .add_option(
+            "--calibrate", options.calibration,
+            "pairs of A with itself first: changes that A has by itself count as none (default 0)")
+        ->check(CLI::Range(0, 256));
+    addVerdictOptions(command, options.verdict);
+    command.add_option("-o,--out", options.out, "report (default results/local/gate-<scene>.json)")
+        ->type_name("FILE");
+    command.footer(kGateNotes);
+}
+
+void addAblateOptions(CLI::App& command, AblateOptions& options) {
+    addSceneOptions(command, options.scene);
+    addSamplingOptions(command, options.scene);
+    command.add_option("--filter", options.filter, "the cases whose name matches")
+        ->type_name("REGEX");
+    command.add_option("--passes", options.passes, "times up and down the ladder (default 8)")
+        ->check(CLI::Range(2, 1000));
+    command
+        .add_option("-o,--out", options.out, "report (default results/local/ablation-<scene>.json)")
+        ->type_name("FILE");
+}
+
+void addDoctorOptions(CLI::App& command, DoctorOptions& options) {
+    addDeviceOptions(command, options.device);
+    command
+        .add_option(
+            "--pairs", options.pairs,
+            "pairs of processes to find the smallest slowdown that a gate can find here with "
+            "(48 for a firm answer; default 0: don't)")
+        ->check(CLI::Range(0, 256));
+    command.add_flag(
+        "--planted", options.planted,
+        "and whether slowdowns of 1.5 times that, planted in one pass, are found; takes long");
+    command.add_option("-o,--out", options.out, "findings as JSON")->type_name("FILE");
+}
+
+}  // namespace
+
+void addMeasuringCommands(const CommandLine& line) {
+    addCommand<run::RunOptions>(
+        line, line.app, "run", "plays a scene's or a suite's cases and writes a report", runScene,
+        addRunOptions);
+    addCommand<gate::GateOptions>(
+        line, line.app, "gate", "decides whether build B is slower than build A", gateBuilds,
+        addGateOptions);
+    addCommand<AblateOptions>(
+        line, line.app, "ablate", "what each stage of the strands costs: the frame without it",
+        ablateScene, addAblateOptions);
+    addCommand<DoctorOptions>(
+        line, line.app, "doctor", "says whether timings of this machine can be trusted, and why",
+        examineMachine, addDoctorOptions);
+}
+
+namespace {
+
+// ---- Picture commands ---------------------------------------------------------------------------
+
+constexpr const char* kLodNotes =
+    R"(The hair of one frame stands still; the camera keeps its direction. Error: root mean square of
+the picture with /lod's levels less that of level 0, display values counting from 0 to 1. Popping:
+the same of what changes from one place to the next, less what changes at level 0. Coverage: share
+of a square round the hair that it hides, without the head. Times: medians of isolated frames.)";
+
+}  // namespace
+
+void addPictureCommands(const CommandLine& line) {
+    addCommand<viewer::ViewOptions>(
+        line, line.app, "view", "opens a scene in a window", viewScene,
+        [](CLI::App& command, viewer::ViewOptions& options) {
+            addSceneOptions(command, options.scene);
+            command.add_option("--width", options.width, "of the window (default 1600)");
+            command.add_option("--height", options.height, "of the window (default 900)");
+            command.add_option(
+                "--scale", options.scale, "of letters and widgets (default the screen's)");
+            command.add_option(
+                "--frames", options.frames,
+                "pictures of the window before it closes (default: never)");
+            command.add_option("--screenshot", options.screenshot, "of the last one (.png)")
+                ->type_name("FILE");
+            command
+                .add_option(
+                    "--script", options.script,
+                    "steps that drive the viewer as a user would (docs/viewer.md)")
+                ->type_name("FILE");
+            command
+                .add_option(
+                    "--shaders", options.shaders,
+                    "folder whose GLSL is watched and reloaded (default: where it was built)")
+                ->type_name("FOLDER");
+            command
+                .add_option(
+                    "--preferences", options.preferences,
+                    "file that remembers layout and theme (default: the user's own; with --script "
+                    "none)")
+                ->type_name("FILE");
+        });
+    addCommand<RenderOptions>(
+        line, line.app, "render", "writes pictures of one frame or several", renderScene,
+        [](CLI::App& command, RenderOptions& options) {
+            addSceneOptions(command, options.scene);
+            command
+                .add_option(
+                    "-o,--out", options.out,
+                    "picture: .png as a display shows it, .exr linear light without exposure and "
+                    "tone map; "
+                    "of several frames with their number in it, as in out/%04d.png")
+                ->required()
+                ->type_name("FILE");
+            CLI::Option* frame =
+                command.add_option("--frame", options.frame, "frame to draw, from 0 (default 0)")
+                    ->check(CLI::Range(0, 1'000'000));
+            command
+                .add_option(
+                    "--frames", options.frames,
+                    "frames to draw: A, A+1 ... below B, or every STEPth")
+                ->type_name("A:B[:STEP]")
+                ->excludes(frame);
+        });
+    addCommand<SimulateOptions>(
+        line, line.app, "simulate", "plays a scene and writes its strands, without a picture",
+        simulateScene, [](CLI::App& command, SimulateOptions& options) {
+            addSceneOptions(command, options.scene);
+            command.add_option("--frames", options.frames, "frames to play (default 60)")
+                ->check(CLI::PositiveNumber);
+            command
+                .add_option(
+                    "--export", options.out,
+                    "file; .usda holds every frame, other formats (see 'groom convert') the last")
+                ->required()
+                ->type_name("FILE");
+            command.add_flag("--guides", options.guides, "the guides instead of the drawn strands");
+        });
+    addCommand<ExportOptions>(
+        line, line.app, "export", "writes one frame as a scene of another renderer", exportScene,
+        [](CLI::App& command, ExportOptions& options) {
+            addSceneOptions(command, options.scene);
+            command
+                .add_option(
+                    "--mitsuba", options.mitsuba, "folder for a Mitsuba 3 scene (scene.xml)")
+                ->required()
+                ->type_name("DIR");
+            command.add_option("--frame", options.frame, "frame to write, from 0 (default 0)");
+        });
+    addCommand<ReferenceOptions>(
+        line, line.app, "reference",
+        "path-traces one frame with Mitsuba 3 (scripts/setup --reference)", renderReference,
+        [](CLI::App& command, ReferenceOptions& options) {
+            addSceneOptions(command, options.scene);
+            command.add_option("-o,--out", options.out, "picture (.exr linear, .png sRGB)")
+                ->required()
+                ->type_name("FILE");
+            command.add_option("--samples", options.samples, "samples per pixel (default 64)")
+                ->check(CLI::Range(1, 1'000'000));
+            command.add_option("--frame", options.frame, "frame to draw, from 0 (default 0)");
+        });
+    addCommand<DiffOptions>(
+        line, line.app, "diff",
+        "compares pictures: RMSE, PSNR, SSIM, FLIP (scripts/setup --reference)", diffPictures,
+        [](CLI::App& command, DiffOptions& options) {
+            command.add_option("a", options.reference, "reference (.png .exr)")
+                ->required()
+                ->type_name("A");
+            command.add_option("b", options.picture, "picture of the same size (.png .exr)")
+                ->required()
+                ->type_name("B");
+            command.add_option("-o,--out", options.out, "FLIP's error map (.png)")
+                ->type_name("FILE");
+            command.add_flag("--json", options.json, "as JSON");
+        });
+    addCommand<LodOptions>(
+        line, line.app, "lod",
+        "moves the camera away and compares level of detail by distance with full detail", walkLod,
+        [](CLI::App& command, LodOptions& options) {
+            addSceneOptions(command, options.scene);
+            command
+                .add_option("--from", options.from, "first distance from /camera/target, m (0.5)")
+                ->check(CLI::PositiveNumber);
+            command.add_option("--to", options.to, "last distance, m (20)")
+                ->check(CLI::PositiveNumber);
+            command.add_option("--steps", options.steps, "places, each as many times farther (40)")
+                ->check(CLI::Range(2u, 10000u));
+            command
+                .add_option("-o,--out", options.out, "report file (default results/local/lod.json)")
+                ->type_name("FILE");
+            command.add_option(
+                "--frame", options.frame, "frame whose hair is drawn, from 0 (default 0)");
+            command.footer(kLodNotes);
+        });
+}
+
+namespace {
+
+// ---- Report commands ----------------------------------------------------------------------------
+
+std::vector<std::string> formatNames() {
+    std::vector<std::string> names;
+    for (const report::Exporter& each : report::exporters()) names.emplace_back(each.name);
+    return names;
+}
+
+std::string formatNotes() {
+    std::string text = "Formats:";
+    for (const report::Exporter& each : report::exporters())
+        text += "\n  " + std::string(each.name) + ": " + each.description;
+    return text;
+}
+
+void addCompareOptions(CLI::App& command, report::CompareOptions& options) {
+    command.add_option("a", options.a, "report to compare with")->type_name("A");
+    command.add_option("b", options.b, "report that may be slower")->type_name("B");
+    command
+        .add_option(
+            "--baseline", options.baseline, "the report that run --save-baseline kept, for A")
+        ->type_name("NAME");
+    command.add_flag("--all", options.all, "also what stayed the same");
+    command.add_flag("--json", options.json, "as JSON");
+    addVerdictOptions(command, options.verdict);
+}
+
+}  // namespace
+
+void addReportCommands(const CommandLine& line) {
+    addCommand<report::CompareOptions>(
+        line, line.app, "compare", "compares two reports", compareReports, addCompareOptions);
+    addCommand<ReportPageOptions>(
+        line, line.app, "report", "makes a page of reports (.html) that opens offline",
+        writeReportPage, [](CLI::App& command, ReportPageOptions& options) {
+            command.add_option("reports", options.reports, "reports; the first is compared with")
+                ->required()
+                ->type_name("FILE...");
+            command.add_option("-o,--out", options.out, "page to write (.html)")
+                ->required()
+                ->type_name("FILE");
+        });
+    addCommand<ConvertReportOptions>(
+        line, line.app, "convert", "writes a report in the format of another tool", convertReport,
+        [](CLI::App& command, ConvertReportOptions& options) {
+            command.add_option("report", options.report, "report")->required()->type_name("FILE");
+            command.add_option("-f,--format", options.format, "see below")
+                ->required()
+                ->check(CLI::IsMember(formatNames()));
+            command.add_option("-o,--out", options.out, "file to write (default stdout)")
+                ->type_name("FILE");
+            command.footer(formatNotes());
+        });
+    addCommand<MergeOptions>(
+        line, line.app, "merge", "joins the reports of a sweep's shards", mergeReports,
+        [](CLI::App& command, MergeOptions& options) {
+            command.add_option("reports", options.reports, "reports of the shards")
+                ->required()
+                ->type_name("FILE...");
+            command.add_option("-o,--out", options.out, "report to write")
+                ->required()
+                ->type_name("FILE");
+            command.add_flag(
+                "--force", options.force, "join what is of other scenes, builds, devices");
+        });
+}
+
+namespace {
+
+// ---- Shared options -----------------------------------------------------------------------------
+
+// "2%" and "0.02" -> 0.02
+std::string asShare(std::string& text) {
+    if (!text.ends_with('%')) return {};
+    text.pop_back();
+    try {
+        std::size_t used = 0;
+        const double percent = std::stod(text, &used);
+        if (used != text.size()) return "'" + text + "%' is no share";
+        std::ostringstream share;
+        share << percent / 100.0;
+        text = share.str();
+    } catch (const std::exception&) {
+        return "'" + text + "%' is no share";
+    }
+    return {};
+}
+
+}  // namespace
+
+CLI::Option* addRepeated(
+    CLI::App& command, const std::string& name, std::vector<std::string>& values,
+    const std::string& description) {
+    return command.add_option(name, values, description)
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false);
+}
+
+void addDeviceOptions(CLI::App& command, engine::DeviceOptions& options) {
+    command.add_option(
+        "--device", options.wanted,
+        "index or part of the name of the device (see 'hairbench devices')");
+    command.add_flag_callback(
+        "--validate", [&options] { options.validation = engine::Validation::on; },
+        "run under the Vulkan validation layer; slow");
+}
+
+void addSceneOptions(CLI::App& command, scene::SceneOptions& options) {
+    command.add_option("scene", options.scene, "scene file (.json)")->required()->type_name("FILE");
+    addRepeated(
+        command, "-a,--axis", options.axes,
+        "replaces or adds an axis of the sweep: /strands/density=16,32, /groom/guides=pow2:6:12")
+        ->type_name("POINTER=V1,V2");
+    addRepeated(
+        command, "--set", options.sets, "sets a field of every case; it is not in their names")
+        ->type_name("POINTER=VALUE");
+    addDeviceOptions(command, options.device);
+}
+
+void addSamplingOptions(CLI::App& command, scene::SceneOptions& options) {
+    command.add_option("--frames", options.frames, "frames of a round (/run/frames)");
+    command.add_option("--warmup", options.warmup, "frames before each round (/run/warmup)");
+    command
+        .add_option(
+            "--precision", options.precision,
+            "rounds are played until the median is known this well (default 1%)")
+        ->transform(CLI::Validator(asShare, "SHARE"));
+    command.add_option(
+        "--max-time", options.max_time, "s, for the rounds of a mode (default 10); 0: one round");
+}
+
+void addVerdictOptions(CLI::App& command, report::VerdictOptions& options) {
+    command
+        .add_option(
+            "--threshold", options.threshold,
+            "a change of this share matters to nobody (default 2%)")
+        ->transform(CLI::Validator(asShare, "SHARE"))
+        ->check(CLI::Range(0.0, 10.0));
+    command
+        .add_option(
+            "--metrics", options.metrics,
+            "judge the metrics whose name matches (default the times of frames and passes; on a "
+            "software device their CPU time)")
+        ->type_name("REGEX");
+    command
+        .add_option_function<std::string>(
+            "--fail-on", [&options](const std::string&) { options.fail_on_inconclusive = true; },
+            "inconclusive: exit with 11 where nothing is slower but not all is known")
+        ->check(CLI::IsMember({"inconclusive"}));
+}
+
+}  // namespace benchmarks::commands

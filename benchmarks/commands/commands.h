@@ -1,0 +1,154 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "benchmarks/gate/blocks.h"
+#include "benchmarks/report/compare.h"
+#include "benchmarks/run/plan.h"
+#include "benchmarks/scene/sweep.h"
+#include "engine/device.h"
+
+// The program's commands. Each prints what it has to say, returns the exit status, and throws
+// engine::Error for what the user has to mend.
+namespace benchmarks::viewer {
+struct ViewOptions;
+}  // namespace benchmarks::viewer
+
+namespace benchmarks::commands {
+
+int runScene(const run::RunOptions& options);
+
+struct MergeOptions {
+    std::vector<std::filesystem::path> reports;
+    std::filesystem::path out;
+    bool force = false;  // join what does not belong together
+};
+int mergeReports(const MergeOptions& options);
+
+struct ConvertReportOptions {
+    std::filesystem::path report;
+    std::string format;
+    std::filesystem::path out;  // empty: stdout
+};
+int convertReport(const ConvertReportOptions& options);
+
+int compareReports(const report::CompareOptions& options);
+
+int gateBuilds(const gate::GateOptions& options);
+
+struct AblateOptions {
+    scene::SceneOptions scene;
+    std::string filter;
+    std::filesystem::path out;  // empty: results/local/ablation-<scene>.json
+    std::uint32_t passes = 8;  // up and down the ladder, each
+    std::vector<std::string> command;
+};
+int ablateScene(const AblateOptions& options);
+
+struct ReportPageOptions {
+    std::vector<std::filesystem::path> reports;
+    std::filesystem::path out;
+};
+int writeReportPage(const ReportPageOptions& options);
+
+struct DoctorOptions {
+    engine::DeviceOptions device;
+    std::uint32_t pairs = 0;  // of the A/A calibration; 0: none
+    bool planted = false;  // and whether a planted slowdown is found
+    std::filesystem::path out;  // findings as JSON; empty: none
+    std::vector<std::string> command;
+};
+int examineMachine(const DoctorOptions& options);
+
+struct RenderOptions {
+    scene::SceneOptions scene;
+    std::filesystem::path out;  // .exr: linear light; others: PNG
+    std::uint32_t frame = 0;
+    std::string frames;  // "A:B" or "A:B:STEP", and `out` is a pattern; empty: `frame`
+};
+int renderScene(const RenderOptions& options);
+
+struct PhysicsOptions {
+    std::vector<std::string> solvers;  // empty: all but none
+    std::string check;  // regex of check names
+    std::filesystem::path out;  // empty: results/local/physics.json
+    engine::DeviceOptions device;
+    std::vector<std::string> command;  // as the report quotes it
+};
+int checkPhysics(const PhysicsOptions& options);
+
+struct GroomInfoOptions {
+    std::filesystem::path file;
+    std::filesystem::path mesh;  // that the hair grows on; empty: none
+    std::optional<double> scale;  // metres in the file's unit
+    bool json = false;
+};
+int inspectGroom(const GroomInfoOptions& options);
+
+struct GroomConvertOptions {
+    std::filesystem::path in;
+    std::filesystem::path out;
+    std::filesystem::path mesh;  // for root triangles; empty: from the roots alone
+    std::optional<double> scale;  // metres in IN's unit; OUT is then in metres
+    std::uint32_t followers = 0;  // for each strand
+    double follower_radius = 0.0;  // of the disc that they are in, in IN's unit
+    double tip_separation = 1.0;  // factor of their displacement at the tip
+    std::optional<std::uint32_t> vertices;  // of a strand
+    std::optional<std::uint32_t> guides;  // to keep; all strands
+    std::uint32_t seed = 1;
+};
+int convertGroom(const GroomConvertOptions& options);
+
+struct SimulateOptions {
+    scene::SceneOptions scene;
+    std::filesystem::path out;
+    std::uint32_t frames = 60;
+    bool guides = false;  // the simulated guides instead of the strands that are drawn
+};
+int simulateScene(const SimulateOptions& options);
+
+struct ExportOptions {
+    scene::SceneOptions scene;
+    std::filesystem::path mitsuba;  // folder
+    std::uint32_t frame = 0;
+};
+int exportScene(const ExportOptions& options);
+
+struct ReferenceOptions {
+    scene::SceneOptions scene;
+    std::filesystem::path out;
+    std::uint32_t samples = 64;  // of a pixel
+    std::uint32_t frame = 0;
+};
+int renderReference(const ReferenceOptions& options);
+
+struct DiffOptions {
+    std::filesystem::path reference;
+    std::filesystem::path picture;
+    std::filesystem::path out;  // FLIP's error map; empty: none
+    bool json = false;
+};
+int diffPictures(const DiffOptions& options);
+
+struct LodOptions {
+    scene::SceneOptions scene;
+    std::filesystem::path out;  // empty: results/local/lod.json
+    double from = 0.5;  // m, distance from /camera/target
+    double to = 20.0;
+    std::uint32_t steps = 40;
+    std::uint32_t frame = 0;
+    std::vector<std::string> command;  // as the report quotes it
+};
+int walkLod(const LodOptions& options);
+
+int viewScene(const viewer::ViewOptions& options);
+
+int validateScenes(const std::vector<std::filesystem::path>& scenes);
+int printSchema();
+int printDevices();
+
+}  // namespace benchmarks::commands

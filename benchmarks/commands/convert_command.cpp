@@ -1,0 +1,26 @@
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/commands/commands.h"
+#include "benchmarks/report/change.h"
+#include "benchmarks/report/exporters.h"
+#include "benchmarks/report/report.h"
+#include "engine/files.h"
+
+namespace benchmarks::commands {
+
+int convertReport(const ConvertReportOptions& options) {
+    const std::string text =
+        report::exportReport(report::readReport(options.report), options.format);
+    if (options.out.empty()) {
+        std::cout << text;
+        return report::kOk;
+    }
+    engine::writeFileAtomically(options.out, text);
+    std::cout << options.out.string() << ": " << options.format << " of " << options.report.string()
+              << '\n';
+    return report::kOk;
+}
+
+}  // namespace benchmarks::commands

@@ -1,0 +1,68 @@
+#include <iostream>
+
+#include "benchmarks/commands/commands.h"
+#include "benchmarks/doctor/checks.h"
+#include "benchmarks/doctor/facts.h"
+#include "benchmarks/doctor/play_pairs.h"
+#include "benchmarks/doctor/report.h"
+#include "benchmarks/report/change.h"
+#include "benchmarks/report/environment.h"
+#include "engine/files.h"
+#include "engine/process.h"
+
+namespace benchmarks::commands {
+namespace {
+
+constexpr std::uint32_t kPlantedGates = 10;
+
+// In this process, whose device is gone when others measure theirs.
+void examineDevice(const DoctorOptions& options, doctor::DoctorReport& report) {
+    engine::processUse();  // counts threads that start from here on
+    const engine::Device device(options.device);
+    std::cerr << report::versionText() << " on " << device.info().name << " ("
+              << device.info().driver << ' ' << device.info().driver_version << ")\n";
+    report.environment = report::describeEnvironment(
+        device, options.command, doctor::doctorSettings().seed, options.device.validation);
+    const measure::MeasureHooks hooks{.stop = engine::interrupted};
+    report.findings =
+        doctor::judgeAll(doctor::gatherFacts(device, options.device.validation, hooks));
+}
+
+void examineGates(const DoctorOptions& options, doctor::DoctorReport& report) {
+    if (options.pairs == 0) return;
+    std::cerr << "measuring " << options.pairs << " pairs of processes\n";
+    report.sensitivities = doctor::measureSensitivity(options.device, options.pairs);
+    if (!options.planted) return;
+    std::cerr << "looking for " << kPlantedGates << " planted slowdowns\n";
+    report.planted = doctor::plantSlowdowns(options.device, report.sensitivities, kPlantedGates);
+    report.findings.push_back(doctor::judgePlanted(report.planted));
+}
+
+}  // namespace
+
+int examineMachine(const DoctorOptions& options) {
+    if (options.planted && options.pairs == 0)
+        throw engine::Error("--planted", "needs --pairs: how large a slowdown to plant");
+    if (!options.out.empty()) engine::checkWritable(options.out);
+    engine::catchInterrupts();
+    doctor::DoctorReport report;
+    try {
+        examineDevice(options, report);
+        examineGates(options, report);
+    } catch (const engine::Interrupted&) {
+        report.interrupted = true;
+    }
+    if (!report.findings.empty()) {
+        if (!options.out.empty())
+            engine::writeFileAtomically(options.out, doctor::doctorReportText(report));
+        std::cout << doctor::doctorText(report);
+        if (!options.out.empty()) std::cout << "report: " << options.out.string() << '\n';
+    }
+    if (report.interrupted) {
+        std::cerr << "interrupted\n";
+        return report::kInterrupted;
+    }
+    return doctor::isTrusted(report) ? report::kOk : report::kCheckFailed;
+}
+
+}  // namespace benchmarks::commands

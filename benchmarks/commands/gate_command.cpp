@@ -1,0 +1,50 @@
+#include <filesystem>
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/commands/commands.h"
+#include "benchmarks/gate/report.h"
+#include "benchmarks/gate/session.h"
+#include "benchmarks/report/change.h"
+#include "engine/files.h"
+#include "engine/process.h"
+
+namespace benchmarks::commands {
+namespace {
+
+std::filesystem::path reportFile(const gate::GateOptions& options) {
+    if (!options.out.empty()) return options.out;
+    return std::filesystem::path("results/local") /
+           ("gate-" + options.scene.scene.stem().string() + ".json");
+}
+
+void printEnd(const gate::GateRun& run) {
+    if (run.end == gate::GateRun::End::failed)
+        std::cerr << "hairbench: " << run.failure << '\n';
+    else if (run.end == gate::GateRun::End::interrupted)
+        std::cerr << "interrupted after " << run.pairs << (run.pairs == 1 ? " pair\n" : " pairs\n");
+    else if (run.mismatches.empty() && run.changes.empty())
+        std::cerr << "hairbench: no case ran in both that has a time to judge\n";
+    else if (run.mismatches.empty())
+        std::cout << "verdict: " << report::verdictName(gate::overallVerdict(run)) << '\n';
+}
+
+}  // namespace
+
+int gateBuilds(const gate::GateOptions& options) {
+    const std::filesystem::path out = reportFile(options);
+    engine::checkWritable(out);
+    engine::catchInterrupts();
+    const gate::GateRun run = gate::runGate(options);
+    // What drivers and commands say need not be UTF-8.
+    engine::writeFileAtomically(
+        out, gate::gateReport(run, options.verdict, options.command)
+                     .dump(1, ' ', false, scene::Json::error_handler_t::replace) +
+                 '\n');
+    std::cout << gate::gateText(run) << "report: " << out.string() << '\n';
+    printEnd(run);
+    return gate::exitStatus(run, options.verdict);
+}
+
+}  // namespace benchmarks::commands

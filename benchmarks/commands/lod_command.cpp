@@ -1,0 +1,75 @@
+#include <iostream>
+
+#include "benchmarks/commands/commands.h"
+#include "benchmarks/lod/walk.h"
+#include "benchmarks/measure/progress.h"
+#include "benchmarks/report/change.h"
+#include "benchmarks/report/environment.h"
+#include "benchmarks/report/text.h"
+#include "engine/error.h"
+#include "engine/files.h"
+#include "engine/process.h"
+
+namespace benchmarks::commands {
+namespace {
+
+void simulateTo(const engine::Device& device, measure::Case& hair, std::uint32_t frame) {
+    engine::FrameLoop loop(device, engine::Timing::statistics);
+    for (std::uint32_t i = 0; i <= frame; ++i) {
+        engine::checkInterrupted();
+        loop.frame([&](engine::Passes& passes) { hair.simulate(passes); });
+    }
+}
+
+void checkPath(const lod::LodPath& path, const hair::Settings& settings) {
+    if (path.from >= path.to) throw engine::Error("--from", "is not below --to");
+    if (path.to > double{settings.camera.far_plane})
+        throw engine::Error("--to", "is beyond /camera/far_plane");
+    if (!settings.render.hair) throw engine::Error("/render/hair", "is false: nothing to compare");
+}
+
+}  // namespace
+
+int walkLod(const LodOptions& options) {
+    scene::Scene scene = scene::loadScene(options.scene.scene);
+    const scene::CaseSpec spec = scene::singleCase(scene, options.scene);
+    const hair::Settings& settings = spec.settings;
+    const lod::LodPath path{.from = options.from, .to = options.to, .steps = options.steps};
+    checkPath(path, settings);
+    const std::filesystem::path out =
+        options.out.empty() ? std::filesystem::path("results/local/lod.json") : options.out;
+    engine::checkWritable(out);
+
+    engine::catchInterrupts();
+    const engine::Device device(options.scene.device);
+    std::cerr << report::versionText() << " on " << device.info().name << " ("
+              << device.info().driver << ' ' << device.info().driver_version << ")\n";
+    lod::LodReport report{
+        .environment = report::describeEnvironment(
+            device, options.command, scene.settings.seed, options.scene.device.validation),
+        .scene =
+            {.path = scene.path.string(),
+             .hash = report::hashText(scene.resolved.text()),
+             .document = scene.resolved},
+        .frame = options.frame};
+    measure::Progress progress(path.steps);
+    try {
+        measure::Case hair(device, settings, scene.directory);
+        simulateTo(device, hair, options.frame);
+        lod::walk(
+            device, hair, settings, path,
+            [&](double distance) { progress.begin(report::shortNumber(distance) + " m"); },
+            report.steps);
+    } catch (const engine::Interrupted&) {
+        report.interrupted = true;
+    }
+    progress.clear();
+    for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
+    engine::writeFileAtomically(out, lod::lodReportText(report));
+    std::cout << lod::lodTable(report) << "report: " << out.string() << '\n';
+    if (!report.interrupted) return report::kOk;
+    std::cerr << "interrupted after " << report.steps.size() << " of " << path.steps << " steps\n";
+    return report::kInterrupted;
+}
+
+}  // namespace benchmarks::commands

@@ -1,0 +1,26 @@
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/commands/commands.h"
+#include "benchmarks/report/change.h"
+#include "benchmarks/report/report.h"
+#include "benchmarks/run/merge_reports.h"
+#include "engine/files.h"
+
+namespace benchmarks::commands {
+
+int mergeReports(const MergeOptions& options) {
+    engine::checkWritable(options.out);
+    std::vector<std::string> notes;
+    const scene::Json report =
+        run::mergedReport(options.reports, {.out = options.out, .force = options.force}, notes);
+    report::writeReport(report, options.out);
+    for (const std::string& note : notes) std::cerr << "hairbench: " << note << '\n';
+    std::cout << options.out.string() << ": " << report.at("cases").size() << " cases of "
+              << options.reports.size() << " reports\n";
+    // As a run that did not come to its end.
+    return report.at("interrupted").get<bool>() ? report::kInterrupted : report::kOk;
+}
+
+}  // namespace benchmarks::commands

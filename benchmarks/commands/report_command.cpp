@@ -1,0 +1,26 @@
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/commands/commands.h"
+#include "benchmarks/report/change.h"
+#include "benchmarks/report/page.h"
+#include "engine/files.h"
+
+namespace benchmarks::commands {
+
+int writeReportPage(const ReportPageOptions& options) {
+    const report::PageParts parts = report::readPageParts(report::readPlotly());
+    const scene::Json data = report::pageData(options.reports);
+    engine::writeFileAtomically(options.out, report::assemblePage(parts, data));
+    std::size_t missing = 0;
+    for (const scene::Json& report : data.at("reports"))
+        for (const scene::Json& each : report.at("cases"))
+            missing += each.contains("picture_missing");
+    if (missing > 0)
+        std::cerr << "hairbench: pictures of cases that are not there: " << missing << '\n';
+    std::cout << "page: " << options.out.string() << '\n';
+    return report::kOk;
+}
+
+}  // namespace benchmarks::commands

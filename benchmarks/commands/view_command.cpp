@@ -1,0 +1,56 @@
+#include <iostream>
+#include <optional>
+
+#include "benchmarks/commands/commands.h"
+#include "benchmarks/report/change.h"
+#include "benchmarks/viewer/script/script.h"
+#include "benchmarks/viewer/viewer.h"
+#include "engine/device.h"
+#include "engine/pictures.h"
+#include "engine/process.h"
+#include "engine/window.h"
+
+namespace benchmarks::commands {
+namespace {
+
+int view(const viewer::ViewOptions& options) {
+    viewer::Viewer viewer(options);
+    std::optional<viewer::Script> script;
+    if (!options.script.empty()) script.emplace(options.script);
+    for (std::uint32_t i = 0; !engine::interrupted(); ++i) {
+        if (script && !script->step(viewer)) break;
+        if (!viewer.frame()) break;
+        if (options.frames > 0 && i + 1 == options.frames) break;
+    }
+    if (script && !engine::interrupted()) script->finish();
+    for (const std::string& message : viewer.takeMessages()) std::cerr << message << '\n';
+    if (!options.screenshot.empty()) {
+        const engine::Presenter::Picture picture = viewer.picture();
+        engine::writePng(options.screenshot, picture.width, picture.height, picture.pixels);
+    }
+    return engine::interrupted() ? report::kInterrupted : report::kOk;
+}
+
+}  // namespace
+
+int viewScene(const viewer::ViewOptions& options) {
+    engine::catchInterrupts();
+    engine::processUse();  // counts the threads that begin from here on: those of the device too
+    try {
+        return view(options);
+    } catch (const engine::NoDisplay& error) {
+        std::cerr << "hairbench: " << error.what()
+                  << "; 'hairbench render' draws pictures without one\n";
+        return report::kNoDevice;
+    } catch (const viewer::ScriptFailure& failure) {
+        std::cerr << failure.what() << '\n';
+        return report::kCheckFailed;
+    } catch (const engine::DeviceLost& error) {
+        std::cerr << "hairbench: the device was lost (" << error.what()
+                  << "): its driver gave up, as after a hang or a reset; what was not saved is "
+                     "gone\n";
+        return report::kInternalError;
+    }
+}
+
+}  // namespace benchmarks::commands

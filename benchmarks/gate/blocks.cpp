@@ -1,0 +1,362 @@
+#include "benchmarks/gate/blocks.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/report/change.h"
+#include "benchmarks/report/report.h"
+#include "benchmarks/scene/json.h"
+#include "engine/error.h"
+#include "engine/files.h"
+#include "engine/process.h"
+
+extern "C" char** environ;
+
+namespace benchmarks::gate {
+namespace {
+
+namespace fs = std::filesystem;
+
+// ---- Block report -------------------------------------------------------------------------------
+
+BlockCase readCase(const scene::Json& result) {
+    BlockCase read{.outcome = report::caseOutcome(result), .metrics = {}};
+    if (read.outcome.status != "ok") return read;
+    read.metrics = report::readMetrics(result);
+    return read;
+}
+
+}  // namespace
+
+BlockReport readBlock(const std::filesystem::path& path) {
+    const scene::Json report = report::readReport(path);
+    try {
+        BlockReport block{
+            .environment = scene::Document(report.at("environment")),
+            .scene = scene::Document(scene::Json{
+                {"path", report.at("scene").at("path")}, {"hash", report.at("scene").at("hash")}}),
+            .software_device = report::isSoftwareDevice(report.at("environment")),
+            .cases = {}};
+        for (const scene::Json& each : report.at("cases")) block.cases.push_back(readCase(each));
+        return block;
+    } catch (const scene::Json::exception& error) {
+        throw engine::Error(path.string(), error.what());
+    }
+}
+
+const BlockCase* findCase(const BlockReport& block, const std::string& name) {
+    const auto found = std::ranges::find(
+        block.cases, name, [](const BlockCase& each) { return each.outcome.name; });
+    return found == block.cases.end() ? nullptr : &*found;
+}
+
+std::vector<CommonMetric> commonMetrics(const BlockReport& a, const BlockReport& b) {
+    std::vector<CommonMetric> common;
+    for (const BlockCase& each : a.cases) {
+        const BlockCase* const other = findCase(b, each.outcome.name);
+        if (!other) continue;
+        for (const report::MetricReading& metric : each.metrics)
+            if (const report::MetricReading* const same =
+                    report::findMetric(other->metrics, metric.id))
+                common.push_back({each.outcome.name, &metric, same});
+    }
+    return common;
+}
+
+std::vector<report::Mismatch> mismatches(const BlockReport& a, const BlockReport& b) {
+    std::vector<report::Mismatch> all;
+    for (const BlockCase& each : a.cases) {
+        const BlockCase* const other = findCase(b, each.outcome.name);
+        if (!other) continue;
+        const std::vector<report::Mismatch> found =
+            report::mismatches(each.outcome, other->outcome);
+        all.insert(all.end(), found.begin(), found.end());
+    }
+    return all;
+}
+
+namespace {
+
+// ---- Child process ------------------------------------------------------------------------------
+
+// How a process ended.
+struct ChildEnd {
+    int status = 0;  // of its exit; 128 + signal where one ended it, as shells count
+    bool signaled = false;
+};
+
+using Clock = std::chrono::steady_clock;
+
+// How long to look away while a child runs: looking costs microseconds, which is nothing beside
+// what a long one measures, and short ones are not waited for longer than they take.
+constexpr std::chrono::milliseconds kShortestLook{1};
+constexpr std::chrono::milliseconds kLongestLook{20};
+constexpr std::chrono::seconds kGrace{5};
+constexpr int kNotFound = 127;
+
+// A child that is gone in any case.
+class Child {
+public:
+    Child(const std::vector<std::string>& command, const std::filesystem::path& output) {
+        std::vector<char*> arguments;
+        for (const std::string& each : command)
+            arguments.push_back(const_cast<char*>(each.c_str()));  // posix_spawn's interface
+        arguments.push_back(nullptr);
+        posix_spawn_file_actions_t actions;
+        posix_spawn_file_actions_init(&actions);
+        posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+        posix_spawn_file_actions_addopen(
+            &actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, 0600);
+        posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+        posix_spawnattr_t attributes;
+        posix_spawnattr_init(&attributes);
+        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+        error_ =
+            posix_spawnp(&id_, arguments.front(), &actions, &attributes, arguments.data(), environ);
+        posix_spawnattr_destroy(&attributes);
+        posix_spawn_file_actions_destroy(&actions);
+        if (error_ != 0) id_ = 0;
+    }
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
+    ~Child() {
+        if (id_ <= 0) return;
+        signal(SIGKILL);
+        waitpid(id_, nullptr, 0);
+    }
+
+    int error() const { return error_; }
+
+    void signal(int number) const { kill(-id_, number); }
+
+    // How it ended, once it has.
+    std::optional<ChildEnd> end() {
+        int status = 0;
+        const pid_t ended = waitpid(id_, &status, WNOHANG);
+        if (ended == 0 || (ended < 0 && errno == EINTR)) return {};
+        id_ = 0;
+        if (ended < 0) throw std::system_error(errno, std::generic_category(), "waitpid");
+        if (WIFSIGNALED(status)) return ChildEnd{128 + WTERMSIG(status), true};
+        return ChildEnd{WEXITSTATUS(status), false};
+    }
+
+private:
+    pid_t id_ = 0;
+    int error_ = 0;
+};
+
+// Runs a program to its end, found as the shell finds it, with nothing to read and all that it says
+// in the file `output`. It has a process group of its own: where this program is interrupted, the
+// group is interrupted, killed if it goes on for five seconds more, and Interrupted thrown.
+// Status 127 where there is no such program.
+ChildEnd runChild(const std::vector<std::string>& command, const std::filesystem::path& output) {
+    Child child(command, output);
+    if (child.error() == ENOENT || child.error() == EACCES || child.error() == ENOEXEC)
+        return {.status = kNotFound};
+    if (child.error() != 0)
+        throw std::system_error(child.error(), std::generic_category(), command.front());
+    std::optional<Clock::time_point> asked_to_end;
+    Clock::duration look = kShortestLook;
+    for (;;) {
+        const std::optional<ChildEnd> end = child.end();
+        if (asked_to_end && (end || Clock::now() > *asked_to_end + kGrace))
+            throw engine::Interrupted();
+        if (end) return *end;
+        if (engine::interrupted() && !asked_to_end) {
+            child.signal(SIGINT);
+            asked_to_end = Clock::now();
+        }
+        std::this_thread::sleep_for(look);
+        look = std::min<Clock::duration>(look * 5 / 4, kLongestLook);
+    }
+}
+
+// ---- Side ---------------------------------------------------------------------------------------
+
+bool isProgram(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored);
+}
+
+fs::path programOfBuild(const fs::path& folder, const std::string& context) {
+    for (const fs::path& each : {folder / "benchmarks" / "hairbench", folder / "hairbench"})
+        if (isProgram(each)) return each;
+    throw engine::Error(context, "holds neither benchmarks/hairbench nor hairbench");
+}
+
+// A file name without a slash would be looked for in PATH.
+std::string runnable(const fs::path& program) {
+    return program.has_parent_path() ? program.string() : "./" + program.string();
+}
+
+// A command line of the shell that takes arguments after those it has.
+std::vector<std::string> shellProgram(const std::string& text) {
+    return {"/bin/sh", "-c", text + " \"$@\"", "hairbench gate"};
+}
+
+void addRepeated(
+    std::vector<std::string>& options, const char* option, const std::vector<std::string>& values) {
+    for (const std::string& value : values) options.insert(options.end(), {option, value});
+}
+
+// What the user asked for of the runs of this side.
+std::vector<std::string> runOptions(char name, const GateOptions& options) {
+    std::vector<std::string> all;
+    const scene::SceneOptions& scene = options.scene;
+    addRepeated(all, "--axis", scene.axes);
+    addRepeated(all, "--set", scene.sets);
+    addRepeated(all, "--set", name == 'A' ? options.a_sets : options.b_sets);
+    if (!options.filter.empty()) addRepeated(all, "--filter", {options.filter});
+    if (!scene.device.wanted.empty()) addRepeated(all, "--device", {scene.device.wanted});
+    if (scene.frames) addRepeated(all, "--frames", {std::to_string(*scene.frames)});
+    if (scene.warmup) addRepeated(all, "--warmup", {std::to_string(*scene.warmup)});
+    if (scene.precision) addRepeated(all, "--precision", {scene::decimalText(*scene.precision)});
+    if (scene.max_time) addRepeated(all, "--max-time", {scene::decimalText(*scene.max_time)});
+    return all;
+}
+
+std::string quoted(const std::string& text) {
+    std::string result = "'";
+    for (const char each : text) result += each == '\'' ? std::string("'\\''") : std::string{each};
+    return result + "'";
+}
+
+void replaceAll(std::string& text, const std::string& what, const std::string& with) {
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += with.size())
+        text.replace(at, what.size(), with);
+}
+
+bool isPattern(const std::string& text) {
+    return text.find("{out}") != std::string::npos || text.find("{scene}") != std::string::npos;
+}
+
+}  // namespace
+
+Side parseSide(char name, const GateOptions& options) {
+    Side side{.name = name, .text = name == 'A' ? options.a : options.b};
+    const std::string context = (name == 'A' ? "--a " : "--b ") + side.text;
+    if (side.text.empty()) throw engine::Error(context, "is empty");
+    side.options = runOptions(name, options);
+    if (isPattern(side.text)) {
+        if (side.text.find("{out}") == std::string::npos)
+            throw engine::Error(context, "has {scene} but no {out}, where the report is to go");
+        if (!side.options.empty())
+            throw engine::Error(
+                context, "has {out} and is taken as it is: put '" + side.options.front() +
+                             "' into the command itself");
+        side.pattern = side.text;
+        return side;
+    }
+    if (!options.scene.max_time)
+        addRepeated(side.options, "--max-time", {scene::decimalText(kBlockSeconds)});
+    std::error_code ignored;
+    if (fs::is_directory(side.text, ignored))
+        side.program = {runnable(programOfBuild(side.text, context))};
+    else if (isProgram(side.text))
+        side.program = {runnable(side.text)};
+    else
+        side.program = shellProgram(side.text);
+    return side;
+}
+
+std::vector<std::string>
+blockCommand(const Side& side, const fs::path& scene, const fs::path& out, std::uint32_t seed) {
+    if (!side.pattern.empty()) {
+        std::string command = side.pattern;
+        replaceAll(command, "{scene}", quoted(scene.string()));
+        replaceAll(command, "{out}", quoted(out.string()));
+        replaceAll(command, "{seed}", std::to_string(seed));
+        return {"/bin/sh", "-c", command};
+    }
+    std::vector<std::string> command = side.program;
+    command.insert(
+        command.end(), {"run", scene.string(), "--out", out.string(), "--no-pictures",
+                        "--order-seed", std::to_string(seed)});
+    command.insert(command.end(), side.options.begin(), side.options.end());
+    return command;
+}
+
+namespace {
+
+// ---- Block runner -------------------------------------------------------------------------------
+
+constexpr std::size_t kMostLines = 12;  // of a failed process that are shown
+constexpr std::size_t kMostBytes = 4000;
+
+std::string lastLines(const std::filesystem::path& file) {
+    std::string text;
+    try {
+        text = engine::readFile(file);
+    } catch (const engine::Error&) {
+        return {};  // it could not even be started
+    }
+    while (text.ends_with('\n')) text.pop_back();
+    std::size_t begin = text.size();
+    for (std::size_t line = 0; line < kMostLines && begin != std::string::npos && begin > 0; ++line)
+        begin = text.rfind('\n', begin - 1);
+    if (begin != std::string::npos && begin > 0) text.erase(0, begin + 1);
+    if (text.size() > kMostBytes) text.erase(0, text.size() - kMostBytes);
+    return text;
+}
+
+int exitStatusFor(int status) {
+    const bool passes_on = status == report::kNoDevice || status == report::kUsageError ||
+                           status == report::kNothingRan;
+    return passes_on ? status : report::kInternalError;
+}
+
+// Runs of which every case was skipped or failed write a report too.
+bool wroteReport(const ChildEnd& end) {
+    return !end.signaled && (end.status == report::kOk || end.status == report::kNothingRan);
+}
+
+std::string failureText(const Side& side, const ChildEnd& end, const std::filesystem::path& log) {
+    std::string text{side.name};
+    text += " (" + side.text + ") ";
+    text += end.signaled ? "was ended by signal " + std::to_string(end.status - 128)
+                         : "ended with status " + std::to_string(end.status);
+    if (end.status == 127 && !end.signaled) text += ": no such program";
+    const std::string said = lastLines(log);
+    return said.empty() ? text : text + ":\n" + said;
+}
+
+}  // namespace
+
+BlockReport BlockRunner::run(const Side& side, std::uint32_t seed) {
+    namespace fs = std::filesystem;
+    const fs::path folder = scratch_.path() / "block";
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+    fs::create_directories(folder);
+    const fs::path report = folder / "report.json";
+    const fs::path log = folder / "output.txt";
+    const ChildEnd end = runChild(blockCommand(side, scene_, report, seed), log);
+    if (!wroteReport(end))
+        throw BlockFailed(failureText(side, end, log), exitStatusFor(end.status));
+    try {
+        return readBlock(report);
+    } catch (const engine::Error& error) {
+        std::string text = std::string{side.name} + " (" + side.text + ") left no report: ";
+        text += error.what();
+        if (const std::string said = lastLines(log); !said.empty()) text += '\n' + said;
+        throw BlockFailed(text, end.status == report::kOk ? report::kUsageError : end.status);
+    }
+}
+
+}  // namespace benchmarks::gate

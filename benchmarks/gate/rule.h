@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "benchmarks/report/change.h"
+
+namespace benchmarks::gate {
+
+struct GateMetric {
+    std::vector<double> calibration{};  // ln(A2/A1) of pairs of one build; may be empty
+};
+
+// Says which build to run next and when enough is known, and judges: whoever has it runs processes.
+// Pairs of blocks go A B, B A, A B ..., so that a drift of the machine raises as many differences
+// as it lowers. After 12, 24 and 48 pairs (from the rule's first_pairs on) it is over if no metric
+// is inconclusive; at 48 whatever is inconclusive stays so. It takes all blocks to be of the same
+// work: whoever has it ends where pictures or states differ.
+class Gate {
+public:
+    enum class Step { run_a, run_b, decided };
+
+    explicit Gate(std::vector<GateMetric> metrics, const report::VerdictRule& rule = {});
+
+    Step next() const;
+
+    // A block of the build that next() asked for: the median of each metric's samples, larger is
+    // worse. Another number of medians than of metrics is an engine::Error.
+    void add(std::vector<double> medians);
+
+    std::size_t pairs() const { return pairs_; }
+
+    // Pairs at which there is something to decide next; the last number of pairs at the end.
+    std::size_t nextDecision() const;
+
+    // One for each metric. A verdict is passed at 12, 24 and 48 pairs only: between them all are
+    // inconclusive, so that stopping at a lucky moment decides nothing. A metric with a median that
+    // is not above 0 in some block cannot be compared: it is inconclusive, asks for no more pairs
+    // and leaves the rest alone.
+    std::vector<report::Comparison> comparisons() const;
+
+private:
+    void addPair(const std::vector<double>& a, const std::vector<double>& b);
+    bool isStage(std::size_t pairs) const;
+
+    std::vector<GateMetric> metrics_;
+    report::VerdictRule rule_;
+    std::vector<std::vector<double>> differences_;  // [metric][pair], ln(B/A)
+    std::vector<char> comparable_;  // [metric]
+    std::optional<std::vector<double>> waiting_;  // the first block of the next pair
+    std::size_t pairs_ = 0;
+};
+
+}  // namespace benchmarks::gate

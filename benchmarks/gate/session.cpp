@@ -1,0 +1,238 @@
+#include "benchmarks/gate/session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <random>
+#include <utility>
+
+#include "benchmarks/report/change.h"
+#include "benchmarks/report/statistics.h"
+#include "engine/error.h"
+#include "engine/process.h"
+
+namespace benchmarks::gate {
+namespace {
+
+// ---- Gate run -----------------------------------------------------------------------------------
+
+// The two blocks of a pair, as they came.
+struct PairOfBlocks {
+    const BlockRecord* first;
+    const BlockRecord* second;
+};
+
+std::vector<PairOfBlocks> completePairs(const GateRun& run, Phase phase) {
+    std::vector<PairOfBlocks> pairs;
+    const BlockRecord* waiting = nullptr;
+    for (const BlockRecord& each : run.blocks) {
+        if (each.phase != phase) continue;
+        if (waiting) pairs.push_back({waiting, &each});
+        waiting = waiting ? nullptr : &each;
+    }
+    return pairs;
+}
+
+double difference(const GateTime& time, double a, double b) {
+    const double ratio = std::log(report::costOf(time.metric, b) / report::costOf(time.metric, a));
+    return std::isfinite(ratio) ? ratio : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+report::Verdict overallVerdict(const GateRun& run) {
+    return run.mismatches.empty() ? report::overallVerdict(run.changes) : report::Verdict::mismatch;
+}
+
+int exitStatus(const GateRun& run, const report::VerdictOptions& options) {
+    if (run.end == GateRun::End::interrupted) return report::kInterrupted;
+    if (run.end == GateRun::End::failed) return run.failure_status;
+    if (run.mismatches.empty() && run.changes.empty()) return report::kNothingRan;
+    return report::verdictStatus(overallVerdict(run), options.fail_on_inconclusive);
+}
+
+std::vector<std::vector<double>> pairDifferences(const GateRun& run, Phase phase) {
+    std::vector<std::vector<double>> differences(run.times.size());
+    for (const PairOfBlocks& pair : completePairs(run, phase)) {
+        const bool a_first =
+            phase == Phase::calibration ? pair.first->pair % 2 == 0 : pair.first->side == 'A';
+        const BlockRecord& a = a_first ? *pair.first : *pair.second;
+        const BlockRecord& b = a_first ? *pair.second : *pair.first;
+        for (std::size_t i = 0; i < run.times.size(); ++i)
+            differences[i].push_back(difference(run.times[i], a.medians[i], b.medians[i]));
+    }
+    return differences;
+}
+
+namespace {
+
+// ---- Gate session -------------------------------------------------------------------------------
+
+constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+
+// A metric that is timed in another way this time, as where a device's timestamps were not trusted
+// in one process, is not comparable.
+std::vector<double> mediansOf(const std::vector<GateTime>& times, const BlockReport& block) {
+    std::vector<double> medians;
+    for (const GateTime& time : times) {
+        const BlockCase* const block_case = findCase(block, time.case_name);
+        const report::MetricReading* const metric =
+            block_case ? report::findMetric(block_case->metrics, time.metric.id) : nullptr;
+        const bool comparable =
+            metric && metric->unit == time.metric.unit && metric->isTimedAs(time.metric);
+        medians.push_back(comparable ? metric->median : kNotMeasured);
+    }
+    return medians;
+}
+
+std::vector<double> costsOf(const std::vector<GateTime>& times, std::vector<double> medians) {
+    for (std::size_t i = 0; i < times.size(); ++i)
+        medians[i] = report::costOf(times[i].metric, medians[i]);
+    return medians;
+}
+
+double medianOfBlocks(const GateRun& run, char side, std::size_t time) {
+    std::vector<double> medians;
+    for (const BlockRecord& each : run.blocks)
+        if (each.phase == Phase::gate && each.side == side && std::isfinite(each.medians[time]))
+            medians.push_back(each.medians[time]);
+    return medians.empty() ? kNotMeasured : report::summarize(medians).median;
+}
+
+std::string pieceName(const char* phase, std::size_t pair, char side) {
+    return std::string(phase) + " pair " + std::to_string(pair + 1) + ", " + side;
+}
+
+void addUnmatched(const BlockReport& block, const BlockReport& other, char side, GateRun& run) {
+    for (const BlockCase& each : block.cases)
+        if (!findCase(other, each.outcome.name))
+            run.unmatched.push_back(std::string("only in ") + side + ": " + each.outcome.name);
+}
+
+}  // namespace
+
+GateSession::GateSession(const GateOptions& options, report::MetricChoice judged)
+    : regex_(options.verdict.metrics), judged_(std::move(judged)), runner_(options.scene.scene),
+      seed_(std::random_device()()) {
+    run_.a = parseSide('A', options);
+    run_.b = parseSide('B', options);
+    run_.scene = options.scene.scene.string();
+    run_.rule.threshold = options.verdict.threshold;
+    run_.rule.first_pairs = options.pairs;
+    if (!judged_)
+        judged_ = report::metricsNamed(regex_);  // a malformed one ends it before anything runs
+}
+
+GateSession::~GateSession() {
+    if (progress_) progress_->clear();
+}
+
+bool GateSession::warmUp() {
+    progress_.emplace(2);
+    for (const Side* const side : {&run_.a, &run_.b}) {
+        progress_->begin(std::string("warm-up, ") + side->name);
+        (side->name == 'A' ? run_.first_a : run_.first_b) = runner_.run(*side, seed_);
+    }
+    addUnmatched(*run_.first_a, *run_.first_b, 'A', run_);
+    addUnmatched(*run_.first_b, *run_.first_a, 'B', run_);
+    run_.mismatches = mismatches(*run_.first_a, *run_.first_b);
+    chooseTimes();
+    for (const Side* const side : {&run_.a, &run_.b})
+        run_.blocks.push_back(
+            {Phase::warm_up, side->name, 0, seed_,
+             mediansOf(run_.times, side->name == 'A' ? *run_.first_a : *run_.first_b)});
+    return run_.mismatches.empty() && !run_.times.empty();
+}
+
+void GateSession::chooseTimes() {
+    const std::vector<CommonMetric> common = commonMetrics(*run_.first_a, *run_.first_b);
+    std::vector<report::MetricId> metrics;
+    for (const CommonMetric& each : common) metrics.push_back(each.a->id);
+    const bool software = run_.first_a->software_device && run_.first_b->software_device;
+    const report::MetricChoice judged =
+        judged_ ? judged_ : report::timesBy(report::judgedClock(software, metrics));
+    for (const CommonMetric& each : common) {
+        const report::Judgement judgement = report::judgementOf(judged, *each.a, *each.b);
+        if (judgement == report::Judgement::not_wanted) continue;
+        (judgement == report::Judgement::judged ? run_.times : run_.too_short)
+            .push_back({.case_name = each.case_name, .metric = *each.a});
+    }
+    if (run_.times.empty() && run_.too_short.empty() && !regex_.empty() && !common.empty())
+        throw engine::Error("--metrics", "'" + regex_ + "' is in no metric's name");
+}
+
+bool GateSession::block(const Side& side, Phase phase, std::size_t pair) {
+    progress_->begin(
+        pieceName(phase == Phase::calibration ? "calibration," : "gate,", pair, side.name));
+    const auto seed = static_cast<std::uint32_t>(seed_ + pair);
+    const BlockReport report = runner_.run(side, seed);
+    const BlockReport& first = side.name == 'A' ? *run_.first_a : *run_.first_b;
+    run_.mismatches = mismatches(first, report);
+    if (!run_.mismatches.empty()) run_.unstable = side.name;
+    run_.blocks.push_back({phase, side.name, pair, seed, mediansOf(run_.times, report)});
+    return run_.mismatches.empty();
+}
+
+bool GateSession::calibrate(std::size_t pairs) {
+    progress_.emplace(2 * pairs);
+    for (std::size_t i = 0; i < 2 * pairs; ++i)
+        if (!block(run_.a, Phase::calibration, i / 2)) return false;
+    const std::vector<std::vector<double>> differences = pairDifferences(run_, Phase::calibration);
+    for (std::size_t i = 0; i < differences.size(); ++i)
+        std::ranges::copy_if(
+            differences[i], std::back_inserter(run_.times[i].calibration),
+            [](double each) { return std::isfinite(each); });
+    return true;
+}
+
+bool GateSession::play() {
+    std::vector<GateMetric> metrics;
+    for (const GateTime& each : run_.times) metrics.push_back({.calibration = each.calibration});
+    Gate gate(std::move(metrics), run_.rule);
+    while (gate.next() != Gate::Step::decided) {
+        const std::size_t decision = gate.nextDecision();
+        progress_.emplace(2 * decision, 2 * gate.pairs());
+        for (auto step = gate.next(); gate.pairs() < decision && step != Gate::Step::decided;
+             step = gate.next()) {
+            const Side& side = step == Gate::Step::run_a ? run_.a : run_.b;
+            if (!block(side, Phase::gate, gate.pairs())) return false;
+            gate.add(costsOf(run_.times, run_.blocks.back().medians));
+            judge(gate);
+        }
+    }
+    return true;
+}
+
+void GateSession::judge(const Gate& gate) {
+    run_.pairs = gate.pairs();
+    run_.changes.clear();
+    if (run_.pairs == 0) return;
+    const std::vector<report::Comparison> comparisons = gate.comparisons();
+    for (std::size_t i = 0; i < run_.times.size(); ++i)
+        run_.changes.push_back(
+            {.case_name = run_.times[i].case_name,
+             .metric = run_.times[i].metric.id,
+             .unit = run_.times[i].metric.unit,
+             .a = medianOfBlocks(run_, 'A', i),
+             .b = medianOfBlocks(run_, 'B', i),
+             .comparison = comparisons[i]});
+}
+
+GateRun runGate(const GateOptions& options) {
+    GateSession session(options);
+    try {
+        if (session.warmUp() &&
+            (options.calibration == 0 || session.calibrate(options.calibration)))
+            session.play();
+    } catch (const engine::Interrupted&) {
+        session.run().end = GateRun::End::interrupted;
+    } catch (const BlockFailed& failure) {
+        session.run().end = GateRun::End::failed;
+        session.run().failure = failure.what();
+        session.run().failure_status = failure.exitStatus();
+    }
+    return std::move(session.run());
+}
+
+}  // namespace benchmarks::gate

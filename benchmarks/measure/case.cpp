@@ -1,0 +1,315 @@
+#include "benchmarks/measure/case.h"
+
+#include <span>
+#include <string>
+
+#include "benchmarks/report/environment.h"
+#include "engine/buffer_image.h"
+#include "engine/error.h"
+#include "hair/groom/build_groom.h"
+#include "hair/groom/files.h"
+#include "hair/groom/mesh/import_mesh.h"
+#include "hair/groom/mesh/surface.h"
+#include "hair/rendering/groom_buffers.h"
+#include "hair/rendering/render_assets.h"
+#include "hair/rendering/strand_offsets.h"
+
+namespace benchmarks::measure {
+namespace {
+
+// ---- Assets -------------------------------------------------------------------------------------
+
+void checkFields(
+    const hair::Settings& settings, const std::optional<hair::groom::Mesh>& grown_on,
+    const std::filesystem::path& scene) {
+    const auto refuse = [&](std::size_t field, const std::string& reason) {
+        const std::string pointer = "/simulation/distance_fields/" + std::to_string(field);
+        throw engine::Error(scene.string(), pointer + ": " + reason);
+    };
+    const auto& fields = settings.simulation.distance_fields;
+    for (std::size_t i = 0; i < fields.size(); ++i)
+        if (fields[i].mesh.empty() && !grown_on)
+            refuse(i, "names no mesh, and neither does /groom/mesh");
+    const auto meshes = loadFieldMeshes(settings, grown_on, scene.parent_path());
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        try {
+            hair::groom::closeMesh(meshes[i]);
+        } catch (const engine::Error& error) {
+            refuse(i, error.what());
+        }
+    }
+}
+
+void checkMeshes(const hair::RenderSettings& render, const std::filesystem::path& scene) {
+    for (std::size_t i = 0; i < render.meshes.size(); ++i) {
+        if (render.meshes[i].file.empty())
+            throw engine::Error(
+                scene.string(), "/render/meshes/" + std::to_string(i) + "/file: is empty");
+    }
+}
+
+}  // namespace
+
+std::optional<hair::groom::Mesh>
+loadMesh(const hair::Settings& settings, const std::filesystem::path& directory) {
+    const hair::GroomSettings& groom = settings.groom;
+    const std::string& file = groom.file.empty() ? groom.grow.mesh : groom.mesh;
+    if (file.empty()) return std::nullopt;
+    return hair::groom::importMesh(
+        directory / file,
+        settings.render.head ? hair::groom::Textures::decoded : hair::groom::Textures::skipped);
+}
+
+std::vector<hair::groom::Mesh> loadFieldMeshes(
+    const hair::Settings& settings, const std::optional<hair::groom::Mesh>& grown_on,
+    const std::filesystem::path& directory) {
+    std::vector<hair::groom::Mesh> meshes;
+    for (const hair::DistanceFieldSettings& field : settings.simulation.distance_fields)
+        meshes.push_back(
+            field.mesh.empty() ? grown_on.value()
+                               : hair::groom::importMesh(directory / field.mesh));
+    return meshes;
+}
+
+std::optional<hair::groom::StrandSet>
+loadOffsets(const hair::Settings& settings, const std::filesystem::path& directory) {
+    if (settings.strands.offsets.empty()) return std::nullopt;
+    return hair::groom::importStrands(directory / settings.strands.offsets);
+}
+
+hair::rendering::RenderAssets loadRenderAssets(
+    const hair::Settings& settings, const hair::groom::Mesh* head,
+    const std::filesystem::path& directory) {
+    hair::rendering::RenderAssets assets{.head = head};
+    for (const hair::MeshSettings& mesh : settings.render.meshes)
+        assets.meshes.push_back(
+            hair::groom::importMesh(directory / mesh.file, hair::groom::Textures::decoded));
+    if (settings.render.overlays.bodies) {
+        const auto grown_on = head ? std::optional(*head) : std::nullopt;
+        assets.field_meshes = loadFieldMeshes(settings, grown_on, directory);
+    }
+    if (!settings.strands.texture.empty())
+        assets.strand_texture = engine::readImage(directory / settings.strands.texture);
+    if (!settings.render.environment.empty())
+        assets.environment = engine::readFloatImage(directory / settings.render.environment);
+    return assets;
+}
+
+void checkAssets(const hair::Settings& settings, const std::filesystem::path& scene) {
+    const std::filesystem::path directory = scene.parent_path();
+    const std::optional<hair::groom::Mesh> mesh = loadMesh(settings, directory);
+    const hair::groom::Groom groom =
+        hair::groom::buildGroom(settings.groom, mesh ? &*mesh : nullptr, directory, settings.seed);
+    checkFields(settings, mesh, scene);
+    checkMeshes(settings.render, scene);
+    loadRenderAssets(settings, mesh ? &*mesh : nullptr, directory);
+    const std::optional<hair::groom::StrandSet> offsets = loadOffsets(settings, directory);
+    try {
+        hair::rendering::checkStrands(settings.strands, groom);
+        if (hair::rendering::hasOffsets(settings.strands))
+            hair::rendering::makeStrandOffsets(
+                settings.strands, groom, offsets ? &*offsets : nullptr, settings.seed);
+    } catch (const engine::Error& error) {
+        throw engine::Error(scene.string(), error.what());
+    }
+}
+
+namespace {
+
+// ---- Case ---------------------------------------------------------------------------------------
+
+template <class Asset>
+const Asset* pointerTo(const std::optional<Asset>& asset) {
+    return asset ? &*asset : nullptr;
+}
+
+}  // namespace
+
+Case::Case(
+    const engine::Device& device, const hair::Settings& settings,
+    const std::filesystem::path& directory)
+    : device_(device), settings_(settings), directory_(directory),
+      mesh_(loadMesh(settings, directory)),
+      groom_(hair::groom::buildGroom(settings.groom, pointerTo(mesh_), directory, settings.seed)),
+      simulation_(
+          device, groom_, settings.simulation, settings.seed,
+          loadFieldMeshes(settings, mesh_, directory)),
+      fixed_step_(double{settings.simulation.time_step}),
+      groom_buffers_(std::make_unique<hair::rendering::GroomBuffers>(groomBuffers(settings))),
+      renderer_(std::make_unique<hair::rendering::Renderer>(
+          device, settings, view(), loadRenderAssets(settings, pointerTo(mesh_), directory))) {}
+
+hair::rendering::GroomBuffers Case::groomBuffers(const hair::Settings& settings) const {
+    return {device_, groom_, settings, pointerTo(loadOffsets(settings, directory_))};
+}
+
+void Case::setDrawing(const hair::Settings& settings) {
+    auto buffers = std::make_unique<hair::rendering::GroomBuffers>(groomBuffers(settings));
+    auto renderer = std::make_unique<hair::rendering::Renderer>(
+        device_, settings, viewOf(*buffers),
+        loadRenderAssets(settings, pointerTo(mesh_), directory_));
+    groom_buffers_ = std::move(buffers);
+    renderer_ = std::move(renderer);
+    settings_ = settings;
+}
+
+void Case::setCamera(const hair::CameraSettings& camera) {
+    settings_.camera = camera;
+    renderer_->setCamera(camera);
+}
+
+void Case::carryOn(const hair::SimulationSettings& settings) {
+    simulation_.carryOn(settings);
+    settings_.simulation = settings;
+}
+
+void Case::simulate(engine::Passes& passes) {
+    using engine::PassKind;
+    const bool blows = settings_.simulation.solver != hair::Solver::none;
+    const std::uint32_t steps =
+        simulation_.moves() ? fixed_step_.stepsFor(double{settings_.run.frame_time}) : 0;
+    for (std::uint32_t i = 0; i < steps; ++i) {
+        if (blows) {
+            passes.pass("wind", engine::PassKind::compute, [&](engine::Commands& commands) {
+                simulation_.recordWind(commands);
+            });
+        }
+        if (simulation_.hasVolume()) {
+            passes.pass("volume", engine::PassKind::compute, [&](engine::Commands& commands) {
+                simulation_.recordVolume(commands);
+            });
+        }
+        if (blows && simulation_.hasPulls()) {
+            passes.pass("pull", engine::PassKind::compute, [&](engine::Commands& commands) {
+                simulation_.recordPulls(commands);
+            });
+        }
+        passes.pass("simulate", engine::PassKind::compute, [&](engine::Commands& commands) {
+            simulation_.recordStep(commands);
+        });
+    }
+}
+
+void Case::frame(engine::Passes& passes) {
+    simulate(passes);
+    draw(passes);
+}
+
+void Case::draw(engine::Passes& passes) { renderer_->record(passes, view()); }
+
+void Case::reset() {
+    simulation_.reset();
+    fixed_step_.reset();
+}
+
+std::vector<std::uint8_t> Case::picture() const {
+    return engine::readOutput(device_, renderer_->target());
+}
+
+std::string Case::pictureHash() const {
+    const std::vector<std::uint8_t> pixels = picture();
+    return report::hashBytes(std::as_bytes(std::span(pixels)));
+}
+
+std::vector<float> Case::radiance() const {
+    if (renderer_->target().hasRadiance())
+        return engine::readRadiance(device_, renderer_->target());
+    const std::vector<std::uint8_t> pixels = picture();
+    std::vector<float> light;
+    light.reserve(pixels.size() / 4 * 3);
+    for (std::size_t i = 0; i < pixels.size(); i += 4) {
+        const glm::dvec3 linear =
+            hair::rendering::toLinear(glm::dvec3(pixels[i], pixels[i + 1], pixels[i + 2]) / 255.0);
+        for (int c = 0; c < 3; ++c) light.push_back(static_cast<float>(linear[c]));
+    }
+    return light;
+}
+
+std::string Case::stateHash() const {
+    const std::vector<glm::vec3> positions = simulation_.readPositions();
+    return report::hashBytes(std::as_bytes(std::span(positions)));
+}
+
+hair::rendering::StrandPoints Case::strands() const {
+    return hair::rendering::evaluateStrandPoints(device_, settings_, view());
+}
+
+hair::rendering::Renderer Case::rendererOf(const hair::Settings& settings) const {
+    return {device_, settings, view(), loadRenderAssets(settings, pointerTo(mesh_), directory_)};
+}
+
+std::vector<std::pair<std::string, std::uint64_t>> Case::counts() const {
+    std::vector<std::pair<std::string, std::uint64_t>> counts{
+        {"guides", groom_.strand_count},
+        {"vertices_per_guide", groom_.vertices_per_strand},
+        {"root_triangles", groom_.root_triangles.size()}};
+    if (settings_.render.hair) {
+        if (settings_.strands.source == hair::StrandSource::groom)
+            counts.emplace_back("groom_strands", groom_.bindings.size());
+        counts.emplace_back("strands", plan().strands());
+        counts.emplace_back("segments", plan().drawnSegments());
+    }
+    return counts;
+}
+
+hair::rendering::StrandView Case::view() const { return viewOf(*groom_buffers_); }
+
+hair::rendering::StrandView Case::viewOf(const hair::rendering::GroomBuffers& buffers) const {
+    hair::rendering::StrandView view = buffers.view();
+    const hair::simulation::GuideView guides = simulation_.guides();
+    view.guides = guides.positions;
+    view.contacts = guides.contacts;
+    view.head = hair::simulation::toMatrix(simulation_.pose());
+    return view;
+}
+
+// ---- Dropped fragments --------------------------------------------------------------------------
+
+std::string droppedFragments(const Case& test_case) {
+    const std::optional<hair::rendering::ListedFragments> listed = test_case.blend().listed();
+    if (!listed || listed->dropped() == 0) return {};
+    return std::to_string(listed->dropped()) + " of " + std::to_string(listed->wanted) +
+           " fragments did not fit /render/list_length: the picture lacks them";
+}
+
+// ---- Simulated strands --------------------------------------------------------------------------
+
+hair::groom::StrandSet drawnStrands(const hair::rendering::StrandPoints& points) {
+    hair::groom::StrandSet set;
+    set.metres_per_unit = 1.0;
+    const hair::rendering::StrandPlan& plan = points.plan;
+    const std::size_t most =
+        plan.strands() * (std::uint64_t{plan.segments} * plan.forced_tessellation + 1);
+    set.ends.reserve(plan.strands());
+    set.points.reserve(most);
+    set.widths.values.reserve(most);
+    for (std::uint32_t triangle = 0; triangle < plan.triangles; ++triangle) {
+        for (std::uint32_t strand = 0; strand < plan.forced_density; ++strand) {
+            for (std::uint32_t segment = 0; segment < plan.segments; ++segment) {
+                // The first point of a segment is the last of the one before.
+                for (std::uint32_t i = segment == 0 ? 0 : 1; i <= plan.forced_tessellation; ++i) {
+                    const auto& point = points.at(triangle, strand, segment, i);
+                    if (point.width < 0.0f) break;
+                    set.points.push_back(point.position);
+                    set.widths.values.push_back(point.width);
+                }
+            }
+            const auto end = static_cast<std::uint32_t>(set.points.size());
+            if (end > (set.ends.empty() ? 0 : set.ends.back())) set.ends.push_back(end);
+        }
+    }
+    return set;
+}
+
+hair::groom::StrandSet
+guideStrands(const hair::groom::Groom& groom, std::vector<glm::vec3> positions) {
+    hair::groom::StrandSet set;
+    set.metres_per_unit = 1.0;
+    set.points = std::move(positions);
+    set.root_triangles = groom.root_triangles;
+    for (std::uint32_t i = 1; i <= groom.strand_count; ++i)
+        set.ends.push_back(i * groom.vertices_per_strand);
+    return set;
+}
+
+}  // namespace benchmarks::measure

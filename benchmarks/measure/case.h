@@ -1,0 +1,147 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "engine/frame_loop.h"
+#include "hair/groom/groom.h"
+#include "hair/groom/mesh/mesh.h"
+#include "hair/rendering/groom_buffers.h"
+#include "hair/rendering/render_assets.h"
+#include "hair/rendering/renderer.h"
+#include "hair/rendering/strand_points.h"
+#include "hair/settings.h"
+#include "hair/simulation/head_motion.h"
+#include "hair/simulation/simulation.h"
+
+// What a case reads from files. `directory` is what file names in the settings are relative to;
+// errors begin with the path of the file.
+namespace benchmarks::measure {
+
+// The mesh that the hair grows on and that is drawn under it. Absent where hair comes from a file
+// and nobody says what it grows on.
+std::optional<hair::groom::Mesh>
+loadMesh(const hair::Settings& settings, const std::filesystem::path& directory);
+
+// Of /simulation/distance_fields, in their order. `grown_on` is what loadMesh gave.
+std::vector<hair::groom::Mesh> loadFieldMeshes(
+    const hair::Settings& settings, const std::optional<hair::groom::Mesh>& grown_on,
+    const std::filesystem::path& directory);
+
+// The strands of /strands/offsets; absent where it is empty.
+std::optional<hair::groom::StrandSet>
+loadOffsets(const hair::Settings& settings, const std::filesystem::path& directory);
+
+// What pictures show beside the hair. `head` is what loadMesh gave, or null.
+hair::rendering::RenderAssets loadRenderAssets(
+    const hair::Settings& settings, const hair::groom::Mesh* head,
+    const std::filesystem::path& directory);
+
+// Reads and checks all that a case of this scene needs, without a device: the errors of a bad asset
+// before anything runs. Where the fault is in how the scene uses a file, the error is
+// "<scene>: <JSON pointer>: <reason>".
+void checkAssets(const hair::Settings& settings, const std::filesystem::path& scene);
+
+// One set of settings, ready to play: the groom, its simulation and its renderer. Owns every GPU
+// object that it uses; leaving its scope frees them.
+class Case {
+public:
+    // `directory` is what file names in the settings are relative to. Throws engine::Error for
+    // files that can't be used, engine::Unsupported for what the device lacks.
+    Case(
+        const engine::Device& device, const hair::Settings& settings,
+        const std::filesystem::path& directory);
+
+    // Records the next frame: simulated time advances by /run/frame_time, then a picture is drawn.
+    void frame(engine::Passes& passes);
+
+    // Records the simulation of the next frame and no picture: what frame() does first.
+    void simulate(engine::Passes& passes);
+
+    // Records a picture of the frame as it is: what frame() does last.
+    void draw(engine::Passes& passes);
+
+    // Draws the same hair otherwise from now on: `settings` may differ from the case's in anything
+    // but /groom, /simulation, /seed and /run. The device must be done with what was submitted. As
+    // the constructor throws; nothing has changed then.
+    void setDrawing(const hair::Settings& settings);
+    // The same for /camera alone, at no cost.
+    void setCamera(const hair::CameraSettings& camera);
+
+    // Goes on from here with the wind, colliders, motion and pulls of `settings`, which are the
+    // same in everything else. What is shown from now on is no frame of these settings until the
+    // case is made anew. The device must be done with what was submitted. As the constructor
+    // throws.
+    void carryOn(const hair::SimulationSettings& settings);
+
+    // Back to the first frame. The device must be done with what was submitted.
+    void reset();
+
+    // The picture of the last frame on the device, in TRANSFER_SRC_OPTIMAL.
+    const engine::Image& output() const { return renderer_->target().output(); }
+    // The picture of the last frame, [row][column] RGBA, top row first.
+    std::vector<std::uint8_t> picture() const;
+    std::string pictureHash() const;
+    // Its linear light, [row][column] RGB: before exposure and tone map, or, where there is no tone
+    // map, what a display shows.
+    std::vector<float> radiance() const;
+    // Of the guides' positions.
+    std::string stateHash() const;
+
+    // The strands of the last frame as they are drawn. Waits for the device.
+    hair::rendering::StrandPoints strands() const;
+    // The guides of the last frame, [guide][vertex], m. Waits for the device.
+    std::vector<glm::vec3> guides() const { return simulation_.readPositions(); }
+    const hair::groom::Groom& groom() const { return groom_; }
+    // Where the head is in the last frame.
+    hair::simulation::RigidMotion head() const { return simulation_.pose(); }
+
+    // For other pictures of the same hair: `settings` may differ from the case's in how it is lit,
+    // seen and drawn, but not in what /groom, /simulation, /seed and /strands make of it.
+    hair::rendering::Renderer rendererOf(const hair::Settings& settings) const;
+    hair::rendering::StrandView view() const;
+
+    const hair::rendering::StrandPlan& plan() const { return renderer_->plan(); }
+    std::optional<hair::rendering::ExpectedCounts> expected() const {
+        return renderer_->expected();
+    }
+    std::vector<std::pair<std::string, std::uint64_t>> counts() const;
+    // What becomes of the strands' fragments, and what of the last frame's.
+    const hair::rendering::StrandBlend& blend() const { return renderer_->blend(); }
+
+private:
+    hair::rendering::GroomBuffers groomBuffers(const hair::Settings& settings) const;
+    hair::rendering::StrandView viewOf(const hair::rendering::GroomBuffers& buffers) const;
+
+    const engine::Device& device_;
+    hair::Settings settings_;
+    std::filesystem::path directory_;
+    std::optional<hair::groom::Mesh> mesh_;
+    hair::groom::Groom groom_;
+    hair::simulation::Simulation simulation_;
+    hair::simulation::FixedStep fixed_step_;
+    std::unique_ptr<hair::rendering::GroomBuffers> groom_buffers_;
+    std::unique_ptr<hair::rendering::Renderer> renderer_;
+};
+
+// What the last picture lacks for want of room in its lists of fragments; empty: nothing. Waits for
+// the device.
+std::string droppedFragments(const Case& test_case);
+
+// What a simulation leaves, as strands for a file; lengths in m.
+
+// Strands as they are drawn: joints of segments once, without what is not drawn.
+hair::groom::StrandSet drawnStrands(const hair::rendering::StrandPoints& points);
+
+// The guides, at `positions`, [guide][vertex].
+hair::groom::StrandSet
+guideStrands(const hair::groom::Groom& groom, std::vector<glm::vec3> positions);
+
+}  // namespace benchmarks::measure

@@ -1,0 +1,261 @@
+#include "benchmarks/measure/clocks.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <dlfcn.h>
+
+namespace benchmarks::measure {
+namespace {
+
+// ---- Pci address --------------------------------------------------------------------------------
+
+bool tellsAddress(VkPhysicalDevice device) {
+    std::uint32_t count = 0;
+    if (vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr) != VK_SUCCESS)
+        return false;
+    std::vector<VkExtensionProperties> extensions(count);
+    if (vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()) !=
+        VK_SUCCESS)
+        return false;
+    return std::ranges::any_of(extensions, [](const VkExtensionProperties& each) {
+        return std::strcmp(each.extensionName, VK_EXT_PCI_BUS_INFO_EXTENSION_NAME) == 0;
+    });
+}
+
+}  // namespace
+
+std::string addressText(const PciAddress& address) {
+    char text[48];
+    std::snprintf(
+        text, sizeof text, "%04x:%02x:%02x.%x", address.domain, address.bus, address.device,
+        address.function);
+    return text;
+}
+
+std::optional<PciAddress> pciAddress(const engine::DeviceInfo& device) {
+    if (!tellsAddress(device.handle)) return std::nullopt;
+    VkPhysicalDevicePCIBusInfoPropertiesEXT place{};
+    place.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PCI_BUS_INFO_PROPERTIES_EXT;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &place;
+    vkGetPhysicalDeviceProperties2(device.handle, &properties);
+    return PciAddress{place.pciDomain, place.pciBus, place.pciDevice, place.pciFunction};
+}
+
+namespace {
+
+// ---- Amdgpu -------------------------------------------------------------------------------------
+
+struct Levels {
+    std::optional<double> present;  // MHz
+    std::optional<double> greatest;  // MHz
+};
+
+// Lines such as "1: 1500Mhz *".
+Levels readLevels(const std::filesystem::path& path) {
+    Levels levels;
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);) {
+        const std::size_t colon = line.find(':');
+        if (colon == std::string::npos) continue;
+        char* rest = nullptr;
+        const char* const start = line.c_str() + colon + 1;
+        const double clock = std::strtod(start, &rest);
+        if (rest == start || clock <= 0.0) continue;
+        if (line.find('*') != std::string::npos) levels.present = clock;
+        levels.greatest = std::max(levels.greatest.value_or(0.0), clock);
+    }
+    return levels;
+}
+
+// One number; absent where the file is not there or holds none.
+std::optional<double> readNumber(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    double number = 0.0;
+    if (!(file >> number)) return std::nullopt;
+    return number;
+}
+
+class Amdgpu : public ClockSource {
+public:
+    explicit Amdgpu(std::filesystem::path device) : device_(std::move(device)) {
+        std::error_code none;
+        // One folder, hwmon0 or with another number.
+        for (const auto& entry : std::filesystem::directory_iterator(device_ / "hwmon", none))
+            monitor_ = entry.path();
+    }
+
+    ClockReading read() override {
+        ClockReading reading;
+        const Levels shaders = readLevels(device_ / "pp_dpm_sclk");
+        reading.clock_mhz = shaders.present;
+        reading.base_clock_mhz = shaders.greatest;
+        reading.memory_clock_mhz = readLevels(device_ / "pp_dpm_mclk").present;
+        if (const auto hertz = readNumber(monitor_ / "freq1_input"); hertz && *hertz > 0.0)
+            reading.clock_mhz = *hertz / 1e6;
+        if (const auto millidegrees = readNumber(monitor_ / "temp1_input"))
+            reading.temperature = *millidegrees / 1e3;
+        std::string level;
+        std::ifstream(device_ / "power_dpm_force_performance_level") >> level;
+        if (!level.empty() && level != "auto") {
+            reading.held = true;
+            reading.base_clock_mhz.reset();
+        }
+        return reading;
+    }
+
+private:
+    std::filesystem::path device_;
+    std::filesystem::path monitor_;
+};
+
+}  // namespace
+
+std::unique_ptr<ClockSource>
+openAmdgpu(const PciAddress& address, const std::filesystem::path& devices) {
+    const std::filesystem::path device = devices / addressText(address);
+    if (!readLevels(device / "pp_dpm_sclk").greatest) return nullptr;
+    return std::make_unique<Amdgpu>(device);
+}
+
+namespace {
+
+// ---- Nvml ---------------------------------------------------------------------------------------
+
+// NVML's C interface as far as it is used here, after the NVML API Reference: results and enums
+// are ints, a device is an opaque pointer.
+constexpr int kSuccess = 0;  // NVML_SUCCESS
+constexpr int kShaderClock = 1;  // NVML_CLOCK_SM
+constexpr int kMemoryClock = 2;  // NVML_CLOCK_MEM
+constexpr int kChipTemperature = 0;  // NVML_TEMPERATURE_GPU
+using Device = void*;
+using Init = int (*)();
+using Shutdown = int (*)();
+using HandleByAddress = int (*)(const char* address, Device* device);
+using Clock = int (*)(Device device, int clock, unsigned int* megahertz);
+using Temperature = int (*)(Device device, int sensor, unsigned int* degrees);
+using Reasons = int (*)(Device device, unsigned long long* bits);
+
+struct Reason {
+    unsigned long long bit;
+    const char* name;
+};
+
+constexpr unsigned long long kIdle = 0x1;
+constexpr unsigned long long kHeld = 0x2;  // the applications clocks setting
+constexpr Reason kReasons[] = {
+    {0x4, "power cap"},
+    {0x8, "hardware slowdown"},
+    {0x10, "sync boost"},
+    {0x20, "software thermal slowdown"},
+    {0x40, "hardware thermal slowdown"},
+    {0x80, "power brake"},
+    {0x100, "display clock setting"},
+};
+
+class Library {
+public:
+    explicit Library(const std::string& name) : handle_(dlopen(name.c_str(), RTLD_NOW)) {}
+    Library(const Library&) = delete;
+    Library& operator=(const Library&) = delete;
+    ~Library() {
+        if (handle_) dlclose(handle_);
+    }
+
+    // Null where the library lacks it.
+    template <class Function>
+    Function find(const char* name) const {
+        return handle_ ? reinterpret_cast<Function>(dlsym(handle_, name)) : nullptr;
+    }
+    template <class Function>
+    Function find(const char* name, const char* older_name) const {
+        const auto found = find<Function>(name);
+        return found ? found : find<Function>(older_name);
+    }
+
+private:
+    void* handle_;
+};
+
+class Nvml : public ClockSource {
+public:
+    Nvml(const PciAddress& address, const std::string& library) : library_(library) {
+        const auto init = library_.find<Init>("nvmlInit_v2");
+        shutdown_ = library_.find<Shutdown>("nvmlShutdown");
+        if (!init || !shutdown_ || init() != kSuccess) return;
+        started_ = true;
+        const auto handle = library_.find<HandleByAddress>("nvmlDeviceGetHandleByPciBusId_v2");
+        if (!handle || handle(addressText(address).c_str(), &device_) != kSuccess) return;
+        found_ = true;
+        clock_ = library_.find<Clock>("nvmlDeviceGetClockInfo");
+        applications_clock_ = library_.find<Clock>("nvmlDeviceGetApplicationsClock");
+        greatest_clock_ = library_.find<Clock>("nvmlDeviceGetMaxClockInfo");
+        temperature_ = library_.find<Temperature>("nvmlDeviceGetTemperature");
+        reasons_ = library_.find<Reasons>(
+            "nvmlDeviceGetCurrentClocksEventReasons", "nvmlDeviceGetCurrentClocksThrottleReasons");
+    }
+    Nvml(const Nvml&) = delete;
+    Nvml& operator=(const Nvml&) = delete;
+    ~Nvml() override {
+        if (started_) shutdown_();
+    }
+
+    bool found() const { return found_; }
+
+    ClockReading read() override {
+        ClockReading reading;
+        unsigned long long bits = 0;
+        if (reasons_ && reasons_(device_, &bits) == kSuccess) {
+            reading.idle = (bits & kIdle) != 0;
+            reading.held = (bits & kHeld) != 0;
+            for (const Reason& reason : kReasons)
+                if (bits & reason.bit) reading.throttle_reasons.emplace_back(reason.name);
+        }
+        reading.clock_mhz = value(clock_, kShaderClock);
+        reading.memory_clock_mhz = value(clock_, kMemoryClock);
+        reading.temperature = value(temperature_, kChipTemperature);
+        if (!reading.held) {
+            reading.base_clock_mhz = value(applications_clock_, kShaderClock);
+            if (!reading.base_clock_mhz)
+                reading.base_clock_mhz = value(greatest_clock_, kShaderClock);
+        }
+        return reading;
+    }
+
+private:
+    // What one of NVML's functions says; absent where there is none, it fails, or it says 0.
+    template <class Function>
+    std::optional<double> value(Function function, int what) const {
+        unsigned int number = 0;
+        if (!function || function(device_, what, &number) != kSuccess || number == 0)
+            return std::nullopt;
+        return number;
+    }
+
+    Library library_;
+    Shutdown shutdown_ = nullptr;
+    bool started_ = false;
+    bool found_ = false;
+    Device device_ = nullptr;
+    Clock clock_ = nullptr;
+    Clock applications_clock_ = nullptr;
+    Clock greatest_clock_ = nullptr;
+    Temperature temperature_ = nullptr;
+    Reasons reasons_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<ClockSource> openNvml(const PciAddress& address, const std::string& library) {
+    auto nvml = std::make_unique<Nvml>(address, library);
+    if (!nvml->found()) return nullptr;
+    return nvml;
+}
+
+}  // namespace benchmarks::measure

@@ -1,0 +1,338 @@
+#include "benchmarks/measure/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "benchmarks/measure/case.h"
+#include "benchmarks/measure/trust.h"
+#include "benchmarks/report/statistics.h"
+#include "benchmarks/report/text.h"
+
+namespace benchmarks::measure {
+namespace {
+
+using engine::FrameRecord;
+using engine::PassTime;
+using engine::ProcessUse;
+
+// ---- Check timestamps ---------------------------------------------------------------------------
+
+constexpr std::uint32_t kPairs = 2;  // between two looks
+constexpr std::uint32_t kMostPairs = 16;
+
+}  // namespace
+
+std::vector<std::string> checkTimestamps(
+    const engine::Device& device, const std::function<void(engine::FrameLoop&)>& play_frame) {
+    engine::FrameLoop stamped(device, engine::Timing::isolated);
+    engine::FrameLoop clocked(device, engine::Timing::wall_clock);
+    std::vector<engine::FrameRecord> stamped_frames;
+    std::vector<engine::FrameRecord> clocked_frames;
+    std::vector<std::string> faults;
+    do {
+        for (std::uint32_t i = 0; i < kPairs; ++i) {
+            play_frame(stamped);
+            play_frame(clocked);
+        }
+        std::ranges::move(stamped.finish(), std::back_inserter(stamped_frames));
+        std::ranges::move(clocked.finish(), std::back_inserter(clocked_frames));
+        faults = timestampFaults(stamped_frames, clocked_frames);
+    } while (!faults.empty() && stamped_frames.size() < kMostPairs);
+    return faults;
+}
+
+namespace {
+
+// ---- Drawn counts -------------------------------------------------------------------------------
+
+std::optional<std::uint64_t>
+expectedOf(const std::optional<hair::rendering::ExpectedCounts>& expected, std::string_view name) {
+    if (!expected) return std::nullopt;
+    if (name == "tessellation_control_patches") return expected->tessellation_control_patches;
+    if (name == "tessellation_evaluation_invocations")
+        return expected->tessellation_evaluation_invocations;
+    if (name == "geometry_invocations") return expected->geometry_invocations;
+    if (name == "geometry_primitives") return expected->geometry_primitives;
+    return std::nullopt;
+}
+
+}  // namespace
+
+void addStatistics(const Play& play, report::CaseResult& result) {
+    if (!play.device.hasPipelineStatistics()) return;
+    engine::FrameLoop loop(play.device, engine::Timing::statistics);
+    Play plain = play;
+    plain.busy = nullptr;
+    playFrame(loop, plain);
+    addStatistics(loop.finish().front(), play.device, play.test_case, result);
+}
+
+void addStatistics(
+    const engine::FrameRecord& frame, const engine::Device& device, const Case& test_case,
+    report::CaseResult& result) {
+    const auto strands =
+        std::ranges::find(frame.statistics, "strands", &engine::PassStatistics::name);
+    if (strands == frame.statistics.end()) return;
+
+    const std::optional<hair::rendering::ExpectedCounts> expected = test_case.expected();
+    for (std::size_t i = 0; i < engine::kStatisticNames.size(); ++i) {
+        report::Statistic statistic{
+            .name = std::string(engine::kStatisticNames[i]),
+            .measured = strands->counts[i],
+            .expected = expectedOf(expected, engine::kStatisticNames[i]),
+            .note = ""};
+        const bool fragments = statistic.name == "fragment_invocations";
+        if (fragments && device.fragmentCountsAreApproximate()) {
+            statistic.note = "approximate: this driver counts too many";
+        }
+        if (statistic.expected && *statistic.expected != statistic.measured) {
+            result.trust.warnings.push_back(
+                statistic.name + ": measured " + std::to_string(statistic.measured) +
+                ", expected " + std::to_string(*statistic.expected));
+        }
+        result.statistics.push_back(std::move(statistic));
+    }
+}
+
+void addTransparency(const Case& test_case, report::CaseResult& result) {
+    const hair::rendering::StrandBlend& blend = test_case.blend();
+    if (blend.bytes() == 0) return;
+    result.metrics.push_back(
+        {report::ofMemory(report::Measured::transparency), {static_cast<double>(blend.bytes())}});
+    const std::optional<hair::rendering::ListedFragments> listed = blend.listed();
+    if (!listed) return;
+    result.counts.emplace_back("fragment_list_capacity", listed->capacity);
+    result.counts.emplace_back("fragments_wanted", listed->wanted);
+    result.counts.emplace_back("fragments_dropped", listed->dropped());
+    if (std::string text = droppedFragments(test_case); !text.empty())
+        result.trust.warnings.push_back(std::move(text));
+}
+
+namespace {
+
+// ---- Isolated metrics ---------------------------------------------------------------------------
+
+// CPU time and instructions of what `metric_of` makes metrics of. A count that some of the frames
+// lack is left out: samples of different frames would be none of one quantity.
+template <class MakeId>
+void addUse(
+    MakeId metric_of, const std::vector<engine::ProcessUse>& uses, report::Mode mode,
+    report::CaseResult& result) {
+    std::vector<double> times;
+    std::vector<double> instructions;
+    for (const engine::ProcessUse& use : uses) {
+        times.push_back(use.cpu);
+        if (use.instructions) instructions.push_back(*use.instructions);
+    }
+    const bool counted = instructions.size() == uses.size();
+    result.metrics.push_back({metric_of(report::Measured::cpu_time), std::move(times), mode});
+    if (counted)
+        result.metrics.push_back(
+            {metric_of(report::Measured::instructions), std::move(instructions), mode});
+}
+
+}  // namespace
+
+void addIsolatedMetrics(std::span<const engine::FrameRecord> frames, report::CaseResult& result) {
+    std::vector<double> walls;
+    for (const engine::FrameRecord& frame : frames) walls.push_back(frame.wall);
+    result.metrics.push_back(
+        {report::ofFrame(report::Measured::isolated_time), std::move(walls),
+         report::Mode::isolated});
+}
+
+void addPassTimes(
+    std::span<const engine::FrameRecord> frames, report::Mode mode, report::CaseResult& result) {
+    for (const std::string& pass : passNames(frames))
+        result.metrics.push_back(
+            {report::ofPass(pass, report::Measured::time), passTimes(frames, pass), mode});
+}
+
+void addPassSum(std::span<const engine::FrameRecord> isolated, report::CaseResult& result) {
+    const double ratio = passSumOverWall(isolated);
+    result.trust.pass_sum_over_wall = ratio;
+    if (std::abs(ratio - 1.0) > kTrustTolerance) {
+        result.trust.warnings.push_back(
+            "the passes add up to " + report::shortNumber(ratio) + " of the frame's wall clock");
+    }
+}
+
+void addFrameUse(std::span<const engine::FrameRecord> isolated, report::CaseResult& result) {
+    std::vector<engine::ProcessUse> uses;
+    for (const engine::FrameRecord& frame : isolated) uses.push_back(frame.use);
+    addUse(report::ofFrame, uses, report::Mode::isolated, result);
+}
+
+void addPassUse(std::span<const engine::FrameRecord> wall_clock, report::CaseResult& result) {
+    for (const std::string& name : passNames(wall_clock)) {
+        std::vector<engine::ProcessUse> uses;
+        for (const engine::FrameRecord& frame : wall_clock) {
+            const auto found = std::ranges::find(frame.passes, name, &engine::PassTime::name);
+            if (found != frame.passes.end()) uses.push_back(found->use);
+        }
+        addUse(
+            [&](report::Measured what) { return report::ofPass(name, what); }, uses,
+            report::Mode::wall_clock, result);
+    }
+}
+
+namespace {
+
+// ---- Overlapped metrics -------------------------------------------------------------------------
+
+template <class Get>
+std::vector<double> collect(std::span<const engine::FrameRecord> frames, Get get) {
+    std::vector<double> values;
+    for (const engine::FrameRecord& frame : frames) values.push_back(get(frame));
+    return values;
+}
+
+// By the three definitions.
+struct LowMetrics {
+    report::Measured percentile;
+    report::Measured mean;
+    report::Measured integral;
+};
+constexpr LowMetrics kLow1{
+    report::Measured::low_1_percentile, report::Measured::low_1_mean,
+    report::Measured::low_1_integral};
+constexpr LowMetrics kLow01{
+    report::Measured::low_0_1_percentile, report::Measured::low_0_1_mean,
+    report::Measured::low_0_1_integral};
+
+void addLows(
+    const std::vector<double>& intervals, double fraction, const LowMetrics& lows,
+    report::CaseResult& result) {
+    if (intervals.size() < fewestForLow(fraction)) return;
+    const report::LowRates low = report::lowRates(intervals, fraction);
+    const auto add = [&](report::Measured what, double rate) {
+        result.metrics.push_back({report::ofFrame(what), {rate}, report::Mode::overlapped});
+    };
+    add(lows.percentile, low.percentile);
+    add(lows.mean, low.mean);
+    add(lows.integral, low.integral);
+}
+
+}  // namespace
+
+std::size_t fewestForLow(double fraction) {
+    return static_cast<std::size_t>(std::lround(1.0 / fraction));
+}
+
+void addOverlappedMetrics(std::span<const engine::FrameRecord> frames, report::CaseResult& result) {
+    const std::vector<double> intervals = collect(frames, [](auto& f) { return f.interval; });
+    result.metrics.push_back(
+        {report::ofFrame(report::Measured::rate),
+         {report::framesPerSecond(intervals)},
+         report::Mode::overlapped});
+    addLows(intervals, 0.01, kLow1, result);
+    addLows(intervals, 0.001, kLow01, result);
+    const auto addTimes = [&](report::MetricId id, auto get) {
+        result.metrics.push_back({std::move(id), collect(frames, get), report::Mode::overlapped});
+    };
+    addTimes(report::ofFrame(report::Measured::time), [](auto& f) { return f.interval; });
+    addTimes(report::ofFrame(report::Measured::device_time), [](auto& f) { return f.device; });
+    addTimes(report::ofCpu(report::Measured::record_time), [](auto& f) { return f.record; });
+    addTimes(report::ofCpu(report::Measured::submit_time), [](auto& f) { return f.submit; });
+    addTimes(report::ofCpu(report::Measured::wait_time), [](auto& f) { return f.wait; });
+    // A frame whose work began before the last one's was done takes the device longer than its
+    // interval, and then the device waited for nobody.
+    addTimes(report::ofGpu(report::Measured::wait_time), [](auto& f) {
+        return std::max(f.interval - f.device, 0.0);
+    });
+}
+
+namespace {
+
+// ---- Memory metrics -----------------------------------------------------------------------------
+
+struct Row {
+    std::string_view beginning;  // of the names
+    std::string_view purpose;
+};
+
+// The first row that fits counts. A new buffer needs a row only if no family of names fits.
+constexpr Row kPurposes[] = {
+    {"guide normals", "groom"},
+    {"guide widths", "groom"},
+    {"root ", "groom"},
+    {"bound strands", "groom"},
+    {"strand offsets", "groom"},
+    {"guide ", "simulation"},
+    {"settled state", "simulation"},
+    {"shape ", "simulation"},
+    {"ftl ", "simulation"},
+    {"rod ", "simulation"},
+    {"volume ", "simulation"},
+    {"capsules", "simulation"},
+    {"distance field", "simulation"},
+    {"picture parameters", "shading"},
+    {"lights' pictures", "shadows"},
+    {"lights", "shading"},
+    {"hair optics", "shading"},
+    {"fiber averages", "shading"},
+    {"environment", "shading"},
+    {"shadow ", "shadows"},
+    {"depth of ", "shadows"},
+    {"opacity of hair", "shadows"},
+    {"fragment ", "transparency"},
+    {"weighted sum", "transparency"},
+    {"revealed part", "transparency"},
+    {"blend range", "transparency"},
+    {"mesh texture coordinates", "meshes"},
+    {"mesh texture", "textures"},
+    {"no texture", "textures"},
+    {"strand texture", "textures"},
+    {"mesh ", "meshes"},
+    {"body lines", "meshes"},
+    {"color", "targets"},
+    {"depth", "targets"},
+    {"output", "targets"},
+    {"radiance", "targets"},
+    {"upload staging", "transfers"},
+    {"download staging", "transfers"},
+    {"picture", "transfers"},
+    {"strand points", "measuring"},
+    {"stage watch", "measuring"},
+    {"busy work", "measuring"},
+    {"window", "window"},
+    {"shown picture", "window"},
+    {"difference ", "window"},
+};
+
+report::Metric bytes(report::Measured what, std::string part, std::uint64_t count) {
+    return {report::ofMemory(what, std::move(part)), {static_cast<double>(count)}};
+}
+
+}  // namespace
+
+std::string_view memoryPurpose(std::string_view name) {
+    for (const Row& row : kPurposes)
+        if (name.starts_with(row.beginning)) return row.purpose;
+    return "other";
+}
+
+std::vector<report::Metric> memoryMetrics(const engine::MemoryLedger& ledger) {
+    std::map<std::uint32_t, std::uint64_t> heaps;
+    std::map<std::string_view, std::uint64_t> purposes;
+    for (const auto& [entry, size] : ledger.bytes()) {
+        heaps[entry.heap] += size;
+        purposes[memoryPurpose(entry.name)] += size;
+    }
+    std::vector<report::Metric> metrics;
+    for (const auto& [heap, size] : heaps)
+        metrics.push_back(bytes(report::Measured::heap, std::to_string(heap), size));
+    for (const auto& [purpose, size] : purposes)
+        metrics.push_back(bytes(report::Measured::purpose, std::string(purpose), size));
+    return metrics;
+}
+
+}  // namespace benchmarks::measure

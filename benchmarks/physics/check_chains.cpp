@@ -1,0 +1,290 @@
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+#include "benchmarks/physics/checks.h"
+#include "benchmarks/physics/experiment.h"
+#include "benchmarks/physics/theory.h"
+#include "benchmarks/report/statistics.h"
+
+namespace benchmarks::physics {
+namespace {
+
+// ---- Check catenary -----------------------------------------------------------------------------
+
+constexpr std::uint32_t kCatenarySegments = 32;
+constexpr double kCatenaryLength = 0.2;  // m
+constexpr double kCatenarySpan = 0.1;  // m
+// Of 32 links instead of a chain: l^2 / (8 a L) at the lowest point, 0.04 %; the rest is for the
+// solver's stretch, and a rod's stiffness at its clamp.
+constexpr double kCatenaryTolerance = 0.01;
+
+// Two straight halves from pin to pin.
+hair::groom::Groom vee() {
+    const double depth =
+        std::sqrt(kCatenaryLength * kCatenaryLength - kCatenarySpan * kCatenarySpan) / 2.0;
+    hair::groom::Groom groom = straightStrand(kCatenarySegments, kCatenaryLength, {0.0, -1.0, 0.0});
+    for (std::uint32_t i = 0; i <= kCatenarySegments; ++i) {
+        const double s = 2.0 * i / kCatenarySegments;
+        groom.points[i] = {kCatenarySpan / 2.0 * s, -depth * (s < 1.0 ? s : 2.0 - s), 0.0};
+    }
+    return groom;
+}
+
+}  // namespace
+
+void checkCatenary(const engine::Device& device, hair::Solver solver, Findings& findings) {
+    if (const auto why = lack(solver, Need::pinned_tip)) return findings.skip(*why);
+    hair::SimulationSettings settings = chain(solver, kCatenaryLength);
+    settings.time_step = 1.0f / 480.0f;
+    settings.substeps = 1;
+    settings.friction = frictionOf(std::sqrt(kGravity / kCatenaryLength) * 2.0);
+    Experiment experiment(device, vee(), settings);
+    experiment.pin(kCatenarySegments);
+    const bool still = experiment.settle(1e-5 * kCatenaryLength, 10.0);
+
+    const Catenary catenary(kCatenarySpan, kCatenaryLength);
+    std::vector<glm::dvec3> expected;
+    for (std::uint32_t i = 0; i <= kCatenarySegments; ++i)
+        expected.emplace_back(catenary.at(kCatenaryLength * i / kCatenarySegments), 0.0);
+    Outcome& outcome = findings.deviation(
+        {"deviation / length",
+         "1",
+         {{"segments", double{kCatenarySegments}, "count"},
+          {"span / length", kCatenarySpan / kCatenaryLength, "1"}}},
+        greatestDistance(experiment.positions(), expected) / kCatenaryLength, kCatenaryTolerance);
+    if (!still && outcome.reason.empty()) outcome.reason = "still moving after 10 s";
+}
+
+namespace {
+
+// ---- Check free fall ----------------------------------------------------------------------------
+
+// By the equivalence principle nothing acts on hair that falls together with its head. The head
+// goes along a true parabola, with a keyframe at every step: in between, the harmonic mean of
+// slopes v and v + dv is off by dv^2 / 4 v, which moves substeps by less than 1e-6 m at the speeds
+// below.
+
+constexpr double kFallLength = 0.15;  // m
+constexpr double kFallInterval = 1.0 / 240.0;  // of a step, s
+constexpr int kKeyframes = 145;  // to 0.6 s
+constexpr double kFallStart = 0.1;  // s
+constexpr double kFallEnd = 0.5;  // s
+// Rounding of positions in single precision, 1.2e-7 m at 1 m, taken for motion in each of 96 steps:
+// at most 96^2 / 2 times that, which is 0.4 % of the length, and a tenth of it by chance.
+constexpr double kFallTolerance = 1e-3;
+
+glm::dvec3 fallen(double time) {
+    return time * glm::dvec3(0.5, -0.5, 0.3) + 0.5 * time * time * glm::dvec3(0.0, -kGravity, 0.0);
+}
+
+std::vector<glm::dvec3> moved(std::vector<glm::dvec3> points, const glm::dvec3& by) {
+    for (glm::dvec3& point : points) point += by;
+    return points;
+}
+
+}  // namespace
+
+void checkFreeFall(const engine::Device& device, hair::Solver solver, Findings& findings) {
+    hair::SimulationSettings settings = defaultHair(solver);
+    settings.friction = 0.0f;  // against the air, which does not fall
+    settings.time_step = static_cast<float>(kFallInterval);
+    for (int i = 0; i < kKeyframes; ++i)
+        settings.motion.keyframes.push_back(
+            {.time = static_cast<float>(i * kFallInterval),
+             .rotation = {},
+             .translation = fallen(i * kFallInterval)});
+    Experiment experiment(device, curvedStrand(15, kFallLength, 8.0), settings);
+    const std::vector<glm::dvec3> rest = experiment.positions();
+
+    experiment.advance(experiment.stepsIn(kFallStart));
+    const double h = experiment.substep();
+    const glm::dvec3 velocity = (fallen(kFallStart) - fallen(kFallStart - h)) / h;
+    experiment.launch(
+        moved(rest, fallen(kFallStart)), std::vector<glm::dvec3>(rest.size(), velocity));
+
+    double farthest = 0.0;
+    for (int i = 1; i <= 8; ++i) {
+        experiment.advance(experiment.stepsIn((kFallEnd - kFallStart) / 8.0));
+        const double time = kFallStart + i * (kFallEnd - kFallStart) / 8.0;
+        farthest =
+            worst(farthest, greatestDistance(experiment.positions(), moved(rest, fallen(time))));
+    }
+    findings.deviation(
+        {"deformation / length", "1", {{"time_step", experiment.timeStep(), "s"}}},
+        farthest / kFallLength, kFallTolerance);
+}
+
+namespace {
+
+// ---- Check hanging chain ------------------------------------------------------------------------
+
+constexpr std::uint32_t kHangingSegments = 64;
+constexpr double kHangingLength = 0.3;  // m
+constexpr float kHangingTimeStep = 0.001f;  // s
+constexpr glm::dvec3 kHangingDown{0.0, -1.0, 0.0};
+constexpr glm::dvec3 kHangingSideways{1.0, 0.0, 0.0};
+
+// 64 equal masses swing 0.4 % slower than a chain does; a rod of Gamma = 10^6 swings 0.1 % faster.
+constexpr double kHangingTolerance = 0.01;
+
+}  // namespace
+
+void checkHangingChain(const engine::Device& device, hair::Solver solver, Findings& findings) {
+    hair::SimulationSettings settings = chain(solver, kHangingLength);
+    settings.time_step = kHangingTimeStep;
+    settings.substeps = 1;
+    const double segment = kHangingLength / kHangingSegments;
+    std::vector<double> shape = pendulumModes(kHangingSegments, segment, kGravity).front().shape;
+    shape.insert(shape.begin(), 0.0);  // the root
+    const double period = hangingChainPeriod(kHangingLength, kGravity);
+
+    Experiment experiment(
+        device, straightStrand(kHangingSegments, kHangingLength, kHangingDown), settings);
+    const auto frequency = measureFrequency(
+        experiment, {.shape = shape,
+                     .segment = segment,
+                     .direction = kHangingDown,
+                     .sideways = kHangingSideways,
+                     .expected_frequency = 1.0 / period});
+    std::optional<double> tolerance;
+    if (solver != hair::Solver::ftl) tolerance = kHangingTolerance;
+    Outcome& outcome = findings.compare(
+        {"first period",
+         "s",
+         {{"segments", double{kHangingSegments}, "count"}, {"length", kHangingLength, "m"}}},
+        frequency ? 1.0 / *frequency : std::numeric_limits<double>::quiet_NaN(), period, tolerance);
+    if (!frequency) outcome.reason = "it does not swing";
+}
+
+namespace {
+
+// ---- Check length -------------------------------------------------------------------------------
+
+constexpr double kStretchTolerance = 0.01;  // of the worst segment, promised of `rod`
+
+}  // namespace
+
+void checkLength(const engine::Device& device, hair::Solver solver, Findings& findings) {
+    const hair::SimulationSettings settings = livelyHair(solver);
+    const hair::groom::Groom groom = livelyGroom();
+    const double rest = kLivelyLength / groom.segmentsPerStrand();
+    Experiment experiment(device, groom, settings);
+
+    std::vector<double> errors;  // of every segment after every step
+    double greatest = 0.0;
+    double squares = 0.0;
+    for (std::uint32_t step = 0; step < experiment.stepsIn(2.0); ++step) {
+        experiment.advance(1);
+        const std::vector<glm::dvec3> points = experiment.positions();
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (i % groom.vertices_per_strand == 0) continue;
+            errors.push_back(std::abs(glm::distance(points[i], points[i - 1]) / rest - 1.0));
+            greatest = worst(greatest, errors.back());
+            squares += errors.back() * errors.back();
+        }
+    }
+    const std::vector<Parameter> parameters{{"time_step", experiment.timeStep(), "s"}};
+    std::optional<double> tolerance;
+    if (solver == hair::Solver::rod) tolerance = kStretchTolerance;
+    findings.deviation(
+        {"greatest error of a segment's length", "1", parameters}, greatest, tolerance);
+    findings.deviation(
+        {"99th percentile", "1", parameters},
+        std::isnan(greatest) ? greatest : report::quantile(errors, 0.99));
+    findings.deviation(
+        {"root mean square", "1", parameters},
+        std::sqrt(squares / static_cast<double>(errors.size())));
+}
+
+namespace {
+
+// ---- Check pendulum -----------------------------------------------------------------------------
+
+constexpr double kPendulumLink = 0.05;  // m
+// w h. Projection along the predicted links lowers the frequency by (w h)^2 / 3, 8e-4. A much
+// smaller step, or many iterations, would measure single precision instead: of a correction along a
+// hanging link, the part down the link is lost when it is below the rounding of the position, while
+// the part across still counts, in every iteration.
+constexpr double kPhasePerStep = 0.05;
+constexpr std::uint32_t kPendulumIterations = 32;  // five links take about ten
+// The above, the amplitude (6e-5), and rounding for as much again.
+constexpr double kPendulumTolerance = 0.005;
+
+constexpr glm::dvec3 kPendulumDown{0.0, -1.0, 0.0};
+constexpr glm::dvec3 kPendulumSideways{1.0, 0.0, 0.0};
+
+}  // namespace
+
+void checkPendulum(
+    const engine::Device& device, hair::Solver solver, std::span<const unsigned> masses,
+    Findings& findings) {
+    if (const auto why = lack(solver, Need::equal_masses)) return findings.skip(*why);
+    for (const unsigned count : masses) {
+        hair::SimulationSettings settings = chain(solver, count * kPendulumLink);
+        settings.length.iterations = kPendulumIterations;
+        settings.substeps = 1;
+        unsigned number = 0;
+        for (PendulumMode& mode : pendulumModes(count, kPendulumLink, kGravity)) {
+            settings.time_step = static_cast<float>(kPhasePerStep / (2.0 * kPi * mode.frequency));
+            mode.shape.insert(mode.shape.begin(), 0.0);  // the root
+            Experiment experiment(
+                device, straightStrand(count, count * kPendulumLink, kPendulumDown), settings);
+            const auto frequency = measureFrequency(
+                experiment, {.shape = mode.shape,
+                             .segment = kPendulumLink,
+                             .direction = kPendulumDown,
+                             .sideways = kPendulumSideways,
+                             .expected_frequency = mode.frequency});
+            std::optional<double> tolerance;
+            if (solver == hair::Solver::shape) tolerance = kPendulumTolerance;
+            Outcome& outcome = findings.compare(
+                {"frequency",
+                 "Hz",
+                 {{"masses", static_cast<double>(count), "count"},
+                  {"mode", static_cast<double>(++number), "count"}}},
+                frequency.value_or(std::numeric_limits<double>::quiet_NaN()), mode.frequency,
+                tolerance);
+            if (!frequency) outcome.reason = "it does not swing";
+        }
+    }
+}
+
+namespace {
+
+// ---- Check projectile ---------------------------------------------------------------------------
+
+// n steps of Verlet in single precision at up to 4 m add up to about 1.5e-4 m of rounding, or 3e-5
+// of the drop (a random walk of velocity, 0.3 ulp a step); three times that.
+constexpr double kProjectileTolerance = 1e-4;
+
+}  // namespace
+
+void checkProjectile(const engine::Device& device, hair::Solver solver, Findings& findings) {
+    if (const auto why = lack(solver, Need::free_vertices)) return findings.skip(*why);
+
+    hair::SimulationSettings settings = freeHair(solver);
+    settings.time_step = 1.0f / 240.0f;
+    settings.local.iterations = 0;
+    settings.length.iterations = 0;
+    Experiment experiment(device, straightStrand(1, 0.15, {0.0, -1.0, 0.0}), settings);
+
+    const glm::dvec3 velocity{1.0, 3.0, -2.0};
+    const glm::dvec3 start = experiment.positions()[1];
+    experiment.launch(experiment.positions(), std::vector<glm::dvec3>{glm::dvec3(0.0), velocity});
+    const std::uint32_t steps = experiment.stepsIn(1.0);
+    const std::uint32_t part = 24;
+    double farthest = 0.0;
+    for (std::uint32_t n = part; n <= steps; n += part) {
+        experiment.advance(part);
+        const glm::dvec3 flown = verletFlight(n, velocity, settings.gravity, experiment.substep());
+        farthest = worst(farthest, glm::distance(experiment.positions()[1], start + flown));
+    }
+    const double drop = 0.5 * kGravity;  // in 1 s
+    findings.deviation(
+        {"deviation from the parabola / drop", "1", {{"time_step", experiment.timeStep(), "s"}}},
+        farthest / drop, kProjectileTolerance);
+}
+
+}  // namespace benchmarks::physics

@@ -1,0 +1,465 @@
+#include "benchmarks/reference/mitsuba.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <numbers>
+#include <ostream>
+#include <string>
+#include <system_error>
+#include <type_traits>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "benchmarks/measure/case.h"
+#include "benchmarks/measure/progress.h"
+#include "benchmarks/scene/json.h"
+#include "engine/error.h"
+#include "engine/files.h"
+#include "engine/frame_loop.h"
+#include "engine/pictures.h"
+#include "engine/process.h"
+#include "hair/groom/mesh/mesh.h"
+#include "hair/rendering/render_assets.h"
+#include "hair/rendering/scene_meshes.h"
+#include "hair/settings.h"
+#include "hair/simulation/head_motion.h"
+
+namespace benchmarks::reference {
+
+// ---- Curve control points -----------------------------------------------------------------------
+
+// The spline passes (c[i-1] + 4 c[i] + c[i+1]) / 6 at knot i. Natural ends, c[-1] - 2 c[0] + c[1]
+// = 0, make c[0] the first point and likewise the last, which leaves a tridiagonal system for
+// those between. Thomas's algorithm: it is diagonally dominant, so no pivots are needed.
+std::vector<glm::dvec4> interpolatingControlPoints(std::span<const glm::dvec4> points) {
+    assert(points.size() >= 2);
+    const std::size_t count = points.size();
+    std::vector<glm::dvec4> control(count + 2);
+    const std::span<glm::dvec4> c = std::span(control).subspan(1, count);
+    std::vector<double> above(count, 0.0);  // the diagonal is 1 after elimination
+    c[0] = points[0];
+    for (std::size_t i = 1; i + 1 < count; ++i) {
+        const double pivot = 4.0 - above[i - 1];
+        above[i] = 1.0 / pivot;
+        c[i] = (6.0 * points[i] - c[i - 1]) / pivot;
+    }
+    c[count - 1] = points[count - 1];
+    for (std::size_t i = count - 1; i-- > 1;) c[i] -= above[i] * c[i + 1];
+    control.front() = 2.0 * c[0] - c[1];
+    control.back() = 2.0 * c[count - 1] - c[count - 2];
+    return control;
+}
+
+namespace {
+
+// ---- Mitsuba optics -----------------------------------------------------------------------------
+
+// Squared distance at which the light has its colour, m^2.
+double referenceSquared(const hair::LightSettings& light, const glm::dvec3& target) {
+    const double reference{light.reference_distance};
+    if (reference > 0.0) return reference * reference;
+    const glm::dvec3 offset = glm::dvec3(light.position) - target;
+    return glm::dot(offset, offset);
+}
+
+}  // namespace
+
+glm::dvec3 lightColor(const hair::RenderSettings& render, const hair::LightSettings& light) {
+    const double strength{light.strength};
+    const glm::dvec3 color(light.color);
+    // The strength is a factor of working colours.
+    return hair::rendering::hasLinearLight(render) ? strength * hair::rendering::toLinear(color)
+                                                   : hair::rendering::toLinear(strength * color);
+}
+
+// A matt white surface reflects irradiance / pi; irradiance is intensity / distance^2.
+glm::dvec3 lightIntensity(
+    const hair::LightSettings& light, const glm::dvec3& color, const glm::dvec3& target) {
+    return std::numbers::pi * referenceSquared(light, target) * color;
+}
+
+// The irradiance of a surface that faces a sphere is pi radiance (radius / distance)^2.
+glm::dvec3
+lightRadiance(const hair::LightSettings& light, const glm::dvec3& color, const glm::dvec3& target) {
+    const double radius{light.radius};
+    return referenceSquared(light, target) / (radius * radius) * color;
+}
+
+namespace {
+
+// ---- Mitsuba xml --------------------------------------------------------------------------------
+
+// Elements of a Mitsuba scene, each with its line's end.
+
+template <class Value>
+std::string element(const char* type, const char* name, const Value& value) {
+    std::string text;
+    if constexpr (std::is_arithmetic_v<Value>) {
+        text = scene::decimalText(value);
+    } else {
+        text = value;
+    }
+    return std::string("<") + type + " name=\"" + name + "\" value=\"" + text + "\"/>\n";
+}
+
+template <class Vector>
+std::string rgb(const char* name, const Vector& linear) {
+    return element("rgb", name, scene::decimalTexts(linear, ", "));
+}
+
+// ---- Mitsuba lights -----------------------------------------------------------------------------
+
+void writePoint(std::ostream& out, const glm::vec3& position, const glm::dvec3& intensity) {
+    out << "<emitter type=\"point\">\n    <point name=\"position\" value=\""
+        << scene::decimalTexts(position, ", ") << "\"/>\n    " << rgb("intensity", intensity)
+        << "</emitter>\n";
+}
+
+void writeSphere(std::ostream& out, const hair::LightSettings& light, const glm::dvec3& radiance) {
+    out << "<shape type=\"sphere\">\n    <point name=\"center\" value=\""
+        << scene::decimalTexts(light.position, ", ") << "\"/>\n    "
+        << element("float", "radius", light.radius) << "    <emitter type=\"area\">\n        "
+        << rgb("radiance", radiance) << "    </emitter>\n</shape>\n";
+}
+
+// Irradiance is pi times the colour.
+void writeDirectional(std::ostream& out, const glm::vec3& direction, const glm::dvec3& irradiance) {
+    out << "<emitter type=\"directional\">\n    "
+        << element("vector", "direction", scene::decimalTexts(direction, ", ")) << "    "
+        << rgb("irradiance", irradiance) << "</emitter>\n";
+}
+
+void writeLight(
+    std::ostream& out, const hair::Settings& settings, const hair::LightSettings& light) {
+    const glm::dvec3 color = lightColor(settings.render, light);
+    const glm::dvec3 target(settings.camera.target);
+    if (light.type == hair::LightType::directional) {
+        writeDirectional(out, light.direction, std::numbers::pi * color);
+    } else if (light.type == hair::LightType::sphere && light.radius > 0.0f) {
+        writeSphere(out, light, lightRadiance(light, color, target));
+    } else {
+        writePoint(out, light.position, lightIntensity(light, color, target));
+    }
+}
+
+// Mitsuba's pictures of surroundings lie as ours do: +y up, their middle at +z, their right at -x.
+void writeEnvironment(
+    std::ostream& out, const hair::RenderSettings& render, const std::string& file) {
+    out << "<emitter type=\"envmap\">\n    " << element("string", "filename", file) << "    "
+        << element("float", "scale", render.environment_strength)
+        << "    <transform name=\"to_world\">\n        <rotate y=\"1\" angle=\""
+        << scene::decimalText(render.environment_turn) << "\"/>\n    </transform>\n</emitter>\n";
+}
+
+// The emitters of a Mitsuba scene: the settings' lights, and their background or, where there is
+// one, their environment, whose picture is `environment_file`.
+void writeMitsubaLights(
+    std::ostream& out, const hair::Settings& settings, const std::string& environment_file) {
+    if (!environment_file.empty()) {
+        writeEnvironment(out, settings.render, environment_file);
+    } else if (settings.render.background != glm::vec3(0.0f)) {
+        out << "<emitter type=\"constant\">\n    "
+            << rgb("radiance", hair::rendering::toLinear(settings.render.background))
+            << "</emitter>\n";
+    }
+    for (const hair::LightSettings& light : settings.shading.lights)
+        writeLight(out, settings, light);
+}
+
+// ---- Mitsuba scene ------------------------------------------------------------------------------
+
+// Fair hair is seen through many fibres: paths are long, and end by chance only late.
+constexpr const char* kBegin = R"(<?xml version="1.0" encoding="utf-8"?>
+<scene version="3.0.0">
+<default name="spp" value="64"/>
+<integrator type="path">
+    <integer name="max_depth" value="64"/>
+    <integer name="rr_depth" value="16"/>
+</integrator>
+)";
+
+void writeCamera(std::ostream& out, const hair::Settings& settings) {
+    const hair::CameraSettings& camera = settings.camera;
+    out << "<sensor type=\"perspective\">\n"
+        << "    <string name=\"fov_axis\" value=\"y\"/>\n"
+        << "    " << element("float", "fov", camera.field_of_view)  // deg
+        << "    " << element("float", "near_clip", camera.near_plane) << "    "
+        << element("float", "far_clip", camera.far_plane) << "    <transform name=\"to_world\">\n"
+        << "        <lookat origin=\"" << scene::decimalTexts(camera.position, ", ")
+        << "\" target=\"" << scene::decimalTexts(camera.target, ", ") << "\" up=\""
+        << scene::decimalTexts(camera.up, ", ") << "\"/>\n    </transform>\n"
+        << "    <sampler type=\"independent\">\n"
+        << "        <integer name=\"sample_count\" value=\"$spp\"/>\n    </sampler>\n"
+        << "    <film type=\"hdrfilm\">\n"
+        << "        <integer name=\"width\" value=\"" << settings.render.width << "\"/>\n"
+        << "        <integer name=\"height\" value=\"" << settings.render.height << "\"/>\n"
+        << "        <string name=\"pixel_format\" value=\"rgb\"/>\n"
+        << "        <string name=\"component_format\" value=\"float32\"/>\n"
+        << "        <rfilter type=\"box\"/>\n    </film>\n</sensor>\n";
+}
+
+void writeHair(std::ostream& out, const hair::ShadingSettings& shading, const std::string& file) {
+    const glm::dvec3 absorbed = hair::rendering::absorption(shading);
+    // Mitsuba takes colours up to 1 here, and a factor.
+    const double scale = std::max({absorbed.x, absorbed.y, absorbed.z, 1.0});
+    out << "<shape type=\"bsplinecurve\">\n    " << element("string", "filename", file)
+        << "    <bsdf type=\"hair\">\n        " << rgb("sigma_a", absorbed / scale) << "        "
+        << element("float", "scale", scale) << "        "
+        << element("float", "longitudinal_roughness", shading.longitudinal_roughness) << "        "
+        << element("float", "azimuthal_roughness", shading.azimuthal_roughness)
+        << "        "
+        // Mitsuba's scales open towards the root of a curve that begins there; hair's do not.
+        << element("float", "scale_tilt", -shading.cuticle_tilt) << "        "
+        << element("float", "int_ior", shading.refractive_index) << "        "
+        << element("float", "ext_ior", 1.0) << "    </bsdf>\n</shape>\n";
+}
+
+// A picture's rows go down as its v does, in Mitsuba as in glTF.
+void writeColor(std::ostream& out, const char* name, const MitsubaParts::Mesh& mesh) {
+    if (mesh.texture.empty()) {
+        out << rgb(name, hair::rendering::toLinear(mesh.color));
+        return;
+    }
+    out << "<texture type=\"bitmap\" name=\"" << name << "\">\n            "
+        << element("string", "filename", mesh.texture) << "            "
+        << element("string", "wrap_mode", mesh.wrap) << "        </texture>\n";
+}
+
+void writeMatt(std::ostream& out, const MitsubaParts::Mesh& mesh) {
+    out << "<bsdf type=\"diffuse\">\n        ";
+    writeColor(out, "reflectance", mesh);
+    out << "    </bsdf>\n";
+}
+
+void writeGlossy(std::ostream& out, const MitsubaParts::Mesh& mesh) {
+    out << "<bsdf type=\"principled\">\n        ";
+    writeColor(out, "base_color", mesh);
+    out << "        " << element("float", "metallic", mesh.metallic) << "        "
+        << element("float", "roughness", mesh.roughness) << "    </bsdf>\n";
+}
+
+// Where light is added up in display RGB, ours are matt.
+void writeMesh(
+    std::ostream& out, const hair::RenderSettings& render, const MitsubaParts::Mesh& mesh) {
+    out << "<shape type=\"ply\">\n    " << element("string", "filename", mesh.file) << "    ";
+    if (mesh.two_sided) out << "<bsdf type=\"twosided\">\n    ";
+    hair::rendering::hasLinearLight(render) ? writeGlossy(out, mesh) : writeMatt(out, mesh);
+    if (mesh.two_sided) out << "    </bsdf>\n";
+    out << "</shape>\n";
+}
+
+}  // namespace
+
+void writeMitsubaScene(
+    std::ostream& out, const hair::Settings& settings, const MitsubaParts& parts) {
+    out << kBegin;
+    writeCamera(out, settings);
+    writeMitsubaLights(out, settings, parts.environment_file);
+    if (!parts.hair_file.empty()) writeHair(out, settings.shading, parts.hair_file);
+    for (const MitsubaParts::Mesh& mesh : parts.meshes) writeMesh(out, settings.render, mesh);
+    out << "</scene>\n";
+}
+
+// ---- Mitsuba shapes -----------------------------------------------------------------------------
+
+void writeMitsubaCurves(std::ostream& out, const hair::groom::StrandSet& strands) {
+    std::vector<glm::dvec4> points;
+    for (std::uint32_t strand = 0; strand < strands.strandCount(); ++strand) {
+        if (strands.size(strand) < 2) continue;
+        points.clear();
+        for (std::uint32_t i = strands.first(strand); i < strands.ends[strand]; ++i)
+            points.emplace_back(glm::dvec3(strands.points[i]), 0.5 * strands.widths.at(i));
+        for (glm::dvec4 control : interpolatingControlPoints(points)) {
+            control.w = std::max(control.w, 0.0);
+            out << scene::decimalTexts(control, " ") << '\n';
+        }
+        out << '\n';
+    }
+}
+
+void writeMaterialPly(
+    std::ostream& out, const hair::groom::Mesh& mesh, std::uint32_t material,
+    const hair::simulation::RigidMotion& pose) {
+    constexpr std::uint32_t kUnused = ~0u;
+    std::vector<std::uint32_t> numbers(mesh.positions.size(), kUnused);  // in the file
+    std::vector<std::uint32_t> vertices;  // of the file
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (mesh.triangle_materials[i] != material) continue;
+        auto& triangle = triangles.emplace_back(mesh.triangles[i]);
+        for (std::uint32_t& corner : triangle) {
+            std::uint32_t& number = numbers[corner];
+            if (number == kUnused) {
+                number = static_cast<std::uint32_t>(vertices.size());
+                vertices.push_back(corner);
+            }
+            corner = number;
+        }
+    }
+    out << "ply\nformat ascii 1.0\nelement vertex " << vertices.size();
+    for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) out << "\nproperty float " << name;
+    const bool has_coordinates = !mesh.texture_coordinates.empty();
+    if (has_coordinates) out << "\nproperty float u\nproperty float v";
+    out << "\nelement face " << triangles.size()
+        << "\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const std::uint32_t vertex : vertices) {
+        const glm::dvec3 normal = pose.rotation * glm::dvec3(mesh.normals[vertex]);
+        out << scene::decimalTexts(pose(mesh.positions[vertex]), " ") << ' '
+            << scene::decimalTexts(normal, " ");
+        if (has_coordinates)
+            out << ' ' << scene::decimalTexts(mesh.texture_coordinates[vertex], " ");
+        out << '\n';
+    }
+    for (const auto& [a, b, c] : triangles) out << "3 " << a << ' ' << b << ' ' << c << '\n';
+}
+
+namespace {
+
+// ---- Mitsuba meshes -----------------------------------------------------------------------------
+
+// A material's picture times its colour, both linear, as display RGB again: Mitsuba has no factor.
+engine::Pixels colored(engine::Pixels picture, const glm::vec3& color) {
+    const glm::dvec3 factor = hair::rendering::toLinear(color);
+    for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
+        glm::dvec3 display;
+        for (int c = 0; c < 3; ++c) display[c] = picture.rgba[i + static_cast<std::size_t>(c)];
+        display = hair::rendering::toDisplay(factor * hair::rendering::toLinear(display / 255.0));
+        for (int c = 0; c < 3; ++c)
+            picture.rgba[i + static_cast<std::size_t>(c)] =
+                static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(display[c], 0.0, 1.0)));
+    }
+    return picture;
+}
+
+const char* wrapName(hair::groom::Wrap wrap) {
+    switch (wrap) {
+    case hair::groom::Wrap::repeat:
+        return "repeat";
+    case hair::groom::Wrap::mirror:
+        return "mirror";
+    case hair::groom::Wrap::clamp:
+        break;
+    }
+    return "clamp";
+}
+
+// Writes a mesh, where `pose` takes it, into `folder`: "<name>_0.ply" and so on, one of each
+// material that has triangles, and the pictures of base colours as PNG.
+std::vector<MitsubaParts::Mesh> writeMitsubaMesh(
+    const std::filesystem::path& folder, const std::string& name, const hair::groom::Mesh& mesh,
+    const hair::simulation::RigidMotion& pose) {
+    std::vector<MitsubaParts::Mesh> parts;
+    for (std::uint32_t i = 0; i < mesh.materials.size(); ++i) {
+        const auto triangles = std::ranges::count(mesh.triangle_materials, i);
+        if (triangles == 0) continue;
+        const hair::groom::Material& material = mesh.materials[i];
+        const std::string stem = name + '_' + std::to_string(parts.size());
+        MitsubaParts::Mesh part{
+            .file = stem + ".ply",
+            .triangles = static_cast<std::size_t>(triangles),
+            .color = material.base_color,
+            .metallic = material.metallic,
+            .roughness = material.roughness,
+            .two_sided = material.double_sided};
+        engine::writeFileAtomically(
+            folder / part.file, [&](std::ostream& out) { writeMaterialPly(out, mesh, i, pose); },
+            engine::checkInterrupted);
+        if (material.base_color_texture && !mesh.texture_coordinates.empty()) {
+            const hair::groom::MaterialTexture& texture = *material.base_color_texture;
+            const engine::Pixels picture =
+                colored(mesh.pictures.at(texture.picture), material.base_color);
+            part.texture = stem + ".png";
+            part.wrap = wrapName(texture.horizontal);
+            engine::writePng(folder / part.texture, picture.width, picture.height, picture.rgba);
+        }
+        parts.push_back(part);
+    }
+    return parts;
+}
+
+// ---- Mitsuba export -----------------------------------------------------------------------------
+
+void play(const engine::Device& device, measure::Case& played, std::uint32_t frame) {
+    engine::FrameLoop loop(device, engine::Timing::statistics);
+    measure::Progress progress(frame + std::size_t{1});
+    try {
+        for (std::uint32_t i = 0; i <= frame; ++i) {
+            engine::checkInterrupted();
+            progress.begin("frame " + std::to_string(i));
+            loop.frame([&](engine::Passes& passes) { played.simulate(passes); });
+        }
+    } catch (...) {
+        progress.clear();
+        throw;
+    }
+    progress.clear();
+}
+
+// The head, where the last frame takes it, and the meshes beside it.
+std::vector<MitsubaParts::Mesh> writeMeshes(
+    const std::filesystem::path& folder, const scene::Scene& scene, const hair::Settings& settings,
+    const hair::simulation::RigidMotion& head) {
+    std::vector<MitsubaParts::Mesh> parts;
+    if (const auto mesh = measure::loadMesh(settings, scene.directory);
+        mesh && settings.render.head)
+        parts = writeMitsubaMesh(folder, "head", *mesh, head);
+    const auto& wanted = settings.render.meshes;
+    hair::rendering::RenderAssets assets =
+        measure::loadRenderAssets(settings, nullptr, scene.directory);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        const hair::groom::Mesh mesh =
+            hair::rendering::placed(std::move(assets.meshes[i]), wanted[i]);
+        std::ranges::move(
+            writeMitsubaMesh(folder, "mesh_" + std::to_string(i), mesh, {}),
+            std::back_inserter(parts));
+    }
+    return parts;
+}
+
+// The picture of the surroundings; the name of the copy, empty where there is none.
+std::string copyEnvironment(
+    const std::filesystem::path& folder, const scene::Scene& scene,
+    const hair::Settings& settings) {
+    if (settings.render.environment.empty()) return {};
+    const std::filesystem::path file = scene.directory / settings.render.environment;
+    const std::string name = "environment" + file.extension().string();
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    std::filesystem::copy_file(
+        file, folder / name, std::filesystem::copy_options::overwrite_existing, error);
+    if (error) throw engine::Error((folder / name).string(), error.message());
+    return name;
+}
+
+}  // namespace
+
+MitsubaExport exportMitsuba(
+    const engine::Device& device, const scene::Scene& scene, const hair::Settings& settings,
+    std::uint32_t frame, const std::filesystem::path& folder) {
+    const auto write = [&](const std::string& name, const auto& writer) {
+        engine::writeFileAtomically(folder / name, writer, engine::checkInterrupted);
+    };
+    MitsubaParts parts;
+    MitsubaExport result;
+    measure::Case played(device, settings, scene.directory);
+    play(device, played, frame);
+    if (settings.render.hair) {
+        const hair::groom::StrandSet strands = measure::drawnStrands(played.strands());
+        if (strands.ends.empty()) throw engine::Error(scene.path.string(), "no strands are drawn");
+        parts.hair_file = "hair.txt";
+        write(parts.hair_file, [&](std::ostream& out) { writeMitsubaCurves(out, strands); });
+        result.strands = strands.strandCount();
+        result.points = strands.points.size();
+    }
+    parts.meshes = writeMeshes(folder, scene, settings, played.head());
+    for (const MitsubaParts::Mesh& mesh : parts.meshes) result.triangles += mesh.triangles;
+    parts.environment_file = copyEnvironment(folder, scene, settings);
+    write("scene.xml", [&](std::ostream& out) { writeMitsubaScene(out, settings, parts); });
+    return result;
+}
+
+}  // namespace benchmarks::reference

@@ -1,0 +1,108 @@
+#include "benchmarks/reference/picture_errors.h"
+
+#include <cstdlib>
+#include <string>
+#include <system_error>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/scene/json.h"
+#include "engine/error.h"
+#include "engine/pictures.h"
+#include "engine/process.h"
+#include "hair/groom/formats/usd_import.h"
+
+namespace benchmarks::reference {
+namespace {
+
+// ---- Reference tool -----------------------------------------------------------------------------
+
+std::string interpreter() {
+    const char* wanted = std::getenv("HAIRBENCH_REFERENCE_PYTHON");
+    return wanted && *wanted ? wanted : HAIRBENCH_SOURCE_DIR "/.deps/reference/bin/python";
+}
+
+void run(
+    const std::vector<std::string>& arguments,
+    const std::function<void(std::string_view line)>& each_line) {
+    // -B -E: leaves no byte code beside the tool, and nobody's variables change what it does.
+    std::vector<std::string> all{interpreter(), "-B", "-E"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    try {
+        hair::groom::runTool(all, each_line, engine::checkInterrupted);
+    } catch (const std::system_error& error) {
+        throw engine::Error(
+            "this needs the project's Python environment for references: run scripts/setup "
+            "--reference (" +
+            std::string(error.what()) + ')');
+    } catch (const engine::Error&) {
+        engine::checkInterrupted();  // which ends the tool too
+        throw;
+    }
+}
+
+}  // namespace
+
+void runReferenceTool(
+    const std::string& script, const std::vector<std::string>& arguments,
+    const std::function<void(std::string_view line)>& each_line) {
+    std::vector<std::string> all{HAIRBENCH_SOURCE_DIR "/benchmarks/reference/" + script};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    run(all, each_line);
+}
+
+void checkReferenceTool() {
+    run({"-c", "import mitsuba"}, [](std::string_view) {});
+}
+
+// ---- Picture errors -----------------------------------------------------------------------------
+
+PictureErrors comparePictures(
+    const std::filesystem::path& reference, const std::filesystem::path& picture,
+    const std::filesystem::path& map) {
+    std::vector<std::string> arguments;
+    for (const std::filesystem::path& path : {reference, picture, map})
+        if (!path.empty()) arguments.push_back(std::filesystem::absolute(path).string());
+    std::string text;
+    runReferenceTool("compare.py", arguments, [&](std::string_view line) { text += line; });
+    const scene::Json figures = scene::parseJson(text, "what compare.py wrote");
+    PictureErrors errors{
+        .width = figures.at("width"),
+        .height = figures.at("height"),
+        .rmse = figures.at("rmse"),
+        .ssim = figures.at("ssim"),
+        .flip = figures.at("flip")};
+    if (const scene::Json& psnr = figures.at("psnr_db"); !psnr.is_null()) errors.psnr = psnr;
+    return errors;
+}
+
+void ReferenceComparison::add(
+    const std::filesystem::path& reference, std::uint32_t width, std::uint32_t height,
+    std::span<const std::uint8_t> rgba, report::CaseResult& result) {
+    if (!isPossible(result)) return;
+    const std::filesystem::path picture = folder_.path() / "picture.png";
+    engine::writePng(picture, width, height, rgba);
+    const PictureErrors errors = comparePictures(reference, picture, {});
+    const auto add_metric = [&](report::Measured what, double value) {
+        result.metrics.push_back({report::ofImage(what), {value}});
+    };
+    add_metric(report::Measured::rmse, errors.rmse);
+    if (errors.psnr) add_metric(report::Measured::psnr, *errors.psnr);
+    add_metric(report::Measured::ssim, errors.ssim);
+    add_metric(report::Measured::flip, errors.flip);
+}
+
+bool ReferenceComparison::isPossible(report::CaseResult& result) {
+    if (possible_) return *possible_;
+    possible_ = true;
+    try {
+        checkReferenceTool();
+    } catch (const engine::Error& error) {
+        possible_ = false;
+        result.trust.warnings.push_back(
+            std::string("no case is compared with /run/reference: ") + error.what());
+    }
+    return *possible_;
+}
+
+}  // namespace benchmarks::reference

@@ -1,0 +1,303 @@
+#include "benchmarks/report/compare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/report/change.h"
+#include "benchmarks/scene/json.h"
+#include "benchmarks/scene/sweep.h"
+#include "engine/error.h"
+
+namespace benchmarks::report {
+namespace {
+
+// ---- Environment differences --------------------------------------------------------------------
+
+struct Place {
+    const char* name;
+    const char* pointer;
+};
+
+constexpr Place kPlaces[] = {
+    {"device", "/environment/device/name"},
+    {"kind of device", "/environment/device/type"},
+    {"driver", "/environment/device/driver"},
+    {"driver's version", "/environment/device/driver_version"},
+    {"processor", "/environment/host/processor"},
+    {"number of processors", "/environment/host/processor_count"},
+    {"build type", "/environment/build/type"},
+    {"scene", "/scene/hash"},
+};
+
+bool isTrue(const scene::Json& report, const char* pointer) {
+    return scene::textAt(report, pointer) == "true";
+}
+
+}  // namespace
+
+bool isSameDevice(const scene::Json& a, const scene::Json& b) {
+    for (const char* const pointer : {"/environment/device/name", "/environment/device/type"})
+        if (scene::textAt(a, pointer) != scene::textAt(b, pointer)) return false;
+    return true;
+}
+
+std::vector<std::string> environmentDifferences(const scene::Json& a, const scene::Json& b) {
+    std::vector<std::string> differences;
+    for (const Place& place : kPlaces) {
+        const std::string of_a = scene::textAt(a, place.pointer);
+        const std::string of_b = scene::textAt(b, place.pointer);
+        if (!of_a.empty() && !of_b.empty() && of_a != of_b)
+            differences.push_back(std::string(place.name) + ": " + of_a + " and " + of_b);
+    }
+    for (const auto& [report, name] : {std::pair{&a, "A"}, std::pair{&b, "B"}}) {
+        if (isTrue(*report, "/environment/validation"))
+            differences.push_back(std::string(name) + " ran under the validation layer");
+        if (isTrue(*report, "/interrupted"))
+            differences.push_back(std::string(name) + " was interrupted: some cases are missing");
+    }
+    return differences;
+}
+
+// ---- Judged metrics -----------------------------------------------------------------------------
+
+bool isSoftwareDevice(const scene::Json& environment) {
+    const auto device = environment.find("device");
+    return device != environment.end() && device->value("type", "") == "cpu";
+}
+
+Clock judgedClock(bool software_device, std::span<const MetricId> metrics) {
+    return software_device && std::ranges::any_of(metrics, isOfProcessor) ? Clock::processor
+                                                                          : Clock::wall;
+}
+
+MetricChoice metricsNamed(const std::string& regex) {
+    if (regex.empty()) return {};
+    try {
+        return [matches = scene::nameMatcher(regex)](const MetricId& id) {
+            return matches(id.name());
+        };
+    } catch (const engine::Error& error) {
+        throw engine::Error("--metrics", error.what());
+    }
+}
+
+MetricChoice timesBy(Clock clock) {
+    return clock == Clock::processor ? isOfProcessor : isFrameOrPassTime;
+}
+
+Judgement judgementOf(const MetricChoice& chosen, const MetricReading& a, const MetricReading& b) {
+    if (!chosen(a.id) || a.better == Better::neither || a.unit != b.unit)
+        return Judgement::not_wanted;
+    if (a.unit == "ms" && std::max(a.median, b.median) < kShortestTime) return Judgement::too_short;
+    return Judgement::judged;
+}
+
+double costOf(const Metric& metric, double value) {
+    return metric.better == Better::higher ? 1.0 / value : value;
+}
+
+namespace {
+
+// ---- Mismatch -----------------------------------------------------------------------------------
+
+std::string statusText(const CaseOutcome& outcome) {
+    return outcome.reason.empty() ? outcome.status : outcome.status + ": " + outcome.reason;
+}
+
+bool differ(const std::string& a, const std::string& b) {
+    return !a.empty() && !b.empty() && a != b;
+}
+
+}  // namespace
+
+CaseOutcome caseOutcome(const scene::Json& result) {
+    return {
+        .name = result.at("name").get<std::string>(),
+        .status = result.at("status").get<std::string>(),
+        .reason = result.value("reason", ""),
+        .image_hash = result.value("image_hash", ""),
+        .state_hash = result.value("state_hash", "")};
+}
+
+std::vector<Mismatch> mismatches(const CaseOutcome& a, const CaseOutcome& b) {
+    const bool a_ok = a.status == "ok";
+    const bool b_ok = b.status == "ok";
+    if (!a_ok && !b_ok) return {};
+    if (a_ok != b_ok) return {{a.name, "status", statusText(a), statusText(b)}};
+    std::vector<Mismatch> found;
+    if (differ(a.image_hash, b.image_hash))
+        found.push_back({a.name, "picture", a.image_hash, b.image_hash});
+    if (differ(a.state_hash, b.state_hash))
+        found.push_back({a.name, "state", a.state_hash, b.state_hash});
+    return found;
+}
+
+std::string mismatchText(const Mismatch& mismatch) {
+    const std::string plural = mismatch.what == "status" ? "outcomes" : mismatch.what + 's';
+    return mismatch.case_name + ": the " + plural + " differ: " + mismatch.a + " and " + mismatch.b;
+}
+
+scene::Json mismatchJson(const Mismatch& mismatch) {
+    return {
+        {"case", mismatch.case_name},
+        {"what", mismatch.what},
+        {"a", mismatch.a},
+        {"b", mismatch.b}};
+}
+
+namespace {
+
+// ---- Report comparison --------------------------------------------------------------------------
+
+constexpr double kLevel = VerdictRule{}.alpha;
+
+const scene::Json* findCase(const scene::Json& report, const std::string& name) {
+    for (const scene::Json& each : report.at("cases"))
+        if (each.at("name").get_ref<const std::string&>() == name) return &each;
+    return nullptr;
+}
+
+std::vector<double> costs(const MetricReading& metric) {
+    if (metric.samples.empty())
+        throw engine::Error(
+            "the reports can't be compared", metric.name() + " has no samples in one");
+    std::vector<double> values;
+    for (const double sample : metric.samples) values.push_back(costOf(metric, sample));
+    return values;
+}
+
+// What is counted and not timed is known exactly, whatever the number of samples.
+bool isExact(const MetricReading& reading) { return reading.unit == "B"; }
+
+Comparison exactComparison(double a, double b, double decisive_change) {
+    const double change = a > 0.0 ? b / a - 1.0 : 0.0;
+    const bool outside = std::abs(std::log1p(change)) > std::log1p(decisive_change);
+    return {
+        .verdict = Verdict::inconclusive,
+        .change = change,
+        .lower = change,
+        .upper = change,
+        .decisive_change = decisive_change,
+        .p = outside ? 0.0 : 1.0};
+}
+
+Clock clockFor(const scene::Json& a, const scene::Json& b) {
+    std::vector<MetricId> metrics;
+    for (const scene::Json& each : a.at("cases")) {
+        const scene::Json* const other = findCase(b, each.at("name"));
+        if (!other || !each.contains("metrics") || !other->contains("metrics")) continue;
+        for (const auto& [name, metric] : each.at("metrics").items())
+            if (other->at("metrics").contains(name)) metrics.push_back(metricNamed(name));
+    }
+    return judgedClock(
+        isSoftwareDevice(a.at("environment")) && isSoftwareDevice(b.at("environment")), metrics);
+}
+
+class Comparer {
+public:
+    Comparer(const scene::Json& a, const scene::Json& b, const VerdictOptions& options)
+        : options_(options), judged_(metricsNamed(options.metrics)) {
+        if (!judged_) judged_ = timesBy(clockFor(a, b));
+    }
+
+    void addCase(const scene::Json& a, const scene::Json& b) {
+        ++found_.common_cases;
+        const std::vector<Mismatch> differing = mismatches(caseOutcome(a), caseOutcome(b));
+        found_.mismatches.insert(found_.mismatches.end(), differing.begin(), differing.end());
+        if (!differing.empty() || a.at("status") != "ok") return;
+        const std::string name = a.at("name");
+        const std::vector<MetricReading> metrics_of_b = readMetrics(b);
+        for (const MetricReading& of_a : readMetrics(a))
+            if (const MetricReading* const of_b = findMetric(metrics_of_b, of_a.id))
+                addMetric(name, of_a, *of_b);
+    }
+
+    ReportComparison finish() && {
+        std::vector<Comparison> comparisons;
+        for (const Change& each : found_.changes) comparisons.push_back(each.comparison);
+        passVerdicts(comparisons, kLevel);
+        for (std::size_t i = 0; i < comparisons.size(); ++i)
+            found_.changes[i].comparison = comparisons[i];
+        return std::move(found_);
+    }
+
+    ReportComparison& found() { return found_; }
+
+private:
+    void addMetric(const std::string& case_name, const MetricReading& a, const MetricReading& b) {
+        const Judgement judgement = judgementOf(judged_, a, b);
+        if (judgement == Judgement::not_wanted) return;
+        Change change{case_name, a.id, a.unit, a.median, b.median, {}};
+        if (judgement == Judgement::too_short) {
+            found_.too_short.push_back(std::move(change));
+            return;
+        }
+        if (!a.isTimedAs(b)) {
+            found_.warnings.push_back(
+                case_name + ": " + a.name() + " is timed in two ways, and not compared: " +
+                modeName(a.mode) + " and " + modeName(b.mode));
+            return;
+        }
+        change.comparison = isExact(a)
+                                ? exactComparison(a.median, b.median, options_.threshold)
+                                : compareMedians(costs(a), costs(b), options_.threshold, kLevel);
+        found_.changes.push_back(std::move(change));
+    }
+
+    const VerdictOptions& options_;
+    MetricChoice judged_;
+    ReportComparison found_;
+};
+
+void addUnmatched(
+    const scene::Json& report, const scene::Json& other, const char* which,
+    std::vector<std::string>& unmatched) {
+    for (const scene::Json& each : report.at("cases"))
+        if (const std::string name = each.at("name"); !findCase(other, name))
+            unmatched.push_back(std::string("only in ") + which + ": " + name);
+}
+
+}  // namespace
+
+ReportComparison
+compareReports(const scene::Json& a, const scene::Json& b, const VerdictOptions& options) {
+    try {
+        Comparer comparer(a, b, options);
+        comparer.found().warnings = environmentDifferences(a, b);
+        comparer.found().same_device = isSameDevice(a, b);
+        for (const scene::Json& each : a.at("cases"))
+            if (const scene::Json* const other = findCase(b, each.at("name")))
+                comparer.addCase(each, *other);
+        addUnmatched(a, b, "A", comparer.found().unmatched);
+        addUnmatched(b, a, "B", comparer.found().unmatched);
+        return std::move(comparer).finish();
+    } catch (const scene::Json::exception& error) {
+        throw engine::Error("the reports can't be compared", error.what());
+    }
+}
+
+Verdict overallVerdict(const ReportComparison& comparison) {
+    return comparison.mismatches.empty() ? overallVerdict(comparison.changes) : Verdict::mismatch;
+}
+
+scene::Json
+comparisonJson(const ReportComparison& comparison, const std::string& a, const std::string& b) {
+    scene::Json object = {{"schema", "hairbench-comparison/1.0.0"}, {"a", a}, {"b", b}};
+    object["verdict"] = verdictName(overallVerdict(comparison));
+    object["warnings"] = comparison.warnings;
+    object["unmatched"] = comparison.unmatched;
+    scene::Json& differing = object["mismatches"] = scene::Json::array();
+    for (const Mismatch& each : comparison.mismatches) differing.push_back(mismatchJson(each));
+    scene::Json& changes = object["changes"] = scene::Json::array();
+    for (const Change& each : comparison.changes) changes.push_back(changeJson(each));
+    scene::Json& too_short = object["too_short"] = scene::Json::array();
+    for (const Change& each : comparison.too_short)
+        too_short.push_back({{"case", each.case_name}, {"metric", each.metric.name()}});
+    object["caveat"] = kOneProcessCaveat;
+    return object;
+}
+
+}  // namespace benchmarks::report

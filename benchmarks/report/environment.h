@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "benchmarks/report/report.h"
+#include "engine/device.h"
+
+namespace benchmarks::report {
+
+// What a report says of a device. Its limits are Vulkan's, and, where a driver is right only up to
+// fewer vertices in a tessellated draw than they allow, "maxTessellatedVertices".
+DeviceRecord describeDevice(const engine::Device& device);
+
+// The program's version and commit, e.g. "hairbench 0.1.0 (1a2b3c4)".
+std::string versionText();
+
+// What this program was built from and how.
+BuildRecord describeBuild();
+
+// What a report says of the machine, the device, the program and the command line. The start is
+// now.
+Environment describeEnvironment(
+    const engine::Device& device, std::vector<std::string> command, std::uint64_t seed,
+    engine::Validation validation);
+
+// 64-bit FNV-1a (Fowler, Noll and Vo 1991) of the bytes in memory order, as 16 lower-case hex
+// digits. Reports use it for pictures, simulation states and documents: it tells whether two runs
+// made the same thing, and is no protection against someone who wants two things to look the same.
+std::string hashBytes(std::span<const std::byte> bytes);
+std::string hashText(std::string_view text);
+
+}  // namespace benchmarks::report

@@ -1,0 +1,458 @@
+#include "benchmarks/report/exporters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/report/metric.h"
+#include "benchmarks/report/report.h"
+#include "benchmarks/report/text.h"
+#include "benchmarks/scene/axis.h"
+#include "benchmarks/scene/json.h"
+#include "engine/error.h"
+
+namespace benchmarks::report {
+namespace {
+
+// ---- Exporters ----------------------------------------------------------------------------------
+
+constexpr Exporter kExporters[] = {
+    {"csv", "comma-separated values: a row for each metric of each case", ".csv", csv},
+    {"markdown", "a table for GitHub, a row for each case", ".md", markdown},
+    {"gbench", "google-benchmark's JSON: times, for its compare.py and others", ".json", gbench},
+    {"bmf", "Bencher Metric Format", ".json", bmf},
+    {"customSmallerIsBetter", "for github-action-benchmark: times and memory", ".json",
+     customSmallerIsBetter},
+    {"perfetto", "Chrome's trace events: frames and passes", ".json", perfetto},
+};
+
+}  // namespace
+
+std::span<const Exporter> exporters() { return kExporters; }
+
+std::string exportReport(const scene::Json& report, std::string_view format) {
+    const auto exporter = std::ranges::find(kExporters, format, &Exporter::name);
+    if (exporter == std::end(kExporters)) {
+        std::vector<std::string> names;
+        for (const Exporter& each : kExporters) names.emplace_back(each.name);
+        throw engine::Error(scene::unknownName("unknown format", format, names));
+    }
+    try {
+        const auto schema = report.at("schema").get<std::string>();
+        if (!isReadable(schema))
+            throw engine::Error("/schema", schema + " is not " + kReportSchema);
+        return exporter->write(report);
+    } catch (const scene::Json::exception& error) {
+        throw engine::Error("no report", error.what());
+    }
+}
+
+namespace {
+
+// ---- Readings -----------------------------------------------------------------------------------
+
+// What exporters take from a written report. A member that a report must have and has not is
+// thrown by nlohmann: exportReport() makes it an engine::Error.
+
+struct Reading {
+    std::string case_name;
+    MetricReading metric;
+    // The metric in the report, which has to outlive this: statistics of the samples, in the unit.
+    // What an older report does not say is absent.
+    const scene::Json* statistics;
+};
+
+// Of all cases that ran, in the report's order.
+std::vector<Reading> readings(const scene::Json& report) {
+    std::vector<Reading> found;
+    for (const scene::Json& result : report.at("cases")) {
+        if (!result.contains("metrics")) continue;
+        for (const auto& [name, metric] : result.at("metrics").items())
+            found.push_back(
+                {.case_name = result.at("name"),
+                 .metric = MetricReading::fromReport(name, metric),
+                 .statistics = &metric});
+    }
+    return found;
+}
+
+// "<case>/<metric>", which no two readings share.
+std::string benchmarkName(const Reading& reading) {
+    return reading.case_name + '/' + reading.metric.name();
+}
+
+// The pointers of all cases' axes, each once.
+std::vector<std::string> axisPointers(const scene::Json& report) {
+    std::vector<std::string> pointers;
+    for (const scene::Json& result : report.at("cases"))
+        for (const auto& [pointer, value] : result.at("axes").items())
+            if (std::ranges::find(pointers, pointer) == pointers.end()) pointers.push_back(pointer);
+    return pointers;
+}
+
+// The member's text without quotes, as a table shows it: "" where it is absent.
+std::string cellText(const scene::Json& object, const std::string& member) {
+    const auto found = object.find(member);
+    if (found == object.end()) return "";
+    return found->is_string() ? found->get<std::string>() : found->dump();
+}
+
+// JSON with LF at its end. What drivers say need not be UTF-8.
+std::string documentText(const scene::Json& document) {
+    return document.dump(1, ' ', false, scene::Json::error_handler_t::replace) + '\n';
+}
+
+// ---- Bmf ----------------------------------------------------------------------------------------
+
+// Of bencher's own measures, `latency` is in ns and smaller is better, `throughput` in operations
+// per second and larger is better. Others are made when they first come.
+struct Measure {
+    std::string name;
+    double scale;
+};
+
+Measure measureOf(const Metric& metric) {
+    if (metric.isTime()) return {"latency", 1e6};
+    if (metric.unit == "1/s") return {"throughput", 1.0};
+    if (metric.unit == "B") return {"bytes", 1.0};
+    return {metric.name(), 1.0};
+}
+
+}  // namespace
+
+std::string bmf(const scene::Json& report) {
+    scene::Json document = scene::Json::object();
+    for (const Reading& reading : readings(report)) {
+        const Measure measure = measureOf(reading.metric);
+        scene::Json value = {{"value", reading.metric.median * measure.scale}};
+        const scene::Json& statistics = *reading.statistics;
+        if (statistics.contains("first_quartile") && statistics.contains("third_quartile")) {
+            value["lower_value"] = statistics["first_quartile"].get<double>() * measure.scale;
+            value["upper_value"] = statistics["third_quartile"].get<double>() * measure.scale;
+        }
+        document[benchmarkName(reading)] = {{measure.name, std::move(value)}};
+    }
+    return documentText(document);
+}
+
+namespace {
+
+// ---- Csv ----------------------------------------------------------------------------------------
+
+constexpr const char* kMetricMembers[] = {"unit",   "mode",    "median",         "mad",
+                                          "mean",   "minimum", "first_quartile", "third_quartile",
+                                          "maximum"};
+
+std::string field(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return quoted + '"';
+}
+
+std::string line(const std::vector<std::string>& cells) {
+    std::string text = field(cells.front());
+    for (const std::string& cell : std::span(cells).subspan(1)) text += ',' + field(cell);
+    return text + '\n';
+}
+
+}  // namespace
+
+std::string csv(const scene::Json& report) {
+    const std::vector<std::string> pointers = axisPointers(report);
+    std::vector<std::string> titles{"case"};
+    titles.insert(titles.end(), pointers.begin(), pointers.end());
+    titles.insert(titles.end(), {"status", "reason", "metric", "samples"});
+    titles.insert(titles.end(), std::begin(kMetricMembers), std::end(kMetricMembers));
+    std::string text = line(titles);
+
+    const auto add = [&](const scene::Json& result, const std::string& name,
+                         const scene::Json& metric) {
+        std::vector<std::string> cells{cellText(result, "name")};
+        for (const std::string& pointer : pointers)
+            cells.push_back(cellText(result.at("axes"), pointer));
+        cells.push_back(cellText(result, "status"));
+        cells.push_back(cellText(result, "reason"));
+        cells.push_back(name);
+        cells.push_back(name.empty() ? "" : std::to_string(metric.at("samples").size()));
+        for (const char* member : kMetricMembers) cells.push_back(cellText(metric, member));
+        text += line(cells);
+    };
+    for (const scene::Json& result : report.at("cases")) {
+        const scene::Json metrics = result.value("metrics", scene::Json::object());
+        for (const auto& [name, metric] : metrics.items()) add(result, name, metric);
+        if (metrics.empty()) add(result, "", scene::Json::object());
+    }
+    return text;
+}
+
+// ---- Custom smaller is better -------------------------------------------------------------------
+
+std::string customSmallerIsBetter(const scene::Json& report) {
+    scene::Json entries = scene::Json::array();
+    for (const Reading& reading : readings(report)) {
+        const MetricReading& metric = reading.metric;
+        if (!metric.isTime() && metric.unit != "B") continue;
+        scene::Json entry = {
+            {"name", benchmarkName(reading)}, {"unit", metric.unit}, {"value", metric.median}};
+        if (reading.statistics->at("samples").size() > 1)
+            entry["range"] = "± " + reading.statistics->at("mad").dump();
+        entries.push_back(std::move(entry));
+    }
+    return documentText(entries);
+}
+
+namespace {
+
+// ---- Gbench -------------------------------------------------------------------------------------
+
+constexpr double kMicrosecondsPerMillisecond = 1000.0;
+
+scene::Json context(const scene::Json& report) {
+    const scene::Json& environment = report.at("environment");
+    scene::Json context = scene::Json::object();
+    const auto take = [&](const char* name, const char* group, const char* member) {
+        if (environment.at(group).contains(member)) context[name] = environment[group][member];
+    };
+    if (environment.contains("started")) context["date"] = environment["started"];
+    if (!environment.at("command").empty()) context["executable"] = environment["command"][0];
+    take("num_cpus", "host", "processor_count");
+    context["caches"] = scene::Json::array();  // bencher wants the member
+    take("library_version", "build", "version");
+    context["library_build_type"] =
+        environment.at("build").value("type", "") == "Debug" ? "debug" : "release";
+    context["json_schema_version"] = 1;
+    take("device", "device", "name");
+    take("driver", "device", "driver_version");
+    return context;
+}
+
+}  // namespace
+
+std::string gbench(const scene::Json& report) {
+    scene::Json benchmarks = scene::Json::array();
+    for (const Reading& reading : readings(report)) {
+        if (!reading.metric.isTime()) continue;
+        const std::string name = benchmarkName(reading);
+        const double time = reading.metric.median * kMicrosecondsPerMillisecond;
+        benchmarks.push_back(
+            {{"name", name},
+             {"family_index", benchmarks.size()},
+             {"per_family_instance_index", 0},
+             {"run_name", name},
+             {"run_type", "iteration"},
+             {"repetitions", 1},
+             {"repetition_index", 0},
+             {"threads", 1},
+             {"iterations", reading.statistics->at("samples").size()},
+             {"real_time", time},
+             {"cpu_time", time},
+             {"time_unit", "us"}});
+    }
+    return documentText({{"context", context(report)}, {"benchmarks", benchmarks}});
+}
+
+namespace {
+
+// ---- Markdown -----------------------------------------------------------------------------------
+
+// Inside a table's cell: no line ends, and nothing that begins a column or markup.
+std::string escaped(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        if (std::string_view("\\`*_[]<>|#").find(c) != std::string_view::npos) result += '\\';
+        result += c == '\n' || c == '\r' ? ' ' : c;
+    }
+    return result;
+}
+
+void addCell(std::string& line, const std::string& text) { line += ' ' + text + " |"; }
+
+const MetricId kRate = ofFrame(Measured::rate);
+
+// Frames per second and the times of the frame and of each pass, in the order in which they first
+// occur.
+std::vector<MetricId> columnMetrics(const scene::Json& report) {
+    std::vector<MetricId> metrics;
+    for (const Reading& reading : readings(report)) {
+        const MetricId& id = reading.metric.id;
+        const bool shown = id == kRate || isFrameOrPassTime(id);
+        if (shown && std::ranges::find(metrics, id) == metrics.end()) metrics.push_back(id);
+    }
+    return metrics;
+}
+
+std::string columnTitle(const MetricId& metric) {
+    if (metric == kRate) return "FPS";
+    return (isPassTime(metric) ? metric.pass() : "frame") + " (ms)";
+}
+
+std::string aboutTheRun(const scene::Json& report) {
+    const scene::Json& environment = report.at("environment");
+    std::string text = "**" + escaped(cellText(report.at("scene"), "path")) + "**";
+    for (const auto& [group, member] :
+         {std::pair{"device", "name"},
+          {"device", "driver"},
+          {"device", "driver_version"},
+          {"host", "processor"},
+          {"build", "commit"}})
+        if (const std::string value = cellText(environment.at(group), member); !value.empty())
+            text += ", " + escaped(value);
+    return text + "\n\n";
+}
+
+}  // namespace
+
+std::string markdown(const scene::Json& report) {
+    const std::vector<std::string> pointers = axisPointers(report);
+    const std::vector<MetricId> metrics = columnMetrics(report);
+    std::string titles = "|";
+    std::string rule = "|";
+    for (const std::string& label : scene::axisLabels(pointers)) addCell(titles, escaped(label));
+    for (const MetricId& metric : metrics) addCell(titles, escaped(columnTitle(metric)));
+    addCell(titles, "status");
+    for (std::size_t i = 0; i < pointers.size(); ++i) rule += " --- |";
+    for (std::size_t i = 0; i < metrics.size(); ++i) rule += " ---: |";
+    std::string text = aboutTheRun(report) + titles + '\n' + rule + " --- |\n";
+    for (const scene::Json& result : report.at("cases")) {
+        std::string line = "|";
+        for (const std::string& pointer : pointers)
+            addCell(line, escaped(cellText(result.at("axes"), pointer)));
+        std::vector<MetricReading> measured;
+        if (result.contains("metrics")) measured = readMetrics(result);
+        for (const MetricId& metric : metrics) {
+            const MetricReading* const reading = findMetric(measured, metric);
+            addCell(line, reading ? shortNumber(reading->median) : "");
+        }
+        const std::string reason = cellText(result, "reason");
+        addCell(line, escaped(cellText(result, "status") + (reason.empty() ? "" : ": " + reason)));
+        text += line + '\n';
+    }
+    return text;
+}
+
+namespace {
+
+// ---- Perfetto -----------------------------------------------------------------------------------
+
+// Whole, so that slices that end together do so in the file too; the viewer counts in ns as well.
+using Nanoseconds = std::int64_t;
+
+constexpr double kNanosecondsPerMillisecond = 1e6;
+constexpr double kNanosecondsPerMicrosecond = 1e3;
+
+// A case is a process of the trace, its tracks are threads.
+enum Track { isolated = 1, overlapped = 2 };
+
+struct Series {
+    std::string name;  // of the slices
+    std::vector<Nanoseconds> samples;  // by frame
+};
+
+class Trace {
+public:
+    void name(int process, int track, const char* what, const std::string& name) {
+        events_.push_back(
+            {{"ph", "M"},
+             {"name", what},
+             {"pid", process},
+             {"tid", track},
+             {"args", {{"name", name}}}});
+    }
+
+    void
+    slice(int process, int track, const std::string& name, Nanoseconds start, Nanoseconds length) {
+        events_.push_back(
+            {{"ph", "X"},
+             {"name", name},
+             {"cat", track == isolated ? "isolated" : "overlapped"},
+             {"pid", process},
+             {"tid", track},
+             {"ts", static_cast<double>(start) / kNanosecondsPerMicrosecond},
+             {"dur", static_cast<double>(length) / kNanosecondsPerMicrosecond}});
+    }
+
+    scene::Json take() { return std::move(events_); }
+
+private:
+    scene::Json events_ = scene::Json::array();
+};
+
+// Each frame is as long as it was and holds its parts one after another from its start; a part
+// that ends after its frame, by some other clock, lengthens it. `parts` may lack samples: a pass
+// that some frames have not is laid into the first ones.
+void layFrames(
+    Trace& trace, int process, Track track, const std::vector<Nanoseconds>& frames,
+    const std::vector<Series>& parts) {
+    Nanoseconds start = 0;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        Nanoseconds sum = 0;
+        for (const Series& part : parts)
+            if (i < part.samples.size()) sum += part.samples[i];
+        const Nanoseconds length = std::max(frames[i], sum);
+        trace.slice(process, track, "frame " + std::to_string(i), start, length);
+        Nanoseconds at = start;
+        for (const Series& part : parts) {
+            if (i >= part.samples.size()) continue;
+            trace.slice(process, track, part.name, at, part.samples[i]);
+            at += part.samples[i];
+        }
+        start += length;
+    }
+}
+
+std::vector<Nanoseconds> samplesOf(const MetricReading& metric) {
+    std::vector<Nanoseconds> samples;
+    for (const double sample : metric.samples)
+        samples.push_back(std::llround(sample * kNanosecondsPerMillisecond));
+    return samples;
+}
+
+// None where there is no such metric.
+std::vector<Nanoseconds> samplesOf(const std::vector<MetricReading>& metrics, const MetricId& id) {
+    const MetricReading* const metric = findMetric(metrics, id);
+    return metric ? samplesOf(*metric) : std::vector<Nanoseconds>();
+}
+
+void addCase(Trace& trace, int process, const scene::Json& result) {
+    const std::vector<MetricReading> metrics = readMetrics(result);
+    std::vector<Series> passes;
+    Mode clock = Mode::isolated;
+    for (const MetricReading& metric : metrics) {
+        if (!isPassTime(metric.id)) continue;
+        passes.push_back({metric.id.pass(), samplesOf(metric)});
+        if (metric.mode != Mode::none) clock = metric.mode;
+    }
+    std::vector<Nanoseconds> frames = samplesOf(metrics, ofFrame(Measured::isolated_time));
+    for (const Series& pass : passes) frames.resize(std::max(frames.size(), pass.samples.size()));
+    trace.name(process, 0, "process_name", result.at("name"));
+    trace.name(
+        process, isolated, "thread_name",
+        clock == Mode::wall_clock ? "passes by the CPU's clock" : "isolated passes");
+    layFrames(trace, process, isolated, frames, passes);
+    const std::vector<Series> work{
+        {"cpu.record", samplesOf(metrics, ofCpu(Measured::record_time))},
+        {"cpu.submit", samplesOf(metrics, ofCpu(Measured::submit_time))}};
+    trace.name(process, overlapped, "thread_name", "CPU of overlapped frames");
+    layFrames(trace, process, overlapped, samplesOf(metrics, ofFrame(Measured::time)), work);
+}
+
+}  // namespace
+
+std::string perfetto(const scene::Json& report) {
+    Trace trace;
+    int process = 0;
+    for (const scene::Json& result : report.at("cases"))
+        if (result.contains("metrics")) addCase(trace, ++process, result);
+    return documentText(
+        {{"traceEvents", trace.take()},
+         {"displayTimeUnit", "ms"},
+         {"otherData", {{"scene", report.at("scene").at("path")}}}});
+}
+
+}  // namespace benchmarks::report

@@ -1,0 +1,177 @@
+#include "benchmarks/report/metric.h"
+
+#include <algorithm>
+#include <cassert>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace benchmarks::report {
+namespace {
+
+using enum Better;
+using Of = MetricOf;
+using What = Measured;
+
+constexpr char kPart = '*';
+
+constexpr MetricKind kKinds[] = {
+    {Of::frame, What::rate, "fps", "1/s", higher},
+    {Of::frame, What::low_1_percentile, "fps.low_1.percentile", "1/s", higher},
+    {Of::frame, What::low_1_mean, "fps.low_1.mean", "1/s", higher},
+    {Of::frame, What::low_1_integral, "fps.low_1.integral", "1/s", higher},
+    {Of::frame, What::low_0_1_percentile, "fps.low_0_1.percentile", "1/s", higher},
+    {Of::frame, What::low_0_1_mean, "fps.low_0_1.mean", "1/s", higher},
+    {Of::frame, What::low_0_1_integral, "fps.low_0_1.integral", "1/s", higher},
+    {Of::frame, What::time, "frame.time", "ms", lower},
+    {Of::frame, What::device_time, "frame.device.time", "ms", lower},
+    {Of::frame, What::first_time, "frame.first.time", "ms", lower},
+    {Of::frame, What::isolated_time, "frame.isolated.time", "ms", lower},
+    {Of::frame, What::overlap, "frame.overlap", "ms", neither},
+    {Of::frame, What::cpu_time, "frame.cpu.time", "ms", lower},
+    {Of::frame, What::instructions, "frame.instructions", "1", lower},
+    {Of::cpu, What::record_time, "cpu.record.time", "ms", lower},
+    {Of::cpu, What::submit_time, "cpu.submit.time", "ms", lower},
+    // One waits longer where others are faster.
+    {Of::cpu, What::wait_time, "cpu.wait.time", "ms", neither},
+    {Of::gpu, What::wait_time, "gpu.wait.time", "ms", neither},
+    {Of::pass, What::time, "pass.*.time", "ms", lower},
+    {Of::pass, What::cpu_time, "pass.*.cpu.time", "ms", lower},
+    {Of::pass, What::instructions, "pass.*.instructions", "1", lower},
+    {Of::image, What::rmse, "image.rmse", "1", lower},
+    {Of::image, What::psnr, "image.psnr", "dB", higher},
+    {Of::image, What::ssim, "image.ssim", "1", higher},
+    {Of::image, What::flip, "image.flip", "1", lower},
+    {Of::memory, What::allocated, "memory.device", "B", lower},
+    {Of::memory, What::heap, "memory.heap.*", "B", lower},
+    {Of::memory, What::purpose, "memory.purpose.*", "B", lower},
+    {Of::memory, What::transparency, "memory.transparency", "B", lower},
+};
+
+// Null for MetricOf::other.
+const MetricKind* kindOf(const MetricId& id) {
+    const auto found = std::ranges::find_if(
+        kKinds, [&](const MetricKind& kind) { return kind.of == id.of && kind.what == id.what; });
+    assert((found == std::end(kKinds)) == (id.of == Of::other));
+    return found == std::end(kKinds) ? nullptr : found;
+}
+
+// What stands in the place of the pattern's '*', empty where it has none. Nothing where the name is
+// another one.
+std::optional<std::string> partOf(std::string_view name, std::string_view pattern) {
+    const std::size_t place = pattern.find(kPart);
+    if (place == pattern.npos) return name == pattern ? std::optional(std::string()) : std::nullopt;
+    const std::string_view before = pattern.substr(0, place);
+    const std::string_view after = pattern.substr(place + 1);
+    if (name.size() < pattern.size() || !name.starts_with(before) || !name.ends_with(after))
+        return std::nullopt;
+    const std::string_view part =
+        name.substr(before.size(), name.size() - before.size() - after.size());
+    if (part.find('.') != part.npos) return std::nullopt;
+    return std::string(part);
+}
+
+Better betterNamed(std::string_view name) {
+    for (const Better better : {lower, higher})
+        if (name == betterName(better)) return better;
+    return neither;
+}
+
+Mode modeNamed(std::string_view name) {
+    for (const Mode mode : {Mode::none, Mode::overlapped, Mode::isolated, Mode::wall_clock})
+        if (name == modeName(mode)) return mode;
+    return Mode::other;
+}
+
+bool isOfFrameOrPass(const MetricId& id) { return id.of == Of::frame || id.of == Of::pass; }
+
+}  // namespace
+
+std::span<const MetricKind> metricKinds() { return kKinds; }
+
+std::string MetricId::name() const {
+    const MetricKind* const kind = kindOf(*this);
+    if (!kind) return part;
+    std::string name(kind->name);
+    if (const std::size_t place = name.find(kPart); place != name.npos)
+        name.replace(place, 1, part);
+    return name;
+}
+
+MetricId metricNamed(std::string_view name) {
+    for (const MetricKind& kind : kKinds)
+        if (std::optional<std::string> part = partOf(name, kind.name))
+            return {kind.of, kind.what, std::move(*part)};
+    return {Of::other, What::other, std::string(name)};
+}
+
+bool isPassTime(const MetricId& id) { return id.of == Of::pass && id.what == What::time; }
+
+bool isFrameOrPassTime(const MetricId& id) { return isOfFrameOrPass(id) && id.what == What::time; }
+
+bool isOfProcessor(const MetricId& id) {
+    return isOfFrameOrPass(id) && (id.what == What::cpu_time || id.what == What::instructions);
+}
+
+bool isFrameOrPassCost(const MetricId& id) { return isFrameOrPassTime(id) || isOfProcessor(id); }
+
+bool isSameOfFrameOrPass(const MetricId& id, const MetricId& other) {
+    return isOfFrameOrPass(id) && id.what == other.what;
+}
+
+Metric::Metric(MetricId metric_id, std::vector<double> values, Mode timed)
+    : id(std::move(metric_id)), mode(timed), samples(std::move(values)) {
+    if (const MetricKind* const kind = kindOf(id)) {
+        unit = kind->unit;
+        better = kind->better;
+    }
+}
+
+MetricReading MetricReading::fromReport(std::string_view name, const scene::Json& entry) {
+    MetricReading reading{{metricNamed(name), {}, modeNamed(entry.value("mode", ""))}};
+    reading.unit = entry.at("unit").get<std::string>();
+    reading.better = betterNamed(entry.value("hint", betterName(reading.better)));
+    reading.median = entry.at("median").get<double>();
+    if (const auto samples = entry.find("samples"); samples != entry.end())
+        reading.samples = samples->get<std::vector<double>>();
+    return reading;
+}
+
+std::vector<MetricReading> readMetrics(const scene::Json& result) {
+    std::vector<MetricReading> metrics;
+    for (const auto& [name, entry] : result.at("metrics").items())
+        metrics.push_back(MetricReading::fromReport(name, entry));
+    return metrics;
+}
+
+const char* betterName(Better better) {
+    switch (better) {
+    case lower:
+        return "lower";
+    case higher:
+        return "higher";
+    case neither:
+        break;
+    }
+    return "";
+}
+
+const char* modeName(Mode mode) {
+    switch (mode) {
+    case Mode::overlapped:
+        return "overlapped";
+    case Mode::isolated:
+        return "isolated";
+    case Mode::wall_clock:
+        return "wall_clock";
+    case Mode::other:
+        return "other";
+    case Mode::none:
+        break;
+    }
+    return "";
+}
+
+}  // namespace benchmarks::report

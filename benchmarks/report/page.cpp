@@ -1,0 +1,246 @@
+#include "benchmarks/report/page.h"
+
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/report/compare.h"
+#include "benchmarks/report/environment.h"
+#include "benchmarks/report/metric.h"
+#include "benchmarks/report/report.h"
+#include "engine/error.h"
+#include "engine/files.h"
+
+namespace benchmarks::report {
+namespace {
+
+// ---- Page parts ---------------------------------------------------------------------------------
+
+constexpr const char* kStyles[] = {"theme.css",  "page.css",     "controls.css",
+                                   "tables.css", "pictures.css", "print.css"};
+
+// What a module uses when it is read stands before it.
+constexpr const char* kScripts[] = {"dom.js",           "format.js",
+                                    "data.js",          "theme.js",
+                                    "plot.js",          "filter.js",
+                                    "summary.js",       "scaling.js",
+                                    "scaling_lines.js", "scaling_controls.js",
+                                    "passes.js",        "distributions.js",
+                                    "samples_plot.js",  "quality.js",
+                                    "table.js",         "changes.js",
+                                    "comparison.js",    "picture_views.js",
+                                    "pictures.js",      "cases.js",
+                                    "environment.js",   "main.js"};
+
+std::filesystem::path folder() { return HAIRBENCH_SOURCE_DIR "/benchmarks/report_page"; }
+
+std::string joined(const char* subfolder, std::span<const char* const> names) {
+    std::string text;
+    for (const char* name : names) text += engine::readFile(folder() / subfolder / name) + '\n';
+    return text;
+}
+
+// lib/python3.N/site-packages, whichever N.
+std::optional<std::filesystem::path> inEnvironment(const std::filesystem::path& environment) {
+    std::error_code error;
+    for (const auto& each : std::filesystem::directory_iterator(environment / "lib", error)) {
+        const std::filesystem::path file =
+            each.path() / "site-packages/plotly/package_data/plotly.min.js";
+        if (std::filesystem::is_regular_file(file, error)) return file;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::filesystem::path> findPlotly() {
+    const char* wanted = std::getenv("HAIRBENCH_PLOTLY");
+    if (!wanted || !*wanted) return inEnvironment(HAIRBENCH_SOURCE_DIR "/.deps/report");
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(wanted, error)) return std::nullopt;
+    return wanted;
+}
+
+std::string readPlotly() {
+    const auto file = findPlotly();
+    if (!file)
+        throw engine::Error("report", "this needs plotly.min.js: run scripts/setup --report");
+    return engine::readFile(*file);
+}
+
+PageParts readPageParts(std::string plotly) {
+    return {
+        .page = engine::readFile(folder() / "page.html"),
+        .style = joined("style", kStyles),
+        .script = joined("script", kScripts),
+        .plotly = std::move(plotly)};
+}
+
+namespace {
+
+// ---- Assemble page ------------------------------------------------------------------------------
+
+std::string replaced(std::string_view text, char what, std::string_view with) {
+    std::string result;
+    for (const char each : text)
+        if (each == what)
+            result += with;
+        else
+            result += each;
+    return result;
+}
+
+}  // namespace
+
+std::string escapedHtml(std::string_view text) {
+    std::string result = replaced(text, '&', "&amp;");
+    result = replaced(result, '<', "&lt;");
+    result = replaced(result, '>', "&gt;");
+    return replaced(result, '"', "&quot;");
+}
+
+std::string scriptJson(const scene::Json& data) {
+    return replaced(
+        data.dump(-1, ' ', false, scene::Json::error_handler_t::replace), '<', "\\u003c");
+}
+
+std::string assemblePage(const PageParts& parts, const scene::Json& data) {
+    const std::string title =
+        escapedHtml(data.at("title").get_ref<const std::string&>()) + " - hairbench";
+    const std::string json = scriptJson(data);
+    // In the order of the page, so that what is put in is never searched.
+    const std::pair<std::string_view, std::string_view> places[] = {
+        {"@title@", title},
+        {"@style@", parts.style},
+        {"@data@", json},
+        {"@plotly@", parts.plotly},
+        {"@script@", parts.script}};
+    std::string_view rest = parts.page;
+    std::string page;
+    page.reserve(parts.page.size() + parts.plotly.size() + parts.script.size() + json.size());
+    for (const auto& [place, text] : places) {
+        const std::size_t found = rest.find(place);
+        if (found == std::string_view::npos)
+            throw engine::Error("page.html", std::string(place) + " is missing or out of order");
+        page.append(rest.substr(0, found)).append(text);
+        rest.remove_prefix(found + place.size());
+    }
+    return page.append(rest);
+}
+
+// ---- Picture uri --------------------------------------------------------------------------------
+
+std::string base64(std::string_view bytes) {
+    constexpr std::string_view digits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+        std::uint32_t bits = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            bits = bits << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+        for (std::size_t k = 0; k < 4; ++k)
+            text += k <= count ? digits[bits >> (18 - 6 * k) & 63u] : '=';
+    }
+    return text;
+}
+
+std::optional<std::string> pictureUri(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
+    const std::string bytes = engine::readFile(file);
+    if (bytes.starts_with("\x89PNG\r\n")) return "data:image/png;base64," + base64(bytes);
+    if (bytes.starts_with("\xff\xd8\xff")) return "data:image/jpeg;base64," + base64(bytes);
+    return std::nullopt;
+}
+
+namespace {
+
+// ---- Page data ----------------------------------------------------------------------------------
+
+// "A" to "Z", then "27" and so on.
+std::string labelOf(std::size_t index) {
+    return index < 26 ? std::string(1, static_cast<char>('A' + index)) : std::to_string(index + 1);
+}
+
+// The pictures are beside the report.
+void addPictures(scene::Json& report, const std::filesystem::path& file, scene::Json& pictures) {
+    for (scene::Json& each : report.at("cases")) {
+        const auto picture = each.find("picture");
+        if (picture == each.end()) continue;
+        const auto path = picture->get<std::string>();
+        if (const auto uri = pictureUri(file.parent_path() / path)) {
+            const std::string id = hashText(*uri);
+            pictures[id] = *uri;
+            each["picture_id"] = id;
+        } else {
+            each["picture_missing"] = path;
+        }
+    }
+}
+
+// Which metrics are of passes and of pictures.
+void addMetrics(const scene::Json& report, scene::Json& pass_times, scene::Json& image_metrics) {
+    for (const scene::Json& each : report.at("cases")) {
+        const auto metrics = each.find("metrics");
+        if (metrics == each.end()) continue;
+        for (const auto& [name, metric] : metrics->items()) {
+            const MetricId id = metricNamed(name);
+            if (isPassTime(id)) pass_times[name] = id.pass();
+            if (id.of == MetricOf::image) image_metrics[name] = true;
+        }
+    }
+}
+
+// The scene's name, or the scenes' if there are several.
+std::string titleOf(const scene::Json& reports) {
+    std::vector<std::string> names;
+    for (const scene::Json& report : reports) {
+        const std::string name =
+            std::filesystem::path(report.at("scene").at("path").get<std::string>()).stem().string();
+        if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+    std::string title;
+    for (const std::string& name : names) title += (title.empty() ? "" : ", ") + name;
+    return title;
+}
+
+}  // namespace
+
+scene::Json pageData(std::span<const std::filesystem::path> files) {
+    scene::Json reports = scene::Json::array();
+    scene::Json pictures = scene::Json::object();
+    scene::Json pass_times = scene::Json::object();
+    scene::Json image_metrics = scene::Json::object();
+    for (const std::filesystem::path& file : files) try {
+            scene::Json report = readReport(file);
+            report["label"] = labelOf(reports.size());
+            report["file"] = file.filename().string();
+            addPictures(report, file, pictures);
+            addMetrics(report, pass_times, image_metrics);
+            reports.push_back(std::move(report));
+        } catch (const scene::Json::exception& error) {
+            throw engine::Error(file.string(), error.what());
+        }
+    scene::Json comparisons = scene::Json::array();
+    for (std::size_t i = 1; i < reports.size(); ++i)
+        comparisons.push_back(comparisonJson(
+            compareReports(reports[0], reports[i], VerdictOptions{}), reports[0].at("file"),
+            reports[i].at("file")));
+    const std::string title = titleOf(reports);
+    return {
+        {"title", title},
+        {"reports", std::move(reports)},
+        {"pass_times", std::move(pass_times)},
+        {"image_metrics", std::move(image_metrics)},
+        {"pictures", std::move(pictures)},
+        {"comparisons", std::move(comparisons)}};
+}
+
+}  // namespace benchmarks::report

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "benchmarks/scene/json.h"
+
+// What a page is made of, besides its data.
+namespace benchmarks::report {
+
+struct PageParts {
+    std::string page;    // HTML with places: @title@, @style@, @data@, @plotly@, @script@
+    std::string style;   // CSS
+    std::string script;  // JavaScript, all modules one after the other
+    std::string plotly;  // plotly.min.js
+};
+
+// plotly.min.js: the file that HAIRBENCH_PLOTLY names, or the one in the environment that
+// scripts/setup --report makes; nothing where there is none.
+std::optional<std::filesystem::path> findPlotly();
+
+// Its text. Throws engine::Error, which says what to run, where there is none.
+std::string readPlotly();
+
+// The rest is read from the project's folder.
+PageParts readPageParts(std::string plotly);
+
+// Text as HTML shows it, in an element or a quoted attribute.
+std::string escapedHtml(std::string_view text);
+
+// JSON that ends no script element and begins no comment in one: "<" is written "\u003c", which is
+// the same to JSON. What is no UTF-8 is replaced.
+std::string scriptJson(const scene::Json& data);
+
+// The whole page: pageData() in its place. Throws engine::Error for a page without one of the
+// places.
+std::string assemblePage(const PageParts& parts, const scene::Json& data);
+
+// All that the page shows, as one object:
+//   title
+//   reports[]      each as it was read, with `label` ("A", "B", ...) and `file`; a case with a
+//                  picture has `picture_id`, one whose picture is not there `picture_missing`
+//   pass_times     name of a pass's time -> the pass
+//   image_metrics  name of a picture's error -> true
+//   pictures       `picture_id` -> data URI; equal files once
+//   comparisons[]  of the first report with each of the others, as `hairbench compare --json` says
+// Throws engine::Error for a report that cannot be read.
+scene::Json pageData(std::span<const std::filesystem::path> reports);
+
+// RFC 4648, section 4: with padding, no line breaks.
+std::string base64(std::string_view bytes);
+
+// A picture file as a URI that holds it: "data:image/png;base64,...". Nothing where there is no
+// such file, or what is there is neither PNG nor JPEG.
+std::optional<std::string> pictureUri(const std::filesystem::path& file);
+
+}  // namespace benchmarks::report

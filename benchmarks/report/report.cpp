@@ -1,0 +1,386 @@
+#include "benchmarks/report/report.h"
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/report/statistics.h"
+#include "benchmarks/scene/json.h"
+#include "engine/error.h"
+#include "engine/files.h"
+
+namespace benchmarks::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+// ---- Report -------------------------------------------------------------------------------------
+
+// ---- Members that are absent when unknown ---------------------------------------------------
+
+void put(scene::Json& object, const char* key, const std::string& text) {
+    if (!text.empty()) object[key] = text;
+}
+
+void put(scene::Json& object, const char* key, double number) {
+    if (std::isfinite(number)) object[key] = number;
+}
+
+template <class Number>
+void put(scene::Json& object, const char* key, const std::optional<Number>& number) {
+    if (!number) return;
+    if constexpr (std::is_floating_point_v<Number>)
+        put(object, key, *number);
+    else
+        object[key] = *number;
+}
+
+// ---- Parts ----------------------------------------------------------------------------------
+
+scene::Json toJson(const DeviceRecord& device) {
+    scene::Json object = scene::Json::object();
+    put(object, "name", device.name);
+    put(object, "type", device.type);
+    put(object, "driver", device.driver);
+    put(object, "driver_version", device.driver_version);
+    put(object, "api_version", device.api_version);
+    put(object, "timestamp_period_ns", device.timestamp_period_ns);
+    put(object, "id", device.id);
+    put(object, "timestamp_valid_bits", device.timestamp_valid_bits);
+    for (const auto& [name, limit] : device.limits) put(object["limits"], name.c_str(), limit);
+    return object;
+}
+
+scene::Json toJson(const HostRecord& host) {
+    scene::Json object = scene::Json::object();
+    put(object, "system", host.system);
+    put(object, "processor", host.processor);
+    put(object, "processor_count", host.processor_count);
+    put(object, "memory_bytes", host.memory_bytes);
+    return object;
+}
+
+scene::Json toJson(const BuildRecord& build) {
+    scene::Json object = scene::Json::object();
+    put(object, "version", build.version);
+    put(object, "commit", build.commit);
+    put(object, "compiler", build.compiler);
+    put(object, "type", build.type);
+    put(object, "flags", build.flags);
+    put(object, "dirty", build.dirty);
+    return object;
+}
+
+scene::Json toJson(const SceneRecord& scene) {
+    return {{"path", scene.path}, {"hash", scene.hash}, {"document", scene.document.json()}};
+}
+
+// Null if there is no finite sample.
+scene::Json toJson(const Metric& metric) {
+    std::vector<double> samples = metric.samples;
+    const std::size_t missing =
+        std::erase_if(samples, [](double value) { return !std::isfinite(value); });
+    if (samples.empty()) return nullptr;
+    const Summary summary = summarize(samples);
+    scene::Json object = scene::Json::object();
+    object["unit"] = metric.unit;
+    put(object, "hint", std::string(betterName(metric.better)));
+    put(object, "mode", std::string(modeName(metric.mode)));
+    put(object, "median", summary.median);
+    put(object, "mad", summary.mad);
+    put(object, "mean", summary.mean);
+    put(object, "minimum", summary.minimum);
+    put(object, "first_quartile", summary.first_quartile);
+    put(object, "third_quartile", summary.third_quartile);
+    put(object, "maximum", summary.maximum);
+    if (samples.size() > 1) {
+        put(object, "percentile_5", quantile(samples, 0.05));
+        put(object, "percentile_95", quantile(samples, 0.95));
+        put(object, "percentile_99", quantile(samples, 0.99));
+        put(object, "effective_samples", effectiveSamples(samples));
+        const MedianInterval interval = medianInterval(samples, 0.05, effectiveSamples(samples));
+        if (std::isfinite(interval.lower) && std::isfinite(interval.upper))
+            object["interval"] = {
+                {"lower", interval.lower},
+                {"upper", interval.upper},
+                {"confidence", interval.confidence}};
+    }
+    put(object, "relative_deviation", summary.relative_deviation);
+    object["samples"] = std::move(samples);
+    if (missing > 0) object["missing_samples"] = missing;
+    return object;
+}
+
+scene::Json toJson(const Sampling& sampling) {
+    scene::Json object = {
+        {"mode", sampling.mode},
+        {"rounds", sampling.rounds},
+        {"warmup_rounds", sampling.warmup_rounds},
+        {"throttled_rounds", sampling.throttled_rounds}};
+    put(object, "seconds", sampling.seconds);
+    put(object, "steady", sampling.steady);
+    put(object, "precision", sampling.precision);
+    return object;
+}
+
+scene::Json toJson(const Conditions& conditions) {
+    scene::Json object = scene::Json::object();
+    put(object, "clock_mhz", conditions.clock_mhz);
+    put(object, "base_clock_mhz", conditions.base_clock_mhz);
+    put(object, "memory_clock_mhz", conditions.memory_clock_mhz);
+    put(object, "temperature", conditions.temperature);
+    put(object, "steal", conditions.steal);
+    put(object, "other_load", conditions.other_load);
+    if (!conditions.throttle_reasons.empty())
+        object["throttle_reasons"] = conditions.throttle_reasons;
+    return object;
+}
+
+scene::Json toJson(const Statistic& statistic) {
+    scene::Json object = {{"measured", statistic.measured}};
+    put(object, "expected", statistic.expected);
+    put(object, "note", statistic.note);
+    return object;
+}
+
+scene::Json toJson(const Trust& trust) {
+    scene::Json object = scene::Json::object();
+    put(object, "pass_sum_over_wall", trust.pass_sum_over_wall);
+    object["warnings"] = trust.warnings;
+    return object;
+}
+
+void putMeasured(scene::Json& object, const CaseResult& result) {
+    scene::Json& metrics = object["metrics"] = scene::Json::object();
+    for (const Metric& metric : result.metrics)
+        if (scene::Json value = toJson(metric); !value.is_null())
+            metrics[metric.name()] = std::move(value);
+    scene::Json& statistics = object["statistics"] = scene::Json::object();
+    for (const Statistic& statistic : result.statistics)
+        statistics[statistic.name] = toJson(statistic);
+    scene::Json& counts = object["counts"] = scene::Json::object();
+    for (const auto& [name, count] : result.counts) counts[name] = count;
+    scene::Json& sampling = object["sampling"] = scene::Json::array();
+    for (const Sampling& each : result.sampling) sampling.push_back(toJson(each));
+    object["conditions"] = toJson(result.conditions);
+    object["trust"] = toJson(result.trust);
+    put(object, "image_hash", result.image_hash);
+    put(object, "state_hash", result.state_hash);
+    put(object, "picture", result.picture);
+}
+
+scene::Json toJson(const CaseResult& result) {
+    scene::Json object = {{"name", result.name}, {"axes", scene::Json::object()}};
+    for (const scene::AxisValue& axis : result.axes)
+        object["axes"][axis.pointer] = axis.value.json();
+    put(object, "index", result.index);
+    put(object, "order", result.order);
+    object["status"] = statusName(result.status);
+    put(object, "reason", result.reason);
+    if (result.status == Status::ok) putMeasured(object, result);
+    return object;
+}
+
+}  // namespace
+
+const char* statusName(Status status) {
+    switch (status) {
+    case Status::ok:
+        return "ok";
+    case Status::skipped:
+        return "skipped";
+    case Status::failed:
+        return "failed";
+    }
+    return "failed";
+}
+
+scene::Json environmentJson(const Environment& environment) {
+    scene::Json object = scene::Json::object();
+    object["device"] = toJson(environment.device);
+    object["host"] = toJson(environment.host);
+    object["build"] = toJson(environment.build);
+    object["command"] = environment.command;
+    put(object, "started", environment.started);
+    object["seed"] = environment.seed;
+    put(object, "validation", environment.validation);
+    return object;
+}
+
+scene::Json headerJson(const ReportHeader& header) {
+    scene::Json object = scene::Json::object();
+    object["schema"] = kReportSchema;
+    object["environment"] = environmentJson(header.environment);
+    object["scene"] = toJson(header.scene);
+    put(object, "case_count", header.case_count);
+    put(object, "order_seed", header.order_seed);
+    if (header.shard)
+        object["shard"] = {{"index", header.shard->index}, {"count", header.shard->count}};
+    return object;
+}
+
+scene::Json caseJson(const CaseResult& result) { return toJson(result); }
+
+scene::Json assembledReport(scene::Json header, std::vector<scene::Json> cases, bool interrupted) {
+    header["interrupted"] = interrupted;
+    header["cases"] = std::move(cases);
+    return header;
+}
+
+scene::Json reportJson(const Report& report) {
+    std::vector<scene::Json> cases;
+    for (const CaseResult& result : report.cases) cases.push_back(toJson(result));
+    return assembledReport(headerJson(report), std::move(cases), report.interrupted);
+}
+
+std::string reportText(const Report& report) {
+    // What drivers and commands say need not be UTF-8.
+    return reportJson(report).dump(2, ' ', false, scene::Json::error_handler_t::replace) + '\n';
+}
+
+namespace {
+
+// ---- Samples file -------------------------------------------------------------------------------
+
+// Beside what a link points to, as the report itself.
+fs::path folderOf(const fs::path& report) { return fs::weakly_canonical(report).parent_path(); }
+
+fs::path samplesFile(const fs::path& report) {
+    return folderOf(report) / (fs::weakly_canonical(report).stem().string() + ".samples.jsonl");
+}
+
+using Key = std::pair<std::string, std::string>;  // case, metric
+
+// Calls `visit` with the case's name, the metric's, and the metric, of each.
+template <class Visit>
+void forEachMetric(scene::Json& report, Visit visit) {
+    const auto cases = report.find("cases");
+    if (cases == report.end()) return;
+    for (scene::Json& each : *cases) {
+        const auto metrics = each.find("metrics");
+        if (metrics == each.end()) continue;
+        for (auto& [name, metric] : metrics->items())
+            visit(each.at("name").template get<std::string>(), name, metric);
+    }
+}
+
+// Puts `value` under `key` in the place of `old_key`.
+void replaceMember(scene::Json& object, const char* old_key, const char* key, scene::Json value) {
+    scene::Json replaced = scene::Json::object();
+    for (auto& [name, member] : object.items()) {
+        if (name == old_key)
+            replaced[key] = std::move(value);
+        else
+            replaced[name] = std::move(member);
+    }
+    object = std::move(replaced);
+}
+
+std::map<Key, scene::Json> readSamples(const fs::path& path) {
+    std::map<Key, scene::Json> samples;
+    std::istringstream file(engine::readFile(path));
+    for (std::string text; std::getline(file, text);) {
+        scene::Json line = scene::parseJson(text, path.string());
+        samples[{line.at("case"), line.at("metric")}] = std::move(line.at("samples"));
+    }
+    return samples;
+}
+
+// A report and samples of two runs can meet where one was killed between writing them.
+bool fits(const scene::Json& metric, const scene::Json& samples) {
+    return samples.size() == metric.at("sample_count").get<std::size_t>() && !samples.empty() &&
+           summarize(samples.get<std::vector<double>>()).median ==
+               metric.at("median").get<double>();
+}
+
+}  // namespace
+
+bool moveSamplesOut(scene::Json& report, const fs::path& path) {
+    const fs::path file = samplesFile(path);
+    std::string text;
+    forEachMetric(
+        report, [&](const std::string& name, const std::string& metric, scene::Json& value) {
+            const auto samples = value.find("samples");
+            if (samples == value.end() || samples->size() <= kMostSamplesInReport) return;
+            const std::size_t count = samples->size();
+            text +=
+                scene::Json{{"case", name}, {"metric", metric}, {"samples", std::move(*samples)}}
+                    .dump(-1, ' ', false, scene::Json::error_handler_t::replace) +
+                '\n';
+            replaceMember(value, "samples", "samples_file", file.filename().string());
+            value["sample_count"] = count;
+        });
+    if (!text.empty()) engine::writeFileAtomically(file, text);
+    return !text.empty();
+}
+
+void removeSamples(const fs::path& path) {
+    std::error_code ignored;
+    fs::remove(samplesFile(path), ignored);
+}
+
+void moveSamplesIn(scene::Json& report, const fs::path& path) {
+    std::map<std::string, std::map<Key, scene::Json>> files;
+    forEachMetric(
+        report, [&](const std::string& name, const std::string& metric, scene::Json& value) {
+            const auto member = value.find("samples_file");
+            if (member == value.end()) return;
+            const auto file_name = member->get<std::string>();
+            const fs::path file = folderOf(path) / file_name;
+            if (!fs::is_regular_file(file))
+                throw engine::Error(path.string(), "its samples are missing: " + file.string());
+            if (!files.contains(file_name)) files[file_name] = readSamples(file);
+            scene::Json& samples = files[file_name][{name, metric}];
+            if (!fits(value, samples))
+                throw engine::Error(
+                    path.string(),
+                    file.string() + " is of another report: " + name + ", " + metric);
+            value.erase("sample_count");
+            replaceMember(value, "samples_file", "samples", std::move(samples));
+        });
+}
+
+// ---- Report file --------------------------------------------------------------------------------
+
+bool isReadable(std::string_view schema) {
+    const std::string_view mine = kReportSchema;
+    return schema.starts_with(mine.substr(0, mine.find('.') + 1));
+}
+
+scene::Json readReport(const std::filesystem::path& path) {
+    scene::Json report = scene::parseJson(engine::readFile(path), path.string());
+    const auto schema = report.is_object() ? report.find("schema") : report.end();
+    if (!report.is_object() || schema == report.end() || !schema->is_string())
+        throw engine::Error(path.string(), "is no report of hairbench run");
+    if (!isReadable(schema->get_ref<const std::string&>()))
+        throw engine::Error(
+            path.string(), schema->get<std::string>() + " is not " + std::string(kReportSchema));
+    try {
+        moveSamplesIn(report, path);
+    } catch (const scene::Json::exception& error) {
+        throw engine::Error(path.string(), std::string("is damaged: ") + error.what());
+    }
+    return report;
+}
+
+void writeReport(const scene::Json& report, const std::filesystem::path& path) {
+    // What is no file, /dev/stdout or a pipe, has no neighbours.
+    std::error_code ignored;
+    const bool is_file =
+        !std::filesystem::exists(path, ignored) || std::filesystem::is_regular_file(path, ignored);
+    scene::Json written = report;
+    // Before the report, so that nobody sees it without them.
+    const bool moved = is_file && moveSamplesOut(written, path);
+    // What drivers and commands say need not be UTF-8.
+    engine::writeFileAtomically(
+        path, written.dump(2, ' ', false, scene::Json::error_handler_t::replace) + '\n');
+    if (is_file && !moved) removeSamples(path);
+}
+
+}  // namespace benchmarks::report

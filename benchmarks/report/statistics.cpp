@@ -1,0 +1,313 @@
+#include "benchmarks/report/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "engine/error.h"
+
+namespace benchmarks::report {
+namespace {
+
+// ---- Statistics ---------------------------------------------------------------------------------
+
+constexpr double kMillisecondsPerSecond = 1000.0;
+
+template <class Order = std::less<>>
+std::vector<double> sorted(std::span<const double> samples, Order order = {}) {
+    if (samples.empty()) throw engine::Error("statistics", "no samples");
+    std::vector<double> copy(samples.begin(), samples.end());
+    std::ranges::sort(copy, order);
+    return copy;
+}
+
+double quantileOfSorted(std::span<const double> values, double p) {
+    const double position = static_cast<double>(values.size() - 1) * std::clamp(p, 0.0, 1.0);
+    const auto below = static_cast<std::size_t>(position);
+    const std::size_t above = std::min(below + 1, values.size() - 1);
+    return std::lerp(values[below], values[above], position - static_cast<double>(below));
+}
+
+double sum(std::span<const double> values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+double relativeDeviation(std::span<const double> values, double mean) {
+    double squares = 0.0;
+    for (const double value : values) squares += (value - mean) * (value - mean);
+    if (squares == 0.0) return 0.0;
+    const double deviation = std::sqrt(squares / static_cast<double>(values.size() - 1));
+    return mean == 0.0 ? std::numeric_limits<double>::infinity() : deviation / std::abs(mean);
+}
+
+}  // namespace
+
+Summary summarize(std::span<const double> samples) {
+    const std::vector<double> values = sorted(samples);
+    const double median = quantileOfSorted(values, 0.5);
+    const double mean = sum(values) / static_cast<double>(values.size());
+    std::vector<double> deviations = values;
+    for (double& value : deviations) value = std::abs(value - median);
+    return {
+        .count = values.size(),
+        .minimum = values.front(),
+        .first_quartile = quantileOfSorted(values, 0.25),
+        .median = median,
+        .third_quartile = quantileOfSorted(values, 0.75),
+        .maximum = values.back(),
+        .mean = mean,
+        .mad = quantileOfSorted(sorted(deviations), 0.5),
+        .relative_deviation = relativeDeviation(values, mean)};
+}
+
+double quantile(std::span<const double> samples, double p) {
+    return quantileOfSorted(sorted(samples), p);
+}
+
+double framesPerSecond(std::span<const double> frame_ms) {
+    if (frame_ms.empty()) throw engine::Error("statistics", "no samples");
+    return kMillisecondsPerSecond * static_cast<double>(frame_ms.size()) / sum(frame_ms);
+}
+
+LowRates lowRates(std::span<const double> frame_ms, double fraction) {
+    const std::vector<double> longest = sorted(frame_ms, std::greater<>{});
+    // The tolerance keeps a product such as 0.01 * 300 = 3.0000000000000004 from counting a fourth
+    // frame.
+    const double share = fraction * static_cast<double>(longest.size());
+    const auto worst = std::clamp(
+        static_cast<std::size_t>(std::ceil(share - 1e-9)), std::size_t{1}, longest.size());
+    const double worst_mean = sum(std::span(longest).first(worst)) / static_cast<double>(worst);
+    const double budget = fraction * sum(longest);
+    std::size_t last = 0;
+    for (double spent = longest[0]; spent < budget && last + 1 < longest.size();)
+        spent += longest[++last];
+    return {
+        .percentile = kMillisecondsPerSecond / quantile(frame_ms, 1.0 - fraction),
+        .mean = kMillisecondsPerSecond / worst_mean,
+        .integral = kMillisecondsPerSecond / longest[last]};
+}
+
+namespace {
+
+// ---- Signed rank --------------------------------------------------------------------------------
+
+// P(sum = s) of the ranks with a positive sign, each sign as likely as the other. Every step is a
+// mean of two earlier probabilities, so that nothing cancels.
+std::vector<double> sumProbabilities(std::span<const std::size_t> ranks) {
+    const std::size_t most = std::accumulate(ranks.begin(), ranks.end(), std::size_t{0});
+    std::vector<double> probabilities(most + 1, 0.0);
+    probabilities[0] = 1.0;
+    std::vector<double> next(probabilities.size());
+    std::size_t reached = 0;
+    for (const std::size_t rank : ranks) {
+        reached += rank;
+        for (std::size_t sum = 0; sum < rank; ++sum) next[sum] = 0.5 * probabilities[sum];
+        for (std::size_t sum = rank; sum <= reached; ++sum)
+            next[sum] = 0.5 * (probabilities[sum] + probabilities[sum - rank]);
+        std::swap(probabilities, next);
+    }
+    return probabilities;
+}
+
+std::vector<double> walshAverages(std::span<const double> values) {
+    std::vector<double> averages;
+    averages.reserve(values.size() * (values.size() + 1) / 2);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        for (std::size_t j = i; j < values.size(); ++j)
+            averages.push_back(0.5 * values[i] + 0.5 * values[j]);
+    std::ranges::sort(averages);
+    return averages;
+}
+
+void requireDifferences(std::span<const double> differences) {
+    if (differences.empty()) throw engine::Error("signed rank", "no differences");
+    if (differences.size() > kMostDifferences)
+        throw engine::Error(
+            "signed rank", "more than " + std::to_string(kMostDifferences) + " differences");
+    if (!std::ranges::all_of(differences, [](double value) { return std::isfinite(value); }))
+        throw engine::Error("signed rank", "a difference is not finite");
+}
+
+// Mean ranks of sorted magnitudes, as multiples of the largest number that makes them whole: 1
+// without ties, often 1/2 with them.
+std::vector<std::size_t> meanRanks(std::span<const double> sorted) {
+    std::vector<std::size_t> ranks(sorted.size());
+    for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
+        while (end < sorted.size() && sorted[end] == sorted[begin]) ++end;
+        for (std::size_t i = begin; i < end; ++i) ranks[i] = begin + 1 + end;  // twice the mean
+    }
+    std::size_t unit = 0;
+    for (const std::size_t rank : ranks) unit = std::gcd(unit, rank);
+    for (std::size_t& rank : ranks) rank /= unit;
+    return ranks;
+}
+
+}  // namespace
+
+std::vector<double> signedRankDistribution(std::size_t n) {
+    std::vector<std::size_t> ranks(n);
+    std::iota(ranks.begin(), ranks.end(), std::size_t{1});
+    std::vector<double> distribution = sumProbabilities(ranks);
+    std::partial_sum(distribution.begin(), distribution.end(), distribution.begin());
+    return distribution;
+}
+
+MedianInterval signedRankInterval(std::span<const double> differences, double alpha) {
+    requireDifferences(differences);
+    const std::vector<double> averages = walshAverages(differences);
+    const std::vector<double> distribution = signedRankDistribution(differences.size());
+    // So many Walsh averages may be cut off at either end.
+    std::size_t cut = 0;
+    while (2 * cut + 2 < averages.size() && 2.0 * distribution[cut] <= alpha) ++cut;
+    MedianInterval interval{
+        .estimate = quantile(averages, 0.5),
+        .lower = -std::numeric_limits<double>::infinity(),
+        .upper = std::numeric_limits<double>::infinity(),
+        .confidence = 1.0};
+    if (cut == 0) return interval;
+    interval.lower = averages[cut - 1];
+    interval.upper = averages[averages.size() - cut];
+    interval.confidence = 1.0 - 2.0 * distribution[cut - 1];
+    return interval;
+}
+
+SignedRankP signedRankP(std::span<const double> differences, double median) {
+    requireDifferences(differences);
+    std::vector<double> shifted;
+    for (const double difference : differences)
+        if (difference != median) shifted.push_back(difference - median);
+    if (shifted.empty()) return {1.0, 1.0, 1.0};
+    std::ranges::sort(shifted, {}, [](double value) { return std::abs(value); });
+    std::vector<double> magnitudes;
+    for (const double value : shifted) magnitudes.push_back(std::abs(value));
+    const std::vector<std::size_t> ranks = meanRanks(magnitudes);
+    std::size_t positive = 0;
+    for (std::size_t i = 0; i < ranks.size(); ++i)
+        if (shifted[i] > 0.0) positive += ranks[i];
+
+    const std::vector<double> probabilities = sumProbabilities(ranks);
+    const auto place = probabilities.begin() + static_cast<std::ptrdiff_t>(positive);
+    const double less = std::accumulate(probabilities.begin(), place + 1, 0.0);
+    const double greater = std::accumulate(place, probabilities.end(), 0.0);
+    return {
+        .greater = std::min(1.0, greater),
+        .less = std::min(1.0, less),
+        .two_sided = std::min(1.0, 2.0 * std::min(greater, less))};
+}
+
+namespace {
+
+// ---- Median interval ----------------------------------------------------------------------------
+
+// Of n independent samples so many may be cut off at either end, and with what confidence the
+// median is then inside: 1 - 2 P(Binomial(n, 1/2) < cut).
+struct Cut {
+    std::size_t count = 0;
+    double confidence = 1.0;
+};
+
+Cut largestCut(std::size_t n, double alpha) {
+    const auto size = static_cast<double>(n);
+    Cut cut;
+    double log_probability = -size * std::log(2.0);  // of exactly cut.count below the median
+    double below = 0.0;
+    while (2 * cut.count + 2 <= n) {
+        below += std::exp(log_probability);
+        if (2.0 * below > alpha) break;
+        const auto drawn = static_cast<double>(cut.count);
+        log_probability += std::log((size - drawn) / (drawn + 1.0));
+        ++cut.count;
+        cut.confidence = 1.0 - 2.0 * below;
+    }
+    return cut;
+}
+
+}  // namespace
+
+MedianInterval medianInterval(std::span<const double> samples, double alpha, double effective) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    MedianInterval interval{quantile(samples, 0.5), -infinity, infinity, 1.0};
+    const auto size = static_cast<double>(samples.size());
+    effective = std::clamp(std::floor(effective), 1.0, size);
+    const Cut cut = largestCut(static_cast<std::size_t>(effective), alpha);
+    // Ranks count from 1: cut.count is at this share of the way from the middle to the ends.
+    const double middle = 0.5 * (size + 1.0);
+    const double share =
+        (0.5 * (effective + 1.0) - static_cast<double>(cut.count)) / (0.5 * effective);
+    const double rank = std::floor(middle - share * 0.5 * size + 1e-9);  // whole but for rounding
+    if (cut.count == 0 || rank < 1.0) return interval;
+    std::vector<double> sorted(samples.begin(), samples.end());
+    std::ranges::sort(sorted);
+    const auto below = static_cast<std::size_t>(rank) - 1;
+    interval.lower = sorted[below];
+    interval.upper = sorted[sorted.size() - 1 - below];
+    interval.confidence = cut.confidence;
+    return interval;
+}
+
+MedianInterval medianInterval(std::span<const double> samples, double alpha) {
+    return medianInterval(samples, alpha, static_cast<double>(samples.size()));
+}
+
+double effectiveSamples(std::span<const double> samples) {
+    const std::size_t n = samples.size();
+    const double median = quantile(samples, 0.5);
+    std::vector<double> side;  // a median splits evenly: the mean of these is about 0
+    double variance = 0.0;
+    for (const double value : samples) {
+        side.push_back(value > median ? 1.0 : value < median ? -1.0 : 0.0);
+        variance += side.back() * side.back();
+    }
+    const auto size = static_cast<double>(n);
+    if (variance == 0.0) return size;  // all the same: nothing to be dependent
+    const auto correlation = [&](std::size_t lag) {
+        double sum = 0.0;
+        for (std::size_t i = lag; i < n; ++i) sum += side[i] * side[i - lag];
+        return sum / variance;
+    };
+    // Sums of two neighbours are positive and fall for a reversible process; noise ends that.
+    double time = -1.0;
+    double previous = std::numeric_limits<double>::infinity();
+    for (std::size_t lag = 0; lag + 1 < n; lag += 2) {
+        const double pair = correlation(lag) + correlation(lag + 1);
+        if (pair <= 0.0) break;
+        previous = std::min(previous, pair);
+        time += 2.0 * previous;
+    }
+    return std::clamp(size / std::max(time, 1.0), 1.0, size);
+}
+
+double relativeHalfWidth(const MedianInterval& interval) {
+    if (interval.estimate == 0.0) return std::numeric_limits<double>::infinity();
+    return 0.5 * (interval.upper - interval.lower) / std::abs(interval.estimate);
+}
+
+bool isPrecise(std::span<const double> samples, const PrecisionRule& rule) {
+    if (samples.empty()) return false;
+    return relativeHalfWidth(medianInterval(samples, rule.alpha, effectiveSamples(samples))) <=
+           rule.target;
+}
+
+// ---- Multiple tests -----------------------------------------------------------------------------
+
+std::vector<double> falseDiscoveryAdjusted(std::span<const double> p_values) {
+    if (!std::ranges::all_of(p_values, [](double p) { return p >= 0.0 && p <= 1.0; }))
+        throw engine::Error("false discovery rate", "a p-value is outside [0, 1]");
+    std::vector<std::size_t> descending(p_values.size());
+    std::iota(descending.begin(), descending.end(), std::size_t{0});
+    std::ranges::sort(descending, std::greater<>{}, [&](std::size_t i) { return p_values[i]; });
+    std::vector<double> adjusted(p_values.size());
+    double smallest = 1.0;
+    std::size_t rank = p_values.size();
+    for (const std::size_t i : descending) {
+        const double ratio = static_cast<double>(p_values.size()) / static_cast<double>(rank--);
+        smallest = std::min(smallest, p_values[i] * ratio);
+        adjusted[i] = smallest;
+    }
+    return adjusted;
+}
+
+}  // namespace benchmarks::report

@@ -1,0 +1,141 @@
+#include "benchmarks/run/case.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/measure/case.h"
+#include "engine/error.h"
+#include "engine/pictures.h"
+
+namespace benchmarks::run {
+namespace {
+
+namespace fs = std::filesystem;
+
+// ---- Case picture -------------------------------------------------------------------------------
+
+constexpr std::uint32_t kWidest = 480;  // px
+
+// The mean over squares of `factor` x `factor` pixels; what is left over at the edges is cut off.
+std::vector<std::uint8_t> shrunk(
+    std::span<const std::uint8_t> pixels, std::uint32_t width, std::uint32_t height,
+    std::uint32_t factor) {
+    std::vector<std::uint8_t> small;
+    small.reserve(pixels.size() / factor / factor);
+    for (std::uint32_t y = 0; y + factor <= height; y += factor)
+        for (std::uint32_t x = 0; x + factor <= width; x += factor)
+            for (std::uint32_t channel = 0; channel < 4; ++channel) {
+                std::uint32_t sum = 0;
+                for (std::uint32_t v = 0; v < factor; ++v)
+                    for (std::uint32_t u = 0; u < factor; ++u)
+                        sum += pixels[(std::size_t{y + v} * width + x + u) * 4 + channel];
+                const std::uint32_t area = factor * factor;
+                small.push_back(static_cast<std::uint8_t>((sum + area / 2) / area));
+            }
+    return small;
+}
+
+}  // namespace
+
+std::string writeCasePicture(
+    std::span<const std::uint8_t> pixels, std::uint32_t width, std::uint32_t height,
+    const std::filesystem::path& report, std::size_t index) {
+    const std::uint32_t factor =
+        std::min((width + kWidest - 1) / kWidest, std::max(height, std::uint32_t{1}));
+    const std::filesystem::path file = std::filesystem::path(report.stem().string() + ".pictures") /
+                                       (std::to_string(index) + ".png");
+    engine::writePng(
+        report.parent_path() / file, width / factor, height / factor,
+        shrunk(pixels, width, height, factor));
+    return file.generic_string();
+}
+
+namespace {
+
+// ---- Picture folder -----------------------------------------------------------------------------
+
+// "12.png", or what a run that was killed left of writing it; anything else is the user's.
+bool isCasePicture(const std::string& name) {
+    const std::size_t digits = name.find_first_not_of("0123456789");
+    return digits != 0 && digits != std::string::npos &&
+           (name.substr(digits) == ".png" || name.substr(digits) == ".png.partial");
+}
+
+}  // namespace
+
+void removeOtherPictures(const scene::Json& report, const fs::path& path) {
+    std::set<std::string> named;
+    for (const scene::Json& each : report.at("cases"))
+        if (each.contains("picture"))
+            named.insert(fs::path(each.at("picture").get<std::string>()).filename().string());
+    const fs::path folder = path.parent_path() / (path.stem().string() + ".pictures");
+    std::error_code ignored;
+    std::set<fs::path> stale;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+        if (const std::string name = entry.path().filename().string();
+            isCasePicture(name) && !named.contains(name))
+            stale.insert(entry.path());
+    for (const fs::path& file : stale) fs::remove(file, ignored);
+    fs::remove(folder, ignored);  // if it is empty
+}
+
+namespace {
+
+// ---- Run case -----------------------------------------------------------------------------------
+
+report::CaseResult emptyResult(const PlannedCase& planned) {
+    return {.name = planned.spec.name, .index = planned.index, .axes = planned.spec.axes};
+}
+
+report::CaseResult without(const PlannedCase& planned, report::Status status, const char* reason) {
+    report::CaseResult result = emptyResult(planned);
+    result.status = status;
+    result.reason = reason;
+    return result;
+}
+
+// What was measured is no worse without it.
+void keepPicture(
+    std::span<const std::uint8_t> pixels, const hair::RenderSettings& render,
+    const std::filesystem::path& report, report::CaseResult& result) {
+    try {
+        result.picture =
+            writeCasePicture(pixels, render.width, render.height, report, *result.index);
+    } catch (const engine::Error& error) {
+        result.trust.warnings.push_back(std::string("no picture: ") + error.what());
+    }
+}
+
+}  // namespace
+
+report::CaseResult runCase(
+    const engine::Device& device, const PlannedCase& planned, const measure::MeasureHooks& hooks,
+    const std::filesystem::path& report, reference::ReferenceComparison& references) {
+    const hair::RunSettings& run = planned.spec.settings.run;
+    const hair::RenderSettings& render = planned.spec.settings.render;
+    report::CaseResult result = emptyResult(planned);
+    try {
+        measure::Case test_case(device, planned.spec.settings, planned.directory);
+        const auto picture = measure::measure(device, test_case, run, hooks, result);
+        if (!run.reference.empty())
+            references.add(
+                planned.directory / run.reference, render.width, render.height, picture, result);
+        if (!report.empty()) keepPicture(picture, render, report, result);
+    } catch (const engine::Unsupported& error) {
+        result = without(planned, report::Status::skipped, error.what());
+    } catch (const engine::Error& error) {
+        result = without(planned, report::Status::failed, error.what());
+    }
+    for (const std::string& message : device.messages().take())
+        result.trust.warnings.push_back("validation: " + message);
+    return result;
+}
+
+}  // namespace benchmarks::run

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "benchmarks/measure/measure.h"
+#include "benchmarks/reference/picture_errors.h"
+#include "benchmarks/report/report.h"
+#include "benchmarks/run/plan.h"
+#include "benchmarks/scene/json.h"
+#include "engine/device.h"
+
+namespace benchmarks::run {
+
+// Writes a case's picture, [row][column] RGBA, top row first, beside the report, as a PNG at most
+// 480 px wide: "<report without extension>.pictures/<index>.png". Returns that file relative to the
+// report's folder, with forward slashes. Throws engine::Error "<path>: <reason>".
+std::string writeCasePicture(
+    std::span<const std::uint8_t> pixels, std::uint32_t width, std::uint32_t height,
+    const std::filesystem::path& report, std::size_t index);
+
+// Removes the pictures that older runs left beside the report (case.h) and that it does
+// not name.
+void removeOtherPictures(const scene::Json& report, const std::filesystem::path& path);
+
+// Measures a case. One that can't run here, or that fails, is part of the result with its reason.
+// `report` is the file beside which its picture goes; empty: none is written. Throws Interrupted.
+report::CaseResult runCase(
+    const engine::Device& device, const PlannedCase& planned, const measure::MeasureHooks& hooks,
+    const std::filesystem::path& report, reference::ReferenceComparison& references);
+
+}  // namespace benchmarks::run

@@ -1,0 +1,74 @@
+#include "benchmarks/scene/frames.h"
+
+#include <charconv>
+#include <string>
+#include <vector>
+
+#include "engine/error.h"
+
+namespace benchmarks::scene {
+
+// ---- Frame path ---------------------------------------------------------------------------------
+
+FramePaths::FramePaths(const std::filesystem::path& pattern) {
+    const std::string text = pattern.string();
+    const auto refuse = [&](const char* reason) { throw engine::Error(text, reason); };
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        std::string& part = has_number_ ? after_ : before_;
+        if (text[i] != '%') {
+            part += text[i];
+            continue;
+        }
+        ++i;
+        if (text.compare(i, 1, "%") == 0) {
+            part += '%';
+            continue;
+        }
+        if (has_number_) refuse("has more than one number");
+        has_number_ = true;
+        // "%4d" would pad with spaces.
+        if (text.compare(i, 1, "0") == 0 && i + 1 < text.size() && text[i + 1] >= '1' &&
+            text[i + 1] <= '9') {
+            digits_ = static_cast<std::size_t>(text[i + 1] - '0');
+            i += 2;
+        }
+        if (text.compare(i, 1, "d") != 0) refuse("a % begins neither %d, %04d nor %%");
+    }
+}
+
+std::filesystem::path FramePaths::of(std::uint32_t frame) const {
+    if (!has_number_) return before_;
+    std::string number = std::to_string(frame);
+    if (number.size() < digits_) number.insert(0, digits_ - number.size(), '0');
+    return before_ + number + after_;
+}
+
+// ---- Frame range --------------------------------------------------------------------------------
+
+FrameRange parseFrameRange(std::string_view text) {
+    const auto refuse = [&](const char* reason) {
+        throw engine::Error("--frames " + std::string(text), reason);
+    };
+    constexpr std::uint32_t kMost = 1'000'000;  // that a frame's number may be
+    std::vector<std::uint32_t> numbers;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (true) {
+        std::uint32_t number = 0;
+        const auto [after, error] = std::from_chars(at, end, number);
+        if (error != std::errc() || number > kMost)
+            refuse("is not A:B or A:B:STEP, of numbers up to a million");
+        numbers.push_back(number);
+        if (after == end) break;
+        if (*after != ':' || numbers.size() == 3)
+            refuse("is not A:B or A:B:STEP, of numbers up to a million");
+        at = after + 1;
+    }
+    if (numbers.size() < 2) refuse("is one frame: --frame draws it");
+    const FrameRange range{numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] : 1};
+    if (range.step == 0) refuse("has a step of 0");
+    if (range.first >= range.end) refuse("holds no frame: B is not drawn");
+    return range;
+}
+
+}  // namespace benchmarks::scene

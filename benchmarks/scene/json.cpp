@@ -1,0 +1,289 @@
+#include "benchmarks/scene/json.h"
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/error.h"
+
+namespace benchmarks::scene {
+
+// ---- Names --------------------------------------------------------------------------------------
+
+std::size_t editDistance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);  // row[j]: from the read part of a to b[0, j)
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0]++;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t substituted = diagonal + (a[i] == b[j] ? 0u : 1u);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({substituted, diagonal + 1, row[j] + 1});
+        }
+    }
+    return row.back();
+}
+
+std::string
+unknownName(std::string_view what, std::string_view name, const std::vector<std::string>& known) {
+    std::string text(what);
+    const auto distance = [&](const std::string& other) { return editDistance(name, other); };
+    const auto nearest = std::ranges::min_element(known, {}, distance);
+    if (nearest != known.end() && 2 * distance(*nearest) <= std::max(name.size(), nearest->size()))
+        text += " (did you mean \"" + *nearest + "\"?)";
+    text += "; known: ";
+    for (const std::string& other : known) text += (&other == &known.front() ? "" : ", ") + other;
+    return text;
+}
+
+namespace {
+
+// ---- Pointer ------------------------------------------------------------------------------------
+
+std::string unescaped(std::string_view token, std::string_view pointer) {
+    std::string text;
+    for (std::size_t i = 0; i < token.size(); ++i) {
+        if (token[i] != '~') {
+            text += token[i];
+        } else if (i + 1 < token.size() && (token[i + 1] == '0' || token[i + 1] == '1')) {
+            text += token[++i] == '0' ? '~' : '/';
+        } else {
+            throw engine::Error(
+                std::string(pointer), "'~' must be written ~0, and '/' in a name ~1");
+        }
+    }
+    return text;
+}
+
+std::optional<std::size_t> arrayIndex(const std::string& token) {
+    std::size_t index = 0;
+    const char* const end = token.data() + token.size();
+    const auto [rest, error] = std::from_chars(token.data(), end, index);
+    if (error != std::errc{} || rest != end || (token.size() > 1 && token[0] == '0')) return {};
+    return index;
+}
+
+std::string lengthOf(const Json& array) {
+    return std::to_string(array.size()) + (array.size() == 1 ? " element" : " elements");
+}
+
+Json& member(Json& owner, const std::string& token, const std::string& here) {
+    if (owner.is_object()) {
+        if (const auto found = owner.find(token); found != owner.end()) return *found;
+        std::vector<std::string> known;
+        for (const auto& [key, value] : owner.items()) known.push_back(key);
+        throw engine::Error(here, unknownName("unknown key", token, known));
+    }
+    if (owner.is_array()) {
+        if (const auto index = arrayIndex(token); index && *index < owner.size())
+            return owner[*index];
+        throw engine::Error(here, "the array has " + lengthOf(owner));
+    }
+    throw engine::Error(here, described(owner) + " has no members");
+}
+
+}  // namespace
+
+std::string escapedToken(std::string_view token) {
+    std::string text;
+    for (const char c : token) {
+        if (c == '~')
+            text += "~0";
+        else if (c == '/')
+            text += "~1";
+        else
+            text += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+    }
+    return text;
+}
+
+std::vector<std::string> pointerTokens(std::string_view pointer) {
+    if (!pointer.starts_with('/'))
+        throw engine::Error(
+            '"' + std::string(pointer) + '"',
+            "a JSON pointer starts with '/', as in /strands/density");
+    std::vector<std::string> tokens;
+    for (std::size_t begin = 1; begin <= pointer.size();) {
+        const std::size_t end = std::min(pointer.find('/', begin), pointer.size());
+        tokens.push_back(unescaped(pointer.substr(begin, end - begin), pointer));
+        begin = end + 1;
+    }
+    if (tokens.empty()) tokens.emplace_back();  // "/" names the member whose name is empty
+    return tokens;
+}
+
+Json& valueAt(Json& document, std::string_view pointer) {
+    Json* value = &document;
+    std::string here;
+    for (const std::string& token : pointerTokens(pointer)) {
+        here += '/' + escapedToken(token);
+        value = &member(*value, token, here);
+    }
+    return *value;
+}
+
+void patch(Json& document, std::string_view pointer, const Json& value) {
+    Json& target = valueAt(document, pointer);
+    if (target.is_object() && value.is_object())
+        target.merge_patch(value);
+    else
+        target = value;
+}
+
+std::string described(const Json& value) {
+    constexpr std::size_t kLongest = 40;  // bytes of a string that are worth showing
+    if (value.is_object()) return "an object";
+    if (value.is_array()) return "an array of " + std::to_string(value.size());
+    const bool cut = value.is_string() && value.get_ref<const std::string&>().size() > kLongest;
+    const Json shown =
+        cut ? Json(value.get_ref<const std::string&>().substr(0, kLongest) + "...") : value;
+    const std::string text = shown.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return value.is_string() ? "the string " + text : text;
+}
+
+namespace {
+
+// ---- Json text ----------------------------------------------------------------------------------
+
+constexpr std::size_t kDeepest = 64;
+
+// "file:line:column", both counted from 1; `position` is the number of bytes read.
+std::string placeName(std::string_view text, std::size_t position, const std::string& name) {
+    const std::size_t last = std::min(position, text.size() + 1) - (position > 0 ? 1 : 0);
+    const std::string_view before = text.substr(0, last);
+    const auto line = 1 + std::ranges::count(before, '\n');
+    const std::size_t column = last - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0
+    return name + ':' + std::to_string(line) + ':' + std::to_string(column);
+}
+
+// "[json.exception.parse_error.101] parse error at line 1, column 2: reason" -> "reason"
+std::string reasonOf(std::string text) {
+    if (const auto code_end = text.find("] "); code_end != std::string::npos)
+        text.erase(0, code_end + 2);
+    if (text.starts_with("parse error"))
+        if (const auto place_end = text.find(": "); place_end != std::string::npos)
+            text.erase(0, place_end + 2);
+    return text;
+}
+
+// Builds the document from parsing events; nlohmann's own parser keeps the last of duplicate keys
+// silently.
+class Builder : public nlohmann::json_sax<Json> {
+public:
+    Builder(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+
+    bool null() override { return add(nullptr); }
+    bool boolean(bool value) override { return add(value); }
+    bool number_integer(number_integer_t value) override { return add(value); }
+    bool number_unsigned(number_unsigned_t value) override { return add(value); }
+    bool number_float(number_float_t value, const string_t&) override { return add(value); }
+    bool string(string_t& value) override { return add(std::move(value)); }
+    bool binary(binary_t&) override { return false; }  // not in JSON text
+    bool start_object(std::size_t) override { return open(Json::object()); }
+    bool start_array(std::size_t) override { return open(Json::array()); }
+    bool end_object() override { return close(); }
+    bool end_array() override { return close(); }
+
+    bool key(string_t& key) override {
+        levels_.back().key = key;
+        if (levels_.back().value.contains(key))
+            throw engine::Error(name_ + ": " + pointer(), "is there twice");
+        return true;
+    }
+
+    bool parse_error(
+        std::size_t position, const std::string&,
+        const nlohmann::detail::exception& error) override {
+        throw engine::Error(placeName(text_, position, name_), reasonOf(error.what()));
+    }
+
+    Json take() { return std::move(document_); }
+
+private:
+    struct Level {
+        Json value;
+        std::string key;  // of the member being read, in an object
+    };
+
+    std::string pointer() const {
+        std::string text;
+        for (const Level& level : levels_)
+            text += '/' + (level.value.is_array() ? std::to_string(level.value.size())
+                                                  : escapedToken(level.key));
+        return text;
+    }
+
+    bool add(Json value) {
+        if (levels_.empty())
+            document_ = std::move(value);
+        else if (levels_.back().value.is_array())
+            levels_.back().value.push_back(std::move(value));
+        else
+            levels_.back().value.emplace(levels_.back().key, std::move(value));
+        return true;
+    }
+
+    bool open(Json value) {
+        if (levels_.size() == kDeepest)
+            throw engine::Error(name_, "nested deeper than " + std::to_string(kDeepest));
+        levels_.push_back({std::move(value), {}});
+        return true;
+    }
+
+    bool close() {
+        Json value = std::move(levels_.back().value);
+        levels_.pop_back();
+        return add(std::move(value));
+    }
+
+    std::string_view text_;
+    const std::string& name_;
+    Json document_;
+    std::vector<Level> levels_;  // what is open, outermost first
+};
+
+}  // namespace
+
+Document::Document() = default;
+Document::Document(Json value) : value_(std::make_unique<const Json>(std::move(value))) {}
+Document::Document(const Document& other)
+    : value_(other.value_ ? std::make_unique<const Json>(*other.value_) : nullptr) {}
+Document::Document(Document&& other) noexcept = default;
+Document& Document::operator=(const Document& other) { return *this = Document(other); }
+Document& Document::operator=(Document&& other) noexcept = default;
+Document::~Document() = default;
+
+const Json& Document::json() const {
+    static const Json null;
+    return value_ ? *value_ : null;
+}
+
+std::string Document::text() const {
+    return json().dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+bool operator==(const Document& a, const Document& b) { return a.text() == b.text(); }
+
+Json parseJson(std::string_view text, const std::string& name) {
+    if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
+        throw engine::Error(name, "is empty; a scene is at least {}");
+    Builder builder(text, name);
+    Json::sax_parse(text, &builder);
+    return builder.take();
+}
+
+// ---- Text at ------------------------------------------------------------------------------------
+
+std::string textAt(const Json& document, const char* pointer) {
+    const Json::json_pointer place(pointer);
+    if (!document.contains(place)) return {};
+    const Json& value = document.at(place);
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+}  // namespace benchmarks::scene

@@ -1,0 +1,218 @@
+#include "benchmarks/scene/scene.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/scene/json.h"
+#include "benchmarks/scene/settings_json.h"
+#include "engine/error.h"
+#include "engine/files.h"
+#include "engine/png_text.h"
+#include "hair/fields.h"
+
+namespace benchmarks::scene {
+namespace {
+
+namespace fs = std::filesystem;
+using engine::Error;
+
+// ---- Merge patch --------------------------------------------------------------------------------
+
+void requireRemovable(
+    const Json& target, const Json& known, const std::string& key, const std::string& pointer) {
+    if (target.contains(key) || known.contains(key)) return;
+    std::vector<std::string> names;
+    for (const Json* object : {&known, &target})
+        for (const auto& [name, value] : object->items())
+            if (object == &known || !known.contains(name)) names.push_back(name);
+    throw engine::Error(
+        pointer, names.empty() ? "the base has nothing to remove here"
+                               : unknownName("nothing to remove", key, names));
+}
+
+void merge(Json& target, const Json& patch, const Json& known, const std::string& pointer) {
+    if (!target.is_object()) target = Json::object();
+    for (const auto& [key, value] : patch.items()) {
+        const std::string here = pointer + '/' + escapedToken(key);
+        const auto found = known.find(key);
+        const bool is_known = found != known.end() && found->is_object();
+        if (value.is_null()) {
+            requireRemovable(target, known, key, here);
+            target.erase(key);
+        } else if (value.is_object()) {
+            merge(target[key], value, is_known ? *found : Json::object(), here);
+        } else {
+            target[key] = value;
+        }
+    }
+}
+
+}  // namespace
+
+void mergePatch(Json& target, const Json& patch, const Json& known) {
+    merge(target, patch, known, "");
+}
+
+// ---- Screenshot scene ---------------------------------------------------------------------------
+
+std::optional<std::string> sceneOfScreenshot(const std::filesystem::path& path) {
+    const std::string file = engine::readFile(path);
+    try {
+        return engine::pngText(file, kSceneKeyword);
+    } catch (const engine::Error& error) {
+        throw engine::Error(path.string(), error.what());
+    }
+}
+
+namespace {
+
+// ---- Scene --------------------------------------------------------------------------------------
+
+// Calls `action` and puts the file's name in front of the reasons it throws.
+template <class Action>
+auto inFile(const fs::path& path, Action&& action) {
+    try {
+        return action();
+    } catch (const engine::Error& error) {
+        throw engine::Error(path.string(), error.what());
+    }
+}
+
+// Of a scene file, or of a screenshot that has one in it.
+std::string readScene(const fs::path& path) {
+    if (std::error_code error; fs::is_directory(path, error))
+        throw engine::Error(path.string(), "is a folder, not a scene file");
+    std::string text = engine::readFile(path);
+    if (!engine::isPng(text)) return text;
+    auto scene = inFile(path, [&] { return engine::pngText(text, kSceneKeyword); });
+    if (scene) return *std::move(scene);
+    throw engine::Error(path.string(), "is a picture without a scene in it");
+}
+
+const std::string* stringMember(const Json& document, const char* key) {
+    const auto member = document.find(key);
+    if (member == document.end()) return nullptr;
+    if (!member->is_string())
+        throw engine::Error(
+            '/' + std::string(key), "expected a string, found " + described(*member));
+    return &member->get_ref<const std::string&>();
+}
+
+Scene makeScene(const fs::path& path, Json document) {
+    Scene scene;
+    scene.path = path;
+    scene.directory = path.parent_path();
+    scene.name = path.stem().string();
+    scene.settings = readSettings(document);
+    Json resolved = writeSettings(scene.settings);
+    if (const auto member = document.find("sweep"); member != document.end()) {
+        SweepMember sweep = readSweep(*member, resolved);
+        scene.axes = std::move(sweep.axes);
+        scene.exclusions = std::move(sweep.exclusions);
+    }
+    for (const std::string_view key : kSceneKeys) document.erase(std::string(key));
+    scene.document = Document(std::move(document));
+    scene.resolved = Document(std::move(resolved));
+    return scene;
+}
+
+void moveFileNames(Json& object, const fs::path& folder, hair::SettingsView settings);
+
+void moveFileName(Json&, const char*, const fs::path&, const hair::Place&, hair::SettingsView) {}
+
+void moveFileName(
+    Json& object, const char* name, const fs::path& folder, const hair::FileName& row,
+    hair::SettingsView settings) {
+    const fs::path file = row.in(settings);
+    if (!file.empty() && file.is_relative())
+        object[name] = (folder / file).lexically_normal().string();
+}
+
+void moveFileName(
+    Json& object, const char* name, const fs::path& folder, const hair::Group& row,
+    hair::SettingsView settings) {
+    Json member = object.contains(name) ? object[name] : Json::object();
+    moveFileNames(member, folder, row.in(settings));
+    if (!member.empty()) object[name] = std::move(member);
+}
+
+void moveFileName(
+    Json& object, const char* name, const fs::path& folder, const hair::List& row,
+    hair::SettingsView settings) {
+    if (!object.contains(name)) return;  // defaults of lists name no files
+    for (std::size_t i = 0; i < row.size(settings); ++i)
+        moveFileNames(object[name][i], folder, row.at(settings, i));
+}
+
+// File names are relative to the scene that is opened, so a base in another folder has its own
+// rewritten, those that it takes from the defaults too.
+void moveFileNames(Json& object, const fs::path& folder, hair::SettingsView settings) {
+    for (const hair::Field& field : settings.fields())
+        std::visit(
+            [&](const auto& row) { moveFileName(object, field.name, folder, row, settings); },
+            field.kind);
+}
+
+Json everyMember() {
+    Json known = writeSettings({});
+    for (const std::string_view key : kSceneKeys) known[std::string(key)] = Json::object();
+    return known;
+}
+
+struct Loaded {
+    Scene scene;
+    Json document;  // what the scene is made from: bases merged, with the reader's own members
+};
+
+// `opened`: the files that led here.
+Loaded load(const fs::path& path, std::vector<fs::path> opened) {
+    const std::string text = readScene(path);
+    Json document = parseJson(text, path.string());
+    return inFile(path, [&] {
+        if (!document.is_object())
+            throw engine::Error("expected an object, found " + described(document));
+        if (document.contains("suite"))
+            throw engine::Error(
+                "/suite", "this is a suite of scenes, and one scene is wanted here");
+        stringMember(document, "$schema");
+        if (const std::string* const base = stringMember(document, "base")) {
+            const fs::path base_path = path.parent_path() / *base;
+            opened.push_back(fs::weakly_canonical(path));
+            if (std::ranges::find(opened, fs::weakly_canonical(base_path)) != opened.end())
+                throw engine::Error(
+                    "/base", base_path.string() + " is built on this file: a cycle");
+            Loaded loaded;
+            try {
+                loaded = load(base_path, opened);
+            } catch (const engine::Error& error) {
+                throw engine::Error("/base", error.what());
+            }
+            Json& merged = loaded.document;
+            if (const fs::path folder = fs::path(*base).parent_path(); !folder.empty())
+                moveFileNames(merged, folder, loaded.scene.settings);
+            document.erase("base");
+            mergePatch(merged, document, everyMember());
+            document = std::move(merged);
+        }
+        Scene scene = makeScene(path, document);
+        return Loaded{.scene = std::move(scene), .document = std::move(document)};
+    });
+}
+
+}  // namespace
+
+Scene loadScene(const fs::path& path) { return load(path, {}).scene; }
+
+void setField(Scene& scene, const std::string& pointer, const Json& value) {
+    Json document = scene.document.json();
+    document[Json::json_pointer(pointer)] = value;
+    scene.settings = readSettings(document);
+    scene.document = Document(std::move(document));
+    scene.resolved = Document(writeSettings(scene.settings));
+}
+
+}  // namespace benchmarks::scene

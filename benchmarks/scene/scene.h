@@ -1,0 +1,55 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "benchmarks/scene/axis.h"
+#include "benchmarks/scene/json.h"
+#include "hair/settings.h"
+
+namespace benchmarks::scene {
+
+// Applies a scene's document to its base's, as JSON merge patch (RFC 7386): objects are merged,
+// null removes, anything else replaces. Stricter in one thing: a null for a member that neither
+// `target` nor `known` (every member there can be) has is an engine::Error "<JSON pointer>:
+// <reason>", because a misspelt removal would silently remove nothing.
+void mergePatch(Json& target, const Json& patch, const Json& known);
+
+// A scene file, checked: hair::Settings members plus
+//   "$schema"  a string for editors, ignored
+//   "base"     another scene file, relative to this one; this document is applied to it as a JSON
+//              merge patch (RFC 7386), so null takes a member of the base away
+//   "sweep"    JSON pointer -> array of values, and the members in axis.h; one case for each
+//              combination, in the written order
+// A screenshot of the viewer is one too: a PNG with the text of a scene file in it.
+struct Scene {
+    std::filesystem::path path;  // as given
+    std::filesystem::path directory;  // what file names in the scene are relative to
+    std::string name;  // file name without its extension
+    Document document;  // what is written, bases merged, without the three members above
+    Document resolved;  // every field, absent ones with their defaults
+    hair::Settings settings;  // of `resolved`: no axis applied
+    std::vector<Axis> axes;
+    std::vector<Exclusion> exclusions;  // of what the axes make: without axes they mean nothing
+};
+
+// Reads and checks everything but the rules between fields, which hold for cases: expand() checks
+// those. Throws engine::Error, one line: "<file>: <JSON pointer>: <reason>"; what is wrong in a
+// base is reported as "<file>: /base: <base file>: ...".
+Scene loadScene(const std::filesystem::path& path);
+
+// Sets one field of every case, as if the file had it. Throws engine::Error "<JSON pointer>:
+// <reason>".
+void setField(Scene& scene, const std::string& pointer, const Json& value);
+
+// The keyword of the scene in the texts of a screenshot's PNG.
+inline constexpr std::string_view kSceneKeyword = "hairbench-scene";
+
+// The scene, JSON text, in a PNG; none where there is none. Throws engine::Error for what is no
+// whole PNG.
+std::optional<std::string> sceneOfScreenshot(const std::filesystem::path& path);
+
+}  // namespace benchmarks::scene

@@ -1,0 +1,272 @@
+#include "benchmarks/scene/settings_json.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <span>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/scene/json.h"
+#include "engine/error.h"
+#include "hair/fields.h"
+
+namespace benchmarks::scene {
+namespace {
+
+// ---- Read settings ------------------------------------------------------------------------------
+
+engine::Error mismatch(const std::string& pointer, const std::string& expected, const Json& found) {
+    return {pointer, "expected " + expected + ", found " + described(found)};
+}
+
+std::string shown(double number) {
+    char text[64];
+    const auto format = std::abs(number) < 1e15 && std::trunc(number) == number
+                            ? std::chars_format::fixed
+                            : std::chars_format::general;
+    return {text, std::to_chars(text, text + sizeof text, number, format).ptr};
+}
+
+// " m", but nothing for a plain ratio.
+std::string withUnit(std::string_view unit) { return unit == "1" ? "" : ' ' + std::string(unit); }
+
+enum class Numbers { whole, real };
+
+// Throws where the range does not allow it.
+void checkNumber(
+    const Json& value, const std::string& pointer, Numbers allowed, const hair::Range& range) {
+    const bool whole = allowed == Numbers::whole;
+    if (!value.is_number()) throw mismatch(pointer, whole ? "an integer" : "a number", value);
+    const double number = value.get<double>();
+    if (!std::isfinite(number)) throw engine::Error(pointer, shown(number) + " is not finite");
+    if (whole && std::trunc(number) != number)
+        throw engine::Error(pointer, shown(number) + " is not an integer");
+    if (number < range.minimum || number > range.maximum)
+        throw engine::Error(
+            pointer, shown(number) + " is outside [" + shown(range.minimum) + ", " +
+                         shown(range.maximum) + "]" + withUnit(range.unit));
+}
+
+void readFields(
+    const Json& object, const std::string& pointer, hair::SettingsRef settings,
+    std::span<const std::string_view> passed_over = {});
+
+template <class Value>
+void read(
+    const Json& value, const std::string& pointer, const hair::Number<Value>& row,
+    hair::SettingsRef settings) {
+    checkNumber(value, pointer, std::is_integral_v<Value> ? Numbers::whole : Numbers::real, row);
+    row.in(settings) = value.get<Value>();
+}
+
+void read(
+    const Json& value, const std::string& pointer, const hair::Number<glm::vec3>& row,
+    hair::SettingsRef settings) {
+    if (!value.is_array() || value.size() != 3)
+        throw mismatch(pointer, "an array of 3 numbers", value);
+    for (int i = 0; i < 3; ++i) {
+        const Json& component = value[static_cast<std::size_t>(i)];
+        checkNumber(component, pointer + '/' + std::to_string(i), Numbers::real, row);
+        row.in(settings)[i] = component.get<float>();
+    }
+}
+
+void read(
+    const Json& value, const std::string& pointer, const hair::OneOf& row,
+    hair::SettingsRef settings) {
+    std::string known;
+    for (const std::uint32_t allowed : row.values) {
+        if (value.is_number() && value.get<double>() == allowed) {
+            row.in(settings) = allowed;
+            return;
+        }
+        known += (known.empty() ? "" : ", ") + std::to_string(allowed);
+    }
+    if (!value.is_number()) throw mismatch(pointer, "an integer", value);
+    throw engine::Error(
+        pointer, shown(value.get<double>()) + " is not one of " + known + withUnit(row.unit));
+}
+
+void read(
+    const Json& value, const std::string& pointer, const hair::Text& row,
+    hair::SettingsRef settings) {
+    if (!value.is_string()) throw mismatch(pointer, "a string", value);
+    row.in(settings) = value.get<std::string>();
+}
+
+void read(
+    const Json& value, const std::string& pointer, const hair::Toggle& row,
+    hair::SettingsRef settings) {
+    if (!value.is_boolean()) throw mismatch(pointer, "true or false", value);
+    row.in(settings) = value.get<bool>();
+}
+
+void read(
+    const Json& value, const std::string& pointer, const hair::Choice& row,
+    hair::SettingsRef settings) {
+    if (!value.is_string()) throw mismatch(pointer, "a name", value);
+    const auto& name = value.get_ref<const std::string&>();
+    std::vector<std::string> known;
+    for (std::size_t i = 0; i < row.names.size(); ++i) {
+        if (row.names[i].name == name) {
+            row.choose(settings, i);
+            return;
+        }
+        known.emplace_back(row.names[i].name);
+    }
+    throw engine::Error(
+        pointer, unknownName("unknown name \"" + escapedToken(name) + '"', name, known));
+}
+
+void read(
+    const Json& value, const std::string& pointer, const hair::Group& row,
+    hair::SettingsRef settings) {
+    readFields(value, pointer, row.in(settings));
+}
+
+void read(
+    const Json& value, const std::string& pointer, const hair::List& row,
+    hair::SettingsRef settings) {
+    if (!value.is_array()) throw mismatch(pointer, "an array", value);
+    if (value.size() > row.maximum_count)
+        throw engine::Error(
+            pointer, std::to_string(value.size()) + " elements are more than " +
+                         std::to_string(row.maximum_count));
+    row.resize(settings, 0);  // what is absent in an element is as in a new one
+    row.resize(settings, value.size());
+    for (std::size_t i = 0; i < value.size(); ++i)
+        readFields(value[i], pointer + '/' + std::to_string(i), row.at(settings, i));
+}
+
+void requireKnownKeys(
+    const Json& object, const std::string& pointer, const std::vector<hair::Field>& fields,
+    std::span<const std::string_view> passed_over) {
+    std::vector<std::string> known;
+    for (const hair::Field& field : fields) known.emplace_back(field.name);
+    known.insert(known.end(), passed_over.begin(), passed_over.end());
+    for (const auto& [key, value] : object.items())
+        if (std::ranges::find(known, key) == known.end())
+            throw engine::Error(
+                pointer + '/' + escapedToken(key), unknownName("unknown key", key, known));
+}
+
+void readFields(
+    const Json& object, const std::string& pointer, hair::SettingsRef settings,
+    std::span<const std::string_view> passed_over) {
+    if (!object.is_object())
+        throw mismatch(pointer.empty() ? "the document" : pointer, "an object", object);
+    requireKnownKeys(object, pointer, settings.fields(), passed_over);
+    for (const hair::Field& field : settings.fields()) {
+        const auto member = object.find(field.name);
+        if (member == object.end()) continue;
+        const std::string here = pointer + '/' + field.name;
+        std::visit([&](const auto& row) { read(*member, here, row, settings); }, field.kind);
+    }
+}
+
+}  // namespace
+
+hair::Settings readSettings(const Json& document) {
+    hair::Settings settings;
+    readFields(document, "", settings, kSceneKeys);
+    return settings;
+}
+
+namespace {
+
+// ---- Write settings -----------------------------------------------------------------------------
+
+// The shortest decimal that reads back as the same float: 0.002, not 0.0020000000949949026.
+Json shortestNumber(float value) {
+    char text[32];
+    const char* const end = std::to_chars(text, text + sizeof text, value).ptr;
+    double shortest = 0.0;
+    std::from_chars(text, end, shortest);
+    return cleanNumber(shortest);
+}
+
+Json valueJson(float value) { return shortestNumber(value); }
+
+Json valueJson(const glm::vec3& value) {
+    return Json::array({shortestNumber(value.x), shortestNumber(value.y), shortestNumber(value.z)});
+}
+
+template <class Value>
+Json valueJson(const Value& value) {
+    return value;
+}
+
+template <class Value>
+Json writeField(const hair::Member<Value>& row, hair::SettingsView settings) {
+    return valueJson(row.in(settings));
+}
+
+Json writeField(const hair::Choice& row, hair::SettingsView settings) {
+    const auto chosen = row.chosen(settings);
+    if (!chosen) return nullptr;  // an enumerator without a name: the round-trip test finds it
+    return row.names[*chosen].name;
+}
+
+Json writeField(const hair::Group& row, hair::SettingsView settings) {
+    return writeFields(row.in(settings));
+}
+
+Json writeField(const hair::List& row, hair::SettingsView settings) {
+    Json list = Json::array();
+    for (std::size_t i = 0; i < row.size(settings); ++i)
+        list.push_back(writeFields(row.at(settings, i)));
+    return list;
+}
+
+Json fieldJson(const hair::Field& field, hair::SettingsView settings) {
+    return std::visit([&](const auto& row) { return writeField(row, settings); }, field.kind);
+}
+
+Json changedFields(hair::SettingsView settings, hair::SettingsView original);
+
+Json changedElements(const hair::List& row, hair::SettingsView settings) {
+    Json list = Json::array();
+    for (std::size_t i = 0; i < row.size(settings); ++i)
+        list.push_back(changedFields(row.at(settings, i), row.newElement()));
+    return list;
+}
+
+Json changedFields(hair::SettingsView settings, hair::SettingsView original) {
+    Json object = Json::object();
+    for (const hair::Field& field : settings.fields()) {
+        Json value = fieldJson(field, settings);
+        // As texts: numbers that are equal can differ in the sign of zero.
+        if (value.dump() == fieldJson(field, original).dump()) continue;
+        if (const auto* const group = std::get_if<hair::Group>(&field.kind))
+            value = changedFields(group->in(settings), group->in(original));
+        else if (const auto* const list = std::get_if<hair::List>(&field.kind))
+            value = changedElements(*list, settings);
+        object[field.name] = std::move(value);
+    }
+    return object;
+}
+
+}  // namespace
+
+Json writeSettings(const hair::Settings& settings) { return writeFields(settings); }
+
+Json writeFields(hair::SettingsView settings) {
+    Json object = Json::object();
+    for (const hair::Field& field : settings.fields())
+        object[field.name] = fieldJson(field, settings);
+    return object;
+}
+
+Json changedFields(const hair::Settings& settings) {
+    return changedFields(settings, hair::Settings{});
+}
+
+Json cleanNumber(double value) {
+    constexpr double kExact = 9007199254740992.0;  // 2^53
+    const bool whole = std::abs(value) < kExact && std::trunc(value) == value;
+    if (!whole || (value == 0.0 && std::signbit(value))) return value;
+    return static_cast<std::int64_t>(value);
+}
+
+}  // namespace benchmarks::scene

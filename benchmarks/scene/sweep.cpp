@@ -1,0 +1,278 @@
+#include "benchmarks/scene/sweep.h"
+
+#include <algorithm>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <unordered_set>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/measure/case.h"
+#include "benchmarks/scene/json.h"
+#include "benchmarks/scene/schema.h"
+#include "benchmarks/scene/settings_json.h"
+#include "engine/error.h"
+#include "engine/files.h"
+
+namespace benchmarks::scene {
+namespace {
+
+using engine::Error;
+
+// ---- Suite --------------------------------------------------------------------------------------
+
+// Null where the file is none: loadScene() says what is wrong with it.
+Json suiteDocument(const std::filesystem::path& path) {
+    if (!std::filesystem::is_regular_file(path)) return nullptr;
+    const std::string text = engine::readFile(path);
+    // Only a file that has the word can be one, and scenes are not parsed twice.
+    if (text.find("\"suite\"") == std::string::npos) return nullptr;
+    Json document = parseJson(text, path.string());
+    if (!document.is_object() || !document.contains("suite")) return nullptr;
+    return document;
+}
+
+void checkMembers(const Json& document) {
+    for (const auto& [key, value] : document.items()) {
+        if (key != "$schema" && key != "description" && key != "suite")
+            throw engine::Error('/' + key, "is no member of a suite: $schema, description, suite");
+        if (key != "suite" && !value.is_string())
+            throw engine::Error('/' + key, "expected a string, found " + described(value));
+    }
+    const Json& suite = document["suite"];
+    if (!suite.is_array() || suite.empty())
+        throw engine::Error("/suite", "expected a list of scene files, found " + described(suite));
+    for (const Json& file : suite)
+        if (!file.is_string())
+            throw engine::Error(
+                "/suite", "expected names of scene files, found " + described(file));
+}
+
+}  // namespace
+
+bool isSuite(const std::filesystem::path& path) { return !suiteDocument(path).is_null(); }
+
+std::vector<Scene> loadScenes(const std::filesystem::path& path) {
+    const Json document = suiteDocument(path);
+    std::vector<Scene> scenes;
+    if (document.is_null()) {
+        scenes.push_back(loadScene(path));
+        return scenes;
+    }
+    try {
+        checkMembers(document);
+        for (const Json& file : document["suite"]) {
+            const std::filesystem::path member = path.parent_path() / file.get<std::string>();
+            if (isSuite(member))
+                throw engine::Error("/suite", member.string() + " is a suite itself");
+            scenes.push_back(loadScene(member));
+            const std::string& name = scenes.back().name;
+            if (std::ranges::count(scenes, name, &Scene::name) > 1)
+                throw engine::Error("/suite", "two scenes are called " + name);
+        }
+    } catch (const engine::Error& error) {
+        throw engine::Error(path.string(), error.what());
+    }
+    return scenes;
+}
+
+namespace {
+
+// ---- Sweep --------------------------------------------------------------------------------------
+
+// The pointers that change with the axis.
+std::vector<std::string> fields(const Axis& axis) {
+    std::vector<std::string> pointers{axis.pointer};
+    for (const Axis& other : axis.tied) pointers.push_back(other.pointer);
+    return pointers;
+}
+
+std::vector<Axis> withOverrides(const Scene& scene, std::span<const Axis> overrides) {
+    std::vector<Axis> axes = scene.axes;
+    for (const Axis& override_axis : overrides) {
+        Axis axis;
+        try {
+            axis = checkedAxis(override_axis, scene.resolved.json());
+        } catch (const engine::Error& error) {
+            throw engine::Error("-a", error.what());
+        }
+        const auto place = std::ranges::find_if(
+            axes, [&](const Axis& each) { return std::ranges::count(fields(each), axis.pointer); });
+        if (place == axes.end())
+            axes.push_back(std::move(axis));
+        else if (place->tied.empty())
+            *place = std::move(axis);
+        else
+            throw engine::Error("-a", axis.pointer + ": the sweep ties it to other fields");
+    }
+    return axes;
+}
+
+// Every pointer of the sweep, each once and none inside another.
+void requireIndependent(const std::vector<std::string>& pointers) {
+    for (const std::string& outer : pointers) {
+        if (std::ranges::count(pointers, outer) > 1) throw engine::Error(outer, "is swept twice");
+        for (const std::string& inner : pointers)
+            if (inner.starts_with(outer + '/'))
+                throw engine::Error(inner, "is inside the axis " + outer);
+    }
+}
+
+std::size_t caseCount(const std::vector<Axis>& axes) {
+    std::size_t count = 1;
+    for (const Axis& axis : axes) {
+        count *= axis.values.size();
+        if (count > kMaximumCases)
+            throw engine::Error("/sweep", "more than " + std::to_string(kMaximumCases) + " cases");
+    }
+    return count;
+}
+
+// The index-th combination: its axes count like digits, the last one fastest.
+std::vector<AxisValue> combination(const std::vector<Axis>& axes, std::size_t index) {
+    std::vector<std::size_t> digits(axes.size());
+    for (std::size_t i = axes.size(); i-- > 0;) {
+        digits[i] = index % axes[i].values.size();
+        index /= axes[i].values.size();
+    }
+    std::vector<AxisValue> values;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        values.push_back({axes[i].pointer, axes[i].values[digits[i]]});
+        for (const Axis& other : axes[i].tied)
+            values.push_back({other.pointer, other.values[digits[i]]});
+    }
+    return values;
+}
+
+bool isExcluded(const hair::Settings& settings, const std::vector<Exclusion>& exclusions) {
+    if (exclusions.empty()) return false;
+    Json document = writeSettings(settings);
+    const auto meets = [&](const Axis& condition) {
+        const Document value(valueAt(document, condition.pointer));
+        return std::ranges::count(condition.values, value) > 0;
+    };
+    return std::ranges::any_of(exclusions, [&](const Exclusion& exclusion) {
+        return std::ranges::all_of(exclusion, meets);
+    });
+}
+
+std::string caseName(
+    const std::string& scene, const std::vector<std::string>& labels,
+    const std::vector<AxisValue>& values) {
+    std::string name = scene;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        name += '/' + labels[i] + ':' + valueLabel(values[i].value.json());
+    return name;
+}
+
+Json patched(const Scene& scene, std::span<const AxisValue> axes) {
+    Json document = scene.resolved.json();
+    for (const AxisValue& axis : axes) patch(document, axis.pointer, axis.value.json());
+    return document;
+}
+
+}  // namespace
+
+Document caseDocument(const Scene& scene, std::span<const AxisValue> axes) {
+    return Document(patched(scene, axes));
+}
+
+std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides) {
+    const std::vector<Axis> axes = withOverrides(scene, overrides);
+    std::vector<std::string> pointers;
+    for (const Axis& axis : axes) std::ranges::move(fields(axis), std::back_inserter(pointers));
+    const std::vector<std::string> labels = axisLabels(pointers);
+    std::vector<CaseSpec> cases;
+    std::unordered_set<std::string> names;
+    std::string context = scene.path.string();
+    try {
+        requireIndependent(pointers);
+        const std::size_t count = caseCount(axes);
+        for (std::size_t i = 0; i < count; ++i) {
+            CaseSpec spec;
+            spec.axes = combination(axes, i);
+            spec.name = caseName(scene.name, labels, spec.axes);
+            context = scene.path.string() + (axes.empty() ? "" : ": " + spec.name);
+            spec.settings = axes.empty() ? scene.settings : readSettings(patched(scene, spec.axes));
+            if (!axes.empty() && isExcluded(spec.settings, scene.exclusions)) continue;
+            checkSettings(spec.settings);
+            if (!names.insert(spec.name).second) throw engine::Error("two cases have this name");
+            cases.push_back(std::move(spec));
+        }
+        context = scene.path.string();
+        if (cases.empty()) throw engine::Error("/sweep/exclude", "leaves no case");
+    } catch (const engine::Error& error) {
+        throw engine::Error(context, error.what());
+    }
+    return cases;
+}
+
+std::function<bool(const std::string& name)> nameMatcher(const std::string& regex) {
+    try {
+        return [pattern = std::regex(regex, std::regex::ECMAScript)](const std::string& name) {
+            return std::regex_search(name, pattern);
+        };
+    } catch (const std::regex_error& error) {
+        throw engine::Error("--filter " + regex, error.what());
+    }
+}
+
+namespace {
+
+// ---- Select cases -------------------------------------------------------------------------------
+
+// "POINTER=VALUE".
+void setField(Scene& scene, const std::string& argument) {
+    const std::size_t equals = argument.find('=');
+    try {
+        if (equals == std::string::npos || equals == 0)
+            throw engine::Error("expected POINTER=VALUE, as in /strands/density=16");
+        const Axis field = checkedAxis(
+            {.pointer = argument.substr(0, equals),
+             .values = {parseValue(argument.substr(equals + 1))}},
+            scene.resolved.json());
+        setField(scene, field.pointer, field.values.front().json());
+    } catch (const engine::Error& error) {
+        throw engine::Error("--set " + argument, error.what());
+    }
+}
+
+// The number as a scene file would have it: 0.02, though settings are floats.
+Json decimal(double number) { return Json::parse(decimalText(number)); }
+
+}  // namespace
+
+std::vector<CaseSpec> selectCases(Scene& scene, const SceneOptions& options) {
+    if (options.frames) setField(scene, "/run/frames", *options.frames);
+    if (options.warmup) setField(scene, "/run/warmup", *options.warmup);
+    if (options.precision) setField(scene, "/run/precision", decimal(*options.precision));
+    if (options.max_time) setField(scene, "/run/max_time", decimal(*options.max_time));
+    for (const std::string& set : options.sets) setField(scene, set);
+    std::vector<Axis> overrides;
+    for (const std::string& axis : options.axes) overrides.push_back(parseAxis(axis));
+    std::vector<CaseSpec> cases = expand(scene, overrides);
+
+    std::set<std::string> checked;
+    for (const CaseSpec& each : cases) {
+        const hair::GroomSettings& groom = each.settings.groom;
+        std::string files;
+        for (const std::string& file :
+             {groom.file, groom.mesh, groom.grow.mesh, groom.grow.scalp, groom.grow.mask,
+              groom.grow.length_map, each.settings.strands.offsets, each.settings.strands.texture,
+              each.settings.render.environment, each.settings.run.reference})
+            files += file + '\n';
+        for (const auto& mesh : each.settings.render.meshes) files += '\n' + mesh.file;
+        for (const auto& field : each.settings.simulation.distance_fields)
+            files += '\n' + field.mesh;
+        if (checked.insert(files).second) measure::checkAssets(each.settings, scene.path);
+    }
+    return cases;
+}
+
+CaseSpec singleCase(Scene& scene, const SceneOptions& options) {
+    scene.axes.clear();
+    return selectCases(scene, options).front();
+}
+
+}  // namespace benchmarks::scene

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "benchmarks/viewer/camera_tool.h"
+#include "benchmarks/viewer/toolbar.h"
+#include "hair/settings.h"
+
+namespace benchmarks::viewer {
+
+// What the menus and keys do.
+enum class Action {
+    open_scene,
+    save_scene,
+    save_scene_as,
+    copy_axes,
+    screenshot,
+    record,  // on and off
+    quit,
+    undo,
+    redo,
+    play,  // and pause
+    step,
+    restart,
+    frame_groom,
+    view_front,
+    view_side,
+    view_back,
+    view_top,
+    view_close,
+    view_far,
+    overlay_guides,
+    overlay_root_triangles,
+    overlay_bodies,
+    show_head,
+    show_hair,
+    tool_camera,
+    tool_wind,
+    tool_grab,
+    tool_head,
+    tool_colliders,
+    compare,  // on and off
+    edit_other,  // of two sides
+    present_fifo,
+    present_mailbox,
+    present_immediate,
+    dark_theme,
+    light_theme,
+    larger,
+    smaller,
+    left_column,  // shown or not
+    right_column,
+    panel_scene,
+    panel_files,
+    panel_timings,
+    panel_compare,
+    panel_shaders,
+    reset_layout,
+    help,
+};
+inline constexpr Action kLastAction = Action::help;
+
+struct ActionRow {
+    Action action;
+    const char* menu;  // that it is in
+    const char* name;  // there
+    int key;           // ImGuiKeyChord; 0: none
+    const char* keys;  // as people read it
+    const char* help;
+};
+
+// In the order of the menus.
+std::span<const ActionRow> actionTable();
+const ActionRow& rowOf(Action action);
+// The same, menu by menu.
+std::vector<std::span<const ActionRow>> actionMenus();
+
+// Those whose keys were pressed since the last picture; none while text is being typed or a menu is
+// open.
+std::vector<Action> pressedActions();
+
+// A window of Dear ImGui with the keys and the mouse's buttons, over everything else while `open`;
+// Escape closes it.
+void helpPanel(bool& open);
+
+// How an action is shown.
+struct ActionState {
+    bool checked = false;
+    bool enabled = true;
+};
+
+// The window's menu, made from the table of actions; those that were chosen. `state` is asked about
+// the ones that are seen.
+std::vector<Action> menuBar(const std::function<ActionState(Action)>& state);
+
+// The setting that an action switches on and off; null: it is no such action.
+bool* switchOf(Action action, hair::Settings& settings);
+
+// The tool that an action takes up.
+std::optional<Tool> toolOf(Action action);
+
+// The preset that an action looks from, which has its name; null: it is no such action.
+const CameraPreset* presetOf(Action action);
+
+}  // namespace benchmarks::viewer

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "engine/buffer_image.h"
+#include "engine/pipeline.h"
+#include "engine/ui.h"
+
+namespace engine {
+class Commands;
+class Image;
+}  // namespace engine
+
+namespace engine {}  // namespace engine
+
+namespace benchmarks::viewer {
+
+// How much two pictures differ, in steps of 1/255 of display colours. Exact.
+struct DifferenceFigures {
+    std::uint64_t pixels = 0;     // of a picture
+    std::uint64_t different = 0;  // of them, in one channel at least
+    std::uint32_t most = 0;       // of one channel
+    std::uint64_t sum = 0;        // over red, green and blue of all pixels
+
+    // Of a channel of a pixel.
+    double mean() const { return static_cast<double>(sum) / (3.0 * static_cast<double>(pixels)); }
+    // Of the pixels, that differ.
+    double share() const { return static_cast<double>(different) / static_cast<double>(pixels); }
+
+    bool operator==(const DifferenceFigures&) const = default;
+};
+
+// Makes the picture of the difference of two, and its figures.
+class DifferencePass {
+public:
+    explicit DifferencePass(const engine::Device& device);
+
+    // `a` and `b` are 8-bit RGBA of one size and in SHADER_READ_ONLY_OPTIMAL; `difference` is a
+    // storage image of that size and in GENERAL, and gets |a - b| times `gain`. Their alpha does
+    // not count. What was written before must be visible to compute.
+    void record(
+        engine::Commands& commands, const engine::Image& a, const engine::Image& b,
+        const engine::Image& difference, std::uint32_t gain);
+
+    // Of the pictures recorded last, once the device is done with them.
+    DifferenceFigures figures() const;
+
+private:
+    engine::ComputePipeline pipeline_;
+    engine::Buffer counts_;
+    engine::Buffer readback_;
+    std::uint64_t pixels_ = 0;
+};
+
+// "at most 37 of 255, on average 0.42; 12.3 % of the pixels differ", or "identical".
+std::string differenceText(const DifferenceFigures& figures);
+
+// A picture that widgets can show, pixel by pixel as it was drawn.
+class ShownPicture {
+public:
+    explicit ShownPicture(const engine::Device& device) : device_(device) {}
+
+    // Records the copy of what was drawn. The device must be done with the last one.
+    void copy(engine::Commands& commands, const engine::Image& output);
+
+    // The image, of that size and with undefined contents, for who records into it instead and
+    // leaves it in SHADER_READ_ONLY_OPTIMAL. The device must be done with the last one.
+    const engine::Image& renew(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage);
+
+    bool isThere() const { return shown_ != nullptr; }
+    const engine::Image& image() const { return shown_->image; }
+    ImTextureID id() const { return shown_->texture.id(); }
+    VkExtent2D extent() const { return shown_->image.extent(); }
+
+private:
+    struct Shown {
+        Shown(const engine::Device& device, const engine::ImageDescription& description)
+            : image(device, description), texture(device, image) {}
+        engine::Image image;
+        engine::Ui::Texture texture;
+    };
+
+    const engine::Device& device_;
+    std::unique_ptr<Shown> shown_;
+    // Of another size: widgets that are about to be drawn still show it.
+    std::unique_ptr<Shown> retired_;
+};
+
+// The difference of two pictures that are shown, as one that can be shown too.
+class PictureDifference {
+public:
+    explicit PictureDifference(const engine::Device& device) : pass_(device), picture_(device) {}
+
+    // Of pictures of one size whose copies were recorded before. The device must be done with the
+    // last one.
+    void record(
+        engine::Commands& commands, const ShownPicture& a, const ShownPicture& b,
+        std::uint32_t gain);
+
+    // Nothing is to be known of the last one any more.
+    void forget();
+
+    bool isThere() const { return recorded_; }
+    const ShownPicture& picture() const { return picture_; }
+    // Of the picture before the last one, which the device is done with.
+    const std::optional<DifferenceFigures>& figures() const { return figures_; }
+
+private:
+    DifferencePass pass_;
+    ShownPicture picture_;
+    bool recorded_ = false;
+    std::optional<DifferenceFigures> figures_;
+};
+
+}  // namespace benchmarks::viewer

@@ -1,0 +1,229 @@
+#include "benchmarks/viewer/gizmo.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <imgui.h>
+
+namespace benchmarks::viewer {
+namespace {
+
+// ---- Gizmo --------------------------------------------------------------------------------------
+
+constexpr int kArcSegments = 48;
+constexpr float kArrow = 0.8f;  // of the rings' radius: behind its tip a ring can be held
+constexpr float kFacing = 0.85f;  // cosine between a ring's axis and the view
+// Cosine between a ring's plane and the view below which the ring is seen from its edge: then the
+// mouse drags along it instead of round it.
+constexpr double kEdge = 0.2;
+
+struct Plane {
+    glm::vec3 u, v;  // across the axis, unit length; u x v is the axis
+};
+
+// Of a ring, with u to the camera.
+Plane planeOf(const PictureView& view, const Gizmo& gizmo, int axis) {
+    const glm::vec3 normal = gizmo.turn_axes[static_cast<std::size_t>(axis)];
+    const glm::vec3 toward = glm::normalize(view.eye() - gizmo.origin);
+    glm::vec3 u = toward - normal * glm::dot(toward, normal);
+    if (glm::length(u) < 1e-3f) u = view.right() - normal * glm::dot(view.right(), normal);
+    u = glm::normalize(u);
+    return {u, glm::cross(normal, u)};
+}
+
+// m along a line through `from` to where it is nearest to a ray.
+double nearestAlong(const Ray& ray, const glm::dvec3& from, const glm::dvec3& axis) {
+    const glm::dvec3 arm = ray.from - from;
+    const double cosine = glm::dot(axis, ray.direction);
+    return (glm::dot(arm, axis) - glm::dot(arm, ray.direction) * cosine) / (1.0 - cosine * cosine);
+}
+
+std::optional<double>
+angleUnder(const PictureView& view, const Gizmo& gizmo, const Plane& plane, glm::vec2 pixel) {
+    const Ray ray = view.ray(pixel);
+    const glm::dvec3 u = plane.u, v = plane.v;
+    const glm::dvec3 normal = glm::cross(u, v);
+    const double cosine = glm::dot(normal, ray.direction);
+    if (std::abs(cosine) < kEdge) return {};
+    const glm::dvec3 arm = glm::dvec3(gizmo.origin) - ray.from;
+    const glm::dvec3 point = ray.direction * (glm::dot(normal, arm) / cosine) - arm;
+    return std::atan2(glm::dot(point, v), glm::dot(point, u));
+}
+
+}  // namespace
+
+glm::vec3 moveAxis(int axis) {
+    glm::vec3 unit{0.0f};
+    unit[axis] = 1.0f;
+    return unit;
+}
+
+glm::vec3 arrowTip(const Gizmo& gizmo, int axis) {
+    return gizmo.origin + moveAxis(axis) * (kArrow * gizmo.size);
+}
+
+bool canBeDragged(const PictureView& view, const Gizmo& gizmo, int axis) {
+    const float along = glm::dot(moveAxis(axis), glm::normalize(view.eye() - gizmo.origin));
+    return std::abs(along) < 0.97f;  // a quarter of its length is seen
+}
+
+std::vector<glm::vec3> ringArc(const PictureView& view, const Gizmo& gizmo, int axis) {
+    const Plane plane = planeOf(view, gizmo, axis);
+    const glm::vec3 normal = gizmo.turn_axes[static_cast<std::size_t>(axis)];
+    const float along = glm::dot(normal, glm::normalize(view.eye() - gizmo.origin));
+    const float turns = std::abs(along) > kFacing ? 1.0f : 0.5f;
+    std::vector<glm::vec3> points;
+    for (int i = 0; i <= kArcSegments; ++i) {
+        const float angle = (static_cast<float>(i) / kArcSegments - 0.5f) * turns * 2.0f *
+                            std::numbers::pi_v<float>;
+        points.push_back(
+            gizmo.origin + gizmo.size * (plane.u * std::cos(angle) + plane.v * std::sin(angle)));
+    }
+    return points;
+}
+
+std::optional<GizmoPart>
+pickGizmo(const PictureView& view, const Gizmo& gizmo, glm::vec2 pixel, float reach) {
+    std::optional<GizmoPart> best;
+    float nearest = std::numeric_limits<float>::max();
+    const auto consider = [&](GizmoPart part, const glm::vec3& from, const glm::vec3& to) {
+        const auto a = view.pixel(from), b = view.pixel(to);
+        if (!a || !b) return;
+        const float distance = pixelsToSegment(pixel, *a, *b);
+        if (distance > reach || distance >= nearest) return;
+        nearest = distance;
+        best = part;
+    };
+    for (int axis = 0; axis < 3; ++axis)
+        if (canBeDragged(view, gizmo, axis))
+            consider({GizmoPart::Kind::arrow, axis}, gizmo.origin, arrowTip(gizmo, axis));
+    if (best) return best;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::vector<glm::vec3> arc = ringArc(view, gizmo, axis);
+        for (std::size_t i = 0; i + 1 < arc.size(); ++i)
+            consider({GizmoPart::Kind::ring, axis}, arc[i], arc[i + 1]);
+    }
+    return best;
+}
+
+float moved(const PictureView& view, const Gizmo& gizmo, int axis, glm::vec2 from, glm::vec2 to) {
+    const glm::dvec3 unit = moveAxis(axis), origin = gizmo.origin;
+    return static_cast<float>(
+        nearestAlong(view.ray(to), origin, unit) - nearestAlong(view.ray(from), origin, unit));
+}
+
+float turned(const PictureView& view, const Gizmo& gizmo, int axis, glm::vec2 from, glm::vec2 to) {
+    const Plane plane = planeOf(view, gizmo, axis);
+    const auto before = angleUnder(view, gizmo, plane, from);
+    const auto after = angleUnder(view, gizmo, plane, to);
+    if (before && after)
+        return static_cast<float>(
+            std::remainder(*after - *before, 2.0 * std::numbers::pi_v<double>));
+    // Along the ring where it is nearest to the camera.
+    const glm::vec3 nearest = gizmo.origin + plane.u * gizmo.size;
+    return glm::dot(view.dragged(nearest, from, to), plane.v) / gizmo.size;
+}
+
+float pixelsToSegment(glm::vec2 point, glm::vec2 a, glm::vec2 b) {
+    const glm::vec2 line = b - a;
+    const float square = glm::dot(line, line);
+    const float share =
+        square > 0.0f ? std::clamp(glm::dot(point - a, line) / square, 0.0f, 1.0f) : 0.0f;
+    return glm::length(point - a - line * share);
+}
+
+namespace {
+
+// ---- Handles ------------------------------------------------------------------------------------
+
+constexpr ImU32 kOutline = IM_COL32(0, 0, 0, 190);
+constexpr ImU32 kBox = IM_COL32(0, 0, 0, 190);
+
+// In font sizes.
+constexpr float kLine = 0.13f;
+constexpr float kBorder = 0.09f;  // of the outline, on each side
+constexpr float kDot = 0.36f;
+constexpr float kHead = 0.75f;  // of an arrow
+constexpr float kPadding = 0.3f;
+
+float sized(float fonts) { return fonts * ImGui::GetFontSize(); }
+ImVec2 at(glm::vec2 point) { return {point.x, point.y}; }
+
+}  // namespace
+
+Handles::Handles(const PictureRect& seen) : seen_(seen), list_(ImGui::GetWindowDrawList()) {
+    list_->PushClipRect(at(seen.corner), at(seen.corner + seen.size), true);
+}
+
+Handles::~Handles() { list_->PopClipRect(); }
+
+float Handles::reach() { return sized(0.6f); }
+
+void Handles::line(glm::vec2 a, glm::vec2 b, Color color) {
+    list_->AddLine(at(a), at(b), kOutline, sized(kLine + 2.0f * kBorder));
+    list_->AddLine(at(a), at(b), color, sized(kLine));
+}
+
+void Handles::path(std::span<const glm::vec2> points, Color color) {
+    std::vector<ImVec2> line;
+    for (const glm::vec2& point : points) line.push_back(at(point));
+    const auto count = static_cast<int>(line.size());
+    list_->AddPolyline(line.data(), count, kOutline, 0, sized(kLine + 2.0f * kBorder));
+    list_->AddPolyline(line.data(), count, color, 0, sized(kLine));
+}
+
+void Handles::circle(glm::vec2 center, float radius, Color color) {
+    list_->AddCircle(at(center), radius, kOutline, 0, sized(kLine + 2.0f * kBorder));
+    list_->AddCircle(at(center), radius, color, 0, sized(kLine));
+}
+
+void Handles::dot(glm::vec2 center, Color color) {
+    list_->AddCircleFilled(at(center), sized(kDot + kBorder), kOutline);
+    list_->AddCircleFilled(at(center), sized(kDot), color);
+}
+
+void Handles::arrow(glm::vec2 from, glm::vec2 tip, Color color) {
+    const float length = glm::length(tip - from);
+    if (length < 1.0f) {
+        dot(tip, color);
+        return;
+    }
+    const glm::vec2 along = (tip - from) / length;
+    const glm::vec2 across{-along.y, along.x};
+    const auto head = [&](float border, ImU32 with) {
+        const glm::vec2 foot = tip - along * sized(kHead + border);
+        const glm::vec2 side = across * sized(0.5f * kHead + 1.5f * border);
+        list_->AddTriangleFilled(
+            at(tip + along * sized(2.0f * border)), at(foot + side), at(foot - side), with);
+    };
+    const glm::vec2 neck = tip - along * std::min(length, sized(kHead));
+    list_->AddLine(at(from), at(neck), kOutline, sized(kLine + 2.0f * kBorder));
+    head(kBorder, kOutline);
+    list_->AddLine(at(from), at(neck), color, sized(kLine));
+    head(0.0f, color);
+}
+
+void Handles::label(glm::vec2 beside, const std::string& text) { box(beside + sized(0.8f), text); }
+
+void Handles::hint(const std::string& text) {
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    box(seen_.corner + glm::vec2{(seen_.size.x - size.x) / 2.0f, sized(0.5f)}, text);
+}
+
+void Handles::box(glm::vec2 corner, const std::string& text) {
+    const glm::vec2 padding(sized(kPadding));
+    const ImVec2 measured = ImGui::CalcTextSize(text.c_str());
+    const glm::vec2 size{measured.x, measured.y};
+    const glm::vec2 low = seen_.corner + padding;
+    const glm::vec2 high = seen_.corner + seen_.size - size - padding;
+    corner = glm::max(glm::min(corner, high), low);
+    list_->AddRectFilled(at(corner - padding), at(corner + size + padding), kBox, sized(kPadding));
+    list_->AddText(at(corner), kPlain, text.c_str());
+}
+
+}  // namespace benchmarks::viewer

@@ -1,0 +1,318 @@
+#include "benchmarks/viewer/grab_tool.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <imgui.h>
+
+#include "benchmarks/viewer/picking.h"
+
+namespace benchmarks::viewer {
+namespace {
+
+// ---- Hand path ----------------------------------------------------------------------------------
+
+constexpr std::size_t kKeysOfAMove = 3;  // the present, the next frame, and where it stays
+
+// Leaves what was played, with a key at the present; nothing where the path begins later.
+void cut(std::vector<hair::PullKey>& path, float now) {
+    if (path.empty()) return;
+    const glm::vec3 present = handAt(path, now);
+    std::erase_if(path, [&](const hair::PullKey& key) { return key.time > now; });
+    if (!path.empty() && path.back().time < now) path.push_back({now, present});
+}
+
+}  // namespace
+
+glm::vec3 handAt(std::span<const hair::PullKey> path, float time) {
+    const auto after = std::ranges::upper_bound(path, time, {}, &hair::PullKey::time);
+    if (after == path.begin()) return path.front().position;
+    if (after == path.end()) return path.back().position;
+    const hair::PullKey& before = *(after - 1);
+    const float share = (time - before.time) / (after->time - before.time);
+    return glm::mix(before.position, after->position, share);
+}
+
+void moveHand(std::vector<hair::PullKey>& path, const Moment& moment, glm::vec3 position) {
+    position = allowed(&hair::PullKey::position, position);
+    cut(path, moment.now);
+    if (path.empty()) path.push_back({moment.now, position});
+    // A hand that rests needs no key for every frame.
+    if (path.size() >= 2 && path.back().position == position &&
+        path[path.size() - 2].position == position)
+        path.pop_back();
+    path.push_back({moment.next, position});
+    path.push_back({moment.later, position});
+}
+
+void letGo(std::vector<hair::PullKey>& path, const Moment& moment) {
+    if (path.empty()) return;
+    const glm::vec3 wanted = path.back().position;
+    cut(path, moment.now);
+    if (path.size() == 1) path.push_back({moment.next, wanted});
+}
+
+bool hasRoom(std::span<const hair::PullKey> path) {
+    return path.size() + kKeysOfAMove <= mostOf(&hair::PullSettings::path);
+}
+
+namespace {
+
+// ---- Grab tool ----------------------------------------------------------------------------------
+
+constexpr float kCentimetres = 100.0f;  // per m
+constexpr float kMostRadius = 10.0f;  // cm, at the end of the slider
+
+std::size_t indexOf(const GuideVertex& held, const Player& player) {
+    return std::size_t{held.guide} * player.played().groom().vertices_per_strand + held.vertex;
+}
+
+bool samePath(const std::vector<hair::PullKey>& a, const std::vector<hair::PullKey>& b) {
+    const auto same = [](const hair::PullKey& x, const hair::PullKey& y) {
+        return x.time == y.time && x.position == y.position;
+    };
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
+}
+
+std::optional<GuideVertex>
+under(const Pointer& pointer, const std::vector<glm::vec3>& guides, const Player& player) {
+    const hair::groom::Groom& groom = player.played().groom();
+    // Of two that are equally near to the mouse, the one in front.
+    return pickVertex(
+        pointer.view, guides, groom.vertices_per_strand, pointer.at, 2.5f * Handles::reach(),
+        sphereRound(groom.points).radius);
+}
+
+}  // namespace
+
+Edit GrabTool::drag(const Pointer& pointer, hair::Settings& settings, const Player& player) {
+    std::vector<hair::PullSettings>& pulls = settings.simulation.pulls;
+    const Moment moment = momentOf(player);
+    Edit edit{.changed = false, .continues = true};
+    if (!drag_->pull && pointer.at != drag_->from && pointer.holds &&
+        pulls.size() < mostOf(&hair::SimulationSettings::pulls)) {
+        drag_->pull = pulls.size();
+        pulls.push_back(
+            {.guide = drag_->held.guide,
+             .vertex = drag_->held.vertex,
+             .radius = allowed(&hair::PullSettings::radius, radius_),
+             .path = {{moment.now, drag_->start}}});
+    }
+    // It may have been undone on the way.
+    if (!drag_->pull || *drag_->pull >= pulls.size()) {
+        if (!pointer.holds || drag_->pull) drag_.reset();
+        return edit;
+    }
+    std::vector<hair::PullKey>& path = pulls[*drag_->pull].path;
+    const std::vector<hair::PullKey> before = path;
+    const bool ends = !pointer.holds || !hasRoom(path);
+    if (ends)
+        letGo(path, moment);
+    else
+        moveHand(
+            path, moment,
+            drag_->start + pointer.view.dragged(drag_->start, drag_->from, pointer.at));
+    edit.changed = !samePath(before, path);
+    if (!ends) return edit;
+    if (path.empty()) pulls.erase(pulls.begin() + static_cast<std::ptrdiff_t>(*drag_->pull));
+    drag_.reset();
+    return edit;
+}
+
+Edit GrabTool::update(
+    const Pointer& pointer, Handles& handles, hair::Settings& settings, const Player& player,
+    bool runs) {
+    if (pointer.pressed) {
+        const std::vector<glm::vec3> guides = player.played().guides();
+        drag_.reset();
+        if (const auto held = under(pointer, guides, player))
+            drag_ = {&player, *held, guides[indexOf(*held, player)], pointer.at, {}};
+    }
+    const bool drags = drag_ && drag_->player == &player;
+    Edit edit;
+    if (drags) edit = drag(pointer, settings, player);
+    draw(pointer, handles, settings, player);
+    if (settings.simulation.solver == hair::Solver::none)
+        handles.hint("The solver is none: this hair can't be pulled.");
+    else if (settings.simulation.pulls.size() >= mostOf(&hair::SimulationSettings::pulls) && !drags)
+        handles.hint("There are as many pulls as there can be: clear them first.");
+    else if (drags && !runs)
+        handles.hint("Paused: the hair follows while frames are played or stepped.");
+    return edit;
+}
+
+void GrabTool::draw(
+    const Pointer& pointer, Handles& handles, const hair::Settings& settings,
+    const Player& player) const {
+    const bool drags = drag_ && drag_->player == &player;
+    if (!drags && !pointer.hovers) return;
+    const std::vector<glm::vec3> guides = player.played().guides();
+    const auto held = drags ? std::optional(drag_->held) : under(pointer, guides, player);
+    if (!held) return;
+    const glm::vec3 vertex = guides[indexOf(*held, player)];
+    const auto shown = pointer.view.pixel(vertex);
+    if (!shown) return;
+    const float reach = radius_ * pointer.view.pixelsPerMetre(vertex);
+    const Handles::Color color = drags ? Handles::kHot : Handles::kPlain;
+    handles.circle(*shown, reach, color);
+    if (drags && drag_->pull && *drag_->pull < settings.simulation.pulls.size()) {
+        const auto hand =
+            pointer.view.pixel(settings.simulation.pulls[*drag_->pull].path.back().position);
+        if (hand) {
+            handles.line(*shown, *hand, color);
+            handles.dot(*hand, color);
+        }
+    }
+    handles.dot(*shown, color);
+    handles.label(
+        *shown,
+        "guide " + std::to_string(held->guide) + ", vertex " + std::to_string(held->vertex));
+}
+
+Edit GrabTool::options(OptionsLine& line, hair::Settings& settings) {
+    float centimetres = radius_ * kCentimetres;
+    if (line.slider("Radius", centimetres, 0.0f, kMostRadius, "%.1f cm"))
+        radius_ = allowed(&hair::PullSettings::radius, centimetres / kCentimetres);
+    ImGui::SetItemTooltip(
+        "How far from the held vertex hair is pulled along: at this distance, at rest, by 1/e as "
+        "much. Of the next pull.");
+    std::vector<hair::PullSettings>& pulls = settings.simulation.pulls;
+    const std::string name = "Clear pulls (" + std::to_string(pulls.size()) + ")###clear_pulls";
+    if (!line.button(name.c_str(), !pulls.empty(), "No hand has ever pulled at this hair"))
+        return {};
+    pulls.clear();
+    drag_.reset();
+    return {.changed = true};
+}
+
+namespace {
+
+// ---- Wind arrow ---------------------------------------------------------------------------------
+
+// Lengths in radii of the groom.
+constexpr float kStill = 0.35f;
+constexpr float kDoubling = 0.4f;  // more for every doubling of the wind that is strong
+
+// From which wind on doubling it makes the arrow so much longer: a light breeze.
+float breeze(const hair::WindSettings& wind) {
+    return wind.mode == hair::WindMode::drag ? 2.0f : 3.0f;  // m/s; m/s^2
+}
+
+}  // namespace
+
+float windOf(const hair::WindSettings& wind) {
+    return wind.mode == hair::WindMode::drag ? wind.speed : wind.strength;
+}
+
+const char* windUnit(const hair::WindSettings& wind) {
+    return wind.mode == hair::WindMode::drag ? "m/s" : "m/s²";
+}
+
+glm::vec3 windDirection(const hair::WindSettings& wind) {
+    const float length = glm::length(wind.direction);
+    return length > 0.0f ? wind.direction / length : glm::vec3{1, 0, 0};
+}
+
+glm::vec3 windTip(const hair::WindSettings& wind, const Sphere& groom) {
+    const float radii = kStill + kDoubling * std::log2(1.0f + windOf(wind) / breeze(wind));
+    return groom.center + windDirection(wind) * (radii * groom.radius);
+}
+
+void setWindTip(hair::WindSettings& wind, const Sphere& groom, const glm::vec3& tip) {
+    const glm::vec3 arrow = tip - groom.center;
+    const float radii = glm::length(arrow) / groom.radius;
+    if (radii > 0.01f) wind.direction = glm::normalize(arrow);
+    setWind(wind, breeze(wind) * (std::exp2(std::max(radii - kStill, 0.0f) / kDoubling) - 1.0f));
+}
+
+void setWind(hair::WindSettings& wind, float value) {
+    if (wind.mode == hair::WindMode::drag)
+        wind.speed = allowed(&hair::WindSettings::speed, value);
+    else
+        wind.strength = allowed(&hair::WindSettings::strength, value);
+    // A wind that blows needs somewhere to blow to.
+    if (windOf(wind) > 0.0f) wind.direction = windDirection(wind);
+}
+
+namespace {
+
+// ---- Wind tool ----------------------------------------------------------------------------------
+
+// The groom at rest, where the head is: its arrow does not sway with the hair.
+Sphere groomOf(const Player& player) {
+    Sphere groom = sphereRound(player.played().groom().points);
+    groom.center = player.played().head()(groom.center);
+    return groom;
+}
+
+std::string textOf(const hair::WindSettings& wind) {
+    std::array<char, 64> text{};
+    std::snprintf(
+        text.data(), text.size(), "wind %.3g %s", static_cast<double>(windOf(wind)),
+        windUnit(wind));
+    return text.data();
+}
+
+bool same(const hair::WindSettings& a, const hair::WindSettings& b) {
+    return a.direction == b.direction && windOf(a) == windOf(b);
+}
+
+}  // namespace
+
+Edit WindTool::update(
+    const Pointer& pointer, Handles& handles, hair::Settings& settings, const Player& player) {
+    const PictureView& view = pointer.view;
+    hair::WindSettings& wind = settings.simulation.wind;
+    const Sphere groom = groomOf(player);
+    const auto held = view.pixel(windTip(wind, groom));
+    const bool hot = pointer.hovers && held && glm::length(*held - pointer.at) < Handles::reach();
+    if (pointer.pressed && hot) drag_ = {&player, windTip(wind, groom), pointer.at};
+    const bool drags = drag_ && drag_->player == &player;
+    Edit edit;
+    if (drags) {
+        const hair::WindSettings before = wind;
+        const glm::vec3 by = view.dragged(drag_->tip, drag_->from, pointer.at);
+        if (pointer.at != drag_->from) setWindTip(wind, groom, drag_->tip + by);
+        edit = {.changed = !same(before, wind), .continues = true};
+        if (!pointer.holds) drag_.reset();
+    }
+    const auto from = view.pixel(groom.center);
+    const auto tip = view.pixel(windTip(wind, groom));
+    if (from && tip) {
+        handles.arrow(*from, *tip, hot || drags ? Handles::kHot : Handles::kPlain);
+        handles.label(*tip, textOf(wind));
+    }
+    if (hot && !drags)
+        ImGui::SetTooltip("Drag: turns the wind; a longer arrow is a stronger wind.");
+    if (settings.simulation.solver == hair::Solver::none)
+        handles.hint("The solver is none: no wind moves this hair.");
+    return edit;
+}
+
+Edit WindTool::options(OptionsLine& line, hair::Settings& settings) {
+    hair::WindSettings& wind = settings.simulation.wind;
+    const bool is_drag = wind.mode == hair::WindMode::drag;
+    float value = windOf(wind);
+    Edit edit;
+    if (line.slider(
+            "Wind", value, 0.0f, is_drag ? 20.0f : 30.0f, is_drag ? "%.1f m/s" : "%.1f m/s²")) {
+        setWind(wind, value);
+        edit = {.changed = true, .continues = ImGui::IsItemActive()};
+    }
+    ImGui::SetItemTooltip(
+        is_drag ? "Mean speed of the wind: /simulation/wind/speed"
+                : "Acceleration by the wind: /simulation/wind/strength");
+    if (line.button("Still air", windOf(wind) > 0.0f, "No wind; the arrow keeps its direction")) {
+        setWind(wind, 0.0f);
+        edit.changed = true;
+    }
+    return edit;
+}
+
+}  // namespace benchmarks::viewer

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <optional>
+
+#include <glm/vec3.hpp>
+
+#include "benchmarks/viewer/gizmo.h"
+#include "benchmarks/viewer/picking.h"
+#include "benchmarks/viewer/player.h"
+#include "hair/settings.h"
+#include "hair/simulation_settings.h"
+
+namespace benchmarks::viewer {
+
+// A pose of the head, as keyframes have it.
+struct HeadPose {
+    glm::vec3 rotation{0.0f};  // pitch, yaw and roll, deg
+    glm::vec3 translation{0.0f};  // m
+
+    bool operator==(const HeadPose&) const = default;
+};
+
+HeadPose headAt(const hair::MotionSettings& motion, double time);
+
+// A motion that is the same up to now and rests from then on: with the keyframes so far, if they
+// say the same without those after now, else with one for each of the frames so far, which were
+// `frame_time` long (as far as there may be so many keyframes). It does not repeat.
+hair::MotionSettings
+motionUntil(const hair::MotionSettings& motion, const Moment& moment, double frame_time);
+
+// Of a motion that rests from now on: the head has the pose from the next frame on. False, and
+// nothing is done, where it has it already or where there is no room for more keyframes.
+bool moveHead(hair::MotionSettings& motion, const Moment& moment, const HeadPose& pose);
+
+// Moves the head with a gizmo at its pivot: keyframes of /simulation/motion from now on.
+class HeadTool {
+public:
+    // `runs`: whether frames are being played.
+    Edit update(
+        const Pointer& pointer, Handles& handles, hair::Settings& settings, const Player& player,
+        bool runs);
+    bool drags() const { return drag_.has_value(); }
+
+    // A button that clears the motion, in one line.
+    Edit options(OptionsLine& line, hair::Settings& settings);
+
+private:
+    struct Drag {
+        const Player* player;  // whose picture
+        GizmoPart part;
+        Gizmo gizmo;     // as it was when it was held
+        HeadPose start;
+        HeadPose pose;   // as it is wanted
+        glm::vec2 from;  // px
+        glm::vec2 last;  // px
+        float angle = 0.0f;  // rad so far; more than a turn is possible
+        bool has_moved = false;
+    };
+    Edit drag(const Pointer& pointer, hair::Settings& settings, const Player& player);
+
+    std::optional<Drag> drag_;
+};
+
+// The gizmo of a head in a pose: its rings turn about the axes that the angles of a keyframe have,
+// so that each changes one of them. `size`, m.
+Gizmo headGizmo(const glm::vec3& pivot, const HeadPose& pose, float size);
+
+}  // namespace benchmarks::viewer

@@ -1,0 +1,458 @@
+#include "benchmarks/viewer/picture_area.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <imgui.h>
+#include <imgui_internal.h>  // owners of keys
+
+#include "benchmarks/report/statistics.h"
+#include "benchmarks/report/text.h"
+#include "benchmarks/viewer/compare_panel.h"
+#include "benchmarks/viewer/difference.h"
+#include "benchmarks/viewer/picking.h"
+
+namespace benchmarks::viewer {
+namespace {
+
+// ---- Arrange ------------------------------------------------------------------------------------
+
+enum Axis { kHorizontal, kVertical };
+
+glm::vec2 middleOf(const PictureRect& rect) { return rect.corner + rect.size * 0.5f; }
+
+// The room that two pictures take beside each other along an axis, without a gap.
+glm::vec2 sizeOfBoth(const std::array<glm::vec2, 2>& sizes, Axis along) {
+    glm::vec2 size = glm::max(sizes[0], sizes[1]);
+    size[along] = sizes[0][along] + sizes[1][along];
+    return size;
+}
+
+float scaleOfBoth(
+    const PictureRect& room, const std::array<glm::vec2, 2>& pixels, float gap, Axis along) {
+    glm::vec2 left = room.size;
+    left[along] -= gap;
+    return fittingScale(left, sizeOfBoth(pixels, along));
+}
+
+// As large as there is room, the two together in its middle; each fills its pane.
+std::array<Placed, 2>
+fitted(const PictureRect& room, const std::array<glm::vec2, 2>& pixels, float gap, Axis along) {
+    const float scale = scaleOfBoth(room, pixels, gap, along);
+    const std::array sizes{pixels[0] * scale, pixels[1] * scale};
+    float next = middleOf(room)[along] - (sizeOfBoth(sizes, along)[along] + gap) * 0.5f;
+    std::array<Placed, 2> placed;
+    for (std::size_t i = 0; i < 2; ++i) {
+        PictureRect rect{middleOf(room) - sizes[i] * 0.5f, sizes[i]};
+        rect.corner[along] = next;
+        next += sizes[i][along] + gap;
+        placed[i] = {rect, rect};
+    }
+    return placed;
+}
+
+}  // namespace
+
+PictureRect common(const PictureRect& a, const PictureRect& b) {
+    const glm::vec2 from = glm::max(a.corner, b.corner);
+    const glm::vec2 to = glm::min(a.corner + a.size, b.corner + b.size);
+    return {from, glm::max(to - from, glm::vec2(0.0f))};
+}
+
+float fittingScale(glm::vec2 room, glm::vec2 picture) {
+    return glm::max(glm::min(room.x / picture.x, room.y / picture.y), 0.0f);
+}
+
+glm::vec2 visibleShare(const Placed& placed) {
+    return glm::min(placed.pane.size / placed.picture.size, glm::vec2(1.0f));
+}
+
+glm::vec2 reachableFocus(glm::vec2 focus, glm::vec2 visible_share) {
+    return glm::clamp(focus, visible_share * 0.5f, 1.0f - visible_share * 0.5f);
+}
+
+Placed arrangeOne(const PictureRect& room, glm::vec2 pixels, const Magnification& magnification) {
+    const glm::vec2 size =
+        pixels * (magnification.scale ? *magnification.scale : fittingScale(room.size, pixels));
+    Placed placed{room, {{}, size}};
+    const glm::vec2 focus = reachableFocus(magnification.focus, visibleShare(placed));
+    placed.picture.corner = middleOf(room) - focus * size;
+    // Pixels that have a size of their own start where the screen's do.
+    if (magnification.scale) placed.picture.corner = glm::floor(placed.picture.corner);
+    return placed;
+}
+
+std::array<Placed, 2> arrangeTwo(
+    const PictureRect& room, const std::array<glm::vec2, 2>& pixels, float gap,
+    const Magnification& magnification) {
+    const bool beside =
+        scaleOfBoth(room, pixels, gap, kHorizontal) >= scaleOfBoth(room, pixels, gap, kVertical);
+    const Axis along = beside ? kHorizontal : kVertical;
+    if (!magnification.scale) return fitted(room, pixels, gap, along);
+    std::array<Placed, 2> placed;
+    for (std::size_t i = 0; i < 2; ++i) {
+        PictureRect half = room;
+        half.size[along] = glm::max((room.size[along] - gap) * 0.5f, 1.0f);
+        if (i == 1) half.corner[along] += half.size[along] + gap;
+        placed[i] = arrangeOne(half, pixels[i], magnification);
+    }
+    return placed;
+}
+
+namespace {
+
+// ---- Divider ------------------------------------------------------------------------------------
+
+constexpr float kGrab = 1.0f;  // width of what can be grabbed, in font sizes
+constexpr float kStep = 0.01f;  // share that a key moves it
+constexpr float kFastStep = 0.1f;
+
+// Taken from all others: else they would move the keyboard's focus, and the camera.
+float stepOfKeys() {
+    const ImGuiID owner = ImGui::GetItemID();
+    const auto pressed = [&](ImGuiKey key) {
+        ImGui::SetKeyOwner(key, owner, ImGuiInputFlags_LockThisFrame);
+        return ImGui::IsKeyPressed(key, owner, ImGuiInputFlags_Repeat);
+    };
+    const bool left = pressed(ImGuiKey_LeftArrow), right = pressed(ImGuiKey_RightArrow);
+    const float step = ImGui::GetIO().KeyShift ? kFastStep : kStep;
+    return (right ? step : 0.0f) - (left ? step : 0.0f);
+}
+
+// Light in dark edges, so that it is seen on every picture; a handle in the middle says that it
+// moves.
+void draw(float x, const PictureRect& rect, ImU32 color) {
+    const float font = ImGui::GetFontSize();
+    const float top = rect.corner.y, bottom = top + rect.size.y;
+    constexpr ImU32 kEdge = IM_COL32(0, 0, 0, 200);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float line = font * 0.06f, edged = font * 0.12f;  // half of their widths
+    list.AddRectFilled({x - edged, top}, {x + edged, bottom}, kEdge);
+    list.AddRectFilled({x - line, top}, {x + line, bottom}, color);
+    const float middle = (top + bottom) / 2, radius = font * 0.7f;
+    list.AddCircleFilled({x, middle}, radius, kEdge);
+    for (const float way : {-1.0f, 1.0f}) {
+        const float from = x + way * radius * 0.2f, to = x + way * radius * 0.75f;
+        const float half = radius * 0.4f * way;
+        list.AddTriangleFilled({to, middle}, {from, middle + half}, {from, middle - half}, color);
+    }
+}
+
+// An upright line in `rect` that is dragged, or moved with the left and right keys while it has the
+// keyboard; with Shift they are faster. `share` of the rect is left of it.
+void divider(const char* id, const PictureRect& rect, float& share) {
+    const float grab = std::min(ImGui::GetFontSize() * kGrab, rect.size.x);
+    if (grab <= 0.0f || rect.size.y <= 0.0f) return;
+    const auto at = [&] { return rect.corner.x + share * rect.size.x; };
+    // Within the pictures, also where the line is at their edge.
+    const float left =
+        std::clamp(at() - grab / 2, rect.corner.x, rect.corner.x + rect.size.x - grab);
+    ImGui::SetCursorScreenPos({left, rect.corner.y});
+    ImGui::InvisibleButton(id, {grab, rect.size.y});
+    const bool active = ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left);
+    const bool focused = ImGui::IsItemFocused(), hovered = ImGui::IsItemHovered();
+    if (active) share = (ImGui::GetMousePos().x - rect.corner.x) / rect.size.x;
+    if (focused) share += stepOfKeys();
+    share = std::clamp(share, 0.0f, 1.0f);
+    if (active || hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    if (!active)
+        ImGui::SetItemTooltip("A is left of it, B right of it. Drag it, or click it and\n"
+                              "press the left or right arrow key (Shift: faster).");
+    const bool is_marked = active || focused || hovered;
+    draw(at(), rect, is_marked ? ImGui::GetColorU32(ImGuiCol_SliderGrabActive) : IM_COL32_WHITE);
+}
+
+}  // namespace
+
+// ---- Frame time caption -------------------------------------------------------------------------
+
+std::string frameTimeCaption(const TimingHistory& history) {
+    std::vector<double> times;
+    for (const engine::FrameRecord& frame : history.isolated().records) times.push_back(frame.wall);
+    return times.empty() ? "" : report::shortNumber(report::summarize(times).median) + " ms";
+}
+
+namespace {
+
+// ---- Picture tag --------------------------------------------------------------------------------
+
+enum class Corner { top_left, top_right };
+
+// A few words over a corner of a picture, readable on every one; in more lines where it is narrow,
+// and none where there is no room for them.
+// `rect` is what is seen of the picture.
+void pictureTag(const std::string& text, const PictureRect& rect, Corner corner) {
+    const float font = ImGui::GetFontSize();
+    const float margin = font * 0.4f, padding = font * 0.35f;
+    const float widest = rect.size.x - 2 * (margin + padding);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, widest);
+    // Nothing is better than half of a word.
+    if (widest < 2 * font || size.x > widest || size.y > rect.size.y - 2 * (margin + padding))
+        return;
+    const float left = corner == Corner::top_left
+                           ? rect.corner.x + margin
+                           : rect.corner.x + rect.size.x - margin - 2 * padding - size.x;
+    const float top = rect.corner.y + margin;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(
+        {left, top}, {left + size.x + 2 * padding, top + size.y + 2 * padding},
+        IM_COL32(0, 0, 0, 190), padding);
+    list.AddText(
+        ImGui::GetFont(), font, {left + padding, top + padding}, IM_COL32_WHITE, text.c_str(),
+        nullptr, widest);
+}
+
+// ---- Zoom bar -----------------------------------------------------------------------------------
+
+using Zoom = std::optional<int>;
+
+constexpr std::array kZooms{
+    Choice<Zoom>{"Fit", {}, "Pictures are as large as there is room."},
+    Choice<Zoom>{"1:1", 1, "A pixel of the picture is one of the screen."},
+    Choice<Zoom>{"2x", 2, "A pixel of the picture is 2 x 2 of the screen's."},
+    Choice<Zoom>{"4x", 4, "A pixel of the picture is 4 x 4 of the screen's."},
+    Choice<Zoom>{"8x", 8, "A pixel of the picture is 8 x 8 of the screen's."}};
+
+constexpr double kSteps = 1e6;  // that a bar divides a picture into
+
+void scrollBar(const char* id, const ImRect& bar, ImGuiAxis axis, float visible, float& focus) {
+    const double first = (double{focus} - double{visible} / 2) * kSteps;
+    ImS64 scroll = std::llround(first);
+    const ImS64 before = scroll;
+    ImGui::ScrollbarEx(
+        bar, ImGui::GetID(id), axis, &scroll, std::llround(double{visible} * kSteps),
+        static_cast<ImS64>(kSteps), ImDrawFlags_RoundCornersAll);
+    if (scroll != before)
+        focus = static_cast<float>(static_cast<double>(scroll) / kSteps) + visible / 2;
+}
+
+// Buttons for how large pictures are shown, in one line or as many as it takes.
+void zoomBar(std::optional<int>& zoom) {
+    choiceButtons<Zoom>(kZooms, zoom);
+    if (!zoom) return;
+    constexpr const char* kHint = "M + drag: move";
+    sameLineIfItFits(kHint);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("%s", kHint);
+}
+
+// How thick a bar for scrolling is.
+float scrollBarWidth() { return ImGui::GetStyle().ScrollbarSize; }
+
+// Bars below and at the right of `room` for the axes along which less than all of a picture is
+// seen. They move what is in the middle.
+void pictureScrollBars(const PictureRect& room, glm::vec2 visible_share, glm::vec2& focus) {
+    const ImVec2 from{room.corner.x, room.corner.y};
+    const ImVec2 to{from.x + room.size.x, from.y + room.size.y};
+    const float width = scrollBarWidth();
+    if (visible_share.x < 1.0f)
+        scrollBar(
+            "##across", {{from.x, to.y}, {to.x, to.y + width}}, ImGuiAxis_X, visible_share.x,
+            focus.x);
+    if (visible_share.y < 1.0f)
+        scrollBar(
+            "##down", {{to.x, from.y}, {to.x + width, to.y}}, ImGuiAxis_Y, visible_share.y,
+            focus.y);
+}
+
+// ---- Picture area -------------------------------------------------------------------------------
+
+constexpr ImGuiKey kMoveKey = ImGuiKey_M;  // held, the mouse moves magnified pictures
+
+glm::vec2 pixelsOf(const ShownPicture& picture) {
+    return {picture.extent().width, picture.extent().height};
+}
+
+std::string sizeOf(const ShownPicture& picture) {
+    return std::to_string(picture.extent().width) + " × " +
+           std::to_string(picture.extent().height) + " px";
+}
+
+void draw(const ShownPicture& picture, const PictureRect& rect, const PictureRect& clip) {
+    const glm::vec2 to = rect.corner + rect.size, clip_to = clip.corner + clip.size;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.PushClipRect({clip.corner.x, clip.corner.y}, {clip_to.x, clip_to.y}, true);
+    list.AddImage(picture.id(), {rect.corner.x, rect.corner.y}, {to.x, to.y});
+    list.PopClipRect();
+}
+
+std::string tagOf(int side, const std::string& caption) {
+    const std::string letter = side == 0 ? "A" : "B";
+    return caption.empty() ? letter : letter + "  " + caption;
+}
+
+glm::vec2 smallestShare(const std::vector<Placed>& placed) {
+    glm::vec2 share(1.0f);
+    for (const Placed& one : placed) share = glm::min(share, visibleShare(one));
+    return share;
+}
+
+bool isMouseDown() {
+    return ImGui::IsMouseDown(ImGuiMouseButton_Left) ||
+           ImGui::IsMouseDown(ImGuiMouseButton_Right) ||
+           ImGui::IsMouseDown(ImGuiMouseButton_Middle);
+}
+
+}  // namespace
+
+PictureArea::PictureArea(const engine::Device& device)
+    : a_(device), b_(device), difference_(device) {}
+
+bool PictureArea::sizesDiffer() const { return pixelsOf(a_) != pixelsOf(b_); }
+
+void PictureArea::copy(engine::Commands& commands, const engine::Image& a, const engine::Image* b) {
+    a_.copy(commands, a);
+    if (b) b_.copy(commands, *b);
+    has_b_ = b != nullptr;
+    if (shownViews() == Views::difference && !sizesDiffer())
+        difference_.record(commands, a_, b_, gain);
+    else
+        difference_.forget();
+}
+
+std::vector<Placed> PictureArea::arrange(const PictureRect& room) const {
+    const float pixel = 1.0f / std::max(ImGui::GetIO().DisplayFramebufferScale.x, 0.01f);
+    Magnification magnification{.focus = focus_};
+    if (zoom) magnification.scale = static_cast<float>(*zoom) * pixel;
+    const Views views_now = shownViews();
+    if (views_now != Views::side_by_side) {
+        const ShownPicture& picture = pictureOf(views_now == Views::b ? 1 : 0);
+        return {arrangeOne(room, pixelsOf(picture), magnification)};
+    }
+    const float gap = ImGui::GetFontSize() * 0.5f;
+    const auto both = arrangeTwo(room, {pixelsOf(a_), pixelsOf(b_)}, gap, magnification);
+    return {both.begin(), both.end()};
+}
+
+// A bar takes room, which may make the other one needed.
+glm::vec2 PictureArea::roomBesideBars(const PictureRect& room) const {
+    PictureRect left = room;
+    for (int i = 0; i < 2; ++i) {
+        const glm::vec2 visible = smallestShare(arrange(left));
+        left.size = room.size;
+        if (visible.y < 1.0f) left.size.x -= scrollBarWidth();
+        if (visible.x < 1.0f) left.size.y -= scrollBarWidth();
+        left.size = glm::max(left.size, glm::vec2(1.0f));
+    }
+    return left.size;
+}
+
+std::vector<PictureArea::Shown> PictureArea::show(const std::array<std::string, 2>& captions) {
+    held_ = -1;
+    if (!a_.isThere()) return {};
+    zoomBar(zoom);
+    const ImVec2 corner = ImGui::GetCursorScreenPos(), all = ImGui::GetContentRegionAvail();
+    PictureRect room{{corner.x, corner.y}, glm::max(glm::vec2(all.x, all.y), glm::vec2(1.0f))};
+    std::vector<Shown> shown;
+    if (shownViews() == Views::difference && sizesDiffer()) {
+        showSizes(room);
+        return shown;
+    }
+    if (zoom) room.size = roomBesideBars(room);
+    const std::vector<Placed> placed = arrange(room);
+    switch (shownViews()) {
+    case Views::slider:
+        showSlider(shown, placed[0], captions);
+        break;
+    case Views::difference:
+        showDifference(shown, placed[0]);
+        break;
+    default:
+        showAlone(shown, placed, captions);
+    }
+    const glm::vec2 visible = smallestShare(placed);
+    if (zoom) pictureScrollBars(room, visible, focus_);
+    focus_ = reachableFocus(focus_, visible);
+    ImGui::SetCursorScreenPos(corner);
+    ImGui::Dummy(all);
+    return shown;
+}
+
+// What the mouse does on a picture is its user's, but with the move key.
+PictureArea::Shown PictureArea::item(const Placed& placed, const PictureRect& clip, int side) {
+    Shown shown{.rect = placed.picture, .side = side, .clip = clip};
+    if (clip.size.x <= 0.0f || clip.size.y <= 0.0f) return shown;
+    ImGui::SetCursorScreenPos({clip.corner.x, clip.corner.y});
+    ImGui::SetNextItemAllowOverlap();
+    ImGui::InvisibleButton(
+        side == 0 ? "##picture" : "##picture B", {clip.size.x, clip.size.y},
+        ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+            ImGuiButtonFlags_MouseButtonMiddle);
+    const bool held = ImGui::IsItemActive() && isMouseDown();
+    const bool hovered = ImGui::IsItemHovered();
+    const ImGuiIO& io = ImGui::GetIO();
+    if (zoom && !io.WantTextInput && ImGui::IsKeyDown(kMoveKey)) {
+        if (held || hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
+        if (held) focus_ -= glm::vec2(io.MouseDelta.x, io.MouseDelta.y) / placed.picture.size;
+        return shown;
+    }
+    if (held) held_ = side;
+    shown.hovered = hovered;
+    return shown;
+}
+
+void PictureArea::showPicture(
+    std::vector<Shown>& shown, const Placed& placed, const PictureRect& clip, int side) {
+    draw(pictureOf(side), placed.picture, clip);
+    shown.push_back(item(placed, clip, side));
+}
+
+// One of them, or both in panes of their own.
+void PictureArea::showAlone(
+    std::vector<Shown>& shown, const std::vector<Placed>& placed,
+    const std::array<std::string, 2>& captions) {
+    for (const Placed& one : placed) {
+        const bool is_second = shown.size() == 1 || shownViews() == Views::b;
+        const PictureRect clip = common(one.pane, one.picture);
+        showPicture(shown, one, clip, is_second ? 1 : 0);
+        if (has_b_)
+            pictureTag(
+                is_second ? tagOf(1, captions[1]) : tagOf(0, captions[0]), clip, Corner::top_left);
+    }
+}
+
+void PictureArea::showSlider(
+    std::vector<Shown>& shown, const Placed& placed, const std::array<std::string, 2>& captions) {
+    const PictureRect seen = common(placed.pane, placed.picture);
+    const float left = seen.size.x * divider_share;
+    const PictureRect left_clip{seen.corner, {left, seen.size.y}};
+    const PictureRect right_clip{
+        {seen.corner.x + left, seen.corner.y}, {seen.size.x - left, seen.size.y}};
+    showPicture(shown, placed, left_clip, 0);
+    showPicture(shown, placed, right_clip, 1);
+    const std::string stretched =
+        sizesDiffer() ? "\n" + sizeOf(b_) + " stretched to " + sizeOf(a_) : "";
+    pictureTag(tagOf(0, captions[0]), left_clip, Corner::top_left);
+    pictureTag(tagOf(1, captions[1]) + stretched, right_clip, Corner::top_right);
+    divider("##divider", seen, divider_share);
+}
+
+void PictureArea::showDifference(std::vector<Shown>& shown, const Placed& placed) {
+    if (!difference_.picture().isThere()) return;
+    const PictureRect clip = common(placed.pane, placed.picture);
+    draw(difference_.picture(), placed.picture, clip);
+    shown.push_back(item(placed, clip, 0));
+    const std::string title = "|A - B| × " + std::to_string(gain);
+    const auto& figures = difference_.figures();
+    pictureTag(figures ? title + ": " + differenceText(*figures) : title, clip, Corner::top_left);
+}
+
+void PictureArea::showSizes(const PictureRect& room) const {
+    const std::string text = "Pictures of different sizes have no difference: A is " + sizeOf(a_) +
+                             ", B " + sizeOf(b_) +
+                             ". Give both the same /render/width and /render/height.";
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, room.size.x);
+    ImGui::SetCursorScreenPos(
+        {room.corner.x + std::max(room.size.x - size.x, 0.0f) / 2,
+         room.corner.y + std::max(room.size.y - size.y, 0.0f) / 2});
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+}
+
+}  // namespace benchmarks::viewer

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "benchmarks/viewer/difference.h"
+#include "benchmarks/viewer/picking.h"
+#include "benchmarks/viewer/player.h"
+
+// Where pictures go in a window: geometry only, in Dear ImGui's coordinates.
+namespace benchmarks::viewer {
+
+// How much of a picture is to be seen.
+struct Magnification {
+    std::optional<float> scale;   // of a picture's pixels; absent: as large as there is room
+    glm::vec2 focus{0.5f, 0.5f};  // share of the picture that is in the middle, if it can be
+};
+
+// A picture in its pane, which it may be larger than.
+struct Placed {
+    PictureRect pane;
+    PictureRect picture;  // all of it
+};
+
+// What two have in common; of size 0 where that is nothing.
+PictureRect common(const PictureRect& a, const PictureRect& b);
+
+// The largest scale at which a picture fits a room.
+float fittingScale(glm::vec2 room, glm::vec2 picture);
+
+// Of a picture of `pixels`, in the middle of the room where it fits. Where it doesn't, no part of
+// the room stays empty.
+Placed arrangeOne(const PictureRect& room, glm::vec2 pixels, const Magnification& magnification);
+
+// Of two pictures at one scale, `gap` apart: beside each other or, where they are larger then, one
+// above the other.
+std::array<Placed, 2> arrangeTwo(
+    const PictureRect& room, const std::array<glm::vec2, 2>& pixels, float gap,
+    const Magnification& magnification);
+
+// The share of a picture that its pane has room for, along each axis: 1 where all of it is seen.
+glm::vec2 visibleShare(const Placed& placed);
+
+// The nearest focus that can be in the middle of the pane.
+glm::vec2 reachableFocus(glm::vec2 focus, glm::vec2 visible_share);
+
+// "12.3 ms": the median over the isolated frames that are known, from submission to completion;
+// empty while there are none.
+std::string frameTimeCaption(const TimingHistory& history);
+
+// How two pictures are shown.
+enum class Views {
+    a,
+    b,
+    side_by_side,
+    slider,      // a left of it and b right of it
+    difference,  // of display colours, brightened
+};
+
+// The pictures of one or two sides, with their own proportions: as large as there is room, or
+// magnified.
+class PictureArea {
+public:
+    explicit PictureArea(const engine::Device& device);
+
+    Views views = Views::a;      // while there are two
+    std::uint32_t gain = 4;      // of the difference
+    std::optional<int> zoom;     // px of the window for a px of a picture; absent: fits
+    float divider_share = 0.5f;  // of what is seen of the pictures, left of the slider
+
+    // Records copies of what the sides have drawn; `b` may be null. Before the window is rendered.
+    void copy(engine::Commands& commands, const engine::Image& a, const engine::Image* b);
+
+    struct Shown {
+        PictureRect rect;  // of the whole picture, which may be partly hidden
+        int side = 0;  // 0: a, 1: b
+        bool hovered = false;
+        PictureRect clip;  // what is seen of it
+    };
+    // Shows them within the current window of Dear ImGui, below a line of zooms. `captions` stand
+    // beside the sides' letters, while there are two. Every picture is an item; the last one that
+    // the mouse holds is what ImGui::IsItemActive() is asked about: see `held`.
+    std::vector<Shown> show(const std::array<std::string, 2>& captions = {});
+    // The side whose picture the mouse holds down on; -1: none.
+    int held() const { return held_; }
+
+    // Of the picture of the difference that was shown last; none while it isn't.
+    const std::optional<DifferenceFigures>& difference() const { return difference_.figures(); }
+
+private:
+    Views shownViews() const { return has_b_ ? views : Views::a; }
+    bool sizesDiffer() const;
+    const ShownPicture& pictureOf(int side) const { return side == 1 ? b_ : a_; }
+    std::vector<Placed> arrange(const PictureRect& room) const;
+    glm::vec2 roomBesideBars(const PictureRect& room) const;
+    Shown item(const Placed& placed, const PictureRect& clip, int side);
+    void
+    showPicture(std::vector<Shown>& shown, const Placed& placed, const PictureRect& clip, int side);
+    void showAlone(
+        std::vector<Shown>& shown, const std::vector<Placed>& placed,
+        const std::array<std::string, 2>& captions);
+    void showSlider(
+        std::vector<Shown>& shown, const Placed& placed,
+        const std::array<std::string, 2>& captions);
+    void showDifference(std::vector<Shown>& shown, const Placed& placed);
+    void showSizes(const PictureRect& room) const;
+
+    ShownPicture a_;
+    ShownPicture b_;
+    PictureDifference difference_;
+    bool has_b_ = false;
+    int held_ = -1;
+    glm::vec2 focus_{0.5f, 0.5f};
+};
+
+}  // namespace benchmarks::viewer

@@ -1,0 +1,351 @@
+#include "benchmarks/viewer/scene_file.h"
+
+#include <algorithm>
+#include <functional>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/scene/axis.h"
+#include "benchmarks/scene/json.h"
+#include "benchmarks/scene/scene.h"
+#include "benchmarks/scene/settings_json.h"
+#include "benchmarks/scene/sweep.h"
+#include "benchmarks/viewer/drop.h"
+#include "engine/error.h"
+#include "engine/files.h"
+#include "engine/pictures.h"
+#include "hair/fields.h"
+#include "hair/groom/files.h"
+#include "hair/groom/formats/text.h"
+#include "hair/groom/mesh/import_mesh.h"
+
+namespace benchmarks::viewer {
+namespace {
+
+using engine::Error;
+namespace fs = std::filesystem;
+
+// ---- Case arguments -----------------------------------------------------------------------------
+
+struct Argument {
+    std::string pointer;
+    scene::Json value;
+    bool in_name;  // -a, otherwise --set
+};
+
+// Whether text is taken for a string as it is: it is no JSON, and has nothing that means something
+// to the parser of axes.
+bool isPlain(const std::string& text) {
+    constexpr std::string_view kFirst = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_./";
+    const std::string allowed = std::string(kFirst) + "0123456789-";
+    return !text.empty() && kFirst.find(text[0]) != std::string_view::npos &&
+           text.find_first_not_of(allowed) == std::string::npos && !scene::Json::accept(text);
+}
+
+std::string valueText(const scene::Json& value) {
+    if (value.is_string() && isPlain(value.get_ref<const std::string&>()))
+        return value.get<std::string>();
+    return value.dump();
+}
+
+std::string quoted(const std::string& word) {
+    const auto safe = [](char c) {
+        return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+               std::string_view("_-+=:,./@%").find(c) != std::string_view::npos;
+    };
+    if (std::ranges::all_of(word, safe)) return word;
+    std::string text = "'";
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + '\'';
+}
+
+bool isInside(const std::string& pointer, const std::string& outer) {
+    return pointer == outer || pointer.starts_with(outer + '/');
+}
+
+// The sweep's axes, each with the one value that it has in the settings.
+std::vector<Argument> axisArguments(const scene::Scene& scene, scene::Json& wanted) {
+    std::vector<Argument> arguments;
+    for (const scene::Axis& axis : scene.axes) {
+        if (!axis.tied.empty())
+            throw engine::Error(
+                "the sweep ties " + axis.pointer +
+                " to other fields, which a command line can't take apart; save a scene instead");
+        arguments.push_back({axis.pointer, scene::valueAt(wanted, axis.pointer), true});
+    }
+    return arguments;
+}
+
+// Adds what differs and no axis has.
+void addChanges(
+    const scene::Json& original, const scene::Json& wanted, const std::string& pointer,
+    const std::vector<scene::Axis>& axes, std::vector<Argument>& arguments) {
+    const auto has_it = [&](const scene::Axis& axis) { return isInside(pointer, axis.pointer); };
+    if (std::ranges::any_of(axes, has_it)) return;
+    if (wanted.is_object()) {
+        for (const auto& [key, value] : wanted.items())
+            addChanges(
+                original.at(key), value, pointer + '/' + scene::escapedToken(key), axes, arguments);
+        return;
+    }
+    if (original.dump() == wanted.dump()) return;
+    const bool is_list = wanted.is_array() && (wanted.empty() || wanted[0].is_object());
+    arguments.push_back({pointer, wanted, !is_list && pointer != "/description"});
+}
+
+// Lists without the members that are as in a new element.
+void shorten(std::vector<Argument>& arguments, const hair::Settings& settings) {
+    const scene::Json changed = scene::changedFields(settings);
+    for (Argument& argument : arguments) {
+        if (argument.in_name) continue;
+        const scene::Json::json_pointer pointer(argument.pointer);
+        if (changed.contains(pointer)) argument.value = changed.at(pointer);
+    }
+}
+
+// What the program makes of the arguments has to be what they were made of.
+void check(scene::Scene scene, const std::vector<Argument>& arguments, const scene::Json& wanted) {
+    std::vector<scene::Axis> axes;
+    for (const Argument& argument : arguments) {
+        if (argument.in_name)
+            axes.push_back(scene::parseAxis(argument.pointer + '=' + valueText(argument.value)));
+        else
+            scene::setField(scene, argument.pointer, argument.value);
+    }
+    const std::vector<scene::CaseSpec> cases = scene::expand(scene, axes);
+    if (cases.size() != 1 || scene::writeSettings(cases.front().settings).dump() != wanted.dump())
+        throw engine::Error(
+            scene.path.string(), "a command line can't say it; save a scene instead");
+}
+
+}  // namespace
+
+std::string caseArguments(const scene::Scene& scene, const hair::Settings& settings) {
+    scene::Json wanted = scene::writeSettings(settings);
+    std::vector<Argument> arguments;
+    try {
+        arguments = axisArguments(scene, wanted);
+    } catch (const engine::Error& error) {
+        throw engine::Error(scene.path.string(), error.what());
+    }
+    addChanges(scene::writeSettings(scene.settings), wanted, "", scene.axes, arguments);
+    shorten(arguments, settings);
+    check(scene, arguments, wanted);
+    std::string text;
+    for (const Argument& argument : arguments)
+        text += (text.empty() ? "" : " ") + std::string(argument.in_name ? "-a " : "--set ") +
+                quoted(argument.pointer + '=' + valueText(argument.value));
+    return text;
+}
+
+namespace {
+
+// ---- Readable json ------------------------------------------------------------------------------
+
+constexpr std::size_t kColumns = 100;
+constexpr std::size_t kIndent = 2;
+
+std::string keyText(const std::string& key) { return scene::Json(key).dump() + ": "; }
+
+std::string onOneLine(const scene::Json& value) {
+    if (!value.is_structured() || value.empty()) return value.dump();
+    std::string text;
+    for (const auto& [key, member] : value.items()) {
+        if (!text.empty()) text += ", ";
+        if (value.is_object()) text += keyText(key);
+        text += onOneLine(member);
+    }
+    return value.is_object() ? "{ " + text + " }" : '[' + text + ']';
+}
+
+std::string onLines(const scene::Json& value, std::size_t indent);
+
+// `column` is where the text begins.
+std::string text(const scene::Json& value, std::size_t indent, std::size_t column) {
+    std::string line = onOneLine(value);
+    constexpr std::size_t kComma = 1;
+    if (!value.is_structured() || value.empty() || column + line.size() + kComma <= kColumns)
+        return line;
+    return onLines(value, indent);
+}
+
+std::string onLines(const scene::Json& value, std::size_t indent) {
+    const std::string margin(indent + kIndent, ' ');
+    std::string lines;
+    for (const auto& [key, member] : value.items()) {
+        if (!lines.empty()) lines += ',';
+        const std::string name = value.is_object() ? keyText(key) : "";
+        lines += '\n' + margin + name;
+        lines += text(member, indent + kIndent, margin.size() + name.size());
+    }
+    lines += '\n' + std::string(indent, ' ');
+    return value.is_object() ? '{' + lines + '}' : '[' + lines + ']';
+}
+
+}  // namespace
+
+std::string readableJson(const scene::Json& document) {
+    const bool lines = document.is_structured() && !document.empty();
+    return (lines ? onLines(document, 0) : document.dump()) + '\n';
+}
+
+namespace {
+
+// ---- Save scene ---------------------------------------------------------------------------------
+
+constexpr const char* kSchema = "scene.schema.json";
+
+// Without links, so that ".." leads where it says.
+fs::path folderOf(const fs::path& folder) {
+    return fs::weakly_canonical(fs::absolute(folder.empty() ? fs::path(".") : folder));
+}
+
+using FileNameVisitor = std::function<void(std::string& name)>;
+
+// Calls `visit` for every member that names a file, also within lists.
+void forEachFileName(hair::SettingsRef settings, const FileNameVisitor& visit);
+
+void visitFileNames(const hair::Place&, hair::SettingsRef, const FileNameVisitor&) {}
+
+void visitFileNames(
+    const hair::FileName& row, hair::SettingsRef settings, const FileNameVisitor& visit) {
+    visit(row.in(settings));
+}
+
+void visitFileNames(
+    const hair::Group& row, hair::SettingsRef settings, const FileNameVisitor& visit) {
+    forEachFileName(row.in(settings), visit);
+}
+
+void visitFileNames(
+    const hair::List& row, hair::SettingsRef settings, const FileNameVisitor& visit) {
+    for (std::size_t i = 0; i < row.size(settings); ++i)
+        forEachFileName(row.at(settings, i), visit);
+}
+
+void forEachFileName(hair::SettingsRef settings, const FileNameVisitor& visit) {
+    for (const hair::Field& field : settings.fields())
+        std::visit([&](const auto& row) { visitFileNames(row, settings, visit); }, field.kind);
+}
+
+}  // namespace
+
+hair::Settings movedFiles(hair::Settings settings, const fs::path& from, const fs::path& to) {
+    const fs::path old_folder = folderOf(from);
+    const fs::path folder = folderOf(to);
+    if (old_folder == folder) return settings;
+    forEachFileName(settings, [&](std::string& name) {
+        if (name.empty() || fs::path(name).is_absolute()) return;
+        const fs::path old = old_folder / name;
+        // A link that a name is itself stays one: what it leads to may change.
+        const fs::path file = folderOf(old.parent_path()) / old.filename();
+        name = file.lexically_relative(folder).generic_string();
+    });
+    return settings;
+}
+
+std::string sceneText(const hair::Settings& settings, const fs::path& from, const fs::path& to) {
+    scene::Json document = scene::Json::object();
+    std::error_code error;
+    if (fs::exists(to / kSchema, error)) document["$schema"] = kSchema;
+    document.update(scene::changedFields(movedFiles(settings, from, to)));
+    return readableJson(document);
+}
+
+void saveScene(const hair::Settings& settings, const fs::path& from, const fs::path& file) {
+    engine::writeFileAtomically(file, sceneText(settings, from, file.parent_path()));
+}
+
+namespace {
+
+// ---- Scene file ---------------------------------------------------------------------------------
+
+// One that is damaged counts: opening it says how.
+bool hasScene(const fs::path& picture) {
+    try {
+        return scene::sceneOfScreenshot(picture).has_value();
+    } catch (const engine::Error&) {
+        return true;
+    }
+}
+
+bool isMesh(const std::string& extension) {
+    return std::ranges::any_of(
+        hair::groom::meshImporters(), [&](const hair::groom::MeshImporter& importer) {
+            return std::ranges::count(importer.extensions, extension) > 0;
+        });
+}
+
+bool isGroom(const fs::path& file) {
+    try {
+        hair::groom::strandImporterOf(file);  // knows some by their first bytes
+        return true;
+    } catch (const engine::Error&) {
+        return false;
+    }
+}
+
+// What settings call a file: relative to the folder if it is below it, otherwise absolute.
+std::string nameIn(const fs::path& directory, const fs::path& file) {
+    const fs::path folder = fs::weakly_canonical(directory.empty() ? fs::path(".") : directory);
+    const fs::path absolute =
+        fs::weakly_canonical(fs::absolute(file).parent_path()) / file.filename();
+    const fs::path relative = absolute.lexically_relative(folder);
+    const bool below = !relative.empty() && *relative.begin() != "..";
+    std::string name = (below ? relative : absolute).generic_string();
+    if (!hair::groom::isUtf8(name)) throw engine::Error(file.string(), "its name is not UTF-8");
+    return name;
+}
+
+void addMesh(hair::RenderSettings& render, const fs::path& file, const std::string& name) {
+    const hair::Field& field = hair::fieldAt(render, &render.meshes);
+    const std::size_t most = std::get<hair::List>(field.kind).maximum_count;
+    if (render.meshes.size() >= most)
+        throw engine::Error(
+            file.string(), "there are " + std::to_string(most) + " meshes already, the most");
+    hair::groom::importMesh(file);
+    render.meshes.push_back({.file = name});
+}
+
+}  // namespace
+
+SceneFile openScene(const fs::path& path) {
+    const scene::Scene scene = scene::loadScene(path);
+    return {scene.path, scene.directory, scene.name, scene.settings};
+}
+
+Dropped whatIs(const fs::path& file) {
+    const std::string extension = hair::groom::lowerCaseExtension(file);
+    std::error_code error;
+    if (!fs::is_regular_file(file, error)) return Dropped::unknown;
+    if (extension == ".json") return Dropped::scene;
+    if (extension == ".png") return hasScene(file) ? Dropped::scene : Dropped::unknown;
+    if (extension == ".exr" || extension == ".hdr") return Dropped::environment;
+    const bool groom = isGroom(file);
+    if (groom && isMesh(extension))
+        return strandsOrTriangles(file) == Holds::strands ? Dropped::groom : Dropped::mesh;
+    return groom ? Dropped::groom : isMesh(extension) ? Dropped::mesh : Dropped::unknown;
+}
+
+hair::Settings
+withDropped(hair::Settings settings, const fs::path& directory, const fs::path& file) {
+    const Dropped kind = whatIs(file);
+    if (kind == Dropped::unknown || kind == Dropped::scene) {
+        std::error_code error;
+        throw engine::Error(
+            file.string(), fs::is_regular_file(file, error)
+                               ? "is no groom, mesh or environment (.exr, .hdr)"
+                               : "no such file");
+    }
+    const std::string name = nameIn(directory, file);
+    if (kind == Dropped::groom) return withGroom(std::move(settings), directory, file, name);
+    if (kind == Dropped::mesh) {
+        addMesh(settings.render, file, name);
+    } else {
+        engine::readFloatImage(file);
+        settings.render.environment = name;
+    }
+    return settings;
+}
+
+}  // namespace benchmarks::viewer

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/device.h"
+
+namespace benchmarks::viewer {
+
+// What a compiler says of a shader.
+struct ShaderProblem {
+    std::string file;  // relative to the folder of shaders; may be empty: of no single one
+    int line = 0;      // from 1; 0: of no line
+    std::string text;
+    std::string source;  // that line, as it was compiled
+};
+
+// Shaders that took the place of others.
+struct ReloadedShaders {
+    std::vector<std::string> paths;  // of entry points
+    double seconds = 0;              // until pipelines were made of them
+    std::chrono::system_clock::time_point when;
+};
+
+// Watches the GLSL that the program was built from and compiles what was saved since, in process.
+// Pipelines that are made from then on have the new code: that of all files that were saved, or,
+// while one of them does not compile, of none.
+class ShaderReload {
+public:
+    // `folder` is a copy of shaders/; one that does not exist is watched for nothing.
+    ShaderReload(const engine::Device& device, const std::filesystem::path& folder);
+    ~ShaderReload();
+    ShaderReload(const ShaderReload&) = delete;
+    ShaderReload& operator=(const ShaderReload&) = delete;
+
+    // Looks at the files, at most a few times a second. True where new code compiled: then all
+    // pipelines have to be made anew, and accept() or reject() says how that went.
+    bool poll();
+    // The new code stays.
+    void accept();
+    // The code before comes back; `reason` is a problem of the shaders that were new.
+    void reject(const std::string& reason);
+
+    // Of what was compiled last; empty: all is well.
+    const std::vector<ShaderProblem>& problems() const;
+    // Files that differ from what the program was built with, relative to the folder.
+    const std::vector<std::string>& changed() const;
+    // Those that C++ has too: they are compiled as the program was built with them, whatever they
+    // say now, for buffers are laid out so.
+    static bool needsRebuild(std::string_view file) { return file.starts_with("shared/"); }
+    // What accept() took last; without paths: nothing yet.
+    const ReloadedShaders& reloaded() const;
+    // Whether the folder has shaders of the program.
+    bool watches() const;
+    const std::filesystem::path& folder() const;
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+// What was reloaded and what the compiler says, within the current window of Dear ImGui.
+void shaderPanel(const ShaderReload& reload);
+
+// The texts of files that others write. Editors save in steps (truncate, then write; or write
+// beside, then rename), so that a file may be gone, empty or cut short for a moment: it counts as
+// changed only once it looks the same at two looks running.
+class WatchedFiles {
+public:
+    using Text = std::optional<std::string>;  // none: there is no such file
+
+    explicit WatchedFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+    // From now on too. `text` is what it is taken for until a look finds another.
+    void watch(const std::string& file, Text text);
+    // Of a file that isn't watched yet: as it is now, and it is watched from now on.
+    const Text& text(const std::string& file);
+
+    // Looks at the files on disk. True where a text became another.
+    bool look();
+
+    const std::filesystem::path& folder() const { return folder_; }
+
+private:
+    struct Stamp {
+        bool exists = false;
+        std::filesystem::file_time_type time{};
+        std::uintmax_t size = 0;
+
+        bool operator==(const Stamp&) const = default;
+    };
+    struct File {
+        Text text;
+        std::optional<Stamp> read;  // when `text` was read; none: never
+        std::optional<Stamp> seen;  // at the last look
+    };
+
+    Stamp stampOf(const std::string& file) const;
+    Text read(const std::string& file) const;
+
+    std::filesystem::path folder_;
+    std::map<std::string, File, std::less<>> files_;
+};
+
+}  // namespace benchmarks::viewer

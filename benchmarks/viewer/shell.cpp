@@ -1,0 +1,653 @@
+#include "benchmarks/viewer/shell.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include <imgui.h>
+
+#include "benchmarks/viewer/actions.h"
+#include "benchmarks/viewer/columns.h"
+#include "benchmarks/viewer/compare_panel.h"
+#include "benchmarks/viewer/open_scene.h"
+#include "benchmarks/viewer/picture_area.h"
+#include "benchmarks/viewer/preferences.h"
+#include "benchmarks/viewer/recorder.h"
+#include "benchmarks/viewer/scene_file.h"
+#include "benchmarks/viewer/setting_text.h"
+#include "benchmarks/viewer/settings_panel.h"
+#include "benchmarks/viewer/shader_reload.h"
+#include "benchmarks/viewer/viewer.h"
+#include "engine/shaders.h"
+
+namespace benchmarks::viewer {
+namespace {
+
+// ---- Status line --------------------------------------------------------------------------------
+
+struct StatusText {
+    std::string text;  // a message, or a hint
+    enum class Tone { hint, message, problem } tone = Tone::hint;
+    std::string device;
+    std::string picture;  // its size and what else there is to say of it
+};
+
+float widthOf(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
+
+// As much of it as there is room for, in bytes; never a part of a character.
+std::string cut(const std::string& text, float room) {
+    if (widthOf(text) <= room) return text;
+    std::size_t length = text.size();
+    const auto fits = [&] { return widthOf(text.substr(0, length) + "...") <= room; };
+    while (length > 0 && !fits()) {
+        --length;
+        while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0u) == 0x80u) --length;
+    }
+    return text.substr(0, length) + "...";
+}
+
+void cutText(const std::string& text, float room, ImGuiCol color) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(color));
+    ImGui::TextUnformatted(cut(text, room).c_str());
+    ImGui::PopStyleColor();
+    if (widthOf(text) > room && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text.c_str());
+}
+
+// One line within the current window of Dear ImGui. What there is no room for is cut, and its
+// tooltip has it whole.
+void statusLine(const StatusText& status) {
+    ImGui::AlignTextToFramePadding();
+    const float gap = 1.5f * ImGui::GetFontSize();
+    const float room = ImGui::GetContentRegionAvail().x;
+    const float picture = widthOf(status.picture);
+    // The device's name gives way first.
+    float device = std::min(widthOf(status.device), 0.3f * room);
+    float left = std::max(room - picture - device - 2.0f * gap, 0.0f);
+    if (widthOf(status.text) > left) {
+        left = std::max(room - picture - gap, 0.0f);
+        device = 0.0f;
+    }
+    const float start = ImGui::GetCursorPosX();
+    const ImGuiCol color = status.tone == StatusText::Tone::hint      ? ImGuiCol_TextDisabled
+                           : status.tone == StatusText::Tone::problem ? ImGuiCol_PlotHistogram
+                                                                      : ImGuiCol_Text;
+    cutText(status.text, left, color);
+    if (device > 0.0f) {
+        ImGui::SameLine(start + left + gap);
+        cutText(status.device, device, ImGuiCol_TextDisabled);
+    }
+    ImGui::SameLine(start + room - picture);
+    cutText(status.picture, picture, ImGuiCol_TextDisabled);
+}
+
+// ---- Panels -------------------------------------------------------------------------------------
+
+constexpr double kToldFor = 12.0;  // s that a message is shown for
+
+constexpr std::array kSides{
+    Choice<std::size_t>{"A", 0, "The settings below are those of A."},
+    Choice<std::size_t>{"B", 1, "The settings below are those of B; marked ones differ from A."}};
+
+void enabledButton(const char* label, bool enabled, const auto& press) {
+    ImGui::BeginDisabled(!enabled);
+    if (ImGui::Button(label)) press();
+    ImGui::EndDisabled();
+}
+
+std::string hintOf(Tool tool) {
+    for (const ActionRow& row : actionTable())
+        if (toolOf(row.action) == tool) return std::string(row.name) + ": " + row.help;
+    return {};
+}
+
+}  // namespace
+
+void Viewer::Parts::showScene() {
+    Side& side = scene.editedSide();
+    ImGui::SetNextItemWidth(-1.0f);
+    textInput("##search", search, "Search settings");
+    enabledButton("Undo", side.canUndo(), [&] { side.undo(); });
+    ImGui::SameLine();
+    enabledButton("Redo", side.canRedo(), [&] { side.redo(); });
+    if (scene.sideCount() > 1) {
+        ImGui::SameLine(0.0f, ImGui::GetFontSize());
+        std::size_t edited = scene.edited();
+        choiceButtons<std::size_t>(kSides, edited);
+        scene.setEdited(edited);
+    }
+    if (!side.problem().empty()) {
+        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_PlotHistogram));
+        ImGui::TextWrapped("%s", side.problem().c_str());
+        ImGui::PopStyleColor();
+    }
+    ImGui::Separator();
+    hair::Settings settings = scene.editedSide().wanted();
+    Edit edit;
+    if (ImGui::BeginChild("fields")) edit = settingsPanel(settings, scene.reference(), search);
+    ImGui::EndChild();
+    scene.edit(scene.edited(), settings, edit);
+}
+
+void Viewer::Parts::showFiles() {
+    std::optional<std::filesystem::path> chosen = recentScenes(preferences.now.recent);
+    if (const auto listed = scenes.show(scene.file().path)) chosen = listed;
+    if (chosen) open(*chosen);
+}
+
+void Viewer::Parts::showCompare() {
+    compare_panel.edited = static_cast<int>(scene.edited());
+    compare_panel.same_camera = scene.cameras == Cameras::linked;
+    const bool two = scene.sideCount() > 1;
+    const CompareWish wish =
+        compare_panel.show(area, scene.side(0).wanted(), two ? &scene.side(1).wanted() : nullptr);
+    scene.setEdited(static_cast<std::size_t>(compare_panel.edited));
+    scene.cameras = compare_panel.same_camera ? Cameras::linked : Cameras::separate;
+    switch (wish) {
+    case CompareWish::nothing:
+        break;
+    case CompareWish::start:
+    case CompareWish::stop:
+        compare();
+        break;
+    case CompareWish::swap:
+        scene.swapSides();
+        break;
+    case CompareWish::copy_a_to_b:
+        scene.side(1).edit(scene.side(0).wanted(), {.changed = true});
+        break;
+    }
+}
+
+void Viewer::Parts::showTab(Tab tab) {
+    switch (tab) {
+    case Tab::scene:
+        showScene();
+        break;
+    case Tab::files:
+        showFiles();
+        break;
+    case Tab::timings:
+        origin.scene = scene.file().path;
+        origin.name = scene.file().name;
+        timings.show(
+            scene.side(0), scene.sideCount() > 1 ? &scene.side(1) : nullptr, origin,
+            presenter.milliseconds());
+        break;
+    case Tab::compare:
+        showCompare();
+        break;
+    case Tab::shaders:
+        shaderPanel(reload);
+        break;
+    }
+}
+
+void Viewer::Parts::showColumn(
+    const char* name, const Box& box, std::span<const Tab> shown, Tab& chosen) {
+    pane(name, box, Surface::panel, [&] {
+        if (tabStrip(shown, chosen)) tabs.choose(chosen);
+        ImGui::Spacing();
+        if (ImGui::BeginChild(tabName(chosen))) showTab(chosen);
+        ImGui::EndChild();
+    });
+}
+
+void Viewer::Parts::showPicture() {
+    {
+        Side& side = scene.editedSide();
+        hair::Settings settings = side.wanted();
+        Edit edit;
+        if (ImGui::BeginChild("toolbar", {0.0f, 0.0f}, ImGuiChildFlags_AutoResizeY))
+            edit = tools.toolbar(settings, side.player());
+        ImGui::EndChild();
+        scene.edit(scene.edited(), settings, edit);
+    }
+    constexpr ImGuiWindowFlags kStill =
+        ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
+    if (ImGui::BeginChild("picture", {0.0f, 0.0f}, ImGuiChildFlags_None, kStill)) {
+        std::array<std::string, 2> captions;
+        for (std::size_t i = 0; i < scene.sideCount(); ++i)
+            captions[i] = frameTimeCaption(scene.side(i).timings());
+        for (const PictureArea::Shown& shown : area.show(captions)) {
+            const auto index = static_cast<std::size_t>(shown.side);
+            hair::Settings settings = scene.side(index).wanted();
+            const Edit edit = tools.update(
+                shown.rect, shown.clip, shown.hovered, area.held() == shown.side, settings,
+                scene.side(index).player());
+            scene.edit(index, settings, edit);
+        }
+    }
+    ImGui::EndChild();
+}
+
+void Viewer::Parts::showStatus() {
+    if (message.count() != told) {
+        told = message.count();
+        told_at = ImGui::GetTime();
+    }
+    const Player& player = scene.editedSide().player();
+    const hair::RenderSettings& render = player.settings().render;
+    StatusText status{
+        .text = hintOf(tools.tool),
+        .device = device.info().name,
+        .picture = std::to_string(render.width) + " × " + std::to_string(render.height) +
+                   " px, frame " + std::to_string(player.frame())};
+    if (player.previews()) status.picture += ", preview";
+    if (!device.shaders().replacements().empty()) status.picture += ", shaders changed";
+    if (recorder.records()) {
+        status.text = recorder.message();
+        status.tone = StatusText::Tone::message;
+    } else if (!message.text().empty() && ImGui::GetTime() < told_at + kToldFor) {
+        status.text = message.text();
+        status.tone = message.tone() == Message::Tone::problem ? StatusText::Tone::problem
+                                                               : StatusText::Tone::message;
+    }
+    statusLine(status);
+}
+
+void Viewer::Parts::showWindow() {
+    for (const Action action : menuBar([&](Action each) { return stateOf(each); })) perform(action);
+    for (const Action action : pressedActions())
+        if (stateOf(action).enabled) perform(action);
+
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const Layout layout = arrange(
+        size.x, size.y, ImGui::GetFrameHeight(), ImGui::GetFontSize(), preferences.now.left,
+        preferences.now.right);
+    merged = layout.merged;
+    if (merged)
+        showColumn("Left", layout.left, allTabs(), tabs.only);
+    else
+        showColumn("Left", layout.left, leftTabs(), tabs.left);
+    showColumn("Right", layout.right, rightTabs(), tabs.right);
+    pane("Picture", layout.picture, Surface::stage, [&] { showPicture(); });
+    pane("Play", layout.play, Surface::bar, [&] {
+        const Player& player = scene.side(0).player();
+        playPanel(state, player.frame(), player.time());
+    });
+    pane("Status", layout.status, Surface::bar, [&] { showStatus(); });
+    splitters(layout, preferences.now);
+    helpPanel(help);
+    if (const auto path = path_popup.show()) saveAs(*path);
+}
+
+namespace {
+
+// ---- Path popup ---------------------------------------------------------------------------------
+
+constexpr const char* kTitle = "Save scene as";
+
+bool exists(const std::string& path) {
+    std::error_code none;
+    return std::filesystem::exists(path, none);
+}
+
+}  // namespace
+
+void PathPopup::open(const std::filesystem::path& suggested) {
+    typed_ = suggested.string();
+    opens_ = true;
+}
+
+std::optional<std::filesystem::path> PathPopup::show() {
+    if (opens_) ImGui::OpenPopup(kTitle);
+    const bool first = std::exchange(opens_, false);
+    const ImVec2 room = ImGui::GetMainViewport()->Size;
+    const float letter = ImGui::GetFontSize();
+    ImGui::SetNextWindowSize({std::min(42.0f * letter, room.x - 2.0f * letter), 0.0f});
+    ImGui::SetNextWindowPos({room.x * 0.5f, room.y * 0.4f}, ImGuiCond_Always, {0.5f, 0.5f});
+    if (!ImGui::BeginPopupModal(
+            kTitle, nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings))
+        return std::nullopt;
+    std::optional<std::filesystem::path> accepted;
+    ImGui::SetNextItemWidth(-1.0f);
+    if (first) ImGui::SetKeyboardFocusHere();
+    textInput("##path", typed_);
+    const bool entered = ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGuiKey_Enter);
+    const bool replaces = exists(typed_);
+    ImGui::TextDisabled(
+        "%s", replaces ? "This file exists, and will be replaced." : "The scene, as JSON.");
+    ImGui::BeginDisabled(typed_.empty());
+    const bool pressed = ImGui::Button(replaces ? "Replace###save" : "Save###save");
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    const bool leaves = ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGuiKey_Escape);
+    if ((entered || pressed) && !typed_.empty()) accepted = typed_;
+    if (accepted || leaves) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+    return accepted;
+}
+
+namespace {
+
+// ---- Perform ------------------------------------------------------------------------------------
+
+constexpr float kZoomStep = 1.125f;
+
+std::optional<engine::PresentMode> presentModeOf(Action action) {
+    switch (action) {
+    case Action::present_fifo:
+        return engine::PresentMode::fifo;
+    case Action::present_mailbox:
+        return engine::PresentMode::mailbox;
+    case Action::present_immediate:
+        return engine::PresentMode::immediate;
+    default:
+        return std::nullopt;
+    }
+}
+
+std::optional<Tab> tabOf(Action action) {
+    switch (action) {
+    case Action::open_scene:
+    case Action::panel_files:
+        return Tab::files;
+    case Action::panel_scene:
+        return Tab::scene;
+    case Action::panel_timings:
+        return Tab::timings;
+    case Action::panel_compare:
+        return Tab::compare;
+    case Action::panel_shaders:
+        return Tab::shaders;
+    default:
+        return std::nullopt;
+    }
+}
+
+}  // namespace
+
+void Viewer::Parts::compare() {
+    message.attempt([&] {
+        if (scene.sideCount() > 1) {
+            scene.stopComparing();
+            area.views = Views::a;
+            message.tell("A is shown alone");
+        } else {
+            scene.startComparing();
+            area.views = Views::side_by_side;
+            message.tell("the settings panel is B's now; A is as it was");
+        }
+    });
+}
+
+// Whether it is an action on settings.
+bool Viewer::Parts::changeSetting(Action action) {
+    hair::Settings settings = scene.editedSide().wanted();
+    const Player& player = scene.editedSide().player();
+    Edit edit{.changed = true};
+    if (bool* const value = switchOf(action, settings))
+        *value = !*value;
+    else if (const CameraPreset* const preset = presetOf(action))
+        edit = tools.look(settings, player, *preset);
+    else if (action == Action::frame_groom)
+        edit = tools.frameGroom(settings, player);
+    else
+        return false;
+    scene.edit(scene.edited(), settings, edit);
+    return true;
+}
+
+// Where there is room for one column only, it is both.
+void Viewer::Parts::toggleColumn(Column& column) {
+    Preferences& now = preferences.now;
+    if (merged)
+        now.left.shown = now.right.shown = !(now.left.shown || now.right.shown);
+    else
+        column.shown = !column.shown;
+}
+
+// Whether it is an action on the window's arrangement.
+bool Viewer::Parts::changeWindow(Action action) {
+    Preferences& now = preferences.now;
+    const auto zoomTo = [&](float zoom) {
+        now.zoom = std::clamp(zoom, kSmallestZoom, kLargestZoom);
+    };
+    if (const std::optional<Tab> tab = tabOf(action)) {
+        tabs.choose(*tab);
+        (std::ranges::count(leftTabs(), *tab) > 0 ? now.left : now.right).shown = true;
+        return true;
+    }
+    if (const std::optional<engine::PresentMode> mode = presentModeOf(action)) {
+        now.present_mode = *mode;
+        return true;
+    }
+    switch (action) {
+    case Action::dark_theme:
+        now.theme = Theme::dark;
+        return true;
+    case Action::light_theme:
+        now.theme = Theme::light;
+        return true;
+    case Action::larger:
+        zoomTo(now.zoom * kZoomStep);
+        return true;
+    case Action::smaller:
+        zoomTo(now.zoom / kZoomStep);
+        return true;
+    case Action::left_column:
+        toggleColumn(now.left);
+        return true;
+    case Action::right_column:
+        toggleColumn(now.right);
+        return true;
+    case Action::help:
+        help = !help;
+        return true;
+    case Action::reset_layout: {
+        const Preferences first;
+        now.left = first.left;
+        now.right = first.right;
+        now.zoom = first.zoom;
+        tabs = {};
+        return true;
+    }
+    default:
+        return false;
+    }
+}
+
+void Viewer::Parts::perform(Action action) {
+    if (changeSetting(action) || changeWindow(action)) return;
+    if (const std::optional<Tool> tool = toolOf(action)) {
+        tools.tool = *tool;
+        return;
+    }
+    switch (action) {
+    case Action::save_scene:
+        save();
+        break;
+    case Action::save_scene_as:
+        path_popup.open(suggestedPath());
+        break;
+    case Action::copy_axes:
+        copyArguments();
+        break;
+    case Action::screenshot:
+        screenshot();
+        break;
+    case Action::record:
+        record();
+        break;
+    case Action::quit:
+        window.close();
+        break;
+    case Action::undo:
+        scene.editedSide().undo();
+        break;
+    case Action::redo:
+        scene.editedSide().redo();
+        break;
+    case Action::play:
+        state.playing = !state.playing;
+        break;
+    case Action::step:
+        state.step = true;
+        break;
+    case Action::restart:
+        state.seek = 0;
+        break;
+    case Action::compare:
+        compare();
+        break;
+    case Action::edit_other:
+        scene.setEdited(1 - scene.edited());
+        break;
+    default:
+        break;
+    }
+}
+
+ActionState Viewer::Parts::stateOf(Action action) const {
+    const Preferences& now = preferences.now;
+    hair::Settings settings = scene.editedSide().wanted();
+    if (const bool* const value = switchOf(action, settings)) return {.checked = *value};
+    if (const std::optional<Tool> tool = toolOf(action)) return {.checked = tools.tool == *tool};
+    if (const std::optional<engine::PresentMode> mode = presentModeOf(action))
+        return {
+            .checked = presenter.mode() == *mode,
+            .enabled = std::ranges::count(presenter.modes(), *mode) > 0};
+    switch (action) {
+    case Action::record:
+        return {.checked = recorder.records()};
+    case Action::undo:
+        return {.enabled = scene.editedSide().canUndo()};
+    case Action::redo:
+        return {.enabled = scene.editedSide().canRedo()};
+    case Action::play:
+        return {.checked = state.playing};
+    case Action::step:
+        return {.enabled = !state.playing};
+    case Action::compare:
+        return {.checked = scene.sideCount() > 1};
+    case Action::edit_other:
+        return {.enabled = scene.sideCount() > 1};
+    case Action::dark_theme:
+        return {.checked = now.theme == Theme::dark};
+    case Action::light_theme:
+        return {.checked = now.theme == Theme::light};
+    case Action::left_column:
+        return {.checked = now.left.shown || (merged && now.right.shown)};
+    case Action::right_column:
+        return {.checked = now.right.shown || (merged && now.left.shown)};
+    case Action::help:
+        return {.checked = help};
+    default:
+        return {};
+    }
+}
+
+namespace {
+
+// ---- Perform files ------------------------------------------------------------------------------
+
+// What is shown is what these settings make: nothing is being dragged, and nothing was refused.
+void bringUpToDate(Side& side) {
+    side.settle();
+    side.follow();
+    if (!side.problem().empty())
+        throw engine::Error("what the panel says can't be", side.problem());
+}
+
+}  // namespace
+
+std::filesystem::path Viewer::Parts::suggestedPath() const {
+    const SceneFile& file = scene.file();
+    if (scene.wasSaved()) return file.path;
+    return freeName(file.path.parent_path(), file.name, ".json");
+}
+
+void Viewer::Parts::open(const std::filesystem::path& path) {
+    message.attempt([&] {
+        const SceneFile file = openScene(path);
+        scene.open(file);
+        scenes = SceneList(file.directory);
+        area.views = Views::a;
+        window.setTitle("hairbench " + file.name);
+        remember(preferences.now, file.path);
+        message.tell("opened " + file.path.string());
+    });
+}
+
+// A scene that somebody wrote has more than its state in it, such as a sweep: it is replaced only
+// where the user says so.
+void Viewer::Parts::save() {
+    if (scene.wasSaved())
+        saveAs(scene.file().path);
+    else
+        path_popup.open(suggestedPath());
+}
+
+void Viewer::Parts::saveAs(const std::filesystem::path& path) {
+    message.attempt([&] {
+        Side& side = scene.editedSide();
+        bringUpToDate(side);
+        saveScene(side.wanted(), scene.file().directory, path);
+        scene.savedAs(path);
+        window.setTitle("hairbench " + scene.file().name);
+        remember(preferences.now, path);
+        message.tell("saved to " + path.string());
+    });
+}
+
+void Viewer::Parts::copyArguments() {
+    message.attempt([&] {
+        const scene::Scene saved = scene::loadScene(scene.file().path);
+        // It may have been saved to another folder than the one that it was opened in.
+        const std::string arguments = caseArguments(
+            saved,
+            movedFiles(scene.editedSide().wanted(), scene.file().directory, saved.directory));
+        ImGui::SetClipboardText(arguments.c_str());
+        message.tell(arguments.empty() ? "nothing differs from the scene" : "copied: " + arguments);
+    });
+}
+
+void Viewer::Parts::screenshot() {
+    message.attempt([&] {
+        Side& side = scene.editedSide();
+        bringUpToDate(side);
+        const std::filesystem::path folder = std::filesystem::current_path();
+        const std::filesystem::path path =
+            freeName(folder, "hairbench-" + scene.file().name, ".png");
+        const hair::Settings& settings = side.player().settings();
+        writeScreenshot(
+            path, settings.render.width, settings.render.height, side.player().played().picture(),
+            sceneText(settings, scene.file().directory, folder));
+        message.tell("wrote " + path.string());
+    });
+}
+
+void Viewer::Parts::record() {
+    message.attempt([&] {
+        if (recorder.records()) {
+            message.tell(
+                "recorded " + std::to_string(recorder.written()) + " frames to " +
+                recorder.folder().string());
+            recorder.stop();
+            return;
+        }
+        recorder.start(
+            freeName(std::filesystem::current_path(), "hairbench-" + scene.file().name, ""));
+        message.tell("recording to " + recorder.folder().string());
+    });
+}
+
+void Viewer::Parts::drop(const std::filesystem::path& file) {
+    const Dropped what = whatIs(file);
+    if (what == Dropped::scene) {
+        open(file);
+    } else if (what == Dropped::unknown) {
+        message.complain(
+            file.string() + ": no scene, screenshot, groom, mesh or environment, by its name");
+    } else {
+        message.attempt([&] {
+            const hair::Settings settings =
+                withDropped(scene.editedSide().wanted(), scene.file().directory, file);
+            scene.edit(scene.edited(), settings, {.changed = true});
+            message.tell("took " + file.string());
+        });
+    }
+}
+
+}  // namespace benchmarks::viewer

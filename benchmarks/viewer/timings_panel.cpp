@@ -1,0 +1,647 @@
+#include "benchmarks/viewer/timings_panel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <imgui.h>
+
+#include "benchmarks/measure/metrics.h"
+#include "benchmarks/measure/trust.h"
+#include "benchmarks/report/report.h"
+#include "benchmarks/report/text.h"
+#include "benchmarks/viewer/measure_panel.h"
+#include "benchmarks/viewer/timings.h"
+#include "engine/device.h"
+
+namespace benchmarks::viewer {
+
+// ---- Figure table -------------------------------------------------------------------------------
+
+std::string numberText(std::optional<double> number) {
+    return number ? report::shortNumber(*number) : "-";
+}
+
+void helpMarker(const char* help) {
+    if (*help == 0) return;
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_DelayShort) && ImGui::BeginTooltip()) {
+        ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24.0f);
+        ImGui::TextUnformatted(help);
+        ImGui::PopTextWrapPos();
+        ImGui::EndTooltip();
+    }
+}
+
+void rightText(const std::string& text) {
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+    if (room > 0.0f) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
+    ImGui::TextUnformatted(text.c_str());
+}
+
+FigureTable::FigureTable(const char* id, Columns columns, const char* title) : columns_(columns) {
+    const int count = columns == Columns::compared ? 4 : 2;
+    open_ = ImGui::BeginTable(id, count, ImGuiTableFlags_SizingFixedFit);
+    if (!open_) return;
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+    for (int i = 1; i < count; ++i) ImGui::TableSetupColumn("");
+    if (columns == Columns::one && *title == 0) return;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", title);
+    if (columns == Columns::one) return;
+    for (const char* side : {"A", "B", "B / A"}) {
+        ImGui::TableNextColumn();
+        rightText(side);
+    }
+}
+
+FigureTable::~FigureTable() {
+    if (open_) ImGui::EndTable();
+}
+
+void FigureTable::row(
+    const char* name, const char* help, std::optional<double> a, std::optional<double> b) {
+    row(name, help, numberText(a), numberText(b));
+    if (!open_ || columns_ == Columns::one) return;
+    ImGui::TableNextColumn();
+    rightText(a && b && *a > 0.0 ? report::shortNumber(*b / *a) : "-");
+}
+
+void FigureTable::row(
+    const char* name, const char* help, const std::string& a, const std::string& b) {
+    if (!open_) return;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(name);
+    ImGui::PopTextWrapPos();
+    helpMarker(help);
+    ImGui::TableNextColumn();
+    rightText(a);
+    if (columns_ == Columns::one) return;
+    ImGui::TableNextColumn();
+    rightText(b);
+}
+
+namespace {
+
+// ---- Share bar ----------------------------------------------------------------------------------
+
+struct Share {
+    std::string name;
+    double amount = 0.0;
+    ImU32 color = 0;
+};
+
+// A color of its own for each of the first eight, on dark and on light.
+ImU32 seriesColor(std::size_t index) {
+    // Told apart by people with any color vision: Okabe and Ito 2008, Color universal design, but
+    // for black.
+    static constexpr std::array<ImU32, 8> kColors{
+        IM_COL32(86, 180, 233, 255), IM_COL32(230, 159, 0, 255),   IM_COL32(0, 158, 115, 255),
+        IM_COL32(213, 94, 0, 255),   IM_COL32(204, 121, 167, 255), IM_COL32(0, 114, 178, 255),
+        IM_COL32(200, 188, 40, 255), IM_COL32(140, 140, 140, 255)};
+    return kColors[index % kColors.size()];
+}
+
+// A thin bar, as long as its share of the room that is left in a line or cell.
+void shareBar(double share, ImU32 color) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 size(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 0.2f);
+    const float length = static_cast<float>(std::clamp(share, 0.0, 1.0)) * size.x;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddRectFilled(
+        corner, {corner.x + size.x, corner.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg));
+    draw.AddRectFilled(corner, {corner.x + length, corner.y + size.y}, color);
+    ImGui::Dummy(size);
+}
+
+// Shares of a whole in one bar across the window; each tells the mouse its name, amount and part.
+void stackedBar(const char* id, std::span<const Share> shares, const char* unit) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 size(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 0.8f);
+    ImGui::InvisibleButton(id, size);
+    const bool hovered = ImGui::IsItemHovered();
+    double sum = 0.0;
+    for (const Share& share : shares) sum += share.amount;
+    if (sum <= 0.0) return;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float mouse = ImGui::GetIO().MousePos.x;
+    float left = corner.x;
+    for (const Share& share : shares) {
+        const float right = left + static_cast<float>(share.amount / sum) * size.x;
+        draw.AddRectFilled({left, corner.y}, {right, corner.y + size.y}, share.color);
+        if (hovered && mouse >= left && mouse < right)
+            ImGui::SetTooltip(
+                "%s: %s %s, %.0f %%", share.name.c_str(), report::shortNumber(share.amount).c_str(),
+                unit, 100.0 * share.amount / sum);
+        left = right;
+    }
+}
+
+// ---- Frame figures ------------------------------------------------------------------------------
+
+FigureTable::Columns columnsFor(const ShownSide* compared) {
+    return compared ? FigureTable::Columns::compared : FigureTable::Columns::one;
+}
+
+std::optional<double>
+ofRate(const ShownSide* side, const std::function<std::optional<double>(const FrameRate&)>& get) {
+    return side && side->rate ? get(*side->rate) : std::nullopt;
+}
+
+std::optional<double>
+ofSplit(const ShownSide* side, const std::function<std::optional<double>(const FrameSplit&)>& get) {
+    return side && side->split ? get(*side->split) : std::nullopt;
+}
+
+std::optional<double> lowOf(const FrameRate& rate) {
+    if (!rate.low) return std::nullopt;
+    return rate.low->percentile;
+}
+
+std::string lowHelp(const ShownSide& side) {
+    std::string text = "the rate of the frame time at quantile 0.99";
+    if (!side.rate || !side.rate->low)
+        return text + "; known from 100 frames on: with fewer, it would be the slowest frame's";
+    return text +
+           ".\nOf the mean of the slowest 1 %: " + report::shortNumber(side.rate->low->mean) +
+           "; of the frame at which the slowest reach 1 % of all the time: " +
+           report::shortNumber(side.rate->low->integral);
+}
+
+void trustFigure(const ShownSide& side, const ShownSide* compared, FigureTable& table) {
+    table.row(
+        "Passes / frame",
+        "The isolated passes' sum over the frame by the CPU's clock: 1 where the device's "
+        "timestamps are right and nothing else is at work. 10 % off is a warning",
+        side.metrics.trust.pass_sum_over_wall,
+        compared ? compared->metrics.trust.pass_sum_over_wall : std::nullopt);
+}
+
+// How fast frames are, and how many are known. `compared` may be null.
+void frameFigures(const ShownSide& side, const ShownSide* compared) {
+    FigureTable table("##frame", columnsFor(compared));
+    const auto row = [&](const char* name, const char* help, auto get) {
+        table.row(name, help, ofRate(&side, get), ofRate(compared, get));
+    };
+    row("FPS",
+        "Isolated frames over their total time, by the CPU's clock from submission to completion: "
+        "one frame at a time, a pass at a time. 'Measure' gives the runner's: two frames in flight",
+        [](const FrameRate& rate) { return std::optional(rate.fps); });
+    row("1 % low FPS", lowHelp(side).c_str(), lowOf);
+    row("Frame, ms", "Median of the isolated frames' time",
+        [](const FrameRate& rate) { return std::optional(rate.median); });
+    trustFigure(side, compared, table);
+    const auto count = [&](const char* name, const char* help, auto member) {
+        table.row(
+            name, help, std::to_string(side.*member),
+            compared ? std::to_string(compared->*member) : std::string());
+    };
+    count(
+        "Isolated frames",
+        "Their passes are timed by themselves, between full barriers. The last 300 are kept",
+        &ShownSide::isolated);
+    count(
+        "Overlapped frames", "The device may overlap their passes. The last 300 are kept",
+        &ShownSide::overlapped);
+}
+
+// What a frame takes of the CPU and of the device, and what overlap saves.
+void splitFigures(const ShownSide& side, const ShownSide* compared) {
+    if (!side.split) return;
+    const std::array<Share, 3> cpu{
+        Share{"recording", side.split->record, seriesColor(0)},
+        Share{"submission", side.split->submit, seriesColor(3)},
+        Share{"waiting for the device", side.split->wait, seriesColor(7)}};
+    stackedBar("##cpu", cpu, "ms");
+    FigureTable table("##split", columnsFor(compared), "median, ms");
+    const auto row = [&](const char* name, const char* help, auto get) {
+        const std::optional<double> a = ofSplit(&side, get), b = ofSplit(compared, get);
+        if (a || b) table.row(name, help, a, b);
+    };
+    using Known = std::optional<double>;
+    row("Recording", "CPU: recording the commands of an isolated frame.",
+        [](const FrameSplit& split) { return Known(split.record); });
+    row("Submission", "CPU: the call that submits them.",
+        [](const FrameSplit& split) { return Known(split.submit); });
+    row("Waiting", "CPU: from there until the device is done.",
+        [](const FrameSplit& split) { return Known(split.wait); });
+    row("CPU time",
+        "What all threads of the program used of the CPU from recording to completion: on a "
+        "software device what a frame costs, however busy the machine is.",
+        [](const FrameSplit& split) { return split.cpu; });
+    row("Device", "From the first to the last timestamp of an isolated frame.",
+        [](const FrameSplit& split) { return Known(split.device); });
+    row("Passes alone", "The isolated passes added up.",
+        [](const FrameSplit& split) { return Known(split.pass_sum); });
+    row("Overlapped",
+        "From the first to the last timestamp of an overlapped frame, whose passes the device may "
+        "overlap. Software devices stamp early, so that this may be too short there",
+        [](const FrameSplit& split) { return split.device_overlapped; });
+    row("Saved",
+        "What overlap within a frame saves the device: the passes alone less the overlapped frame. "
+        "The runner's frame.overlap also has what two frames in flight save",
+        [](const FrameSplit& split) { return split.saved(); });
+}
+
+// ---- Memory table -------------------------------------------------------------------------------
+
+double bytesOf(const report::Metric& metric) { return metric.samples.front(); }
+
+void line(
+    const std::string& name, const char* help, double bytes, std::optional<double> share = {}) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(name.c_str());
+    helpMarker(help);
+    if (share) shareBar(*share, seriesColor(0));
+    ImGui::TableNextColumn();
+    rightText(report::sizeText(static_cast<std::uint64_t>(bytes)));
+}
+
+// Device memory by what it is for, as bars, the largest first.
+void memoryTable(const engine::MemoryLedger& ledger) {
+    std::vector<report::Metric> purposes = measure::memoryMetrics(ledger);
+    double window = 0.0, scene = 0.0;
+    std::erase_if(purposes, [&](const report::Metric& metric) {
+        if (metric.id.what != report::Measured::purpose) return true;
+        const bool is_window = metric.id.part == "window";
+        (is_window ? window : scene) += bytesOf(metric);
+        return is_window;
+    });
+    std::ranges::sort(purposes, std::ranges::greater{}, bytesOf);
+    if (!ImGui::BeginTable("##memory", 2, ImGuiTableFlags_SizingFixedFit)) return;
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+    for (const report::Metric& metric : purposes)
+        line(metric.id.part, "", bytesOf(metric), bytesOf(metric) / scene);
+    line(
+        "all of these",
+        "Device memory that buffers and images hold, of both sides where two are compared", scene);
+    line("window", "What the window itself holds: its picture, and copies of those in it", window);
+    ImGui::EndTable();
+}
+
+// "guides", "strands", "segments", ... and how many.
+void countTable(
+    const std::vector<std::pair<std::string, std::uint64_t>>& counts,
+    const std::vector<std::pair<std::string, std::uint64_t>>* compared) {
+    FigureTable table(
+        "##counts", compared ? FigureTable::Columns::compared : FigureTable::Columns::one);
+    for (const auto& [name, count] : counts) {
+        std::string text = name, other;
+        std::ranges::replace(text, '_', ' ');
+        if (compared)
+            for (const auto& [other_name, other_count] : *compared)
+                if (other_name == name) other = report::countText(other_count);
+        table.row(text.c_str(), "", report::countText(count), other);
+    }
+}
+
+// ---- Sparkline ----------------------------------------------------------------------------------
+
+// A line through values that are not negative, from 0 at the bottom to their maximum, as an item of
+// Dear ImGui. The index of the value that the mouse is at.
+std::optional<std::size_t>
+sparkline(const char* id, std::span<const double> values, ImVec2 size, ImU32 color) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImGui::InvisibleButton(id, size);
+    if (values.empty()) return std::nullopt;
+    const double most = std::max(std::ranges::max(values), 1e-9);
+    const float line = std::max(1.0f, ImGui::GetFontSize() / 15.0f);
+    const float step =
+        values.size() > 1 ? (size.x - line) / static_cast<float>(values.size() - 1) : 0.0f;
+    const auto point = [&](std::size_t i) {
+        const float height = static_cast<float>(values[i] / most) * (size.y - 2.0f * line);
+        return ImVec2(
+            corner.x + 0.5f * line + step * static_cast<float>(i),
+            corner.y + size.y - line - height);
+    };
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    std::vector<ImVec2> points;
+    for (std::size_t i = 0; i < values.size(); ++i) points.push_back(point(i));
+    draw.AddPolyline(points.data(), static_cast<int>(points.size()), color, ImDrawFlags_None, line);
+    if (points.size() == 1) draw.AddCircleFilled(points.front(), line, color);
+    if (!ImGui::IsItemHovered()) return std::nullopt;
+
+    const float place = step > 0.0f ? (ImGui::GetIO().MousePos.x - corner.x) / step : 0.0f;
+    const auto last = static_cast<float>(values.size() - 1);
+    const auto index = static_cast<std::size_t>(std::clamp(std::round(place), 0.0f, last));
+    draw.AddCircleFilled(points[index], 2.5f * line, ImGui::GetColorU32(ImGuiCol_Text));
+    return index;
+}
+
+// ---- Pass table ---------------------------------------------------------------------------------
+
+constexpr float kLeastHistory = 4.0f;  // letters' heights that a history takes at least
+
+std::string percent(double share) {
+    char text[16];
+    std::snprintf(text, sizeof text, share < 0.0995 ? "%.1f %%" : "%.0f %%", 100.0 * share);
+    return text;
+}
+
+// Which columns there is room for.
+struct Layout {
+    bool compared = false;
+    bool history = false;
+    bool share = false;
+
+    int columns() const { return 2 + (compared ? 2 : 0) + (history ? 1 : 0) + (share ? 1 : 0); }
+};
+
+Layout layoutFor(const PassRows& rows, bool compared) {
+    const auto width = [](const char* text) {
+        return ImGui::CalcTextSize(text).x + 2.0f * ImGui::GetStyle().CellPadding.x;
+    };
+    float name = width(rows.sum.name.c_str());
+    for (const TimeSeries& pass : rows.passes) name = std::max(name, width(pass.name.c_str()));
+    float room = ImGui::GetContentRegionAvail().x - name - width("0.0000");
+    if (compared) room -= width("0.0000") + width("B / A");
+    Layout layout{.compared = compared};
+    const float history = std::max(kLeastHistory * ImGui::GetFontSize(), width("history"));
+    layout.history = room >= history;
+    if (layout.history) room -= history;
+    layout.share = room >= width("100 %");
+    return layout;
+}
+
+std::string seriesText(const TimeSeries& series) {
+    const report::Summary& times = series.summary;
+    std::string text =
+        "median " + report::shortNumber(times.median) + " ms of " + std::to_string(times.count) +
+        " frames, MAD " + report::shortNumber(times.mad) + " ms\nfrom " +
+        report::shortNumber(times.minimum) + " to " + report::shortNumber(times.maximum) + " ms";
+    text += series.high ? "\n1 % high: 1 % of the frames took longer than " +
+                              report::shortNumber(*series.high) + " ms"
+                        : "\n1 % high: known from 100 frames on";
+    return text;
+}
+
+void history(const TimeSeries& series, ImU32 color) {
+    const ImVec2 size(
+        std::max(ImGui::GetContentRegionAvail().x, 1.0f), ImGui::GetTextLineHeight() * 1.2f);
+    const std::optional<std::size_t> at =
+        sparkline(("##history of " + series.name).c_str(), series.times, size, color);
+    if (!at) return;
+    std::string text = series.name;
+    if (!series.numbers.empty()) text += ", frame " + std::to_string(series.numbers[*at]);
+    text += ": " + report::shortNumber(series.times[*at]) + " ms\n" + seriesText(series);
+    ImGui::SetTooltip("%s", text.c_str());
+}
+
+struct Row {
+    const TimeSeries& series;
+    const TimeSeries* compared;
+    std::optional<double> share;
+    ImU32 color;
+    std::string help;
+};
+
+void show(const Row& row, const Layout& layout) {
+    const double median = row.series.summary.median;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(row.series.name.c_str());
+    std::string help = row.help + seriesText(row.series);
+    if (row.share) help += "\n" + percent(*row.share) + " of all passes";
+    helpMarker(help.c_str());
+    if (row.share) shareBar(*row.share, row.color);
+    if (layout.history) {
+        ImGui::TableNextColumn();
+        history(row.series, row.color);
+    }
+    ImGui::TableNextColumn();
+    rightText(report::shortNumber(median));
+    if (layout.share) {
+        ImGui::TableNextColumn();
+        if (row.share) rightText(percent(*row.share));
+    }
+    if (!layout.compared) return;
+    ImGui::TableNextColumn();
+    if (row.compared) rightText(report::shortNumber(row.compared->summary.median));
+    ImGui::TableNextColumn();
+    if (row.compared && median > 0.0)
+        rightText(report::shortNumber(row.compared->summary.median / median));
+}
+
+void titles(const Layout& layout) {
+    ImGui::TableNextRow();
+    const auto title = [](const char* text) {
+        ImGui::TableNextColumn();
+        rightText(text);
+    };
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("pass");
+    if (layout.history) title("history");
+    title(layout.compared ? "A ms" : "ms");
+    if (layout.share) title("share");
+    if (!layout.compared) return;
+    title("B ms");
+    title("B / A");
+}
+
+bool beginTable(const char* id, const Layout& layout) {
+    if (!ImGui::BeginTable(id, layout.columns(), ImGuiTableFlags_SizingFixedFit)) return false;
+    // Names are as wide as they are where a history takes the rest of the room.
+    ImGui::TableSetupColumn(
+        "", layout.history ? ImGuiTableColumnFlags_WidthFixed : ImGuiTableColumnFlags_WidthStretch);
+    if (layout.history) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+    return true;
+}
+
+void bar(const PassRows& rows) {
+    std::vector<Share> shares;
+    for (std::size_t i = 0; i < rows.passes.size(); ++i)
+        shares.push_back({rows.passes[i].name, rows.passes[i].summary.median, seriesColor(i)});
+    stackedBar("##passes", shares, "ms");
+}
+
+// A bar of all passes, and of each: median, share, history and, where it is compared, the other
+// side's median and the ratio. Below them and in no sum `ui`, the window itself; null: not known
+// yet. What has no room is left out, the share first; the tooltip of the name has it all.
+void passTable(const PassRows& rows, const PassRows* compared, const TimeSeries* ui) {
+    bar(rows);
+    const Layout layout = layoutFor(rows, compared != nullptr);
+    const ImU32 plain = ImGui::GetColorU32(ImGuiCol_Text);
+    if (!beginTable("##pass table", layout)) return;
+    titles(layout);
+    for (std::size_t i = 0; i < rows.passes.size(); ++i) {
+        const TimeSeries& pass = rows.passes[i];
+        show(
+            {pass, compared ? compared->find(pass.name) : nullptr, rows.share(pass), seriesColor(i),
+             "by itself, between full barriers\n"},
+            layout);
+    }
+    show(
+        {rows.sum, compared ? &compared->sum : nullptr, std::nullopt, plain,
+         "the passes of each frame added up\n"},
+        layout);
+    if (ui) {
+        ImGui::TableNextRow(ImGuiTableRowFlags_None, ImGui::GetFontSize() * 0.4f);
+        ImGui::TableNextColumn();
+        ImGui::Separator();
+        show(
+            {*ui, nullptr, std::nullopt, ImGui::GetColorU32(ImGuiCol_TextDisabled),
+             "what the window itself costs the device: widgets and copies of the pictures. It is "
+             "in no other figure\n"},
+            layout);
+    }
+    ImGui::EndTable();
+}
+
+// ---- Statistics table ---------------------------------------------------------------------------
+
+// Both are read on dark and on light.
+constexpr ImU32 kRight = IM_COL32(46, 160, 67, 255);
+constexpr ImU32 kWrong = IM_COL32(218, 54, 51, 255);
+
+void verdict(const report::Statistic& statistic) {
+    if (!statistic.expected) return;
+    const bool right = *statistic.expected == statistic.measured;
+    ImGui::PushStyleColor(ImGuiCol_Text, right ? kRight : kWrong);
+    ImGui::TextUnformatted(right ? "=" : "!=");
+    ImGui::PopStyleColor();
+    helpMarker(
+        right ? "as many as follow from the settings"
+              : "another number than follows from the settings");
+}
+
+void show(const report::Statistic& statistic) {
+    std::string name = statistic.name;
+    std::ranges::replace(name, '_', ' ');
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(name.c_str());
+    if (!statistic.note.empty()) ImGui::TextDisabled("%s", statistic.note.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::TableNextColumn();
+    rightText(report::countText(statistic.measured));
+    if (statistic.expected && *statistic.expected != statistic.measured)
+        rightText("not " + report::countText(*statistic.expected));
+    ImGui::TableNextColumn();
+    verdict(statistic);
+}
+
+// Pipeline statistics: each count, whether it is the expected one where there is one, and notes.
+void statisticsTable(const std::vector<report::Statistic>& statistics) {
+    if (!ImGui::BeginTable("##statistics", 3, ImGuiTableFlags_SizingFixedFit)) return;
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+    for (const report::Statistic& statistic : statistics) show(statistic);
+    ImGui::EndTable();
+}
+
+// ---- Timings panel ------------------------------------------------------------------------------
+
+bool section(const char* name, ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_DefaultOpen) {
+    return ImGui::CollapsingHeader(name, flags);
+}
+
+void remember(std::vector<double>& times, double time) {
+    if (time <= 0.0) return;  // no picture of the window is done yet
+    if (times.size() == TimingHistory::kFrames) times.erase(times.begin());
+    times.push_back(time);
+}
+
+}  // namespace
+
+void TimingsPanel::show(
+    Side& side, Side* compared, const ReportOrigin& origin, double ui_milliseconds) {
+    if (!frozen_) remember(ui_, ui_milliseconds);
+    controls(side, compared, origin);
+    const std::string& type = device_.info().type;
+    const ShownSide a = frozen_ ? frozen_->shown : shownSide(side, type);
+    std::optional<ShownSide> b = frozen_compared_;
+    if (!frozen_ && compared) b = shownSide(*compared, type);
+    const ShownSide* const other = b ? &*b : nullptr;
+
+    frameFigures(a, other);
+    if (section("Passes") && a.passes) {
+        std::optional<TimeSeries> ui;
+        if (!ui_.empty()) ui = timeSeries("ui", ui_, {});
+        passTable(
+            *a.passes, other && other->passes ? &*other->passes : nullptr, ui ? &*ui : nullptr);
+    }
+    if (section("CPU and device")) splitFigures(a, other);
+    for (const std::string& warning : a.metrics.trust.warnings)
+        ImGui::TextWrapped("Warning: %s", warning.c_str());
+    if (section("Pipeline statistics")) statistics(side);
+    if (section("Memory and counts")) {
+        memoryTable(device_.memory());
+        countTable(a.metrics.counts, other ? &other->metrics.counts : nullptr);
+    }
+    if (section("As the runner measures")) measure_.show(compared ? 2 : 1, origin);
+}
+
+void TimingsPanel::controls(Side& side, Side* compared, const ReportOrigin& origin) {
+    bool freeze = frozen();
+    if (ImGui::Checkbox("Freeze", &freeze)) {
+        frozen_.reset();
+        frozen_compared_.reset();
+        const std::string& type = device_.info().type;
+        if (freeze) {
+            frozen_ = frozenSide(side, shownSide(side, type));
+            warnOfChangedShaders(device_, frozen_->shown.metrics.trust);
+        }
+        if (freeze && compared) frozen_compared_ = shownSide(*compared, type);
+    }
+    helpMarker("Holds these figures. The scene plays on");
+    ImGui::SameLine();
+    if (ImGui::Button("Clear")) {
+        side.timings().clear();
+        if (compared) compared->timings().clear();
+        ui_.clear();
+    }
+    helpMarker("Forgets the frames so far");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!frozen());
+    export_.show(reportPath(origin, "frozen"), [&](const std::filesystem::path& file) {
+        const report::CaseResult* const counted = countedOf(side);
+        saveReport(
+            viewerReport(
+                device_, origin, frozen_->settings,
+                frozenResult(*frozen_, counted ? *counted : report::CaseResult())),
+            frozen_->settings.render, {}, file);
+    });
+    ImGui::EndDisabled();
+}
+
+const report::CaseResult* TimingsPanel::countedOf(const Side& side) const {
+    const bool fits = counted_ && counted_->revision == side.timings().revision();
+    return fits ? &counted_->result : nullptr;
+}
+
+void TimingsPanel::statistics(Side& side) {
+    ImGui::BeginDisabled(!device_.hasPipelineStatistics());
+    if (ImGui::Button("Count"))
+        counted_ = Counted{
+            .result = countStatistics(device_, side.player().played()),
+            .revision = side.timings().revision(),
+            .frame = side.player().frame()};
+    ImGui::EndDisabled();
+    helpMarker(
+        "Draws the frame that is shown once more, untimed, with pipeline statistics of the strands "
+        "pass, and holds them against the counts that follow from the settings");
+    if (!device_.hasPipelineStatistics()) {
+        ImGui::TextWrapped("This device has no pipeline statistics.");
+        return;
+    }
+    if (const report::CaseResult* const counted = countedOf(side)) {
+        ImGui::SameLine();
+        ImGui::TextDisabled("of frame %u", counted_->frame);
+        if (counted->statistics.empty()) ImGui::TextWrapped("No hair is drawn.");
+        statisticsTable(counted->statistics);
+    }
+}
+
+}  // namespace benchmarks::viewer

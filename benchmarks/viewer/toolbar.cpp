@@ -1,0 +1,132 @@
+#include "benchmarks/viewer/toolbar.h"
+
+#include <imgui.h>
+
+#include "benchmarks/viewer/picking.h"
+
+namespace benchmarks::viewer {
+namespace {
+
+// ---- Picture tools ------------------------------------------------------------------------------
+
+float aspectOf(const hair::Settings& settings) {
+    return static_cast<float>(settings.render.width) / static_cast<float>(settings.render.height);
+}
+
+}  // namespace
+
+bool PictureTools::drags() const {
+    return wind_.drags() || grab_.drags() || head_.drags() || colliders_.drags();
+}
+
+Edit PictureTools::handle(
+    const Pointer& pointer, Handles& handles, hair::Settings& settings, const Player& player) {
+    const bool runs = clock_.runs(player, ImGui::GetTime());
+    switch (tool) {
+    case Tool::camera:
+        break;
+    case Tool::wind:
+        return wind_.update(pointer, handles, settings, player);
+    case Tool::grab:
+        return grab_.update(pointer, handles, settings, player, runs);
+    case Tool::head:
+        return head_.update(pointer, handles, settings, player, runs);
+    case Tool::colliders:
+        return colliders_.update(pointer, handles, settings, player);
+    }
+    return {};
+}
+
+Edit PictureTools::update(
+    const PictureRect& rect, const PictureRect& clip, bool hovered, bool held,
+    hair::Settings& settings, const Player& player) {
+    const ImGuiIO& io = ImGui::GetIO();
+    // Keys for the camera are not the handles'.
+    const bool is_plain = !io.KeyShift && !io.KeyCtrl && !io.KeyAlt;
+    // The camera and proportions of what is shown, which what is wanted can be ahead of.
+    const Pointer pointer{
+        .view = {player.settings().camera, player.settings().render, rect},
+        .at = {io.MousePos.x, io.MousePos.y},
+        .moved = {io.MouseDelta.x, io.MouseDelta.y},
+        .hovers = hovered,
+        .pressed = hovered && held && is_plain && ImGui::IsMouseClicked(ImGuiMouseButton_Left),
+        .holds = held && ImGui::IsMouseDown(ImGuiMouseButton_Left)};
+    Handles handles(clip);
+    const bool had = drags();
+    Edit edit = handle(pointer, handles, settings, player);
+    const bool has = had || drags();
+    edit |= camera_.update(
+        pointer, has ? CameraTool::Left::handle : CameraTool::Left::camera, held, settings, player);
+    return edit;
+}
+
+Edit PictureTools::frameGroom(hair::Settings& settings, const Player& player) const {
+    const Sphere groom = sphereRound(player.played().guides());
+    frameSphere(settings.camera, groom.center, groom.radius, aspectOf(settings));
+    return {.changed = true};
+}
+
+Edit PictureTools::look(
+    hair::Settings& settings, const Player& player, const CameraPreset& preset) const {
+    const Sphere groom = sphereRound(player.played().guides());
+    viewer::look(settings.camera, preset, groom.center, groom.radius, aspectOf(settings));
+    return {.changed = true};
+}
+
+namespace {
+
+// ---- Toolbar ------------------------------------------------------------------------------------
+
+struct ToolRow {
+    Tool tool;
+    const char* name;
+    const char* tooltip;
+};
+
+constexpr ToolRow kTools[] = {
+    {Tool::camera, "Camera",
+     "Drag: orbit. Shift+drag, or right or middle button: pan. Wheel, Ctrl+drag, + and -: zoom.\n"
+     "W A S D Q E: fly, with Shift faster. Double click: look at what is under the mouse.\n"
+     "The other tools do the same where the mouse is on no handle."},
+    {Tool::wind, "Wind", "The wind's arrow: drag its tip to turn and to stretch it"},
+    {Tool::grab, "Grab", "Drag hair: a hand pulls at it, and is kept in the scene"},
+    {Tool::head, "Head", "Arrows and rings at the head's pivot: drag them to move the head"},
+    {Tool::colliders, "Colliders", "Capsules that hair collides with: click to select, then drag"}};
+
+}  // namespace
+
+Edit PictureTools::toolbar(hair::Settings& settings, const Player& player) {
+    ImGui::PushID("tools");
+    OptionsLine line;
+    for (const ToolRow& row : kTools)
+        if (line.choice(
+                row.name,
+                row.tool == tool ? OptionsLine::Choice::chosen : OptionsLine::Choice::open,
+                row.tooltip))
+            tool = row.tool;
+    line.separator();
+    Edit edit;
+    switch (tool) {
+    case Tool::camera:
+        for (const CameraPreset& preset : cameraPresets())
+            if (line.button(preset.name, true, "Looks at the groom from there"))
+                edit |= look(settings, player, preset);
+        break;
+    case Tool::wind:
+        edit = WindTool::options(line, settings);
+        break;
+    case Tool::grab:
+        edit = grab_.options(line, settings);
+        break;
+    case Tool::head:
+        edit = head_.options(line, settings);
+        break;
+    case Tool::colliders:
+        edit = colliders_.options(line, settings, player);
+        break;
+    }
+    ImGui::PopID();
+    return edit;
+}
+
+}  // namespace benchmarks::viewer

@@ -1,0 +1,185 @@
+#include "engine/buffer_image.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/commands.h"
+#include "engine/memory.h"
+
+namespace engine {
+namespace {
+
+// ---- Buffer -------------------------------------------------------------------------------------
+
+VmaAllocationCreateFlags allocationFlags(Usage usage) {
+    if (usage == Usage::storage) return 0;
+    return VMA_ALLOCATION_CREATE_MAPPED_BIT |
+           (usage == Usage::upload ? VMA_ALLOCATION_CREATE_HOST_ACCESS_SEQUENTIAL_WRITE_BIT
+                                   : VMA_ALLOCATION_CREATE_HOST_ACCESS_RANDOM_BIT);
+}
+
+}  // namespace
+
+Buffer::Buffer(const Device& device, const BufferDescription& description)
+    : allocator_(device.allocator()), size_(description.size) {
+    VkBufferCreateInfo create{};
+    create.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+    create.size = description.size;
+    create.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
+                   VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                   VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+    create.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+
+    VmaAllocationCreateInfo allocate{};
+    allocate.flags = allocationFlags(description.usage);
+    allocate.usage = VMA_MEMORY_USAGE_AUTO;
+    // Coherent memory: no flushes to forget.
+    if (description.usage != Usage::storage) {
+        allocate.requiredFlags =
+            VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    }
+
+    VmaAllocationInfo allocated{};
+    const VkResult result =
+        vmaCreateBuffer(allocator_, &create, &allocate, &buffer_, &allocation_, &allocated);
+    if (result != VK_SUCCESS) {
+        throw Error(
+            "buffer '" + description.name + "' of " + std::to_string(description.size) + " B",
+            resultName(result));
+    }
+    line_ = device.memoryLine(allocation_, description.name);
+    mapped_ = allocated.pMappedData;
+    const VkBufferDeviceAddressInfo info{
+        .sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, .pNext = nullptr, .buffer = buffer_};
+    address_ = vkGetBufferDeviceAddress(device.get(), &info);
+    device.setName(
+        VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer_), description.name);
+}
+
+Buffer::~Buffer() {
+    if (buffer_) vmaDestroyBuffer(allocator_, buffer_, allocation_);
+}
+
+void Buffer::swap(Buffer& other) noexcept {
+    std::swap(allocator_, other.allocator_);
+    std::swap(allocation_, other.allocation_);
+    std::swap(buffer_, other.buffer_);
+    std::swap(address_, other.address_);
+    std::swap(size_, other.size_);
+    std::swap(mapped_, other.mapped_);
+    std::swap(line_, other.line_);
+}
+
+// ---- Image --------------------------------------------------------------------------------------
+
+Image::Image(const Device& device, const ImageDescription& description)
+    : allocator_(device.allocator()), format_(description.format),
+      extent_{description.width, description.height},
+      aspect_(
+          description.format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                                     : VK_IMAGE_ASPECT_COLOR_BIT) {
+    VkImageCreateInfo create{};
+    create.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+    create.imageType = VK_IMAGE_TYPE_2D;
+    create.format = format_;
+    create.extent = {extent_.width, extent_.height, 1};
+    create.mipLevels = description.levels;
+    create.arrayLayers = 1;
+    create.samples = static_cast<VkSampleCountFlagBits>(description.samples);
+    create.tiling = VK_IMAGE_TILING_OPTIMAL;
+    create.usage = description.usage;
+    create.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    create.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+    VmaAllocationCreateInfo allocate{};
+    allocate.usage = VMA_MEMORY_USAGE_AUTO;
+    if (const VkResult result =
+            vmaCreateImage(allocator_, &create, &allocate, &image_, &allocation_, nullptr);
+        result != VK_SUCCESS) {
+        throw Error(
+            "image '" + description.name + "' of " + std::to_string(extent_.width) + " x " +
+                std::to_string(extent_.height) + " px, " + std::to_string(description.samples) +
+                " samples",
+            resultName(result));
+    }
+
+    line_ = device.memoryLine(allocation_, description.name);
+
+    VkImageViewCreateInfo view{};
+    view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+    view.image = image_;
+    view.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    view.format = format_;
+    view.subresourceRange = {aspect_, 0, description.levels, 0, 1};
+    VkImageView handle{};
+    check(vkCreateImageView(device.get(), &view, nullptr, &handle), "create an image view");
+    view_ = {device.get(), handle};
+    device.setName(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(image_), description.name);
+}
+
+Image::Image(Image&& other) noexcept
+    : allocator_(other.allocator_), allocation_(std::exchange(other.allocation_, nullptr)),
+      format_(other.format_), extent_(other.extent_), aspect_(other.aspect_),
+      image_(std::exchange(other.image_, VkImage{})), view_(std::move(other.view_)),
+      line_(std::move(other.line_)) {}
+
+Image::~Image() {
+    view_ = {};
+    if (image_) vmaDestroyImage(allocator_, image_, allocation_);
+}
+
+// ---- Sampler ------------------------------------------------------------------------------------
+
+Sampler::Sampler(const Device& device, const SamplerDescription& description) {
+    VkSamplerCreateInfo create{};
+    create.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+    create.magFilter = create.minFilter = description.filter;
+    create.mipmapMode = description.filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR
+                                                               : VK_SAMPLER_MIPMAP_MODE_NEAREST;
+    create.addressModeU = description.horizontal;
+    create.addressModeV = description.vertical;
+    create.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    create.maxLod = VK_LOD_CLAMP_NONE;
+    VkSampler sampler{};
+    check(vkCreateSampler(device.get(), &create, nullptr, &sampler), "create a sampler");
+    sampler_ = {device.get(), sampler};
+}
+
+// ---- Transfer -----------------------------------------------------------------------------------
+
+void upload(const Device& device, std::span<const std::byte> bytes, const Buffer& destination) {
+    const Buffer staging(
+        device, {.size = bytes.size(), .usage = Usage::upload, .name = "upload staging"});
+    std::ranges::copy(bytes, staging.mapped().begin());
+    device.runOnce([&](Commands& commands) {
+        commands.copy(staging, destination, bytes.size());
+        commands.barrier(Access::transfer_write, Access::anything);
+    });
+}
+
+std::vector<std::byte> download(const Device& device, const Buffer& source) {
+    const Buffer staging(
+        device, {.size = source.size(), .usage = Usage::readback, .name = "download staging"});
+    device.runOnce([&](Commands& commands) {
+        commands.barrier(Access::anything, Access::transfer_read);
+        commands.copy(source, staging, source.size());
+        commands.barrier(Access::transfer_write, Access::host_read);
+    });
+    const std::span<std::byte> mapped = staging.mapped();
+    return {mapped.begin(), mapped.end()};
+}
+
+Buffer readImage(const Device& device, const Image& image, std::size_t bytes_per_pixel) {
+    const VkExtent2D extent = image.extent();
+    Buffer staging(
+        device, {.size = bytes_per_pixel * extent.width * extent.height,
+                 .usage = Usage::readback,
+                 .name = "picture"});
+    device.runOnce([&](Commands& commands) {
+        commands.barrier(Access::anything, Access::transfer_read);
+        commands.copy(image, staging);
+        commands.barrier(Access::transfer_write, Access::host_read);
+    });
+    return staging;
+}
+
+}  // namespace engine

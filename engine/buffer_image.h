@@ -1,0 +1,154 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "engine/device.h"
+
+struct VmaAllocation_T;
+
+namespace engine {
+
+enum class Usage {
+    storage,   // device-local; shaders read and write it by address
+    upload,    // host-visible, mapped; written by the CPU, read by the device
+    readback,  // host-visible and cached, mapped; written by the device, read by the CPU
+};
+
+struct BufferDescription {
+    std::size_t size = 0;  // B
+    Usage usage = Usage::storage;
+    std::string name;
+};
+
+// A buffer with its memory. Its contents start undefined.
+class Buffer {
+public:
+    Buffer() = default;
+    Buffer(const Device& device, const BufferDescription& description);
+    Buffer(Buffer&& other) noexcept { swap(other); }
+    Buffer& operator=(Buffer&& other) noexcept {
+        swap(other);
+        return *this;
+    }
+    ~Buffer();
+
+    VkBuffer get() const { return buffer_; }
+    VkDeviceAddress address() const { return address_; }
+    std::size_t size() const { return size_; }
+
+    // The mapped bytes of an upload or readback buffer.
+    std::span<std::byte> mapped() const { return {static_cast<std::byte*>(mapped_), size_}; }
+
+    template <class Value>
+    void write(const Value& value) const {
+        static_assert(std::is_trivially_copyable_v<Value>);
+        std::memcpy(mapped_, &value, sizeof value);
+    }
+
+private:
+    void swap(Buffer& other) noexcept;
+
+    VmaAllocator_T* allocator_{};
+    VmaAllocation_T* allocation_{};
+    VkBuffer buffer_{};
+    VkDeviceAddress address_ = 0;
+    std::size_t size_ = 0;
+    void* mapped_ = nullptr;
+    MemoryLedger::Line line_;
+};
+
+}  // namespace engine
+
+struct VmaAllocation_T;
+
+namespace engine {
+
+struct ImageDescription {
+    VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
+    std::uint32_t width = 1;   // px
+    std::uint32_t height = 1;  // px
+    std::uint32_t samples = 1;
+    std::uint32_t levels = 1;  // each half as large as the one before
+    VkImageUsageFlags usage = 0;
+    std::string name;
+};
+
+// A 2D image with its memory and a view of all of it.
+class Image {
+public:
+    Image(const Device& device, const ImageDescription& description);
+    Image(Image&& other) noexcept;
+    Image& operator=(Image&&) = delete;
+    ~Image();
+
+    VkImage get() const { return image_; }
+    VkImageView view() const { return view_.get(); }
+    VkFormat format() const { return format_; }
+    VkExtent2D extent() const { return extent_; }
+    VkImageAspectFlags aspect() const { return aspect_; }
+
+private:
+    VmaAllocator_T* allocator_;
+    VmaAllocation_T* allocation_{};
+    VkFormat format_;
+    VkExtent2D extent_;
+    VkImageAspectFlags aspect_;
+    VkImage image_{};
+    Handle<VkImageView, &vkDestroyImageView> view_;
+    MemoryLedger::Line line_;
+};
+
+struct SamplerDescription {
+    VkFilter filter = VK_FILTER_LINEAR;  // within a level and between levels
+    VkSamplerAddressMode horizontal = VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    VkSamplerAddressMode vertical = VK_SAMPLER_ADDRESS_MODE_REPEAT;
+};
+
+// How fragment shaders sample an image.
+class Sampler {
+public:
+    Sampler(const Device& device, const SamplerDescription& description);
+
+    VkSampler get() const { return sampler_.get(); }
+
+private:
+    Handle<VkSampler, &vkDestroySampler> sampler_;
+};
+
+// Fills `destination` from its start; returns when the device has it. For set-up, not for frames.
+void upload(const Device& device, std::span<const std::byte> bytes, const Buffer& destination);
+
+// Returns a copy of the buffer's bytes, after all work submitted so far.
+std::vector<std::byte> download(const Device& device, const Buffer& source);
+
+// The tightly packed pixels of an image in TRANSFER_SRC_OPTIMAL, in a readback buffer, after all
+// work submitted so far.
+Buffer readImage(const Device& device, const Image& image, std::size_t bytes_per_pixel);
+
+// A device-local buffer that holds `values`. At least one element is allocated, so it has an
+// address.
+template <class Value>
+Buffer makeBuffer(const Device& device, std::span<const Value> values, const std::string& name) {
+    Buffer buffer(
+        device, {.size = std::max(values.size_bytes(), sizeof(Value)),
+                 .usage = Usage::storage,
+                 .name = name});
+    if (!values.empty()) upload(device, std::as_bytes(values), buffer);
+    return buffer;
+}
+
+template <class Value>
+std::vector<Value> downloadAs(const Device& device, const Buffer& source) {
+    const std::vector<std::byte> bytes = download(device, source);
+    std::vector<Value> values(bytes.size() / sizeof(Value));
+    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(Value));
+    return values;
+}
+
+}  // namespace engine

@@ -1,0 +1,184 @@
+#include "engine/files.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <limits>
+
+#include <unistd.h>
+
+#include "engine/error.h"
+
+namespace engine {
+namespace {
+
+namespace fs = std::filesystem;
+
+// ---- Read file ----------------------------------------------------------------------------------
+
+constexpr std::size_t kLargest = std::numeric_limits<int>::max();
+
+std::ifstream opened(const fs::path& path) {
+    std::error_code error;
+    if (!fs::exists(path, error)) throw Error(path.string(), "no such file");
+    if (fs::is_directory(path, error)) throw Error(path.string(), "not a file");
+    std::ifstream file(path, std::ios::binary);
+    if (!file) throw Error(path.string(), "can't be read");
+    return file;
+}
+
+}  // namespace
+
+OpenFile::OpenFile(const fs::path& path) : name_(path.string()) {
+    std::error_code error;
+    // Opening a pipe would wait for its writer.
+    if (fs::is_other(path, error)) throw Error(name_, "not a file");
+    file_ = opened(path);
+    size_ = fs::file_size(path, error);
+    if (error) throw Error(name_, "can't be read");
+}
+
+void OpenFile::read(std::span<char> bytes) {
+    file_.seekg(0);
+    file_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (!file_) throw Error(name_, "can't be read");
+}
+
+std::string readFile(const fs::path& path) {
+    std::ifstream file = opened(path);
+    std::string bytes;
+    std::array<char, 1 << 16> part;
+    while (file) {
+        file.read(part.data(), part.size());
+        bytes.append(part.data(), static_cast<std::size_t>(file.gcount()));
+        if (bytes.size() > kLargest) throw Error(path.string(), "is larger than 2 GiB");
+    }
+    if (!file.eof()) throw Error(path.string(), "can't be read");
+    return bytes;
+}
+
+namespace {
+
+// ---- Write file ---------------------------------------------------------------------------------
+
+using Writer = std::function<void(std::ostream&)>;
+
+// A file that asks `poll` before every piece it hands to the system, and that keeps the reason why
+// one was not taken.
+class PolledFile : public std::filebuf {
+public:
+    PolledFile(const fs::path& path, const WritePoll& poll) : poll_(poll) {
+        open(path, std::ios::out | std::ios::binary);
+        if (!is_open()) error_ = errno;
+    }
+
+    int error() const { return error_; }  // errno's; 0: none
+
+protected:
+    int_type overflow(int_type byte) override {
+        if (poll_) poll_();
+        const int_type result = std::filebuf::overflow(byte);
+        keepError(result == traits_type::eof());
+        return result;
+    }
+
+    std::streamsize xsputn(const char* bytes, std::streamsize count) override {
+        constexpr std::streamsize kPiece = 1 << 20;
+        std::streamsize done = 0;
+        while (done < count) {
+            if (poll_) poll_();
+            const std::streamsize piece = std::min(kPiece, count - done);
+            const std::streamsize taken = std::filebuf::xsputn(bytes + done, piece);
+            done += taken;
+            keepError(taken < piece);
+            if (taken < piece) break;
+        }
+        return done;
+    }
+
+    int sync() override {
+        const int result = std::filebuf::sync();
+        keepError(result != 0);
+        return result;
+    }
+
+private:
+    void keepError(bool failed) {
+        if (failed && error_ == 0) error_ = errno;
+    }
+
+    const WritePoll& poll_;
+    int error_ = 0;
+};
+
+[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
+    throw Error(path.string(), "cannot be written: " + reason);
+}
+
+// `name` is what its errors call the file.
+void writeFile(
+    const fs::path& path, const fs::path& name, const Writer& write, const WritePoll& poll) {
+    PolledFile file(path, poll);
+    const auto fail_here = [&] {
+        fail(name, file.error() == 0 ? "unknown reason" : std::strerror(file.error()));
+    };
+    if (!file.is_open()) fail_here();
+    std::ostream stream(&file);
+    stream.exceptions(std::ios::badbit);  // so that the rest is not even tried
+    try {
+        write(stream);
+        stream.flush();
+    } catch (const std::ios_base::failure&) {
+        fail_here();
+    }
+    if (stream.fail() || !file.close()) fail_here();
+    if (poll) poll();
+}
+
+// Makes the folder that the file is to be in.
+void makePlaceFor(const fs::path& path) {
+    std::error_code error;
+    if (path.filename().empty() || fs::is_directory(path, error))
+        throw Error(path.string(), "is a folder, not a file to write");
+    error.clear();
+    if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
+    if (error) throw Error(path.parent_path().string(), "cannot be made: " + error.message());
+}
+
+}  // namespace
+
+void writeFileAtomically(const fs::path& path, std::string_view text) {
+    writeFileAtomically(path, [&](std::ostream& file) {
+        file.write(text.data(), static_cast<std::streamsize>(text.size()));
+    });
+}
+
+void writeFileAtomically(const fs::path& path, const Writer& write, const WritePoll& poll) {
+    makePlaceFor(path);
+    std::error_code error;
+    const bool there = fs::exists(path, error);
+    if (there && !fs::is_regular_file(path, error)) return writeFile(path, path, write, poll);
+    const fs::path target = there ? fs::canonical(path, error) : path;
+    const fs::path partial(target.string() + ".partial");
+    try {
+        writeFile(partial, path, write, poll);
+        if (there) fs::permissions(partial, fs::status(target).permissions(), error);
+        fs::rename(partial, target, error);
+        if (error) fail(path, error.message());
+    } catch (...) {
+        fs::remove(partial, error);
+        throw;
+    }
+}
+
+void checkWritable(const fs::path& path) {
+    makePlaceFor(path);
+    std::error_code error;
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    const fs::path probe = fs::exists(path, error) ? path : folder;
+    if (access(probe.c_str(), W_OK) != 0) fail(path, std::strerror(errno));
+}
+
+}  // namespace engine

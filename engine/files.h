@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <ostream>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace engine {
+
+// A file that is open for reading, of any size. Throws Error that names it.
+class OpenFile {
+public:
+    explicit OpenFile(const std::filesystem::path& path);
+
+    std::uintmax_t size() const { return size_; }
+
+    // The first of its bytes, as many as there is room for.
+    void read(std::span<char> bytes);
+
+private:
+    std::string name_;
+    std::ifstream file_;
+    std::uintmax_t size_ = 0;
+};
+
+// The bytes of a file of at most 2 GiB, which is what decoders of pictures can count, or of a pipe
+// up to its end. Throws Error that names it.
+std::string readFile(const std::filesystem::path& path);
+
+// Called again and again while a file is written, at least once in a megabyte; what it throws ends
+// the writing.
+using WritePoll = std::function<void()>;
+
+// Writes a file beside its place, as "<path>.partial", and renames it there, so that nobody sees
+// half of it; creates missing folders; follows a link; keeps the permissions of the file that was
+// there. What is no regular file (/dev/stdout, a pipe) is written as it is. Throws engine::Error
+// "<path>: <reason>", or what the writer or `poll` throws, and leaves nothing behind, the old file
+// as it was.
+void writeFileAtomically(const std::filesystem::path& path, std::string_view text);
+void writeFileAtomically(
+    const std::filesystem::path& path, const std::function<void(std::ostream&)>& write,
+    const WritePoll& poll = {});
+
+// Throws the Error that writing the file would, before the work whose result it is to hold: a
+// missing folder is made, one that can't be written is an error.
+void checkWritable(const std::filesystem::path& path);
+
+}  // namespace engine

@@ -1,0 +1,221 @@
+#include "engine/float_pictures.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstring>
+#include <memory>
+#include <string>
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+
+#include "engine/error.h"
+#include "engine/files.h"
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_NO_STDIO
+#define STBI_ONLY_HDR
+#include <stb/stb_image.h>
+
+namespace engine {
+namespace {
+
+// ---- Exr file -----------------------------------------------------------------------------------
+
+class MemoryInput : public Imf::IStream {
+public:
+    explicit MemoryInput(std::string_view bytes) : IStream("the file"), bytes_(bytes) {}
+
+    bool read(char out[], int count) override {
+        const auto wanted = static_cast<std::size_t>(count);
+        if (count < 0 || wanted > bytes_.size() - at_) throw Error("ends too early");
+        std::memcpy(out, bytes_.data() + at_, wanted);
+        at_ += wanted;
+        return at_ < bytes_.size();
+    }
+    std::uint64_t tellg() override { return at_; }
+    void seekg(std::uint64_t position) override {
+        if (position > bytes_.size()) throw Error("ends too early");
+        at_ = position;
+    }
+
+private:
+    std::string_view bytes_;
+    std::size_t at_ = 0;
+};
+
+class MemoryOutput : public Imf::OStream {
+public:
+    MemoryOutput() : OStream("a picture") {}
+
+    void write(const char bytes[], int count) override {
+        const auto wanted = static_cast<std::size_t>(count);
+        if (at_ + wanted > bytes_.size()) bytes_.resize(at_ + wanted);
+        std::memcpy(bytes_.data() + at_, bytes, wanted);
+        at_ += wanted;
+    }
+    std::uint64_t tellp() override { return at_; }
+    void seekp(std::uint64_t position) override { at_ = position; }
+
+    const std::string& bytes() const { return bytes_; }
+
+private:
+    std::string bytes_;
+    std::size_t at_ = 0;
+};
+
+struct Size {
+    std::int64_t width;
+    std::int64_t height;
+};
+
+Size checkedSize(const Imath::Box2i& window) {
+    const Size size{
+        std::int64_t{window.max.x} - window.min.x + 1,
+        std::int64_t{window.max.y} - window.min.y + 1};
+    checkPictureSize(size.width, size.height);
+    return size;
+}
+
+// The channels that red, green and blue come from: the same for all where there is only luminance.
+std::array<const char*, 3> channelsOf(const Imf::ChannelList& channels) {
+    std::array names{"R", "G", "B"};
+    if (channels.findChannel("Y") && !channels.findChannel("RY") && !channels.findChannel("R"))
+        names.fill("Y");
+    for (const char* name : names) {
+        const Imf::Channel* channel = channels.findChannel(name);
+        if (!channel) throw Error(std::string("has no channel ") + name);
+        if (channel->xSampling != 1 || channel->ySampling != 1)
+            throw Error(std::string("channel ") + name + " is subsampled");
+    }
+    return names;
+}
+
+// One of three interleaved floats of a picture that begins at `rgb` and at the window's corner.
+Imf::Slice slice(float* rgb, const Imath::Box2i& window, std::size_t channel) {
+    const Size size = checkedSize(window);
+    return Imf::Slice::Make(
+        Imf::FLOAT, rgb + channel, window, 3 * sizeof(float),
+        3 * sizeof(float) * static_cast<std::size_t>(size.width));
+}
+
+FloatPixels decode(std::string_view bytes) {
+    MemoryInput stream(bytes);
+    Imf::InputFile file(stream, 0);
+    const Imf::Header& header = file.header();
+    const Imath::Box2i window = header.dataWindow();
+    const Imath::Box2i shown = header.displayWindow();
+    const Size data_size = checkedSize(window);
+    const Size size = checkedSize(shown);
+    const std::array names = channelsOf(header.channels());
+
+    std::vector<float> data(static_cast<std::size_t>(3 * data_size.width * data_size.height));
+    // A channel is read once: luminance into red's place.
+    const std::size_t read = std::strcmp(names[0], names[1]) == 0 ? 1 : names.size();
+    Imf::FrameBuffer frame;
+    for (std::size_t i = 0; i < read; ++i) frame.insert(names[i], slice(data.data(), window, i));
+    file.setFrameBuffer(frame);
+    file.readPixels(window.min.y, window.max.y);
+
+    FloatPixels pixels{
+        static_cast<std::uint32_t>(size.width), static_cast<std::uint32_t>(size.height),
+        std::vector<float>(static_cast<std::size_t>(3 * size.width * size.height))};
+    const int left = std::max(window.min.x, shown.min.x);
+    const int right = std::min(window.max.x, shown.max.x);
+    for (int y = std::max(window.min.y, shown.min.y); y <= std::min(window.max.y, shown.max.y); ++y)
+        for (int x = left; x <= right; ++x) {
+            const float* from = &data[static_cast<std::size_t>(
+                3 * ((std::int64_t{y} - window.min.y) * data_size.width + x - window.min.x))];
+            float* to = &pixels.rgb[static_cast<std::size_t>(
+                3 * ((std::int64_t{y} - shown.min.y) * size.width + x - shown.min.x))];
+            for (std::size_t i = 0; i < 3; ++i) to[i] = from[read == 1 ? 0 : i];
+        }
+    return pixels;
+}
+
+}  // namespace
+
+FloatPixels decodeExr(std::string_view file) {
+    try {
+        return decode(file);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        const std::string reason = error.what();
+        throw Error("can't be decoded: " + reason.substr(0, reason.find('\n')));
+    }
+}
+
+void writeExr(
+    const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
+    std::span<const float> rgb) {
+    assert(rgb.size() == std::size_t{3} * width * height);
+    const Imath::Box2i window({0, 0}, {static_cast<int>(width) - 1, static_cast<int>(height) - 1});
+    Imf::Header header(window, window);
+    Imf::addChromaticities(header, Imf::Chromaticities());  // of Rec. 709, which are sRGB's
+    Imf::FrameBuffer frame;
+    constexpr std::array kNames{"R", "G", "B"};
+    for (std::size_t i = 0; i < kNames.size(); ++i) {
+        header.channels().insert(kNames[i], Imf::Channel(Imf::FLOAT));
+        frame.insert(kNames[i], slice(const_cast<float*>(rgb.data()), window, i));  // not written
+    }
+    MemoryOutput stream;
+    {
+        Imf::OutputFile file(stream, header, 0);
+        file.setFrameBuffer(frame);
+        file.writePixels(static_cast<int>(height));
+    }
+    writeFileAtomically(path, stream.bytes());
+}
+
+// ---- Float image --------------------------------------------------------------------------------
+
+void checkPictureSize(std::int64_t width, std::int64_t height) {
+    constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
+    if (width > 0 && height > 0 && width <= kMostPixels / height) return;
+    throw Error(
+        std::to_string(width) + " by " + std::to_string(height) +
+        " pixels are outside [1, 2^26] in all");
+}
+
+FloatPixels readFloatImage(const std::filesystem::path& path) {
+    const std::string bytes = readFile(path);
+    try {
+        if (bytes.starts_with("\x76\x2f\x31\x01")) return decodeExr(bytes);
+        if (bytes.starts_with("#?")) return decodeHdr(bytes);
+        throw Error("neither OpenEXR nor Radiance HDR");
+    } catch (const Error& error) {
+        throw Error(path.string(), error.what());
+    }
+}
+
+// ---- Hdr file -----------------------------------------------------------------------------------
+
+FloatPixels decodeHdr(std::string_view file) {
+    const auto* data = reinterpret_cast<const stbi_uc*>(file.data());
+    const int size = static_cast<int>(file.size());
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    if (!stbi_info_from_memory(data, size, &width, &height, &channels))
+        throw Error("not a Radiance HDR picture");
+    checkPictureSize(width, height);
+    const std::unique_ptr<float, void (*)(void*)> decoded(
+        stbi_loadf_from_memory(data, size, &width, &height, &channels, 3), stbi_image_free);
+    if (!decoded) throw Error(std::string("can't be decoded: ") + stbi_failure_reason());
+    const std::size_t values =
+        std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    return {
+        static_cast<std::uint32_t>(width),
+        static_cast<std::uint32_t>(height),
+        {decoded.get(), decoded.get() + values}};
+}
+
+}  // namespace engine

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+namespace engine {
+
+// From here on Ctrl-C, termination and a closed terminal are remembered instead of ending the
+// program; a second one ends it. A limit on the size of files becomes an error of who writes.
+void catchInterrupts();
+
+// Whether one came.
+bool interrupted();
+
+// What ends work that is interrupted.
+class Interrupted {};
+
+// Throws it where one came.
+void checkInterrupted();
+
+// A folder for files that nobody keeps; gone in any case.
+class ScratchFolder {
+public:
+    ScratchFolder();
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    ~ScratchFolder();
+
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+}  // namespace engine
+
+namespace engine {
+
+// One of the kernel's counters, of the thread that makes it and of every thread that starts under
+// it from then on (perf_event_open(2) with `inherit`): what they do in user mode. Threads that run
+// already when it is made are not counted.
+class PerfCounter {
+public:
+    // PERF_TYPE_* and PERF_COUNT_* of <linux/perf_event.h>. A kernel, a container or a machine that
+    // has no such counter for us is no error: read() is empty then.
+    PerfCounter(std::uint32_t type, std::uint64_t config);
+    ~PerfCounter();
+    PerfCounter(const PerfCounter&) = delete;
+    PerfCounter& operator=(const PerfCounter&) = delete;
+
+    // Events so far, those of threads that still run and of threads that have ended. Empty too
+    // where the counter had to share the processor's with others, so that the kernel missed some.
+    std::optional<double> read() const;
+
+private:
+    int file_;  // -1: none
+};
+
+// What all threads of this process have used of the CPU: on a software device, what passes cost
+// whoever else is at work on the machine.
+struct ProcessUse {
+    double cpu = 0.0;  // ms
+    std::optional<double>
+        instructions;  // retired in user mode; absent where no counter is to be had
+};
+
+ProcessUse operator-(const ProcessUse& to, const ProcessUse& from);
+ProcessUse operator+(const ProcessUse& a, const ProcessUse& b);
+
+// Since some moment in the past. Instructions are those of the thread that calls first and of every
+// thread that starts after that, under it: call it before the device is made, which starts threads.
+ProcessUse processUse();
+
+}  // namespace engine

@@ -1,0 +1,125 @@
+#include "engine/queries.h"
+
+#include <string>
+
+#include "engine/error.h"
+
+namespace engine {
+
+// ---- Pipeline statistics ------------------------------------------------------------------------
+
+PipelineStatistics::PipelineStatistics(const Device& device) : device_(device.get()) {
+    static_assert(
+        VK_QUERY_PIPELINE_STATISTIC_TESSELLATION_EVALUATION_SHADER_INVOCATIONS_BIT ==
+        1 << (kStatisticNames.size() - 1));
+    VkQueryPoolCreateInfo create{};
+    create.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
+    create.queryType = VK_QUERY_TYPE_PIPELINE_STATISTICS;
+    create.queryCount = 1;
+    create.pipelineStatistics = (1u << kStatisticNames.size()) - 1;
+    VkQueryPool pool{};
+    check(vkCreateQueryPool(device_, &create, nullptr, &pool), "create a statistics pool");
+    pool_ = {device_, pool};
+}
+
+void PipelineStatistics::begin(Commands& commands) {
+    vkResetQueryPool(device_, pool_.get(), 0, 1);
+    vkCmdBeginQuery(commands.get(), pool_.get(), 0, 0);
+}
+
+void PipelineStatistics::end(Commands& commands) { vkCmdEndQuery(commands.get(), pool_.get(), 0); }
+
+StatisticCounts PipelineStatistics::read() const {
+    StatisticCounts counts{};
+    check(
+        vkGetQueryPoolResults(
+            device_, pool_.get(), 0, 1, sizeof counts, counts.data(), sizeof counts,
+            VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+        "read the pipeline statistics");
+    return counts;
+}
+
+// ---- Samples query ------------------------------------------------------------------------------
+
+SamplesQuery::SamplesQuery(const Device& device) : device_(device.get()) {
+    VkPhysicalDeviceFeatures features{};
+    vkGetPhysicalDeviceFeatures(device.info().handle, &features);
+    if (!features.occlusionQueryPrecise)
+        throw Unsupported("samples query", "the device does not count samples");
+    VkQueryPoolCreateInfo create{};
+    create.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
+    create.queryType = VK_QUERY_TYPE_OCCLUSION;
+    create.queryCount = 1;
+    VkQueryPool pool{};
+    check(vkCreateQueryPool(device_, &create, nullptr, &pool), "create an occlusion query pool");
+    pool_ = {device_, pool};
+}
+
+void SamplesQuery::begin(Commands& commands) {
+    vkResetQueryPool(device_, pool_.get(), 0, 1);
+    vkCmdBeginQuery(commands.get(), pool_.get(), 0, VK_QUERY_CONTROL_PRECISE_BIT);
+}
+
+void SamplesQuery::end(Commands& commands) { vkCmdEndQuery(commands.get(), pool_.get(), 0); }
+
+std::uint64_t SamplesQuery::read() const {
+    std::uint64_t count = 0;
+    check(
+        vkGetQueryPoolResults(
+            device_, pool_.get(), 0, 1, sizeof count, &count, sizeof count,
+            VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+        "read an occlusion query");
+    return count;
+}
+
+// ---- Timestamps ---------------------------------------------------------------------------------
+
+Timestamps::Timestamps(const Device& device, std::uint32_t capacity)
+    : device_(device.get()),
+      period_(static_cast<double>(device.info().limits.timestampPeriod) * 1e-6),
+      mask_(validMask(device.info().timestamp_valid_bits)), capacity_(capacity) {
+    VkQueryPoolCreateInfo create{};
+    create.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
+    create.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    create.queryCount = capacity;
+    VkQueryPool pool{};
+    check(vkCreateQueryPool(device_, &create, nullptr, &pool), "create a timestamp pool");
+    pool_ = {device_, pool};
+    reset();
+}
+
+void Timestamps::reset() {
+    vkResetQueryPool(device_, pool_.get(), 0, capacity_);
+    count_ = 0;
+}
+
+std::uint32_t Timestamps::write(Commands& commands) {
+    if (count_ == capacity_) {
+        throw Error("a frame has more passes than " + std::to_string(capacity_) + " timestamps");
+    }
+    vkCmdWriteTimestamp2(commands.get(), VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_.get(), count_);
+    return count_++;
+}
+
+std::vector<double> Timestamps::read() const {
+    struct Stamp {
+        std::uint64_t ticks;
+        std::uint64_t available;
+    };
+    std::vector<Stamp> stamps(count_);
+    if (count_ == 0) return {};
+    check(
+        vkGetQueryPoolResults(
+            device_, pool_.get(), 0, count_, stamps.size() * sizeof(Stamp), stamps.data(),
+            sizeof(Stamp), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WITH_AVAILABILITY_BIT),
+        "read the timestamps");
+    std::vector<double> times;
+    for (const Stamp& stamp : stamps) {
+        if (!stamp.available) throw Error("the device did not write a timestamp");
+        const std::uint64_t ticks = ticksBetween(stamps.front().ticks, stamp.ticks, mask_);
+        times.push_back(static_cast<double>(ticks) * period_);
+    }
+    return times;
+}
+
+}  // namespace engine

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "engine/commands.h"
+
+namespace engine {
+
+// The graphics counters of VkQueryPipelineStatisticFlagBits, in the order of the bits 0 to 9. The
+// compute counter is left out: lavapipe crashes on it when no compute pipeline is bound.
+inline constexpr std::array<std::string_view, 10> kStatisticNames{
+    "input_assembly_vertices",      "input_assembly_primitives",
+    "vertex_invocations",           "geometry_invocations",
+    "geometry_primitives",          "clipping_invocations",
+    "clipping_primitives",          "fragment_invocations",
+    "tessellation_control_patches", "tessellation_evaluation_invocations"};
+
+using StatisticCounts = std::array<std::uint64_t, kStatisticNames.size()>;
+
+// One pipeline-statistics query.
+class PipelineStatistics {
+public:
+    explicit PipelineStatistics(const Device& device);
+
+    void begin(Commands& commands);
+    void end(Commands& commands);
+    // The counts, once the work is complete. Read once: on some drivers a second read differs.
+    StatisticCounts read() const;
+
+private:
+    VkDevice device_;
+    Handle<VkQueryPool, &vkDestroyQueryPool> pool_;
+};
+
+// How many samples of the attachments passed the depth test: a count that is exact on every driver.
+class SamplesQuery {
+public:
+    // Throws Unsupported where the device only knows whether there were any.
+    explicit SamplesQuery(const Device& device);
+
+    void begin(Commands& commands);
+    void end(Commands& commands);
+    // Once the work is complete.
+    std::uint64_t read() const;
+
+private:
+    VkDevice device_;
+    Handle<VkQueryPool, &vkDestroyQueryPool> pool_;
+};
+
+// A pool of GPU timestamps for one frame.
+class Timestamps {
+public:
+    Timestamps(const Device& device, std::uint32_t capacity);
+
+    // Makes all stamps unavailable again. The device must be done with the last frame that wrote
+    // them.
+    void reset();
+
+    // Records a stamp that is taken when all earlier commands are done; returns its index. Throws
+    // Error when all are taken.
+    std::uint32_t write(Commands& commands);
+
+    // ms since the first stamp, for each stamp written. The work must be complete; a stamp that the
+    // device did not write is an Error.
+    std::vector<double> read() const;
+
+    std::uint32_t count() const { return count_; }
+
+private:
+    VkDevice device_;
+    double period_;  // ms per tick
+    std::uint64_t mask_;
+    std::uint32_t capacity_;
+    std::uint32_t count_ = 0;
+    Handle<VkQueryPool, &vkDestroyQueryPool> pool_;
+};
+
+// `now - before` of a counter that wraps at `mask` + 1 (a power of two).
+constexpr std::uint64_t ticksBetween(std::uint64_t before, std::uint64_t now, std::uint64_t mask) {
+    return (now - before) & mask;
+}
+
+// Mask of the low `bits` bits, for timestampValidBits.
+constexpr std::uint64_t validMask(std::uint32_t bits) {
+    return bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
+}
+
+}  // namespace engine

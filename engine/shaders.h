@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace engine {
+
+using ShaderCode = std::vector<std::uint32_t>;  // SPIR-V
+
+// The code that pipelines are made of: what was compiled into the program (engine/shaders.h),
+// or what took its place since.
+class ShaderLibrary {
+public:
+    // By entry point, "simulation/wind.comp".
+    using Replacements = std::map<std::string, ShaderCode, std::less<>>;
+
+    // Stays valid until replace(). An unknown path throws Error and lists the known ones.
+    std::span<const std::uint32_t> code(std::string_view path) const;
+
+    // These and no others are replaced from now on. Pipelines that exist keep their code.
+    void replace(Replacements replacements) { replacements_ = std::move(replacements); }
+    const Replacements& replacements() const { return replacements_; }
+
+private:
+    Replacements replacements_;
+};
+
+// What the compiler says of a shader.
+struct ShaderError {
+    std::string file;  // relative to the folder of shaders
+    int line = 0;      // from 1; 0: of no line
+    std::string text;
+};
+
+struct CompiledShader {
+    ShaderCode code;  // empty where there is an error
+    // That were asked for, there or not: the entry point first, then what it includes; each once.
+    std::vector<std::string> files;
+    // The first: glslang gives up after it, and the rest of what it says is a consequence.
+    std::optional<ShaderError> error;
+};
+
+// The text of a file, by its path relative to the folder of shaders; none where it can't be read.
+using ReadShader = std::function<std::optional<std::string>(const std::string& file)>;
+
+// Compiles GLSL in process, as the build does (scripts/cmake/Shaders.cmake): of the same text comes
+// the same code, word for word, where both use the same release of glslang.
+class ShaderCompiler {
+public:
+    ShaderCompiler();
+    ~ShaderCompiler();
+    ShaderCompiler(const ShaderCompiler&) = delete;
+    ShaderCompiler& operator=(const ShaderCompiler&) = delete;
+
+    // `path` is an entry point with its stage as its extension: "strands/strand.frag". Includes are
+    // relative to the folder of shaders too, whoever includes them.
+    CompiledShader compile(const std::string& path, const ReadShader& read) const;
+};
+
+// The SPIR-V of an entry point under shaders/, compiled into the program: "simulation/wind.comp".
+// It lives as long as the program. An unknown path throws Error and lists the known ones.
+// The list of shaders is the call of hairbench_shaders() in CMake.
+std::span<const std::uint32_t> shaderCode(std::string_view path);
+
+// All of them.
+std::vector<std::string_view> shaderPaths();
+
+// Texts of GLSL files by their paths relative to the folder of shaders.
+using ShaderSources = std::map<std::string, std::string, std::less<>>;
+
+// The files that SPIR-V was compiled from: glslang's -g leaves them in the code (OpSource). They
+// are ASCII; glslang 12 spoils other letters.
+ShaderSources shaderSources(std::span<const std::uint32_t> code);
+
+}  // namespace engine

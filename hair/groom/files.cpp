@@ -1,0 +1,130 @@
+#include "hair/groom/files.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string>
+
+#include "engine/error.h"
+#include "engine/files.h"
+#include "hair/groom/formats/cyhair.h"
+#include "hair/groom/formats/gltf.h"
+#include "hair/groom/formats/hgl.h"
+#include "hair/groom/formats/obj.h"
+#include "hair/groom/formats/ply.h"
+#include "hair/groom/formats/tfx.h"
+#include "hair/groom/formats/usd_export.h"
+#include "hair/groom/formats/usd_import.h"
+
+namespace hair::groom {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::string_view_literals;
+
+// ---- Exporters ----------------------------------------------------------------------------------
+
+constexpr StrandExporter kExporters[] = {
+    {".hair", exportHair}, {".hgl", exportHgl},   {".tfx", exportTfx}, {".obj", exportObj},
+    {".ply", exportPly},   {".gltf", exportGltf}, {".glb", exportGlb}, {".usda", exportUsda},
+};
+
+}  // namespace
+
+std::span<const StrandExporter> strandExporters() { return kExporters; }
+
+const StrandExporter& strandExporterOf(const std::filesystem::path& path) {
+    const std::string extension = lowerCaseExtension(path);
+    std::string known;
+    for (const StrandExporter& exporter : kExporters) {
+        if (exporter.extension == extension) return exporter;
+        known.append(known.empty() ? "" : ", ").append(exporter.extension);
+    }
+    throw engine::Error(
+        path.string(), "strands can't be written as \"" + extension + "\"; known are " + known);
+}
+
+std::vector<std::string> exportStrands(
+    const StrandSet& strands, const std::filesystem::path& path, const engine::WritePoll& poll) {
+    const StrandExporter& exporter = strandExporterOf(path);
+    std::vector<std::string> warnings;
+    const auto write = [&](std::ostream& out) {
+        try {
+            warnings = exporter.write(strands, out);
+        } catch (const engine::Error& error) {
+            throw engine::Error(path.string(), error.what());
+        }
+    };
+    engine::writeFileAtomically(path, write, poll);
+    return warnings;
+}
+
+namespace {
+
+// ---- Importers ----------------------------------------------------------------------------------
+
+constexpr std::array kHair{".hair"sv};
+constexpr std::array kTfx{".tfx"sv};
+constexpr std::array kHgl{".hgl"sv};
+constexpr std::array kPly{".ply"sv};
+constexpr std::array kObj{".obj"sv};
+constexpr std::array kGlb{".glb"sv};
+constexpr std::array kGltf{".gltf"sv};
+constexpr std::array kUsd{".usd"sv, ".usda"sv, ".usdc"sv, ".usdz"sv};
+
+constexpr auto kTfxVersion = "\0\0\x80\x40"sv;  // 4.0f
+
+constexpr StrandImporter kImporters[] = {
+    {"Cem Yuksel's HAIR", kHair, "HAIR", importHair},
+    {"TressFX", kTfx, kTfxVersion, importTfx},
+    {"thesis guides", kHgl, "", importHgl},
+    {"PLY", kPly, "ply", importPly},
+    {"OBJ", kObj, "", importObj},
+    {"binary glTF", kGlb, "glTF", importGltfStrands},
+    {"glTF", kGltf, "", importGltfStrands},
+    // Has three magics, but its library goes by the extension.
+    {"USD", kUsd, "", importUsd},
+};
+
+const StrandImporter& importerOf(const fs::path& path, engine::OpenFile& file) {
+    std::array<char, 8> bytes{};  // longer than every magic
+    file.read(std::span(bytes).first(std::min<std::uintmax_t>(file.size(), bytes.size())));
+    const std::string_view head(bytes.data(), bytes.size());
+    const std::string extension = lowerCaseExtension(path);
+    for (const StrandImporter& importer : kImporters)
+        if (!importer.magic.empty() && head.starts_with(importer.magic)) return importer;
+    std::string known;
+    for (const StrandImporter& importer : kImporters) {
+        if (std::ranges::find(importer.extensions, extension) != importer.extensions.end())
+            return importer;
+        for (const std::string_view name : importer.extensions)
+            known.append(known.empty() ? "" : ", ").append(name);
+    }
+    throw engine::Error(
+        path.string(), "unknown format of strands \"" + extension + "\"; known are " + known);
+}
+
+}  // namespace
+
+std::span<const StrandImporter> strandImporters() { return kImporters; }
+
+const StrandImporter& strandImporterOf(const fs::path& path) {
+    engine::OpenFile file(path);
+    return importerOf(path, file);
+}
+
+StrandSet importStrands(const fs::path& path) {
+    engine::OpenFile file(path);
+    const StrandImporter& importer = importerOf(path, file);
+    // Not filled with zeros first: grooms have hundreds of megabytes.
+    const auto storage = std::make_unique_for_overwrite<char[]>(file.size());
+    const std::span bytes(storage.get(), file.size());
+    file.read(bytes);
+    try {
+        return importer.read({.bytes = std::as_bytes(bytes), .path = path});
+    } catch (const engine::Error& error) {
+        throw engine::Error(path.string(), error.what());
+    }
+}
+
+}  // namespace hair::groom

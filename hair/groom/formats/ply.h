@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hair/groom/files.h"
+#include "hair/groom/groom.h"
+
+namespace hair::groom {
+
+// Writes what ply.h reads: little-endian, strands as chains of edges. As StrandExporter
+// says.
+std::vector<std::string> exportPly(const StrandSet& strands, std::ostream& out);
+
+// Strands of a PLY file (Greg Turk, The PLY Polygon File Format, 1994), ascii or binary of either
+// byte order. The points are the element `vertex`: x, y, z, and as far as they are there width or
+// radius, red, green, blue, and transparency or alpha. The strands are the first of
+//   - the lists `vertex_indices` or `vertex_index` of an element `strand`, `polyline` or `line`,
+//     root first,
+//   - chains of the element `edge` (vertex1, vertex2), see polylines.h,
+//   - the lists of two vertices of the element `face`, as which assimp writes lines: edges.
+// Everything else is skipped with a warning.
+StrandSet importPly(const StrandFile& file);
+
+enum class PlyFormat { ascii, little_endian, big_endian };
+
+enum class PlyType : std::uint8_t {
+    int8,
+    uint8,
+    int16,
+    uint16,
+    int32,
+    uint32,
+    float32,
+    float64,
+};
+
+std::size_t sizeOf(PlyType type);  // bytes
+bool isInteger(PlyType type);
+
+struct PlyProperty {
+    std::string name;
+    PlyType type;
+    std::optional<PlyType> count_type;  // of a list
+};
+
+struct PlyElement {
+    std::string name;
+    std::uint64_t count;
+    std::vector<PlyProperty> properties;
+
+    const PlyProperty* find(std::string_view property) const;
+    bool hasLists() const;
+    // The bytes of one in a binary file; of its lists only what says how long they are.
+    std::size_t leastSize() const;
+};
+
+struct PlyHeader {
+    PlyFormat format;
+    std::vector<PlyElement> elements;
+    std::string comment;    // lines
+    std::size_t size = 0;   // bytes
+    std::size_t lines = 0;
+
+    const PlyElement* find(std::string_view element) const;
+};
+
+// Throws engine::Error "line N: reason".
+PlyHeader readPlyHeader(std::string_view file);
+
+}  // namespace hair::groom

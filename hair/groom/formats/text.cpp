@@ -1,0 +1,180 @@
+#include "hair/groom/formats/text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <string_view>
+#include <system_error>
+
+#include "hair/groom/build_groom.h"
+
+namespace hair::groom {
+
+// ---- Comment lines ------------------------------------------------------------------------------
+
+std::string commentLines(std::string_view comment, std::string_view keyword) {
+    if (comment.empty()) return {};
+    std::string lines(keyword);
+    for (const char c : comment) {
+        if (c == '\r') continue;
+        lines += c;
+        if (c == '\n') lines += keyword;
+    }
+    return lines + '\n';
+}
+
+namespace {
+
+// ---- Left out -----------------------------------------------------------------------------------
+
+struct Row {
+    Part part;
+    std::string_view sentence;
+    bool (*has)(const StrandSet& strands);
+};
+
+constexpr Row kRows[] = {
+    {Part::widths, "the widths are left out", [](const StrandSet& s) { return s.widths.known(); }},
+    {Part::transparencies, "the transparencies are left out",
+     [](const StrandSet& s) {
+         return !s.transparencies.values.empty() || s.transparencies.everywhere.value_or(0.0f) != 0;
+     }},
+    {Part::colors, "the colours are left out", [](const StrandSet& s) { return s.colors.known(); }},
+    {Part::root_uvs, "the texture coordinates of the roots are left out",
+     [](const StrandSet& s) { return !s.root_uvs.empty(); }},
+    {Part::root_triangles, "the root triangles are left out",
+     [](const StrandSet& s) { return !s.root_triangles.empty(); }},
+    {Part::unit, "the unit of length is left out",
+     [](const StrandSet& s) { return s.metres_per_unit.has_value(); }},
+    {Part::comment, "the comment is left out",
+     [](const StrandSet& s) { return !s.comment.empty(); }},
+};
+
+}  // namespace
+
+std::vector<std::string> leftOut(const StrandSet& strands, std::initializer_list<Part> held) {
+    std::vector<std::string> warnings;
+    for (const Row& row : kRows)
+        if (std::ranges::find(held, row.part) == held.end() && row.has(strands))
+            warnings.emplace_back(row.sentence);
+    return warnings;
+}
+
+namespace {
+
+// ---- Text words ---------------------------------------------------------------------------------
+
+constexpr std::size_t kQuotedLength = 40;
+
+bool isSpace(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+// std::from_chars takes no '+'; "+-1" stays wrong.
+std::string_view withoutPlus(std::string_view word) {
+    const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
+    return plus ? word.substr(1) : word;
+}
+
+template <class Number>
+std::errc parse(std::string_view word, Number& number) {
+    word = withoutPlus(word);
+    const char* end = word.data() + word.size();
+    const auto [at, error] = std::from_chars(word.data(), end, number);
+    return at == end ? error : std::errc::invalid_argument;
+}
+
+template <class Number>
+std::optional<Number> parsed(std::string_view word) {
+    Number number{};
+    if (parse(word, number) != std::errc{}) return {};
+    return number;
+}
+
+}  // namespace
+
+std::string_view takeWord(std::string_view& line) {
+    std::size_t start = 0;
+    while (start < line.size() && isSpace(line[start])) ++start;
+    std::size_t end = start;
+    while (end < line.size() && !isSpace(line[end])) ++end;
+    const std::string_view word = line.substr(start, end - start);
+    line.remove_prefix(end);
+    return word;
+}
+
+std::string inQuotes(std::string_view word) {
+    std::string text = "'";
+    for (const char c : word.substr(0, kQuotedLength)) text += c >= ' ' && c <= '~' ? c : '?';
+    return text + (word.size() > kQuotedLength ? "...'" : "'");
+}
+
+std::optional<std::int64_t> integerFrom(std::string_view word) {
+    return parsed<std::int64_t>(word);
+}
+
+std::optional<double> doubleFrom(std::string_view word) { return parsed<double>(word); }
+
+std::optional<float> floatFrom(std::string_view word) {
+    float number = 0.0f;
+    const std::errc error = parse(word, number);
+    if (error == std::errc{}) return number;
+    if (error != std::errc::result_out_of_range) return {};
+    const auto wide = doubleFrom(word);
+    if (!wide) return {};
+    return static_cast<float>(*wide);
+}
+
+// ---- Uniform ------------------------------------------------------------------------------------
+
+std::vector<std::uint32_t> uniformEnds(std::uint32_t strands, std::uint32_t size) {
+    std::vector<std::uint32_t> ends(strands);
+    for (std::uint32_t i = 0; i < strands; ++i) ends[i] = (i + 1) * size;
+    return ends;
+}
+
+std::optional<StrandSet> makeUniform(
+    const StrandSet& strands, const NumberOfPoints& number, std::vector<std::string>& warnings) {
+    const auto size = commonSize(strands);
+    if (size && *size >= number.least && *size <= number.most) return {};
+    const std::string before =
+        size ? std::to_string(*size) + " points" : std::string("differing numbers of points");
+    warnings.push_back(
+        "the strands have " + before + " and are resampled to " + std::to_string(number.wanted) +
+        " each");
+    return resample(strands, number.wanted);
+}
+
+// ---- Utf8 ---------------------------------------------------------------------------------------
+
+bool isUtf8(std::string_view text) {
+    for (std::size_t i = 0; i < text.size();) {
+        const auto byte = static_cast<unsigned char>(text[i++]);
+        if (byte < 0x80) continue;
+        const int more = byte >= 0xf0 ? 3 : byte >= 0xe0 ? 2 : 1;
+        constexpr std::uint32_t kLeast[] = {0, 0x80, 0x800, 0x10000};
+        if (byte < 0xc0 || byte >= 0xf8) return false;
+        std::uint32_t code = byte & (0x3fu >> more);
+        for (int k = 0; k < more; ++k) {
+            if (i == text.size() || (text[i] & 0xc0) != 0x80) return false;
+            code = code << 6 | (static_cast<unsigned char>(text[i++]) & 0x3fu);
+        }
+        if (code < kLeast[more] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000))
+            return false;
+    }
+    return true;
+}
+
+std::string utf8FromLatin1(std::string_view text) {
+    std::string utf8;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x80) {
+            utf8 += c;
+        } else {
+            utf8 += static_cast<char>(0xc0 | byte >> 6);
+            utf8 += static_cast<char>(0x80 | (byte & 0x3f));
+        }
+    }
+    return utf8;
+}
+
+}  // namespace hair::groom

@@ -1,0 +1,304 @@
+#include "hair/groom/formats/tfx.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include <glm/vec4.hpp>
+
+#include "hair/groom/formats/binary_file.h"
+#include "hair/groom/formats/text.h"
+
+namespace hair::groom {
+namespace {
+
+// ---- Tfx header ---------------------------------------------------------------------------------
+
+// The beginning of a .tfx file as it lies there; tfx.h says what follows. Offsets are bytes
+// from the beginning of the file, 0 where there is no such array.
+struct TfxHeader {
+    static constexpr float kVersion = 4.0f;
+
+    float version = kVersion;
+    std::uint32_t strands = 0;
+    std::uint32_t vertices_per_strand = 0;
+    std::uint32_t positions = 0;
+    std::uint32_t strand_uvs = 0;
+    std::uint32_t vertex_uvs = 0;
+    std::uint32_t strand_thickness = 0;
+    std::uint32_t vertex_colors = 0;
+    std::array<std::uint32_t, 32> reserved{};
+};
+static_assert(sizeof(TfxHeader) == 160 && offsetof(TfxHeader, vertex_colors) == 28);
+
+// ---- Export tfx ---------------------------------------------------------------------------------
+
+// What AMD's loader takes, and powers of two only.
+constexpr std::uint32_t kLeastVertices = 4;
+constexpr std::uint32_t kMostVertices = 64;
+constexpr std::uint32_t kFixedVertices = 2;
+
+std::vector<glm::vec4> positionsOf(const StrandSet& strands, std::uint32_t vertices) {
+    std::vector<glm::vec4> positions;
+    positions.reserve(strands.points.size());
+    for (const glm::vec3& point : strands.points) {
+        const bool fixed = positions.size() % vertices < kFixedVertices;
+        positions.emplace_back(point, fixed ? 0.0f : 1.0f);
+    }
+    return positions;
+}
+
+std::vector<float>
+widthsOf(const StrandSet& strands, std::uint32_t vertices, std::vector<std::string>& warnings) {
+    if (!strands.widths.known()) return {};
+    std::vector<float> widths;
+    widths.reserve(strands.strandCount());
+    std::size_t varying = 0;
+    for (std::size_t i = 0; i < strands.points.size(); i += vertices) {
+        widths.push_back(strands.widths.at(i));
+        for (std::size_t k = i; k < i + vertices; ++k) {
+            if (strands.widths.at(k) == widths.back()) continue;
+            ++varying;
+            break;
+        }
+    }
+    if (varying > 0) {
+        warnings.push_back(
+            "the width varies along " + std::to_string(varying) +
+            " strands, which get that of their root");
+    }
+    return widths;
+}
+
+// Absent where nothing is known and everything opaque.
+std::vector<glm::vec4> colorsOf(const StrandSet& strands, std::vector<std::string>& warnings) {
+    const bool opaque = strands.transparencies.values.empty() &&
+                        strands.transparencies.everywhere.value_or(0.0f) == 0.0f;
+    if (!strands.colors.known() && opaque) return {};
+    if (!strands.colors.known())
+        warnings.emplace_back("the colours are not known: white is written beside the alphas");
+    std::vector<glm::vec4> colors;
+    colors.reserve(strands.points.size());
+    std::size_t rounded = 0;
+    for (std::size_t i = 0; i < strands.points.size(); ++i) {
+        const float transparency = opaque ? 0.0f : strands.transparencies.at(i);
+        const float alpha = 1.0f - transparency;
+        if (1.0f - alpha != transparency) ++rounded;
+        colors.emplace_back(strands.colors.known() ? strands.colors.at(i) : glm::vec3(1.0f), alpha);
+    }
+    if (rounded > 0) {
+        warnings.push_back(
+            std::to_string(rounded) +
+            " transparencies are rounded: the format holds alpha, 1 less the transparency");
+    }
+    return colors;
+}
+
+// The place of an array of `bytes` at the end of the file; 0 where it is empty.
+std::uint32_t place(std::uint64_t& end, std::uint64_t bytes) {
+    if (bytes == 0) return 0;
+    const std::uint64_t start = (end + 7) / 8 * 8;
+    end = start + bytes;
+    if (start > std::numeric_limits<std::uint32_t>::max())
+        throw engine::Error("more bytes than .tfx can count: the offset of an array has 32 bits");
+    return static_cast<std::uint32_t>(start);
+}
+
+template <class Element>
+void writeAt(
+    std::ostream& out, std::uint64_t& position, std::uint32_t start,
+    const std::vector<Element>& elements) {
+    if (elements.empty()) return;
+    writeArray(out, std::vector<char>(start - position));
+    writeArray(out, elements);
+    position = start + elements.size() * sizeof(Element);
+}
+
+}  // namespace
+
+std::vector<std::string> exportTfx(const StrandSet& strands, std::ostream& out) {
+    if (strands.ends.empty()) throw engine::Error("there are no strands");
+    auto warnings =
+        leftOut(strands, {Part::widths, Part::transparencies, Part::colors, Part::root_uvs});
+    const auto resampled = makeUniform(
+        strands,
+        {.least = 2,
+         .most = std::numeric_limits<std::uint32_t>::max(),
+         .wanted = std::clamp(
+             std::bit_ceil(std::min(greatestSize(strands), kMostVertices)), kLeastVertices,
+             kMostVertices)},
+        warnings);
+    const StrandSet& uniform = resampled ? *resampled : strands;
+    const std::uint32_t vertices = uniform.ends.front();
+    if (!std::has_single_bit(vertices) || vertices < kLeastVertices || vertices > kMostVertices) {
+        warnings.push_back(
+            std::to_string(vertices) +
+            " vertices per strand: TressFX itself takes 4, 8, 16, 32 or 64");
+    }
+    const auto positions = positionsOf(uniform, vertices);
+    const auto widths = widthsOf(uniform, vertices, warnings);
+    const auto colors = colorsOf(uniform, warnings);
+
+    std::uint64_t end = sizeof(TfxHeader);
+    const TfxHeader header{
+        .strands = uniform.strandCount(),
+        .vertices_per_strand = vertices,
+        .positions = place(end, positions.size() * sizeof(glm::vec4)),
+        .strand_uvs = place(end, uniform.root_uvs.size() * sizeof(glm::vec2)),
+        .strand_thickness = place(end, widths.size() * sizeof(float)),
+        .vertex_colors = place(end, colors.size() * sizeof(glm::vec4))};
+    writeValue(out, header);
+    std::uint64_t position = sizeof(TfxHeader);
+    writeAt(out, position, header.positions, positions);
+    writeAt(out, position, header.strand_uvs, uniform.root_uvs);
+    writeAt(out, position, header.strand_thickness, widths);
+    writeAt(out, position, header.vertex_colors, colors);
+    return warnings;
+}
+
+namespace {
+
+// ---- Import tfx ---------------------------------------------------------------------------------
+
+TfxHeader readHeader(std::span<const std::byte> bytes) {
+    if (bytes.size() < sizeof(TfxHeader)) {
+        failAt(
+            bytes.size(),
+            "truncated: the header alone is " + std::to_string(sizeof(TfxHeader)) + " bytes");
+    }
+    const auto header = valueAt<TfxHeader>(bytes, 0);
+    if (header.version != TfxHeader::kVersion)
+        failAt(0, "version " + std::to_string(header.version) + ", only 4.0 is read");
+    if (header.strands == 0) failAt(4, "0 strands, at least 1 is needed");
+    if (header.vertices_per_strand < 2) {
+        failAt(
+            8, std::to_string(header.vertices_per_strand) +
+                   " vertices per strand, at least 2 are needed");
+    }
+    const std::uint64_t vertices = std::uint64_t{header.strands} * header.vertices_per_strand;
+    if (vertices > std::numeric_limits<std::uint32_t>::max())
+        failAt(4, std::to_string(vertices) + " vertices, at most 2^32 - 1 are read");
+    if (header.positions == 0) failAt(12, "there are no positions");
+    return header;
+}
+
+// An array that the header names.
+struct Array {
+    std::string_view name;
+    std::uint64_t header_offset;  // of its offset
+    std::uint64_t start;
+    std::uint64_t size;  // bytes
+};
+
+// At most 2^32 vertices of 16 bytes: ends fit in 64 bits.
+std::vector<Array> arraysOf(const TfxHeader& header) {
+    const std::uint64_t strands = header.strands;
+    const std::uint64_t vertices = strands * header.vertices_per_strand;
+    std::vector<Array> arrays{
+        {"positions", offsetof(TfxHeader, positions), header.positions, 16 * vertices},
+        {"strand UVs", offsetof(TfxHeader, strand_uvs), header.strand_uvs, 8 * strands},
+        {"vertex UVs", offsetof(TfxHeader, vertex_uvs), header.vertex_uvs, 8 * vertices},
+        {"strand thickness", offsetof(TfxHeader, strand_thickness), header.strand_thickness,
+         4 * strands},
+        {"vertex colours", offsetof(TfxHeader, vertex_colors), header.vertex_colors, 16 * vertices},
+    };
+    std::erase_if(arrays, [](const Array& array) { return array.start == 0; });
+    return arrays;
+}
+
+void checkPlaces(std::vector<Array> arrays, std::uint64_t size) {
+    std::ranges::stable_sort(arrays, {}, &Array::start);
+    std::string before = "header";
+    std::uint64_t end = sizeof(TfxHeader);
+    for (const Array& array : arrays) {
+        const std::string at = std::string(array.name) + " at byte " + std::to_string(array.start);
+        if (array.start % sizeof(float) != 0)
+            failAt(
+                array.header_offset, at + ": not a multiple of " + std::to_string(sizeof(float)));
+        if (array.start < end) {
+            failAt(
+                array.header_offset,
+                at + " lie on the " + before + ", which end at byte " + std::to_string(end));
+        }
+        before = array.name;
+        end = array.start + array.size;
+        if (end <= size) continue;
+        failAt(
+            array.start < size ? size : array.header_offset,
+            at + ": truncated, they end at byte " + std::to_string(end) + ", the file at " +
+                std::to_string(size));
+    }
+}
+
+// One value where all are the same, as TressFX has no other way to say that.
+template <class Value>
+PointAttribute<Value> compact(std::vector<Value> values) {
+    const Value first = values.front();
+    const auto is_first = [&](const Value& value) {  // to the bit: -0 is another
+        return std::memcmp(&value, &first, sizeof first) == 0;
+    };
+    if (std::ranges::all_of(values, is_first)) return {.everywhere = first};
+    return {.values = std::move(values)};
+}
+
+void readPositions(const TfxHeader& header, std::span<const std::byte> bytes, StrandSet& strands) {
+    const std::uint64_t count = std::uint64_t{header.strands} * header.vertices_per_strand;
+    const auto positions = arrayAt<glm::vec4>(bytes, header.positions, count);
+    requireFinite(positions, header.positions, "position");
+    strands.points.assign(positions.begin(), positions.end());
+    std::size_t fixed = 0;
+    for (std::size_t i = 0; i < count; ++i)
+        if (i % header.vertices_per_strand > 1 && positions[i].w == 0.0f) ++fixed;
+    if (fixed > 0) {
+        strands.warnings.push_back(
+            std::to_string(fixed) +
+            " vertices beyond the first two of their strand are fixed (w = 0), which is left out");
+    }
+}
+
+PointAttribute<float> readWidths(const TfxHeader& header, std::span<const std::byte> bytes) {
+    if (header.strand_thickness == 0) return {};
+    const auto widths = arrayAt<float>(bytes, header.strand_thickness, header.strands);
+    requireFinite(widths, header.strand_thickness, "thickness");
+    requireNotNegative(widths, header.strand_thickness, "thickness");
+    std::vector<float> values;
+    values.reserve(std::size_t{header.strands} * header.vertices_per_strand);
+    for (const float width : widths) values.insert(values.end(), header.vertices_per_strand, width);
+    return compact(std::move(values));
+}
+
+void readColors(const TfxHeader& header, std::span<const std::byte> bytes, StrandSet& strands) {
+    if (header.vertex_colors == 0) return;
+    const auto colors = arrayAt<glm::vec4>(bytes, header.vertex_colors, strands.points.size());
+    requireFinite(colors, header.vertex_colors, "colour");
+    strands.colors = compact(std::vector<glm::vec3>(colors.begin(), colors.end()));
+    std::vector<float> transparencies(colors.size());
+    std::ranges::transform(
+        colors, transparencies.begin(), [](const glm::vec4& color) { return 1.0f - color.a; });
+    strands.transparencies = compact(std::move(transparencies));
+}
+
+}  // namespace
+
+StrandSet importTfx(const StrandFile& file) {
+    const TfxHeader header = readHeader(file.bytes);
+    checkPlaces(arraysOf(header), file.bytes.size());
+    StrandSet strands{.ends = uniformEnds(header.strands, header.vertices_per_strand)};
+    readPositions(header, file.bytes, strands);
+    strands.widths = readWidths(header, file.bytes);
+    readColors(header, file.bytes, strands);
+    if (header.strand_uvs != 0) {
+        strands.root_uvs = arrayAt<glm::vec2>(file.bytes, header.strand_uvs, header.strands);
+        requireFinite(strands.root_uvs, header.strand_uvs, "strand UV");
+    }
+    if (header.vertex_uvs != 0)
+        strands.warnings.emplace_back("the texture coordinates of vertices are left out");
+    return strands;
+}
+
+}  // namespace hair::groom

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <optional>
+#include <ostream>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "hair/groom/groom.h"
+
+namespace hair::groom {
+
+// Text of Universal Scene Description: one linear BasisCurves, "/hair". It holds all that strands
+// may have, so that nothing is left out.
+std::vector<std::string> exportUsda(const StrandSet& strands, std::ostream& out);
+
+// Writes values as Universal Scene Description's text has them. Floats are the shortest decimals
+// that read back as the same floats. Nothing is for sure in the stream before flush().
+class UsdaText {
+public:
+    explicit UsdaText(std::ostream& out) : out_(&out) { buffer_.reserve(2 * kBlock); }
+
+    void text(std::string_view text) { buffer_ += text; }
+    void string(std::string_view text);  // quoted, UTF-8
+
+    void value(std::uint32_t number);
+    void value(float number);
+    void value(double number);
+    void value(const glm::vec2& values) { tuple(std::array{values.x, values.y}); }
+    void value(const glm::vec3& values) { tuple(std::array{values.x, values.y, values.z}); }
+    void value(const std::array<std::uint32_t, 3>& values) { tuple(values); }
+
+    template <class Value>
+    void array(std::span<const Value> values) {
+        text("[");
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            if (i > 0) text(", ");
+            value(values[i]);
+            if (buffer_.size() > kBlock) flush();
+        }
+        text("]");
+    }
+
+    void flush();
+
+private:
+    static constexpr std::size_t kBlock = 1 << 16;
+
+    template <class Values>
+    void tuple(const Values& values) {
+        text("(");
+        value(values[0]);
+        for (std::size_t i = 1; i < values.size(); ++i) {
+            text(", ");
+            value(values[i]);
+        }
+        text(")");
+    }
+    template <class Number>
+    void decimal(Number number);
+
+    std::ostream* out_;
+    std::string buffer_;
+};
+
+// When the frames of an animation are: frame i at time code i.
+struct UsdaTiming {
+    std::uint32_t frames = 1;
+    double frame_time = 1.0 / 60.0;  // s
+};
+
+// Writes the file up to the points of its one prim, with all else that the strands have. Returns
+// what is not written equal to the last bit. Throws engine::Error for more than USD counts.
+std::vector<std::string>
+beginUsdaCurves(UsdaText& text, const StrandSet& strands, const std::optional<UsdaTiming>& timing);
+void endUsdaCurves(UsdaText& text);
+
+// The lowest and the highest corner of what the curves cover, as UsdGeomCurves computes it.
+std::array<glm::vec3, 2> usdExtent(std::span<const glm::vec3> points, float greatest_width);
+
+float greatestWidth(const StrandSet& strands);
+
+// Writes strands that move as time-sampled BasisCurves, a frame at a time: none is kept.
+class UsdaAnimation {
+public:
+    // All but the points is of `strands`, in every frame. Throws as exportUsda does.
+    UsdaAnimation(std::ostream& out, const StrandSet& strands, const UsdaTiming& timing);
+
+    // The points of the next frame, as many as the strands have.
+    void frame(std::span<const glm::vec3> points);
+    // After the last one.
+    void end();
+
+    const std::vector<std::string>& warnings() const { return warnings_; }
+
+private:
+    void beginSample(std::uint32_t frame);
+
+    UsdaText text_;
+    std::size_t point_count_;
+    float greatest_width_;
+    std::uint32_t frames_;
+    std::vector<std::array<glm::vec3, 2>> extents_;  // [frame] so far
+    std::vector<std::string> warnings_;
+};
+
+}  // namespace hair::groom

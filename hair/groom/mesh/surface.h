@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "hair/groom/mesh/mesh.h"
+
+namespace hair::groom {
+
+// Directions that tell outside from inside at a triangle's features: with p a point and c the point
+// of the surface nearest to it, p is inside where (p - c) . n < 0 for the n of the feature that c
+// lies on. Baerentzen and Aanaes 2005, Signed distance computation using the angle weighted
+// pseudonormal.
+struct Pseudonormals {
+    glm::dvec3 face;  // unit length
+    std::array<glm::dvec3, 3> edges;  // sum of the two faces' normals; from corner i to the next
+    std::array<glm::dvec3, 3> corners;  // sum of the faces' normals times their angles, rad
+};
+
+// A surface that bounds a volume: every edge belongs to two triangles that run along it in opposite
+// directions. It may have several parts, one in another (a cavity) or apart; that they don't cut
+// each other is not checked. No triangle is without area.
+struct ClosedMesh {
+    std::vector<glm::vec3> positions;  // [vertex], m, each position once
+    std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise seen from outside
+    std::vector<Pseudonormals> normals;  // [triangle]
+};
+
+// Joins vertices with equal positions, and leaves out triangles that have no area. Throws
+// engine::Error that says what is wrong and where for a mesh that is not closed, and for one whose
+// inside is out.
+ClosedMesh closeMesh(const Mesh& mesh);
+
+// A point of a triangle mesh.
+struct MeshPoint {
+    glm::dvec3 position{0.0};
+    std::uint32_t triangle = 0;
+    glm::dvec3 weights{1.0, 0.0, 0.0};  // of the triangle's corners, sum 1, none negative
+    double distance = 0.0;  // from where it was asked for
+};
+
+// Finds the point of a mesh that is nearest to a point, by a hierarchy of boxes. Borrows nothing.
+class NearestSurface {
+public:
+    // At least one triangle; those without area count too.
+    NearestSurface(
+        std::span<const glm::vec3> positions,
+        std::span<const std::array<std::uint32_t, 3>> triangles);
+
+    MeshPoint operator()(const glm::dvec3& point) const;
+
+private:
+    struct Node {
+        glm::vec3 low;
+        glm::vec3 high;
+        std::uint32_t first;  // of its triangles in `corners_`, or of its two children
+        std::uint32_t count;  // triangles; 0: an inner node
+    };
+    std::vector<Node> nodes_;
+    std::vector<std::array<glm::vec3, 3>> corners_;  // in the order of the leaves
+    std::vector<std::uint32_t> sources_;  // the mesh's triangle of each
+};
+
+}  // namespace hair::groom

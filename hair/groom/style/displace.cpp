@@ -1,0 +1,224 @@
+#include "hair/groom/style/displace.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "hair/groom/groom.h"
+#include "hair/groom/style/style.h"
+#include "hair/random.h"
+
+namespace hair::groom {
+
+// ---- Along strand -------------------------------------------------------------------------------
+
+AlongStrand::AlongStrand(std::span<const glm::vec3> points) : arcs_(points.size(), 0.0) {
+    for (std::size_t i = 1; i < points.size(); ++i)
+        arcs_[i] = arcs_[i - 1] + glm::distance(glm::dvec3(points[i - 1]), glm::dvec3(points[i]));
+}
+
+namespace {
+
+// ---- Displace -----------------------------------------------------------------------------------
+
+// Moves the points of every strand but its root. `offsets(groom, strand, along)` gives a function
+// from a point's index to its displacement, which grows from 0 at the root to all of it at the
+// fraction `start` of the strand's length.
+template <class Offsets>
+Groom displace(Groom groom, double start, Offsets&& offsets) {
+    for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand) {
+        const AlongStrand along(groom.strand(strand));
+        const auto offset = offsets(std::as_const(groom), strand, along);
+        glm::vec3* const points =
+            groom.points.data() + std::size_t{strand} * groom.vertices_per_strand;
+        for (std::uint32_t i = 1; i < groom.vertices_per_strand; ++i) {
+            const double share = ease(0.0, start, along.fraction(i));
+            points[i] = glm::vec3(glm::dvec3(points[i]) + share * offset(i));
+        }
+    }
+    return groom;
+}
+
+// The normal of the scalp at the root of a strand, if it is known.
+inline const glm::vec3* rootNormalOf(const Groom& groom, std::uint32_t strand) {
+    return groom.root_normals.empty() ? nullptr : &groom.root_normals[strand];
+}
+
+// ---- Strand frames ------------------------------------------------------------------------------
+
+constexpr double kParallel = 1e-3;  // sine of the angle below which two directions span no plane
+
+glm::dvec3 perpendicularPart(const glm::dvec3& vector, const glm::dvec3& unit) {
+    return vector - glm::dot(vector, unit) * unit;
+}
+
+// One for each point: of the chord between its neighbours, or, where those coincide, of the segment
+// before.
+std::vector<glm::dvec3> tangents(std::span<const glm::vec3> points) {
+    std::vector<glm::dvec3> tangents(points.size());
+    glm::dvec3 last = rootDirection(points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const glm::dvec3 before(points[i == 0 ? 0 : i - 1]);
+        const glm::dvec3 after(points[i + 1 == points.size() ? i : i + 1]);
+        const double length = glm::distance(before, after);
+        if (length > 0.0) last = (after - before) / length;
+        tangents[i] = last;
+    }
+    return tangents;
+}
+
+glm::dvec3 rootNormal(
+    std::span<const glm::vec3> points, const glm::dvec3& tangent, const glm::vec3* root_normal) {
+    if (root_normal) {
+        const glm::dvec3 part = perpendicularPart(glm::dvec3(*root_normal), tangent);
+        if (glm::length(part) > kParallel) return glm::normalize(part);
+    }
+    glm::dvec3 furthest(0.0);
+    double reach = 0.0;
+    for (const glm::vec3& point : points) {
+        const glm::dvec3 from_root = glm::dvec3(point) - glm::dvec3(points.front());
+        const glm::dvec3 part = perpendicularPart(from_root, tangent);
+        if (glm::length(part) > glm::length(furthest)) furthest = part;
+        reach = std::max(reach, glm::length(from_root));
+    }
+    if (glm::length(furthest) > kParallel * reach) return glm::normalize(furthest);
+    return across(tangent);
+}
+
+glm::dvec3 reflect(const glm::dvec3& vector, const glm::dvec3& along, double along_squared) {
+    return vector - 2.0 / along_squared * glm::dot(along, vector) * along;
+}
+
+// The normal at the next point, from that at this one.
+glm::dvec3
+carried(const StrandFrame& frame, const glm::dvec3& step, const glm::dvec3& next_tangent) {
+    glm::dvec3 normal = frame.normal;
+    glm::dvec3 tangent = frame.tangent;
+    if (const double squared = glm::dot(step, step); squared > 0.0) {
+        normal = reflect(normal, step, squared);
+        tangent = reflect(tangent, step, squared);
+    }
+    const glm::dvec3 turn = next_tangent - tangent;
+    if (const double squared = glm::dot(turn, turn); squared > 1e-20)
+        normal = reflect(normal, turn, squared);
+    normal = perpendicularPart(normal, next_tangent);  // of rounding alone
+    const double length = glm::length(normal);
+    return length > kParallel ? normal / length : across(next_tangent);
+}
+
+}  // namespace
+
+glm::dvec3 rootDirection(std::span<const glm::vec3> points) {
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const glm::dvec3 step = glm::dvec3(points[i]) - glm::dvec3(points[i - 1]);
+        if (const double length = glm::length(step); length > 0.0) return step / length;
+    }
+    return {0.0, 0.0, 1.0};
+}
+
+glm::dvec3 across(const glm::dvec3& direction) {
+    const glm::dvec3 size = glm::abs(direction);
+    glm::dvec3 axis(0.0);
+    axis[size.x <= size.y && size.x <= size.z ? 0 : size.y <= size.z ? 1 : 2] = 1.0;
+    return glm::normalize(glm::cross(direction, axis));
+}
+
+std::vector<StrandFrame>
+strandFrames(std::span<const glm::vec3> points, const glm::vec3* root_normal) {
+    assert(!points.empty());
+    const std::vector<glm::dvec3> directions = tangents(points);
+    std::vector<StrandFrame> frames(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const glm::dvec3 normal =
+            i == 0 ? rootNormal(points, directions.front(), root_normal)
+                   : carried(
+                         frames[i - 1], glm::dvec3(points[i]) - glm::dvec3(points[i - 1]),
+                         directions[i]);
+        frames[i] = {directions[i], normal, glm::cross(directions[i], normal)};
+    }
+    return frames;
+}
+
+// ---- Curl ---------------------------------------------------------------------------------------
+
+Groom curl(Groom groom, const CurlSettings& settings, std::uint32_t seed) {
+    if (settings.radius == 0.0f) return groom;
+    return displace(
+        std::move(groom), settings.start,
+        [&](const Groom& before, std::uint32_t strand, const AlongStrand& along) {
+            const double phase =
+                double{settings.phase_variation} * random01(seed, strand, purpose::curl_phase);
+            return [&, phase,
+                    frames = strandFrames(before.strand(strand), rootNormalOf(before, strand))](
+                       std::uint32_t point) {
+                const double turns = settings.frequency * along.arc(point) + phase;
+                const double angle = 2.0 * std::numbers::pi * turns;
+                return double{settings.radius} * (std::cos(angle) * frames[point].normal +
+                                                  std::sin(angle) * frames[point].binormal);
+            };
+        });
+}
+
+namespace {
+
+// ---- Smooth noise -------------------------------------------------------------------------------
+
+// A random point of a cube, drawn in along its ray.
+glm::dvec3 randomInBall(std::uint32_t seed, std::uint32_t purpose, std::uint32_t index) {
+    glm::dvec3 point;
+    for (std::uint32_t axis = 0; axis < 3; ++axis)
+        point[static_cast<int>(axis)] = 2.0 * random01(seed, index, purpose + axis) - 1.0;
+    const double length = glm::length(point);
+    if (length == 0.0) return point;
+    return point * (std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)}) / length);
+}
+
+}  // namespace
+
+glm::dvec3 smoothNoise(std::uint32_t seed, std::uint32_t purpose, double x) {
+    const double whole = std::floor(x);
+    const auto index = static_cast<std::uint32_t>(std::fmod(whole, 4294967296.0));
+    return glm::mix(
+        randomInBall(seed, purpose, index), randomInBall(seed, purpose, index + 1),
+        ease(0.0, 1.0, x - whole));
+}
+
+// ---- Frizz --------------------------------------------------------------------------------------
+
+Groom frizz(Groom groom, const FrizzSettings& settings, std::uint32_t seed) {
+    if (settings.amplitude == 0.0f) return groom;
+    return displace(
+        std::move(groom), settings.start,
+        [&](const Groom&, std::uint32_t strand, const AlongStrand& along) {
+            return [&, own = hash(seed, strand, purpose::frizz_x)](std::uint32_t point) {
+                return double{settings.amplitude} *
+                       smoothNoise(own, purpose::frizz_x, settings.frequency * along.arc(point));
+            };
+        });
+}
+
+// ---- Wave ---------------------------------------------------------------------------------------
+
+Groom wave(Groom groom, const WaveSettings& settings, std::uint32_t seed) {
+    if (settings.amplitude == 0.0f) return groom;
+    return displace(
+        std::move(groom), settings.start,
+        [&](const Groom& before, std::uint32_t strand, const AlongStrand& along) {
+            const double phase =
+                double{settings.phase_variation} * random01(seed, strand, purpose::wave_phase);
+            return [&, phase,
+                    frames = strandFrames(before.strand(strand), rootNormalOf(before, strand))](
+                       std::uint32_t point) {
+                const double waves = settings.frequency * along.arc(point) + phase;
+                return settings.amplitude * std::sin(2.0 * std::numbers::pi * waves) *
+                       frames[point].normal;
+            };
+        });
+}
+
+}  // namespace hair::groom

@@ -1,0 +1,266 @@
+#include "hair/reference/constraints.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace hair::reference {
+namespace {
+
+// ---- Reference constraints ----------------------------------------------------------------------
+
+constexpr double kShortest = 1e-9;  // m
+
+// An axis to turn half round from the unit vector `v`, or to leave a capsule's axis by.
+glm::dvec3 sideways(const glm::dvec3& v) {
+    int least = 0;
+    for (int i = 1; i < 3; ++i)
+        if (std::abs(v[i]) < std::abs(v[least])) least = i;
+    glm::dvec3 axis{0.0};
+    axis[least] = 1.0;
+    const glm::dvec3 normal = glm::cross(v, axis);
+    if (glm::length(normal) == 0.0) return {0.0, 1.0, 0.0};
+    return glm::normalize(normal);
+}
+
+// Rodrigues' formula.
+glm::dmat3 turn(const glm::dvec3& axis, double sine, double cosine) {
+    const glm::dmat3 k{{0.0, axis.z, -axis.y}, {-axis.z, 0.0, axis.x}, {axis.y, -axis.x, 0.0}};
+    return glm::dmat3(1.0) + sine * k + (1.0 - cosine) * (k * k);
+}
+
+glm::dmat3 smallestRotation(const glm::dvec3& from, const glm::dvec3& to) {
+    const glm::dvec3 normal = glm::cross(from, to);
+    const double sine = glm::length(normal);
+    const double cosine = glm::dot(from, to);
+    if (cosine < 0.0 && sine < 1e-6) return turn(sideways(from), 0.0, -1.0);
+    if (sine == 0.0) return glm::dmat3(1.0);
+    return turn(normal / sine, sine, cosine);
+}
+
+double weight(std::size_t vertex) { return vertex == 0 ? 0.0 : 1.0; }
+
+// Calls `correct(i)` for every segment of a strand in red-black order.
+template <class Correct>
+void redBlack(std::size_t vertices, Correct correct) {
+    for (std::size_t first : {std::size_t{1}, std::size_t{2}})
+        for (std::size_t i = first; i < vertices; i += 2) correct(i);
+}
+
+}  // namespace
+
+void integrate(
+    Points positions, Points previous, ConstPoints accelerations, double velocity_kept,
+    double substep) {
+    for (std::size_t i = 1; i < positions.size(); ++i) {
+        const glm::dvec3 now = positions[i];
+        positions[i] =
+            now + velocity_kept * (now - previous[i]) + accelerations[i] * (substep * substep);
+        previous[i] = now;
+    }
+}
+
+void pullToRest(Points positions, ConstPoints rest, double stiffness) {
+    for (std::size_t i = 1; i < positions.size(); ++i)
+        positions[i] += stiffness * (rest[i] - positions[i]);
+}
+
+std::vector<glm::dmat3>
+segmentFrames(ConstPoints positions, ConstPoints rest, const glm::dmat3& root_frame) {
+    std::vector<glm::dmat3> frames{root_frame};
+    glm::dvec3 rest_tangent{0.0, 1.0, 0.0};  // of the segment before
+    glm::dvec3 tangent{0.0};
+    for (std::size_t i = 1; i < positions.size(); ++i) {
+        const glm::dvec3 rest_edge = rest[i] - rest[i - 1];
+        const glm::dvec3 edge = positions[i] - positions[i - 1];
+        const bool has_rest_direction = glm::length(rest_edge) >= kShortest;
+        const glm::dvec3 next_rest = has_rest_direction ? glm::normalize(rest_edge) : rest_tangent;
+        if (i == 1) {
+            rest_tangent = next_rest;
+            tangent = root_frame * next_rest;
+        }
+        const bool has_direction = has_rest_direction && glm::length(edge) >= kShortest;
+        const glm::dvec3 next = has_direction ? glm::normalize(edge) : tangent;
+
+        const glm::dmat3 bend = smallestRotation(tangent, next);
+        const glm::dmat3 rest_bend = smallestRotation(rest_tangent, next_rest);
+        frames.push_back(bend * frames.back() * glm::transpose(rest_bend));
+        tangent = next;
+        rest_tangent = next_rest;
+    }
+    return frames;
+}
+
+void pullToShape(
+    Points positions, ConstPoints rest, double stiffness, const glm::dmat3& root_frame) {
+    const auto frames = segmentFrames(positions, rest, root_frame);
+    redBlack(positions.size(), [&](std::size_t i) {
+        const glm::dvec3 goal = positions[i - 1] + frames[i - 1] * (rest[i] - rest[i - 1]);
+        const glm::dvec3 d = goal - positions[i];
+        const double sum = weight(i - 1) + weight(i);
+        positions[i - 1] -= weight(i - 1) / sum * stiffness * d;
+        positions[i] += weight(i) / sum * stiffness * d;
+    });
+}
+
+void projectLengths(Points positions, ConstPoints rest) {
+    redBlack(positions.size(), [&](std::size_t i) {
+        const double rest_length = glm::length(rest[i] - rest[i - 1]);
+        const glm::dvec3 edge = positions[i] - positions[i - 1];
+        const double length = glm::length(edge);
+        const glm::dvec3 n = length < kShortest ? glm::dvec3{0.0, 1.0, 0.0} : edge / length;
+        const double stretch = length - rest_length;
+        const double sum = weight(i - 1) + weight(i);
+        positions[i - 1] += weight(i - 1) / sum * stretch * n;
+        positions[i] -= weight(i) / sum * stretch * n;
+    });
+}
+
+void pushOut(
+    Points positions, ConstPoints before, std::span<const Collider> colliders,
+    const CollisionSettings& settings) {
+    for (std::size_t i = 1; i < positions.size(); ++i) {
+        for (const Collider& capsule : colliders) {
+            const glm::dvec3 a = capsule.a;
+            const glm::dvec3 axis = glm::dvec3(capsule.b) - a;
+            double along = 0.0;
+            if (glm::dot(axis, axis) > 0.0)
+                along =
+                    std::clamp(glm::dot(positions[i] - a, axis) / glm::dot(axis, axis), 0.0, 1.0);
+            const glm::dvec3 nearest = a + along * axis;
+            const double distance = glm::distance(positions[i], nearest);
+            const double radius = double{capsule.radius} + double{settings.margin};
+            if (distance >= radius) continue;
+            const glm::dvec3 normal =
+                distance < kShortest ? sideways(axis) : (positions[i] - nearest) / distance;
+            positions[i] = nearest + radius * normal;
+            const glm::dvec3 moved = positions[i] - before[i];
+            const glm::dvec3 slid = moved - glm::dot(moved, normal) * normal;
+            const double held = double{settings.friction} * (radius - distance);
+            if (const double length = glm::length(slid); length > 0.0)
+                positions[i] -= std::min(1.0, held / length) * slid;
+        }
+    }
+}
+
+// ---- Reference factors --------------------------------------------------------------------------
+
+double keptFactor(const SimulationSettings& settings, const Step& step) {
+    const double kept = 1.0 - double{settings.friction};
+    if (settings.stiffness_scaling == StiffnessScaling::thesis) return kept;
+    return std::pow(kept, step.sub * 60.0);
+}
+
+double globalFactor(const SimulationSettings& settings, const Step& step) {
+    const double k = settings.global.stiffness;
+    if (settings.stiffness_scaling == StiffnessScaling::thesis || k == 1.0) return k;
+    const double steps = step.sub * 60.0;
+    const double c = k / (1.0 - k) * steps * steps;
+    return c / (1.0 + c);
+}
+
+double localFactor(const SimulationSettings& settings, const Step& step, double segment_length) {
+    const double k = std::min(double{settings.local.stiffness}, 0.95);
+    if (settings.stiffness_scaling == StiffnessScaling::thesis || k == 0.0) return k;
+    if (segment_length == 0.0) return 0.95;
+    const double steps = step.sub * 60.0;
+    const double left = std::pow(1.0 - k, 10.0);  // of an error after a reference step
+    const double left_by_step =
+        std::pow(left, steps * steps * std::pow(0.15 / 7.0 / segment_length, 4.0));
+    return std::min(1.0 - std::pow(left_by_step, 1.0 / settings.local.iterations), 0.95);
+}
+
+// ---- Reference ftl ------------------------------------------------------------------------------
+
+void stepFtl(
+    Points positions, Points previous, ConstPoints rest, const FtlStep& step,
+    const PushOut& push_out) {
+    const std::vector<glm::dvec3> start(positions.begin(), positions.end());
+    const double h = step.substep;
+    std::vector<glm::dvec3> corrections(positions.size(), glm::dvec3(0.0));  // d_i of the paper
+
+    positions[0] = rest[0];
+    for (std::size_t i = 1; i < positions.size(); ++i) {
+        glm::dvec3 p = start[i] + step.velocity_kept * (start[i] - previous[i]) +
+                       h * h * step.accelerations[i];
+        p += step.global_stiffness * (rest[i] - p);
+
+        const glm::dvec3 to_follower = p - positions[i - 1];
+        const double length = glm::length(to_follower);
+        const glm::dvec3 direction =
+            length < 1e-9 ? glm::dvec3{0.0, 1.0, 0.0} : to_follower / length;
+        const glm::dvec3 projected =
+            positions[i - 1] + glm::distance(rest[i], rest[i - 1]) * direction;
+        corrections[i] = projected - p;
+        positions[i] = push_out(projected, start[i]);
+    }
+
+    previous[0] = start[0];
+    for (std::size_t i = 1; i < positions.size(); ++i) {
+        // Eq. 9 has the velocity of the moved vertex; where a body pushed, the push is part of it.
+        glm::dvec3 velocity = (positions[i] - start[i]) / h;
+        if (i + 1 < positions.size()) velocity -= step.velocity_correction / h * corrections[i + 1];
+        previous[i] = positions[i] - h * velocity;
+    }
+}
+
+namespace {
+
+// ---- Reference pull -----------------------------------------------------------------------------
+
+glm::dvec3 handAt(const std::vector<PullKey>& path, double time) {
+    glm::dvec3 place = path.front().position;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+        const double start = path[i - 1].time;
+        const double end = path[i].time;
+        if (time <= start) break;
+        const glm::dvec3 way = glm::dvec3(path[i].position) - glm::dvec3(path[i - 1].position);
+        place =
+            glm::dvec3(path[i - 1].position) + std::fmin(1.0, (time - start) / (end - start)) * way;
+    }
+    return place;
+}
+
+bool pullsIn(const std::vector<PullKey>& path, double from, double to) {
+    if (path.empty()) return false;
+    const double middle = (from + to) / 2.0;
+    return double{path.front().time} <= middle && middle <= double{path.back().time};
+}
+
+}  // namespace
+
+// The held vertex's velocity at the step's end solves
+//   v' = v + dt f + dt (k (h' - x - dt v') + c (w - v')),
+// and the hand's part is what f leaves of it.
+void addPulls(
+    std::span<const PullSettings> pulls, const PulledHair& hair,
+    std::span<glm::dvec3> accelerations) {
+    const double dt = hair.to - hair.from;
+    for (const PullSettings& pull : pulls) {
+        if (!pullsIn(pull.path, hair.from, hair.to)) continue;
+        const std::size_t held = pull.guide * hair.vertices + pull.vertex;
+        const double k = pull.stiffness;
+        const double c = 2.0 * std::sqrt(k);
+        const glm::dvec3 hand = handAt(pull.path, hair.to);
+        const glm::dvec3 w = (hand - handAt(pull.path, hair.from)) / dt;
+        const glm::dvec3 x = hair.positions[held];
+        const glm::dvec3 v = (x - hair.previous[held]) / hair.substep;
+        const glm::dvec3 f = accelerations[held];
+        const glm::dvec3 end =
+            (v + dt * f + dt * k * (hand - x) + dt * c * w) / (1.0 + dt * c + dt * dt * k);
+        const glm::dvec3 acceleration = (end - v) / dt - f;
+        for (std::size_t i = 0; i < accelerations.size(); ++i) {
+            if (i % hair.vertices == 0) continue;
+            const double d = glm::distance(hair.rest[i], hair.rest[held]);
+            const double r = pull.radius;
+            if (i == held)
+                accelerations[i] += acceleration;
+            else if (r > 0.0)
+                accelerations[i] += std::exp(-(d * d) / (r * r)) * acceleration;
+        }
+    }
+}
+
+}  // namespace hair::reference

@@ -1,0 +1,150 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include "hair/gpu_structs.h"
+#include "hair/settings.h"
+#include "hair/simulation/head_motion.h"
+
+// The simulation's equations, one function each, in double and straight from the papers: what the
+// GPU is tested against. Nothing here is shared with the shaders or with what feeds them.
+//
+// Every span is the vertices of one strand, root first, in m. The root is pinned: it has infinite
+// mass, every other vertex mass 1. Segment i ends in vertex i, so segment 1 holds the root.
+// Iterations are red-black: segments that end in odd vertices move first, then those that end in
+// even ones. A segment shorter than 1e-9 m has no direction of its own.
+namespace hair::reference {
+
+using Points = std::span<glm::dvec3>;
+using ConstPoints = std::span<const glm::dvec3>;
+
+// Thesis eq. 9 with friction; leaves the root alone. `previous` becomes the positions before the
+// call.
+void integrate(
+    Points positions, Points previous, ConstPoints accelerations, double velocity_kept,
+    double substep);
+
+// Thesis eq. 10.
+void pullToRest(Points positions, ConstPoints rest, double stiffness);
+
+// Frames of the segments, [vertex]: entry 0 is the root's, entry i >= 1 that of segment i. A frame
+// turns the rest strand's directions into the current one's: R_0 = root_frame, R_1 is R_0 followed
+// by the smallest rotation that takes R_0 s_1 to t_1, and R_i = P_i R_(i-1) Q_i^-1 with P_i, Q_i
+// the smallest rotations t_(i-1) -> t_i and s_(i-1) -> s_i of unit tangents now (t) and at rest
+// (s). Opposite tangents turn round an axis that is perpendicular to the first and to the
+// coordinate axis it has least of. A segment that has no direction at rest or now takes the tangent
+// of the segment before it, the first one R_0 s_1; the rest tangent likewise, the first one +y.
+std::vector<glm::dmat3> segmentFrames(
+    ConstPoints positions, ConstPoints rest, const glm::dmat3& root_frame = glm::dmat3(1.0));
+
+// Thesis eq. 11, one red-black iteration with the frames of its start; Han and Harada 2012.
+void pullToShape(
+    Points positions, ConstPoints rest, double stiffness,
+    const glm::dmat3& root_frame = glm::dmat3(1.0));
+
+// Thesis eq. 12, one red-black iteration. Vertices that coincide are parted along +y.
+void projectLengths(Points positions, ConstPoints rest);
+
+// Moves every vertex but the root to the surface of each capsule it is inside of, in the list's
+// order and the margin away from it, the shortest way; from a point on the axis along the
+// perpendicular described above. Friction then takes back what the vertex moved along the surface
+// since `before`, at most the coefficient times the depth: Macklin et al. 2014, Unified particle
+// physics for real-time applications, eq. 24.
+void pushOut(
+    Points positions, ConstPoints before, std::span<const Collider> colliders,
+    const CollisionSettings& settings);
+
+// Contact of one vertex with every capsule, one after the other, each in the frame that it moves
+// with: what slides on it is the motion relative to it.
+struct Contact {
+    const SimulationSettings& settings;
+    simulation::RigidMotion frame;  // of the head at the end of the substep
+    simulation::RigidMotion frame_before;  // and at its start
+
+    // Where the vertex comes to lie that has moved from `before` to `position`.
+    glm::dvec3 operator()(glm::dvec3 position, const glm::dvec3& before) const {
+        for (const Collider& collider : settings.colliders) {
+            const bool on_head = collider.follows == Follows::head;
+            const simulation::RigidMotion now = on_head ? frame : simulation::RigidMotion{};
+            const simulation::RigidMotion then = on_head ? frame_before : simulation::RigidMotion{};
+            // pushOut leaves the root alone, so the vertex is a strand's second.
+            glm::dvec3 here[2] = {glm::dvec3(0.0), seenFrom(now, position)};
+            const glm::dvec3 there[2] = {glm::dvec3(0.0), seenFrom(then, before)};
+            const glm::dvec3 free = here[1];
+            pushOut(here, there, std::span(&collider, 1), settings.collision);
+            if (here[1] != free) position = now(here[1]);
+        }
+        return position;
+    }
+
+    static glm::dvec3 seenFrom(const simulation::RigidMotion& motion, const glm::dvec3& point) {
+        return glm::conjugate(motion.rotation) * (point - motion.translation);
+    }
+};
+
+// The scalings that stiffness.h describes, from its text and not from its code: the step against
+// 1/60 s, 10 iterations and segments of 0.15/7 m.
+
+// gpu::Step in double.
+struct Step {
+    double whole = 0.0;  // s
+    double sub = 0.0;  // s
+    std::uint32_t count = 1;
+};
+
+inline Step inDouble(const gpu::Step& step) {
+    return {.whole = step.whole, .sub = step.sub, .count = step.count};
+}
+
+// Fraction of the velocity left after a substep.
+double keptFactor(const SimulationSettings& settings, const Step& step);
+// k_G of thesis eq. 10 for a substep.
+double globalFactor(const SimulationSettings& settings, const Step& step);
+// k_L of thesis eq. 11 for an iteration on a strand with this mean segment length, m.
+double localFactor(const SimulationSettings& settings, const Step& step, double segment_length);
+
+// Where a vertex comes to lie that has moved from `before` to `position`.
+using PushOut = std::function<glm::dvec3(const glm::dvec3& position, const glm::dvec3& before)>;
+
+struct FtlStep {
+    ConstPoints accelerations;  // m/s^2
+    double substep = 0.0;  // s
+    double velocity_kept = 1.0;
+    double global_stiffness = 0.0;
+    double velocity_correction = 0.0;  // s_damping of eq. 9
+};
+
+// One substep of follow the leader for one strand: Mueller, Kim and Chentanez 2012, Fast simulation
+// of inextensible hair and fur, section 3. `rest` is the rest strand where the head is now, and
+// positions[0] is taken from it. `previous` becomes positions less substep times velocity, with
+// eq. 9's velocities.
+void stepFtl(
+    Points positions, Points previous, ConstPoints rest, const FtlStep& step,
+    const PushOut& push_out);
+
+// What hands do to hair, in double and straight from the equations of pulls.h.
+
+// Every strand at the start of a time step, [strand][vertex], m.
+struct PulledHair {
+    std::size_t vertices = 0;  // per strand
+    std::span<const glm::dvec3> rest;
+    std::span<const glm::dvec3> positions;
+    std::span<const glm::dvec3> previous;
+    double substep = 0.0;  // s
+    double from = 0.0;  // of the time step, s
+    double to = 0.0;
+};
+
+// Adds what the settings' hands give to accelerations that have all else, gravity too, m/s^2.
+void addPulls(
+    std::span<const PullSettings> pulls, const PulledHair& hair,
+    std::span<glm::dvec3> accelerations);
+
+}  // namespace hair::reference

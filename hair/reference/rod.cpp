@@ -1,0 +1,406 @@
+#include "hair/reference/rod.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "hair/reference/constraints.h"
+
+namespace hair::reference {
+namespace {
+
+// ---- Reference rod joint ------------------------------------------------------------------------
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kSteepest = 2.0 * kPi / 3.0;  // rad, of a whole joint: where tangents turn lines
+
+// Energy of bending over stiffness with its first two derivatives by the angle.
+struct Bend {
+    double energy, torque, stiffness;
+};
+
+Bend bendBy(double angle, double copies) {
+    const auto elastica = [&](double b) {
+        const double cosine = std::cos(copies * b / 2.0);
+        return Bend{
+            -4.0 / (copies * copies) * std::log(cosine), 2.0 / copies * std::tan(copies * b / 2.0),
+            1.0 / (cosine * cosine)};
+    };
+    const double end = kSteepest / copies;
+    if (angle <= end) return elastica(angle);
+    const Bend last = elastica(end);
+    const double more = angle - end;
+    return {
+        last.energy + last.torque * more + last.stiffness * more * more / 2.0,
+        last.torque + last.stiffness * more, last.stiffness};
+}
+
+}  // namespace
+
+Joint bendAndTwist(
+    const glm::dquat& first, const glm::dquat& second, double bend_stiffness,
+    double twist_stiffness, Clamp clamp) {
+    // The relative rotation: first a twist round the third axis, then a bend by `angle`. Opposite
+    // third axes leave w = z = 0; which twist they get is of no account.
+    glm::dquat r = glm::conjugate(first) * second;
+    if (r.w < 0.0) r = -r;
+    if (r.w * r.w + r.z * r.z < 1e-12) r.w = 1e-6;
+    const double cosine = std::sqrt(r.w * r.w + r.z * r.z);  // of half of the angle
+    const double sine = std::sqrt(r.x * r.x + r.y * r.y);
+    const double angle = 2.0 * std::atan2(sine, cosine);
+    const double twist = 2.0 * std::atan2(r.z, r.w);
+
+    // Both have length sine * cosine: `across` is the axis that the angle grows round, `beside` is
+    // perpendicular to it and to the first frame's third axis.
+    const glm::dvec3 across(r.w * r.x - r.z * r.y, r.w * r.y + r.z * r.x, 0.0);
+    const glm::dvec3 beside(across.y, -across.x, 0.0);
+    const glm::dvec3 axis(0.0, 0.0, 1.0);
+
+    const Bend bend = bendBy(angle, clamp == Clamp::yes ? 2.0 : 1.0);
+    const glm::dvec3 bend_axis = sine > 0.0 ? across / (sine * cosine) : glm::dvec3(1.0, 0.0, 0.0);
+
+    // fade = min(1, (cosine / cosine_at_120_degrees)^4), with cosine^2 as the variable.
+    const double square = cosine * cosine;
+    const double square_there = std::pow(std::cos(kSteepest / 2.0), 2.0);
+    const bool fades = square < square_there;
+    const double fade = fades ? std::pow(square / square_there, 2.0) : 1.0;
+    const double fade_slope = fades ? 2.0 * square / (square_there * square_there) : 0.0;
+
+    const glm::dvec3 twist_gradient = axis + beside / square;
+    const glm::dvec3 gradient = bend_stiffness * bend.torque * bend_axis +
+                                twist_stiffness * (twist * fade * twist_gradient -
+                                                   0.5 * twist * twist * fade_slope * across);
+    // What the small rotations make of it; the torque is exact, and so is where Newton's method
+    // goes.
+    const glm::dmat3 stiffness =
+        bend_stiffness * (glm::dmat3(1.0) - glm::outerProduct(axis, axis) +
+                          (bend.stiffness - 1.0) * glm::outerProduct(bend_axis, bend_axis)) +
+        twist_stiffness * glm::outerProduct(axis, axis);
+
+    const glm::dmat3 to_space = glm::mat3_cast(first);
+    return {
+        .energy = bend_stiffness * bend.energy + twist_stiffness * fade * twist * twist / 2.0,
+        .torque = -(to_space * gradient),
+        .stiffness = to_space * stiffness * glm::transpose(to_space)};
+}
+
+glm::dquat rotationBetween(const glm::dvec3& from, const glm::dvec3& to) {
+    const glm::dvec3 middle = from + to;
+    if (glm::length(middle) < 1e-6) {
+        const glm::dvec3 size = glm::abs(from);
+        glm::dvec3 least(0.0);
+        least[size.x <= size.y && size.x <= size.z ? 0 : (size.y <= size.z ? 1 : 2)] = 1.0;
+        return {0.0, glm::normalize(glm::cross(from, least))};
+    }
+    const glm::dvec3 half = glm::normalize(middle);
+    return {glm::dot(from, half), glm::cross(from, half)};
+}
+
+glm::dquat halfOf(const glm::dquat& rotation) {
+    const glm::dquat near = rotation.w < 0.0 ? -rotation : rotation;
+    return glm::normalize(near + glm::dquat(1.0, 0.0, 0.0, 0.0));
+}
+
+namespace {
+
+// ---- Reference rod ------------------------------------------------------------------------------
+
+constexpr double kShortest = 1e-9;  // m
+// Lower bounds, over the strand's mean segment, of the length that a segment's inertia is worked
+// out with and of a vertex's mass. Only coincident points fall below; the bounds keep divisors from
+// 0.
+constexpr double kLeastLength = 0.1;
+constexpr double kLeastMass = 0.01;
+// Largest rotation of a segment in an iteration, rad: a Newton step from far away can overshoot.
+constexpr double kMostTurn = 1.0;
+
+const glm::dmat3 kIdentity(1.0);
+
+// crossMatrix(a) b = a x b.
+glm::dmat3 crossMatrix(const glm::dvec3& a) {
+    return {{0.0, a.z, -a.y}, {-a.z, 0.0, a.x}, {a.y, -a.x, 0.0}};
+}
+
+glm::dvec3 axisOf(const glm::dquat& orientation) { return orientation * glm::dvec3(0.0, 0.0, 1.0); }
+
+// Turned by a rotation vector, to second order; by less than half a turn however long it is.
+glm::dquat turned(const glm::dquat& orientation, const glm::dvec3& rotation) {
+    return glm::normalize(glm::dquat(1.0, 0.5 * rotation) * orientation);
+}
+
+Joint jointAt(const RodState& state, const RodRest& rest, std::size_t i) {
+    return bendAndTwist(
+        state.orientations[i - 1] * rest.half_rotations[i],
+        state.orientations[i] * glm::conjugate(rest.half_rotations[i]), rest.bend_stiffness[i],
+        rest.twist_stiffness[i], i == 1 ? Clamp::yes : Clamp::no);
+}
+
+// A step's unknowns are rotations of the segments; the vertices follow, so that lengths never
+// change. The step minimises
+//   sum over i of  m_i / (2 h^2) |displacement_i|^2 + j_i / (2 h^2) |rotation_i|^2 + U_i,
+// both from the prediction, U_i the energy of joint i. All of this in N m.
+struct RodSubstep {
+    RodState& state;
+    const RodRest& rest;
+    double substep;
+    std::vector<glm::dvec3> displacements;  // of vertices, m
+    std::vector<glm::dvec3> rotations;  // of segments, rad
+
+    std::size_t size() const { return rest.lengths.size(); }
+    double massOf(std::size_t i) const {
+        if (!state.pins.contains(i)) return rest.masses[i];
+        return kPinMass * std::accumulate(rest.masses.begin(), rest.masses.end(), 0.0);
+    }
+
+    void predict(std::span<const glm::dvec3> accelerations, const RodRoot& root, double kept);
+    void iterate();
+    // Turns segments by `turns` and moves the vertices along.
+    void turn(std::span<const glm::dvec3> turns);
+    void finish();
+};
+
+void RodSubstep::predict(
+    std::span<const glm::dvec3> accelerations, const RodRoot& root, double velocity_kept) {
+    const glm::dvec3 root_now = root.rotation * rest.points[0] + root.translation;
+    state.velocities[0] = (root_now - state.root) / substep;
+    state.root = root_now;
+    state.orientations[0] = root.rotation * rest.orientations[0];
+    // The prediction itself stretches segments: it is what displacements are against.
+    glm::dvec3 stretched{0.0};  // what collisions did, from the root down
+    glm::dvec3 position = state.root;
+    std::vector<glm::dvec3> turns{glm::dvec3(0.0)};
+    for (std::size_t i = 1; i < size(); ++i) {
+        state.velocities[i] = velocity_kept * state.velocities[i] + substep * accelerations[i];
+        state.angular_velocities[i] *= velocity_kept;
+        const glm::dvec3 edge = rest.lengths[i] * axisOf(state.orientations[i]);
+        stretched += state.edges[i] - edge;
+        displacements[i] = substep * (state.velocities[0] - state.velocities[i]) - stretched;
+        state.edges[i] = edge;
+        position += edge;
+        if (const auto pin = state.pins.find(i); pin != state.pins.end()) {
+            state.velocities[i] = glm::dvec3(0.0);
+            displacements[i] = position - pin->second;
+        }
+        turns.push_back(substep * state.angular_velocities[i]);
+    }
+    turn(turns);
+}
+
+void RodSubstep::turn(std::span<const glm::dvec3> turns) {
+    glm::dvec3 moved{0.0};
+    for (std::size_t i = 1; i < size(); ++i) {
+        state.orientations[i] = turned(state.orientations[i], turns[i]);
+        const glm::dvec3 edge = rest.lengths[i] * axisOf(state.orientations[i]);
+        moved += edge - state.edges[i];
+        state.edges[i] = edge;
+        displacements[i] += moved;
+    }
+}
+
+// One Newton step. `Below` is the least energy of all below a vertex as a quadratic function of how
+// the vertex moves (x) and the segment that ends there turns (t): x A x / 2 + x B t + t C t / 2 +
+// a x + b t; going up, the turn of each segment is eliminated.
+void RodSubstep::iterate() {
+    struct Below {
+        glm::dmat3 A{0.0}, B{0.0}, C{0.0};
+        glm::dvec3 a{0.0}, b{0.0};
+    };
+    struct Turn {  // of a segment, from the vertex and the segment above
+        glm::dmat3 by_move, by_turn;
+        glm::dvec3 by_itself;
+    };
+    std::vector<Turn> answers(size());
+    const double per_square = 1.0 / (substep * substep);
+    glm::dvec3 force{0.0};  // through the segment on the vertex where it ends
+    Below below;
+    for (std::size_t i = size() - 1; i > 0; --i) {
+        const double mass = massOf(i) * per_square;
+        const double inertia = rest.inertias[i] * per_square;
+        const glm::dvec3 axis = axisOf(state.orientations[i]);
+        const Joint joint = jointAt(state, rest, i);
+
+        // Geometric stiffness: tension straightens. Pressure would bend, which is left out lest the
+        // minimum be a saddle.
+        force += mass * displacements[i];
+        const double tension = -glm::dot(force, axis);
+        below.A += mass * kIdentity;
+        below.a += mass * displacements[i];
+        below.C += inertia * kIdentity + std::max(tension, 0.0) * rest.lengths[i] *
+                                             (kIdentity - glm::outerProduct(axis, axis));
+        below.b += inertia * rotations[i];
+
+        // From the vertex at the end of the segment to that at its start: x + lever t.
+        const glm::dmat3 lever = -rest.lengths[i] * crossMatrix(axis);
+        const glm::dmat3 from_lever = glm::transpose(lever) * below.B;
+        below.C +=
+            glm::transpose(lever) * below.A * lever + from_lever + glm::transpose(from_lever);
+        below.B += below.A * lever;
+        below.b += glm::transpose(lever) * below.a;
+
+        const glm::dmat3 yields = glm::inverse(below.C + joint.stiffness);
+        Turn& answer = answers[i];
+        answer.by_move = -yields * glm::transpose(below.B);
+        answer.by_turn = yields * joint.stiffness;
+        answer.by_itself = yields * (joint.torque - below.b);
+
+        Below above;
+        above.A = below.A + below.B * answer.by_move;
+        above.B = below.B * answer.by_turn;
+        above.C = below.C * answer.by_turn;
+        above.a = below.a + below.B * answer.by_itself;
+        above.b = joint.stiffness * (yields * below.b) + below.C * (yields * joint.torque);
+        below = above;
+    }
+
+    std::vector<glm::dvec3> turns{glm::dvec3(0.0)};
+    glm::dvec3 moved{0.0};
+    for (std::size_t i = 1; i < size(); ++i) {
+        const Turn& answer = answers[i];
+        glm::dvec3 turn = answer.by_move * moved + answer.by_turn * turns.back() + answer.by_itself;
+        turn *= kMostTurn / std::max(glm::length(turn), kMostTurn);
+        moved += glm::cross(turn, state.edges[i]);
+        turns.push_back(turn);
+        rotations[i] += turn;
+    }
+    turn(turns);
+}
+
+void RodSubstep::finish() {
+    for (std::size_t i = 1; i < size(); ++i) {
+        if (!state.pins.contains(i)) state.velocities[i] += displacements[i] / substep;
+        state.angular_velocities[i] += rotations[i] / substep;
+    }
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> RodState::positions() const {
+    std::vector<glm::dvec3> points{root};
+    for (std::size_t i = 1; i < edges.size(); ++i) points.push_back(points.back() + edges[i]);
+    return points;
+}
+
+RodRest makeRodRest(std::span<const glm::dvec3> points, const RodMaterial& material) {
+    const std::size_t size = points.size();
+    const double area = kPi * material.radius * material.radius;
+    const double line_density = material.density * area;
+    const double second_moment = area * material.radius * material.radius / 4.0;
+
+    RodRest rest{.points = {points.begin(), points.end()}};
+    rest.lengths.assign(size, 0.0);
+    double total = 0.0;
+    for (std::size_t i = 1; i < size; ++i)
+        total += rest.lengths[i] = glm::distance(points[i], points[i - 1]);
+    const double mean = std::max(total / static_cast<double>(size - 1), 1e-6);
+
+    glm::dvec3 tangent{0.0, 1.0, 0.0};
+    if (rest.lengths[1] >= kShortest) tangent = (points[1] - points[0]) / rest.lengths[1];
+    rest.orientations.push_back(rotationBetween({0.0, 0.0, 1.0}, tangent));
+    for (std::size_t i = 1; i < size; ++i) {
+        glm::dvec3 next = tangent;
+        if (rest.lengths[i] >= kShortest) next = (points[i] - points[i - 1]) / rest.lengths[i];
+        rest.orientations.push_back(
+            glm::normalize(rotationBetween(tangent, next) * rest.orientations.back()));
+        tangent = next;
+    }
+    rest.half_rotations.assign(size, glm::dquat(1.0, 0.0, 0.0, 0.0));
+    for (std::size_t i = 1; i < size; ++i)
+        rest.half_rotations[i] =
+            halfOf(glm::conjugate(rest.orientations[i - 1]) * rest.orientations[i]);
+
+    for (std::size_t i = 0; i < size; ++i) {
+        const double below = i + 1 < size ? rest.lengths[i + 1] : 0.0;
+        const double turning = std::max(rest.lengths[i], kLeastLength * mean);
+        // The first joint is half of one between the segment and its mirror image in the follicle.
+        const double joint =
+            i == 1 ? rest.lengths[1] / 2.0 : (rest.lengths[i] + rest.lengths[i - (i > 0)]) / 2.0;
+        const double short_joint = std::max(joint, kShortest);
+        rest.masses.push_back(
+            line_density * std::max((rest.lengths[i] + below) / 2.0, kLeastMass * mean));
+        rest.inertias.push_back(line_density * turning * turning * turning / 12.0);
+        rest.bend_stiffness.push_back(material.youngs_modulus * second_moment / short_joint);
+        rest.twist_stiffness.push_back(material.shear_modulus * 2.0 * second_moment / short_joint);
+    }
+    return rest;
+}
+
+RodState rodAtRest(const RodRest& rest, const RodRoot& root) {
+    RodState state{.root = root.rotation * rest.points[0] + root.translation};
+    for (std::size_t i = 0; i < rest.lengths.size(); ++i) {
+        state.orientations.push_back(root.rotation * rest.orientations[i]);
+        state.edges.push_back(rest.lengths[i] * axisOf(state.orientations[i]));
+    }
+    state.velocities.assign(rest.lengths.size(), glm::dvec3(0.0));
+    state.angular_velocities = state.velocities;
+    return state;
+}
+
+RodState rodFrom(
+    const RodRest& rest, std::span<const glm::dvec3> positions,
+    std::span<const glm::dvec3> previous, double substep, const RodRoot& root) {
+    RodState state = rodAtRest(rest, root);
+    state.root = positions[0];
+    const std::vector<glm::dmat3> frames =
+        segmentFrames(positions, rest.points, glm::mat3_cast(root.rotation));
+    for (std::size_t i = 1; i < positions.size(); ++i) {
+        state.edges[i] = positions[i] - positions[i - 1];
+        state.velocities[i] = (positions[i] - previous[i]) / substep;
+        state.orientations[i] = glm::normalize(glm::quat_cast(frames[i]) * rest.orientations[i]);
+        const glm::dvec3 edge_before = previous[i] - previous[i - 1];
+        if (glm::length(edge_before) < kShortest || glm::length(state.edges[i]) < kShortest)
+            continue;
+        const glm::dquat turn =
+            rotationBetween(glm::normalize(edge_before), glm::normalize(state.edges[i]));
+        state.angular_velocities[i] =
+            2.0 / substep * glm::dvec3(turn.x, turn.y, turn.z);  // bounded by the sine
+    }
+    return state;
+}
+
+void stepRod(
+    RodState& state, const RodRest& rest, std::span<const glm::dvec3> accelerations,
+    const RodRoot& root, double substep, double velocity_kept, std::uint32_t iterations) {
+    assert(accelerations.size() == rest.lengths.size());
+    RodSubstep step{
+        .state = state,
+        .rest = rest,
+        .substep = substep,
+        .displacements = std::vector(rest.lengths.size(), glm::dvec3(0.0)),
+        .rotations = std::vector(rest.lengths.size(), glm::dvec3(0.0))};
+    step.predict(accelerations, root, velocity_kept);
+    for (std::uint32_t i = 0; i < iterations; ++i) step.iterate();
+    step.finish();
+}
+
+void pushRod(
+    RodState& state, const RodRest& rest, std::span<const glm::dvec3> positions, double substep) {
+    const std::vector<glm::dvec3> before = state.positions();
+    for (std::size_t i = 1; i < before.size(); ++i) {
+        state.velocities[i] += (positions[i] - before[i]) / substep;
+        const glm::dvec3 edge = positions[i] - positions[i - 1];
+        state.edges[i] = edge;
+        if (rest.lengths[i] < kShortest || glm::length(edge) < kShortest) continue;
+        const glm::dquat turn =
+            rotationBetween(axisOf(state.orientations[i]), glm::normalize(edge));
+        state.orientations[i] = glm::normalize(turn * state.orientations[i]);
+        state.angular_velocities[i] += 2.0 / substep * glm::dvec3(turn.x, turn.y, turn.z);
+    }
+}
+
+double rodEnergy(const RodState& state, const RodRest& rest) {
+    double energy = 0.0;
+    for (std::size_t i = 1; i < rest.lengths.size(); ++i) {
+        energy += rest.masses[i] * glm::dot(state.velocities[i], state.velocities[i]) / 2.0 +
+                  rest.inertias[i] *
+                      glm::dot(state.angular_velocities[i], state.angular_velocities[i]) / 2.0 +
+                  jointAt(state, rest, i).energy;
+    }
+    return energy;
+}
+
+}  // namespace hair::reference

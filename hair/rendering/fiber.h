@@ -1,0 +1,142 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "engine/buffer_image.h"
+#include "engine/device.h"
+#include "hair/gpu_structs.h"
+#include "hair/settings.h"
+#include "hair/shading_settings.h"
+
+namespace hair::rendering {
+
+// What a fibre scatters, as the settings say, without the address of the averages.
+gpu::HairOptics makeHairOptics(const ShadingSettings& shading);
+
+// The averages that dual scattering looks up, over cos theta_i.
+std::vector<gpu::FiberAverage> makeFiberAverages(const ShadingSettings& shading);
+
+// HairOptics and FiberAverages on the device; the averages only where the model needs them.
+class HairOpticsBuffers {
+public:
+    HairOpticsBuffers(const engine::Device& device, const Settings& settings);
+
+    std::uint64_t address() const { return optics_.address(); }  // of gpu::HairOptics
+
+private:
+    engine::Buffer averages_;
+    engine::Buffer optics_;
+};
+
+// Scattering of light by one fibre, in double precision: Chiang et al. 2016, A practical and
+// controllable hair and fur model for production path tracing, in the notation of pbrt-v4 (Pharr,
+// Jakob and Humphreys 2023, Physically based rendering, 4th ed., section 9.9). The shaders' own is
+// in shaders/shading/fiber_bsdf.glsl and shares no mathematics with this one.
+//
+// Directions are unit vectors away from the fibre, x along it towards the tip; theta is their angle
+// with the plane across it, phi = atan2(z, y). h in [-1, 1] is the place across the fibre where a
+// ray from `wo` meets it: at the azimuth phi_o - asin(h).
+
+// Lobes: reflected (R), through the fibre (TT), reflected inside once (TRT), all that is left.
+inline constexpr std::size_t kFiberLobes = 4;
+
+template <class Value>
+using PerLobe = std::array<Value, kFiberLobes>;
+
+// What shading settings say of a fibre.
+struct Fiber {
+    glm::dvec3 absorption{0};  // sigma_a, over a radius
+    double eta = 0;  // refractive index
+    PerLobe<double> variances{};  // v_p of M_p, rad^2
+    // theta_i + theta_o where lobe p is strongest, rad. It follows from the *tilt* alpha of the
+    // cuticle's scales, whose outer faces look towards the root: -2 alpha, alpha, 4 alpha, 0
+    // (Chiang et al. 2016). It is not the *shift* alpha_R = -alpha of Marschner et al. 2003, which
+    // is of the half angle. Where the curve's parameter grows towards the tip, pbrt-v4 and
+    // Mitsuba 3.9 have all signs the other way round.
+    PerLobe<double> shifts{};
+    double azimuthal_scale = 0;  // s of N_p
+};
+
+Fiber makeFiber(const ShadingSettings& shading);
+
+// Part of the light that a dielectric reflects, without polarisation. `cosine` is that of the angle
+// of incidence, >= 0; `eta` is above 1.
+double fresnel(double cosine, double eta);
+
+// M_p, d'Eon et al. 2011, An energy-conserving hair reflectance model: over theta_i, M_p cos
+// theta_i integrates to 1. It is strongest at theta_i = -theta_o.
+double longitudinal(double theta_i, double theta_o, double variance);
+
+// The logistic distribution on [-pi, pi].
+double trimmedLogistic(double x, double scale);
+double trimmedLogisticCdf(double x, double scale);  // from -pi
+
+// What a ray does in the fibre.
+struct FiberPath {
+    PerLobe<glm::dvec3> attenuations{};  // A_p
+    std::array<double, 3> azimuths{};  // Phi(p): phi_i - phi_o of a smooth fibre; the rest has none
+};
+
+FiberPath fiberPath(const Fiber& fiber, double theta_o, double h);
+
+// f(wo, wi) |cos theta_i|: radiance towards wo from a light of unit irradiance on a plane that
+// faces it. (|cos theta_i| cancels in it, which is why f itself is not asked for.)
+glm::dvec3 scattering(const Fiber& fiber, const glm::dvec3& wo, const glm::dvec3& wi, double h);
+
+// Importance sampling of wi: a lobe by its mean attenuation, then M_p and N_p exactly.
+double samplingPdf(const Fiber& fiber, const glm::dvec3& wo, const glm::dvec3& wi, double h);
+// `u`: four independent numbers in [0, 1).
+glm::dvec3
+sampleDirection(const Fiber& fiber, const glm::dvec3& wo, double h, std::span<const double, 4> u);
+
+// Light that many fibres scatter, in double precision: Zinke, Yuksel, Weber and Keyser 2008, Dual
+// scattering approximation for fast multiple scattering in hair. Forward is away from the light:
+// the half turn of azimuths round phi_i + pi.
+
+// Averages over the width of a fibre and over a half turn, for light at an angle theta with the
+// plane across the fibre.
+struct FiberAverages {
+    glm::dvec3 forward{0};  // a_f, equation (6): part of the light that goes on forward
+    glm::dvec3 backward{0};  // a_b, equation (12)
+    double forward_shift = 0;  // mean of theta_i + theta_o, rad
+    double backward_shift = 0;
+    double forward_variance = 0;  // beta_f^2, rad^2: variances add up, so they are averaged
+    double backward_variance = 0;
+};
+
+FiberAverages averageOverFiber(const Fiber& fiber, double theta);
+
+// What light that passes a fibre forward, is scattered backward behind it once or three times and
+// passes it again adds to the fibre's own.
+struct LocalScattering {
+    glm::dvec3 albedo{0};  // A_b, equations (13) to (15)
+    double shift = 0;  // mean of theta_i + theta_o, rad
+    double variance = 0;  // rad^2
+};
+
+// Shift and variance are the means over the series of (14) and (15), of which the paper's (16) and
+// (17) are approximations.
+LocalScattering localScattering(const FiberAverages& averages);
+
+// Light that reaches a fibre behind others. Fibres are met independently, so their number has
+// Poisson's distribution with mean `strands`.
+struct GlobalScattering {
+    double direct = 1;  // part that meets none: exp(-strands)
+    glm::dvec3 forward{0};  // part scattered forward by all that it meets, one at least
+    double shift = 0;  // mean of what theta_i changes by, rad
+    double variance = 0;  // rad^2
+};
+
+GlobalScattering globalScattering(const FiberAverages& averages, double strands);
+
+// f |cos theta_i| of a fibre among others, with what the light loses on its way to it.
+// `density_factor`: d_f = d_b.
+glm::dvec3 dualScattering(
+    const Fiber& fiber, double density_factor, const glm::dvec3& wo, const glm::dvec3& wi, double h,
+    double strands);
+
+}  // namespace hair::rendering

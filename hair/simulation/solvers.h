@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/buffer_image.h"
+#include "engine/commands.h"
+#include "hair/gpu_structs.h"
+#include "hair/groom/groom.h"
+#include "hair/settings.h"
+
+namespace hair::simulation {
+
+// What moves guides. It reads and writes the positions and previous positions that are behind
+// SubstepPush::guides, and may keep more state of its own.
+class GuideSolver {
+public:
+    virtual ~GuideSolver() = default;
+
+    // Records one substep: integrate, hold the strands together, push them out of bodies. The
+    // caller fills in the push constants but `solver` and `first_strand`, and orders the work
+    // before and after by barriers.
+    virtual void record(engine::Commands& commands, gpu::SubstepPush push) const = 0;
+
+    // Derives the state of its own from positions and previous positions that someone else wrote.
+    virtual void recordAdopt(engine::Commands&, gpu::SubstepPush) const {}
+
+    // From now on there may be bodies, also where the constructor's settings had none. Throws as
+    // the constructor.
+    virtual void expectBodies(const engine::Device&) {}
+
+    // The state of its own, to save and restore.
+    virtual std::vector<const engine::Buffer*> state() const { return {}; }
+};
+
+// The settings' solver; null where nothing moves: `none` without keyframes. Throws Unsupported
+// for what the device can't do.
+std::unique_ptr<GuideSolver> makeSolver(
+    const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
+    const gpu::Step& step);
+
+// /simulation/time_step, and /simulation/substeps of it or the solver's own number where that is 0.
+gpu::Step stepOf(const SimulationSettings& settings);
+
+}  // namespace hair::simulation
