@@ -41,7 +41,7 @@ constexpr Rule kRules[] = {
     {"hair/groom/", "hair/rendering/"},
     {"hair/groom/", "hair/simulation/"},
     // The viewer plays cases; nothing that measures knows of it.
-    {"benchmarks/", "benchmarks/viewer/", "benchmarks/viewer/"},
+    {"benchmarks/", "benchmarks/viewer/", "benchmarks/viewer/", "benchmarks/commands/"},
     // What C++ and GLSL share has one place for hair, and one for what measuring adds to it, and
     // one for the viewer.
     {"hair/", "shaders/", "hair/gpu_structs.h"},
