@@ -319,7 +319,7 @@ protected:
         engine::writePng(folder_.file("maps/steps.png"), 4, 1, pixels);
     }
     Groom grow(const GrowSettings& settings, std::uint32_t guides) const {
-        return grow(sheet_, settings, folder_.path(), guides, 1);
+        return groom::grow(sheet_, settings, folder_.path(), guides, 1);
     }
 
     TemporaryFolder folder_;
