@@ -21,27 +21,39 @@ namespace {
 
 // ---- Page parts ---------------------------------------------------------------------------------
 
-constexpr const char* kStyles[] = {"theme.css",  "page.css",     "controls.css",
-                                   "tables.css", "pictures.css", "print.css"};
+constexpr const char* kStyles[] = {"style/theme.css",  "page.css",           "style/controls.css",
+                                   "style/tables.css", "style/pictures.css", "style/print.css"};
 
 // What a module uses when it is read stands before it.
-constexpr const char* kScripts[] = {"dom.js",           "format.js",
-                                    "data.js",          "theme.js",
-                                    "plot.js",          "filter.js",
-                                    "summary.js",       "scaling.js",
-                                    "scaling_lines.js", "scaling_controls.js",
-                                    "passes.js",        "distributions.js",
-                                    "samples_plot.js",  "quality.js",
-                                    "table.js",         "changes.js",
-                                    "comparison.js",    "picture_views.js",
-                                    "pictures.js",      "cases.js",
-                                    "environment.js",   "main.js"};
+constexpr const char* kScripts[] = {
+    "script/dom.js",
+    "script/format.js",
+    "script/data.js",
+    "script/theme.js",
+    "script/plot.js",
+    "script/filter.js",
+    "page.js",
+    "script/scaling.js",
+    "script/scaling_lines.js",
+    "script/scaling_controls.js",
+    "figures.js",
+    "script/distributions.js",
+    "script/samples_plot.js",
+    "script/quality.js",
+    "script/table.js",
+    "script/changes.js",
+    "script/comparison.js",
+    "script/picture_views.js",
+    "details.js",
+    "script/cases.js",
+    "script/environment.js",
+    "script/main.js"};
 
-std::filesystem::path folder() { return HAIRBENCH_SOURCE_DIR "/benchmarks/report_page"; }
+std::filesystem::path folder() { return HAIRBENCH_SOURCE_DIR "/benchmarks/report/page"; }
 
-std::string joined(const char* subfolder, std::span<const char* const> names) {
+std::string joined(std::span<const char* const> names) {
     std::string text;
-    for (const char* name : names) text += engine::readFile(folder() / subfolder / name) + '\n';
+    for (const char* name : names) text += engine::readFile(folder() / name) + '\n';
     return text;
 }
 
@@ -76,8 +88,8 @@ std::string readPlotly() {
 PageParts readPageParts(std::string plotly) {
     return {
         .page = engine::readFile(folder() / "page.html"),
-        .style = joined("style", kStyles),
-        .script = joined("script", kScripts),
+        .style = joined(kStyles),
+        .script = joined(kScripts),
         .plotly = std::move(plotly)};
 }
 
