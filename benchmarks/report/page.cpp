@@ -1,9 +1,11 @@
 #include "benchmarks/report/page.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <span>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -19,46 +21,15 @@
 namespace benchmarks::report {
 namespace {
 
-// ---- Page parts ---------------------------------------------------------------------------------
+// In the order in which the page has them: what a script uses while it is read stands before it.
+constexpr const char* kScripts[] = {"page.js", "figures.js", "details.js"};
 
-constexpr const char* kStyles[] = {"style/theme.css",  "page.css",           "style/controls.css",
-                                   "style/tables.css", "style/pictures.css", "style/print.css"};
-
-// What a module uses when it is read stands before it.
-constexpr const char* kScripts[] = {
-    "script/dom.js",
-    "script/format.js",
-    "script/data.js",
-    "script/theme.js",
-    "script/plot.js",
-    "script/filter.js",
-    "page.js",
-    "script/scaling.js",
-    "script/scaling_lines.js",
-    "script/scaling_controls.js",
-    "figures.js",
-    "script/distributions.js",
-    "script/samples_plot.js",
-    "script/quality.js",
-    "script/table.js",
-    "script/changes.js",
-    "script/comparison.js",
-    "script/picture_views.js",
-    "details.js",
-    "script/cases.js",
-    "script/environment.js",
-    "script/main.js"};
-
-std::filesystem::path folder() { return HAIRBENCH_SOURCE_DIR "/benchmarks/report/page"; }
-
-std::string joined(std::span<const char* const> names) {
-    std::string text;
-    for (const char* name : names) text += engine::readFile(folder() / name) + '\n';
-    return text;
+std::string readPart(const std::string& name) {
+    return engine::readFile(HAIRBENCH_SOURCE_DIR "/benchmarks/report/page/" + name);
 }
 
-// lib/python3.N/site-packages, whichever N.
-std::optional<std::filesystem::path> inEnvironment(const std::filesystem::path& environment) {
+// Of a Python environment: lib/python3.N/site-packages, whichever N.
+std::optional<std::filesystem::path> plotlyIn(const std::filesystem::path& environment) {
     std::error_code error;
     for (const auto& each : std::filesystem::directory_iterator(environment / "lib", error)) {
         const std::filesystem::path file =
@@ -67,35 +38,6 @@ std::optional<std::filesystem::path> inEnvironment(const std::filesystem::path& 
     }
     return std::nullopt;
 }
-
-}  // namespace
-
-std::optional<std::filesystem::path> findPlotly() {
-    const char* wanted = std::getenv("HAIRBENCH_PLOTLY");
-    if (!wanted || !*wanted) return inEnvironment(HAIRBENCH_SOURCE_DIR "/.deps/report");
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(wanted, error)) return std::nullopt;
-    return wanted;
-}
-
-std::string readPlotly() {
-    const auto file = findPlotly();
-    if (!file)
-        throw engine::Error("report", "this needs plotly.min.js: run scripts/setup --report");
-    return engine::readFile(*file);
-}
-
-PageParts readPageParts(std::string plotly) {
-    return {
-        .page = engine::readFile(folder() / "page.html"),
-        .style = joined(kStyles),
-        .script = joined(kScripts),
-        .plotly = std::move(plotly)};
-}
-
-namespace {
-
-// ---- Assemble page ------------------------------------------------------------------------------
 
 std::string replaced(std::string_view text, char what, std::string_view with) {
     std::string result;
@@ -107,74 +49,13 @@ std::string replaced(std::string_view text, char what, std::string_view with) {
     return result;
 }
 
-}  // namespace
-
+// Text as HTML shows it, in an element or a quoted attribute.
 std::string escapedHtml(std::string_view text) {
     std::string result = replaced(text, '&', "&amp;");
     result = replaced(result, '<', "&lt;");
     result = replaced(result, '>', "&gt;");
     return replaced(result, '"', "&quot;");
 }
-
-std::string scriptJson(const scene::Json& data) {
-    return replaced(
-        data.dump(-1, ' ', false, scene::Json::error_handler_t::replace), '<', "\\u003c");
-}
-
-std::string assemblePage(const PageParts& parts, const scene::Json& data) {
-    const std::string title =
-        escapedHtml(data.at("title").get_ref<const std::string&>()) + " - hairbench";
-    const std::string json = scriptJson(data);
-    // In the order of the page, so that what is put in is never searched.
-    const std::pair<std::string_view, std::string_view> places[] = {
-        {"@title@", title},
-        {"@style@", parts.style},
-        {"@data@", json},
-        {"@plotly@", parts.plotly},
-        {"@script@", parts.script}};
-    std::string_view rest = parts.page;
-    std::string page;
-    page.reserve(parts.page.size() + parts.plotly.size() + parts.script.size() + json.size());
-    for (const auto& [place, text] : places) {
-        const std::size_t found = rest.find(place);
-        if (found == std::string_view::npos)
-            throw engine::Error("page.html", std::string(place) + " is missing or out of order");
-        page.append(rest.substr(0, found)).append(text);
-        rest.remove_prefix(found + place.size());
-    }
-    return page.append(rest);
-}
-
-// ---- Picture uri --------------------------------------------------------------------------------
-
-std::string base64(std::string_view bytes) {
-    constexpr std::string_view digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t bits = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            bits = bits << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k)
-            text += k <= count ? digits[bits >> (18 - 6 * k) & 63u] : '=';
-    }
-    return text;
-}
-
-std::optional<std::string> pictureUri(const std::filesystem::path& file) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
-    const std::string bytes = engine::readFile(file);
-    if (bytes.starts_with("\x89PNG\r\n")) return "data:image/png;base64," + base64(bytes);
-    if (bytes.starts_with("\xff\xd8\xff")) return "data:image/jpeg;base64," + base64(bytes);
-    return std::nullopt;
-}
-
-namespace {
-
-// ---- Page data ----------------------------------------------------------------------------------
 
 // "A" to "Z", then "27" and so on.
 std::string labelOf(std::size_t index) {
@@ -223,7 +104,71 @@ std::string titleOf(const scene::Json& reports) {
     return title;
 }
 
+// The first report with each of the others.
+scene::Json comparisonsOf(const scene::Json& reports) {
+    scene::Json comparisons = scene::Json::array();
+    for (std::size_t i = 1; i < reports.size(); ++i)
+        comparisons.push_back(comparisonJson(
+            compareReports(reports[0], reports[i], VerdictOptions{}), reports[0].at("file"),
+            reports[i].at("file")));
+    return comparisons;
+}
+
 }  // namespace
+
+// ---- Parts --------------------------------------------------------------------------------------
+
+std::optional<std::filesystem::path> findPlotly() {
+    const char* wanted = std::getenv("HAIRBENCH_PLOTLY");
+    if (!wanted || !*wanted) return plotlyIn(HAIRBENCH_SOURCE_DIR "/.deps/report");
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(wanted, error)) return std::nullopt;
+    return wanted;
+}
+
+std::string readPlotly() {
+    const auto file = findPlotly();
+    if (!file)
+        throw engine::Error("report", "this needs plotly.min.js: run scripts/setup --report");
+    return engine::readFile(*file);
+}
+
+PageParts readPageParts(std::string plotly) {
+    std::string script;
+    for (const char* name : kScripts) script += readPart(name) + '\n';
+    return {
+        .page = readPart("page.html"),
+        .style = readPart("page.css"),
+        .script = std::move(script),
+        .plotly = std::move(plotly)};
+}
+
+// ---- Data ---------------------------------------------------------------------------------------
+
+std::string base64(std::string_view bytes) {
+    constexpr std::string_view digits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+        std::uint32_t bits = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            bits = bits << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+        for (std::size_t k = 0; k < 4; ++k)
+            text += k <= count ? digits[bits >> (18 - 6 * k) & 63u] : '=';
+    }
+    return text;
+}
+
+std::optional<std::string> pictureUri(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
+    const std::string bytes = engine::readFile(file);
+    if (bytes.starts_with("\x89PNG\r\n")) return "data:image/png;base64," + base64(bytes);
+    if (bytes.starts_with("\xff\xd8\xff")) return "data:image/jpeg;base64," + base64(bytes);
+    return std::nullopt;
+}
 
 scene::Json pageData(std::span<const std::filesystem::path> files) {
     scene::Json reports = scene::Json::array();
@@ -240,11 +185,7 @@ scene::Json pageData(std::span<const std::filesystem::path> files) {
         } catch (const scene::Json::exception& error) {
             throw engine::Error(file.string(), error.what());
         }
-    scene::Json comparisons = scene::Json::array();
-    for (std::size_t i = 1; i < reports.size(); ++i)
-        comparisons.push_back(comparisonJson(
-            compareReports(reports[0], reports[i], VerdictOptions{}), reports[0].at("file"),
-            reports[i].at("file")));
+    scene::Json comparisons = comparisonsOf(reports);
     const std::string title = titleOf(reports);
     return {
         {"title", title},
@@ -253,6 +194,37 @@ scene::Json pageData(std::span<const std::filesystem::path> files) {
         {"image_metrics", std::move(image_metrics)},
         {"pictures", std::move(pictures)},
         {"comparisons", std::move(comparisons)}};
+}
+
+// ---- Page ---------------------------------------------------------------------------------------
+
+std::string scriptJson(const scene::Json& data) {
+    return replaced(
+        data.dump(-1, ' ', false, scene::Json::error_handler_t::replace), '<', "\\u003c");
+}
+
+std::string assemblePage(const PageParts& parts, const scene::Json& data) {
+    const std::string title =
+        escapedHtml(data.at("title").get_ref<const std::string&>()) + " - hairbench";
+    const std::string json = scriptJson(data);
+    // In the order of the page, so that what is put in is never searched.
+    const std::pair<std::string_view, std::string_view> places[] = {
+        {"@title@", title},
+        {"@style@", parts.style},
+        {"@data@", json},
+        {"@plotly@", parts.plotly},
+        {"@script@", parts.script}};
+    std::string_view rest = parts.page;
+    std::string page;
+    page.reserve(parts.page.size() + parts.plotly.size() + parts.script.size() + json.size());
+    for (const auto& [place, text] : places) {
+        const std::size_t found = rest.find(place);
+        if (found == std::string_view::npos)
+            throw engine::Error("page.html", std::string(place) + " is missing or out of order");
+        page.append(rest.substr(0, found)).append(text);
+        rest.remove_prefix(found + place.size());
+    }
+    return page.append(rest);
 }
 
 }  // namespace benchmarks::report

@@ -8,13 +8,17 @@
 
 #include "benchmarks/scene/json.h"
 
-// What a page is made of, besides its data.
+// The page of `hairbench report`: one HTML file with its reports and what draws them. What it is
+// made of lies in page/, and docs/report_page.md says how.
 namespace benchmarks::report {
 
+// ---- Parts --------------------------------------------------------------------------------------
+
+// What a page is made of, besides its data.
 struct PageParts {
-    std::string page;    // HTML with places: @title@, @style@, @data@, @plotly@, @script@
-    std::string style;   // CSS
-    std::string script;  // JavaScript, all modules one after the other
+    std::string page;  // HTML with places: @title@, @style@, @data@, @plotly@, @script@
+    std::string style;  // CSS
+    std::string script;  // JavaScript, all of it one function's body
     std::string plotly;  // plotly.min.js
 };
 
@@ -22,22 +26,20 @@ struct PageParts {
 // scripts/setup --report makes; nothing where there is none.
 std::optional<std::filesystem::path> findPlotly();
 
-// Its text. Throws engine::Error, which says what to run, where there is none.
+// The text of findPlotly(). Throws engine::Error, which says what to run, where there is none.
 std::string readPlotly();
 
-// The rest is read from the project's folder.
+// `plotly` with the page, style and script from the project's folder.
 PageParts readPageParts(std::string plotly);
 
-// Text as HTML shows it, in an element or a quoted attribute.
-std::string escapedHtml(std::string_view text);
+// ---- Data ---------------------------------------------------------------------------------------
 
-// JSON that ends no script element and begins no comment in one: "<" is written "\u003c", which is
-// the same to JSON. What is no UTF-8 is replaced.
-std::string scriptJson(const scene::Json& data);
+// RFC 4648, section 4: with padding, no line breaks.
+std::string base64(std::string_view bytes);
 
-// The whole page: pageData() in its place. Throws engine::Error for a page without one of the
-// places.
-std::string assemblePage(const PageParts& parts, const scene::Json& data);
+// A picture file as a URI that holds it: "data:image/png;base64,...". Nothing where there is no
+// such file, or what is there is neither PNG nor JPEG.
+std::optional<std::string> pictureUri(const std::filesystem::path& file);
 
 // All that the page shows, as one object:
 //   title
@@ -50,11 +52,14 @@ std::string assemblePage(const PageParts& parts, const scene::Json& data);
 // Throws engine::Error for a report that cannot be read.
 scene::Json pageData(std::span<const std::filesystem::path> reports);
 
-// RFC 4648, section 4: with padding, no line breaks.
-std::string base64(std::string_view bytes);
+// ---- Page ---------------------------------------------------------------------------------------
 
-// A picture file as a URI that holds it: "data:image/png;base64,...". Nothing where there is no
-// such file, or what is there is neither PNG nor JPEG.
-std::optional<std::string> pictureUri(const std::filesystem::path& file);
+// JSON that ends no script element and begins no comment in one: "<" is written "\u003c", which is
+// the same to JSON. What is no UTF-8 is replaced.
+std::string scriptJson(const scene::Json& data);
+
+// The whole page, with pageData() in its place. Throws engine::Error for a page without one of the
+// places.
+std::string assemblePage(const PageParts& parts, const scene::Json& data);
 
 }  // namespace benchmarks::report

@@ -1,4 +1,274 @@
-// ---- Where the time of a frame goes ------------------------------------------------------------
+// The figures of what was measured: Scaling, Passes, Samples, and Quality and cost.
+
+// ---- Scaling: a metric over an axis -------------------------------------------------------------
+
+const scaling = {held: new Map()};  // pointer -> text of the value it is held at; absent: all
+
+// An axis whose value follows from x's is no other axis: tied axes move together.
+function followsFrom(axis, x) {
+    const seen = new Map();
+    return rows.every((row) => {
+        const at = valueText(row.values[x.pointer]), value = valueText(row.values[axis.pointer]);
+        if (!seen.has(at)) seen.set(at, value);
+        return seen.get(at) === value;
+    });
+}
+
+function freeAxes() {
+    const x = axisOf.get(scaling.x);
+    return axes.filter((axis) => axis !== x && !followsFrom(axis, x));
+}
+
+function suitsLog(values) {
+    return values.every((value) => value > 0) && Math.max(...values) >= 8 * Math.min(...values);
+}
+
+// How many of an axis's values have figures.
+function measuredValues(axis) {
+    return new Set(rows.filter((row) => row.status === "ok")
+        .map((row) => valueText(row.values[axis.pointer]))).size;
+}
+
+function startScaling() {
+    const sized = [...sweptAxes].sort(
+        (a, b) => b.numeric - a.numeric || measuredValues(b) - measuredValues(a));
+    scaling.x = sized[0].pointer;
+    const free = freeAxes().sort((a, b) => measuredValues(b) - measuredValues(a));
+    scaling.color = severalReports ? kReportAxis : free[0]?.pointer ?? "";
+    scaling.facet = "";
+    scaling.metric = preferred(metricNames, "frame.time");
+    scaling.spread = hasIntervals ? "interval" : "quartiles";
+    scaling.xType = sized[0].numeric && suitsLog(sized[0].values) ? "log" : "linear";
+    scaling.yType = "linear";
+    holdOthers();
+}
+
+// More lines than anyone tells apart: the other axes are held at their first value.
+function holdOthers() {
+    const others = freeAxes().filter(
+        (axis) => ![scaling.color, scaling.facet, kReportAxis].includes(axis.pointer));
+    const colors = axisOf.get(scaling.color)?.values.length ?? 1;
+    const lines = others.reduce((product, axis) => product * axis.values.length, colors);
+    scaling.held.clear();
+    if (lines > Math.max(6, colors))
+        for (const axis of others) scaling.held.set(axis.pointer, valueText(axis.values[0]));
+}
+
+function scalingRows() {
+    return filteredOk().filter((row) => row.metrics[scaling.metric] && [...scaling.held].every(
+        ([pointer, text]) => valueText(row.values[pointer]) === text));
+}
+
+// Lines of the plot: the rows that differ in x only.
+function scalingLines() {
+    const free = freeAxes();
+    const lines = new Map();
+    for (const row of scalingRows()) {
+        const key = free.map((axis) => valueText(row.values[axis.pointer])).join("\n");
+        lines.set(key, [...(lines.get(key) ?? []), row]);
+    }
+    return [...lines.values()];
+}
+
+function drawScaling() {
+    const div = byId("scaling-plot");
+    const facet = axisOf.get(scaling.facet);
+    const shown = new Set(scalingRows().map(
+        (row) => facet && valueText(row.values[facet.pointer])));
+    const facets = facet ? facet.values.map(valueText).filter((text) => shown.has(text)) : [];
+    const lines = scalingLines(), seen = {dashes: new Map(), names: new Set()};
+    const traces = lines.map((line) => scalingTrace(line, facets, seen));
+    drawFigure(div, traces, {
+        ...facetAxes(div, facets), showlegend: traces.length > 1,
+        legend: legendStyle(div, axisOf.get(scaling.color)?.label),
+    });
+    const warned = scalingRows().some((row) => row.warnings.length);
+    const bars = {interval: "Bars: the interval of the median, 95 % or what the samples allow.",
+        quartiles: "Bars: first to third quartile of the samples.", none: ""}[scaling.spread];
+    byId("scaling-note").textContent = [
+        `${counted(lines.length, "line")}, ${counted(scalingRows().length, "case")}.`, bars,
+        hasIntervals ? "" : "The report has no intervals of medians.",
+        warned ? "Open markers: cases with warnings." : ""].filter(Boolean).join(" ");
+}
+
+// ---- Scaling: lines and axes --------------------------------------------------------------------
+
+function xOf(row) {
+    const axis = axisOf.get(scaling.x), value = row.values[scaling.x];
+    return axis.numeric ? value : valueText(value);
+}
+
+function hoverText(row, name) {
+    const metric = row.metrics[name], range = spread(metric, scaling.spread);
+    const lines = [`<b>${plain(quantity(metric.median, metric.unit))}</b>`];
+    if (range) lines.push(plain(`${number(range[0] / shownUnit(metric.unit).size)} to ` +
+        quantity(range[1], metric.unit)));
+    lines.push(...axes.map((axis) =>
+        plain(`${axis.label}: ${valueText(row.values[axis.pointer])}`)));
+    lines.push(...row.warnings.map((text) => plain(`\u26a0 ${shortened(text, 70)}`)));
+    return lines.join("<br>");
+}
+
+// The bars of an uncertainty round the medians, as Plotly wants them.
+function errorBars(metrics, kind) {
+    const size = shownUnit(metrics[0]?.unit).size;
+    const ends = metrics.map((metric) => spread(metric, kind));
+    // Plotly draws nothing for what is no number.
+    const end = (place, length) => metrics.map((metric, i) =>
+        ends[i] ? Math.max(0, length(ends[i][place], metric.median)) / size : NaN);
+    return {
+        type: "data", symmetric: false, thickness: 1.3, width: 4,
+        array: end(1, (upper, middle) => upper - middle),
+        arrayminus: end(0, (lower, middle) => middle - lower),
+        visible: kind !== "none",
+    };
+}
+
+// `seen`: what lines before it have used, names for the legend and dashes.
+function scalingTrace(line, facets, seen) {
+    const color = axisOf.get(scaling.color), facet = axisOf.get(scaling.facet);
+    const [first] = line;
+    const index = color ? color.values.findIndex(
+        (value) => valueText(value) === valueText(first.values[color.pointer])) : 0;
+    const rest = freeAxes().filter((axis) => axis !== color && axis !== facet &&
+        !scaling.held.has(axis.pointer));
+    const restText = rest.map((axis) =>
+        `${axis.label} ${valueText(first.values[axis.pointer])}`).join(", ");
+    if (!seen.dashes.has(restText)) seen.dashes.set(restText, seen.dashes.size);
+    const colorText = color ? valueText(first.values[color.pointer]) : "";
+    const place = facet ? facets.indexOf(valueText(first.values[facet.pointer])) : 0;
+    const axis = axisOf.get(scaling.x);
+    const order = (row) => axis.values.findIndex(
+        (value) => valueText(value) === valueText(row.values[scaling.x]));
+    const sorted = [...line].sort((a, b) => order(a) - order(b));
+    const metrics = sorted.map((row) => row.metrics[scaling.metric]);
+    const size = shownUnit(metrics[0].unit).size;
+    const name = [colorText, restText].filter(Boolean).join(", ") || scaling.metric;
+    const isFirst = !seen.names.has(name);
+    seen.names.add(name);
+    return {
+        type: "scatter", mode: "lines+markers", name: plain(name), legendgroup: name,
+        showlegend: isFirst,
+        x: sorted.map(xOf), y: metrics.map((metric) => metric.median / size),
+        xaxis: place ? `x${place + 1}` : "x", yaxis: place ? `y${place + 1}` : "y",
+        error_y: {...errorBars(metrics, scaling.spread), color: seriesColor(index)},
+        line: {color: seriesColor(index), width: 2, dash: seriesDash(seen.dashes.get(restText))},
+        marker: {
+            color: seriesColor(index), size: 8,
+            symbol: sorted.map((row) =>
+                seriesSymbol(index) + (row.warnings.length ? "-open" : "")),
+        },
+        text: sorted.map((row) => hoverText(row, scaling.metric)), hoverinfo: "text",
+        customdata: sorted.map((row) => row.id),
+    };
+}
+
+// Axes of a grid of facets, side by side where there is room.
+function facetAxes(div, facets) {
+    const x = axisOf.get(scaling.x), count = Math.max(1, facets.length);
+    const columns = Math.min(count, Math.max(1, Math.floor(div.clientWidth / 330)));
+    const across = Math.ceil(count / columns);
+    const ticks = x.numeric && x.values.length <= 10
+        ? {tickmode: "array", tickvals: x.values, ticktext: x.values.map(String)} : {};
+    const layout = {
+        height: across === 1 ? 460 : 60 + 320 * across,
+        annotations: [], grid: {rows: across, columns, pattern: "independent",
+            xgap: 0.14, ygap: across > 1 ? 0.28 : 0.1},
+    };
+    for (let i = 0; i < count; ++i) {
+        const suffix = i ? String(i + 1) : "", first = i % columns === 0;
+        const last = i + columns >= count;
+        layout[`xaxis${suffix}`] = axisStyle({
+            ...scaleStyle(x.numeric ? scaling.xType : "category"), ...ticks,
+            title: last ? plain(x.label) : "", ...(i ? {matches: "x"} : {})});
+        layout[`yaxis${suffix}`] = axisStyle({
+            ...scaleStyle(scaling.yType),
+            ...(scaling.yType === "linear" ? {rangemode: "tozero"} : {}),
+            title: first ? plain(metricTitle(scaling.metric, metricUnits.get(scaling.metric))) : "",
+            ...(i ? {matches: "y"} : {})});
+        if (facets.length) layout.annotations.push({
+            text: plain(`${axisOf.get(scaling.facet).label} ${facets[i]}`), showarrow: false,
+            xref: `x${suffix} domain`, yref: `y${suffix} domain`, x: 0.5, y: 1, yanchor: "bottom"});
+    }
+    return layout;
+}
+
+// ---- Scaling: what is chosen --------------------------------------------------------------------
+
+const kScales = [["linear", "linear"], ["log", "logarithmic"]];
+
+function axisChoices(list) { return list.map((axis) => [axis.pointer, axis.label]); }
+
+function changeScaling(key, rehold) {
+    return (value) => {
+        scaling[key] = value;
+        const x = axisOf.get(scaling.x);
+        if (key === "x") scaling.xType = x.numeric && suitsLog(x.values) ? "log" : "linear";
+        const free = freeAxes();
+        for (const each of ["color", "facet"])
+            if (!free.includes(axisOf.get(scaling[each]))) scaling[each] = "";
+        if (scaling.facet === scaling.color) scaling.facet = "";
+        if (rehold) holdOthers();
+        buildScalingControls();
+        drawScaling();
+        byId(`scaling-${key}`)?.focus();
+    };
+}
+
+function heldChoice(axis) {
+    const id = `scaling-held-${axis.pointer}`;
+    return choice(axis.label, id, [["", "all"], ...axis.values.map(
+        (value) => [valueText(value), valueText(value)])],
+    scaling.held.get(axis.pointer) ?? "", (text) => {
+        if (text) scaling.held.set(axis.pointer, text);
+        else scaling.held.delete(axis.pointer);
+        drawScaling();
+    });
+}
+
+function buildScalingControls() {
+    const free = freeAxes(), x = axisOf.get(scaling.x);
+    const spreads = [["interval", "interval of the median"], ["quartiles", "quartiles"],
+        ["none", "none"]].filter(([kind]) => kind !== "interval" || hasIntervals);
+    const held = free.filter((axis) => ![scaling.color, scaling.facet].includes(axis.pointer));
+    const facetable = free.filter((axis) => axis.pointer !== scaling.color &&
+        axis.values.length <= 12);
+    showOnly(byId("scaling-controls"),
+        choice("metric", "scaling-metric", metricNames.map((name) => [name, name]),
+            scaling.metric, changeScaling("metric", false)),
+        choice("across", "scaling-x", axisChoices(sweptAxes), scaling.x, changeScaling("x", true)),
+        choice("colour", "scaling-color", [["", "none"], ...axisChoices(free)], scaling.color,
+            changeScaling("color", true)),
+        choice("small multiples", "scaling-facet", [["", "none"], ...axisChoices(facetable)],
+            scaling.facet, changeScaling("facet", true)),
+        x.numeric ? choice("x scale", "scaling-xType", kScales, scaling.xType,
+            changeScaling("xType", false)) : "",
+        choice("y scale", "scaling-yType", kScales, scaling.yType, changeScaling("yType", false)),
+        choice("bars", "scaling-spread", spreads, scaling.spread, changeScaling("spread", false)),
+        ...held.map(heldChoice));
+}
+
+function buildScaling() {
+    const section = byId("scaling");
+    if (!metricNames.length || !sweptAxes.length) {
+        showOnly(section, heading("Scaling"), note("No axis has more than one value here."));
+        return;
+    }
+    startScaling();
+    showOnly(section, heading("Scaling"),
+        element("div", {class: "controls", id: "scaling-controls"}),
+        figure("scaling-plot",
+            "A metric over an axis of the sweep; the table below has the figures."),
+        element("p", {class: "note", id: "scaling-note"}));
+    buildScalingControls();
+    drawScaling();
+    onFilterChange(drawScaling);
+    onThemeChange(drawScaling);
+    byId("scaling-plot").on("plotly_click",
+        (event) => showSamplesOf(event.points[0].customdata, scaling.metric));
+}
+
+// ---- Passes: where the time of a frame goes -----------------------------------------------------
 
 const kBarHeight = 24;  // px
 const passes = {order: "sweep", limit: 24, scale: "ms"};
@@ -103,4 +373,251 @@ function buildPasses() {
     drawPasses();
     onFilterChange(drawPasses);
     onThemeChange(drawPasses);
+}
+
+// ---- Samples: all of a case and metric ----------------------------------------------------------
+
+const samples = {kind: "histogram"};
+
+function sampledRows() {
+    return filteredOk().filter((row) => Object.values(row.metrics).some(
+        (metric) => metric.samples?.length > 1));
+}
+
+function sampledMetrics(row) {
+    return row ? Object.keys(row.metrics).filter(
+        (name) => row.metrics[name].samples?.length > 1) : [];
+}
+
+// The chosen case in every report that has it.
+function sampleRows() {
+    return rows.filter((row) => row.name === samples.name && row.metrics[samples.metric]?.samples);
+}
+
+function buildSampleControls() {
+    const found = sampledRows();
+    const names = [...new Map(found.map((row) => [row.name, row])).values()];
+    if (!names.some((row) => row.name === samples.name)) samples.name = names[0]?.name;
+    const row = found.find((each) => each.name === samples.name);
+    const metrics = sampledMetrics(row);
+    if (!metrics.includes(samples.metric)) samples.metric = preferred(metrics, "frame.time");
+    const change = (key) => (value) => {
+        samples[key] = value;
+        buildSampleControls();
+        drawSamples();
+        byId(`samples-${key}`)?.focus();
+    };
+    showOnly(byId("samples-controls"),
+        choice("case", "samples-name", names.map((each) => [each.name, each.name]),
+            samples.name, change("name")),
+        choice("metric", "samples-metric", metrics.map((name) => [name, name]), samples.metric,
+            change("metric")),
+        choice("as", "samples-kind", [["histogram", "histogram"], ["violin", "violin"],
+            ["box", "box"]], samples.kind, change("kind")));
+}
+
+// Called from a point or a row somewhere else on the page.
+function showSamplesOf(id, metric) {
+    const row = rows.find((each) => each.id === id);
+    if (!row || !byId("samples-plot")) return;
+    samples.name = row.name;
+    if (metric && row.metrics[metric]?.samples?.length > 1) samples.metric = metric;
+    buildSampleControls();
+    drawSamples();
+    byId("distributions").scrollIntoView({behavior: "smooth"});
+}
+
+function buildSamples() {
+    const section = byId("distributions");
+    if (!sampledRows().length) {
+        showOnly(section, heading("Samples"), note("No metric has more than one sample."));
+        return;
+    }
+    showOnly(section, heading("Samples"),
+        element("div", {class: "controls", id: "samples-controls"}),
+        figure("samples-plot", "Samples of a metric in order, and how they are distributed."),
+        element("p", {class: "note", id: "samples-note"}));
+    const update = () => {
+        buildSampleControls();
+        drawSamples();
+    };
+    update();
+    onFilterChange(update);
+    onThemeChange(drawSamples);
+}
+
+function orderTrace(row, values, hue) {
+    return {
+        type: "scatter", mode: values.length > 400 ? "markers" : "lines+markers",
+        name: plain(row.report.label), legendgroup: row.report.label, showlegend: severalReports,
+        x: values.map((_, place) => place + 1), y: values,
+        line: {color: hue, width: 1}, marker: {color: hue, size: values.length > 200 ? 3 : 5},
+        hovertemplate: "sample %{x}: %{y:.4~g}<extra></extra>",
+    };
+}
+
+function spreadTrace(row, values, hue) {
+    const common = {name: plain(row.report.label), legendgroup: row.report.label, showlegend: false,
+        y: values, xaxis: "x2"};
+    if (samples.kind === "histogram")
+        return {...common, type: "histogram", nbinsy: 30, opacity: severalReports ? 0.6 : 0.9,
+            marker: {color: hue, line: {color: color("card"), width: 0.5}}};
+    if (samples.kind === "violin")
+        return {...common, type: "violin", line: {color: hue}, box: {visible: true},
+            points: false, spanmode: "hard"};
+    return {...common, type: "box", boxpoints: "outliers", line: {color: hue},
+        marker: {color: hue}};
+}
+
+// The median as a line, its interval as a band.
+function medianShapes(row, hue) {
+    const metric = row.metrics[samples.metric], size = shownUnit(metric.unit).size;
+    const across = {xref: "paper", x0: 0, x1: 1, yref: "y", layer: "below"};
+    const shapes = [{...across, type: "line", y0: metric.median / size, y1: metric.median / size,
+        line: {color: hue, width: 1.5, dash: "dash"}}];
+    if (metric.interval)
+        shapes.push({...across, type: "rect", y0: metric.interval.lower / size,
+            y1: metric.interval.upper / size, fillcolor: hue, opacity: 0.14, line: {width: 0}});
+    return shapes;
+}
+
+function sampleNote(row) {
+    const metric = row.metrics[samples.metric], size = shownUnit(metric.unit).size;
+    const parts = [severalReports ? `${row.report.label}:` : "",
+        `median ${quantity(metric.median, metric.unit)}`];
+    if (metric.interval)
+        parts.push(`(${number(metric.interval.lower / size)} to ` +
+            `${number(metric.interval.upper / size)}, ${percent(metric.interval.confidence)})`);
+    parts.push(`of ${counted(metric.samples.length, "sample")}`);
+    if (metric.effective_samples)
+        parts.push(`worth ${Math.round(metric.effective_samples)} independent ones`);
+    if (metric.mode) parts.push(`, ${metric.mode}`);
+    return `${parts.filter(Boolean).join(" ").replace(" ,", ",")}.`;
+}
+
+function drawSamples() {
+    const div = byId("samples-plot"), found = sampleRows();
+    const traces = [], shapes = [];
+    for (const row of found) {
+        const metric = row.metrics[samples.metric], size = shownUnit(metric.unit).size;
+        const values = metric.samples.map((value) => value / size);
+        const hue = seriesColor(row.reportIndex);
+        traces.push(orderTrace(row, values, hue), spreadTrace(row, values, hue));
+        shapes.push(...medianShapes(row, hue));
+    }
+    const unit = metricUnits.get(samples.metric);
+    drawFigure(div, traces, {
+        barmode: "overlay", shapes, height: 420, legend: legendStyle(div, "report"),
+        xaxis: axisStyle({title: "sample, in order", domain: [0, 0.66]}),
+        xaxis2: axisStyle({title: samples.kind === "histogram" ? "samples" : "", domain: [0.7, 1]}),
+        yaxis: axisStyle({title: plain(metricTitle(samples.metric ?? "", unit))}),
+    });
+    byId("samples-note").textContent = found.map(sampleNote).join(" ") +
+        (found.length ? " Dashed: the median; band: its interval." : "");
+}
+
+// ---- Quality and cost: error against time -------------------------------------------------------
+
+const quality = {};
+
+// Errors, of which less is better: 1 - SSIM, and PSNR as it is.
+const kErrors = {
+    "image.ssim": {title: "1 \u2212 image.ssim", of: (value) => 1 - value},
+};
+function errorOf(row) {
+    const value = median(row, quality.error);
+    return value === undefined ? undefined : (kErrors[quality.error]?.of(value) ?? value);
+}
+function errorTitle(name) {
+    return kErrors[name]?.title ?? metricTitle(name, metricUnits.get(name));
+}
+function moreIsBetter() { return quality.error === "image.psnr"; }
+
+function qualityRows() {
+    return filteredOk().filter((row) => errorOf(row) !== undefined &&
+        median(row, quality.time) !== undefined);
+}
+
+// Cases that no other one beats in both.
+function bestRows(found) {
+    const sign = moreIsBetter() ? -1 : 1;
+    const sorted = [...found].sort((a, b) =>
+        median(a, quality.time) - median(b, quality.time) || sign * (errorOf(a) - errorOf(b)));
+    let least = Infinity;
+    return sorted.filter((row) => {
+        if (sign * errorOf(row) >= least) return false;
+        least = sign * errorOf(row);
+        return true;
+    });
+}
+
+function qualityTrace(found, index, name) {
+    const metrics = found.map((row) => row.metrics[quality.time]);
+    return {
+        type: "scatter", mode: "markers", name: plain(name),
+        x: metrics.map((metric) => metric.median), y: found.map(errorOf),
+        error_x: {...errorBars(metrics, "interval"), color: seriesColor(index), thickness: 1},
+        marker: {color: seriesColor(index), size: 10, symbol: seriesSymbol(index)},
+        hoverinfo: "text", customdata: found.map((row) => row.id),
+        text: found.map((row) => plain(`${quantity(median(row, quality.time), "ms")}, ` +
+            `${errorTitle(quality.error)} ${number(errorOf(row))}`) +
+            `<br>${plain(caseLabel(row))}`),
+    };
+}
+
+function drawQuality() {
+    const div = byId("quality-plot"), found = qualityRows(), axis = axisOf.get(quality.color);
+    const traces = axis
+        ? axis.values.map((value, index) => qualityTrace(found.filter((row) =>
+            valueText(row.values[axis.pointer]) === valueText(value)), index, valueText(value)))
+        : [qualityTrace(found, 0, "cases")];
+    const best = bestRows(found);
+    traces.push({
+        type: "scatter", mode: "lines", name: "not beaten", hoverinfo: "skip",
+        x: best.map((row) => median(row, quality.time)), y: best.map(errorOf),
+        line: {color: color("faint"), width: 1.5, dash: "dot", shape: "hv"},
+    });
+    drawFigure(div, traces, {
+        legend: legendStyle(div, axis?.label),
+        xaxis: axisStyle({...scaleStyle(quality.xType), title: metricTitle(quality.time, "ms")}),
+        yaxis: axisStyle({...scaleStyle(quality.yType), title: plain(errorTitle(quality.error))}),
+    });
+    byId("quality-note").textContent = `${counted(found.length, "case")}. Dotted: those that no ` +
+        "other case beats in both time and error. Reference: the scene's /run/reference.";
+}
+
+function buildQuality() {
+    const section = byId("quality");
+    if (!imageMetrics.length) {
+        showOnly(section, heading("Quality and cost"), note(
+            "No case was compared with a reference picture: the scene names none " +
+            "(/run/reference)."));
+        return;
+    }
+    Object.assign(quality, {
+        error: preferred(imageMetrics, "image.flip"), time: preferred(timeMetrics, "frame.time"),
+        color: severalReports ? kReportAxis : axes[0]?.pointer ?? "", xType: "linear",
+        yType: "linear"});
+    const change = (key) => (value) => {
+        quality[key] = value;
+        drawQuality();
+    };
+    showOnly(section, heading("Quality and cost"),
+        element("div", {class: "controls"},
+            choice("error", "quality-error", imageMetrics.map((name) => [name, errorTitle(name)]),
+                quality.error, change("error")),
+            choice("time", "quality-time", timeMetrics.map((name) => [name, name]), quality.time,
+                change("time")),
+            choice("colour", "quality-color", [["", "none"], ...axisChoices(axes)], quality.color,
+                change("color")),
+            choice("x scale", "quality-x", kScales, quality.xType, change("xType")),
+            choice("y scale", "quality-y", kScales, quality.yType, change("yType"))),
+        figure("quality-plot", "Error of the pictures against time; the table has the figures."),
+        element("p", {class: "note", id: "quality-note"}));
+    drawQuality();
+    onFilterChange(drawQuality);
+    onThemeChange(drawQuality);
+    byId("quality-plot").on("plotly_click",
+        (event) => event.points[0].customdata &&
+            showSamplesOf(event.points[0].customdata, quality.time));
 }

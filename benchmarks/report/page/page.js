@@ -1,4 +1,350 @@
-// ---- What was measured, where, and what to know before believing it ----------------------------
+// What every section of the page is made with, and what stands above all sections: the summary and
+// the filter. Text goes in as text, never as HTML: names of cases are not ours.
+
+// ---- Elements -----------------------------------------------------------------------------------
+
+function element(name, attributes, ...children) {
+    const made = document.createElement(name);
+    for (const [key, value] of Object.entries(attributes ?? {})) {
+        if (value === undefined || value === false) continue;
+        if (key.startsWith("on")) made.addEventListener(key.slice(2), value);
+        else if (key === "dataset") Object.assign(made.dataset, value);
+        else made.setAttribute(key, value === true ? "" : value);
+    }
+    made.append(...children.flat(Infinity).filter((child) => (child ?? undefined) !== undefined));
+    return made;
+}
+
+function byId(id) { return document.getElementById(id); }
+
+// A labelled list to choose from; `options` are [value, text].
+function choice(label, id, options, value, onChange) {
+    const list = element("select", {id, onchange: () => onChange(list.value)},
+        options.map(([each, text]) => element("option", {value: each}, text)));
+    list.value = value;
+    return element("label", {class: "choice", for: id}, element("span", {}, label), list);
+}
+
+// A button that is on or off.
+function toggle(text, on, onChange, attributes) {
+    const button = element("button", {type: "button", class: "chip", "aria-pressed": String(on),
+        onclick: () => {
+            const now = button.getAttribute("aria-pressed") !== "true";
+            button.setAttribute("aria-pressed", String(now));
+            onChange(now);
+        }, ...attributes}, text);
+    return button;
+}
+
+function heading(text) { return element("h2", {}, text); }
+
+function note(text) { return element("p", {class: "note"}, text); }
+
+// A figure's place, and what it is for those who don't see it.
+function figure(id, description) {
+    return element("div", {id, class: "figure", role: "img", "aria-label": description});
+}
+
+function showOnly(section, ...children) { section.replaceChildren(...children.flat(Infinity)); }
+
+// ---- Numbers and names as people read them ------------------------------------------------------
+
+// Four significant digits, never an exponent where digits do.
+function number(value) {
+    if (value === undefined || value === null || !Number.isFinite(value)) return "";
+    const size = Math.abs(value);
+    if (size !== 0 && (size < 1e-5 || size >= 1e9)) return value.toExponential(3);
+    const decimals = size === 0 ? 0 : Math.max(0, 3 - Math.floor(Math.log10(size)));
+    const text = value.toFixed(Math.min(decimals, 9));
+    return (text.includes(".") ? text.replace(/\.?0+$/, "") : text).replace("-", "\u2212");
+}
+
+function percent(share, digits = 1) {
+    return `${(share * 100).toFixed(digits)} %`.replace("-", "\u2212");
+}
+
+// With a sign, for changes.
+function signedPercent(share) {
+    return Number.isFinite(share) ? (share > 0 ? "+" : "") + percent(share) : "";
+}
+
+const kMebibyte = 1048576;
+
+// The unit that a metric is shown in, and how many of its own make one.
+function shownUnit(unit) {
+    if (unit === "B") return {text: "MiB", size: kMebibyte};
+    return {text: unit === "1" || !unit ? "" : unit, size: 1};
+}
+
+function quantity(value, unit) {
+    const shown = shownUnit(unit);
+    return shown.text ? `${number(value / shown.size)}\u00a0${shown.text}` : number(value);
+}
+
+function metricTitle(name, unit) {
+    const shown = shownUnit(unit);
+    return shown.text ? `${name} (${shown.text})` : name;
+}
+
+// An axis's value: a string as it is, all else as JSON.
+function valueText(value) {
+    if (value === undefined) return "\u2013";
+    return typeof value === "string" ? value : JSON.stringify(value);
+}
+
+// Plotly takes some HTML in its texts; names of cases mean none.
+function plain(text) {
+    return String(text).replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;");
+}
+
+function counted(count, one, many) { return `${count} ${count === 1 ? one : many ?? `${one}s`}`; }
+
+function shortened(text, length) {
+    return text.length <= length ? text : `${text.slice(0, length - 1)}\u2026`;
+}
+
+// ---- The reports as one list of cases -----------------------------------------------------------
+
+const page = JSON.parse(byId("data").textContent);
+const kReportAxis = "report";
+const severalReports = page.reports.length > 1;
+
+// One row a case of a report; the report counts as one more axis where there are several.
+const rows = page.reports.flatMap((report, index) => report.cases.map((each, place) => ({
+    ...each,
+    report,
+    reportIndex: index,
+    number: each.index ?? place,
+    id: `${index}:${each.name}`,
+    metrics: each.metrics ?? {},
+    warnings: each.trust?.warnings ?? [],
+    values: severalReports ? {[kReportAxis]: report.label, ...each.axes} : each.axes,
+})));
+
+function axisValues(pointer) {
+    const values = new Map();
+    for (const row of rows) values.set(valueText(row.values[pointer]), row.values[pointer]);
+    const found = [...values.values()];
+    if (found.every((value) => typeof value === "number")) found.sort((a, b) => a - b);
+    return found;
+}
+
+// "/strands/density" is "density", unless two axes would be called the same.
+function axisLabel(pointer, pointers) {
+    const parts = pointer.split("/");
+    const last = parts.at(-1);
+    const twins = pointers.filter((each) => each.split("/").at(-1) === last);
+    return twins.length > 1 ? parts.slice(-2).join("/") : last;
+}
+
+const pointers = [...new Set(rows.flatMap((row) => Object.keys(row.values)))];
+const axes = pointers.map((pointer) => {
+    const values = axisValues(pointer);
+    return {
+        pointer,
+        label: axisLabel(pointer, pointers),
+        values,
+        numeric: values.every((value) => typeof value === "number"),
+    };
+}).filter((axis) => axis.values.length > 1);
+const axisOf = new Map(axes.map((axis) => [axis.pointer, axis]));
+
+const sweptAxes = axes.filter((axis) => axis.pointer !== kReportAxis);
+
+// What tells a case from the others, by name: "density 64, msaa 4".
+function caseLabel(row, among = axes) {
+    const parts = among.map((axis) => `${axis.label} ${valueText(row.values[axis.pointer])}`);
+    return parts.length ? parts.join(", ") : row.name;
+}
+
+// A case by its values alone, "64 \u00b7 4"; caseValuesTitle() says of which axes.
+function caseValues(row, among = axes) {
+    const parts = among.map((axis) => valueText(row.values[axis.pointer]));
+    return parts.length ? parts.join(" \u00b7 ") : row.name;
+}
+function caseValuesTitle(among = axes) { return among.map((axis) => axis.label).join(" \u00b7 "); }
+
+const metricUnits = new Map();
+for (const row of rows)
+    for (const [name, metric] of Object.entries(row.metrics)) metricUnits.set(name, metric.unit);
+const metricNames = [...metricUnits.keys()];
+const passMetrics = metricNames.filter((name) => Object.hasOwn(page.pass_times, name));
+const imageMetrics = metricNames.filter((name) => Object.hasOwn(page.image_metrics, name));
+const timeMetrics = metricNames.filter((name) => metricUnits.get(name) === "ms");
+
+function passName(metric) { return page.pass_times[metric]; }
+
+function median(row, metric) { return row.metrics[metric]?.median; }
+
+// [lower, upper] of what is drawn as a metric's uncertainty, if the report has it.
+function spread(metric, kind) {
+    if (kind === "interval" && metric.interval)
+        return [metric.interval.lower, metric.interval.upper];
+    if (kind === "quartiles" && metric.first_quartile !== undefined)
+        return [metric.first_quartile, metric.third_quartile];
+    return undefined;
+}
+const hasIntervals = rows.some((row) =>
+    Object.values(row.metrics).some((metric) => metric.interval));
+
+// The metric that comes first where one is to be chosen.
+function preferred(names, ...wanted) {
+    return wanted.find((name) => names.includes(name)) ?? names[0];
+}
+
+// ---- Light and dark -----------------------------------------------------------------------------
+
+const themeListeners = [];
+
+function onThemeChange(listener) { themeListeners.push(listener); }
+
+function color(name) {
+    return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+}
+
+// Okabe and Ito 2008, Color universal design: told apart by the colour-blind. Lighter on dark.
+const kSeriesColors = {
+    light: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#d29200", "#3a9bd4", "#6a4c93", "#555555"],
+    dark: ["#56b4e9", "#ff8a3d", "#2fc79a", "#e79bc4", "#f0c419", "#9ad0f5", "#b79ce0", "#bbbbbb"],
+};
+const kSymbols = ["circle", "square", "diamond", "triangle-up", "cross", "x", "star", "hexagon"];
+const kDashes = ["solid", "dash", "dot", "dashdot", "longdash", "longdashdot"];
+const kPatterns = ["", "/", "x", "."];
+
+function theme() { return document.documentElement.dataset.theme; }
+function seriesColor(index) {
+    const colors = kSeriesColors[theme()];
+    return colors[index % colors.length];
+}
+function seriesSymbol(index) { return kSymbols[index % kSymbols.length]; }
+function seriesDash(index) { return kDashes[index % kDashes.length]; }
+// Tells series apart beside the colour, where there are more of them than colours.
+function seriesPattern(index) {
+    return kPatterns[Math.floor(index / kSeriesColors.light.length) % kPatterns.length];
+}
+
+function setTheme(name) {
+    if (theme() === name) return;
+    document.documentElement.dataset.theme = name;
+    const button = byId("theme");
+    button.textContent = name === "dark" ? "\u2600 light" : "\u263e dark";
+    button.setAttribute("aria-label", `Switch to ${name === "dark" ? "light" : "dark"} colours`);
+    for (const listener of themeListeners) listener();
+}
+
+function startTheme() {
+    const system = matchMedia("(prefers-color-scheme: dark)");
+    const systemTheme = () => (system.matches ? "dark" : "light");
+    setTheme(systemTheme());
+    system.addEventListener("change", () => setTheme(systemTheme()));
+    byId("theme").addEventListener("click", () => setTheme(theme() === "dark" ? "light" : "dark"));
+    // Paper is white.
+    let screen;
+    addEventListener("beforeprint", () => {
+        screen = theme();
+        setTheme("light");
+    });
+    addEventListener("afterprint", () => setTheme(screen));
+}
+
+// ---- What all figures have in common ------------------------------------------------------------
+
+const kNarrow = 620;  // px: below it, legends go under the figure
+
+function isNarrow(div) { return div.clientWidth < kNarrow; }
+
+function axisStyle(extra) {
+    return {
+        gridcolor: color("grid"), linecolor: color("line"), zerolinecolor: color("line"),
+        automargin: true, ...extra, title: {text: extra?.title ?? "", standoff: 10},
+    };
+}
+
+// A logarithmic axis has ticks at 1, 2 and 5 where it is short.
+function scaleStyle(type) {
+    return type === "log" ? {type: "log", dtick: undefined, exponentformat: "none"} : {type};
+}
+
+function legendStyle(div, title) {
+    const style = {title: {text: plain(title ?? "")}, bgcolor: "rgba(0,0,0,0)", itemwidth: 44};
+    return isNarrow(div)
+        ? {...style, orientation: "h", yref: "container", y: 0, yanchor: "bottom", x: 0}
+        : style;
+}
+
+function drawFigure(div, traces, layout) {
+    const fonts = {family: "inherit", size: 13, color: color("text")};
+    return Plotly.react(div, traces, {
+        font: fonts, paper_bgcolor: color("card"), plot_bgcolor: color("card"),
+        margin: {l: 56, r: 16, t: 24, b: 48}, hovermode: "closest", height: 460,
+        hoverlabel: {bgcolor: color("card"), bordercolor: color("line"), font: fonts,
+            align: "left"},
+        modebar: {bgcolor: "rgba(0,0,0,0)", color: color("faint"), activecolor: color("accent")},
+        ...layout,
+    }, {
+        responsive: true, displaylogo: false,
+        // These only: Plotly's own list has one that sends the figure to its cloud.
+        modeBarButtons: [["toImage"], ["zoom2d", "pan2d"],
+            ["zoomIn2d", "zoomOut2d", "resetScale2d"]],
+        plotlyServerURL: "",
+        // A vector picture, for papers.
+        toImageButtonOptions: {format: "svg", filename: `hairbench-${div.id}`},
+    });
+}
+
+// ---- Tables that sort by what is clicked --------------------------------------------------------
+
+// Columns: title; text(row); numeric, value(row): what it sorts by; cell(row): its element.
+function sortValue(column, row) {
+    return column.numeric ? (column.value ?? column.text)(row) : column.text(row);
+}
+
+// What is not known comes last, whichever way it is sorted.
+function compareRows(column, direction) {
+    return (a, b) => {
+        const left = sortValue(column, a), right = sortValue(column, b);
+        const leftMissing = left === undefined || left === "";
+        const rightMissing = right === undefined || right === "";
+        if (leftMissing || rightMissing) return leftMissing - rightMissing;
+        return direction * (column.numeric ? left - right
+            : String(left).localeCompare(String(right), "en", {numeric: true}));
+    };
+}
+
+function headerCell(table, columns, column, index) {
+    const sort = table.sort?.index === index ? table.sort.direction : 0;
+    return element("th", {scope: "col", class: column.numeric ? "numeric" : undefined,
+        "aria-sort": sort > 0 ? "ascending" : sort < 0 ? "descending" : "none"},
+    element("button", {type: "button", title: column.hint, onclick: () => {
+        table.sort = {index, direction: sort > 0 ? -1 : 1};
+        fillTable(table, columns, table.rowsShown);
+        table.querySelectorAll("thead button")[index].focus();
+    }}, column.title, element("span", {class: "arrow", "aria-hidden": "true"},
+        sort > 0 ? "\u25b2" : sort < 0 ? "\u25bc" : "")));
+}
+
+function bodyCell(column, row, index) {
+    const content = column.cell ? column.cell(row) : column.text(row) ?? "";
+    return element(index === 0 ? "th" : "td", {
+        scope: index === 0 ? "row" : undefined,
+        class: [column.numeric && "numeric", column.wide && "wide"].filter(Boolean).join(" ")
+            || undefined}, content);
+}
+
+function fillTable(table, columns, shown) {
+    table.rowsShown = shown;
+    const sorted = table.sort
+        ? [...shown].sort(compareRows(columns[table.sort.index], table.sort.direction)) : shown;
+    showOnly(table,
+        element("thead", {}, element("tr", {},
+            columns.map((column, index) => headerCell(table, columns, column, index)))),
+        element("tbody", {}, sorted.map((row) => element("tr",
+            {dataset: {status: row.status ?? ""}},
+            columns.map((column, index) => bodyCell(column, row, index))))));
+}
+
+// ---- Summary ------------------------------------------------------------------------------------
+// What was measured, where, and what to know before believing it.
 
 function described(terms) {
     return element("dl", {}, terms.filter(([, value]) => value !== undefined && value !== "")
@@ -94,4 +440,89 @@ function buildSummary() {
     showOnly(byId("findings"),
         findings(`\u26a0 ${counted(warnings.length, "warning")}`, warnings),
         findings(`${counted(left.length, "case")} without figures`, left));
+}
+
+// ---- Filter -------------------------------------------------------------------------------------
+// Which cases are shown: one filter for all figures and tables.
+
+const filter = {text: "", hidden: new Map()};  // pointer -> texts of the values left out
+const filterListeners = [];
+
+function onFilterChange(listener) { filterListeners.push(listener); }
+
+function rowText(row) {
+    return [row.name, row.status, row.reason, ...row.warnings].filter(Boolean).join("\n");
+}
+
+// A regular expression where it is one, a text where it is not, in any case of letters.
+function textMatcher(text) {
+    if (!text) return () => true;
+    try {
+        const pattern = new RegExp(text, "i");
+        return (row) => pattern.test(rowText(row));
+    } catch {
+        const lower = text.toLowerCase();
+        return (row) => rowText(row).toLowerCase().includes(lower);
+    }
+}
+
+function filterValue(row, key) {
+    return key === "status" ? row.status : valueText(row.values[key]);
+}
+
+function filteredRows() {
+    const matches = textMatcher(filter.text);
+    return rows.filter((row) => matches(row) && [...filter.hidden].every(
+        ([key, hidden]) => !hidden.has(filterValue(row, key))));
+}
+
+// Those that have something to plot.
+function filteredOk() { return filteredRows().filter((row) => row.status === "ok"); }
+
+function filterChanged() {
+    byId("filter-count").textContent =
+        `${filteredRows().length} of ${counted(rows.length, "case")}`;
+    for (const listener of filterListeners) listener();
+}
+
+function chipsOf(key, label, texts) {
+    const hidden = new Set();
+    filter.hidden.set(key, hidden);
+    const chips = texts.map((text) => toggle(text, true, (on) => {
+        if (on) hidden.delete(text);
+        else hidden.add(text);
+        filterChanged();
+    }, {dataset: {filter: key, value: text}}));
+    return element("div", {class: "chips", role: "group", "aria-label": label, title: key},
+        element("span", {class: "chips-label"}, label), chips);
+}
+
+function buildFilter() {
+    let waiting;
+    const box = element("input", {type: "search", id: "filter-text", "aria-label": "Filter",
+        placeholder: "text or regular expression, e.g. density:(16|32)",
+        oninput: () => {
+            clearTimeout(waiting);
+            waiting = setTimeout(() => {
+                filter.text = box.value;
+                filterChanged();
+            }, 150);
+        }});
+    const statuses = [...new Set(rows.map((row) => row.status))];
+    const groups = axes.map(
+        (axis) => chipsOf(axis.pointer, axis.label, axis.values.map(valueText)));
+    if (statuses.length > 1) groups.push(chipsOf("status", "status", statuses));
+    const reset = element("button", {type: "button", id: "filter-reset", onclick: () => {
+        box.value = filter.text = "";
+        for (const hidden of filter.hidden.values()) hidden.clear();
+        for (const chip of byId("filter").querySelectorAll(".chip"))
+            chip.setAttribute("aria-pressed", "true");
+        filterChanged();
+    }}, "show all");
+    showOnly(byId("filter"),
+        element("div", {class: "filter-row"}, box,
+            element("output", {id: "filter-count", "aria-live": "polite"}), reset),
+        groups.length ? element("details", {open: innerWidth >= 800},
+            element("summary", {}, "by axis"), groups) : "");
+    byId("filter-count").textContent = `${rows.length} of ${counted(rows.length, "case")}`;
 }
