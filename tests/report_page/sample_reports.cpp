@@ -8,8 +8,7 @@
 
 #include "engine/pictures.h"
 
-namespace report_page {
-
+namespace benchmarks::report {
 namespace {
 
 constexpr int kSamples = 60;
@@ -28,89 +27,78 @@ std::string caseName(const Known& known) {
     return "known/density:" + std::to_string(known.density) + "/msaa:" + std::to_string(known.msaa);
 }
 
-benchmarks::report::CaseResult emptyCase(const Known& known) {
-    benchmarks::report::CaseResult result;
+CaseResult emptyCase(const Known& known) {
+    CaseResult result;
     result.name = caseName(known);
     result.axes = {
-        {"/strands/density", benchmarks::scene::Document(known.density)},
-        {"/render/msaa", benchmarks::scene::Document(known.msaa)}};
+        {"/strands/density", scene::Document(known.density)},
+        {"/render/msaa", scene::Document(known.msaa)}};
     return result;
 }
 
-benchmarks::report::CaseResult measuredCase(const Known& known, double slower) {
-    benchmarks::report::CaseResult result = emptyCase(known);
+CaseResult measuredCase(const Known& known, double slower) {
+    CaseResult result = emptyCase(known);
     const double ms = known.frame_ms * slower;
     result.metrics = {
-        {benchmarks::report::ofFrame(benchmarks::report::Measured::rate),
-         {1000.0 / ms},
-         benchmarks::report::Mode::overlapped},
-        {benchmarks::report::ofFrame(benchmarks::report::Measured::time), around(ms),
-         benchmarks::report::Mode::overlapped},
-        {benchmarks::report::ofPass("simulate", benchmarks::report::Measured::time),
-         around(0.2 * ms), benchmarks::report::Mode::isolated},
-        {benchmarks::report::ofPass("strands", benchmarks::report::Measured::time),
-         around(0.7 * ms), benchmarks::report::Mode::isolated},
-        {benchmarks::report::ofPass("resolve", benchmarks::report::Measured::time),
-         around(0.1 * ms), benchmarks::report::Mode::isolated},
-        {benchmarks::report::ofImage(benchmarks::report::Measured::flip), {1.0 / known.density}},
-        {benchmarks::report::ofMemory(benchmarks::report::Measured::allocated),
-         {1048576.0 * known.density}}};
+        {ofFrame(Measured::rate), {1000.0 / ms}, Mode::overlapped},
+        {ofFrame(Measured::time), around(ms), Mode::overlapped},
+        {ofPass("simulate", Measured::time), around(0.2 * ms), Mode::isolated},
+        {ofPass("strands", Measured::time), around(0.7 * ms), Mode::isolated},
+        {ofPass("resolve", Measured::time), around(0.1 * ms), Mode::isolated},
+        {ofImage(Measured::flip), {1.0 / known.density}},
+        {ofMemory(Measured::allocated), {1048576.0 * known.density}}};
     if (known.density == 16 && known.msaa == 1) result.trust.warnings = {kWarning};
     result.image_hash = result.state_hash = "0123456789abcdef";
     return result;
 }
 
-benchmarks::report::Report emptyReport(const std::string& scene) {
-    benchmarks::report::Report report;
+Report emptyReport(const std::string& scene_name) {
+    Report report;
     report.environment.device = {"Sample device", "discrete", "sample", "1.0", "1.3.0", 1.0};
-    report.environment.command = {"hairbench", "run", "scenes/" + scene + ".json"};
+    report.environment.command = {"hairbench", "run", "scenes/" + scene_name + ".json"};
     report.scene = {
-        "scenes/" + scene + ".json", "0123456789abcdef",
-        benchmarks::scene::Document(benchmarks::scene::Json{{"description", "Known."}})};
+        "scenes/" + scene_name + ".json", "0123456789abcdef",
+        scene::Document(scene::Json{{"description", "Known."}})};
     return report;
 }
 
 }  // namespace
 
-benchmarks::report::Report knownReport(double slower) {
-    benchmarks::report::Report report = emptyReport("known");
+Report knownReport(double slower) {
+    Report report = emptyReport("known");
     for (const Known& known : kKnown) report.cases.push_back(measuredCase(known, slower));
-    benchmarks::report::CaseResult skipped = emptyCase({32, 4, 0.0});
-    skipped.status = benchmarks::report::Status::skipped;
+    CaseResult skipped = emptyCase({32, 4, 0.0});
+    skipped.status = Status::skipped;
     skipped.reason = kSkipReason;
     report.cases.push_back(skipped);
     return report;
 }
 
-benchmarks::report::Report
-oneCaseReport(const std::string& name, std::vector<benchmarks::scene::AxisValue> axes) {
-    benchmarks::report::Report report = emptyReport("one");
-    benchmarks::report::CaseResult result;
+Report oneCaseReport(const std::string& name, std::vector<scene::AxisValue> axes) {
+    Report report = emptyReport("one");
+    CaseResult result;
     result.name = name;
     result.axes = std::move(axes);
     result.metrics = {
-        {benchmarks::report::ofFrame(benchmarks::report::Measured::time), around(1.0),
-         benchmarks::report::Mode::overlapped},
-        {benchmarks::report::ofPass("strands", benchmarks::report::Measured::time), around(0.5),
-         benchmarks::report::Mode::isolated},
-        {benchmarks::report::ofPass("strands", benchmarks::report::Measured::cpu_time),
-         around(0.75), benchmarks::report::Mode::wall_clock}};
+        {ofFrame(Measured::time), around(1.0), Mode::overlapped},
+        {ofPass("strands", Measured::time), around(0.5), Mode::isolated},
+        {ofPass("strands", Measured::cpu_time), around(0.75), Mode::wall_clock}};
     report.cases.push_back(result);
     return report;
 }
 
-std::filesystem::path writeWithPictures(
-    benchmarks::report::Report report, const std::filesystem::path& file, unsigned char red) {
+std::filesystem::path
+writeWithPictures(Report report, const std::filesystem::path& file, unsigned char red) {
     const std::string folder = file.stem().string() + ".pictures";
     std::vector<unsigned char> pixels;
     for (int i = 0; i < 4 * 2; ++i) pixels.insert(pixels.end(), {red, 0, 128, 255});
     for (std::size_t i = 0; i < report.cases.size(); ++i) {
-        if (report.cases[i].status != benchmarks::report::Status::ok) continue;
+        if (report.cases[i].status != Status::ok) continue;
         report.cases[i].picture = folder + '/' + std::to_string(i) + ".png";
         engine::writePng(file.parent_path() / report.cases[i].picture, 4, 2, pixels);
     }
-    std::ofstream(file) << benchmarks::report::reportText(report);
+    std::ofstream(file) << reportText(report);
     return file;
 }
 
-}  // namespace report_page
+}  // namespace benchmarks::report

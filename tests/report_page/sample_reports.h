@@ -7,7 +7,7 @@
 #include "benchmarks/report/report.h"
 
 // Reports whose every figure is known, for pages to show.
-namespace report_page {
+namespace benchmarks::report {
 
 // In the order of the sweep: neither sorted by number nor as texts would be.
 struct Known {
@@ -22,14 +22,13 @@ inline constexpr const char* kWarning = "timestamps are not trusted";  // of the
 
 // kKnown's cases, each with 60 samples within 1 % of `slower` times the median, and the case 32, 4,
 // which was skipped.
-benchmarks::report::Report knownReport(double slower = 1.0);
+Report knownReport(double slower = 1.0);
 
 // One case with these axes: a frame takes 1 ms, its strands 0.5 ms, and 0.75 ms of CPU time.
-benchmarks::report::Report
-oneCaseReport(const std::string& name, std::vector<benchmarks::scene::AxisValue> axes);
+Report oneCaseReport(const std::string& name, std::vector<scene::AxisValue> axes);
 
 // Writes a report and for each of its cases that ran a picture of one colour, 4 x 2 px.
-std::filesystem::path writeWithPictures(
-    benchmarks::report::Report report, const std::filesystem::path& file, unsigned char red);
+std::filesystem::path
+writeWithPictures(Report report, const std::filesystem::path& file, unsigned char red);
 
-}  // namespace report_page
+}  // namespace benchmarks::report
