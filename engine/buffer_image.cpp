@@ -9,8 +9,6 @@
 namespace engine {
 namespace {
 
-// ---- Buffer -------------------------------------------------------------------------------------
-
 VmaAllocationCreateFlags allocationFlags(Usage usage) {
     if (usage == Usage::storage) return 0;
     return VMA_ALLOCATION_CREATE_MAPPED_BIT |
@@ -19,6 +17,8 @@ VmaAllocationCreateFlags allocationFlags(Usage usage) {
 }
 
 }  // namespace
+
+// ---- Buffers ------------------------------------------------------------------------------------
 
 Buffer::Buffer(const Device& device, const BufferDescription& description)
     : allocator_(device.allocator()), size_(description.size) {
@@ -70,7 +70,7 @@ void Buffer::swap(Buffer& other) noexcept {
     std::swap(line_, other.line_);
 }
 
-// ---- Image --------------------------------------------------------------------------------------
+// ---- Images -------------------------------------------------------------------------------------
 
 Image::Image(const Device& device, const ImageDescription& description)
     : allocator_(device.allocator()), format_(description.format),
@@ -127,7 +127,7 @@ Image::~Image() {
     if (image_) vmaDestroyImage(allocator_, image_, allocation_);
 }
 
-// ---- Sampler ------------------------------------------------------------------------------------
+// ---- Samplers -----------------------------------------------------------------------------------
 
 Sampler::Sampler(const Device& device, const SamplerDescription& description) {
     VkSamplerCreateInfo create{};
@@ -144,7 +144,7 @@ Sampler::Sampler(const Device& device, const SamplerDescription& description) {
     sampler_ = {device.get(), sampler};
 }
 
-// ---- Transfer -----------------------------------------------------------------------------------
+// ---- Transfers ----------------------------------------------------------------------------------
 
 void upload(const Device& device, std::span<const std::byte> bytes, const Buffer& destination) {
     const Buffer staging(

@@ -12,6 +12,8 @@
 
 struct VmaAllocation_T;
 
+// The device's buffers, images and samplers, and copies of whole buffers and images between host
+// and device.
 namespace engine {
 
 enum class Usage {
@@ -62,12 +64,6 @@ private:
     void* mapped_ = nullptr;
     MemoryLedger::Line line_;
 };
-
-}  // namespace engine
-
-struct VmaAllocation_T;
-
-namespace engine {
 
 struct ImageDescription {
     VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;

@@ -11,7 +11,6 @@ namespace engine {
 
 class ComputePipeline;
 class GraphicsPipeline;
-class Sampler;
 
 // Who touched memory before a barrier and who will after it.
 enum class Access {
@@ -39,7 +38,7 @@ struct SampledImage {
     const Sampler* sampler;
 };
 
-// A command buffer being recorded. Borrows the buffer; records nothing that it is not told to.
+// A command buffer being recorded. Borrows the buffer; adds no barrier by itself.
 class Commands {
 public:
     explicit Commands(VkCommandBuffer buffer) : buffer_(buffer) {}
@@ -51,16 +50,17 @@ public:
     // Makes what happened `before` visible to what comes `after`, for all memory.
     void barrier(Access before, Access after);
 
-    // Also moves an image between layouts. UNDEFINED as `from` discards what it holds.
+    // A barrier that moves an image from one layout to another. UNDEFINED as `from` discards what
+    // the image holds.
     void transition(
         const Image& image, VkImageLayout from, VkImageLayout to, Access before, Access after);
 
     void copy(const Buffer& source, const Buffer& destination, std::size_t bytes);
-    // Of one size; TRANSFER_SRC_OPTIMAL to TRANSFER_DST_OPTIMAL.
+    // Between images of one size, from TRANSFER_SRC_OPTIMAL to TRANSFER_DST_OPTIMAL.
     void copy(const Image& source, const Image& destination);
-    void
-    copy(const Image& source, const Buffer& destination);  // TRANSFER_SRC_OPTIMAL, tightly packed
-    // A level from its tightly packed pixels; TRANSFER_DST_OPTIMAL.
+    // An image in TRANSFER_SRC_OPTIMAL into tightly packed pixels.
+    void copy(const Image& source, const Buffer& destination);
+    // Tightly packed pixels into a level of an image in TRANSFER_DST_OPTIMAL.
     void
     copy(const Buffer& source, std::size_t offset, const Image& destination, std::uint32_t level);
     void fill(const Buffer& buffer, std::uint32_t value);

@@ -14,19 +14,7 @@
 #include "engine/shaders.h"
 
 namespace engine {
-
-// ---- Memory ledger ------------------------------------------------------------------------------
-
-void MemoryLedger::leave(const Entry& entry, std::uint64_t bytes) {
-    const auto place = bytes_.find(entry);
-    if (place == bytes_.end()) return;
-    place->second -= bytes;
-    if (place->second == 0) bytes_.erase(place);
-}
-
 namespace {
-
-// ---- Pipeline cache -----------------------------------------------------------------------------
 
 std::filesystem::path cacheFolder() {
     if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) {
@@ -55,7 +43,8 @@ std::vector<char> readFile(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// The driver is asked to check too, but not every driver does.
+// Whether the data is of this device's driver. Drivers have to check that too, but not every one
+// does.
 bool belongsTo(const std::vector<char>& data, const VkPhysicalDeviceProperties& properties) {
     VkPipelineCacheHeaderVersionOne header{};
     if (data.size() < sizeof header) return false;
@@ -65,7 +54,34 @@ bool belongsTo(const std::vector<char>& data, const VkPhysicalDeviceProperties& 
            std::memcmp(header.pipelineCacheUUID, properties.pipelineCacheUUID, VK_UUID_SIZE) == 0;
 }
 
+VmaAllocator createAllocator(VkInstance instance, const DeviceInfo& info, VkDevice device) {
+    VmaVulkanFunctions functions{};
+    functions.vkGetInstanceProcAddr = vkGetInstanceProcAddr;
+    functions.vkGetDeviceProcAddr = vkGetDeviceProcAddr;
+    VmaAllocatorCreateInfo create{};
+    create.flags = VMA_ALLOCATOR_CREATE_BUFFER_DEVICE_ADDRESS_BIT;
+    create.physicalDevice = info.handle;
+    create.device = device;
+    create.instance = instance;
+    create.vulkanApiVersion = VK_API_VERSION_1_3;
+    create.pVulkanFunctions = &functions;
+    VmaAllocator allocator{};
+    check(vmaCreateAllocator(&create, &allocator), "create the memory allocator");
+    return allocator;
+}
+
 }  // namespace
+
+// ---- The ledger of device memory ----------------------------------------------------------------
+
+void MemoryLedger::leave(const Entry& entry, std::uint64_t bytes) {
+    const auto place = bytes_.find(entry);
+    if (place == bytes_.end()) return;
+    place->second -= bytes;
+    if (place->second == 0) bytes_.erase(place);
+}
+
+// ---- The pipeline cache on disk -----------------------------------------------------------------
 
 PipelineCache::PipelineCache(VkDevice device, const DeviceInfo& info) : device_(device) {
     VkPhysicalDeviceProperties properties{};
@@ -106,27 +122,7 @@ PipelineCache::~PipelineCache() {
     std::filesystem::rename(part, file_, ignored);
 }
 
-namespace {
-
-// ---- Device -------------------------------------------------------------------------------------
-
-VmaAllocator createAllocator(VkInstance instance, const DeviceInfo& info, VkDevice device) {
-    VmaVulkanFunctions functions{};
-    functions.vkGetInstanceProcAddr = vkGetInstanceProcAddr;
-    functions.vkGetDeviceProcAddr = vkGetDeviceProcAddr;
-    VmaAllocatorCreateInfo create{};
-    create.flags = VMA_ALLOCATOR_CREATE_BUFFER_DEVICE_ADDRESS_BIT;
-    create.physicalDevice = info.handle;
-    create.device = device;
-    create.instance = instance;
-    create.vulkanApiVersion = VK_API_VERSION_1_3;
-    create.pVulkanFunctions = &functions;
-    VmaAllocator allocator{};
-    check(vmaCreateAllocator(&create, &allocator), "create the memory allocator");
-    return allocator;
-}
-
-}  // namespace
+// ---- The logical device -------------------------------------------------------------------------
 
 Device::Device(const DeviceOptions& options)
     : instance_(options.validation, options.window_extensions),

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,7 +12,21 @@
 #include "engine/error.h"
 #include "engine/instance.h"
 
+struct VmaAllocation_T;
+struct VmaAllocator_T;
+
+// The device: a logical device with its queue and allocator, the ledger of who holds its memory,
+// and its pipeline cache.
 namespace engine {
+
+class Commands;
+class ShaderLibrary;
+
+// The device stopped working (VK_ERROR_DEVICE_LOST), and so did everything made from it.
+class DeviceLost : public Error {
+public:
+    using Error::Error;
+};
 
 // Bytes of device memory by the names of the buffers and images that hold them and by the memory
 // heap that they lie in. Live allocations only.
@@ -27,7 +42,7 @@ public:
 
     const std::map<Entry, std::uint64_t>& bytes() const { return bytes_; }
 
-    // Once on the ledger, off it again when the entry's owner goes; move-only.
+    // An entry that is on the ledger for as long as its owner keeps this; move-only.
     class Line {
     public:
         Line() = default;
@@ -81,16 +96,6 @@ private:
     std::vector<char> loaded_;
     VkPipelineCache cache_{};
 };
-
-}  // namespace engine
-
-struct VmaAllocation_T;
-struct VmaAllocator_T;
-
-namespace engine {
-
-class Commands;
-class ShaderLibrary;
 
 struct DeviceOptions {
     std::string wanted;  // index or part of the name; empty: the best
@@ -159,12 +164,6 @@ private:
     std::unique_ptr<PipelineCache> cache_;
     Handle<VkCommandPool, &vkDestroyCommandPool> pool_;
     Handle<VkFence, &vkDestroyFence> fence_;
-};
-
-// The device stopped working (VK_ERROR_DEVICE_LOST), and so did everything made from it.
-class DeviceLost : public Error {
-public:
-    using Error::Error;
 };
 
 }  // namespace engine

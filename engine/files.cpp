@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// ---- Read file ----------------------------------------------------------------------------------
-
 constexpr std::size_t kLargest = std::numeric_limits<int>::max();
 
 std::ifstream opened(const fs::path& path) {
@@ -28,40 +26,6 @@ std::ifstream opened(const fs::path& path) {
     if (!file) throw Error(path.string(), "can't be read");
     return file;
 }
-
-}  // namespace
-
-OpenFile::OpenFile(const fs::path& path) : name_(path.string()) {
-    std::error_code error;
-    // Opening a pipe would wait for its writer.
-    if (fs::is_other(path, error)) throw Error(name_, "not a file");
-    file_ = opened(path);
-    size_ = fs::file_size(path, error);
-    if (error) throw Error(name_, "can't be read");
-}
-
-void OpenFile::read(std::span<char> bytes) {
-    file_.seekg(0);
-    file_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (!file_) throw Error(name_, "can't be read");
-}
-
-std::string readFile(const fs::path& path) {
-    std::ifstream file = opened(path);
-    std::string bytes;
-    std::array<char, 1 << 16> part;
-    while (file) {
-        file.read(part.data(), part.size());
-        bytes.append(part.data(), static_cast<std::size_t>(file.gcount()));
-        if (bytes.size() > kLargest) throw Error(path.string(), "is larger than 2 GiB");
-    }
-    if (!file.eof()) throw Error(path.string(), "can't be read");
-    return bytes;
-}
-
-namespace {
-
-// ---- Write file ---------------------------------------------------------------------------------
 
 using Writer = std::function<void(std::ostream&)>;
 
@@ -148,6 +112,38 @@ void makePlaceFor(const fs::path& path) {
 }
 
 }  // namespace
+
+// ---- Reading ------------------------------------------------------------------------------------
+
+OpenFile::OpenFile(const fs::path& path) : name_(path.string()) {
+    std::error_code error;
+    // Opening a pipe would wait for its writer.
+    if (fs::is_other(path, error)) throw Error(name_, "not a file");
+    file_ = opened(path);
+    size_ = fs::file_size(path, error);
+    if (error) throw Error(name_, "can't be read");
+}
+
+void OpenFile::read(std::span<char> bytes) {
+    file_.seekg(0);
+    file_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (!file_) throw Error(name_, "can't be read");
+}
+
+std::string readFile(const fs::path& path) {
+    std::ifstream file = opened(path);
+    std::string bytes;
+    std::array<char, 1 << 16> part;
+    while (file) {
+        file.read(part.data(), part.size());
+        bytes.append(part.data(), static_cast<std::size_t>(file.gcount()));
+        if (bytes.size() > kLargest) throw Error(path.string(), "is larger than 2 GiB");
+    }
+    if (!file.eof()) throw Error(path.string(), "can't be read");
+    return bytes;
+}
+
+// ---- Writing ------------------------------------------------------------------------------------
 
 void writeFileAtomically(const fs::path& path, std::string_view text) {
     writeFileAtomically(path, [&](std::ostream& file) {

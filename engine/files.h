@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+// Whole files: read at once, and written so that nobody sees half of one.
 namespace engine {
 
 // A file that is open for reading, of any size. Throws Error that names it.
@@ -18,7 +19,7 @@ public:
 
     std::uintmax_t size() const { return size_; }
 
-    // The first of its bytes, as many as there is room for.
+    // Reads the first bytes of the file, as many as `bytes` has room for.
     void read(std::span<char> bytes);
 
 private:

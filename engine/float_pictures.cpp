@@ -17,6 +17,7 @@
 
 #include "engine/error.h"
 #include "engine/files.h"
+#include "engine/pictures.h"
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
@@ -26,8 +27,6 @@
 
 namespace engine {
 namespace {
-
-// ---- Exr file -----------------------------------------------------------------------------------
 
 class MemoryInput : public Imf::IStream {
 public:
@@ -98,7 +97,8 @@ std::array<const char*, 3> channelsOf(const Imf::ChannelList& channels) {
     return names;
 }
 
-// One of three interleaved floats of a picture that begins at `rgb` and at the window's corner.
+// A channel of a picture of three interleaved floats, which begins at `rgb` and at the window's
+// corner.
 Imf::Slice slice(float* rgb, const Imath::Box2i& window, std::size_t channel) {
     const Size size = checkedSize(window);
     return Imf::Slice::Make(
@@ -140,8 +140,6 @@ FloatPixels decode(std::string_view bytes) {
     return pixels;
 }
 
-}  // namespace
-
 FloatPixels decodeExr(std::string_view file) {
     try {
         return decode(file);
@@ -151,6 +149,37 @@ FloatPixels decodeExr(std::string_view file) {
         const std::string reason = error.what();
         throw Error("can't be decoded: " + reason.substr(0, reason.find('\n')));
     }
+}
+
+// Radiance's RGBE.
+FloatPixels decodeHdr(std::string_view file) {
+    const auto* data = reinterpret_cast<const stbi_uc*>(file.data());
+    const int size = static_cast<int>(file.size());
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    if (!stbi_info_from_memory(data, size, &width, &height, &channels))
+        throw Error("not a Radiance HDR picture");
+    checkPictureSize(width, height);
+    const std::unique_ptr<float, void (*)(void*)> decoded(
+        stbi_loadf_from_memory(data, size, &width, &height, &channels, 3), stbi_image_free);
+    if (!decoded) throw Error(std::string("can't be decoded: ") + stbi_failure_reason());
+    const std::size_t values =
+        std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    return {
+        static_cast<std::uint32_t>(width),
+        static_cast<std::uint32_t>(height),
+        {decoded.get(), decoded.get() + values}};
+}
+
+}  // namespace
+
+void checkPictureSize(std::int64_t width, std::int64_t height) {
+    constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
+    if (width > 0 && height > 0 && width <= kMostPixels / height) return;
+    throw Error(
+        std::to_string(width) + " by " + std::to_string(height) +
+        " pixels are outside [1, 2^26] in all");
 }
 
 void writeExr(
@@ -175,16 +204,6 @@ void writeExr(
     writeFileAtomically(path, stream.bytes());
 }
 
-// ---- Float image --------------------------------------------------------------------------------
-
-void checkPictureSize(std::int64_t width, std::int64_t height) {
-    constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
-    if (width > 0 && height > 0 && width <= kMostPixels / height) return;
-    throw Error(
-        std::to_string(width) + " by " + std::to_string(height) +
-        " pixels are outside [1, 2^26] in all");
-}
-
 FloatPixels readFloatImage(const std::filesystem::path& path) {
     const std::string bytes = readFile(path);
     try {
@@ -194,28 +213,6 @@ FloatPixels readFloatImage(const std::filesystem::path& path) {
     } catch (const Error& error) {
         throw Error(path.string(), error.what());
     }
-}
-
-// ---- Hdr file -----------------------------------------------------------------------------------
-
-FloatPixels decodeHdr(std::string_view file) {
-    const auto* data = reinterpret_cast<const stbi_uc*>(file.data());
-    const int size = static_cast<int>(file.size());
-    int width = 0;
-    int height = 0;
-    int channels = 0;
-    if (!stbi_info_from_memory(data, size, &width, &height, &channels))
-        throw Error("not a Radiance HDR picture");
-    checkPictureSize(width, height);
-    const std::unique_ptr<float, void (*)(void*)> decoded(
-        stbi_loadf_from_memory(data, size, &width, &height, &channels, 3), stbi_image_free);
-    if (!decoded) throw Error(std::string("can't be decoded: ") + stbi_failure_reason());
-    const std::size_t values =
-        std::size_t{3} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    return {
-        static_cast<std::uint32_t>(width),
-        static_cast<std::uint32_t>(height),
-        {decoded.get(), decoded.get() + values}};
 }
 
 }  // namespace engine

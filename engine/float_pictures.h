@@ -1,16 +1,12 @@
 #pragma once
 
-#include <string_view>
+#include <cstdint>
 
-#include "engine/pictures.h"
-
-// The formats of readFloatImage, and what all pictures have in common. Errors don't name the file.
+// What pictures of bytes and of floats have in common. The unit's own are readFloatImage() and
+// writeExr() of pictures.h.
 namespace engine {
 
-FloatPixels decodeExr(std::string_view file);
-FloatPixels decodeHdr(std::string_view file);  // Radiance's RGBE
-
-// Throws Error for a picture of no pixels, or of more than 2^26.
+// Throws Error, which doesn't name the file, for a picture of no pixels, or of more than 2^26.
 void checkPictureSize(std::int64_t width, std::int64_t height);
 
 }  // namespace engine

@@ -69,55 +69,6 @@ void submit(
     check(vkQueueSubmit2(device.queue(), 1, &info, VK_NULL_HANDLE), "submit a frame");
 }
 
-}  // namespace
-
-// What one frame in flight owns.
-struct FrameLoop::Slot {
-    Slot(const Device& device, Timing timing) {
-        const VkCommandPoolCreateInfo create{
-            .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-            .pNext = nullptr,
-            .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
-            .queueFamilyIndex = device.info().queue_family};
-        VkCommandPool handle{};
-        check(
-            vkCreateCommandPool(device.get(), &create, nullptr, &handle), "create a command pool");
-        pool = {device.get(), handle};
-        const VkCommandBufferAllocateInfo allocate{
-            .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-            .pNext = nullptr,
-            .commandPool = handle,
-            .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-            .commandBufferCount = 1};
-        check(
-            vkAllocateCommandBuffers(device.get(), &allocate, &buffer),
-            "allocate a command buffer");
-        if (timing == Timing::overlapped || timing == Timing::isolated) {
-            timestamps.emplace(device, kMaxStamps);
-        }
-    }
-
-    struct Span {
-        std::string name;
-        std::uint32_t first_stamp;
-        std::uint32_t last_stamp;
-    };
-    struct Query {
-        std::string name;
-        PipelineStatistics statistics;
-    };
-
-    Handle<VkCommandPool, &vkDestroyCommandPool> pool;
-    VkCommandBuffer buffer{};
-    std::optional<Timestamps> timestamps;
-    std::vector<Span> spans;
-    std::vector<Query> queries;
-    std::uint64_t value = 0;         // of the timeline when the slot's frame is done
-    std::optional<std::size_t> record;  // index of the frame whose results are still to be read
-};
-
-namespace {
-
 // Overlapped, isolated and statistics frames: all passes in one command buffer.
 template <class Slot>
 class OneBufferPasses : public Passes {
@@ -204,6 +155,51 @@ private:
 };
 
 }  // namespace
+
+// What one frame in flight owns.
+struct FrameLoop::Slot {
+    Slot(const Device& device, Timing timing) {
+        const VkCommandPoolCreateInfo create{
+            .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+            .pNext = nullptr,
+            .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
+            .queueFamilyIndex = device.info().queue_family};
+        VkCommandPool handle{};
+        check(
+            vkCreateCommandPool(device.get(), &create, nullptr, &handle), "create a command pool");
+        pool = {device.get(), handle};
+        const VkCommandBufferAllocateInfo allocate{
+            .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+            .pNext = nullptr,
+            .commandPool = handle,
+            .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+            .commandBufferCount = 1};
+        check(
+            vkAllocateCommandBuffers(device.get(), &allocate, &buffer),
+            "allocate a command buffer");
+        if (timing == Timing::overlapped || timing == Timing::isolated) {
+            timestamps.emplace(device, kMaxStamps);
+        }
+    }
+
+    struct Span {
+        std::string name;
+        std::uint32_t first_stamp;
+        std::uint32_t last_stamp;
+    };
+    struct Query {
+        std::string name;
+        PipelineStatistics statistics;
+    };
+
+    Handle<VkCommandPool, &vkDestroyCommandPool> pool;
+    VkCommandBuffer buffer{};
+    std::optional<Timestamps> timestamps;
+    std::vector<Span> spans;
+    std::vector<Query> queries;
+    std::uint64_t value = 0;         // of the timeline when the slot's frame is done
+    std::optional<std::size_t> record;  // index of the frame whose results are still to be read
+};
 
 FrameLoop::FrameLoop(const Device& device, Timing timing)
     : device_(device), timing_(timing), timeline_(makeTimeline(device.get())) {

@@ -12,8 +12,6 @@
 namespace engine {
 namespace {
 
-// ---- Vulkan -------------------------------------------------------------------------------------
-
 constexpr std::array kResultNames{
     std::pair{VK_NOT_READY, "VK_NOT_READY"},
     std::pair{VK_TIMEOUT, "VK_TIMEOUT"},
@@ -31,24 +29,6 @@ constexpr std::array kResultNames{
     std::pair{VK_ERROR_FORMAT_NOT_SUPPORTED, "VK_ERROR_FORMAT_NOT_SUPPORTED"},
     std::pair{VK_ERROR_UNKNOWN, "VK_ERROR_UNKNOWN"},
 };
-
-}  // namespace
-
-std::string resultName(VkResult result) {
-    for (const auto& [value, name] : kResultNames) {
-        if (value == result) return name;
-    }
-    return "VkResult " + std::to_string(static_cast<int>(result));
-}
-
-void check(VkResult result, const char* what) {
-    if (result == VK_ERROR_DEVICE_LOST) throw DeviceLost(what, resultName(result));
-    if (result < VK_SUCCESS) throw Error(what, resultName(result));
-}
-
-namespace {
-
-// ---- Instance -----------------------------------------------------------------------------------
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
@@ -91,99 +71,6 @@ bool hasExtension(const char* name) {
     });
 }
 
-}  // namespace
-
-void MessageLog::add(std::string message) {
-    const std::lock_guard lock(mutex_);
-    messages_.push_back(std::move(message));
-}
-
-std::vector<std::string> MessageLog::take() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(messages_, {});
-}
-
-Instance::Instance(Validation validation, const std::vector<std::string>& window_extensions)
-    : messages_(std::make_unique<MessageLog>()) {
-    if (volkInitialize() != VK_SUCCESS) {
-        throw NoDevice("no Vulkan loader found (libvulkan.so.1): install libvulkan1 and a driver");
-    }
-    if (volkGetInstanceVersion() < VK_API_VERSION_1_3) {
-        throw NoDevice("the Vulkan loader is older than 1.3");
-    }
-
-    const VkApplicationInfo application{
-        .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
-        .pNext = nullptr,
-        .pApplicationName = "hairbench",
-        .applicationVersion = 0,
-        .pEngineName = "hairbench",
-        .engineVersion = 0,
-        .apiVersion = VK_API_VERSION_1_3};
-
-    std::vector<const char*> layers;
-    std::vector<const char*> extensions;
-    for (const std::string& extension : window_extensions) extensions.push_back(extension.c_str());
-    if (hasExtension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME)) {
-        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
-    }
-
-    constexpr std::array enabled{VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
-    const VkDebugUtilsMessengerCreateInfoEXT messenger = messengerInfo(*messages_);
-    const VkValidationFeaturesEXT features{
-        .sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
-        .pNext = &messenger,
-        .enabledValidationFeatureCount = static_cast<std::uint32_t>(enabled.size()),
-        .pEnabledValidationFeatures = enabled.data(),
-        .disabledValidationFeatureCount = 0,
-        .pDisabledValidationFeatures = nullptr};
-    if (validation == Validation::on) {
-        if (!hasLayer(kValidationLayer)) {
-            throw Error("validation was asked for, but the layer is not installed "
-                        "(package vulkan-validationlayers)");
-        }
-        layers.push_back(kValidationLayer);
-        extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
-    }
-
-    const VkInstanceCreateInfo info{
-        .sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
-        .pNext = validation == Validation::on ? &features : nullptr,
-        .flags = 0,
-        .pApplicationInfo = &application,
-        .enabledLayerCount = static_cast<std::uint32_t>(layers.size()),
-        .ppEnabledLayerNames = layers.data(),
-        .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
-        .ppEnabledExtensionNames = extensions.data()};
-    if (const VkResult result = vkCreateInstance(&info, nullptr, &instance_);
-        result != VK_SUCCESS) {
-        throw NoDevice("no Vulkan 1.3 instance: " + resultName(result));
-    }
-    volkLoadInstance(instance_);
-    if (validation == Validation::on) {
-        check(
-            vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_),
-            "create the validation messenger");
-    }
-}
-
-Instance::~Instance() {
-    if (messenger_) vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
-    vkDestroyInstance(instance_, nullptr);
-}
-
-std::vector<VkPhysicalDevice> Instance::physicalDevices() const {
-    std::uint32_t count = 0;
-    check(vkEnumeratePhysicalDevices(instance_, &count, nullptr), "list the Vulkan devices");
-    std::vector<VkPhysicalDevice> devices(count);
-    check(vkEnumeratePhysicalDevices(instance_, &count, devices.data()), "list the Vulkan devices");
-    return devices;
-}
-
-namespace {
-
-// ---- Physical device ----------------------------------------------------------------------------
-
 template <class Struct>
 struct Feature {
     const char* name;
@@ -196,7 +83,7 @@ constexpr std::array kCoreFeatures{
     Feature{"shaderInt64", &VkPhysicalDeviceFeatures::shaderInt64},
 };
 
-// Taken where the device has them.
+// Features that are switched on where the device has them.
 constexpr std::array kOptionalCoreFeatures{
     Feature{"pipelineStatisticsQuery", &VkPhysicalDeviceFeatures::pipelineStatisticsQuery},
     Feature{"independentBlend", &VkPhysicalDeviceFeatures::independentBlend},
@@ -346,6 +233,111 @@ std::string describe(const std::vector<DeviceInfo>& devices) {
 }
 
 }  // namespace
+
+// ---- Results of calls ---------------------------------------------------------------------------
+
+std::string resultName(VkResult result) {
+    for (const auto& [value, name] : kResultNames) {
+        if (value == result) return name;
+    }
+    return "VkResult " + std::to_string(static_cast<int>(result));
+}
+
+void check(VkResult result, const char* what) {
+    if (result == VK_ERROR_DEVICE_LOST) throw DeviceLost(what, resultName(result));
+    if (result < VK_SUCCESS) throw Error(what, resultName(result));
+}
+
+// ---- The instance and its messages --------------------------------------------------------------
+
+void MessageLog::add(std::string message) {
+    const std::lock_guard lock(mutex_);
+    messages_.push_back(std::move(message));
+}
+
+std::vector<std::string> MessageLog::take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(messages_, {});
+}
+
+Instance::Instance(Validation validation, const std::vector<std::string>& window_extensions)
+    : messages_(std::make_unique<MessageLog>()) {
+    if (volkInitialize() != VK_SUCCESS) {
+        throw NoDevice("no Vulkan loader found (libvulkan.so.1): install libvulkan1 and a driver");
+    }
+    if (volkGetInstanceVersion() < VK_API_VERSION_1_3) {
+        throw NoDevice("the Vulkan loader is older than 1.3");
+    }
+
+    const VkApplicationInfo application{
+        .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+        .pNext = nullptr,
+        .pApplicationName = "hairbench",
+        .applicationVersion = 0,
+        .pEngineName = "hairbench",
+        .engineVersion = 0,
+        .apiVersion = VK_API_VERSION_1_3};
+
+    std::vector<const char*> layers;
+    std::vector<const char*> extensions;
+    for (const std::string& extension : window_extensions) extensions.push_back(extension.c_str());
+    if (hasExtension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME)) {
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    }
+
+    constexpr std::array enabled{VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+    const VkDebugUtilsMessengerCreateInfoEXT messenger = messengerInfo(*messages_);
+    const VkValidationFeaturesEXT features{
+        .sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
+        .pNext = &messenger,
+        .enabledValidationFeatureCount = static_cast<std::uint32_t>(enabled.size()),
+        .pEnabledValidationFeatures = enabled.data(),
+        .disabledValidationFeatureCount = 0,
+        .pDisabledValidationFeatures = nullptr};
+    if (validation == Validation::on) {
+        if (!hasLayer(kValidationLayer)) {
+            throw Error("validation was asked for, but the layer is not installed "
+                        "(package vulkan-validationlayers)");
+        }
+        layers.push_back(kValidationLayer);
+        extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+    }
+
+    const VkInstanceCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+        .pNext = validation == Validation::on ? &features : nullptr,
+        .flags = 0,
+        .pApplicationInfo = &application,
+        .enabledLayerCount = static_cast<std::uint32_t>(layers.size()),
+        .ppEnabledLayerNames = layers.data(),
+        .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
+        .ppEnabledExtensionNames = extensions.data()};
+    if (const VkResult result = vkCreateInstance(&info, nullptr, &instance_);
+        result != VK_SUCCESS) {
+        throw NoDevice("no Vulkan 1.3 instance: " + resultName(result));
+    }
+    volkLoadInstance(instance_);
+    if (validation == Validation::on) {
+        check(
+            vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_),
+            "create the validation messenger");
+    }
+}
+
+Instance::~Instance() {
+    if (messenger_) vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
+    vkDestroyInstance(instance_, nullptr);
+}
+
+std::vector<VkPhysicalDevice> Instance::physicalDevices() const {
+    std::uint32_t count = 0;
+    check(vkEnumeratePhysicalDevices(instance_, &count, nullptr), "list the Vulkan devices");
+    std::vector<VkPhysicalDevice> devices(count);
+    check(vkEnumeratePhysicalDevices(instance_, &count, devices.data()), "list the Vulkan devices");
+    return devices;
+}
+
+// ---- Devices and their features -----------------------------------------------------------------
 
 RequiredFeatures::RequiredFeatures() {
     core.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;

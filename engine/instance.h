@@ -11,6 +11,8 @@
 
 #include "engine/error.h"
 
+// Vulkan up to the device: results of calls, owned handles, the instance with its validation
+// messages, and the choice of a physical device.
 namespace engine {
 
 // The specification's name of a result, such as "VK_ERROR_DEVICE_LOST".
@@ -63,7 +65,7 @@ private:
 // The Vulkan loader and instance. Throws NoDevice where no loader or no Vulkan 1.3 instance exists.
 class Instance {
 public:
-    // `extensions`: those that windows need.
+    // `window_extensions`: Window::instanceExtensions() where windows are opened.
     explicit Instance(
         Validation validation, const std::vector<std::string>& window_extensions = {});
     ~Instance();
@@ -97,7 +99,7 @@ struct DeviceInfo {
     VkDriverId driver_id{};
     VkPhysicalDeviceLimits limits{};
     std::uint32_t queue_family = 0;  // graphics, compute and transfer
-    std::uint32_t timestamp_valid_bits = 0;  // of that family
+    std::uint32_t timestamp_valid_bits = 0;  // of the queue family
     std::vector<std::string> missing;  // required features it lacks; empty: suitable
 };
 

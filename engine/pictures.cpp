@@ -25,8 +25,6 @@
 
 namespace engine {
 
-// ---- Encode png ---------------------------------------------------------------------------------
-
 std::string
 encodePng(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba) {
     assert(rgba.size() == std::size_t{4} * width * height);
@@ -42,8 +40,6 @@ encodePng(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_
     }
     return bytes;
 }
-
-// ---- Image file ---------------------------------------------------------------------------------
 
 Pixels decodeImage(std::string_view file) {
     if (file.size() > std::size_t{std::numeric_limits<int>::max()})

@@ -7,28 +7,25 @@
 #include <string_view>
 #include <vector>
 
+// Pictures in memory, and the files that they are read from and written to.
 namespace engine {
 
-// The file of a PNG of RGBA pixels, [row][column], top row first. Throws Error.
-std::string
-encodePng(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba);
-
-// A picture in memory, as files hold it.
+// A picture of display colours in memory, as files hold it.
 struct Pixels {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::vector<std::uint8_t> rgba;  // [row][column][channel], top row first
 };
 
-// One of light: linear RGB without bounds.
+// A picture of light in memory: linear RGB without bounds.
 struct FloatPixels {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::vector<float> rgb;  // [row][column][channel], top row first
 };
 
-// Of a PNG, JPEG, TGA or BMP of at most 2^26 pixels; what has no alpha gets 255, and 16 bits become
-// 8. Throws Error; readImage's names the file.
+// The pixels of a PNG, JPEG, TGA or BMP file of at most 2^26 pixels; what has no alpha gets 255,
+// and 16 bits become 8. Throws Error; readImage's names the file.
 Pixels decodeImage(std::string_view file);
 Pixels readImage(const std::filesystem::path& path);
 
@@ -37,13 +34,18 @@ Pixels readImage(const std::filesystem::path& path);
 // the file.
 FloatPixels readFloatImage(const std::filesystem::path& path);
 
+// The bytes of a PNG file of RGBA pixels, [row][column], top row first. Throws Error.
+std::string
+encodePng(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba);
+
 // Writes a PNG of RGBA pixels, [row][column], top row first, as writeFileAtomically does. Throws
 // Error.
 void writePng(
     const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
     std::span<const std::uint8_t> rgba);
 
-// The same of linear light: an OpenEXR of single-precision R, G, B, [row][column][channel].
+// Writes linear light as an OpenEXR of single-precision R, G, B, [row][column][channel], top row
+// first, as writeFileAtomically does. Throws Error.
 void writeExr(
     const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
     std::span<const float> rgb);

@@ -13,8 +13,6 @@
 namespace engine {
 namespace {
 
-// ---- Pipeline -----------------------------------------------------------------------------------
-
 using ShaderModule = Handle<VkShaderModule, &vkDestroyShaderModule>;
 using PipelineLayout = Handle<VkPipelineLayout, &vkDestroyPipelineLayout>;
 
@@ -123,34 +121,6 @@ VkDescriptorSetLayout makeImageLayout(
     return layout;
 }
 
-}  // namespace
-
-ComputePipeline::ComputePipeline(const Device& device, const ComputeDescription& description) {
-    std::vector<VkDescriptorType> types(
-        description.sampled_images, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE);
-    types.resize(types.size() + description.storage_images, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
-    if (!types.empty())
-        images_ = {device.get(), makeImageLayout(device, types, VK_SHADER_STAGE_COMPUTE_BIT)};
-    layout_ = makeLayout(device, VK_SHADER_STAGE_COMPUTE_BIT, description.push_size, images_.get());
-
-    const ShaderModule module = loadModule(device, description.shader);
-    const Specialization specialization(description.constants);
-    VkComputePipelineCreateInfo create{};
-    create.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-    create.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module, specialization);
-    create.layout = layout_.get();
-    VkPipeline pipeline{};
-    check(
-        vkCreateComputePipelines(
-            device.get(), device.pipelineCache(), 1, &create, nullptr, &pipeline),
-        description.shader.c_str());
-    pipeline_ = {device.get(), pipeline};
-    device.setName(
-        VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), description.shader);
-}
-
-namespace {
-
 VkPipelineColorBlendAttachmentState blendState(Blend blend) {
     VkPipelineColorBlendAttachmentState state{};
     state.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
@@ -181,6 +151,30 @@ VkPipelineColorBlendAttachmentState blendState(Blend blend) {
 }
 
 }  // namespace
+
+ComputePipeline::ComputePipeline(const Device& device, const ComputeDescription& description) {
+    std::vector<VkDescriptorType> types(
+        description.sampled_images, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE);
+    types.resize(types.size() + description.storage_images, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
+    if (!types.empty())
+        images_ = {device.get(), makeImageLayout(device, types, VK_SHADER_STAGE_COMPUTE_BIT)};
+    layout_ = makeLayout(device, VK_SHADER_STAGE_COMPUTE_BIT, description.push_size, images_.get());
+
+    const ShaderModule module = loadModule(device, description.shader);
+    const Specialization specialization(description.constants);
+    VkComputePipelineCreateInfo create{};
+    create.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    create.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module, specialization);
+    create.layout = layout_.get();
+    VkPipeline pipeline{};
+    check(
+        vkCreateComputePipelines(
+            device.get(), device.pipelineCache(), 1, &create, nullptr, &pipeline),
+        description.shader.c_str());
+    pipeline_ = {device.get(), pipeline};
+    device.setName(
+        VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), description.shader);
+}
 
 GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsDescription& description) {
     if (description.sampled_images > 0) {
@@ -272,8 +266,6 @@ GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsDescripti
         VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline),
         description.shaders.front());
 }
-
-// ---- Shader bindings ----------------------------------------------------------------------------
 
 std::set<ShaderBinding> shaderBindings(std::span<const std::uint32_t> code) {
     // Decorations: SPIR-V specification, 3.20.

@@ -10,6 +10,7 @@
 
 #include "engine/device.h"
 
+// Compute and graphics pipelines from descriptions, and what SPIR-V says of itself.
 namespace engine {
 
 // A specialization constant: the id that shaders declare it with, and its value's 32 bits. A value
@@ -76,11 +77,12 @@ struct GraphicsDescription {
     VkCompareOp depth_compare = VK_COMPARE_OP_LESS;
     bool depth_write = true;
     bool discard = false;  // primitives, before they are rasterised: no .frag then
-    std::uint32_t sampled_images =
-        0;  // with their samplers, at bindings 0 .. of the fragment stage
+    // With their samplers, at bindings 0 .. of the fragment stage.
+    std::uint32_t sampled_images = 0;
 };
 
-// Viewport and scissor are dynamic; the rest of the state is in the description.
+// A pipeline of graphics stages. Viewport and scissor are dynamic; the rest of the state is in the
+// description.
 class GraphicsPipeline {
 public:
     GraphicsPipeline(const Device& device, const GraphicsDescription& description);
@@ -94,7 +96,7 @@ private:
     Handle<VkPipeline, &vkDestroyPipeline> pipeline_;
 };
 
-// A place that SPIR-V expects a descriptor at.
+// A place at which SPIR-V expects a descriptor.
 struct ShaderBinding {
     std::uint32_t set = 0;
     std::uint32_t binding = 0;
@@ -102,6 +104,7 @@ struct ShaderBinding {
     auto operator<=>(const ShaderBinding&) const = default;
 };
 
+// All descriptors that a shader's code names.
 std::set<ShaderBinding> shaderBindings(std::span<const std::uint32_t> code);
 
 // Operations of the SPIR-V specification, 3.42.

@@ -29,7 +29,7 @@ struct Chunk {
 
 const Bytef* bytesOf(std::string_view text) { return reinterpret_cast<const Bytef*>(text.data()); }
 
-// Of a chunk's type and data, which lie one after the other.
+// The checksum of a chunk's type and data, which lie one after the other.
 std::uint32_t checksum(std::string_view type_and_data) {
     return static_cast<std::uint32_t>(
         crc32_z(crc32_z(0, nullptr, 0), bytesOf(type_and_data), type_and_data.size()));

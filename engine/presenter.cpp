@@ -10,8 +10,6 @@
 namespace engine {
 namespace {
 
-// ---- Swapchain ----------------------------------------------------------------------------------
-
 struct Mode {
     PresentMode mode;
     VkPresentModeKHR vulkan;
@@ -90,7 +88,25 @@ void imageBarrier(
     vkCmdPipelineBarrier2(commands, &dependency);
 }
 
+Handle<VkSemaphore, &vkDestroySemaphore> makeSemaphore(VkDevice device) {
+    const VkSemaphoreCreateInfo create{
+        .sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, .pNext = nullptr, .flags = 0};
+    VkSemaphore semaphore{};
+    check(vkCreateSemaphore(device, &create, nullptr, &semaphore), "create a semaphore");
+    return {device, semaphore};
+}
+
+VkSemaphoreSubmitInfo semaphoreInfo(VkSemaphore semaphore, VkPipelineStageFlags2 stages) {
+    VkSemaphoreSubmitInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO;
+    info.semaphore = semaphore;
+    info.stageMask = stages;
+    return info;
+}
+
 }  // namespace
+
+// ---- Swapchain ----------------------------------------------------------------------------------
 
 const char* presentModeName(PresentMode mode) {
     return std::ranges::find(kModes, mode, &Mode::mode)->name;
@@ -206,27 +222,7 @@ bool Swapchain::present(std::uint32_t index, VkSemaphore drawn) const {
     return true;
 }
 
-namespace {
-
 // ---- Presenter ----------------------------------------------------------------------------------
-
-Handle<VkSemaphore, &vkDestroySemaphore> makeSemaphore(VkDevice device) {
-    const VkSemaphoreCreateInfo create{
-        .sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, .pNext = nullptr, .flags = 0};
-    VkSemaphore semaphore{};
-    check(vkCreateSemaphore(device, &create, nullptr, &semaphore), "create a semaphore");
-    return {device, semaphore};
-}
-
-VkSemaphoreSubmitInfo semaphoreInfo(VkSemaphore semaphore, VkPipelineStageFlags2 stages) {
-    VkSemaphoreSubmitInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO;
-    info.semaphore = semaphore;
-    info.stageMask = stages;
-    return info;
-}
-
-}  // namespace
 
 Presenter::Presenter(const Device& device, const Window& window, PresentMode mode)
     : device_(device), window_(window), mode_(mode),

@@ -11,6 +11,7 @@
 #include "engine/queries.h"
 #include "engine/window.h"
 
+// Pictures on the screen: the images of a window, and who draws them.
 namespace engine {
 
 // How pictures reach the screen.
@@ -22,8 +23,8 @@ enum class PresentMode {
 
 const char* presentModeName(PresentMode mode);
 
-// The images that a window shows, one after another. Of one size: made anew when the window's
-// changes.
+// The images that a window shows, one after another. They have one size: where the window's changes
+// another swapchain is made.
 class Swapchain {
 public:
     // Fifo where the surface has no such mode. `extent` is what the window says, for surfaces that
@@ -40,7 +41,8 @@ public:
     // makes it ready to be shown.
     void copy(Commands& commands, const Image& picture, std::uint32_t index) const;
 
-    // Shows it once `drawn` is signalled. False where the swapchain no longer fits the window.
+    // Shows an acquired image once `drawn` is signalled. False where the swapchain no longer fits
+    // the window.
     bool present(std::uint32_t index, VkSemaphore drawn) const;
 
     VkExtent2D extent() const { return extent_; }
@@ -48,7 +50,7 @@ public:
     std::size_t imageCount() const { return images_.size(); }
 
     static std::vector<PresentMode> modes(const Device& device, VkSurfaceKHR surface);
-    // Whether the surface has no size now, as that of a window that is minimised.
+    // Whether the surface has no size now, as where its window is minimised.
     static bool isEmpty(const Device& device, VkSurfaceKHR surface);
 
 private:
@@ -78,7 +80,7 @@ public:
     bool
     frame(const std::function<void(Commands&)>& before, const std::function<void(Commands&)>& draw);
 
-    // Of the next picture, px; 0 x 0 while the window is minimised.
+    // Size of the next picture, px; 0 x 0 while the window is minimised.
     VkExtent2D extent() const { return window_.pixels(); }
     std::uint32_t imageCount() const;
 

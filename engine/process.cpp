@@ -16,8 +16,6 @@
 namespace engine {
 namespace {
 
-// ---- Interrupt ----------------------------------------------------------------------------------
-
 volatile std::sig_atomic_t interrupt_count = 0;  // a signal handler can reach nothing but a global
 
 extern "C" void onInterrupt(int signal) {
@@ -25,7 +23,27 @@ extern "C" void onInterrupt(int signal) {
     std::signal(signal, SIG_DFL);
 }
 
+// Share of the time that may be missing from a count: threads take turns with counters between two
+// reads of the clock.
+constexpr double kMissedShare = 1e-3;
+
+// What is read of a counter with PERF_FORMAT_TOTAL_TIME_ENABLED and _RUNNING.
+struct Reading {
+    std::uint64_t count;
+    std::uint64_t enabled;  // ns that the counter was wanted, over all threads
+    std::uint64_t running;  // ns of it that it counted
+};
+
+template <class Operation>
+std::optional<double>
+both(const std::optional<double>& a, const std::optional<double>& b, Operation operation) {
+    if (!a || !b) return std::nullopt;
+    return operation(*a, *b);
+}
+
 }  // namespace
+
+// ---- Interrupts ---------------------------------------------------------------------------------
 
 void catchInterrupts() {
     std::signal(SIGINT, onInterrupt);
@@ -40,7 +58,7 @@ void checkInterrupted() {
     if (interrupted()) throw Interrupted();
 }
 
-// ---- Scratch folder -----------------------------------------------------------------------------
+// ---- Scratch folders ----------------------------------------------------------------------------
 
 ScratchFolder::ScratchFolder() {
     std::string path = (std::filesystem::temp_directory_path() / "hairbench-XXXXXX").string();
@@ -53,25 +71,7 @@ ScratchFolder::~ScratchFolder() {
     std::filesystem::remove_all(path_, ignored);
 }
 
-}  // namespace engine
-
-namespace engine {
-namespace {
-
-// ---- Perf counter -------------------------------------------------------------------------------
-
-// Share of the time that may be missing from a count: threads take turns with counters between two
-// reads of the clock.
-constexpr double kMissedShare = 1e-3;
-
-// With PERF_FORMAT_TOTAL_TIME_ENABLED and _RUNNING.
-struct Reading {
-    std::uint64_t count;
-    std::uint64_t enabled;  // ns that the counter was wanted, over all threads
-    std::uint64_t running;  // ns of it that it counted
-};
-
-}  // namespace
+// ---- Counters of the kernel ---------------------------------------------------------------------
 
 PerfCounter::PerfCounter(std::uint32_t type, std::uint64_t config) {
     perf_event_attr attributes{};
@@ -98,18 +98,7 @@ std::optional<double> PerfCounter::read() const {
     return static_cast<double>(reading.count);
 }
 
-namespace {
-
-// ---- Process use --------------------------------------------------------------------------------
-
-template <class Operation>
-std::optional<double>
-both(const std::optional<double>& a, const std::optional<double>& b, Operation operation) {
-    if (!a || !b) return std::nullopt;
-    return operation(*a, *b);
-}
-
-}  // namespace
+// ---- Use of the CPU -----------------------------------------------------------------------------
 
 ProcessUse operator-(const ProcessUse& to, const ProcessUse& from) {
     return {to.cpu - from.cpu, both(to.instructions, from.instructions, std::minus<>())};

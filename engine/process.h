@@ -4,19 +4,20 @@
 #include <filesystem>
 #include <optional>
 
+// This process: interrupts, scratch folders, and what it uses of the CPU.
 namespace engine {
 
 // From here on Ctrl-C, termination and a closed terminal are remembered instead of ending the
 // program; a second one ends it. A limit on the size of files becomes an error of who writes.
 void catchInterrupts();
 
-// Whether one came.
+// Whether an interrupt came since catchInterrupts().
 bool interrupted();
 
-// What ends work that is interrupted.
+// Thrown to end work that is interrupted.
 class Interrupted {};
 
-// Throws it where one came.
+// Throws Interrupted where an interrupt came.
 void checkInterrupted();
 
 // A folder for files that nobody keeps; gone in any case.
@@ -33,12 +34,8 @@ private:
     std::filesystem::path path_;
 };
 
-}  // namespace engine
-
-namespace engine {
-
-// One of the kernel's counters, of the thread that makes it and of every thread that starts under
-// it from then on (perf_event_open(2) with `inherit`): what they do in user mode. Threads that run
+// A counter of the kernel (perf_event_open(2) with `inherit`) for what the thread that makes it,
+// and every thread that starts under that one from then on, does in user mode. Threads that run
 // already when it is made are not counted.
 class PerfCounter {
 public:
@@ -61,15 +58,16 @@ private:
 // whoever else is at work on the machine.
 struct ProcessUse {
     double cpu = 0.0;  // ms
-    std::optional<double>
-        instructions;  // retired in user mode; absent where no counter is to be had
+    // Retired in user mode; absent where no counter is to be had.
+    std::optional<double> instructions;
 };
 
 ProcessUse operator-(const ProcessUse& to, const ProcessUse& from);
 ProcessUse operator+(const ProcessUse& a, const ProcessUse& b);
 
-// Since some moment in the past. Instructions are those of the thread that calls first and of every
-// thread that starts after that, under it: call it before the device is made, which starts threads.
+// What was used since some moment in the past: differences count. Instructions are those of the
+// thread that calls first and of every thread that starts after that, under it: call it before the
+// device is made, which starts threads.
 ProcessUse processUse();
 
 }  // namespace engine

@@ -39,7 +39,7 @@ StatisticCounts PipelineStatistics::read() const {
     return counts;
 }
 
-// ---- Samples query ------------------------------------------------------------------------------
+// ---- Samples that pass the depth test -----------------------------------------------------------
 
 SamplesQuery::SamplesQuery(const Device& device) : device_(device.get()) {
     VkPhysicalDeviceFeatures features{};

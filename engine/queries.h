@@ -8,6 +8,7 @@
 
 #include "engine/commands.h"
 
+// What the device counts and times: pipeline statistics, samples and timestamps.
 namespace engine {
 
 // The graphics counters of VkQueryPipelineStatisticFlagBits, in the order of the bits 0 to 9. The
@@ -44,7 +45,7 @@ public:
 
     void begin(Commands& commands);
     void end(Commands& commands);
-    // Once the work is complete.
+    // The count, once the work is complete.
     std::uint64_t read() const;
 
 private:

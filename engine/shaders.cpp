@@ -21,29 +21,22 @@
 #include "engine/pipeline.h"
 
 namespace engine {
-
-// ---- Shader library -----------------------------------------------------------------------------
-
-std::span<const std::uint32_t> ShaderLibrary::code(std::string_view path) const {
-    const auto replaced = replacements_.find(path);
-    return replaced == replacements_.end() ? shaderCode(path) : replaced->second;
-}
-
 namespace {
 
-// ---- Glsl includer ------------------------------------------------------------------------------
+// ---- Included files -----------------------------------------------------------------------------
 
 // Answers glslang's questions for included files, and notes which it asked for.
 class GlslIncluder final : public glslang::TShader::Includer {
 public:
     explicit GlslIncluder(const ReadShader& read) : read_(read) {}
 
-    // For "" as well as <>: nothing is looked for beside the including file.
+    // Serves "" as well as <>: nothing is looked for beside the including file.
     IncludeResult*
     includeSystem(const char* header_name, const char* includer_name, std::size_t depth) override;
     void releaseInclude(IncludeResult* result) override;
 
-    // Relative to the folder of shaders, in the order in which they were first asked for.
+    // The files that were asked for, relative to the folder of shaders, in the order of their first
+    // time.
     const std::vector<std::string>& files() const { return files_; }
 
 private:
@@ -51,7 +44,7 @@ private:
 
     const ReadShader& read_;
     std::vector<std::string> files_;
-    // Those that glslang is within, the innermost last.
+    // The files that glslang is within, the innermost last.
     struct Open {
         std::string text;
         std::unique_ptr<IncludeResult> result;
@@ -73,7 +66,8 @@ GlslIncluder::includeSystem(const char* header_name, const char*, std::size_t) {
     const std::string file = header_name;
     if (std::ranges::find(files_, file) == files_.end()) files_.push_back(file);
     const std::string name = nameForGlslang(file);
-    // Once within itself is what include guards are for; twice, it has none and never ends.
+    // Include guards end a file that is within itself once; one that is there twice has none and
+    // never ends.
     const auto within = std::ranges::count_if(
         open_, [&](const auto& open) { return open->result->headerName == name; });
     if (within > 1) return open("", "the file includes itself without end");
@@ -95,7 +89,7 @@ void GlslIncluder::releaseInclude(IncludeResult* result) {
     std::erase_if(open_, [&](const auto& open) { return open->result.get() == result; });
 }
 
-// ---- Shader compiler ----------------------------------------------------------------------------
+// ---- The compiler -------------------------------------------------------------------------------
 
 constexpr std::array kStages{
     std::pair{".vert", EShLangVertex},         std::pair{".tesc", EShLangTessControl},
@@ -110,7 +104,8 @@ EShLanguage stageOf(const std::string& path) {
     throw Error("shader '" + path + "'", "its extension names no stage");
 }
 
-// Of a log of lines such as "ERROR: ./common/picture.glsl:12: 'x' : undeclared identifier".
+// The first error in a log of lines such as "ERROR: ./common/picture.glsl:12: 'x' : undeclared
+// identifier".
 ShaderError firstError(const std::string& log, const std::string& path) {
     static const std::regex located(R"((?:INTERNAL )?ERROR: (.+?):(\d+): (.*))");
     static const std::regex other(R"((?:INTERNAL )?ERROR: (.*))");
@@ -137,7 +132,30 @@ void setTarget(glslang::TShader& shader, EShLanguage stage) {
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
 }
 
+// ---- Sources in SPIR-V --------------------------------------------------------------------------
+
+// A text of SPIR-V: UTF-8, four bytes a word, with a zero at its end.
+std::string literal(std::span<const std::uint32_t> words) {
+    std::string text(words.size_bytes(), '\0');
+    std::memcpy(text.data(), words.data(), words.size_bytes());
+    return text.substr(0, text.find('\0'));
+}
+
+// A path relative to the folder of shaders: the build calls included files "./common/picture.glsl".
+std::string relative(const std::string& name) {
+    return name.starts_with("./") ? name.substr(2) : name;
+}
+
 }  // namespace
+
+// ---- The code of pipelines ----------------------------------------------------------------------
+
+std::span<const std::uint32_t> ShaderLibrary::code(std::string_view path) const {
+    const auto replaced = replacements_.find(path);
+    return replaced == replacements_.end() ? shaderCode(path) : replaced->second;
+}
+
+// ---- Compiling ----------------------------------------------------------------------------------
 
 ShaderCompiler::ShaderCompiler() { glslang::InitializeProcess(); }
 ShaderCompiler::~ShaderCompiler() { glslang::FinalizeProcess(); }
@@ -179,23 +197,7 @@ CompiledShader ShaderCompiler::compile(const std::string& path, const ReadShader
     return compiled;
 }
 
-namespace {
-
-// ---- Shader sources -----------------------------------------------------------------------------
-
-// UTF-8, four bytes a word, with a zero at its end.
-std::string literal(std::span<const std::uint32_t> words) {
-    std::string text(words.size_bytes(), '\0');
-    std::memcpy(text.data(), words.data(), words.size_bytes());
-    return text.substr(0, text.find('\0'));
-}
-
-// The build calls included files "./common/picture.glsl".
-std::string relative(const std::string& name) {
-    return name.starts_with("./") ? name.substr(2) : name;
-}
-
-}  // namespace
+// ---- Sources in SPIR-V --------------------------------------------------------------------------
 
 ShaderSources shaderSources(std::span<const std::uint32_t> code) {
     std::map<std::uint32_t, std::string> names;

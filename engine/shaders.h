@@ -10,21 +10,25 @@
 #include <utility>
 #include <vector>
 
+// Shaders: the SPIR-V that is compiled into the program, what replaces it while the program runs,
+// the compiler, and the sources that SPIR-V carries.
 namespace engine {
 
 using ShaderCode = std::vector<std::uint32_t>;  // SPIR-V
 
-// The code that pipelines are made of: what was compiled into the program (engine/shaders.h),
-// or what took its place since.
+// The code that pipelines are made of: what was compiled into the program (shaderCode()), or what
+// took its place since.
 class ShaderLibrary {
 public:
-    // By entry point, "simulation/wind.comp".
+    // Code by entry point, "simulation/wind.comp".
     using Replacements = std::map<std::string, ShaderCode, std::less<>>;
 
-    // Stays valid until replace(). An unknown path throws Error and lists the known ones.
+    // The code of an entry point, valid until replace(). An unknown path throws Error and lists the
+    // known ones.
     std::span<const std::uint32_t> code(std::string_view path) const;
 
-    // These and no others are replaced from now on. Pipelines that exist keep their code.
+    // From now on the code of these shaders and of no others is replaced. Pipelines that exist keep
+    // theirs.
     void replace(Replacements replacements) { replacements_ = std::move(replacements); }
     const Replacements& replacements() const { return replacements_; }
 
@@ -35,15 +39,16 @@ private:
 // What the compiler says of a shader.
 struct ShaderError {
     std::string file;  // relative to the folder of shaders
-    int line = 0;      // from 1; 0: of no line
+    int line = 0;  // from 1; 0: not known
     std::string text;
 };
 
 struct CompiledShader {
     ShaderCode code;  // empty where there is an error
-    // That were asked for, there or not: the entry point first, then what it includes; each once.
+    // The files that were asked for, there or not: the entry point first, then what it includes;
+    // each once.
     std::vector<std::string> files;
-    // The first: glslang gives up after it, and the rest of what it says is a consequence.
+    // The first error: glslang gives up after it, and the rest of what it says is a consequence.
     std::optional<ShaderError> error;
 };
 
@@ -65,11 +70,11 @@ public:
 };
 
 // The SPIR-V of an entry point under shaders/, compiled into the program: "simulation/wind.comp".
-// It lives as long as the program. An unknown path throws Error and lists the known ones.
-// The list of shaders is the call of hairbench_shaders() in CMake.
+// The code lives as long as the program. An unknown path throws Error and lists the known ones. The
+// list of shaders is the call of hairbench_shaders() in CMake.
 std::span<const std::uint32_t> shaderCode(std::string_view path);
 
-// All of them.
+// The entry points that are compiled into the program.
 std::vector<std::string_view> shaderPaths();
 
 // Texts of GLSL files by their paths relative to the folder of shaders.

@@ -10,8 +10,6 @@
 namespace engine {
 namespace {
 
-// ---- Rendering ----------------------------------------------------------------------------------
-
 VkRenderingAttachmentInfo attachmentInfo(const Attachment& attachment) {
     const bool is_depth = attachment.image->aspect() == VK_IMAGE_ASPECT_DEPTH_BIT;
     VkRenderingAttachmentInfo info{};
@@ -30,7 +28,37 @@ VkRenderingAttachmentInfo attachmentInfo(const Attachment& attachment) {
     return info;
 }
 
+TargetDescription checked(const Device& device, const TargetDescription& description) {
+    if (!device.supportsSamples(description.msaa)) {
+        throw Unsupported(
+            "the device has no " + std::to_string(description.msaa) + "-sample images");
+    }
+    const std::uint32_t limit = device.info().limits.maxImageDimension2D;
+    const std::uint32_t largest =
+        std::max(description.width, description.height) * description.ssaa;
+    if (largest > limit) {
+        throw Unsupported(
+            "an image side of " + std::to_string(largest) + " px is over the device's " +
+            std::to_string(limit));
+    }
+    return description;
+}
+
+ImageDescription rendered(
+    const TargetDescription& description, VkFormat format, VkImageUsageFlags usage,
+    const char* name) {
+    return {
+        .format = format,
+        .width = description.width * description.ssaa,
+        .height = description.height * description.ssaa,
+        .samples = description.msaa,
+        .usage = usage,
+        .name = name};
+}
+
 }  // namespace
+
+// ---- Rendering to attachments -------------------------------------------------------------------
 
 void beginRendering(
     Commands& commands, std::span<const Attachment> colors, const std::optional<Attachment>& depth,
@@ -68,39 +96,7 @@ void beginRendering(
 
 void endRendering(Commands& commands) { vkCmdEndRendering(commands.get()); }
 
-namespace {
-
-// ---- Target -------------------------------------------------------------------------------------
-
-TargetDescription checked(const Device& device, const TargetDescription& description) {
-    if (!device.supportsSamples(description.msaa)) {
-        throw Unsupported(
-            "the device has no " + std::to_string(description.msaa) + "-sample images");
-    }
-    const std::uint32_t limit = device.info().limits.maxImageDimension2D;
-    const std::uint32_t largest =
-        std::max(description.width, description.height) * description.ssaa;
-    if (largest > limit) {
-        throw Unsupported(
-            "an image side of " + std::to_string(largest) + " px is over the device's " +
-            std::to_string(limit));
-    }
-    return description;
-}
-
-ImageDescription rendered(
-    const TargetDescription& description, VkFormat format, VkImageUsageFlags usage,
-    const char* name) {
-    return {
-        .format = format,
-        .width = description.width * description.ssaa,
-        .height = description.height * description.ssaa,
-        .samples = description.msaa,
-        .usage = usage,
-        .name = name};
-}
-
-}  // namespace
+// ---- The images of an offscreen picture ---------------------------------------------------------
 
 Target::Target(const Device& device, const TargetDescription& description)
     : description_(checked(device, description)),

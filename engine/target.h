@@ -1,11 +1,14 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "engine/commands.h"
 
+// Rendering to images, and the images of an offscreen picture.
 namespace engine {
 
 enum class Load { clear, keep };
@@ -14,11 +17,11 @@ enum class Load { clear, keep };
 struct Attachment {
     const Image* image;
     Load load = Load::keep;
-    std::array<float, 4> clear{};  // color; of depth the first
+    std::array<float, 4> clear{};  // of a color; of depth the first number
 };
 
-// Begins rendering to attachments of one size. The viewport is `area`, all of them by default;
-// without attachments it has to be given.
+// Begins rendering to attachments of one size. The viewport is `area`, by default all of the
+// attachments; without attachments it has to be given.
 void beginRendering(
     Commands& commands, std::span<const Attachment> colors, const std::optional<Attachment>& depth,
     const std::optional<VkRect2D>& area = std::nullopt);
@@ -44,7 +47,8 @@ public:
     // Throws Unsupported where the device lacks the sample count or the size.
     Target(const Device& device, const TargetDescription& description);
 
-    // Renders between these two; `background` is used by Load::clear.
+    // What is drawn goes between beginRendering() and endRendering(); `background` is for
+    // Load::clear.
     void
     beginRendering(Commands& commands, Load load, const std::array<float, 3>& background) const;
     void endRendering(Commands& commands) const;
@@ -61,7 +65,9 @@ public:
     const Image& depth() const { return depth_; }
     const Image& output() const { return output_; }  // TRANSFER_SRC_OPTIMAL once resolved
     bool hasRadiance() const { return radiance_.has_value(); }
-    const Image& radiance() const { return *radiance_; }  // the same; only where there is one
+    const Image& radiance() const {
+        return *radiance_;
+    }  // TRANSFER_SRC_OPTIMAL once resolved; needs hasRadiance()
 
 private:
     TargetDescription description_;
@@ -74,7 +80,7 @@ private:
 // The output picture's pixels: [row][column] RGBA, top row first.
 std::vector<std::uint8_t> readOutput(const Device& device, const Target& target);
 
-// The mean linear light of its pixels: [row][column] RGB. The target must have it.
+// The mean linear light of the output picture's pixels: [row][column] RGB. Needs hasRadiance().
 std::vector<float> readRadiance(const Device& device, const Target& target);
 
 }  // namespace engine

@@ -12,11 +12,9 @@
 namespace engine {
 namespace {
 
-// ---- Texture levels -----------------------------------------------------------------------------
-
 using Pixel = std::array<double, 4>;
 
-// IEC 61966-2-1, of a byte.
+// sRGB's curve (IEC 61966-2-1) for every byte.
 const std::array<double, 256>& linearOfBytes() {
     static const std::array<double, 256> table = [] {
         std::array<double, 256> values{};
@@ -94,19 +92,6 @@ Pixels halved(const Pixels& source, Texels texels) {
     return half;
 }
 
-}  // namespace
-
-std::vector<Pixels> textureLevels(Pixels pixels, Texels texels) {
-    std::vector<Pixels> levels{std::move(pixels)};
-    while (levels.back().width > 1 || levels.back().height > 1)
-        levels.push_back(halved(levels.back(), texels));
-    return levels;
-}
-
-namespace {
-
-// ---- Texture ------------------------------------------------------------------------------------
-
 ImageDescription describe(
     const Device& device, const std::vector<Pixels>& levels, VkFormat format,
     const std::string& name) {
@@ -133,6 +118,13 @@ VkFormat formatOf(Texels texels, Decoding decoding) {
 }
 
 }  // namespace
+
+std::vector<Pixels> textureLevels(Pixels pixels, Texels texels) {
+    std::vector<Pixels> levels{std::move(pixels)};
+    while (levels.back().width > 1 || levels.back().height > 1)
+        levels.push_back(halved(levels.back(), texels));
+    return levels;
+}
 
 Texture::Texture(
     const Device& device, const Pixels& pixels, Texels texels, Decoding decoding,

@@ -27,7 +27,7 @@ enum class Decoding {
 // A picture on the device with all its smaller levels, in SHADER_READ_ONLY_OPTIMAL.
 class Texture {
 public:
-    // `decoding` is of display colours. Throws Unsupported for sides that the device hasn't.
+    // `decoding` is for display colours. Throws Unsupported for sides that the device hasn't.
     Texture(
         const Device& device, const Pixels& pixels, Texels texels, Decoding decoding,
         const std::string& name);

@@ -14,8 +14,6 @@
 namespace engine {
 namespace {
 
-// ---- Ui -----------------------------------------------------------------------------------------
-
 constexpr float kFontSize = 15.0f;  // px at scale 1
 constexpr std::uint32_t kMostTextures = 64;
 
@@ -59,7 +57,41 @@ void addFont(float size) {
     io.Fonts->AddFontDefault(&config);
 }
 
+UiRect rectOf(const ImRect& rect) { return {rect.Min.x, rect.Min.y, rect.Max.x, rect.Max.y}; }
+
+// A child's name is its parent's, a slash, its own and a number that tells it from its namesakes.
+std::string nameOf(const ImGuiWindow& window) {
+    std::string name = window.Name;
+    if (!(window.Flags & ImGuiWindowFlags_ChildWindow)) return name;
+    if (window.Flags & (ImGuiWindowFlags_Popup | ImGuiWindowFlags_Tooltip)) return name;
+    const std::size_t underscore = name.rfind('_');
+    const std::size_t slash = name.rfind('/');
+    if (underscore == std::string::npos || slash == std::string::npos || underscore < slash)
+        return name;
+    const std::string own = name.substr(slash + 1, underscore - slash - 1);
+    return (window.ParentWindow ? nameOf(*window.ParentWindow) : std::string()) + '/' + own;
+}
+
+UiItem itemOf(const ImGuiContext& context, ImGuiID id, const ImRect& rect) {
+    const ImGuiWindow& window = *context.CurrentWindow;
+    UiItem item;
+    item.id = id;
+    item.window = nameOf(window);
+    item.rect = item.whole = rectOf(rect);
+    for (const ImGuiWindow* around = &window; around; around = around->ParentWindow)
+        item.scrolls |= around->ScrollMax.y > 0.0f;
+    item.is_window = id == window.ID;
+    // A panel's frame is drawn outside of what its widgets are clipped to.
+    item.clip = rectOf(item.is_window ? window.OuterRectClipped : window.ClipRect);
+    // Dear ImGui has a window of its own for widgets that are in none.
+    item.visible = !window.Hidden && !window.IsFallbackWindow &&
+                   rect.Overlaps(item.is_window ? window.Rect() : window.ClipRect);
+    return item;
+}
+
 }  // namespace
+
+// ---- Dear ImGui in a window ---------------------------------------------------------------------
 
 Ui::Ui(const Device& device, const Window& window, float scale)
     : device_(device), window_(window), scale_(scale), descriptors_(makeDescriptors(device.get())) {
@@ -89,7 +121,7 @@ Ui::Ui(const Device& device, const Window& window, float scale)
     ImGui_ImplVulkan_CreateFontsTexture();
 }
 
-// As fine as the window's pixels, where a screen coordinate is several of them.
+// Letters are as fine as the window's pixels, also where a screen coordinate is several of them.
 void Ui::makeLetters() {
     ImGuiIO& io = ImGui::GetIO();
     const float density = window_.density();
@@ -144,43 +176,7 @@ Ui::Texture::~Texture() {
     ImGui_ImplVulkan_RemoveTexture(static_cast<VkDescriptorSet>(id_));
 }
 
-namespace {
-
-// ---- Ui items -----------------------------------------------------------------------------------
-
-UiRect rectOf(const ImRect& rect) { return {rect.Min.x, rect.Min.y, rect.Max.x, rect.Max.y}; }
-
-// A child's name is its parent's, a slash, its own and a number that tells it from its namesakes.
-std::string nameOf(const ImGuiWindow& window) {
-    std::string name = window.Name;
-    if (!(window.Flags & ImGuiWindowFlags_ChildWindow)) return name;
-    if (window.Flags & (ImGuiWindowFlags_Popup | ImGuiWindowFlags_Tooltip)) return name;
-    const std::size_t underscore = name.rfind('_');
-    const std::size_t slash = name.rfind('/');
-    if (underscore == std::string::npos || slash == std::string::npos || underscore < slash)
-        return name;
-    const std::string own = name.substr(slash + 1, underscore - slash - 1);
-    return (window.ParentWindow ? nameOf(*window.ParentWindow) : std::string()) + '/' + own;
-}
-
-UiItem itemOf(const ImGuiContext& context, ImGuiID id, const ImRect& rect) {
-    const ImGuiWindow& window = *context.CurrentWindow;
-    UiItem item;
-    item.id = id;
-    item.window = nameOf(window);
-    item.rect = item.whole = rectOf(rect);
-    for (const ImGuiWindow* around = &window; around; around = around->ParentWindow)
-        item.scrolls |= around->ScrollMax.y > 0.0f;
-    item.is_window = id == window.ID;
-    // A panel's frame is drawn outside of what its widgets are clipped to.
-    item.clip = rectOf(item.is_window ? window.OuterRectClipped : window.ClipRect);
-    // Dear ImGui has a window of its own for widgets that are in none.
-    item.visible = !window.Hidden && !window.IsFallbackWindow &&
-                   rect.Overlaps(item.is_window ? window.Rect() : window.ClipRect);
-    return item;
-}
-
-}  // namespace
+// ---- The widgets of a picture -------------------------------------------------------------------
 
 UiItems::UiItems() {
     ImGuiContext& context = *ImGui::GetCurrentContext();
@@ -221,7 +217,6 @@ UiItem* UiItems::find(std::uint32_t id) {
 }  // namespace engine
 
 // ---- What Dear ImGui calls where IMGUI_ENABLE_TEST_ENGINE is defined
-// -----------------------------
 
 void ImGuiTestEngineHook_ItemAdd(
     ImGuiContext* context, ImGuiID id, const ImRect& rect, const ImGuiLastItemData* data) {

@@ -8,6 +8,7 @@
 
 typedef void* ImTextureID;
 
+// The user interface: Dear ImGui in a window, and the widgets that its last picture had.
 namespace engine {
 
 // Dear ImGui in a window: its context, letters, input and drawing. One at a time. Nothing of it is
@@ -20,7 +21,7 @@ public:
     Ui(const Ui&) = delete;
     Ui& operator=(const Ui&) = delete;
 
-    // Widgets are made between these two.
+    // Widgets are made between begin() and end().
     void begin();
     void end();
 
@@ -31,7 +32,7 @@ public:
     // Letters of another size, from the next picture on. Not between begin() and end().
     void setScale(float scale);
 
-    // For ImGui::Image; the image is sampled in SHADER_READ_ONLY_OPTIMAL. It must live as long.
+    // For ImGui::Image; the image is sampled in SHADER_READ_ONLY_OPTIMAL and must live as long.
     class Texture {
     public:
         Texture(const Device& device, const Image& image);
@@ -69,14 +70,15 @@ struct UiRect {
 // A widget, or a whole panel.
 struct UiItem {
     std::uint32_t id = 0;
-    std::string window;  // that it is in, with those around it: "Scene/fields"; a panel's own name
+    std::string
+        window;  // the window it is in, with those around it: "Scene/fields"; a panel's own name
     std::string label;  // as it was given to Dear ImGui, "##" included; empty: it has none
     UiRect rect;  // where the mouse finds it
     UiRect whole;  // with its label, which may stand beside it
     UiRect clip;  // what is seen of it lies in here
     bool is_window = false;
-    bool visible = false;  // in part at least
-    bool scrolls = false;  // its window does, up and down
+    bool visible = false;  // at least in part
+    bool scrolls = false;  // its window scrolls, up and down
     bool enabled = true;
     bool inputable = false;  // with letters or numbers
     bool checkable = false;
@@ -101,12 +103,12 @@ public:
     // Widgets that are scrolled out of sight have no label.
     const std::vector<UiItem>& items() const { return items_; }
 
-    // Dear ImGui's calls.
+    // For Dear ImGui's calls, ImGuiTestEngineHook_*.
     void add(int frame, UiItem item);
     UiItem* find(std::uint32_t id);
     int frame() const { return frame_; }
 
-    // What is told of one before it is there.
+    // What Dear ImGui says of a widget before it adds the widget.
     UiItem& early(std::uint32_t id);
 
 private:
