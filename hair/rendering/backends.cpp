@@ -16,49 +16,12 @@
 namespace hair::rendering {
 namespace {
 
-// ---- Backends -----------------------------------------------------------------------------------
-
-struct BackendRow {
-    Backend backend;
-    std::unique_ptr<StrandBackend> (*make)(const BackendContext&);
-};
-
-// All back ends, one row each.
-constexpr std::array kBackends{
-    BackendRow{Backend::tessellation, makeTessellationBackend},
-    BackendRow{Backend::pulling_geometry, makePullingGeometryBackend},
-};
-
 constexpr std::uint32_t pushSize(const StrandStages& stages) {
     return stages.watched ? std::uint32_t{sizeof(gpu::WatchedPush)}
                           : std::uint32_t{sizeof(gpu::StrandPush)};
 }
 
-}  // namespace
-
-std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext& context) {
-    const auto row = std::ranges::find(kBackends, backend, &BackendRow::backend);
-    assert(row != kBackends.end());
-    if (!context.stages.last) return makeEmptyBackend();
-    if (backend != Backend::tessellation && context.stages != StrandStages{})
-        throw engine::Unsupported("/strands/backend", "only tessellation's stages can be left out");
-    return row->make(context);
-}
-
-engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan) {
-    return {
-        {gpu::kCurveConstant, shaderCode(strands.curve)},
-        {gpu::kTaperConstant, shaderCode(strands.taper)},
-        {gpu::kLodModeConstant, shaderCode(plan.lod_mode)},
-        {gpu::kSourceConstant, shaderCode(strands.source)},
-        {gpu::kWidthConstant, shaderCode(strands.width)},
-        {gpu::kOffsetsConstant, hasOffsets(strands)},
-        {gpu::kInterpolationConstant, shaderCode(strands.interpolation)},
-        {gpu::kCollisionRuleConstant, strands.collision_rule},
-        {gpu::kRandomnessConstant, shaderCode(strands.randomness)},
-        {gpu::kLodMorphConstant, plan.morphs}};
-}
-
+// The pipeline state that all line back ends share; without shaders.
 engine::GraphicsDescription strandPipeline(const BackendContext& context) {
     const StrandOutput& output = context.output;
     const StrandStages& stages = context.stages;
@@ -79,10 +42,7 @@ engine::GraphicsDescription strandPipeline(const BackendContext& context) {
         .sampled_images = output.sampled_images};
 }
 
-namespace {
-
-// ---- Backend empty ------------------------------------------------------------------------------
-
+// No strand at all.
 class EmptyBackend : public StrandBackend {
 public:
     void
@@ -91,14 +51,8 @@ public:
     std::optional<ExpectedCounts> expected() const override { return std::nullopt; }
 };
 
-}  // namespace
-
-std::unique_ptr<StrandBackend> makeEmptyBackend() { return std::make_unique<EmptyBackend>(); }
-
-namespace {
-
-// ---- Backend pulling geometry -------------------------------------------------------------------
-
+// Strand points evaluated in the vertex stage of a line list, then the same geometry and fragment
+// stages as tessellation.
 class PullingGeometryBackend : public StrandBackend {
 public:
     explicit PullingGeometryBackend(const BackendContext& context)
@@ -137,16 +91,6 @@ private:
     engine::GraphicsPipeline pipeline_;
 };
 
-}  // namespace
-
-std::unique_ptr<StrandBackend> makePullingGeometryBackend(const BackendContext& context) {
-    return std::make_unique<PullingGeometryBackend>(context);
-}
-
-namespace {
-
-// ---- Backend tessellation -----------------------------------------------------------------------
-
 // The shaders of the stages up to the last one.
 std::vector<std::string> stageShaders(const BackendContext& context) {
     const StrandStages& stages = context.stages;
@@ -167,6 +111,8 @@ std::vector<std::string> stageShaders(const BackendContext& context) {
     return shaders;
 }
 
+// Vertex -> control -> isolines -> evaluation -> geometry (camera-facing quads) -> fragment:
+// thesis 2.2, 2.3.5.
 class TessellationBackend : public StrandBackend {
 public:
     explicit TessellationBackend(const BackendContext& context)
@@ -209,15 +155,23 @@ private:
     engine::GraphicsPipeline pipeline_;
 };
 
-}  // namespace
+// ---- The table ----------------------------------------------------------------------------------
 
-std::unique_ptr<StrandBackend> makeTessellationBackend(const BackendContext& context) {
-    return std::make_unique<TessellationBackend>(context);
+template <class Made>
+std::unique_ptr<StrandBackend> make(const BackendContext& context) {
+    return std::make_unique<Made>(context);
 }
 
-namespace {
+struct BackendRow {
+    Backend backend;
+    std::unique_ptr<StrandBackend> (*make)(const BackendContext&);
+};
 
-// ---- Stage watch --------------------------------------------------------------------------------
+// All back ends, one row each.
+constexpr std::array kBackends{
+    BackendRow{Backend::tessellation, make<TessellationBackend>},
+    BackendRow{Backend::pulling_geometry, make<PullingGeometryBackend>},
+};
 
 engine::Buffer watchBuffer(const engine::Device& device) {
     VkPhysicalDeviceFeatures features{};
@@ -231,6 +185,31 @@ engine::Buffer watchBuffer(const engine::Device& device) {
 }
 
 }  // namespace
+
+std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext& context) {
+    const auto row = std::ranges::find(kBackends, backend, &BackendRow::backend);
+    assert(row != kBackends.end());
+    if (!context.stages.last) return std::make_unique<EmptyBackend>();
+    if (backend != Backend::tessellation && context.stages != StrandStages{})
+        throw engine::Unsupported("/strands/backend", "only tessellation's stages can be left out");
+    return row->make(context);
+}
+
+engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan) {
+    return {
+        {gpu::kCurveConstant, shaderCode(strands.curve)},
+        {gpu::kTaperConstant, shaderCode(strands.taper)},
+        {gpu::kLodModeConstant, shaderCode(plan.lod_mode)},
+        {gpu::kSourceConstant, shaderCode(strands.source)},
+        {gpu::kWidthConstant, shaderCode(strands.width)},
+        {gpu::kOffsetsConstant, hasOffsets(strands)},
+        {gpu::kInterpolationConstant, shaderCode(strands.interpolation)},
+        {gpu::kCollisionRuleConstant, strands.collision_rule},
+        {gpu::kRandomnessConstant, shaderCode(strands.randomness)},
+        {gpu::kLodMorphConstant, plan.morphs}};
+}
+
+// ---- Watched stages -----------------------------------------------------------------------------
 
 StageWatch::StageWatch(const engine::Device& device)
     : device_(device), buffer_(watchBuffer(device)) {

@@ -15,14 +15,15 @@
 #include "hair/rendering/strand_plan.h"
 #include "hair/settings.h"
 
+// What draws strands: back ends, which differ in the pipeline stages that make the same strands.
 namespace hair::rendering {
 
 // The stages of the tessellation back end that can be left away, in the order in which strands go
 // through them. The control stage goes with the evaluation.
 enum class StrandStage { vertex, evaluation, geometry, raster, fragment };
 
-// Which of them a picture's strands go through. All, but where it is measured what a stage costs:
-// then there is less to see of the strands, or nothing.
+// Which stages a picture's strands go through. All of them, but where it is measured what a stage
+// costs: then there is less to see of the strands, or nothing.
 struct StrandStages {
     // Absent: no strand is drawn. Before raster, primitives are discarded; raster alone has no
     // fragment shader and writes depth.
@@ -77,45 +78,31 @@ struct BackendContext {
 // Throws engine::Unsupported for stages that the back end doesn't have.
 std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext& context);
 
-// The makers that the table in backends.cpp lists.
-
-// Vertex -> control -> isolines -> evaluation -> geometry (camera-facing quads) -> fragment:
-// thesis 2.2, 2.3.5.
-std::unique_ptr<StrandBackend> makeTessellationBackend(const BackendContext& context);
-
-// Strand points evaluated in the vertex stage of a line list, then the same geometry and fragment
-// stages.
-std::unique_ptr<StrandBackend> makePullingGeometryBackend(const BackendContext& context);
-
-// No strand at all.
-std::unique_ptr<StrandBackend> makeEmptyBackend();
-
 // The specialization constants of every shader that includes strands/strand.glsl.
 engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan);
-
-// The pipeline state that all line back ends share; without shaders.
-engine::GraphicsDescription strandPipeline(const BackendContext& context);
 
 // Where watched stages leave a trace: a condition on what an invocation made decides whether it is
 // added up. Drivers can't know it, so that they must do the work of all.
 class StageWatch {
 public:
-    // Sees next to none. Throws engine::Unsupported where stages before the rasteriser can't store.
+    // Starts as seeNone() leaves it. Throws engine::Unsupported where stages before the rasteriser
+    // can't store.
     explicit StageWatch(const engine::Device& device);
 
     std::uint64_t address() const { return buffer_.address(); }
 
-    // From the next frame on; the device must be done with the last one. Every invocation: adding
-    // them up costs much. Or next to none, one of 2^32 for outputs without order: that is a
-    // comparison.
+    // Adds up every invocation, which costs much. From the next frame on; the device must be done
+    // with the last one.
     void seeAll();
+    // Adds up next to no invocation, one of 2^32 for outputs without order, which costs a
+    // comparison. From the next frame on; the device must be done with the last one.
     void seeNone();
 
     struct Seen {
         std::uint32_t invocations = 0;
         std::uint32_t sum = 0;  // of the bits of what they made, modulo 2^32
     };
-    // Since the last call of these two. Waits for the device.
+    // What was added up since the last call of seeAll() or seeNone(). Waits for the device.
     Seen seen() const;
 
 private:

@@ -15,8 +15,6 @@
 namespace hair::rendering {
 namespace {
 
-// ---- Irradiance ---------------------------------------------------------------------------------
-
 constexpr double kPi = std::numbers::pi;
 
 std::array<double, 9> harmonics(const glm::dvec3& n) {
@@ -32,35 +30,8 @@ std::array<double, 9> harmonics(const glm::dvec3& n) {
         0.546274 * (n.x * n.x - n.y * n.y)};
 }
 
-// The cosine lobe's harmonics over pi (their eq. 8), by l.
+// The cosine lobe's harmonics over pi, by l: Ramamoorthi and Hanrahan 2001, eq. 8.
 constexpr std::array kLobe{1.0, 2.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0, 0.25, 0.25, 0.25, 0.25, 0.25};
-
-}  // namespace
-
-std::array<glm::dvec3, 9> irradianceHarmonics(const engine::FloatPixels& picture, double turn) {
-    std::array<glm::dvec3, 9> sums{};
-    const float* texel = picture.rgb.data();
-    for (std::uint32_t row = 0; row < picture.height; ++row) {
-        const double top = kPi * row / picture.height;
-        const double bottom = kPi * (row + 1) / picture.height;
-        const double solid_angle = 2 * kPi / picture.width * (std::cos(top) - std::cos(bottom));
-        const double polar = (top + bottom) / 2;
-        for (std::uint32_t column = 0; column < picture.width; ++column, texel += 3) {
-            const double azimuth = turn + 2 * kPi * (0.5 - (column + 0.5) / picture.width);
-            const std::array basis = harmonics(
-                {std::sin(polar) * std::sin(azimuth), std::cos(polar),
-                 std::sin(polar) * std::cos(azimuth)});
-            const glm::dvec3 light = solid_angle * glm::dvec3(texel[0], texel[1], texel[2]);
-            for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += basis[i] * light;
-        }
-    }
-    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] *= kLobe[i];
-    return sums;
-}
-
-namespace {
-
-// ---- Environment pass ---------------------------------------------------------------------------
 
 static_assert(offsetof(gpu::EnvironmentParameters, irradiance) == 20);
 static_assert(sizeof(gpu::EnvironmentParameters) == 128);
@@ -91,6 +62,31 @@ parametersOf(const engine::FloatPixels& light, float turn, std::uint64_t texels)
 }
 
 }  // namespace
+
+// ---- Irradiance ---------------------------------------------------------------------------------
+
+std::array<glm::dvec3, 9> irradianceHarmonics(const engine::FloatPixels& picture, double turn) {
+    std::array<glm::dvec3, 9> sums{};
+    const float* texel = picture.rgb.data();
+    for (std::uint32_t row = 0; row < picture.height; ++row) {
+        const double top = kPi * row / picture.height;
+        const double bottom = kPi * (row + 1) / picture.height;
+        const double solid_angle = 2 * kPi / picture.width * (std::cos(top) - std::cos(bottom));
+        const double polar = (top + bottom) / 2;
+        for (std::uint32_t column = 0; column < picture.width; ++column, texel += 3) {
+            const double azimuth = turn + 2 * kPi * (0.5 - (column + 0.5) / picture.width);
+            const std::array basis = harmonics(
+                {std::sin(polar) * std::sin(azimuth), std::cos(polar),
+                 std::sin(polar) * std::cos(azimuth)});
+            const glm::dvec3 light = solid_angle * glm::dvec3(texel[0], texel[1], texel[2]);
+            for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += basis[i] * light;
+        }
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] *= kLobe[i];
+    return sums;
+}
+
+// ---- The pass -----------------------------------------------------------------------------------
 
 EnvironmentPass::EnvironmentPass(
     const engine::Device& device, const Settings& settings, const RenderAssets& assets) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <numbers>
 #include <span>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
@@ -16,7 +17,7 @@
 namespace hair::rendering {
 namespace {
 
-// ---- Reference fiber ----------------------------------------------------------------------------
+// ---- One fibre ----------------------------------------------------------------------------------
 
 constexpr double kPi = std::numbers::pi;
 
@@ -40,7 +41,7 @@ double logistic(double x, double scale) { return 1 / (1 + std::exp(-x / scale));
 double inclination(const glm::dvec3& w) { return std::asin(std::clamp(w.x, -1.0, 1.0)); }
 double azimuth(const glm::dvec3& w) { return std::atan2(w.z, w.y); }
 
-// To [-pi, pi].
+// The same angle in [-pi, pi].
 double wrapped(double angle) { return std::remainder(angle, 2 * kPi); }
 
 PerLobe<double> lobeProbabilities(const FiberPath& path) {
@@ -72,7 +73,94 @@ lobes(const Fiber& fiber, const FiberPath& path, const glm::dvec3& wo, const glm
     return values;
 }
 
+// ---- Many fibres --------------------------------------------------------------------------------
+
+double mean(const glm::dvec3& color) { return (color.r + color.g + color.b) / 3; }
+
+// What N_p has in the half turn round an azimuth that is `x` from Phi(p).
+double halfTurn(double x, double scale) {
+    const double apart = std::abs(std::remainder(x, 2 * kPi));
+    const double end = apart + kPi / 2;
+    return trimmedLogisticCdf(std::min(end, kPi), scale) -
+           trimmedLogisticCdf(apart - kPi / 2, scale) +
+           (end > kPi ? trimmedLogisticCdf(end - 2 * kPi, scale) : 0.0);
+}
+
+// Means that are weighted by what lobes or paths carry.
+struct WeightedMeans {
+    double weight = 0;
+    double shift = 0;
+    double variance = 0;
+
+    void add(double more, double its_shift, double its_variance) {
+        weight += more;
+        shift += more * its_shift;
+        variance += more * its_variance;
+    }
+    double meanShift() const { return weight > 0 ? shift / weight : 0; }
+    double meanVariance() const { return weight > 0 ? variance / weight : 0; }
+};
+
+// Every lobe, with light from inclination theta_i and, round the eye, the azimuths of `azimuthal`.
+template <class Azimuthal>
+glm::dvec3 sumOfLobes(
+    const Fiber& fiber, const FiberPath& path, double theta_i, double theta_o, double more_variance,
+    const Azimuthal& azimuthal) {
+    glm::dvec3 sum(0);
+    for (std::size_t p = 0; p < kFiberLobes; ++p) {
+        const double m =
+            longitudinal(theta_i, theta_o - fiber.shifts[p], fiber.variances[p] + more_variance);
+        sum += path.attenuations[p] * (m * azimuthal(p));
+    }
+    return sum;
+}
+
+// ---- What shaders read --------------------------------------------------------------------------
+
+// What a fibre scatters, as the settings say, without the address of the averages.
+gpu::HairOptics makeHairOptics(const ShadingSettings& shading) {
+    const Fiber fiber = makeFiber(shading);
+    const double s = fiber.azimuthal_scale;
+    gpu::HairOptics optics{
+        .absorption = fiber.absorption,
+        .eta = static_cast<float>(fiber.eta),
+        .variances = {},
+        .sin_tilts = {},
+        .cos_tilts = {},
+        .inverse_azimuthal_scale = static_cast<float>(1 / s),
+        // The logistic distribution has tanh(a / 2s) in [-a, a].
+        .trimmed = static_cast<float>(1 / std::tanh(std::numbers::pi / (2 * s))),
+        .density_factor = shading.density_factor,
+        .unused = 0,
+        .averages = 0};
+    for (int p = 0; p < 4; ++p) {
+        const auto lobe = static_cast<std::size_t>(p);
+        optics.variances[p] = static_cast<float>(fiber.variances[lobe]);
+        optics.sin_tilts[p] = static_cast<float>(std::sin(-fiber.shifts[lobe]));
+        optics.cos_tilts[p] = static_cast<float>(std::cos(-fiber.shifts[lobe]));
+    }
+    return optics;
+}
+
+// The averages that dual scattering looks up, over cos theta_i.
+std::vector<gpu::FiberAverage> makeFiberAverages(const ShadingSettings& shading) {
+    const Fiber fiber = makeFiber(shading);
+    std::vector<gpu::FiberAverage> table;
+    for (std::uint32_t i = 0; i < gpu::kFiberAverages; ++i) {
+        const double cos_theta = static_cast<double>(i) / (gpu::kFiberAverages - 1);
+        const FiberAverages averages = averageOverFiber(fiber, std::acos(cos_theta));
+        const LocalScattering local = localScattering(averages);
+        table.push_back(
+            {.forward = glm::dvec4(averages.forward, averages.forward_variance),
+             .local = glm::dvec4(local.albedo, local.variance),
+             .shifts = glm::dvec2(averages.forward_shift, local.shift)});
+    }
+    return table;
+}
+
 }  // namespace
+
+// ---- One fibre ----------------------------------------------------------------------------------
 
 Fiber makeFiber(const ShadingSettings& shading) {
     const double m = shading.longitudinal_roughness;
@@ -183,51 +271,7 @@ sampleDirection(const Fiber& fiber, const glm::dvec3& wo, double h, std::span<co
     return {sin_i, cos_i * std::cos(phi), cos_i * std::sin(phi)};
 }
 
-namespace {
-
-// ---- Reference dual scattering ------------------------------------------------------------------
-
-double mean(const glm::dvec3& color) { return (color.r + color.g + color.b) / 3; }
-
-// What N_p has in the half turn round an azimuth that is `x` from Phi(p).
-double halfTurn(double x, double scale) {
-    const double apart = std::abs(std::remainder(x, 2 * kPi));
-    const double end = apart + kPi / 2;
-    return trimmedLogisticCdf(std::min(end, kPi), scale) -
-           trimmedLogisticCdf(apart - kPi / 2, scale) +
-           (end > kPi ? trimmedLogisticCdf(end - 2 * kPi, scale) : 0.0);
-}
-
-// Means that are weighted by what lobes or paths carry.
-struct WeightedMeans {
-    double weight = 0;
-    double shift = 0;
-    double variance = 0;
-
-    void add(double more, double its_shift, double its_variance) {
-        weight += more;
-        shift += more * its_shift;
-        variance += more * its_variance;
-    }
-    double meanShift() const { return weight > 0 ? shift / weight : 0; }
-    double meanVariance() const { return weight > 0 ? variance / weight : 0; }
-};
-
-// Every lobe, with light from inclination theta_i and, round the eye, the azimuths of `azimuthal`.
-template <class Azimuthal>
-glm::dvec3 sumOfLobes(
-    const Fiber& fiber, const FiberPath& path, double theta_i, double theta_o, double more_variance,
-    const Azimuthal& azimuthal) {
-    glm::dvec3 sum(0);
-    for (std::size_t p = 0; p < kFiberLobes; ++p) {
-        const double m =
-            longitudinal(theta_i, theta_o - fiber.shifts[p], fiber.variances[p] + more_variance);
-        sum += path.attenuations[p] * (m * azimuthal(p));
-    }
-    return sum;
-}
-
-}  // namespace
+// ---- Many fibres --------------------------------------------------------------------------------
 
 FiberAverages averageOverFiber(const Fiber& fiber, double theta) {
     constexpr int kPlaces = 256;
@@ -334,50 +378,11 @@ glm::dvec3 dualScattering(
     return global.direct * direct + density_factor * global.forward * scattered;
 }
 
-// ---- Hair optics --------------------------------------------------------------------------------
+// ---- What shaders read --------------------------------------------------------------------------
 
 // Scalar layout aligns 64-bit members to 8, as C++ does.
 static_assert(offsetof(gpu::HairOptics, averages) == 80 && sizeof(gpu::HairOptics) == 88);
 static_assert(sizeof(gpu::FiberAverage) == 40 && sizeof(gpu::FiberProbe) == 56);
-
-gpu::HairOptics makeHairOptics(const ShadingSettings& shading) {
-    const Fiber fiber = makeFiber(shading);
-    const double s = fiber.azimuthal_scale;
-    gpu::HairOptics optics{
-        .absorption = fiber.absorption,
-        .eta = static_cast<float>(fiber.eta),
-        .variances = {},
-        .sin_tilts = {},
-        .cos_tilts = {},
-        .inverse_azimuthal_scale = static_cast<float>(1 / s),
-        // The logistic distribution has tanh(a / 2s) in [-a, a].
-        .trimmed = static_cast<float>(1 / std::tanh(std::numbers::pi / (2 * s))),
-        .density_factor = shading.density_factor,
-        .unused = 0,
-        .averages = 0};
-    for (int p = 0; p < 4; ++p) {
-        const auto lobe = static_cast<std::size_t>(p);
-        optics.variances[p] = static_cast<float>(fiber.variances[lobe]);
-        optics.sin_tilts[p] = static_cast<float>(std::sin(-fiber.shifts[lobe]));
-        optics.cos_tilts[p] = static_cast<float>(std::cos(-fiber.shifts[lobe]));
-    }
-    return optics;
-}
-
-std::vector<gpu::FiberAverage> makeFiberAverages(const ShadingSettings& shading) {
-    const Fiber fiber = makeFiber(shading);
-    std::vector<gpu::FiberAverage> table;
-    for (std::uint32_t i = 0; i < gpu::kFiberAverages; ++i) {
-        const double cos_theta = static_cast<double>(i) / (gpu::kFiberAverages - 1);
-        const FiberAverages averages = averageOverFiber(fiber, std::acos(cos_theta));
-        const LocalScattering local = localScattering(averages);
-        table.push_back(
-            {.forward = glm::dvec4(averages.forward, averages.forward_variance),
-             .local = glm::dvec4(local.albedo, local.variance),
-             .shifts = glm::dvec2(averages.forward_shift, local.shift)});
-    }
-    return table;
-}
 
 HairOpticsBuffers::HairOpticsBuffers(const engine::Device& device, const Settings& settings) {
     gpu::HairOptics optics = makeHairOptics(settings.shading);

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <span>
-#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -12,13 +11,8 @@
 #include "hair/settings.h"
 #include "hair/shading_settings.h"
 
+// How hair scatters light: one fibre, many fibres, and what shaders read of both.
 namespace hair::rendering {
-
-// What a fibre scatters, as the settings say, without the address of the averages.
-gpu::HairOptics makeHairOptics(const ShadingSettings& shading);
-
-// The averages that dual scattering looks up, over cos theta_i.
-std::vector<gpu::FiberAverage> makeFiberAverages(const ShadingSettings& shading);
 
 // HairOptics and FiberAverages on the device; the averages only where the model needs them.
 class HairOpticsBuffers {

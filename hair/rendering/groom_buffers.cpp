@@ -21,7 +21,7 @@ namespace {
 static_assert(sizeof(gpu::BoundStrand) == 36 && offsetof(gpu::BoundStrand, offset) == 24);
 static_assert(sizeof(gpu::RootFrame) == 24);
 
-// Levels of detail keep the first ones: so they have to come in random order.
+// The bindings in random order: levels of detail keep the first ones.
 std::vector<gpu::BoundStrand>
 inRandomOrder(const std::vector<groom::StrandBinding>& bindings, std::uint32_t seed) {
     std::vector<std::uint32_t> order(bindings.size());

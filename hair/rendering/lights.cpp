@@ -10,20 +10,6 @@
 #include "hair/rendering/render_assets.h"
 
 namespace hair::rendering {
-
-// ---- Camera -------------------------------------------------------------------------------------
-
-glm::mat4 viewProjection(const CameraSettings& camera, float aspect) {
-    glm::mat4 projection = glm::perspectiveRH_ZO(
-        glm::radians(camera.field_of_view), aspect, camera.near_plane, camera.far_plane);
-    projection[1][1] = -projection[1][1];
-    return projection * glm::lookAtRH(camera.position, camera.target, camera.up);
-}
-
-// ---- Lights -------------------------------------------------------------------------------------
-
-static_assert(offsetof(gpu::Light, color) == 32 && sizeof(gpu::Light) == 48);
-
 namespace {
 
 gpu::Light makeLight(const RenderSettings& render, const LightSettings& light) {
@@ -47,6 +33,15 @@ gpu::Light makeLight(const RenderSettings& render, const LightSettings& light) {
 }
 
 }  // namespace
+
+glm::mat4 viewProjection(const CameraSettings& camera, float aspect) {
+    glm::mat4 projection = glm::perspectiveRH_ZO(
+        glm::radians(camera.field_of_view), aspect, camera.near_plane, camera.far_plane);
+    projection[1][1] = -projection[1][1];
+    return projection * glm::lookAtRH(camera.position, camera.target, camera.up);
+}
+
+static_assert(offsetof(gpu::Light, color) == 32 && sizeof(gpu::Light) == 48);
 
 std::vector<gpu::Light> makeLights(const Settings& settings) {
     std::vector<gpu::Light> lights;

@@ -8,6 +8,7 @@
 #include "hair/gpu_structs.h"
 #include "hair/settings.h"
 
+// The camera and the lights of a picture as shaders read them.
 namespace hair::rendering {
 
 // World -> Vulkan clip space: y down, depth 0 at the near plane and 1 at the far plane.
@@ -16,7 +17,7 @@ glm::mat4 viewProjection(const CameraSettings& camera, float aspect);
 // The lights as shaders read them, in the settings' order.
 std::vector<gpu::Light> makeLights(const Settings& settings);
 
-// kLightKinds of shading/options.glsl.
+// The value of kLightKinds in shading/options.glsl.
 std::uint32_t lightKinds(const Settings& settings);
 
 }  // namespace hair::rendering

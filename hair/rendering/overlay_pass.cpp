@@ -19,8 +19,6 @@
 namespace hair::rendering {
 namespace {
 
-// ---- Body lines ---------------------------------------------------------------------------------
-
 static_assert(sizeof(gpu::BodyLine) == 28 && offsetof(gpu::BodyLine, moves) == 24);
 
 constexpr int kRing = 32;  // lines round a circle
@@ -38,7 +36,23 @@ void addArc(
     for (int i = 0; i < lines; ++i) out.push_back({point(i), point(i + 1), moves});
 }
 
+constexpr glm::vec3 kGuideColor{0.05f, 0.2f, 0.9f};
+constexpr glm::vec3 kTriangleColor{0.85f, 0.1f, 0.1f};
+constexpr glm::vec3 kBodyColor{0.1f, 0.75f, 0.35f};
+
+engine::GraphicsDescription lines(const char* vertex_shader, const RenderSettings& render) {
+    return {
+        .shaders = {vertex_shader, "strands/strand.geom", "overlay/color.frag"},
+        .push_size = sizeof(gpu::OverlayPush),
+        .topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST,
+        .colors = {{colorFormat(render)}},
+        .depth_format = engine::Target::kDepthFormat,
+        .samples = render.msaa};
+}
+
 }  // namespace
+
+// ---- Wire frames of bodies ----------------------------------------------------------------------
 
 std::vector<gpu::BodyLine> capsuleLines(const Collider& capsule) {
     const std::uint32_t moves = movesWith(capsule.follows);
@@ -91,25 +105,7 @@ bodyLines(const SimulationSettings& settings, std::span<const groom::Mesh> meshe
     return lines;
 }
 
-namespace {
-
-// ---- Overlay pass -------------------------------------------------------------------------------
-
-constexpr glm::vec3 kGuideColor{0.05f, 0.2f, 0.9f};
-constexpr glm::vec3 kTriangleColor{0.85f, 0.1f, 0.1f};
-constexpr glm::vec3 kBodyColor{0.1f, 0.75f, 0.35f};
-
-engine::GraphicsDescription lines(const char* vertex_shader, const RenderSettings& render) {
-    return {
-        .shaders = {vertex_shader, "strands/strand.geom", "overlay/color.frag"},
-        .push_size = sizeof(gpu::OverlayPush),
-        .topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST,
-        .colors = {{colorFormat(render)}},
-        .depth_format = engine::Target::kDepthFormat,
-        .samples = render.msaa};
-}
-
-}  // namespace
+// ---- The pass -----------------------------------------------------------------------------------
 
 OverlayPass::OverlayPass(
     const engine::Device& device, const Settings& settings, const RenderAssets& assets) {

@@ -12,6 +12,7 @@
 #include "hair/rendering/render_assets.h"
 #include "hair/settings.h"
 
+// What is drawn over the finished hair to show the simulation.
 namespace hair::rendering {
 
 // The wire frame of a capsule: a ring at each end of its axis, four lines between them and two

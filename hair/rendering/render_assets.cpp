@@ -4,8 +4,26 @@
 #include <cmath>
 
 namespace hair::rendering {
+namespace {
 
-// ---- Working color ------------------------------------------------------------------------------
+// d'Eon et al. 2011, An energy-conserving hair reflectance model, section 6.1.
+constexpr glm::dvec3 kEumelanin{0.419, 0.697, 1.37};
+constexpr glm::dvec3 kPheomelanin{0.187, 0.4, 1.05};
+
+// The denominator of equation (9): ln color = -scale sqrt(sigma_a).
+double colorScale(const ShadingSettings& shading) {
+    const double b = shading.azimuthal_roughness;
+    return 5.969 + b * (-0.215 + b * (2.532 + b * (-10.73 + b * (5.574 + b * 0.245))));
+}
+
+glm::dvec3 pigmentAbsorption(const ShadingSettings& shading) {
+    return static_cast<double>(shading.eumelanin) * kEumelanin +
+           static_cast<double>(shading.pheomelanin) * kPheomelanin;
+}
+
+}  // namespace
+
+// ---- Working colours ----------------------------------------------------------------------------
 
 glm::dvec3 toLinear(const glm::dvec3& display) {
     glm::dvec3 linear;
@@ -29,26 +47,7 @@ glm::vec3 workingColor(const RenderSettings& render, const glm::vec3& display) {
     return hasLinearLight(render) ? glm::vec3(toLinear(display)) : display;
 }
 
-namespace {
-
-// ---- Hair color ---------------------------------------------------------------------------------
-
-// d'Eon et al. 2011, An energy-conserving hair reflectance model, section 6.1.
-constexpr glm::dvec3 kEumelanin{0.419, 0.697, 1.37};
-constexpr glm::dvec3 kPheomelanin{0.187, 0.4, 1.05};
-
-// The denominator of equation (9): ln color = -scale sqrt(sigma_a).
-double colorScale(const ShadingSettings& shading) {
-    const double b = shading.azimuthal_roughness;
-    return 5.969 + b * (-0.215 + b * (2.532 + b * (-10.73 + b * (5.574 + b * 0.245))));
-}
-
-glm::dvec3 pigmentAbsorption(const ShadingSettings& shading) {
-    return static_cast<double>(shading.eumelanin) * kEumelanin +
-           static_cast<double>(shading.pheomelanin) * kPheomelanin;
-}
-
-}  // namespace
+// ---- The colour of hair -------------------------------------------------------------------------
 
 glm::dvec3 absorption(const ShadingSettings& shading) {
     if (shading.color_from == ColorSource::melanin) return pigmentAbsorption(shading);

@@ -11,30 +11,21 @@
 #include "hair/settings.h"
 #include "hair/shading_settings.h"
 
-// The colour of much hair and the absorption in a fibre, which make each other: Chiang et al. 2016,
-// A practical and controllable hair and fur model for production path tracing, equation (9).
+// What a picture shows beside the hair, and the colours that it is worked out in.
 namespace hair::rendering {
-
-// sigma_a, over a radius of a fibre, of red, green and blue: from the pigments, or that for which
-// much hair has /shading/color. Linear colours below 1e-4 count as 1e-4.
-glm::dvec3 absorption(const ShadingSettings& shading);
-
-// The linear RGB that much hair has.
-glm::dvec3 linearColor(const ShadingSettings& shading);
 
 // What a picture shows beside the hair, as files gave it.
 struct RenderAssets {
     const groom::Mesh* head = nullptr;  // that the hair grows on; null: none
     std::vector<groom::Mesh> meshes;  // of /render/meshes, in their order
-    std::vector<groom::Mesh>
-        field_meshes;  // of /simulation/distance_fields, where bodies are drawn
+    // Of /simulation/distance_fields, where bodies are drawn.
+    std::vector<groom::Mesh> field_meshes;
     std::optional<engine::Pixels> strand_texture;  // of /strands/texture
     std::optional<engine::FloatPixels> environment;  // of /render/environment
 };
 
-// The colours that a picture is worked out in.
-
-// Whether they are linear RGB with sRGB's primaries; display RGB, as in the thesis, otherwise.
+// Whether a picture is worked out in linear RGB with sRGB's primaries; in display RGB, as in the
+// thesis, otherwise.
 inline bool hasLinearLight(const RenderSettings& render) {
     return render.tone_map != ToneMap::none;
 }
@@ -59,5 +50,15 @@ inline engine::TargetDescription targetDescription(const RenderSettings& render)
         .ssaa = render.ssaa,
         .color_format = colorFormat(render)};
 }
+
+// The colour of much hair and the absorption in a fibre, which make each other: Chiang et al. 2016,
+// A practical and controllable hair and fur model for production path tracing, equation (9).
+
+// sigma_a, over a radius of a fibre, of red, green and blue: from the pigments, or that for which
+// much hair has /shading/color. Linear colours below 1e-4 count as 1e-4.
+glm::dvec3 absorption(const ShadingSettings& shading);
+
+// The linear RGB that much hair has.
+glm::dvec3 linearColor(const ShadingSettings& shading);
 
 }  // namespace hair::rendering

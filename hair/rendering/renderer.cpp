@@ -13,13 +13,6 @@
 #include "hair/rendering/strand_offsets.h"
 
 namespace hair::rendering {
-
-// ---- Picture parameters -------------------------------------------------------------------------
-
-// Scalar layout aligns 64-bit members to 8, as C++ does.
-static_assert(offsetof(gpu::PictureParameters, lights) == 224);
-static_assert(sizeof(gpu::PictureParameters) == 392);
-
 namespace {
 
 glm::vec3 hairColor(const Settings& settings) {
@@ -28,7 +21,26 @@ glm::vec3 hairColor(const Settings& settings) {
     return workingColor(settings.render, toDisplay(linearColor(settings.shading)));
 }
 
+engine::Buffer parameterBuffer(const engine::Device& device) {
+    return {
+        device,
+        {.size = sizeof(gpu::PictureParameters),
+         .usage = engine::Usage::upload,
+         .name = "picture parameters"}};
+}
+
+std::vector<engine::SampledImage>
+strandImages(const StrandTexture& texture, const ShadowPass& shadows) {
+    std::vector<engine::SampledImage> images{texture.image()};
+    images.insert(images.end(), shadows.images().begin(), shadows.images().end());
+    return images;
+}
+
 }  // namespace
+
+// Scalar layout aligns 64-bit members to 8, as C++ does.
+static_assert(offsetof(gpu::PictureParameters, lights) == 224);
+static_assert(sizeof(gpu::PictureParameters) == 392);
 
 gpu::PictureParameters pictureParameters(
     const Settings& settings, const StrandPlan& plan, const StrandView& view,
@@ -87,27 +99,6 @@ gpu::PictureParameters pictureParameters(
         .seed = settings.seed,
         .blend = settings.strands.blend};
 }
-
-namespace {
-
-// ---- Renderer -----------------------------------------------------------------------------------
-
-engine::Buffer parameterBuffer(const engine::Device& device) {
-    return {
-        device,
-        {.size = sizeof(gpu::PictureParameters),
-         .usage = engine::Usage::upload,
-         .name = "picture parameters"}};
-}
-
-std::vector<engine::SampledImage>
-strandImages(const StrandTexture& texture, const ShadowPass& shadows) {
-    std::vector<engine::SampledImage> images{texture.image()};
-    images.insert(images.end(), shadows.images().begin(), shadows.images().end());
-    return images;
-}
-
-}  // namespace
 
 Renderer::Renderer(
     const engine::Device& device, const Settings& settings, const StrandView& view,

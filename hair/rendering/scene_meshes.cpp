@@ -13,7 +13,7 @@
 namespace hair::rendering {
 namespace {
 
-// ---- Mesh geometry ------------------------------------------------------------------------------
+constexpr std::uint32_t kShadowImages = 3;  // ShadowPass::images(), bound after a material's
 
 // Corner indices of the triangles, those of the first material first.
 std::vector<std::uint32_t> sortedIndices(const groom::Mesh& mesh) {
@@ -29,7 +29,74 @@ std::vector<std::uint32_t> sortedIndices(const groom::Mesh& mesh) {
     return indices;
 }
 
+VkSamplerAddressMode addressMode(groom::Wrap wrap) {
+    switch (wrap) {
+    case groom::Wrap::repeat:
+        return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    case groom::Wrap::mirror:
+        return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+    case groom::Wrap::clamp:
+        break;
+    }
+    return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+}
+
+MeshLook lookOf(const groom::Mesh& mesh, const groom::Material& material) {
+    const bool is_mapped = !mesh.texture_coordinates.empty();
+    return {
+        .base_color_texture = is_mapped && material.base_color_texture,
+        .metallic_roughness_texture = is_mapped && material.metallic_roughness_texture,
+        .normal_texture = is_mapped && material.normal_texture,
+        .mask = material.cutoff.has_value(),
+        .double_sided = material.double_sided};
+}
+
+// The specialization constants of shaders/scene/options.glsl and shading/options.glsl.
+engine::Constants meshConstants(const MeshLook& look, const Settings& settings) {
+    engine::Constants constants{
+        {gpu::kBaseColorTextureConstant, look.base_color_texture},
+        {gpu::kMetallicRoughnessTextureConstant, look.metallic_roughness_texture},
+        {gpu::kNormalTextureConstant, look.normal_texture},
+        {gpu::kMaskConstant, look.mask},
+        {gpu::kDoubleSidedConstant, look.double_sided}};
+    const engine::Constants shading = shadingConstants(settings);
+    constants.insert(constants.end(), shading.begin(), shading.end());
+    return constants;
+}
+
+engine::GraphicsDescription pipeline(const MeshLook& look, const Settings& settings) {
+    return {
+        .shaders = {"scene/mesh.vert", "scene/mesh.frag"},
+        .constants = meshConstants(look, settings),
+        .push_size = sizeof(gpu::MeshPush),
+        .colors = {{colorFormat(settings.render)}},
+        .depth_format = engine::Target::kDepthFormat,
+        .samples = settings.render.msaa,
+        .cull = look.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT,
+        .sampled_images = kMaterialImages + kShadowImages};
+}
+
+// The part of a look that depth depends on.
+MeshLook depthLook(const MeshLook& look) {
+    return {.base_color_texture = look.mask && look.base_color_texture, .mask = look.mask};
+}
+
+engine::GraphicsDescription depthPipeline(const MeshLook& look, const Settings& settings) {
+    engine::GraphicsDescription description{
+        .shaders = {"scene/mesh.vert"},
+        .constants = meshConstants(look, settings),
+        .push_size = sizeof(gpu::MeshPush),
+        .depth_format = engine::Target::kDepthFormat};
+    if (look.mask) {
+        description.shaders.push_back("scene/mesh_depth.frag");
+        description.sampled_images = kMaterialImages;
+    }
+    return description;
+}
+
 }  // namespace
+
+// ---- Geometry -----------------------------------------------------------------------------------
 
 groom::Mesh placed(groom::Mesh mesh, const MeshSettings& settings) {
     glm::mat4 turn(1.0f);
@@ -61,45 +128,7 @@ MeshGeometry::MeshGeometry(const engine::Device& device, const groom::Mesh& mesh
     }
 }
 
-namespace {
-
-// ---- Mesh materials -----------------------------------------------------------------------------
-
-VkSamplerAddressMode addressMode(groom::Wrap wrap) {
-    switch (wrap) {
-    case groom::Wrap::repeat:
-        return VK_SAMPLER_ADDRESS_MODE_REPEAT;
-    case groom::Wrap::mirror:
-        return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
-    case groom::Wrap::clamp:
-        break;
-    }
-    return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-}
-
-MeshLook lookOf(const groom::Mesh& mesh, const groom::Material& material) {
-    const bool is_mapped = !mesh.texture_coordinates.empty();
-    return {
-        .base_color_texture = is_mapped && material.base_color_texture,
-        .metallic_roughness_texture = is_mapped && material.metallic_roughness_texture,
-        .normal_texture = is_mapped && material.normal_texture,
-        .mask = material.cutoff.has_value(),
-        .double_sided = material.double_sided};
-}
-
-}  // namespace
-
-engine::Constants meshConstants(const MeshLook& look, const Settings& settings) {
-    engine::Constants constants{
-        {gpu::kBaseColorTextureConstant, look.base_color_texture},
-        {gpu::kMetallicRoughnessTextureConstant, look.metallic_roughness_texture},
-        {gpu::kNormalTextureConstant, look.normal_texture},
-        {gpu::kMaskConstant, look.mask},
-        {gpu::kDoubleSidedConstant, look.double_sided}};
-    const engine::Constants shading = shadingConstants(settings);
-    constants.insert(constants.end(), shading.begin(), shading.end());
-    return constants;
-}
+// ---- Materials ----------------------------------------------------------------------------------
 
 MeshMaterials::MeshMaterials(
     const engine::Device& device, const RenderSettings& settings, const groom::Mesh& mesh,
@@ -137,41 +166,7 @@ MeshMaterials::MeshMaterials(
     }
 }
 
-namespace {
-
-// ---- Scene meshes -------------------------------------------------------------------------------
-
-engine::GraphicsDescription pipeline(const MeshLook& look, const Settings& settings) {
-    return {
-        .shaders = {"scene/mesh.vert", "scene/mesh.frag"},
-        .constants = meshConstants(look, settings),
-        .push_size = sizeof(gpu::MeshPush),
-        .colors = {{colorFormat(settings.render)}},
-        .depth_format = engine::Target::kDepthFormat,
-        .samples = settings.render.msaa,
-        .cull = look.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT,
-        .sampled_images = kMeshImages};
-}
-
-// What depth depends on.
-MeshLook depthLook(const MeshLook& look) {
-    return {.base_color_texture = look.mask && look.base_color_texture, .mask = look.mask};
-}
-
-engine::GraphicsDescription depthPipeline(const MeshLook& look, const Settings& settings) {
-    engine::GraphicsDescription description{
-        .shaders = {"scene/mesh.vert"},
-        .constants = meshConstants(look, settings),
-        .push_size = sizeof(gpu::MeshPush),
-        .depth_format = engine::Target::kDepthFormat};
-    if (look.mask) {
-        description.shaders.push_back("scene/mesh_depth.frag");
-        description.sampled_images = kMaterialImages;
-    }
-    return description;
-}
-
-}  // namespace
+// ---- The meshes of a picture --------------------------------------------------------------------
 
 SceneMeshes::SceneMeshes(
     const engine::Device& device, const Settings& settings, const RenderAssets& assets)

@@ -19,6 +19,7 @@
 #include "hair/rendering/render_assets.h"
 #include "hair/settings.h"
 
+// The head and other meshes of a picture.
 namespace hair::rendering {
 
 // The mesh where the settings place it.
@@ -42,10 +43,9 @@ struct MeshGeometry {
     std::vector<Part> parts;
 };
 
-// What mesh shaders sample, at these bindings: base colour, metallic and roughness, normals, then
-// ShadowPass::images().
+// What mesh shaders sample of a material, at the first bindings: base colour, metallic and
+// roughness, normals.
 inline constexpr std::uint32_t kMaterialImages = 3;
-inline constexpr std::uint32_t kMeshImages = kMaterialImages + 3;
 
 // What a material needs a pipeline of its own for.
 struct MeshLook {
@@ -57,9 +57,6 @@ struct MeshLook {
 
     auto operator<=>(const MeshLook&) const = default;
 };
-
-// The specialization constants of shaders/scene/options.glsl and shading/options.glsl.
-engine::Constants meshConstants(const MeshLook& look, const Settings& settings);
 
 // A material as shaders read it.
 struct MeshMaterial {
@@ -86,7 +83,7 @@ public:
     std::span<const MeshMaterial> materials() const { return materials_; }
 
 private:
-    // Their elements stay where they are.
+    // Maps, as materials_ refers to their elements.
     std::map<std::pair<std::uint32_t, engine::Texels>, engine::Texture> textures_;
     std::map<std::tuple<groom::Wrap, groom::Wrap, bool>, engine::Sampler> samplers_;
     std::vector<MeshMaterial> materials_;

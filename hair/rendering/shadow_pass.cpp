@@ -20,35 +20,7 @@
 #include "hair/settings.h"
 
 namespace hair::rendering {
-
-// ---- Strand bounds ------------------------------------------------------------------------------
-
-Sphere strandBounds(const groom::Groom& groom, const StrandSettings& settings) {
-    if (groom.strand_count == 0) return {};
-    glm::vec3 least(std::numeric_limits<float>::max());
-    glm::vec3 most(std::numeric_limits<float>::lowest());
-    for (std::uint32_t i = 0; i < groom.strand_count; ++i) {
-        least = glm::min(least, groom.strand(i)[0]);
-        most = glm::max(most, groom.strand(i)[0]);
-    }
-    Sphere bounds{.centre = 0.5f * (least + most)};
-    for (std::uint32_t i = 0; i < groom.strand_count; ++i) {
-        const auto strand = groom.strand(i);
-        float reach = glm::distance(bounds.centre, strand[0]);
-        for (std::size_t k = 1; k < strand.size(); ++k)
-            reach += glm::distance(strand[k - 1], strand[k]);
-        bounds.radius = std::max(bounds.radius, reach);
-    }
-    float beside = settings.curl.radius + settings.variation.amplitude;
-    for (const groom::StrandBinding& binding : groom.bindings)
-        beside = std::max(beside, glm::length(binding.offset));
-    bounds.radius += beside;
-    return bounds;
-}
-
 namespace {
-
-// ---- Shadow bounds ------------------------------------------------------------------------------
 
 Sphere boundsOf(std::span<const glm::vec3> points) {
     if (points.empty()) return {};
@@ -64,7 +36,7 @@ Sphere boundsOf(std::span<const glm::vec3> points) {
     return sphere;
 }
 
-// However it is turned about its origin.
+// The bounds of a mesh, however it is turned about its origin.
 Sphere boundsOf(const groom::Mesh& mesh, const MeshSettings& placed) {
     const Sphere sphere = boundsOf(mesh.positions);
     return {
@@ -76,33 +48,7 @@ Sphere moved(const glm::mat4& rigid, const Sphere& sphere) {
     return {glm::vec3(rigid * glm::vec4(sphere.centre, 1.0f)), sphere.radius};
 }
 
-}  // namespace
-
-Sphere enclosing(const Sphere& a, const Sphere& b) {
-    const float apart = glm::distance(a.centre, b.centre);
-    if (b.radius == 0.0f || apart + b.radius <= a.radius) return a;
-    if (a.radius == 0.0f || apart + a.radius <= b.radius) return b;
-    const float radius = 0.5f * (apart + a.radius + b.radius);
-    return {a.centre + (radius - a.radius) / apart * (b.centre - a.centre), radius};
-}
-
-ShadowScene::ShadowScene(const Settings& settings, const RenderAssets& assets) {
-    if (assets.head && settings.render.head) head_ = boundsOf(assets.head->positions);
-    for (std::size_t i = 0; i < assets.meshes.size(); ++i)
-        others_ = enclosing(others_, boundsOf(assets.meshes[i], settings.render.meshes[i]));
-}
-
-ShadowBounds ShadowScene::bounds(const StrandView& view) const {
-    const Sphere hair{view.centre, view.radius};
-    ShadowBounds bounds{.seen = moved(view.head, enclosing(hair, head_))};
-    if (bounds.seen.radius == 0.0f) bounds.seen = others_;
-    bounds.range = enclosing(bounds.seen, others_);
-    return bounds;
-}
-
-namespace {
-
-// ---- Light view ---------------------------------------------------------------------------------
+// ---- Views of lights ----------------------------------------------------------------------------
 
 // How a light looks at what it lights: a perspective view of all that it is to see, or a parallel
 // one of directional lights.
@@ -121,7 +67,7 @@ constexpr float kLeastRadius = 0.001f;  // m: nothing to see still gives a view
 // wide: 0.001 rad off at most.
 constexpr float kFarAway = 1000.0f;
 
-// Length 1; downward where there is none.
+// The direction with length 1; downward where it has none.
 glm::vec3 unit(const glm::vec3& direction) {
     const float length = glm::length(direction);
     return length > 0.0f ? direction / length : glm::vec3(0.0f, -1.0f, 0.0f);
@@ -179,45 +125,7 @@ LightView lightView(
     return perspectiveView(light.position, unit(to_centre), bounds.range, widened * slope, texels);
 }
 
-}  // namespace
-
-// ---- Shadow atlas -------------------------------------------------------------------------------
-
-std::uint32_t ShadowAtlas::columns() const {
-    std::uint32_t columns = 1;
-    while (columns * columns < parts) ++columns;
-    return columns;
-}
-
-VkExtent2D ShadowAtlas::extent() const {
-    const std::uint32_t rows = (parts + columns() - 1) / columns();
-    return {side * columns(), side * rows};
-}
-
-VkRect2D ShadowAtlas::part(std::uint32_t index) const {
-    return {
-        {static_cast<std::int32_t>(side * (index % columns())),
-         static_cast<std::int32_t>(side * (index / columns()))},
-        {side, side}};
-}
-
-void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas) {
-    const VkPhysicalDeviceLimits& limits = device.info().limits;
-    const std::uint32_t most = std::min(
-        {limits.maxImageDimension2D, limits.maxFramebufferWidth, limits.maxFramebufferHeight});
-    const std::uint32_t width = atlas.extent().width;
-    if (width > most) {
-        throw engine::Unsupported(
-            "/shading/shadows/resolution", std::to_string(atlas.parts) + " lights' maps of " +
-                                               std::to_string(atlas.side) + " px are an image of " +
-                                               std::to_string(width) + " px, over the device's " +
-                                               std::to_string(most));
-    }
-}
-
-namespace {
-
-// ---- Shadow pass --------------------------------------------------------------------------------
+// ---- Images and buffers -------------------------------------------------------------------------
 
 static_assert(offsetof(gpu::ShadowMap, corner) == 80 && sizeof(gpu::ShadowMap) == 104);
 static_assert(offsetof(gpu::ShadowParameters, softness) == 1672);
@@ -266,7 +174,7 @@ void toRead(engine::Commands& commands, const engine::Image& image, VkImageLayou
         engine::Access::graphics_read);
 }
 
-// After the last frame's pictures read it.
+// For what is drawn next, after the last frame's pictures have read the image.
 void toDraw(engine::Commands& commands, const engine::Image& image, VkImageLayout to) {
     commands.transition(
         image, VK_IMAGE_LAYOUT_UNDEFINED, to, engine::Access::graphics_read,
@@ -274,6 +182,89 @@ void toDraw(engine::Commands& commands, const engine::Image& image, VkImageLayou
 }
 
 }  // namespace
+
+// ---- Bounds of what lights see ------------------------------------------------------------------
+
+Sphere strandBounds(const groom::Groom& groom, const StrandSettings& settings) {
+    if (groom.strand_count == 0) return {};
+    glm::vec3 least(std::numeric_limits<float>::max());
+    glm::vec3 most(std::numeric_limits<float>::lowest());
+    for (std::uint32_t i = 0; i < groom.strand_count; ++i) {
+        least = glm::min(least, groom.strand(i)[0]);
+        most = glm::max(most, groom.strand(i)[0]);
+    }
+    Sphere bounds{.centre = 0.5f * (least + most)};
+    for (std::uint32_t i = 0; i < groom.strand_count; ++i) {
+        const auto strand = groom.strand(i);
+        float reach = glm::distance(bounds.centre, strand[0]);
+        for (std::size_t k = 1; k < strand.size(); ++k)
+            reach += glm::distance(strand[k - 1], strand[k]);
+        bounds.radius = std::max(bounds.radius, reach);
+    }
+    float beside = settings.curl.radius + settings.variation.amplitude;
+    for (const groom::StrandBinding& binding : groom.bindings)
+        beside = std::max(beside, glm::length(binding.offset));
+    bounds.radius += beside;
+    return bounds;
+}
+
+Sphere enclosing(const Sphere& a, const Sphere& b) {
+    const float apart = glm::distance(a.centre, b.centre);
+    if (b.radius == 0.0f || apart + b.radius <= a.radius) return a;
+    if (a.radius == 0.0f || apart + a.radius <= b.radius) return b;
+    const float radius = 0.5f * (apart + a.radius + b.radius);
+    return {a.centre + (radius - a.radius) / apart * (b.centre - a.centre), radius};
+}
+
+ShadowScene::ShadowScene(const Settings& settings, const RenderAssets& assets) {
+    if (assets.head && settings.render.head) head_ = boundsOf(assets.head->positions);
+    for (std::size_t i = 0; i < assets.meshes.size(); ++i)
+        others_ = enclosing(others_, boundsOf(assets.meshes[i], settings.render.meshes[i]));
+}
+
+ShadowBounds ShadowScene::bounds(const StrandView& view) const {
+    const Sphere hair{view.centre, view.radius};
+    ShadowBounds bounds{.seen = moved(view.head, enclosing(hair, head_))};
+    if (bounds.seen.radius == 0.0f) bounds.seen = others_;
+    bounds.range = enclosing(bounds.seen, others_);
+    return bounds;
+}
+
+// ---- The atlas ----------------------------------------------------------------------------------
+
+std::uint32_t ShadowAtlas::columns() const {
+    std::uint32_t columns = 1;
+    while (columns * columns < parts) ++columns;
+    return columns;
+}
+
+VkExtent2D ShadowAtlas::extent() const {
+    const std::uint32_t rows = (parts + columns() - 1) / columns();
+    return {side * columns(), side * rows};
+}
+
+VkRect2D ShadowAtlas::part(std::uint32_t index) const {
+    return {
+        {static_cast<std::int32_t>(side * (index % columns())),
+         static_cast<std::int32_t>(side * (index / columns()))},
+        {side, side}};
+}
+
+void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas) {
+    const VkPhysicalDeviceLimits& limits = device.info().limits;
+    const std::uint32_t most = std::min(
+        {limits.maxImageDimension2D, limits.maxFramebufferWidth, limits.maxFramebufferHeight});
+    const std::uint32_t width = atlas.extent().width;
+    if (width > most) {
+        throw engine::Unsupported(
+            "/shading/shadows/resolution", std::to_string(atlas.parts) + " lights' maps of " +
+                                               std::to_string(atlas.side) + " px are an image of " +
+                                               std::to_string(width) + " px, over the device's " +
+                                               std::to_string(most));
+    }
+}
+
+// ---- The pass -----------------------------------------------------------------------------------
 
 ShadowPass::ShadowPass(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan,

@@ -20,6 +20,7 @@
 #include "hair/rendering/scene_meshes.h"
 #include "hair/settings.h"
 
+// Shadows: what lights look at, the atlas of their maps, and the passes that draw them.
 namespace hair::rendering {
 
 struct Sphere {
@@ -31,16 +32,16 @@ struct Sphere {
 // their roots, as far as they are long.
 Sphere strandBounds(const groom::Groom& groom, const StrandSettings& settings);
 
-// The least sphere round both; one of no radius is none.
+// The least sphere round both; a sphere of no radius counts as none.
 Sphere enclosing(const Sphere& a, const Sphere& b);
 
-// What lights look at.
+// What lights have to see.
 struct ShadowBounds {
     Sphere seen;  // a light's map shows all of it: the hair and the head
     Sphere range;  // a light's map reaches from its near to its far end: all that is drawn
 };
 
-// Where things are in a picture.
+// Where the bodies and the hair of a picture are.
 class ShadowScene {
 public:
     ShadowScene(const Settings& settings, const RenderAssets& assets);
@@ -90,7 +91,7 @@ public:
     std::span<const engine::SampledImage> images() const { return images_; }
 
 private:
-    // Addresses of the pictures that the lights see, gpu::PictureParameters.
+    // Returns the addresses of the pictures that the lights see, gpu::PictureParameters.
     std::vector<std::uint64_t>
     writeParameters(std::uint32_t slot, const StrandView& view, const gpu::PictureParameters& of);
     void drawMeshes(

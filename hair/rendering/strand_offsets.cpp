@@ -28,39 +28,9 @@
 namespace hair::rendering {
 namespace {
 
-// ---- Frames pass --------------------------------------------------------------------------------
-
 static_assert(sizeof(gpu::FramesPush) == 96 && offsetof(gpu::FramesPush, guides) == 64);
 
-}  // namespace
-
-FramesPass::FramesPass(const engine::Device& device, const StrandView& view)
-    : pipeline_(device, {.shader = "strands/frames.comp", .push_size = sizeof(gpu::FramesPush)}),
-      normals_(
-          device, {.size = std::max<std::size_t>(
-                               std::size_t{view.guide_count} * view.vertices_per_guide, 1) *
-                           sizeof(glm::vec3),
-                   .name = "guide normals"}) {}
-
-void FramesPass::record(engine::Commands& commands, const StrandView& view) const {
-    using engine::Access;
-    // After the simulation, and whoever still draws with the frames that are overwritten.
-    commands.barrier(engine::Access::anything, engine::Access::compute_write);
-    commands.bind(
-        pipeline_, gpu::FramesPush{
-                       .head = view.head,
-                       .guides = view.guides,
-                       .root_frames = view.root_frames,
-                       .normals = normals_.address(),
-                       .guide_count = view.guide_count,
-                       .vertices_per_guide = view.vertices_per_guide});
-    commands.dispatch((view.guide_count + gpu::kFramesGroupSize - 1) / gpu::kFramesGroupSize);
-    commands.barrier(engine::Access::compute_write, engine::Access::anything);
-}
-
-namespace {
-
-// ---- Model offsets ------------------------------------------------------------------------------
+// ---- Offsets of a model -------------------------------------------------------------------------
 
 // A cubic needs 3 points beside the root; more make its fit one by arc length. The most is what a
 // table of 1,024 profiles has room for.
@@ -146,7 +116,7 @@ void addModelOffsets(
     }
 }
 
-// ---- Procedural offsets -------------------------------------------------------------------------
+// ---- Curls and variation ------------------------------------------------------------------------
 
 // The offsets that are made and not taken from a model. All add to `samples`, evenly spaced from
 // the root to the tip of a strand of `length` m, and leave the first alone; `profile` is a number
@@ -187,7 +157,7 @@ void addVariation(
     });
 }
 
-// ---- Strand offsets -----------------------------------------------------------------------------
+// ---- The table of offsets -----------------------------------------------------------------------
 
 constexpr double kSamplesPerTurn = 16.0;
 constexpr double kSamplesPerChange = 8.0;
@@ -238,12 +208,36 @@ std::uint32_t samplesFor(
     return std::clamp(intervals + 1, kLeastIntervals + 1, StrandOffsets::kMostSamples);
 }
 
-// The next one of evenly spaced points of a parabola.
+// The point that follows three evenly spaced points of a parabola.
 glm::vec3 runOn(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     return 3.0f * (c - b) + a;
 }
 
 }  // namespace
+
+FramesPass::FramesPass(const engine::Device& device, const StrandView& view)
+    : pipeline_(device, {.shader = "strands/frames.comp", .push_size = sizeof(gpu::FramesPush)}),
+      normals_(
+          device, {.size = std::max<std::size_t>(
+                               std::size_t{view.guide_count} * view.vertices_per_guide, 1) *
+                           sizeof(glm::vec3),
+                   .name = "guide normals"}) {}
+
+void FramesPass::record(engine::Commands& commands, const StrandView& view) const {
+    using engine::Access;
+    // After the simulation, and whoever still draws with the frames that are overwritten.
+    commands.barrier(engine::Access::anything, engine::Access::compute_write);
+    commands.bind(
+        pipeline_, gpu::FramesPush{
+                       .head = view.head,
+                       .guides = view.guides,
+                       .root_frames = view.root_frames,
+                       .normals = normals_.address(),
+                       .guide_count = view.guide_count,
+                       .vertices_per_guide = view.vertices_per_guide});
+    commands.dispatch((view.guide_count + gpu::kFramesGroupSize - 1) / gpu::kFramesGroupSize);
+    commands.barrier(engine::Access::compute_write, engine::Access::anything);
+}
 
 bool hasOffsets(const StrandSettings& settings) {
     return curls(settings) || varies(settings) || !settings.offsets.empty();

@@ -13,6 +13,7 @@
 #include "hair/rendering/groom_buffers.h"
 #include "hair/settings.h"
 
+// Offsets of strands from their smooth shape, and the frames along guides that they are in.
 namespace hair::rendering {
 
 // Frames along the guides that don't turn about them, for the offsets of strands. They start at the
@@ -23,7 +24,7 @@ public:
     // `view` gives the counts.
     FramesPass(const engine::Device& device, const StrandView& view);
 
-    // After what moved the guides; before what draws.
+    // Belongs after what moves the guides and before what draws.
     void record(engine::Commands& commands, const StrandView& view) const;
 
     // vec3 [guide][vertex], unit length, across the guide.
@@ -41,13 +42,13 @@ private:
 struct StrandOffsets {
     static constexpr std::uint32_t kProfiles = 64;  // without a model
     static constexpr std::uint32_t kMostProfiles = 1024;  // with one
-    static constexpr std::uint32_t kMostSamples = 16384;  // then fewer profiles: a table has about
-                                                          // 2^22 vectors at most, 50 MB
+    // With more samples there are fewer profiles: a table has about 2^22 vectors at most, 50 MB.
+    static constexpr std::uint32_t kMostSamples = 16384;
 
     std::uint32_t profiles = 0;
     std::uint32_t samples = 0;  // from root to tip, evenly spaced; at least 2
-    std::vector<glm::vec3> values;  // [profile][1 + sample + 1], m; one more step at both ends, for
-                                    // the curve through the samples
+    // [profile][1 + sample + 1], m; one more step at both ends, for the curve through the samples.
+    std::vector<glm::vec3> values;
 
     std::span<const glm::vec3> profile(std::uint32_t index) const {
         const std::size_t stride = samples + std::size_t{2};

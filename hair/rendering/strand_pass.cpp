@@ -17,8 +17,6 @@
 namespace hair::rendering {
 namespace {
 
-// ---- Blends -------------------------------------------------------------------------------------
-
 struct BlendContext {
     const engine::Device& device;
     const Settings& settings;
@@ -39,7 +37,7 @@ compositePipeline(const RenderSettings& render, const char* fragment_shader) {
         .depth_write = false};
 }
 
-// ---- Blend direct -------------------------------------------------------------------------------
+// ---- Drawn at once ------------------------------------------------------------------------------
 
 // Fragments go to the target at once.
 class DirectBlend : public StrandBlend {
@@ -81,7 +79,7 @@ std::unique_ptr<StrandBlend> makeSampleBlend(const BlendContext& context) {
     return std::make_unique<DirectBlend>(context.settings.render, "strands/samples.frag");
 }
 
-// ---- Blend discarded ----------------------------------------------------------------------------
+// ---- Discarded ----------------------------------------------------------------------------------
 
 // For strands whose primitives are discarded before they are rasterised: they touch no attachment,
 // and none may be there that their pipeline does not name. The target is rendered to without them,
@@ -107,7 +105,7 @@ public:
 // Nothing is seen: of StrandStages that end before raster.
 std::unique_ptr<StrandBlend> makeDiscardedBlend() { return std::make_unique<DiscardedBlend>(); }
 
-// ---- Blend list ---------------------------------------------------------------------------------
+// ---- Lists of fragments -------------------------------------------------------------------------
 
 // 4 GiB of nodes: what 32-bit offsets reach.
 constexpr std::uint64_t kMostNodes = (std::uint64_t{1} << 32u) / sizeof(gpu::FragmentNode);
@@ -215,7 +213,7 @@ std::unique_ptr<StrandBlend> makeListBlend(const BlendContext& context) {
     return std::make_unique<ListBlend>(context);
 }
 
-// ---- Blend weighted -----------------------------------------------------------------------------
+// ---- Weighted mean ------------------------------------------------------------------------------
 
 // Formats that every device can blend.
 constexpr VkFormat kSumFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
@@ -363,9 +361,19 @@ std::unique_ptr<StrandBlend> makeBlend(const BlendContext& context) {
     return row->make(context);
 }
 
-}  // namespace
+// ---- The pass -----------------------------------------------------------------------------------
 
-// ---- Shading constants --------------------------------------------------------------------------
+StrandOutput shaded(StrandOutput output, const Settings& settings) {
+    output.shading = shadingConstants(settings);
+    output.sampled_images = kStrandImages;
+    return output;
+}
+
+std::unique_ptr<StrandBlend> blendOf(const BlendContext& context, const StrandStages& stages) {
+    return stages.last && discards(stages) ? makeDiscardedBlend() : makeBlend(context);
+}
+
+}  // namespace
 
 engine::Constants shadingConstants(const Settings& settings) {
     const ShadingSettings& shading = settings.shading;
@@ -384,8 +392,6 @@ engine::Constants shadingConstants(const Settings& settings) {
         {gpu::kLightKindsConstant, lightKinds(settings)}};
 }
 
-// ---- Strand images ------------------------------------------------------------------------------
-
 StrandTexture::StrandTexture(
     const engine::Device& device, const RenderSettings& settings,
     const std::optional<engine::Pixels>& pixels)
@@ -397,22 +403,6 @@ StrandTexture::StrandTexture(
       sampler_(
           device, {.horizontal = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                    .vertical = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE}) {}
-
-namespace {
-
-// ---- Strand pass --------------------------------------------------------------------------------
-
-StrandOutput shaded(StrandOutput output, const Settings& settings) {
-    output.shading = shadingConstants(settings);
-    output.sampled_images = kStrandImages;
-    return output;
-}
-
-std::unique_ptr<StrandBlend> blendOf(const BlendContext& context, const StrandStages& stages) {
-    return stages.last && discards(stages) ? makeDiscardedBlend() : makeBlend(context);
-}
-
-}  // namespace
 
 StrandPass::StrandPass(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan,

@@ -16,6 +16,7 @@
 #include "hair/rendering/groom_buffers.h"
 #include "hair/settings.h"
 
+// The pass that draws strands: kinds of transparency, their texture, and the pass itself.
 namespace hair::rendering {
 
 // How many of a picture's fragments the lists have room for, and how many there were.
@@ -39,13 +40,13 @@ public:
         engine::Passes& passes, const engine::Target& target,
         const std::function<void(engine::Commands&)>& draw) const = 0;
 
-    // PictureParameters::fragments.
+    // The value of PictureParameters::fragments.
     virtual std::uint64_t fragments() const { return 0; }
 
     // Memory that transparency takes beside the target.
     virtual std::uint64_t bytes() const { return 0; }
 
-    // The last picture's; waits for the device. Absent where fragments are not listed.
+    // The fragments of the last picture; waits for the device. Absent where they are not listed.
     virtual std::optional<ListedFragments> listed() const { return std::nullopt; }
 };
 
@@ -86,7 +87,7 @@ public:
         engine::Passes& passes, const engine::Target& target, std::uint64_t picture,
         std::span<const engine::SampledImage> images) const;
 
-    // PictureParameters::fragments.
+    // The value of PictureParameters::fragments.
     std::uint64_t fragments() const { return blend_->fragments(); }
 
     std::optional<ExpectedCounts> expected() const { return backend_->expected(); }

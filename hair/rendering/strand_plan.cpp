@@ -13,9 +13,7 @@
 namespace hair::rendering {
 namespace {
 
-// ---- Lod bound ----------------------------------------------------------------------------------
-
-// Over strands, m.
+// Mean over the strands, m.
 double meanWidth(const groom::Groom& groom, const StrandSettings& settings) {
     if (settings.width == WidthSource::groom) {
         const double sum = std::accumulate(groom.widths.begin(), groom.widths.end(), 0.0);
@@ -39,18 +37,6 @@ double radius(const groom::Groom& groom) {
     return std::sqrt(std::max(squares / count - glm::dot(mean, mean), 0.0));
 }
 
-}  // namespace
-
-float greatestWidthScale(const groom::Groom& groom, const StrandSettings& settings) {
-    const double width = groom.points.empty() ? 0.0 : meanWidth(groom, settings);
-    if (width == 0.0) return std::numeric_limits<float>::infinity();
-    return static_cast<float>(1.0 + double{kOutlineGrowth} * radius(groom) / width);
-}
-
-namespace {
-
-// ---- Strand plan --------------------------------------------------------------------------------
-
 constexpr std::uint32_t divideUp(std::uint32_t value, std::uint32_t divisor) {
     return (value + divisor - 1) / divisor;
 }
@@ -61,12 +47,37 @@ std::uint32_t smallestFactor(std::uint32_t number) {
     return number;
 }
 
-// As strands/lod.glsl has it, to the last bit.
+// The number that strands/lod.glsl has, to the last bit.
 float scaledCount(std::uint32_t count, float scale) {
     return std::max(static_cast<float>(count) * scale, 1.0f);
 }
 
+// Thesis program 2.3: fract(sin(dot(co, (12.9898, 78.233))) * 43758.5453).
+float thesisRandom(double x, double y) {
+    const double wide = std::sin(12.9898 * x + 78.233 * y) * 43758.5453;
+    const double fraction = wide - std::floor(wide);
+    return static_cast<float>(std::floor(fraction * 0x1p24)) * 0x1p-24f;
+}
+
+// The level at this distance from the camera, m: 0 up to near_distance, then growing with its
+// logarithm to maximum_level at far_distance.
+double levelAtDistance(const LodSettings& lod, double distance) {
+    const double octaves = std::log2(distance / lod.near_distance);
+    const double all = std::log2(double{lod.far_distance} / lod.near_distance);
+    return lod.maximum_level * std::clamp(octaves / all, 0.0, 1.0);
+}
+
 }  // namespace
+
+// ---- How wide levels of detail may make strands -------------------------------------------------
+
+float greatestWidthScale(const groom::Groom& groom, const StrandSettings& settings) {
+    const double width = groom.points.empty() ? 0.0 : meanWidth(groom, settings);
+    if (width == 0.0) return std::numeric_limits<float>::infinity();
+    return static_cast<float>(1.0 + double{kOutlineGrowth} * radius(groom) / width);
+}
+
+// ---- Strands, patches and draws -----------------------------------------------------------------
 
 std::uint32_t drawnStrands(std::uint32_t density, float scale) {
     return static_cast<std::uint32_t>(std::ceil(scaledCount(density, scale)));
@@ -156,13 +167,7 @@ planDraws(const StrandPlan& plan, Submission submission, std::uint32_t max_verti
     return draws;
 }
 
-// ---- Lod levels ---------------------------------------------------------------------------------
-
-double levelAtDistance(const LodSettings& lod, double distance) {
-    const double octaves = std::log2(distance / lod.near_distance);
-    const double all = std::log2(double{lod.far_distance} / lod.near_distance);
-    return lod.maximum_level * std::clamp(octaves / all, 0.0, 1.0);
-}
+// ---- Levels by distance -------------------------------------------------------------------------
 
 DistanceLod distanceLod(
     const groom::Groom& groom, std::span<const glm::vec3> guides, const StrandView& view,
@@ -198,18 +203,7 @@ DistanceLod distanceLod(
     return result;
 }
 
-namespace {
-
-// ---- Root pattern -------------------------------------------------------------------------------
-
-// Thesis program 2.3: fract(sin(dot(co, (12.9898, 78.233))) * 43758.5453).
-float thesisRandom(double x, double y) {
-    const double wide = std::sin(12.9898 * x + 78.233 * y) * 43758.5453;
-    const double fraction = wide - std::floor(wide);
-    return static_cast<float>(std::floor(fraction * 0x1p24)) * 0x1p-24f;
-}
-
-}  // namespace
+// ---- The published program's random pairs -------------------------------------------------------
 
 // Thesis program 2.4; there the strand is gl_TessCoord.y.
 std::vector<glm::vec2> thesisRootPattern(std::uint32_t density) {

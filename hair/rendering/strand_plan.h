@@ -12,38 +12,8 @@
 #include "hair/rendering/groom_buffers.h"
 #include "hair/settings.h"
 
+// How many strands a picture draws, in which draws and at which level of detail.
 namespace hair::rendering {
-
-// How many times wider strands may become in LodMode::distance, 1 or more.
-//
-// Strands thrown at random cover 1 - exp(-a) of what is behind them, a the sum of their areas over
-// that area: fewer and wider ones of the same sum cover as much. But they stick out: hair of area A
-// and outline P becomes A + P (s - 1) w / 2 where strands of width w are s times as wide (Steiner's
-// formula, without its term in the square). With P / A = 2 / R of a disc as large as the hair that
-// is (s - 1) w / R more, and it may be kOutlineGrowth.
-float greatestWidthScale(const groom::Groom& groom, const StrandSettings& settings);
-
-inline constexpr float kOutlineGrowth = 0.03f;
-
-// What LodMode::distance makes of a head of hair, seen from /camera/position.
-struct DistanceLod {
-    double mean_level = 0.0;  // over root triangles, or over the strands of a groom
-    std::optional<std::uint64_t> strands;  // drawn; absent where the device orders them
-};
-
-// The level at this distance from the camera, m: 0 up to near_distance, then growing with its
-// logarithm to maximum_level at far_distance.
-double levelAtDistance(const LodSettings& lod, double distance);
-
-// `guides` are where they are now, [guide][vertex], m; `view` is theirs.
-DistanceLod distanceLod(
-    const groom::Groom& groom, std::span<const glm::vec3> guides, const StrandView& view,
-    const Settings& settings);
-
-// The published program's random pairs, which every root triangle has alike: [strand], in [0, 1),
-// multiples of 2^-24. They are made here, for the sines of devices are too different to give the
-// same hair: the formula takes the last bits of them.
-std::vector<glm::vec2> thesisRootPattern(std::uint32_t density);
 
 // How many strands, patches and vertices a picture draws, and by which draws: thesis 2.3.5. The
 // strands of a groom are those of one triangle, each a patch of its own in every guide segment.
@@ -52,8 +22,8 @@ struct StrandPlan {
     std::uint32_t segments = 0;  // guide segments per guide
     std::uint32_t density = 0;  // strands per root triangle at level 0
     std::uint32_t tessellation = 0;  // drawn segments per guide segment at level 0
-    std::uint32_t forced_density = 0;  // most that are drawn: those of the forced level, or in
-                                       // LodMode::distance those of level 0
+    // Most strands that are drawn: those of the forced level, or in LodMode::distance of level 0.
+    std::uint32_t forced_density = 0;
     std::uint32_t forced_tessellation = 0;
     float forced_level = 0.0f;  // 0 in LodMode::distance
     float forced_scale = 1.0f;  // 2^-forced_level
@@ -108,5 +78,32 @@ ExpectedCounts expectedCounts(const StrandPlan& plan);
 // `max_vertices`. Patch index = instance * segments + vertex in all of them.
 std::vector<engine::Draw>
 planDraws(const StrandPlan& plan, Submission submission, std::uint32_t max_vertices);
+
+// How many times wider strands may become in LodMode::distance, 1 or more.
+//
+// Strands thrown at random cover 1 - exp(-a) of what is behind them, a the sum of their areas over
+// that area: fewer and wider ones of the same sum cover as much. But they stick out: hair of area A
+// and outline P becomes A + P (s - 1) w / 2 where strands of width w are s times as wide (Steiner's
+// formula, without its term in the square). With P / A = 2 / R of a disc as large as the hair that
+// is (s - 1) w / R more, and it may be kOutlineGrowth.
+float greatestWidthScale(const groom::Groom& groom, const StrandSettings& settings);
+
+inline constexpr float kOutlineGrowth = 0.03f;
+
+// What LodMode::distance makes of a head of hair, seen from /camera/position.
+struct DistanceLod {
+    double mean_level = 0.0;  // over root triangles, or over the strands of a groom
+    std::optional<std::uint64_t> strands;  // drawn; absent where the device orders them
+};
+
+// `guides` are the points of the guides now, [guide][vertex], m; `view` is theirs.
+DistanceLod distanceLod(
+    const groom::Groom& groom, std::span<const glm::vec3> guides, const StrandView& view,
+    const Settings& settings);
+
+// The published program's random pairs, which every root triangle has alike: [strand], in [0, 1),
+// multiples of 2^-24. They are made here, for the sines of devices are too different to give the
+// same hair: the formula takes the last bits of them.
+std::vector<glm::vec2> thesisRootPattern(std::uint32_t density);
 
 }  // namespace hair::rendering
