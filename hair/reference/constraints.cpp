@@ -9,8 +9,6 @@
 namespace hair::reference {
 namespace {
 
-// ---- Reference constraints ----------------------------------------------------------------------
-
 constexpr double kShortest = 1e-9;  // m
 
 // An axis to turn half round from the unit vector `v`, or to leave a capsule's axis by.
@@ -49,7 +47,28 @@ void redBlack(std::size_t vertices, Correct correct) {
         for (std::size_t i = first; i < vertices; i += 2) correct(i);
 }
 
+glm::dvec3 handAt(const std::vector<PullKey>& path, double time) {
+    glm::dvec3 place = path.front().position;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+        const double start = path[i - 1].time;
+        const double end = path[i].time;
+        if (time <= start) break;
+        const glm::dvec3 way = glm::dvec3(path[i].position) - glm::dvec3(path[i - 1].position);
+        place =
+            glm::dvec3(path[i - 1].position) + std::fmin(1.0, (time - start) / (end - start)) * way;
+    }
+    return place;
+}
+
+bool pullsIn(const std::vector<PullKey>& path, double from, double to) {
+    if (path.empty()) return false;
+    const double middle = (from + to) / 2.0;
+    return double{path.front().time} <= middle && middle <= double{path.back().time};
+}
+
 }  // namespace
+
+// ---- Constraints --------------------------------------------------------------------------------
 
 void integrate(
     Points positions, Points previous, ConstPoints accelerations, double velocity_kept,
@@ -145,7 +164,7 @@ void pushOut(
     }
 }
 
-// ---- Reference factors --------------------------------------------------------------------------
+// ---- Stiffness at any step ----------------------------------------------------------------------
 
 double keptFactor(const SimulationSettings& settings, const Step& step) {
     const double kept = 1.0 - double{settings.friction};
@@ -172,7 +191,7 @@ double localFactor(const SimulationSettings& settings, const Step& step, double 
     return std::min(1.0 - std::pow(left_by_step, 1.0 / settings.local.iterations), 0.95);
 }
 
-// ---- Reference ftl ------------------------------------------------------------------------------
+// ---- Follow the leader --------------------------------------------------------------------------
 
 void stepFtl(
     Points positions, Points previous, ConstPoints rest, const FtlStep& step,
@@ -206,30 +225,7 @@ void stepFtl(
     }
 }
 
-namespace {
-
-// ---- Reference pull -----------------------------------------------------------------------------
-
-glm::dvec3 handAt(const std::vector<PullKey>& path, double time) {
-    glm::dvec3 place = path.front().position;
-    for (std::size_t i = 1; i < path.size(); ++i) {
-        const double start = path[i - 1].time;
-        const double end = path[i].time;
-        if (time <= start) break;
-        const glm::dvec3 way = glm::dvec3(path[i].position) - glm::dvec3(path[i - 1].position);
-        place =
-            glm::dvec3(path[i - 1].position) + std::fmin(1.0, (time - start) / (end - start)) * way;
-    }
-    return place;
-}
-
-bool pullsIn(const std::vector<PullKey>& path, double from, double to) {
-    if (path.empty()) return false;
-    const double middle = (from + to) / 2.0;
-    return double{path.front().time} <= middle && middle <= double{path.back().time};
-}
-
-}  // namespace
+// ---- Hands --------------------------------------------------------------------------------------
 
 // The held vertex's velocity at the step's end solves
 //   v' = v + dt f + dt (k (h' - x - dt v') + c (w - v')),

@@ -66,7 +66,7 @@ void pushOut(
 struct Contact {
     const SimulationSettings& settings;
     simulation::RigidMotion frame;  // of the head at the end of the substep
-    simulation::RigidMotion frame_before;  // and at its start
+    simulation::RigidMotion frame_before;  // of the head at its start
 
     // Where the vertex comes to lie that has moved from `before` to `position`.
     glm::dvec3 operator()(glm::dvec3 position, const glm::dvec3& before) const {
@@ -89,8 +89,8 @@ struct Contact {
     }
 };
 
-// The scalings that stiffness.h describes, from its text and not from its code: the step against
-// 1/60 s, 10 iterations and segments of 0.15/7 m.
+// The scalings that hair/simulation/stiffness.h describes, from its text and not from its code: the
+// step against 1/60 s, 10 iterations and segments of 0.15/7 m.
 
 // gpu::Step in double.
 struct Step {
@@ -129,7 +129,8 @@ void stepFtl(
     Points positions, Points previous, ConstPoints rest, const FtlStep& step,
     const PushOut& push_out);
 
-// What hands do to hair, in double and straight from the equations of pulls.h.
+// What hands do to hair, in double and straight from the equations of
+// hair/simulation/pulls.h.
 
 // Every strand at the start of a time step, [strand][vertex], m.
 struct PulledHair {

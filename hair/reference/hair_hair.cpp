@@ -74,7 +74,7 @@ double spline(double t) {
     return (power(t + 1.5) - 3.0 * power(t + 0.5) + 3.0 * power(t - 0.5) - power(t - 1.5)) / 2.0;
 }
 
-// Its slope: a difference of linear B-splines.
+// The slope of spline(): a difference of linear B-splines.
 double splineSlope(double t) {
     const auto hat = [](double x) { return std::max(1.0 - std::abs(x), 0.0); };
     return hat(t + 0.5) - hat(t - 0.5);

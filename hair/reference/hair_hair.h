@@ -22,8 +22,7 @@ struct VolumeState {
 };
 
 // What hair gives hair over the next step, [strand][vertex], m/s^2: the equations of
-// hair_hair.h on sparse grids in double. Zero where
-// settings.hair_hair is off.
+// hair/simulation/hair_hair.h on sparse grids in double. Zero where settings.hair_hair is off.
 std::vector<glm::dvec3>
 volumeAccelerations(const SimulationSettings& settings, const VolumeState& state);
 

@@ -72,9 +72,6 @@ RodState rodFrom(
     const RodRest& rest, std::span<const glm::dvec3> positions,
     std::span<const glm::dvec3> previous, double substep, const RodRoot& root = {});
 
-// A pin is a spring on its vertex, as if the mass of a hundred rods had to come back in one step.
-constexpr double kPinMass = 100.0;
-
 // One step under these accelerations of the vertices, m/s^2, with the follicle where `root` has it
 // at the step's end. Velocities are multiplied by `velocity_kept` first.
 void stepRod(
@@ -89,9 +86,7 @@ void pushRod(
 // Kinetic energy and that of bending and twist, J. Weight is the caller's.
 double rodEnergy(const RodState& state, const RodRest& rest);
 
-// What bends and twists a rod of rod.h.
-
-// Of a joint between two frames that coincide at rest, in the axes of space.
+// What a joint between two frames does that coincide at rest, in the axes of space.
 struct Joint {
     double energy;  // J
     glm::dvec3 torque;  // on the second frame, N m; the first gets its opposite

@@ -15,8 +15,159 @@
 #include "hair/simulation/solvers.h"
 
 namespace hair::reference {
+namespace {
 
-// ---- Reference ----------------------------------------------------------------------------------
+// ---- Rods ---------------------------------------------------------------------------------------
+
+// The rods of rod.h as a solver of a Reference.
+class RodSolver : public Solver {
+public:
+    RodSolver(const groom::Groom& groom, const SimulationSettings& settings, const Step& step);
+
+    void step(const Substep& substep) override;
+    void adopt(const Substep& substep) override;
+
+private:
+    SimulationSettings settings_;
+    Step step_;
+    std::vector<RodRest> rests_;  // [strand]
+    std::vector<RodState> states_;  // [strand]
+};
+
+RodRoot rootOf(const simulation::RigidMotion& motion) {
+    return {.rotation = motion.rotation, .translation = motion.translation};
+}
+
+RodSolver::RodSolver(
+    const groom::Groom& groom, const SimulationSettings& settings, const Step& step)
+    : settings_(settings), step_(step) {
+    const MaterialSettings& material = settings.material;
+    for (std::uint32_t i = 0; i < groom.strand_count; ++i) {
+        const auto points = groom.strand(i);
+        rests_.push_back(makeRodRest(
+            std::vector<glm::dvec3>(points.begin(), points.end()),
+            {.density = material.density,
+             .radius = material.radius,
+             .youngs_modulus = material.youngs_modulus,
+             .shear_modulus = material.shear_modulus}));
+        states_.push_back(rodAtRest(rests_.back()));
+    }
+}
+
+void RodSolver::step(const Substep& substep) {
+    RodState& state = states_[substep.strand];
+    const RodRest& rest = rests_[substep.strand];
+    const std::vector<glm::dvec3> before(substep.positions.begin(), substep.positions.end());
+    stepRod(
+        state, rest, substep.accelerations, rootOf(substep.frame), step_.sub,
+        keptFactor(settings_, step_), settings_.rod.iterations);
+    std::vector<glm::dvec3> positions = state.positions();
+    for (std::size_t i = 1; i < positions.size(); ++i)
+        positions[i] = substep.push_out(positions[i], before[i]);
+    pushRod(state, rest, positions, step_.sub);
+    std::ranges::copy(before, substep.previous.begin());
+    std::ranges::copy(positions, substep.positions.begin());
+}
+
+void RodSolver::adopt(const Substep& substep) {
+    states_[substep.strand] = rodFrom(
+        rests_[substep.strand], substep.positions, substep.previous, step_.sub,
+        rootOf(substep.frame));
+}
+
+// ---- Solvers without a state of their own -------------------------------------------------------
+
+std::vector<glm::dvec3> moved(ConstPoints points, const simulation::RigidMotion& motion) {
+    std::vector<glm::dvec3> result;
+    for (const glm::dvec3& point : points) result.push_back(motion(point));
+    return result;
+}
+
+void pushOutAll(const Substep& substep, ConstPoints before) {
+    for (std::size_t i = 1; i < before.size(); ++i)
+        substep.positions[i] = substep.push_out(substep.positions[i], before[i]);
+}
+
+// `none`: the head carries every vertex.
+void stepRest(const Substep& substep, const SimulationSettings&, const Step&) {
+    for (std::size_t i = 0; i < substep.rest.size(); ++i) {
+        substep.previous[i] = substep.positions[i];
+        substep.positions[i] = substep.frame(substep.rest[i]);
+    }
+}
+
+// The order of thesis section 3.2, then collisions.
+void stepShape(const Substep& substep, const SimulationSettings& settings, const Step& step) {
+    const std::size_t vertices = substep.rest.size();
+    const Points positions = substep.positions;
+    const auto rest = moved(substep.rest, substep.frame);
+    const glm::dmat3 root_frame = glm::mat3_cast(substep.frame.rotation);
+    double length = 0.0;
+    for (std::size_t i = 1; i < vertices; ++i)
+        length += glm::distance(substep.rest[i], substep.rest[i - 1]);
+    const double local = localFactor(settings, step, length / static_cast<double>(vertices - 1));
+
+    const std::vector<glm::dvec3> before(positions.begin(), positions.end());
+    substep.previous[0] = positions[0];
+    positions[0] = rest[0];
+    integrate(
+        positions, substep.previous, substep.accelerations, keptFactor(settings, step), step.sub);
+    pullToRest(positions, rest, globalFactor(settings, step));
+    for (std::uint32_t i = 0; i < settings.local.iterations; ++i)
+        pullToShape(positions, substep.rest, local, root_frame);
+    for (std::uint32_t i = 0; i < settings.length.iterations; ++i) projectLengths(positions, rest);
+    pushOutAll(substep, before);
+}
+
+// Follow the leader.
+void stepFtl(const Substep& substep, const SimulationSettings& settings, const Step& step) {
+    reference::stepFtl(
+        substep.positions, substep.previous, moved(substep.rest, substep.frame),
+        {.accelerations = substep.accelerations,
+         .substep = step.sub,
+         .velocity_kept = keptFactor(settings, step),
+         .global_stiffness = globalFactor(settings, step),
+         .velocity_correction = double{settings.ftl.velocity_correction}},
+        substep.push_out);
+}
+
+using Function = void (*)(const Substep&, const SimulationSettings&, const Step&);
+
+// A solver without a state of its own.
+template <Function kFunction>
+class Stateless : public Solver {
+public:
+    Stateless(const groom::Groom&, const SimulationSettings& settings, const Step& step)
+        : settings_(settings), step_(step) {}
+
+    void step(const Substep& substep) override { kFunction(substep, settings_, step_); }
+
+private:
+    SimulationSettings settings_;
+    Step step_;
+};
+
+template <class Made>
+std::unique_ptr<Solver>
+make(const groom::Groom& groom, const SimulationSettings& settings, const Step& step) {
+    return std::make_unique<Made>(groom, settings, step);
+}
+
+struct Row {
+    hair::Solver solver;
+    std::unique_ptr<Solver> (*make)(const groom::Groom&, const SimulationSettings&, const Step&);
+};
+
+constexpr Row kSolvers[] = {
+    {hair::Solver::none, make<Stateless<stepRest>>},
+    {hair::Solver::shape, make<Stateless<stepShape>>},
+    {hair::Solver::ftl, make<Stateless<stepFtl>>},
+    {hair::Solver::rod, make<RodSolver>},
+};
+
+}  // namespace
+
+// ---- The simulation -----------------------------------------------------------------------------
 
 Reference::Reference(
     const groom::Groom& groom, const SimulationSettings& settings, std::uint32_t seed)
@@ -111,160 +262,7 @@ void Reference::advance(std::span<const glm::dvec3> wind_accelerations, double t
     }
 }
 
-}  // namespace hair::reference
-
-namespace hair::reference {
-namespace {
-
-// ---- Reference solver rod -----------------------------------------------------------------------
-
-// The rods of rod.h as a solver of a Reference.
-class RodSolver : public Solver {
-public:
-    RodSolver(const groom::Groom& groom, const SimulationSettings& settings, const Step& step);
-
-    void step(const Substep& substep) override;
-    void adopt(const Substep& substep) override;
-
-private:
-    SimulationSettings settings_;
-    Step step_;
-    std::vector<RodRest> rests_;  // [strand]
-    std::vector<RodState> states_;  // [strand]
-};
-
-RodRoot rootOf(const simulation::RigidMotion& motion) {
-    return {.rotation = motion.rotation, .translation = motion.translation};
-}
-
-RodSolver::RodSolver(
-    const groom::Groom& groom, const SimulationSettings& settings, const Step& step)
-    : settings_(settings), step_(step) {
-    const MaterialSettings& material = settings.material;
-    for (std::uint32_t i = 0; i < groom.strand_count; ++i) {
-        const auto points = groom.strand(i);
-        rests_.push_back(makeRodRest(
-            std::vector<glm::dvec3>(points.begin(), points.end()),
-            {.density = material.density,
-             .radius = material.radius,
-             .youngs_modulus = material.youngs_modulus,
-             .shear_modulus = material.shear_modulus}));
-        states_.push_back(rodAtRest(rests_.back()));
-    }
-}
-
-void RodSolver::step(const Substep& substep) {
-    RodState& state = states_[substep.strand];
-    const RodRest& rest = rests_[substep.strand];
-    const std::vector<glm::dvec3> before(substep.positions.begin(), substep.positions.end());
-    stepRod(
-        state, rest, substep.accelerations, rootOf(substep.frame), step_.sub,
-        keptFactor(settings_, step_), settings_.rod.iterations);
-    std::vector<glm::dvec3> positions = state.positions();
-    for (std::size_t i = 1; i < positions.size(); ++i)
-        positions[i] = substep.push_out(positions[i], before[i]);
-    pushRod(state, rest, positions, step_.sub);
-    std::ranges::copy(before, substep.previous.begin());
-    std::ranges::copy(positions, substep.positions.begin());
-}
-
-void RodSolver::adopt(const Substep& substep) {
-    states_[substep.strand] = rodFrom(
-        rests_[substep.strand], substep.positions, substep.previous, step_.sub,
-        rootOf(substep.frame));
-}
-
-// ---- Reference solvers --------------------------------------------------------------------------
-
-std::vector<glm::dvec3> moved(ConstPoints points, const simulation::RigidMotion& motion) {
-    std::vector<glm::dvec3> result;
-    for (const glm::dvec3& point : points) result.push_back(motion(point));
-    return result;
-}
-
-void pushOutAll(const Substep& substep, ConstPoints before) {
-    for (std::size_t i = 1; i < before.size(); ++i)
-        substep.positions[i] = substep.push_out(substep.positions[i], before[i]);
-}
-
-// `none`: the head carries every vertex.
-void stepRest(const Substep& substep, const SimulationSettings&, const Step&) {
-    for (std::size_t i = 0; i < substep.rest.size(); ++i) {
-        substep.previous[i] = substep.positions[i];
-        substep.positions[i] = substep.frame(substep.rest[i]);
-    }
-}
-
-// The order of thesis section 3.2, then collisions.
-void stepShape(const Substep& substep, const SimulationSettings& settings, const Step& step) {
-    const std::size_t vertices = substep.rest.size();
-    const Points positions = substep.positions;
-    const auto rest = moved(substep.rest, substep.frame);
-    const glm::dmat3 root_frame = glm::mat3_cast(substep.frame.rotation);
-    double length = 0.0;
-    for (std::size_t i = 1; i < vertices; ++i)
-        length += glm::distance(substep.rest[i], substep.rest[i - 1]);
-    const double local = localFactor(settings, step, length / static_cast<double>(vertices - 1));
-
-    const std::vector<glm::dvec3> before(positions.begin(), positions.end());
-    substep.previous[0] = positions[0];
-    positions[0] = rest[0];
-    integrate(
-        positions, substep.previous, substep.accelerations, keptFactor(settings, step), step.sub);
-    pullToRest(positions, rest, globalFactor(settings, step));
-    for (std::uint32_t i = 0; i < settings.local.iterations; ++i)
-        pullToShape(positions, substep.rest, local, root_frame);
-    for (std::uint32_t i = 0; i < settings.length.iterations; ++i) projectLengths(positions, rest);
-    pushOutAll(substep, before);
-}
-
-// Follow the leader.
-void stepFtl(const Substep& substep, const SimulationSettings& settings, const Step& step) {
-    reference::stepFtl(
-        substep.positions, substep.previous, moved(substep.rest, substep.frame),
-        {.accelerations = substep.accelerations,
-         .substep = step.sub,
-         .velocity_kept = keptFactor(settings, step),
-         .global_stiffness = globalFactor(settings, step),
-         .velocity_correction = double{settings.ftl.velocity_correction}},
-        substep.push_out);
-}
-
-using Function = void (*)(const Substep&, const SimulationSettings&, const Step&);
-
-// A solver without a state of its own.
-template <Function kFunction>
-class Stateless : public Solver {
-public:
-    Stateless(const groom::Groom&, const SimulationSettings& settings, const Step& step)
-        : settings_(settings), step_(step) {}
-
-    void step(const Substep& substep) override { kFunction(substep, settings_, step_); }
-
-private:
-    SimulationSettings settings_;
-    Step step_;
-};
-
-template <class Made>
-std::unique_ptr<Solver>
-make(const groom::Groom& groom, const SimulationSettings& settings, const Step& step) {
-    return std::make_unique<Made>(groom, settings, step);
-}
-
-struct Row {
-    hair::Solver solver;
-    std::unique_ptr<Solver> (*make)(const groom::Groom&, const SimulationSettings&, const Step&);
-};
-
-constexpr Row kSolvers[] = {
-    {hair::Solver::none, make<Stateless<stepRest>>},
-    {hair::Solver::shape, make<Stateless<stepShape>>},
-    {hair::Solver::ftl, make<Stateless<stepFtl>>},
-    {hair::Solver::rod, make<RodSolver>},
-};
-
-}  // namespace
+// ---- The table ----------------------------------------------------------------------------------
 
 std::unique_ptr<Solver>
 makeSolver(const groom::Groom& groom, const SimulationSettings& settings, const Step& step) {

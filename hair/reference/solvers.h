@@ -16,7 +16,7 @@
 
 namespace hair::reference {
 
-// One strand in one substep.
+// A strand in a substep.
 struct Substep {
     std::size_t strand = 0;
     Points positions;
@@ -28,7 +28,7 @@ struct Substep {
     std::function<glm::dvec3(const glm::dvec3& position, const glm::dvec3& before)> push_out;
 };
 
-// What moves the strands of a Reference: GuideSolver's counterpart.
+// What moves the strands of a Reference, as GuideSolver moves those of a Simulation.
 class Solver {
 public:
     virtual ~Solver() = default;
@@ -44,12 +44,8 @@ public:
 std::unique_ptr<Solver>
 makeSolver(const groom::Groom& groom, const SimulationSettings& settings, const Step& step);
 
-}  // namespace hair::reference
-
-namespace hair::reference {
-
-// The simulation on the CPU in double, on a head that moves: solvers.h, substep by
-// substep. Plain and slow; see simulation.h for the one that is measured.
+// The simulation on the CPU in double, on a head that moves: a Solver, substep by substep. Plain
+// and slow; hair/simulation/simulation.h has the one that is measured.
 class Reference {
 public:
     Reference(const groom::Groom& groom, const SimulationSettings& settings, std::uint32_t seed);
@@ -78,14 +74,14 @@ private:
     }
 
     SimulationSettings settings_;
-    reference::Step step_;
+    Step step_;
     std::uint32_t seed_;
     simulation::HeadMotion motion_;
     std::size_t vertices_;  // per strand
     std::vector<glm::dvec3> rest_;
     std::vector<glm::dvec3> positions_;
     std::vector<glm::dvec3> previous_;
-    std::unique_ptr<reference::Solver> solver_;  // null: nothing moves
+    std::unique_ptr<Solver> solver_;  // null: nothing moves
     std::uint32_t steps_ = 0;
 };
 

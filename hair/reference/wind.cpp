@@ -12,8 +12,6 @@
 namespace hair::reference {
 namespace {
 
-// ---- Reference turbulence -----------------------------------------------------------------------
-
 // A value with its gradient.
 struct Dual {
     double value = 0.0;
@@ -54,7 +52,34 @@ glm::dvec3 latticeGradient(const glm::dvec3& node, std::uint32_t seed, std::uint
     return gradient;
 }
 
+constexpr double kShortest = 1e-9;  // m
+constexpr double kFolded = 1e-3;
+
+glm::dvec3 unit(const glm::dvec3& edge) {
+    return glm::length(edge) < kShortest ? glm::dvec3(0.0) : glm::normalize(edge);
+}
+
+// A unit vector at right angles to `direction` and to the axis that it has least of.
+glm::dvec3 sideways(const glm::dvec3& direction) {
+    int least = 0;
+    for (int i = 1; i < 3; ++i)
+        if (std::abs(direction[i]) < std::abs(direction[least])) least = i;
+    glm::dvec3 axis{0.0};
+    axis[least] = 1.0;
+    return glm::normalize(glm::cross(direction, axis));
+}
+
+glm::dvec3 tangentAt(ConstPoints positions, std::size_t i) {
+    const glm::dvec3 above = unit(positions[i] - positions[i - 1]);
+    glm::dvec3 below{0.0};
+    if (i + 1 < positions.size()) below = unit(positions[i + 1] - positions[i]);
+    if (glm::length(above + below) < kFolded) return above;
+    return glm::normalize(above + below);
+}
+
 }  // namespace
+
+// ---- Turbulence ---------------------------------------------------------------------------------
 
 glm::dvec3 curlNoise(const glm::dvec3& point, std::uint32_t seed) {
     std::array<Dual, 3> potential;
@@ -96,36 +121,7 @@ glm::dvec3 turbulence(const glm::dvec3& point, std::uint32_t octaves, std::uint3
     return sum / std::sqrt(squares);
 }
 
-namespace {
-
-// ---- Reference wind -----------------------------------------------------------------------------
-
-constexpr double kShortest = 1e-9;  // m
-constexpr double kFolded = 1e-3;
-
-glm::dvec3 unit(const glm::dvec3& edge) {
-    return glm::length(edge) < kShortest ? glm::dvec3(0.0) : glm::normalize(edge);
-}
-
-// A unit vector at right angles to `direction` and to the axis that it has least of.
-glm::dvec3 sideways(const glm::dvec3& direction) {
-    int least = 0;
-    for (int i = 1; i < 3; ++i)
-        if (std::abs(direction[i]) < std::abs(direction[least])) least = i;
-    glm::dvec3 axis{0.0};
-    axis[least] = 1.0;
-    return glm::normalize(glm::cross(direction, axis));
-}
-
-glm::dvec3 tangentAt(ConstPoints positions, std::size_t i) {
-    const glm::dvec3 above = unit(positions[i] - positions[i - 1]);
-    glm::dvec3 below{0.0};
-    if (i + 1 < positions.size()) below = unit(positions[i + 1] - positions[i]);
-    if (glm::length(above + below) < kFolded) return above;
-    return glm::normalize(above + below);
-}
-
-}  // namespace
+// ---- Wind and drag ------------------------------------------------------------------------------
 
 std::array<double, 4> windWeights(std::uint32_t seed, std::uint32_t strand) {
     constexpr std::uint32_t kPurpose = 0x57494e44;  // kWindWeightPurpose of the GPU

@@ -12,6 +12,7 @@
 #include "hair/groom/mesh/surface.h"
 #include "hair/settings.h"
 
+// The bodies that hair collides with: capsules and distance fields.
 namespace hair::simulation {
 
 // Signed distances to a closed mesh on a grid, in the mesh's frame, for shaders

@@ -70,7 +70,7 @@ std::vector<float> toFloat(std::span<const double> values) {
     return {values.begin(), values.end()};
 }
 
-// Without the addresses.
+// The parameters without the addresses.
 gpu::VolumeParameters
 parametersOf(const groom::Groom& groom, const SimulationSettings& settings, const gpu::Step& step) {
     const HairHairSettings& contact = settings.hair_hair;

@@ -26,7 +26,7 @@ Pose operator*(double factor, const Pose& pose) {
     return {factor * pose.rotation, factor * pose.translation};
 }
 
-// Between two keyframes.
+// The mean motion between two keyframes.
 struct Secant {
     double span;  // s
     Pose slope;   // change per s
@@ -56,8 +56,8 @@ Pose meanSlope(const Secant& before, const Secant& after) {
         mean(before.slope.translation, after.slope.translation)};
 }
 
-// At keyframe i, from its neighbours. A repeating motion goes on after its last keyframe as after
-// its first.
+// The slope at keyframe i, from its neighbours. A repeating motion goes on after its last keyframe
+// as after its first.
 Pose slopeAt(const MotionSettings& settings, std::size_t i) {
     const auto& keys = settings.keyframes;
     const std::size_t last = keys.size() - 1;

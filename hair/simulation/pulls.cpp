@@ -17,8 +17,6 @@ namespace {
 
 using engine::Access;
 
-// ---- Hand ---------------------------------------------------------------------------------------
-
 glm::dvec3 positionAt(const std::vector<PullKey>& path, double time) {
     const auto after = std::ranges::upper_bound(
         path, time, {}, [](const PullKey& key) { return double{key.time}; });
@@ -38,7 +36,15 @@ void checkVertex(
                                      std::to_string(count) + " " + things);
 }
 
+static_assert(sizeof(gpu::PullPush) == 72 && offsetof(gpu::PullPush, held_vertex) == 48);
+
+engine::ComputePipeline pipeline(const engine::Device& device, const char* shader) {
+    return {device, {.shader = shader, .push_size = sizeof(gpu::PullPush)}};
+}
+
 }  // namespace
+
+// ---- Hands --------------------------------------------------------------------------------------
 
 std::optional<Hand> handIn(const PullSettings& pull, double from, double to) {
     const double middle = 0.5 * (from + to);
@@ -64,17 +70,7 @@ void checkPulls(
     }
 }
 
-namespace {
-
-// ---- Pull pass ----------------------------------------------------------------------------------
-
-static_assert(sizeof(gpu::PullPush) == 72 && offsetof(gpu::PullPush, held_vertex) == 48);
-
-engine::ComputePipeline pipeline(const engine::Device& device, const char* shader) {
-    return {device, {.shader = shader, .push_size = sizeof(gpu::PullPush)}};
-}
-
-}  // namespace
+// ---- The pass -----------------------------------------------------------------------------------
 
 PullPass::PullPass(
     const engine::Device& device, std::uint32_t strand_count, std::uint32_t vertices_per_strand,

@@ -22,9 +22,9 @@ struct Hand {
     glm::dvec3 velocity;  // its mean over the step, m/s
 };
 
-// In the time step between two times, s; null where the hand does not pull: it pulls in the steps
-// whose middle lies between its first and last key, which is most of every such step. So keys at
-// multiples of the step mean what they say, however those are rounded. Before its first key and
+// The hand in the time step between two times, s; null where it does not pull: it pulls in the
+// steps whose middle lies between its first and last key, which is most of every such step. So keys
+// at multiples of the step mean what they say, however those are rounded. Before its first key and
 // after its last the hand is where these are.
 //
 // The spring is implicit, and asks where the hand is when the step ends. It asks for the mean
@@ -60,7 +60,7 @@ public:
         const engine::Device& device, std::uint32_t strand_count, std::uint32_t vertices_per_strand,
         const gpu::Step& step, std::vector<PullSettings> pulls);
 
-    // Other pulls, which checkPulls has passed.
+    // `pulls` are others that checkPulls has passed.
     void setPulls(std::vector<PullSettings> pulls) noexcept { pulls_ = std::move(pulls); }
 
     // For the time step that begins at `time`. `guides` is the address of gpu::GuideParameters.

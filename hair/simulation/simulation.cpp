@@ -18,25 +18,7 @@ namespace {
 using engine::Access;
 using engine::Commands;
 
-// ---- Fixed step ---------------------------------------------------------------------------------
-
 constexpr std::int64_t kPartsPerStep = 720720;  // the least common multiple of 1 .. 16
-
-}  // namespace
-
-FixedStep::FixedStep(double step) : step_(step) { assert(step > 0.0); }
-
-std::uint32_t FixedStep::stepsFor(double frame_time) {
-    assert(frame_time >= 0.0);
-    parts_ += std::llround(frame_time / step_ * double{kPartsPerStep});
-    const std::int64_t steps = parts_ / kPartsPerStep;
-    parts_ -= steps * kPartsPerStep;
-    return static_cast<std::uint32_t>(steps);
-}
-
-namespace {
-
-// ---- Simulation ---------------------------------------------------------------------------------
 
 static_assert(sizeof(gpu::Bodies) == 32);
 static_assert(sizeof(gpu::GuideParameters) == 96 && offsetof(gpu::GuideParameters, gravity) == 56);
@@ -55,6 +37,20 @@ bool hairActsOnHair(const SimulationSettings& settings) {
 }
 
 }  // namespace
+
+// ---- Fixed steps --------------------------------------------------------------------------------
+
+FixedStep::FixedStep(double step) : step_(step) { assert(step > 0.0); }
+
+std::uint32_t FixedStep::stepsFor(double frame_time) {
+    assert(frame_time >= 0.0);
+    parts_ += std::llround(frame_time / step_ * double{kPartsPerStep});
+    const std::int64_t steps = parts_ / kPartsPerStep;
+    parts_ -= steps * kPartsPerStep;
+    return static_cast<std::uint32_t>(steps);
+}
+
+// ---- Guides on the device -----------------------------------------------------------------------
 
 Simulation::Simulation(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,

@@ -14,9 +14,15 @@
 #include "hair/simulation/stiffness.h"
 
 namespace hair::simulation {
-namespace {
 
-// ---- Rod rest -----------------------------------------------------------------------------------
+// Rods at rest as the solver wants them. A segment shorter than 1e-9 m has the direction of the one
+// before it, the first one +y; it bends with its neighbours and is not massless.
+struct RodRest {
+    std::vector<gpu::RodSegment> segments;  // [vertex][strand]
+    std::vector<float> units;  // [strand], m
+};
+
+namespace {
 
 constexpr double kShortest = 1e-9;  // m
 constexpr double kShortestUnit = 1e-6;  // m, for strands without length
@@ -78,8 +84,6 @@ Strand restOfStrand(std::span<const glm::vec3> points, double bending, double tw
     return strand;
 }
 
-}  // namespace
-
 RodRest
 restOfRods(const groom::Groom& groom, const MaterialSettings& material, const gpu::Step& step) {
     // I / A = R^2 / 4 and J = 2 I of a round section.
@@ -101,10 +105,6 @@ restOfRods(const groom::Groom& groom, const MaterialSettings& material, const gp
     }
     return rest;
 }
-
-namespace {
-
-// ---- Solver rod ---------------------------------------------------------------------------------
 
 static_assert(sizeof(gpu::RodSegment) == 32 && sizeof(gpu::RodMotion) == 52);
 static_assert(offsetof(gpu::RodParameters, most_strands) == 32);
@@ -155,7 +155,7 @@ RodSolver::RodSolver(
 void RodSolver::record(engine::Commands& commands, gpu::SubstepPush push) const {
     push.solver = parameters_.address();
     for (std::uint32_t first = 0; first < strand_count_; first += most_strands_) {
-        // The scratch memory of the strands before.
+        // The strands before may still use the scratch memory.
         if (first > 0)
             commands.barrier(engine::Access::compute_write, engine::Access::compute_write);
         push.first_strand = first;

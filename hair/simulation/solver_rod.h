@@ -10,20 +10,12 @@
 
 namespace hair::simulation {
 
-// Rods at rest as the `rod` solver wants them. A segment shorter than 1e-9 m has the direction of
-// the one before it, the first one +y; it bends with its neighbours and is not massless.
-struct RodRest {
-    std::vector<gpu::RodSegment> segments;  // [vertex][strand]
-    std::vector<float> units;               // [strand], m
-};
+struct RodRest;
 
-RodRest
-restOfRods(const groom::Groom& groom, const MaterialSettings& material, const gpu::Step& step);
-
-// Elastic rods of /simulation/material, which neither stretch nor shear: see rod.h.
-// Positions are output alone; the state is in orientations and velocities. Strands work in units of
-// their own and positions are sums of edges, so that 32 bits are enough. The first segment leaves
-// the follicle as it does at rest, turned with the head.
+// Elastic rods of /simulation/material, which neither stretch nor shear: see
+// hair/reference/rod.h. Positions are output alone; the state is in orientations and velocities.
+// Strands work in units of their own and positions are sums of edges, so that 32 bits are enough.
+// The first segment leaves the follicle as it does at rest, turned with the head.
 class RodSolver : public GuideSolver {
 public:
     RodSolver(

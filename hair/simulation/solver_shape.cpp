@@ -22,7 +22,7 @@
 namespace hair::simulation {
 namespace {
 
-// ---- Rest shape ---------------------------------------------------------------------------------
+// ---- The shape at rest --------------------------------------------------------------------------
 
 // The rest shape as the local constraint (Han and Harada 2012) wants it: xyz is the rest edge that
 // ends in the vertex, seen from the frame that parallel transport carries from segment 1 along the
@@ -65,7 +65,7 @@ std::vector<double> meanSegmentLengths(const groom::Groom& groom) {
     return means;
 }
 
-// ---- Shape plan ---------------------------------------------------------------------------------
+// ---- Strands by invocations ---------------------------------------------------------------------
 
 constexpr std::uint32_t kGroup = 32;  // invocations to fill with whole strands
 
@@ -96,8 +96,8 @@ std::uint32_t verticesPerChunk(std::uint32_t vertices, std::uint32_t wanted) {
     return chunks == 1 ? vertices : divideUp(divideUp(vertices, chunks), 2) * 2;
 }
 
-}  // namespace
-
+// Throws Unsupported for strands with more vertices than the device has invocations in a workgroup
+// for, at 32 vertices each.
 ShapePlan planShape(
     const engine::DeviceInfo& device, const SimulationSettings& settings,
     std::uint32_t strand_count, std::uint32_t vertices_per_strand) {
@@ -133,9 +133,7 @@ ShapePlan planShape(
         .strands_per_group = strands};
 }
 
-namespace {
-
-// ---- Solver shape -------------------------------------------------------------------------------
+// ---- Pipelines and factors ----------------------------------------------------------------------
 
 static_assert(offsetof(gpu::ShapeParameters, length_iterations) == 24);
 

@@ -18,17 +18,12 @@ struct ShapePlan {
     std::uint32_t strands_per_group = 0;
 };
 
-// Throws Unsupported for strands with more vertices than the device has invocations in a workgroup
-// for, at 32 vertices each.
-ShapePlan planShape(
-    const engine::DeviceInfo& device, const SimulationSettings& settings,
-    std::uint32_t strand_count, std::uint32_t vertices_per_strand);
-
 // The thesis's solver: Verlet, then global, local (Han and Harada 2012) and length constraints
 // (thesis section 3).
 class ShapeSolver : public GuideSolver {
 public:
-    // Throws what planShape does.
+    // Throws Unsupported for strands with more vertices than the device has invocations in a
+    // workgroup for, at 32 vertices each.
     ShapeSolver(
         const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
         const gpu::Step& step);

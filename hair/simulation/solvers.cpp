@@ -16,7 +16,7 @@
 namespace hair::simulation {
 namespace {
 
-// ---- Solver rest --------------------------------------------------------------------------------
+// ---- Hair at rest on a moving head --------------------------------------------------------------
 
 // Hair frozen on a head that moves: solver `none` with keyframes.
 class RestSolver : public GuideSolver {
@@ -40,7 +40,7 @@ void RestSolver::record(engine::Commands& commands, gpu::SubstepPush push) const
     dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
 }
 
-// ---- Solvers ------------------------------------------------------------------------------------
+// ---- The table ----------------------------------------------------------------------------------
 
 static_assert(sizeof(gpu::Step) == 12 && offsetof(gpu::Step, sub) == 4);
 static_assert(offsetof(gpu::Step, count) == 8);

@@ -9,6 +9,7 @@
 #include "hair/groom/groom.h"
 #include "hair/settings.h"
 
+// The solvers: what moves guides, and the table of them.
 namespace hair::simulation {
 
 // What moves guides. It reads and writes the positions and previous positions that are behind

@@ -11,6 +11,7 @@
 #include "hair/gpu_structs.h"
 #include "hair/settings.h"
 
+// What the solvers have in common: dispatches, rotations, and stiffness at any step.
 namespace hair::simulation {
 
 // Dispatches `groups` workgroups. Where more are needed than fit in a row, shaders count them row
@@ -21,7 +22,7 @@ inline void dispatchGroups(engine::Commands& commands, std::uint32_t groups) {
     commands.dispatch(columns, (groups + columns - 1) / columns);
 }
 
-// With as many workgroups of `size` invocations as `invocations` need.
+// Dispatches as many workgroups of `size` invocations as `invocations` need.
 inline void
 dispatchInvocations(engine::Commands& commands, std::uint32_t invocations, std::uint32_t size) {
     dispatchGroups(commands, (invocations + size - 1) / size);

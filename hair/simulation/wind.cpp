@@ -13,8 +13,33 @@
 #include "hair/simulation/stiffness.h"
 
 namespace hair::simulation {
+namespace {
 
-// ---- Wind ---------------------------------------------------------------------------------------
+static_assert(sizeof(gpu::WindPush) == 72 && offsetof(gpu::WindPush, directions) == 16);
+static_assert(sizeof(gpu::DragPush) == 72 && offsetof(gpu::DragPush, cell) == 32);
+
+engine::ComputeDescription pipelineOf(WindMode mode) {
+    if (mode == WindMode::drag)
+        return {.shader = "simulation/wind_drag.comp", .push_size = sizeof(gpu::DragPush)};
+    return {.shader = "simulation/wind.comp", .push_size = sizeof(gpu::WindPush)};
+}
+
+// What multiplies the wind's direction.
+float strengthOf(const WindSettings& settings) {
+    return settings.mode == WindMode::drag ? settings.speed : settings.strength;
+}
+
+// The cell modulo 2^32, as a lattice counts its cells.
+gpu::uvec3 cellOf(const glm::dvec3& whole) {
+    const auto wrapped = [](double count) {
+        return static_cast<std::uint32_t>(static_cast<std::int64_t>(count));
+    };
+    return {wrapped(whole.x), wrapped(whole.y), wrapped(whole.z)};
+}
+
+}  // namespace
+
+// ---- Wind by the settings -----------------------------------------------------------------------
 
 glm::dvec3 windDirection(const WindSettings& settings) {
     const glm::dvec3 direction = settings.direction;
@@ -48,33 +73,7 @@ DragFactors dragFactors(const WindSettings& settings, const MaterialSettings& ma
         .viscous = 10.0 * std::cbrt(double{settings.air_density} * layer * layer) / line};
 }
 
-namespace {
-
-// ---- Wind pass ----------------------------------------------------------------------------------
-
-static_assert(sizeof(gpu::WindPush) == 72 && offsetof(gpu::WindPush, directions) == 16);
-static_assert(sizeof(gpu::DragPush) == 72 && offsetof(gpu::DragPush, cell) == 32);
-
-engine::ComputeDescription pipelineOf(WindMode mode) {
-    if (mode == WindMode::drag)
-        return {.shader = "simulation/wind_drag.comp", .push_size = sizeof(gpu::DragPush)};
-    return {.shader = "simulation/wind.comp", .push_size = sizeof(gpu::WindPush)};
-}
-
-// What multiplies the wind's direction.
-float strengthOf(const WindSettings& settings) {
-    return settings.mode == WindMode::drag ? settings.speed : settings.strength;
-}
-
-// Modulo 2^32, as a lattice counts its cells.
-gpu::uvec3 cellOf(const glm::dvec3& whole) {
-    const auto wrapped = [](double count) {
-        return static_cast<std::uint32_t>(static_cast<std::int64_t>(count));
-    };
-    return {wrapped(whole.x), wrapped(whole.y), wrapped(whole.z)};
-}
-
-}  // namespace
+// ---- The pass -----------------------------------------------------------------------------------
 
 void checkWind(const WindSettings& settings) {
     if (strengthOf(settings) > 0.0f) windDirection(settings);

@@ -9,9 +9,10 @@
 #include "engine/pipeline.h"
 #include "hair/settings.h"
 
+// The wind: by the settings, and as the acceleration of every guide vertex.
 namespace hair::simulation {
 
-// Unit vector. A direction without length throws Error.
+// The wind's direction, a unit vector. Throws Error for a direction without length.
 glm::dvec3 windDirection(const WindSettings& settings);
 
 // Four unit vectors at `cone_angle` from the wind's direction d, 90 degrees apart round it: toward
@@ -41,7 +42,7 @@ public:
         const engine::Device& device, std::uint32_t vertex_count,
         const SimulationSettings& settings);
 
-    // Other wind of the same mode, which checkWind has passed.
+    // `settings` are of the same mode, and checkWind has passed them.
     void setWind(const WindSettings& settings) noexcept { settings_ = settings; }
 
     // `guides` is the address of gpu::GuideParameters.
