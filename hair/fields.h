@@ -37,7 +37,7 @@ private:
     const void* settings_;
 };
 
-// One that can be changed.
+// A view of a settings struct that can be changed.
 class SettingsRef : public SettingsView {
 public:
     template <HasTable Settings>

@@ -23,7 +23,7 @@
 namespace hair::groom {
 namespace {
 
-// ---- Resample -----------------------------------------------------------------------------------
+// ---- Even spacing -------------------------------------------------------------------------------
 
 constexpr std::uint32_t kMostVertices = 256;  // of guides whose number is not given
 
@@ -100,7 +100,66 @@ void forEachPlace(const StrandSet& strands, std::uint32_t vertices, Visit&& visi
     }
 }
 
+// ---- Guides of a scene --------------------------------------------------------------------------
+
+constexpr std::uint32_t kThesisGuides = 86;
+
+glm::dmat4 placement(const FilePlacementSettings& settings, double scale) {
+    glm::dmat4 matrix = glm::translate(glm::dmat4(1.0), glm::dvec3(settings.translation));
+    for (int axis = 2; axis >= 0; --axis) {
+        glm::dvec3 direction(0.0);
+        direction[axis] = 1.0;
+        matrix = glm::rotate(matrix, glm::radians(double{settings.rotation[axis]}), direction);
+    }
+    return glm::scale(matrix, glm::dvec3(scale));
+}
+
+void place(StrandSet& strands, const FilePlacementSettings& settings) {
+    const double scale = double{settings.scale} * strands.metres_per_unit.value_or(1.0);
+    const glm::dmat4 matrix = placement(settings, scale);
+    strands.metres_per_unit = 1.0;
+    if (matrix == glm::dmat4(1.0)) return;
+    for (glm::vec3& point : strands.points)
+        point = glm::vec3(matrix * glm::dvec4(glm::dvec3(point), 1.0));
+    for (float& width : strands.widths.values) width = static_cast<float>(width * scale);
+    if (strands.widths.everywhere)
+        *strands.widths.everywhere = static_cast<float>(*strands.widths.everywhere * scale);
+}
+
+// All strands as guides, or some of them with the others bound to them.
+Groom withGuides(Groom dense, std::uint32_t count, const Mesh* mesh, std::uint32_t seed) {
+    std::vector<std::uint32_t> chosen(dense.strand_count);
+    std::iota(chosen.begin(), chosen.end(), 0u);
+    if (count == 0 || count == dense.strand_count) {
+        dense.bindings = bindStrands(dense, chosen);
+        if (dense.root_triangles.empty()) dense.root_triangles = triangulateRoots(dense, mesh);
+        return dense;
+    }
+    chosen = chooseGuides(dense, count, seed);
+    Groom guides = pickStrands(dense, chosen);
+    guides.bindings = bindStrands(dense, chosen);
+    guides.root_triangles = triangulateRoots(guides, mesh);
+    return guides;
+}
+
+Groom fromFile(
+    const GroomSettings& settings, const Mesh* mesh, const std::filesystem::path& path,
+    std::uint32_t seed) {
+    StrandSet strands = importStrands(path);
+    try {
+        place(strands, settings.placement);
+        Groom groom = toGroom(std::move(strands), settings.vertices);
+        if (mesh) groom.root_normals = rootNormals(groom, *mesh);
+        return withGuides(
+            style(std::move(groom), settings.style, seed), settings.guides, mesh, seed);
+    } catch (const engine::Error& error) {
+        throw engine::Error(path.string(), error.what());
+    }
+}
+
 }  // namespace
+
+// ---- Resampling ---------------------------------------------------------------------------------
 
 StrandSet resample(StrandSet strands, std::uint32_t vertices) {
     assert(vertices >= 2);
@@ -164,66 +223,7 @@ StrandSet toStrandSet(const Groom& groom) {
     return strands;
 }
 
-namespace {
-
-// ---- Build groom --------------------------------------------------------------------------------
-
-constexpr std::uint32_t kThesisGuides = 86;
-
-glm::dmat4 placement(const FilePlacementSettings& settings, double scale) {
-    glm::dmat4 matrix = glm::translate(glm::dmat4(1.0), glm::dvec3(settings.translation));
-    for (int axis = 2; axis >= 0; --axis) {
-        glm::dvec3 direction(0.0);
-        direction[axis] = 1.0;
-        matrix = glm::rotate(matrix, glm::radians(double{settings.rotation[axis]}), direction);
-    }
-    return glm::scale(matrix, glm::dvec3(scale));
-}
-
-void place(StrandSet& strands, const FilePlacementSettings& settings) {
-    const double scale = double{settings.scale} * strands.metres_per_unit.value_or(1.0);
-    const glm::dmat4 matrix = placement(settings, scale);
-    strands.metres_per_unit = 1.0;
-    if (matrix == glm::dmat4(1.0)) return;
-    for (glm::vec3& point : strands.points)
-        point = glm::vec3(matrix * glm::dvec4(glm::dvec3(point), 1.0));
-    for (float& width : strands.widths.values) width = static_cast<float>(width * scale);
-    if (strands.widths.everywhere)
-        *strands.widths.everywhere = static_cast<float>(*strands.widths.everywhere * scale);
-}
-
-// All strands as guides, or some of them with the others bound to them.
-Groom withGuides(Groom dense, std::uint32_t count, const Mesh* mesh, std::uint32_t seed) {
-    std::vector<std::uint32_t> chosen(dense.strand_count);
-    std::iota(chosen.begin(), chosen.end(), 0u);
-    if (count == 0 || count == dense.strand_count) {
-        dense.bindings = bindStrands(dense, chosen);
-        if (dense.root_triangles.empty()) dense.root_triangles = triangulateRoots(dense, mesh);
-        return dense;
-    }
-    chosen = chooseGuides(dense, count, seed);
-    Groom guides = pickStrands(dense, chosen);
-    guides.bindings = bindStrands(dense, chosen);
-    guides.root_triangles = triangulateRoots(guides, mesh);
-    return guides;
-}
-
-Groom fromFile(
-    const GroomSettings& settings, const Mesh* mesh, const std::filesystem::path& path,
-    std::uint32_t seed) {
-    StrandSet strands = importStrands(path);
-    try {
-        place(strands, settings.placement);
-        Groom groom = toGroom(std::move(strands), settings.vertices);
-        if (mesh) groom.root_normals = rootNormals(groom, *mesh);
-        return withGuides(
-            style(std::move(groom), settings.style, seed), settings.guides, mesh, seed);
-    } catch (const engine::Error& error) {
-        throw engine::Error(path.string(), error.what());
-    }
-}
-
-}  // namespace
+// ---- The groom of a scene -----------------------------------------------------------------------
 
 Groom buildGroom(
     const GroomSettings& settings, const Mesh* mesh, const std::filesystem::path& directory,

@@ -7,6 +7,8 @@
 #include "hair/groom/mesh/mesh.h"
 #include "hair/settings.h"
 
+// From files or growth to the guides of a scene, and between the two forms of hair: strands as
+// files hold them, and guides with one number of points.
 namespace hair::groom {
 
 // The guides that a scene asks for, styled: from the strands of settings.file or, if that is empty,
@@ -28,7 +30,7 @@ StrandSet resample(StrandSet strands, std::uint32_t vertices);
 // Throws engine::Error where there is no strand.
 Groom toGroom(StrandSet strands, std::uint32_t vertices);
 
-// The other way, without the normals and bindings. `metres_per_unit` is 1.
+// The guides of a groom as strands, without normals and bindings. `metres_per_unit` is 1.
 StrandSet toStrandSet(const Groom& groom);
 
 }  // namespace hair::groom

@@ -22,46 +22,10 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::string_view_literals;
 
-// ---- Exporters ----------------------------------------------------------------------------------
-
 constexpr StrandExporter kExporters[] = {
     {".hair", exportHair}, {".hgl", exportHgl},   {".tfx", exportTfx}, {".obj", exportObj},
     {".ply", exportPly},   {".gltf", exportGltf}, {".glb", exportGlb}, {".usda", exportUsda},
 };
-
-}  // namespace
-
-std::span<const StrandExporter> strandExporters() { return kExporters; }
-
-const StrandExporter& strandExporterOf(const std::filesystem::path& path) {
-    const std::string extension = lowerCaseExtension(path);
-    std::string known;
-    for (const StrandExporter& exporter : kExporters) {
-        if (exporter.extension == extension) return exporter;
-        known.append(known.empty() ? "" : ", ").append(exporter.extension);
-    }
-    throw engine::Error(
-        path.string(), "strands can't be written as \"" + extension + "\"; known are " + known);
-}
-
-std::vector<std::string> exportStrands(
-    const StrandSet& strands, const std::filesystem::path& path, const engine::WritePoll& poll) {
-    const StrandExporter& exporter = strandExporterOf(path);
-    std::vector<std::string> warnings;
-    const auto write = [&](std::ostream& out) {
-        try {
-            warnings = exporter.write(strands, out);
-        } catch (const engine::Error& error) {
-            throw engine::Error(path.string(), error.what());
-        }
-    };
-    engine::writeFileAtomically(path, write, poll);
-    return warnings;
-}
-
-namespace {
-
-// ---- Importers ----------------------------------------------------------------------------------
 
 constexpr std::array kHair{".hair"sv};
 constexpr std::array kTfx{".tfx"sv};
@@ -105,6 +69,38 @@ const StrandImporter& importerOf(const fs::path& path, engine::OpenFile& file) {
 }
 
 }  // namespace
+
+// ---- Exporters ----------------------------------------------------------------------------------
+
+std::span<const StrandExporter> strandExporters() { return kExporters; }
+
+const StrandExporter& strandExporterOf(const std::filesystem::path& path) {
+    const std::string extension = lowerCaseExtension(path);
+    std::string known;
+    for (const StrandExporter& exporter : kExporters) {
+        if (exporter.extension == extension) return exporter;
+        known.append(known.empty() ? "" : ", ").append(exporter.extension);
+    }
+    throw engine::Error(
+        path.string(), "strands can't be written as \"" + extension + "\"; known are " + known);
+}
+
+std::vector<std::string> exportStrands(
+    const StrandSet& strands, const std::filesystem::path& path, const engine::WritePoll& poll) {
+    const StrandExporter& exporter = strandExporterOf(path);
+    std::vector<std::string> warnings;
+    const auto write = [&](std::ostream& out) {
+        try {
+            warnings = exporter.write(strands, out);
+        } catch (const engine::Error& error) {
+            throw engine::Error(path.string(), error.what());
+        }
+    };
+    engine::writeFileAtomically(path, write, poll);
+    return warnings;
+}
+
+// ---- Importers ----------------------------------------------------------------------------------
 
 std::span<const StrandImporter> strandImporters() { return kImporters; }
 

@@ -12,6 +12,7 @@
 #include "engine/files.h"
 #include "hair/groom/groom.h"
 
+// Files of strands: the tables of formats, and whole files by their extension or first bytes.
 namespace hair::groom {
 
 // A writer of strands. `write` returns what the format can't hold of these strands, a sentence

@@ -11,6 +11,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+// The two forms of hair: guides at rest, which simulation and rendering read, and strands as files
+// hold them.
 namespace hair::groom {
 
 // A strand between guides: at rest, vertex k is the weighted mean of vertex k of the three guides
@@ -29,10 +31,10 @@ struct Groom {
     std::vector<glm::vec3> points;          // [strand][vertex], m, root first
     std::vector<glm::vec3> root_normals;  // [strand], of the scalp, unit length; empty: not known
     std::vector<float> widths;  // [strand][vertex], diameters, m; empty: not known
-    std::vector<std::array<std::uint32_t, 3>>
-        root_triangles;  // guide indices; strands grow between them
-    std::vector<StrandBinding>
-        bindings;  // the strands of the file that the guides were chosen from
+    // Guide indices; strands grow between them.
+    std::vector<std::array<std::uint32_t, 3>> root_triangles;
+    // The strands of the file that the guides were chosen from.
+    std::vector<StrandBinding> bindings;
 
     std::uint32_t segmentsPerStrand() const { return vertices_per_strand - 1; }
     std::span<const glm::vec3> strand(std::uint32_t index) const {
@@ -48,7 +50,7 @@ struct PointAttribute {
     std::vector<Value> values;  // [point], or empty
 
     bool known() const { return everywhere.has_value() || !values.empty(); }
-    // Only of what is known.
+    // The value at a point, where known() holds.
     const Value& at(std::size_t point) const {
         return values.empty() ? *everywhere : values[point];
     }

@@ -23,7 +23,7 @@
 namespace hair::groom {
 namespace {
 
-// ---- Count duplicates ---------------------------------------------------------------------------
+// ---- Duplicates ---------------------------------------------------------------------------------
 
 // Rounds of multiply and shift with the constants of MurmurHash3's finalizer (Appleby 2011).
 std::uint64_t hashOf(std::span<const glm::vec3> points) {
@@ -72,7 +72,7 @@ std::uint32_t countDuplicates(
     return duplicates;
 }
 
-// ---- Guess unit ---------------------------------------------------------------------------------
+// ---- Units --------------------------------------------------------------------------------------
 
 struct Known {
     const char* name;
@@ -96,17 +96,8 @@ double misfit(double size, double expected, double scatter) {
     return off * off;
 }
 
-}  // namespace
-
-Unit statedUnit(double metres) {
-    for (const Known& known : kKnown)
-        if (std::abs(metres / known.metres - 1.0) < 1e-6)
-            return {known.name, metres, "The file states it."};
-    std::ostringstream name;
-    name << metres << " m";
-    return {name.str(), metres, "The file states it."};
-}
-
+// The unit of human hair in which the extent of the roots is nearest to that of a scalp and the
+// median strand is as long as hair is. Either may be 0: then it says nothing.
 Unit guessUnit(double root_extent, double median_length) {
     const Known* best = &kKnown.front();
     double least = std::numeric_limits<double>::infinity();
@@ -136,39 +127,14 @@ Unit guessUnit(double root_extent, double median_length) {
     return {best->name, best->metres, reason.str()};
 }
 
-// ---- Spread of ----------------------------------------------------------------------------------
-
-Spread spreadOf(std::vector<float>& numbers) {
-    if (numbers.empty()) return {};
-    const auto quantile = [&](double share) {
-        const double rank = share * static_cast<double>(numbers.size() - 1);
-        const auto below = numbers.begin() + static_cast<std::ptrdiff_t>(rank);
-        std::ranges::nth_element(numbers, below);
-        const double fraction = rank - std::floor(rank);
-        if (fraction == 0.0) return double{*below};
-        return std::lerp(
-            double{*below}, double{*std::min_element(below + 1, numbers.end())}, fraction);
-    };
-    return {
-        .minimum = quantile(0.0),
-        .quartile1 = quantile(0.25),
-        .median = quantile(0.5),
-        .quartile3 = quantile(0.75),
-        .maximum = quantile(1.0),
-        .mean = std::accumulate(numbers.begin(), numbers.end(), 0.0) /
-                static_cast<double>(numbers.size())};
-}
-
-namespace {
-
-// ---- Inspect on mesh ----------------------------------------------------------------------------
+// ---- Strands on a mesh --------------------------------------------------------------------------
 
 // What counts as on the surface, m. Triangles stray from the round head that they stand for: by
 // e^2 / 8 r with edges of e = 2 cm on a head of r = 10 cm, a coarse one, by 0.5 mm. Hair is as wide
 // as 0.1 mm, and off by more than a millimetre shows.
 constexpr double kTolerance = 1e-3;
 
-// Which direction is outward at a point of a closed mesh.
+// The outward direction at a point of a closed mesh.
 const glm::dvec3& pseudonormal(const ClosedMesh& mesh, const MeshPoint& at) {
     const Pseudonormals& normals = mesh.normals[at.triangle];
     for (std::size_t k = 0; k < 3; ++k) {
@@ -197,7 +163,7 @@ public:
         cell_ = (high_ - low_) / double{kCells};
     }
 
-    // 0 outside.
+    // The depth of a point, m; 0 outside.
     double operator()(const glm::dvec3& point) {
         if (glm::any(glm::lessThan(point, low_)) || glm::any(glm::greaterThan(point, high_)))
             return 0.0;
@@ -279,7 +245,7 @@ MeshFindings inspectOnMesh(const StrandSet& strands, const Mesh& mesh, double me
     return findings;
 }
 
-// ---- Inspect ------------------------------------------------------------------------------------
+// ---- Sizes --------------------------------------------------------------------------------------
 
 void inspectSizes(const StrandSet& strands, StrandFindings& findings) {
     std::vector<float> sizes;
@@ -341,6 +307,42 @@ double rootExtent(const StrandSet& strands) {
 }
 
 }  // namespace
+
+// ---- Units --------------------------------------------------------------------------------------
+
+Unit statedUnit(double metres) {
+    for (const Known& known : kKnown)
+        if (std::abs(metres / known.metres - 1.0) < 1e-6)
+            return {known.name, metres, "The file states it."};
+    std::ostringstream name;
+    name << metres << " m";
+    return {name.str(), metres, "The file states it."};
+}
+
+// ---- Spreads ------------------------------------------------------------------------------------
+
+Spread spreadOf(std::vector<float>& numbers) {
+    if (numbers.empty()) return {};
+    const auto quantile = [&](double share) {
+        const double rank = share * static_cast<double>(numbers.size() - 1);
+        const auto below = numbers.begin() + static_cast<std::ptrdiff_t>(rank);
+        std::ranges::nth_element(numbers, below);
+        const double fraction = rank - std::floor(rank);
+        if (fraction == 0.0) return double{*below};
+        return std::lerp(
+            double{*below}, double{*std::min_element(below + 1, numbers.end())}, fraction);
+    };
+    return {
+        .minimum = quantile(0.0),
+        .quartile1 = quantile(0.25),
+        .median = quantile(0.5),
+        .quartile3 = quantile(0.75),
+        .maximum = quantile(1.0),
+        .mean = std::accumulate(numbers.begin(), numbers.end(), 0.0) /
+                static_cast<double>(numbers.size())};
+}
+
+// ---- Findings -----------------------------------------------------------------------------------
 
 StrandFindings
 inspect(const StrandSet& strands, const Mesh* mesh, std::optional<double> metres_per_unit) {

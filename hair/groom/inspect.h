@@ -11,9 +11,10 @@
 #include "hair/groom/groom.h"
 #include "hair/groom/mesh/mesh.h"
 
+// What is in a file of strands, and what is odd about it.
 namespace hair::groom {
 
-// Least, quartiles and greatest of many numbers.
+// The quartiles, extremes and mean of many numbers.
 struct Spread {
     double minimum = 0.0;
     double quartile1 = 0.0;
@@ -23,7 +24,7 @@ struct Spread {
     double mean = 0.0;
 };
 
-// Against the mesh that the strands grow on; distances in metres.
+// How strands lie on the mesh that they grow on; distances in metres.
 struct MeshFindings {
     Spread root_distances;                // of roots from the surface, unsigned
     std::uint32_t roots_off_surface = 0;  // further than `tolerance`
@@ -71,10 +72,6 @@ struct Unit {
 };
 
 Unit statedUnit(double metres);
-
-// Of human hair: the unit in which the extent of the roots is nearest to that of a scalp and the
-// median strand is long as hair is. Either may be 0: then it says nothing.
-Unit guessUnit(double root_extent, double median_length);
 
 // Quartiles lie between two of the numbers where their rank isn't whole (Hyndman and Fan 1996,
 // Sample quantiles in statistical packages, definition 7). All 0 without numbers. Leaves them in

@@ -57,7 +57,8 @@ void writeValue(std::ostream& out, const Value& value) {
     out.write(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-// The first that is infinite or not a number. Tens of gigabytes a second where it finds none.
+// Index of the first that is infinite or not a number. Tens of gigabytes a second where it finds
+// none.
 std::optional<std::size_t> firstNotFinite(std::span<const float> numbers);
 
 // Elements of floats, which lie at `offset` in the file: throws where one is not finite.
@@ -74,7 +75,7 @@ void requireFinite(
         std::string(name) + ' ' + std::to_string(*wrong / kFloats) + " is not finite");
 }
 
-// Throws for a diameter that is negative.
+// Throws where a diameter is negative.
 void requireNotNegative(
     const std::vector<float>& widths, std::uint64_t offset, std::string_view name);
 

@@ -16,7 +16,7 @@
 namespace hair::groom {
 namespace {
 
-// ---- Hair header --------------------------------------------------------------------------------
+// ---- The header ---------------------------------------------------------------------------------
 
 // Bits of HairHeader::arrays.
 enum class HairArray : std::uint32_t {
@@ -47,7 +47,7 @@ struct HairHeader {
 static_assert(sizeof(HairHeader) == 128);
 static_assert(offsetof(HairHeader, default_color) == 28 && offsetof(HairHeader, info) == 40);
 
-// ---- Export hair --------------------------------------------------------------------------------
+// ---- Writing ------------------------------------------------------------------------------------
 
 std::vector<std::uint16_t> segmentsOf(const StrandSet& strands) {
     constexpr std::uint32_t kMost = std::numeric_limits<std::uint16_t>::max();
@@ -85,41 +85,7 @@ void setInfo(HairHeader& header, std::string comment, std::vector<std::string>& 
     std::ranges::copy(comment, header.info.begin());
 }
 
-}  // namespace
-
-std::vector<std::string> exportHair(const StrandSet& strands, std::ostream& out) {
-    if (strands.ends.empty()) throw engine::Error("there are no strands");
-    auto warnings =
-        leftOut(strands, {Part::widths, Part::transparencies, Part::colors, Part::comment});
-    HairHeader header{
-        .hair_count = strands.strandCount(),
-        .point_count = static_cast<std::uint32_t>(strands.points.size())};
-    std::vector<std::uint16_t> segments;
-    if (const auto size = commonSize(strands)) {
-        header.default_segments = *size - 1;
-    } else {
-        header.add(HairArray::segments);
-        segments = segmentsOf(strands);
-    }
-    header.add(HairArray::points);
-    setAttribute(header, HairArray::thickness, &HairHeader::default_thickness, strands.widths);
-    setAttribute(
-        header, HairArray::transparency, &HairHeader::default_transparency, strands.transparencies);
-    setAttribute(header, HairArray::colors, &HairHeader::default_color, strands.colors);
-    setInfo(header, strands.comment, warnings);
-
-    writeValue(out, header);
-    writeArray(out, segments);
-    writeArray(out, strands.points);
-    writeArray(out, strands.widths.values);
-    writeArray(out, strands.transparencies.values);
-    writeArray(out, strands.colors.values);
-    return warnings;
-}
-
-namespace {
-
-// ---- Import hair --------------------------------------------------------------------------------
+// ---- Reading ------------------------------------------------------------------------------------
 
 HairHeader readHeader(std::span<const std::byte> bytes) {
     if (bytes.size() < sizeof(HairHeader)) {
@@ -252,6 +218,36 @@ std::string textOf(const std::array<char, 88>& info) {
 }
 
 }  // namespace
+
+std::vector<std::string> exportHair(const StrandSet& strands, std::ostream& out) {
+    if (strands.ends.empty()) throw engine::Error("there are no strands");
+    auto warnings =
+        leftOut(strands, {Part::widths, Part::transparencies, Part::colors, Part::comment});
+    HairHeader header{
+        .hair_count = strands.strandCount(),
+        .point_count = static_cast<std::uint32_t>(strands.points.size())};
+    std::vector<std::uint16_t> segments;
+    if (const auto size = commonSize(strands)) {
+        header.default_segments = *size - 1;
+    } else {
+        header.add(HairArray::segments);
+        segments = segmentsOf(strands);
+    }
+    header.add(HairArray::points);
+    setAttribute(header, HairArray::thickness, &HairHeader::default_thickness, strands.widths);
+    setAttribute(
+        header, HairArray::transparency, &HairHeader::default_transparency, strands.transparencies);
+    setAttribute(header, HairArray::colors, &HairHeader::default_color, strands.colors);
+    setInfo(header, strands.comment, warnings);
+
+    writeValue(out, header);
+    writeArray(out, segments);
+    writeArray(out, strands.points);
+    writeArray(out, strands.widths.values);
+    writeArray(out, strands.transparencies.values);
+    writeArray(out, strands.colors.values);
+    return warnings;
+}
 
 StrandSet importHair(const StrandFile& file) {
     const HairHeader header = readHeader(file.bytes);

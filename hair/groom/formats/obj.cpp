@@ -15,7 +15,7 @@
 namespace hair::groom {
 namespace {
 
-// ---- Export obj ---------------------------------------------------------------------------------
+// ---- Writing ------------------------------------------------------------------------------------
 
 // Writes to the stream by large blocks.
 class Text {
@@ -27,7 +27,7 @@ public:
         if (text_.size() > kBlock) flush();
     }
 
-    // In the shortest decimals that are the same number.
+    // Writes the shortest decimals that read back as the same number.
     template <class Number>
     void addNumber(Number number) {
         char digits[kLongestNumber];
@@ -53,45 +53,7 @@ void addVector(Text& text, const glm::vec3& vector) {
     for (int axis = 0; axis < 3; ++axis) text.addNumber(vector[axis]);
 }
 
-}  // namespace
-
-std::vector<std::string> exportObj(const StrandSet& strands, std::ostream& out) {
-    std::vector<std::string> warnings = leftOut(strands, {Part::colors, Part::comment});
-    if (greatestSize(strands) < 2) {
-        throw engine::Error("no strand has two points, which a line is between");
-    }
-    Text text(out);
-    text.add(commentLines(strands.comment, "# "));
-    for (std::size_t i = 0; i < strands.points.size(); ++i) {
-        text.add("v");
-        addVector(text, strands.points[i]);
-        if (strands.colors.known()) addVector(text, strands.colors.at(i));
-        text.add("\n");
-    }
-    std::uint32_t first = 0;
-    std::size_t single = 0;
-    for (const std::uint32_t end : strands.ends) {
-        if (end - first == 1) {
-            ++single;
-        } else {
-            text.add("l");
-            for (std::uint64_t i = first; i < end; ++i) text.addNumber(i + 1);
-            text.add("\n");
-        }
-        first = end;
-    }
-    text.flush();
-    if (single > 0) {
-        warnings.push_back(
-            std::to_string(single) +
-            " strands of a single point are left out, only the points stay");
-    }
-    return warnings;
-}
-
-namespace {
-
-// ---- Import obj ---------------------------------------------------------------------------------
+// ---- Reading ------------------------------------------------------------------------------------
 
 constexpr std::size_t kMaximumVertices = std::numeric_limits<std::uint32_t>::max();
 constexpr glm::vec3 kWhite{1.0f};
@@ -115,7 +77,7 @@ public:
         }
     }
 
-    // `line` is the last of the file.
+    // Ends the reading; `line` is the last of the file.
     StrandSet finish(std::size_t line) {
         if (greatest_.index >= set_.points.size() && !lines_.ends.empty()) {
             throw engine::Error(
@@ -284,6 +246,40 @@ std::string joinContinued(std::string_view line, Lines& lines) {
 }
 
 }  // namespace
+
+std::vector<std::string> exportObj(const StrandSet& strands, std::ostream& out) {
+    std::vector<std::string> warnings = leftOut(strands, {Part::colors, Part::comment});
+    if (greatestSize(strands) < 2) {
+        throw engine::Error("no strand has two points, which a line is between");
+    }
+    Text text(out);
+    text.add(commentLines(strands.comment, "# "));
+    for (std::size_t i = 0; i < strands.points.size(); ++i) {
+        text.add("v");
+        addVector(text, strands.points[i]);
+        if (strands.colors.known()) addVector(text, strands.colors.at(i));
+        text.add("\n");
+    }
+    std::uint32_t first = 0;
+    std::size_t single = 0;
+    for (const std::uint32_t end : strands.ends) {
+        if (end - first == 1) {
+            ++single;
+        } else {
+            text.add("l");
+            for (std::uint64_t i = first; i < end; ++i) text.addNumber(i + 1);
+            text.add("\n");
+        }
+        first = end;
+    }
+    text.flush();
+    if (single > 0) {
+        warnings.push_back(
+            std::to_string(single) +
+            " strands of a single point are left out, only the points stay");
+    }
+    return warnings;
+}
 
 StrandSet importObj(const StrandFile& file) {
     Lines lines({reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size()});

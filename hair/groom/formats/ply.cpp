@@ -23,7 +23,7 @@
 namespace hair::groom {
 namespace {
 
-// ---- Export ply ---------------------------------------------------------------------------------
+// ---- Writing ------------------------------------------------------------------------------------
 
 constexpr std::size_t kBlock = 4096;  // vertices or edges that are written at once
 
@@ -59,22 +59,7 @@ void writeVertices(const StrandSet& strands, std::ostream& out) {
     }
 }
 
-}  // namespace
-
-std::vector<std::string> exportPly(const StrandSet& strands, std::ostream& out) {
-    std::vector<std::string> warnings =
-        leftOut(strands, {Part::widths, Part::transparencies, Part::colors, Part::comment});
-    const std::vector<Edge> edges = edgesOf(strands, warnings);
-    const std::string header = headerOf(strands, edges.size());
-    out.write(header.data(), static_cast<std::streamsize>(header.size()));
-    writeVertices(strands, out);
-    writeArray(out, edges);
-    return warnings;
-}
-
-namespace {
-
-// ---- Ply header ---------------------------------------------------------------------------------
+// ---- The header ---------------------------------------------------------------------------------
 
 struct TypeRow {
     PlyType type;
@@ -93,6 +78,10 @@ constexpr std::array kTypes{
     TypeRow{PlyType::float32, "float", "float32", 4},
     TypeRow{PlyType::float64, "double", "float64", 8},
 };
+
+std::size_t sizeOf(PlyType type) { return kTypes[static_cast<std::size_t>(type)].size; }
+
+bool isInteger(PlyType type) { return type < PlyType::float32; }
 
 struct FormatRow {
     PlyFormat format;
@@ -119,7 +108,7 @@ PlyFormat formatNamed(std::string_view name) {
         "; expected ascii, binary_little_endian or binary_big_endian");
 }
 
-// Without the line's end, which may be of Unix or of Windows.
+// Takes a line, without its end, which may be of Unix or of Windows.
 std::string_view takeLine(std::string_view& rest) {
     const std::size_t end = rest.find('\n');
     if (end == std::string_view::npos) {
@@ -169,7 +158,7 @@ void checkElements(const std::vector<PlyElement>& elements) {
 
 class HeaderReader {
 public:
-    // Takes a line after the first; true at the last.
+    // Takes a line after the first; returns true at the last.
     bool read(std::string_view line) {
         std::string_view rest = line;
         const std::string_view keyword = takeWord(rest);
@@ -204,54 +193,7 @@ private:
     bool has_comment_ = false;
 };
 
-}  // namespace
-
-std::size_t sizeOf(PlyType type) { return kTypes[static_cast<std::size_t>(type)].size; }
-
-bool isInteger(PlyType type) { return type < PlyType::float32; }
-
-const PlyProperty* PlyElement::find(std::string_view property) const {
-    const auto at = std::ranges::find(properties, property, &PlyProperty::name);
-    return at == properties.end() ? nullptr : &*at;
-}
-
-bool PlyElement::hasLists() const {
-    return std::ranges::any_of(
-        properties, [](const PlyProperty& property) { return property.count_type.has_value(); });
-}
-
-std::size_t PlyElement::leastSize() const {
-    std::size_t size = 0;
-    for (const PlyProperty& property : properties)
-        size += sizeOf(property.count_type.value_or(property.type));
-    return size;
-}
-
-const PlyElement* PlyHeader::find(std::string_view element) const {
-    const auto at = std::ranges::find(elements, element, &PlyElement::name);
-    return at == elements.end() ? nullptr : &*at;
-}
-
-PlyHeader readPlyHeader(std::string_view file) {
-    HeaderReader reader;
-    std::string_view rest = file;
-    std::size_t line = 1;
-    try {
-        if (takeLine(rest) != "ply") throw engine::Error("not a PLY file, which begins with 'ply'");
-        do ++line;
-        while (!reader.read(takeLine(rest)));
-    } catch (const engine::Error& error) {
-        throw engine::Error("line " + std::to_string(line), error.what());
-    }
-    PlyHeader header = reader.take();
-    header.lines = line;
-    header.size = file.size() - rest.size();
-    return header;
-}
-
-namespace {
-
-// ---- Ply values ---------------------------------------------------------------------------------
+// ---- Values as text and as bytes ----------------------------------------------------------------
 
 // The values of a PLY file's elements one after the other, from text and from bytes. A value is a
 // double, which holds each of the format's types. A position is where the value that was taken last
@@ -261,7 +203,7 @@ class PlyText {
 public:
     PlyText(std::string_view body, std::size_t lines_before) : rest_(body), line_(lines_before) {}
 
-    // Throws where the file is too short for them.
+    // Throws where the file is too short for the element's values, or for the list's.
     void expect(const PlyElement& element) const;
     void expectList(double length, PlyType type) const;
 
@@ -273,7 +215,7 @@ public:
 
     std::size_t position() const { return line_; }
     std::size_t nextPosition() const { return line_ + 1; }
-    // From one element without lists to the next.
+    // How far positions are apart from one element without lists to the next.
     std::size_t stepOf(const PlyElement&) const { return 1; }
     static std::string place(std::size_t position) { return "line " + std::to_string(position); }
 
@@ -467,15 +409,7 @@ void PlyBytes<order>::finish() const {
         place(next_), std::to_string(room()) + " trailing bytes after the last element");
 }
 
-template class PlyBytes<std::endian::little>;
-template class PlyBytes<std::endian::big>;
-
-// ---- Ply vertices -------------------------------------------------------------------------------
-
-// Reads the element's points, widths, colours and transparencies as those of `set`, and warns of
-// what else it has. The source expects the element. Throws engine::Error "place: reason".
-template <class Source>
-void readPlyVertices(Source& source, const PlyElement& element, StrandSet& set);
+// ---- Vertices -----------------------------------------------------------------------------------
 
 enum Slot : std::size_t { x, y, z, width, transparency, red, green, blue, slot_count };
 
@@ -574,6 +508,8 @@ const PlyElement& plyVertices(const PlyHeader& header) {
     return *element;
 }
 
+// Reads the element's points, widths, colours and transparencies as those of `set`, and warns of
+// what else it has. The source expects the element. Throws engine::Error "place: reason".
 template <class Source>
 void readPlyVertices(Source& source, const PlyElement& element, StrandSet& set) {
     const Plan plan = planOf(element, set.warnings);
@@ -608,11 +544,7 @@ void readPlyVertices(Source& source, const PlyElement& element, StrandSet& set) 
     }
 }
 
-template void readPlyVertices(PlyText&, const PlyElement&, StrandSet&);
-template void readPlyVertices(PlyBytes<std::endian::little>&, const PlyElement&, StrandSet&);
-template void readPlyVertices(PlyBytes<std::endian::big>&, const PlyElement&, StrandSet&);
-
-// ---- Import ply ---------------------------------------------------------------------------------
+// ---- Strands ------------------------------------------------------------------------------------
 
 constexpr std::array<std::string_view, 3> kListElements{"strand", "polyline", "line"};
 constexpr std::string_view kFaces = "face";
@@ -788,6 +720,56 @@ private:
 };
 
 }  // namespace
+
+std::vector<std::string> exportPly(const StrandSet& strands, std::ostream& out) {
+    std::vector<std::string> warnings =
+        leftOut(strands, {Part::widths, Part::transparencies, Part::colors, Part::comment});
+    const std::vector<Edge> edges = edgesOf(strands, warnings);
+    const std::string header = headerOf(strands, edges.size());
+    out.write(header.data(), static_cast<std::streamsize>(header.size()));
+    writeVertices(strands, out);
+    writeArray(out, edges);
+    return warnings;
+}
+
+const PlyProperty* PlyElement::find(std::string_view property) const {
+    const auto at = std::ranges::find(properties, property, &PlyProperty::name);
+    return at == properties.end() ? nullptr : &*at;
+}
+
+bool PlyElement::hasLists() const {
+    return std::ranges::any_of(
+        properties, [](const PlyProperty& property) { return property.count_type.has_value(); });
+}
+
+std::size_t PlyElement::leastSize() const {
+    std::size_t size = 0;
+    for (const PlyProperty& property : properties)
+        size += sizeOf(property.count_type.value_or(property.type));
+    return size;
+}
+
+const PlyElement* PlyHeader::find(std::string_view element) const {
+    const auto at = std::ranges::find(elements, element, &PlyElement::name);
+    return at == elements.end() ? nullptr : &*at;
+}
+
+PlyHeader readPlyHeader(std::string_view file) {
+    HeaderReader reader;
+    std::string_view rest = file;
+    std::size_t line = 1;
+    try {
+        if (takeLine(rest) != "ply") throw engine::Error("not a PLY file, which begins with 'ply'");
+        do ++line;
+        while (!reader.read(takeLine(rest)));
+    } catch (const engine::Error& error) {
+        throw engine::Error("line " + std::to_string(line), error.what());
+    }
+    PlyHeader header = reader.take();
+    header.lines = line;
+    header.size = file.size() - rest.size();
+    return header;
+}
 
 StrandSet importPly(const StrandFile& file) {
     const std::string_view text(

@@ -11,12 +11,6 @@
 #include "hair/groom/files.h"
 #include "hair/groom/groom.h"
 
-namespace hair::groom {
-
-// Writes what ply.h reads: little-endian, strands as chains of edges. As StrandExporter
-// says.
-std::vector<std::string> exportPly(const StrandSet& strands, std::ostream& out);
-
 // Strands of a PLY file (Greg Turk, The PLY Polygon File Format, 1994), ascii or binary of either
 // byte order. The points are the element `vertex`: x, y, z, and as far as they are there width or
 // radius, red, green, blue, and transparency or alpha. The strands are the first of
@@ -25,6 +19,12 @@ std::vector<std::string> exportPly(const StrandSet& strands, std::ostream& out);
 //   - chains of the element `edge` (vertex1, vertex2), see polylines.h,
 //   - the lists of two vertices of the element `face`, as which assimp writes lines: edges.
 // Everything else is skipped with a warning.
+namespace hair::groom {
+
+// A StrandExporter's `write`: little-endian, strands as chains of edges.
+std::vector<std::string> exportPly(const StrandSet& strands, std::ostream& out);
+
+// A StrandImporter's `read`.
 StrandSet importPly(const StrandFile& file);
 
 enum class PlyFormat { ascii, little_endian, big_endian };
@@ -40,13 +40,10 @@ enum class PlyType : std::uint8_t {
     float64,
 };
 
-std::size_t sizeOf(PlyType type);  // bytes
-bool isInteger(PlyType type);
-
 struct PlyProperty {
     std::string name;
     PlyType type;
-    std::optional<PlyType> count_type;  // of a list
+    std::optional<PlyType> count_type;  // of a list; absent: a single value
 };
 
 struct PlyElement {
@@ -56,7 +53,7 @@ struct PlyElement {
 
     const PlyProperty* find(std::string_view property) const;
     bool hasLists() const;
-    // The bytes of one in a binary file; of its lists only what says how long they are.
+    // The bytes of one such element in a binary file; of its lists only their lengths.
     std::size_t leastSize() const;
 };
 

@@ -9,8 +9,6 @@
 namespace hair::groom {
 namespace {
 
-// ---- Polylines ----------------------------------------------------------------------------------
-
 std::size_t countUnused(const Polylines& lines, std::size_t vertex_count) {
     std::vector<bool> used(vertex_count);
     for (const std::uint32_t vertex : lines.vertices) used[vertex] = true;
@@ -30,31 +28,6 @@ void gather(std::vector<Value>& values, const std::vector<std::uint32_t>& vertic
     for (std::size_t i = 0; i < vertices.size(); ++i) gathered[i] = values[vertices[i]];
     values = std::move(gathered);
 }
-
-}  // namespace
-
-bool hasRoomFor(const Polylines& lines, std::size_t size) {
-    return size <= std::numeric_limits<std::uint32_t>::max() - lines.vertices.size();
-}
-
-void arrangePoints(StrandSet& set, Polylines lines) {
-    const std::size_t vertex_count = set.points.size();
-    set.ends = std::move(lines.ends);
-    if (lines.vertices.size() == vertex_count && inOrder(lines.vertices)) return;
-    if (const std::size_t unused = countUnused(lines, vertex_count); unused > 0) {
-        set.warnings.push_back(
-            std::to_string(unused) + " of " + std::to_string(vertex_count) +
-            " points belong to no strand and are left out");
-    }
-    gather(set.points, lines.vertices);
-    gather(set.widths.values, lines.vertices);
-    gather(set.transparencies.values, lines.vertices);
-    gather(set.colors.values, lines.vertices);
-}
-
-namespace {
-
-// ---- Chain edges --------------------------------------------------------------------------------
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
@@ -122,6 +95,29 @@ Neighbours join(
 }
 
 }  // namespace
+
+// ---- Polylines ----------------------------------------------------------------------------------
+
+bool hasRoomFor(const Polylines& lines, std::size_t size) {
+    return size <= std::numeric_limits<std::uint32_t>::max() - lines.vertices.size();
+}
+
+void arrangePoints(StrandSet& set, Polylines lines) {
+    const std::size_t vertex_count = set.points.size();
+    set.ends = std::move(lines.ends);
+    if (lines.vertices.size() == vertex_count && inOrder(lines.vertices)) return;
+    if (const std::size_t unused = countUnused(lines, vertex_count); unused > 0) {
+        set.warnings.push_back(
+            std::to_string(unused) + " of " + std::to_string(vertex_count) +
+            " points belong to no strand and are left out");
+    }
+    gather(set.points, lines.vertices);
+    gather(set.widths.values, lines.vertices);
+    gather(set.transparencies.values, lines.vertices);
+    gather(set.colors.values, lines.vertices);
+}
+
+// ---- Chains of edges ----------------------------------------------------------------------------
 
 Polylines chainEdges(
     std::span<const Edge> edges, std::size_t vertex_count,

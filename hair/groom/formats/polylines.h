@@ -10,6 +10,7 @@
 
 #include "hair/groom/groom.h"
 
+// Strands as chains of numbered vertices: what formats of meshes and lines have.
 namespace hair::groom {
 
 // Strands as numbers of vertices.

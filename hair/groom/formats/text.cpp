@@ -9,23 +9,7 @@
 #include "hair/groom/build_groom.h"
 
 namespace hair::groom {
-
-// ---- Comment lines ------------------------------------------------------------------------------
-
-std::string commentLines(std::string_view comment, std::string_view keyword) {
-    if (comment.empty()) return {};
-    std::string lines(keyword);
-    for (const char c : comment) {
-        if (c == '\r') continue;
-        lines += c;
-        if (c == '\n') lines += keyword;
-    }
-    return lines + '\n';
-}
-
 namespace {
-
-// ---- Left out -----------------------------------------------------------------------------------
 
 struct Row {
     Part part;
@@ -49,20 +33,6 @@ constexpr Row kRows[] = {
     {Part::comment, "the comment is left out",
      [](const StrandSet& s) { return !s.comment.empty(); }},
 };
-
-}  // namespace
-
-std::vector<std::string> leftOut(const StrandSet& strands, std::initializer_list<Part> held) {
-    std::vector<std::string> warnings;
-    for (const Row& row : kRows)
-        if (std::ranges::find(held, row.part) == held.end() && row.has(strands))
-            warnings.emplace_back(row.sentence);
-    return warnings;
-}
-
-namespace {
-
-// ---- Text words ---------------------------------------------------------------------------------
 
 constexpr std::size_t kQuotedLength = 40;
 
@@ -90,6 +60,31 @@ std::optional<Number> parsed(std::string_view word) {
 }
 
 }  // namespace
+
+// ---- Comments -----------------------------------------------------------------------------------
+
+std::string commentLines(std::string_view comment, std::string_view keyword) {
+    if (comment.empty()) return {};
+    std::string lines(keyword);
+    for (const char c : comment) {
+        if (c == '\r') continue;
+        lines += c;
+        if (c == '\n') lines += keyword;
+    }
+    return lines + '\n';
+}
+
+// ---- What a format leaves out -------------------------------------------------------------------
+
+std::vector<std::string> leftOut(const StrandSet& strands, std::initializer_list<Part> held) {
+    std::vector<std::string> warnings;
+    for (const Row& row : kRows)
+        if (std::ranges::find(held, row.part) == held.end() && row.has(strands))
+            warnings.emplace_back(row.sentence);
+    return warnings;
+}
+
+// ---- Words --------------------------------------------------------------------------------------
 
 std::string_view takeWord(std::string_view& line) {
     std::size_t start = 0;
@@ -123,7 +118,7 @@ std::optional<float> floatFrom(std::string_view word) {
     return static_cast<float>(*wide);
 }
 
-// ---- Uniform ------------------------------------------------------------------------------------
+// ---- Strands of one size ------------------------------------------------------------------------
 
 std::vector<std::uint32_t> uniformEnds(std::uint32_t strands, std::uint32_t size) {
     std::vector<std::uint32_t> ends(strands);
@@ -143,7 +138,7 @@ std::optional<StrandSet> makeUniform(
     return resample(strands, number.wanted);
 }
 
-// ---- Utf8 ---------------------------------------------------------------------------------------
+// ---- UTF-8 --------------------------------------------------------------------------------------
 
 bool isUtf8(std::string_view text) {
     for (std::size_t i = 0; i < text.size();) {

@@ -9,6 +9,8 @@
 
 #include "hair/groom/groom.h"
 
+// What formats of text have in common: comments, words and numbers, and sentences on what they
+// leave out.
 namespace hair::groom {
 
 // The comment as lines of a text file, each after `keyword`; nothing for an empty comment.

@@ -17,7 +17,7 @@
 namespace hair::groom {
 namespace {
 
-// ---- Tfx header ---------------------------------------------------------------------------------
+// ---- The header ---------------------------------------------------------------------------------
 
 // The beginning of a .tfx file as it lies there; tfx.h says what follows. Offsets are bytes
 // from the beginning of the file, 0 where there is no such array.
@@ -36,7 +36,7 @@ struct TfxHeader {
 };
 static_assert(sizeof(TfxHeader) == 160 && offsetof(TfxHeader, vertex_colors) == 28);
 
-// ---- Export tfx ---------------------------------------------------------------------------------
+// ---- Writing ------------------------------------------------------------------------------------
 
 // What AMD's loader takes, and powers of two only.
 constexpr std::uint32_t kLeastVertices = 4;
@@ -75,7 +75,7 @@ widthsOf(const StrandSet& strands, std::uint32_t vertices, std::vector<std::stri
     return widths;
 }
 
-// Absent where nothing is known and everything opaque.
+// Colours and alphas; empty where no colours are known and everything is opaque.
 std::vector<glm::vec4> colorsOf(const StrandSet& strands, std::vector<std::string>& warnings) {
     const bool opaque = strands.transparencies.values.empty() &&
                         strands.transparencies.everywhere.value_or(0.0f) == 0.0f;
@@ -119,51 +119,7 @@ void writeAt(
     position = start + elements.size() * sizeof(Element);
 }
 
-}  // namespace
-
-std::vector<std::string> exportTfx(const StrandSet& strands, std::ostream& out) {
-    if (strands.ends.empty()) throw engine::Error("there are no strands");
-    auto warnings =
-        leftOut(strands, {Part::widths, Part::transparencies, Part::colors, Part::root_uvs});
-    const auto resampled = makeUniform(
-        strands,
-        {.least = 2,
-         .most = std::numeric_limits<std::uint32_t>::max(),
-         .wanted = std::clamp(
-             std::bit_ceil(std::min(greatestSize(strands), kMostVertices)), kLeastVertices,
-             kMostVertices)},
-        warnings);
-    const StrandSet& uniform = resampled ? *resampled : strands;
-    const std::uint32_t vertices = uniform.ends.front();
-    if (!std::has_single_bit(vertices) || vertices < kLeastVertices || vertices > kMostVertices) {
-        warnings.push_back(
-            std::to_string(vertices) +
-            " vertices per strand: TressFX itself takes 4, 8, 16, 32 or 64");
-    }
-    const auto positions = positionsOf(uniform, vertices);
-    const auto widths = widthsOf(uniform, vertices, warnings);
-    const auto colors = colorsOf(uniform, warnings);
-
-    std::uint64_t end = sizeof(TfxHeader);
-    const TfxHeader header{
-        .strands = uniform.strandCount(),
-        .vertices_per_strand = vertices,
-        .positions = place(end, positions.size() * sizeof(glm::vec4)),
-        .strand_uvs = place(end, uniform.root_uvs.size() * sizeof(glm::vec2)),
-        .strand_thickness = place(end, widths.size() * sizeof(float)),
-        .vertex_colors = place(end, colors.size() * sizeof(glm::vec4))};
-    writeValue(out, header);
-    std::uint64_t position = sizeof(TfxHeader);
-    writeAt(out, position, header.positions, positions);
-    writeAt(out, position, header.strand_uvs, uniform.root_uvs);
-    writeAt(out, position, header.strand_thickness, widths);
-    writeAt(out, position, header.vertex_colors, colors);
-    return warnings;
-}
-
-namespace {
-
-// ---- Import tfx ---------------------------------------------------------------------------------
+// ---- Reading ------------------------------------------------------------------------------------
 
 TfxHeader readHeader(std::span<const std::byte> bytes) {
     if (bytes.size() < sizeof(TfxHeader)) {
@@ -195,7 +151,7 @@ struct Array {
     std::uint64_t size;  // bytes
 };
 
-// At most 2^32 vertices of 16 bytes: ends fit in 64 bits.
+// The arrays that are there. They have at most 2^32 vertices of 16 bytes: ends fit in 64 bits.
 std::vector<Array> arraysOf(const TfxHeader& header) {
     const std::uint64_t strands = header.strands;
     const std::uint64_t vertices = strands * header.vertices_per_strand;
@@ -235,7 +191,7 @@ void checkPlaces(std::vector<Array> arrays, std::uint64_t size) {
     }
 }
 
-// One value where all are the same, as TressFX has no other way to say that.
+// The values, or one value where all are the same, as TressFX has no other way to say that.
 template <class Value>
 PointAttribute<Value> compact(std::vector<Value> values) {
     const Value first = values.front();
@@ -284,6 +240,46 @@ void readColors(const TfxHeader& header, std::span<const std::byte> bytes, Stran
 }
 
 }  // namespace
+
+std::vector<std::string> exportTfx(const StrandSet& strands, std::ostream& out) {
+    if (strands.ends.empty()) throw engine::Error("there are no strands");
+    auto warnings =
+        leftOut(strands, {Part::widths, Part::transparencies, Part::colors, Part::root_uvs});
+    const auto resampled = makeUniform(
+        strands,
+        {.least = 2,
+         .most = std::numeric_limits<std::uint32_t>::max(),
+         .wanted = std::clamp(
+             std::bit_ceil(std::min(greatestSize(strands), kMostVertices)), kLeastVertices,
+             kMostVertices)},
+        warnings);
+    const StrandSet& uniform = resampled ? *resampled : strands;
+    const std::uint32_t vertices = uniform.ends.front();
+    if (!std::has_single_bit(vertices) || vertices < kLeastVertices || vertices > kMostVertices) {
+        warnings.push_back(
+            std::to_string(vertices) +
+            " vertices per strand: TressFX itself takes 4, 8, 16, 32 or 64");
+    }
+    const auto positions = positionsOf(uniform, vertices);
+    const auto widths = widthsOf(uniform, vertices, warnings);
+    const auto colors = colorsOf(uniform, warnings);
+
+    std::uint64_t end = sizeof(TfxHeader);
+    const TfxHeader header{
+        .strands = uniform.strandCount(),
+        .vertices_per_strand = vertices,
+        .positions = place(end, positions.size() * sizeof(glm::vec4)),
+        .strand_uvs = place(end, uniform.root_uvs.size() * sizeof(glm::vec2)),
+        .strand_thickness = place(end, widths.size() * sizeof(float)),
+        .vertex_colors = place(end, colors.size() * sizeof(glm::vec4))};
+    writeValue(out, header);
+    std::uint64_t position = sizeof(TfxHeader);
+    writeAt(out, position, header.positions, positions);
+    writeAt(out, position, header.strand_uvs, uniform.root_uvs);
+    writeAt(out, position, header.strand_thickness, widths);
+    writeAt(out, position, header.vertex_colors, colors);
+    return warnings;
+}
 
 StrandSet importTfx(const StrandFile& file) {
     const TfxHeader header = readHeader(file.bytes);

@@ -7,23 +7,21 @@
 #include "hair/groom/files.h"
 #include "hair/groom/groom.h"
 
-namespace hair::groom {
-
-// Writes the format of tfx.h, arrays at multiples of 8 bytes. Each strand has one width,
-// that of its root; its first two vertices are fixed, as AMD's exporters do it. Strands of
-// differing numbers of points are resampled to a number that TressFX takes: 4, 8, 16, 32 or 64.
-// Returns what is not written as it is. Throws engine::Error where there are no strands, or more
-// bytes than 32-bit offsets reach.
-std::vector<std::string> exportTfx(const StrandSet& strands, std::ostream& out);
-
-// TressFX 4 (AMD, TressFXFileFormat.h), guide strands. Little-endian; tfx.h has the header,
-// which says where the arrays lie:
+// TressFX 4 (AMD, TressFXFileFormat.h), guide strands. Little-endian: a header of 160 bytes, which
+// says where these arrays lie:
 //   float32 positions[strands][vertices_per_strand][4]    xyz and inverse mass, 0 where fixed
 //   float32 strand_uvs[strands][2]
 //   float32 vertex_uvs[strands][vertices_per_strand][2]
 //   float32 strand_thickness[strands]                     diameters
 //   float32 vertex_colors[strands][vertices_per_strand][4]    RGB and alpha
 // All but the positions may be absent. The format states no unit.
+namespace hair::groom {
+
+// Writes the arrays at multiples of 8 bytes. Each strand has one width, that of its root; its first
+// two vertices are fixed, as AMD's exporters do it. Strands of differing numbers of points are
+// resampled to a number that TressFX takes: 4, 8, 16, 32 or 64. Returns what is not written as it
+// is. Throws engine::Error where there are no strands, or more bytes than 32-bit offsets reach.
+std::vector<std::string> exportTfx(const StrandSet& strands, std::ostream& out);
 
 // Transparency is 1 - alpha. Inverse masses are TressFX's own matter; a warning tells of vertices
 // that are fixed beyond the first two, which it fixes always, and of texture coordinates of

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <glm/common.hpp>
 
@@ -12,53 +13,7 @@
 #include "hair/groom/formats/text.h"
 
 namespace hair::groom {
-
-// ---- Usda text ----------------------------------------------------------------------------------
-
-template <class Number>
-void UsdaText::decimal(Number number) {
-    std::array<char, 32> digits;
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number);
-    buffer_.append(digits.data(), end.ptr);
-}
-
-void UsdaText::value(std::uint32_t number) { decimal(number); }
-
-void UsdaText::value(float number) {
-    // Decimals are read as doubles, which are then rounded to floats. Of all floats' shortest
-    // decimals (tried one by one) that rounds one wrong: 7.038531e-26.
-    constexpr float kRoundedWrong = 0x1.5c87fap-84f;
-    if (std::abs(number) == kRoundedWrong) return decimal(double{number});
-    decimal(number);
-}
-
-void UsdaText::value(double number) { decimal(number); }
-
-void UsdaText::string(std::string_view text) {
-    constexpr std::string_view kDigits = "0123456789abcdef";
-    buffer_ += '"';
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (c == '\n') {
-            buffer_ += "\\n";
-        } else if (byte < 0x20 || byte == 0x7f) {
-            buffer_ += {'\\', 'x', kDigits[byte >> 4], kDigits[byte & 15]};
-        } else {
-            if (c == '"' || c == '\\') buffer_ += '\\';
-            buffer_ += c;
-        }
-    }
-    buffer_ += '"';
-}
-
-void UsdaText::flush() {
-    out_->write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
-    buffer_.clear();
-}
-
 namespace {
-
-// ---- Usda curves --------------------------------------------------------------------------------
 
 void line(UsdaText& text, std::string_view name, const auto& value) {
     text.text(name);
@@ -109,7 +64,7 @@ void stage(
     line(text, "    metersPerUnit", strands.metres_per_unit.value_or(1.0));
     text.text("    upAxis = \"Y\"\n");
     if (timing) {
-        // Of a frame time that is the float next to 1/60 s, 60.
+        // A frame time that is the float next to 1/60 s gives a rate of exactly 60.
         const double rate = 1.0 / timing->frame_time;
         const double whole = std::round(rate);
         const double rounded = std::abs(rate - whole) < 1e-6 * rate ? whole : rate;
@@ -136,8 +91,8 @@ opacities(const PointAttribute<float>& transparencies, std::vector<std::string>&
     return result;
 }
 
-}  // namespace
-
+// Writes the file up to the points of its one prim, with all else that the strands have. Returns
+// what is not written equal to the last bit. Throws engine::Error for more than USD counts.
 std::vector<std::string>
 beginUsdaCurves(UsdaText& text, const StrandSet& strands, const std::optional<UsdaTiming>& timing) {
     if (strands.points.size() > std::numeric_limits<std::int32_t>::max())
@@ -171,6 +126,7 @@ void endUsdaCurves(UsdaText& text) {
     text.flush();
 }
 
+// The lowest and the highest corner of what the curves cover, as UsdGeomCurves computes it.
 std::array<glm::vec3, 2> usdExtent(std::span<const glm::vec3> points, float greatest_width) {
     if (points.empty()) return {glm::vec3(0.0f), glm::vec3(0.0f)};
     std::array extent{points.front(), points.front()};
@@ -186,7 +142,48 @@ float greatestWidth(const StrandSet& strands) {
     return std::ranges::max(strands.widths.values);
 }
 
-// ---- Export usda --------------------------------------------------------------------------------
+}  // namespace
+
+template <class Number>
+void UsdaText::decimal(Number number) {
+    std::array<char, 32> digits;
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number);
+    buffer_.append(digits.data(), end.ptr);
+}
+
+void UsdaText::value(std::uint32_t number) { decimal(number); }
+
+void UsdaText::value(float number) {
+    // Decimals are read as doubles, which are then rounded to floats. Of all floats' shortest
+    // decimals (tried one by one) that rounds one wrong: 7.038531e-26.
+    constexpr float kRoundedWrong = 0x1.5c87fap-84f;
+    if (std::abs(number) == kRoundedWrong) return decimal(double{number});
+    decimal(number);
+}
+
+void UsdaText::value(double number) { decimal(number); }
+
+void UsdaText::string(std::string_view text) {
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    buffer_ += '"';
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (c == '\n') {
+            buffer_ += "\\n";
+        } else if (byte < 0x20 || byte == 0x7f) {
+            buffer_ += {'\\', 'x', kDigits[byte >> 4], kDigits[byte & 15]};
+        } else {
+            if (c == '"' || c == '\\') buffer_ += '\\';
+            buffer_ += c;
+        }
+    }
+    buffer_ += '"';
+}
+
+void UsdaText::flush() {
+    out_->write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+    buffer_.clear();
+}
 
 std::vector<std::string> exportUsda(const StrandSet& strands, std::ostream& out) {
     UsdaText text(out);
@@ -200,8 +197,6 @@ std::vector<std::string> exportUsda(const StrandSet& strands, std::ostream& out)
     endUsdaCurves(text);
     return warnings;
 }
-
-// ---- Usda animation -----------------------------------------------------------------------------
 
 UsdaAnimation::UsdaAnimation(std::ostream& out, const StrandSet& strands, const UsdaTiming& timing)
     : text_(out), point_count_(strands.points.size()), greatest_width_(greatestWidth(strands)),

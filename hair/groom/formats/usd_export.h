@@ -1,9 +1,7 @@
 #pragma once
 
 #include <array>
-#include <concepts>
 #include <cstdint>
-#include <optional>
 #include <ostream>
 #include <span>
 #include <string>
@@ -15,6 +13,7 @@
 
 #include "hair/groom/groom.h"
 
+// Strands as text of Universal Scene Description (.usda), at rest or frame by frame.
 namespace hair::groom {
 
 // Text of Universal Scene Description: one linear BasisCurves, "/hair". It holds all that strands
@@ -76,26 +75,15 @@ struct UsdaTiming {
     double frame_time = 1.0 / 60.0;  // s
 };
 
-// Writes the file up to the points of its one prim, with all else that the strands have. Returns
-// what is not written equal to the last bit. Throws engine::Error for more than USD counts.
-std::vector<std::string>
-beginUsdaCurves(UsdaText& text, const StrandSet& strands, const std::optional<UsdaTiming>& timing);
-void endUsdaCurves(UsdaText& text);
-
-// The lowest and the highest corner of what the curves cover, as UsdGeomCurves computes it.
-std::array<glm::vec3, 2> usdExtent(std::span<const glm::vec3> points, float greatest_width);
-
-float greatestWidth(const StrandSet& strands);
-
 // Writes strands that move as time-sampled BasisCurves, a frame at a time: none is kept.
 class UsdaAnimation {
 public:
-    // All but the points is of `strands`, in every frame. Throws as exportUsda does.
+    // In every frame all but the points is what `strands` has. Throws as exportUsda does.
     UsdaAnimation(std::ostream& out, const StrandSet& strands, const UsdaTiming& timing);
 
     // The points of the next frame, as many as the strands have.
     void frame(std::span<const glm::vec3> points);
-    // After the last one.
+    // Ends the file, after the last frame.
     void end();
 
     const std::vector<std::string>& warnings() const { return warnings_; }

@@ -26,7 +26,7 @@ extern "C" char** environ;
 namespace hair::groom {
 namespace {
 
-// ---- Run tool -----------------------------------------------------------------------------------
+// ---- Running a program --------------------------------------------------------------------------
 
 [[noreturn]] void failWith(int error, const char* what) {
     throw std::system_error(error, std::generic_category(), what);
@@ -57,7 +57,7 @@ struct Pipe {
 private:
     explicit Pipe(const std::array<int, 2>& ends) : read(ends[0]), write(ends[1]) {}
 
-    // No other child gets them.
+    // Other children do not get the ends of the pipe.
     static std::array<int, 2> open() {
         std::array<int, 2> ends{};
         if (pipe2(ends.data(), O_CLOEXEC) != 0) failWith(errno, "pipe");
@@ -91,7 +91,7 @@ public:
         wait();
     }
 
-    // As waitpid has it.
+    // The child's status, as waitpid has it.
     int wait() {
         int status = 0;
         while (waitpid(id_, &status, 0) < 0 && errno == EINTR) {
@@ -157,39 +157,7 @@ void run(const std::vector<std::string>& arguments, const Take& take, const Poll
     throw engine::Error(line.empty() ? arguments.front() + ' ' + describe(status) : line);
 }
 
-}  // namespace
-
-std::vector<std::byte> runTool(const std::vector<std::string>& arguments) {
-    std::vector<std::byte> bytes;
-    run(arguments, [&](std::span<const char> part) {
-        const auto read = std::as_bytes(part);
-        bytes.insert(bytes.end(), read.begin(), read.end());
-    });
-    return bytes;
-}
-
-void runTool(
-    const std::vector<std::string>& arguments,
-    const std::function<void(std::string_view line)>& each_line,
-    const std::function<void()>& poll) {
-    std::string rest;
-    run(
-        arguments,
-        [&](std::span<const char> part) {
-            rest.append(part.data(), part.size());
-            std::size_t begin = 0;
-            for (std::size_t end; (end = rest.find('\n', begin)) != std::string::npos;
-                 begin = end + 1)
-                each_line(std::string_view(rest).substr(begin, end - begin));
-            rest.erase(0, begin);
-        },
-        poll);
-    if (!rest.empty()) each_line(rest);
-}
-
-namespace {
-
-// ---- Usd stream ---------------------------------------------------------------------------------
+// ---- The stream of curves -----------------------------------------------------------------------
 
 struct Section {
     std::uint64_t UsdStreamHeader::* count;
@@ -220,7 +188,7 @@ UsdStreamHeader readHeader(std::span<const std::byte> bytes) {
     std::uint64_t size = sizeof header;
     for (std::size_t i = 0; i < std::size(kSections); ++i) {
         const std::uint64_t count = header.*kSections[i].count;
-        // Each below the size, so that their sum doesn't overflow.
+        // A count is below the size of the file, so that the sum doesn't overflow.
         if (count <= bytes.size()) size += count * kSections[i].size;
         if (count > bytes.size() || size > bytes.size()) {
             failAt(
@@ -247,7 +215,7 @@ public:
         end_ += count * section.size;
         return arrayAt<Element>(bytes_, start_, count);
     }
-    // Of floats.
+    // Takes a section of floats, all of them finite.
     template <class Element>
     std::vector<Element> takeFinite(std::string_view name) {
         auto elements = take<Element>();
@@ -310,7 +278,54 @@ std::vector<std::string> linesOf(const std::string& text) {
     return lines;
 }
 
+// ---- The tool -----------------------------------------------------------------------------------
+
+constexpr const char* kTool = HAIRBENCH_SOURCE_DIR "/hair/groom/formats/usd_curves.py";
+constexpr const char* kInterpreter = HAIRBENCH_SOURCE_DIR "/.deps/python/bin/python";
+
+std::vector<std::byte> readStage(const std::filesystem::path& path) {
+    const char* wanted = std::getenv("HAIRBENCH_PYTHON");
+    const std::string interpreter = wanted && *wanted ? wanted : kInterpreter;
+    try {
+        // -B -E: leaves no byte code beside the tool, and nobody's variables change what it does.
+        // An absolute path, which is no option whatever it begins with.
+        return runTool({interpreter, "-B", "-E", kTool, std::filesystem::absolute(path).string()});
+    } catch (const std::system_error& error) {
+        throw engine::Error(
+            "reading USD needs the project's Python environment: run scripts/setup --python (" +
+            std::string(error.what()) + ')');
+    }
+}
+
 }  // namespace
+
+std::vector<std::byte> runTool(const std::vector<std::string>& arguments) {
+    std::vector<std::byte> bytes;
+    run(arguments, [&](std::span<const char> part) {
+        const auto read = std::as_bytes(part);
+        bytes.insert(bytes.end(), read.begin(), read.end());
+    });
+    return bytes;
+}
+
+void runTool(
+    const std::vector<std::string>& arguments,
+    const std::function<void(std::string_view line)>& each_line,
+    const std::function<void()>& poll) {
+    std::string rest;
+    run(
+        arguments,
+        [&](std::span<const char> part) {
+            rest.append(part.data(), part.size());
+            std::size_t begin = 0;
+            for (std::size_t end; (end = rest.find('\n', begin)) != std::string::npos;
+                 begin = end + 1)
+                each_line(std::string_view(rest).substr(begin, end - begin));
+            rest.erase(0, begin);
+        },
+        poll);
+    if (!rest.empty()) each_line(rest);
+}
 
 StrandSet readUsdStream(std::span<const std::byte> bytes) {
     const UsdStreamHeader header = readHeader(bytes);
@@ -335,29 +350,6 @@ StrandSet readUsdStream(std::span<const std::byte> bytes) {
     set.warnings = linesOf(sections.takeText());
     return set;
 }
-
-namespace {
-
-// ---- Import usd ---------------------------------------------------------------------------------
-
-constexpr const char* kTool = HAIRBENCH_SOURCE_DIR "/hair/groom/formats/usd_curves.py";
-constexpr const char* kInterpreter = HAIRBENCH_SOURCE_DIR "/.deps/python/bin/python";
-
-std::vector<std::byte> readStage(const std::filesystem::path& path) {
-    const char* wanted = std::getenv("HAIRBENCH_PYTHON");
-    const std::string interpreter = wanted && *wanted ? wanted : kInterpreter;
-    try {
-        // -B -E: leaves no byte code beside the tool, and nobody's variables change what it does.
-        // An absolute path, which is no option whatever it begins with.
-        return runTool({interpreter, "-B", "-E", kTool, std::filesystem::absolute(path).string()});
-    } catch (const std::system_error& error) {
-        throw engine::Error(
-            "reading USD needs the project's Python environment: run scripts/setup --python (" +
-            std::string(error.what()) + ')');
-    }
-}
-
-}  // namespace
 
 StrandSet importUsd(const StrandFile& file) {
     if (file.path.empty())

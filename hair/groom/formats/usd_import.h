@@ -24,8 +24,9 @@ StrandSet importUsd(const StrandFile& file);
 // none; std::errc::no_such_file_or_directory as std::system_error where there is no such program.
 std::vector<std::byte> runTool(const std::vector<std::string>& arguments);
 
-// The same, but hands over each line of stdout, without its end, as soon as it is there, and calls
-// `poll` some ten times a second while there is nothing. What either throws ends the program.
+// Runs a program as the function above does, hands over each line that it writes to stdout, without
+// its end, as soon as it is there, and calls `poll` some ten times a second while there is nothing.
+// What either throws ends the program.
 void runTool(
     const std::vector<std::string>& arguments,
     const std::function<void(std::string_view line)>& each_line,
@@ -41,8 +42,8 @@ struct UsdStreamHeader {
     std::uint64_t strands;  // uint32: points of each
     std::uint64_t points;  // float32[3]
     std::uint64_t widths;  // float32; 0, 1 (everywhere) or a value for each point
-    std::uint64_t transparencies;  // the same
-    std::uint64_t colors;  // the same, float32[3]
+    std::uint64_t transparencies;  // float32; 0, 1 (everywhere) or a value for each point
+    std::uint64_t colors;  // float32[3]; 0, 1 (everywhere) or a value for each point
     std::uint64_t root_uvs;  // float32[2]; 0 or one for each strand
     std::uint64_t root_triangles;  // uint32[3]
     std::uint64_t comment;  // bytes of UTF-8

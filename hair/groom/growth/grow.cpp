@@ -14,11 +14,9 @@
 namespace hair::groom {
 namespace {
 
-// ---- Direction field ----------------------------------------------------------------------------
-
 constexpr double kLeastRise = 0.05;  // of a direction along the normal
 
-// Unit length, or zero where there is nothing along the surface.
+// The unit vector along the surface, or zero where the vector has no part along it.
 glm::dvec3 alongSurface(const glm::dvec3& vector, const glm::dvec3& normal) {
     const glm::dvec3 flat = vector - glm::dot(vector, normal) * normal;
     const double length = glm::length(flat);
@@ -46,7 +44,30 @@ glm::dvec3 lifted(const glm::dvec3& direction, const glm::dvec3& normal) {
     return glm::normalize(std::sqrt(1.0 - kLeastRise * kLeastRise) * flat + kLeastRise * normal);
 }
 
+constexpr glm::dvec3 kGravity{0.0, -1.0, 0.0};
+
+// Length of a guide where the map is black, m: no segment may be without length.
+constexpr double kShortest = 0.001;
+
+// The direction after a length s at which droop * s = turn.
+glm::dvec3 drooped(const glm::dvec3& direction, double turn) {
+    const double cosine = glm::dot(direction, kGravity);
+    const glm::dvec3 across = direction - cosine * kGravity;
+    const double sine = glm::length(across);
+    if (turn == 0.0 || sine < 1e-9) return direction;  // straight up or down it stays
+    const double tangent = (1.0 - cosine) / sine * std::exp(-turn);  // of half the angle
+    const double scale = 1.0 / (1.0 + tangent * tangent);
+    return 2.0 * tangent * scale * (across / sine) + (1.0 - tangent * tangent) * scale * kGravity;
+}
+
+std::optional<Texture> picture(const std::filesystem::path& directory, const std::string& name) {
+    if (name.empty()) return std::nullopt;
+    return readTexture(directory / name);
+}
+
 }  // namespace
+
+// ---- Directions at the roots --------------------------------------------------------------------
 
 DirectionField::DirectionField(
     const GrowSettings& settings, const NearestSurface& surface, const PartingLine* parting)
@@ -69,32 +90,7 @@ glm::dvec3 DirectionField::operator()(const SurfacePoint& root) const {
     return has_whorl || parting_ ? lifted(direction, normal) : direction;
 }
 
-namespace {
-
-// ---- Grow ---------------------------------------------------------------------------------------
-
-constexpr glm::dvec3 kGravity{0.0, -1.0, 0.0};
-
-// m, of a guide where the map is black: no segment may be without length.
-constexpr double kShortest = 0.001;
-
-// The direction after a length s at which droop * s = turn.
-glm::dvec3 drooped(const glm::dvec3& direction, double turn) {
-    const double cosine = glm::dot(direction, kGravity);
-    const glm::dvec3 across = direction - cosine * kGravity;
-    const double sine = glm::length(across);
-    if (turn == 0.0 || sine < 1e-9) return direction;  // straight up or down it stays
-    const double tangent = (1.0 - cosine) / sine * std::exp(-turn);  // of half the angle
-    const double scale = 1.0 / (1.0 + tangent * tangent);
-    return 2.0 * tangent * scale * (across / sine) + (1.0 - tangent * tangent) * scale * kGravity;
-}
-
-std::optional<Texture> picture(const std::filesystem::path& directory, const std::string& name) {
-    if (name.empty()) return std::nullopt;
-    return readTexture(directory / name);
-}
-
-}  // namespace
+// ---- Growth -------------------------------------------------------------------------------------
 
 Groom grow(
     const Mesh& mesh, const GrowSettings& settings, const std::filesystem::path& directory,

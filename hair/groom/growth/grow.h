@@ -13,6 +13,7 @@
 #include "hair/groom_settings.h"
 #include "hair/settings.h"
 
+// Guides grown on the scalp of a mesh.
 namespace hair::groom {
 
 // The direction in which hair leaves the scalp:
@@ -25,7 +26,7 @@ namespace hair::groom {
 // With a whorl or a parting, no direction is nearer to the surface than asin 0.05.
 class DirectionField {
 public:
-    // Borrows all of them; `parting` may be null.
+    // Borrows its arguments; `parting` may be null.
     DirectionField(
         const GrowSettings& settings, const NearestSurface& surface, const PartingLine* parting);
 
@@ -37,9 +38,9 @@ private:
     glm::dvec3 whorl_centre_{0.0};
 };
 
-// Grows `guides` >= 1 guides on the part of the mesh that settings.scalp names; roots.h says where,
-// grow.h in which direction. Along the arc length s the direction d turns toward
-// g = (0, -1, 0):
+// Grows `guides` >= 1 guides on the part of the mesh that settings.scalp names, where placeRoots()
+// puts roots and in the directions of DirectionField. Along the arc length s the direction d turns
+// toward g = (0, -1, 0):
 //     d(d)/ds = droop (g - (g . d) d),
 // that is, its angle t to g obeys dt/ds = -droop sin t, so tan(t / 2) = tan(t0 / 2) exp(-droop s).
 // Segment k of length l runs along d at its middle, s = (k + 1/2) l; all segments of a guide have

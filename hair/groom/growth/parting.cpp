@@ -17,7 +17,7 @@
 namespace hair::groom {
 namespace {
 
-// ---- Hairline -----------------------------------------------------------------------------------
+// ---- The hairline -------------------------------------------------------------------------------
 
 std::string describe(const glm::vec3& p) {
     return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) +
@@ -43,7 +43,7 @@ Edges directedEdges(const Scalp& scalp) {
     return edges;
 }
 
-// Pieces of triangles joined by edges.
+// How many pieces of triangles joined by edges there are.
 std::size_t countPieces(const Scalp& scalp, const Edges& edges) {
     std::vector<std::size_t> parent(scalp.triangles.size());
     std::iota(parent.begin(), parent.end(), std::size_t{0});
@@ -89,7 +89,114 @@ EdgePoint nearestOnEdge(const glm::dvec3& from, const glm::dvec3& to, const glm:
     return {t, glm::distance(point, from + t * edge)};
 }
 
+// ---- The line of a parting ----------------------------------------------------------------------
+
+constexpr int kSamples = 128;  // pieces of the line, of which none is longer than this part of it
+constexpr int kHalvings = 14;  // of a piece, at most
+constexpr int kRounds = 4;  // to the plane and back: what is left falls with the angle squared
+
+// Part of the spacing of roots that they keep from the line, and the least of it, m.
+constexpr double kGapPart = 0.04;
+constexpr double kLeastGap = 0.0005;
+
+glm::dvec3 unit(const glm::dvec3& v) {
+    const double length = glm::length(v);
+    return length > 0.0 ? v / length : glm::dvec3(0.0);
+}
+
+// The straight line between two points as it lies on the scalp, at fractions from 0 to 1: in the
+// plane through it that is at right angles to the scalp. What is nearest alone would keep to the
+// mesh's edges.
+class Projection {
+public:
+    Projection(const Scalp& scalp, const NearestSurface& surface, const PartingSettings& settings)
+        : surface_(surface), net_(scalp.triangles), from_(settings.from), to_(settings.to) {
+        glm::dvec3 up(0.0);
+        for (int i = 0; i <= kSamples; ++i) {
+            const MeshPoint point = at(static_cast<double>(i) / kSamples);
+            up += glm::dvec3(surfacePoint(scalp, point.triangle, point.weights).normal);
+        }
+        across_ = unit(glm::cross(to_ - from_, up));
+    }
+
+    MeshPoint at(double fraction) const {
+        MeshPoint point = surface_(from_ + fraction * (to_ - from_));
+        for (int i = 0; i < kRounds; ++i) {
+            const glm::dvec3& p = point.position;
+            point = surface_(p - glm::dot(p - from_, across_) * across_);
+        }
+        return point;
+    }
+
+    // Whether the line is over the scalp there, and not beyond its boundary.
+    bool isOver(double fraction) const {
+        const MeshPoint point = at(fraction);
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            const bool on_edge = point.weights[static_cast<glm::length_t>(i)] < 1e-9;
+            if (on_edge && net_.twin(3 * point.triangle + i) == TriangleNet::kNone) return false;
+        }
+        return true;
+    }
+
+    // The fraction at which the line leaves the scalp, between one over it and one off it.
+    double boundary(double over, double off) const {
+        for (int i = 0; i < 40; ++i) {
+            const double middle = 0.5 * (over + off);
+            (isOver(middle) ? over : off) = middle;
+        }
+        return over;
+    }
+
+private:
+    const NearestSurface& surface_;
+    TriangleNet net_;
+    glm::dvec3 from_;
+    glm::dvec3 to_;
+    glm::dvec3 across_{0.0};
+};
+
+struct Span {
+    int first = 0;
+    int last = -1;
+    int size() const { return last - first + 1; }
+};
+
+Span longestOver(const Projection& projection) {
+    Span longest;
+    Span run;
+    for (int i = 0; i <= kSamples; ++i) {
+        if (!projection.isOver(static_cast<double>(i) / kSamples)) {
+            run = {};
+            continue;
+        }
+        run = run.size() > 0 ? Span{run.first, i} : Span{i, i};
+        if (run.size() > longest.size()) longest = run;
+    }
+    return longest;
+}
+
+// Fractions from the first to the last, closer together where the line runs far below the surface.
+std::vector<double> evenFractions(const Projection& projection, double first, double last) {
+    std::vector<double> fractions{first, last};
+    std::vector<glm::dvec3> points{projection.at(first).position, projection.at(last).position};
+    for (int round = 0; round < kHalvings; ++round) {
+        double length = 0.0;
+        for (std::size_t i = 1; i < points.size(); ++i)
+            length += glm::distance(points[i - 1], points[i]);
+        for (std::size_t i = points.size() - 1; i > 0; --i) {
+            if (round > 2 && glm::distance(points[i - 1], points[i]) < length / kSamples) continue;
+            const double middle = 0.5 * (fractions[i - 1] + fractions[i]);
+            const auto at = static_cast<std::ptrdiff_t>(i);
+            fractions.insert(fractions.begin() + at, middle);
+            points.insert(points.begin() + at, projection.at(middle).position);
+        }
+    }
+    return fractions;
+}
+
 }  // namespace
+
+// ---- The hairline -------------------------------------------------------------------------------
 
 Hairline traceHairline(const Scalp& scalp) {
     const Edges edges = directedEdges(scalp);
@@ -151,114 +258,7 @@ double nearestLength(const Scalp& scalp, const Hairline& hairline, const glm::dv
     return length;
 }
 
-namespace {
-
-// ---- Parting ------------------------------------------------------------------------------------
-
-constexpr int kSamples = 128;  // pieces of the line, of which none is longer than this part of it
-constexpr int kHalvings = 14;  // of a piece, at most
-constexpr int kRounds = 4;  // to the plane and back: what is left falls with the angle squared
-
-// Part of the spacing of roots that they keep from the line, and the least of it, m.
-constexpr double kGapPart = 0.04;
-constexpr double kLeastGap = 0.0005;
-
-glm::dvec3 unit(const glm::dvec3& v) {
-    const double length = glm::length(v);
-    return length > 0.0 ? v / length : glm::dvec3(0.0);
-}
-
-// The straight line between two points as it lies on the scalp, at fractions from 0 to 1: in the
-// plane through it that is at right angles to the scalp. What is nearest alone would keep to the
-// mesh's edges.
-class Projection {
-public:
-    Projection(const Scalp& scalp, const NearestSurface& surface, const PartingSettings& settings)
-        : surface_(surface), net_(scalp.triangles), from_(settings.from), to_(settings.to) {
-        glm::dvec3 up(0.0);
-        for (int i = 0; i <= kSamples; ++i) {
-            const MeshPoint point = at(static_cast<double>(i) / kSamples);
-            up += glm::dvec3(surfacePoint(scalp, point.triangle, point.weights).normal);
-        }
-        across_ = unit(glm::cross(to_ - from_, up));
-    }
-
-    MeshPoint at(double fraction) const {
-        MeshPoint point = surface_(from_ + fraction * (to_ - from_));
-        for (int i = 0; i < kRounds; ++i) {
-            const glm::dvec3& p = point.position;
-            point = surface_(p - glm::dot(p - from_, across_) * across_);
-        }
-        return point;
-    }
-
-    // Not nearest to the scalp's boundary.
-    bool isOver(double fraction) const {
-        const MeshPoint point = at(fraction);
-        for (std::uint32_t i = 0; i < 3; ++i) {
-            const bool on_edge = point.weights[static_cast<glm::length_t>(i)] < 1e-9;
-            if (on_edge && net_.twin(3 * point.triangle + i) == TriangleNet::kNone) return false;
-        }
-        return true;
-    }
-
-    // Where the line leaves the scalp between these two, of which only the first is over it.
-    double boundary(double over, double off) const {
-        for (int i = 0; i < 40; ++i) {
-            const double middle = 0.5 * (over + off);
-            (isOver(middle) ? over : off) = middle;
-        }
-        return over;
-    }
-
-private:
-    const NearestSurface& surface_;
-    TriangleNet net_;
-    glm::dvec3 from_;
-    glm::dvec3 to_;
-    glm::dvec3 across_{0.0};
-};
-
-struct Span {
-    int first = 0;
-    int last = -1;
-    int size() const { return last - first + 1; }
-};
-
-Span longestOver(const Projection& projection) {
-    Span longest;
-    Span run;
-    for (int i = 0; i <= kSamples; ++i) {
-        if (!projection.isOver(static_cast<double>(i) / kSamples)) {
-            run = {};
-            continue;
-        }
-        run = run.size() > 0 ? Span{run.first, i} : Span{i, i};
-        if (run.size() > longest.size()) longest = run;
-    }
-    return longest;
-}
-
-// From the first to the last, closer together where the line runs far below the surface.
-std::vector<double> evenFractions(const Projection& projection, double first, double last) {
-    std::vector<double> fractions{first, last};
-    std::vector<glm::dvec3> points{projection.at(first).position, projection.at(last).position};
-    for (int round = 0; round < kHalvings; ++round) {
-        double length = 0.0;
-        for (std::size_t i = 1; i < points.size(); ++i)
-            length += glm::distance(points[i - 1], points[i]);
-        for (std::size_t i = points.size() - 1; i > 0; --i) {
-            if (round > 2 && glm::distance(points[i - 1], points[i]) < length / kSamples) continue;
-            const double middle = 0.5 * (fractions[i - 1] + fractions[i]);
-            const auto at = static_cast<std::ptrdiff_t>(i);
-            fractions.insert(fractions.begin() + at, middle);
-            points.insert(points.begin() + at, projection.at(middle).position);
-        }
-    }
-    return fractions;
-}
-
-}  // namespace
+// ---- The parting --------------------------------------------------------------------------------
 
 PartingLine::PartingLine(
     const Scalp& scalp, const NearestSurface& surface, const PartingSettings& settings) {

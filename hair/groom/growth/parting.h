@@ -11,6 +11,7 @@
 #include "hair/groom/mesh/surface.h"
 #include "hair/groom_settings.h"
 
+// The hairline of a scalp, and the parting of the hair on it.
 namespace hair::groom {
 
 // The edge of a scalp that is a disc: one piece of surface with one boundary.

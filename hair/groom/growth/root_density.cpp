@@ -11,8 +11,6 @@
 namespace hair::groom {
 namespace {
 
-// ---- Texture ------------------------------------------------------------------------------------
-
 // Two pixels along an axis, and the second one's weight.
 struct Pair {
     std::uint32_t first;
@@ -29,6 +27,8 @@ Pair pixelsAt(double coordinate, std::uint32_t size) {
 }
 
 }  // namespace
+
+// ---- Pictures over a scalp ----------------------------------------------------------------------
 
 Texture::Texture(std::uint32_t width, std::uint32_t height, std::vector<float> brightness)
     : width_(width), height_(height), brightness_(std::move(brightness)) {
@@ -57,7 +57,7 @@ Texture readTexture(const std::filesystem::path& path) {
     return {pixels.width, pixels.height, std::move(brightness)};
 }
 
-// ---- Root density -------------------------------------------------------------------------------
+// ---- Density ------------------------------------------------------------------------------------
 
 double textureAt(const Texture& texture, const Scalp& scalp, const SurfacePoint& point) {
     if (scalp.texture_coordinates.empty())

@@ -8,6 +8,7 @@
 
 #include "hair/groom/growth/scalp.h"
 
+// How densely roots lie: pictures over a scalp, and the density that a mask gives.
 namespace hair::groom {
 
 // A grey picture over texture coordinates: (0, 0) is its upper left corner, (1, 1) the lower right.

@@ -15,10 +15,30 @@
 namespace hair::groom {
 namespace {
 
-// ---- Surface roots ------------------------------------------------------------------------------
+// Points picked at random, uniform in area, each known by its number.
+struct RootSamples {
+    std::vector<std::uint32_t> numbers;
+    std::vector<glm::vec3> positions;  // m
+};
 
-// Puts roots on a scalp of any shape and spans them as triangulate.h says. How many there are
-// in an area is in proportion to the mask there. `random` roots are independent of each other;
+// The first `count` samples that are accepted, or fewer if `tries` run out.
+template <class Accept>
+RootSamples takeSamples(
+    const Scalp& scalp, std::uint32_t seed, std::uint32_t count, std::uint64_t tries,
+    Accept&& accept) {
+    RootSamples samples;
+    samples.numbers.reserve(count);
+    samples.positions.reserve(count);
+    for (std::uint32_t i = 0; i < tries && samples.numbers.size() < count; ++i) {
+        const SurfacePoint sample = rootSample(scalp, seed, i);
+        if (!accept(i, sample)) continue;
+        samples.numbers.push_back(i);
+        samples.positions.push_back(sample.position);
+    }
+    return samples;
+}
+
+// ---- Roots on a scalp of any shape --------------------------------------------------------------
 
 constexpr std::uint32_t kCandidatesPerRoot = 10;
 constexpr std::uint32_t kLeastProbes = 4096;
@@ -42,7 +62,7 @@ struct Ground {
         return density(point) > 0.0 &&
                !(rows && options.parting->isNear(point.position, rows->reach()));
     }
-    // Below 1 for the samples that the mask keeps. Of these, those that are smallest are as good a
+    // Below 1 for the samples that the mask keeps, of which those with the smallest are as good a
     // choice as any.
     double chance(std::uint32_t number) const {
         return random01(options.seed, number, purpose::root_mask) /
@@ -53,7 +73,7 @@ struct Ground {
 // Numbers of at most `count` samples.
 std::vector<std::uint32_t>
 spreadRoots(const Ground& ground, std::uint32_t count, const std::vector<glm::vec3>& fixed) {
-    // Where some aren't kept, four standard deviations more than are on average.
+    // Where the mask doesn't keep all, four standard deviations more than are needed on average.
     const double mean = ground.density.mean();
     const double needed = mean < 1.0 ? (count + 4.0 * std::sqrt(count) + 4.0) / mean : count;
     const auto total =
@@ -107,6 +127,8 @@ void eraseBald(
     });
 }
 
+// Puts roots on a scalp of any shape and spans them as surfaceTriangles() does. How many there are
+// in an area is in proportion to the mask there. `random` roots are independent of each other;
 // `poisson_disc` ones are spread over what isn't black, then each is kept with the probability that
 // the mask gives. No triangle reaches over what is black. Throws engine::Error if the scalp has no
 // room for them or the mask can't be used.
@@ -140,46 +162,7 @@ Roots surfaceRoots(
     return roots;
 }
 
-// ---- Roots --------------------------------------------------------------------------------------
-
-// Mean distance to the nearest neighbour of roots that are spread, as a part of the root of their
-// share of the area: the best there is, a hexagonal packing, has 1.07.
-constexpr double kSpacing = 0.8;
-
-Roots placedRoots(
-    const Scalp& scalp, const NearestSurface& surface, const RootOptions& options,
-    const PartingRows* rows) {
-    const bool has_hairline =
-        !options.mask && options.guides >= 3 && options.placement == RootPlacement::poisson_disc;
-    if (!has_hairline) return surfaceRoots(scalp, surface, options, rows);
-    try {
-        return discRoots(scalp, options, rows);
-    } catch (const engine::Error&) {  // no disc, or one that isn't flat enough
-        return surfaceRoots(scalp, surface, options, rows);
-    }
-}
-
-}  // namespace
-
-Roots placeRoots(const Scalp& scalp, const NearestSurface& surface, const RootOptions& options) {
-    std::optional<PartingRows> rows;
-    if (options.parting) {
-        const double spacing = kSpacing * std::sqrt(scalp.area() / options.guides);
-        rows = partingRows(*options.parting, scalp, surface, spacing);
-        if (2 * rows->pairs.size() + 3 > options.guides) rows.reset();
-    }
-    Roots roots = placedRoots(scalp, surface, options, rows ? &*rows : nullptr);
-    if (rows) {
-        std::vector<glm::dvec3> positions;
-        for (const SurfacePoint& root : roots.points) positions.emplace_back(root.position);
-        eraseCrossing(roots.triangles, positions, *options.parting, rows->gap);
-    }
-    return roots;
-}
-
-namespace {
-
-// ---- Disc roots ---------------------------------------------------------------------------------
+// ---- Roots on a disc ----------------------------------------------------------------------------
 
 glm::dvec3 middle(const std::array<SurfacePoint, 2>& pair) {
     return 0.5 * (glm::dvec3(pair[0].position) + glm::dvec3(pair[1].position));
@@ -197,37 +180,9 @@ std::vector<double> hairlineCuts(
     return cuts;
 }
 
-}  // namespace
-
-std::uint32_t boundaryRootCount(std::uint32_t guides) {
-    const double count = std::round(34.0 * std::sqrt(guides / 86.0));
-    return std::min(guides, std::max(3u, static_cast<std::uint32_t>(count)));
-}
-
-std::vector<double>
-hairlineLengths(double total, std::uint32_t count, std::vector<double> cuts, double gap) {
-    std::vector<double> lengths;
-    if (cuts.empty()) {
-        for (std::uint32_t i = 0; i < count; ++i) lengths.push_back(total * i / count);
-        return lengths;
-    }
-    std::ranges::sort(cuts);
-    const double cut_away = 2.0 * gap * static_cast<double>(cuts.size());
-    for (std::size_t i = 0; i < cuts.size(); ++i) {
-        const double from = cuts[i] + gap;
-        const double to = (i + 1 < cuts.size() ? cuts[i + 1] : cuts[0] + total) - gap;
-        const auto left = count - static_cast<std::uint32_t>(lengths.size());
-        const double share = std::round(count * (to - from) / (total - cut_away));
-        // The last part takes what is left; each has its two ends.
-        const std::uint32_t here =
-            i + 1 == cuts.size() ? left
-                                 : std::clamp(static_cast<std::uint32_t>(share), 2u, left - 2);
-        for (std::uint32_t k = 0; k < here; ++k)
-            lengths.push_back(from + (to - from) * k / (here - 1));
-    }
-    return lengths;
-}
-
+// Puts `guides` >= 3 roots on a scalp that is a disc, some evenly along the hairline, the rest
+// spread over the inside, and spans them by triangles that are Delaunay on the sphere of
+// directions. Throws engine::Error if the scalp is no disc or can't be flattened.
 Roots discRoots(const Scalp& scalp, const RootOptions& options, const PartingRows* rows) {
     const Hairline hairline = traceHairline(scalp);
     const Flattening flattening = flatten(scalp);
@@ -277,6 +232,72 @@ Roots discRoots(const Scalp& scalp, const RootOptions& options, const PartingRow
     for (const std::uint32_t i : spread(candidates.positions, fixed, inside, scalp.area()))
         add(rootSample(scalp, options.seed, candidates.numbers[i]));
     roots.triangles = triangulate(flat, roots.boundary_count);
+    return roots;
+}
+
+// ---- Roots of either kind -----------------------------------------------------------------------
+
+// Mean distance to the nearest neighbour of roots that are spread, as a part of the root of their
+// share of the area: the best there is, a hexagonal packing, has 1.07.
+constexpr double kSpacing = 0.8;
+
+Roots placedRoots(
+    const Scalp& scalp, const NearestSurface& surface, const RootOptions& options,
+    const PartingRows* rows) {
+    const bool has_hairline =
+        !options.mask && options.guides >= 3 && options.placement == RootPlacement::poisson_disc;
+    if (!has_hairline) return surfaceRoots(scalp, surface, options, rows);
+    try {
+        return discRoots(scalp, options, rows);
+    } catch (const engine::Error&) {  // no disc, or one that isn't flat enough
+        return surfaceRoots(scalp, surface, options, rows);
+    }
+}
+
+}  // namespace
+
+std::uint32_t boundaryRootCount(std::uint32_t guides) {
+    const double count = std::round(34.0 * std::sqrt(guides / 86.0));
+    return std::min(guides, std::max(3u, static_cast<std::uint32_t>(count)));
+}
+
+std::vector<double>
+hairlineLengths(double total, std::uint32_t count, std::vector<double> cuts, double gap) {
+    std::vector<double> lengths;
+    if (cuts.empty()) {
+        for (std::uint32_t i = 0; i < count; ++i) lengths.push_back(total * i / count);
+        return lengths;
+    }
+    std::ranges::sort(cuts);
+    const double cut_away = 2.0 * gap * static_cast<double>(cuts.size());
+    for (std::size_t i = 0; i < cuts.size(); ++i) {
+        const double from = cuts[i] + gap;
+        const double to = (i + 1 < cuts.size() ? cuts[i + 1] : cuts[0] + total) - gap;
+        const auto left = count - static_cast<std::uint32_t>(lengths.size());
+        const double share = std::round(count * (to - from) / (total - cut_away));
+        // The last part takes what is left; each has its two ends.
+        const std::uint32_t here =
+            i + 1 == cuts.size() ? left
+                                 : std::clamp(static_cast<std::uint32_t>(share), 2u, left - 2);
+        for (std::uint32_t k = 0; k < here; ++k)
+            lengths.push_back(from + (to - from) * k / (here - 1));
+    }
+    return lengths;
+}
+
+Roots placeRoots(const Scalp& scalp, const NearestSurface& surface, const RootOptions& options) {
+    std::optional<PartingRows> rows;
+    if (options.parting) {
+        const double spacing = kSpacing * std::sqrt(scalp.area() / options.guides);
+        rows = partingRows(*options.parting, scalp, surface, spacing);
+        if (2 * rows->pairs.size() + 3 > options.guides) rows.reset();
+    }
+    Roots roots = placedRoots(scalp, surface, options, rows ? &*rows : nullptr);
+    if (rows) {
+        std::vector<glm::dvec3> positions;
+        for (const SurfacePoint& root : roots.points) positions.emplace_back(root.position);
+        eraseCrossing(roots.triangles, positions, *options.parting, rows->gap);
+    }
     return roots;
 }
 

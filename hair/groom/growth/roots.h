@@ -13,6 +13,7 @@
 #include "hair/groom_settings.h"
 #include "hair/random.h"
 
+// Where the guides of a scalp have their roots, and the triangles between those.
 namespace hair::groom {
 
 struct RootOptions {
@@ -30,10 +31,12 @@ struct Roots {
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-// Puts `guides` >= 1 roots on the scalp. A disc without a mask gets poisson_disc roots as
-// roots.h says, if it can be flattened; everything else as roots.h says. With a
-// parting two rows of the roots run along it, and no triangle reaches over it; fewer guides than
-// both rows and three more have none. Throws engine::Error if the mask leaves no place for them.
+// Puts `guides` >= 1 roots on the scalp. Where it is a disc without a mask that can be flattened,
+// poisson_disc roots lie in part evenly along its hairline, and their triangles are Delaunay on the
+// sphere of directions; on every other scalp they lie in proportion to the mask, with the triangles
+// of surfaceTriangles(). With a parting two rows of the roots run along it, and no triangle reaches
+// over it; fewer guides than both rows and three more have none. Throws engine::Error if the mask
+// leaves no place for them.
 Roots placeRoots(const Scalp& scalp, const NearestSurface& surface, const RootOptions& options);
 
 // How many of `guides` roots lie on the hairline. The thesis's 86 guides with 136 root triangles
@@ -41,43 +44,16 @@ Roots placeRoots(const Scalp& scalp, const NearestSurface& surface, const RootOp
 // the square root.
 std::uint32_t boundaryRootCount(std::uint32_t guides);
 
-// Lengths along a hairline of `total` m at which `count` roots are evenly spaced, the first at 0;
-// or with up to two cuts from `gap` after one to `gap` before the next, both with a root.
+// Lengths along a hairline of `total` m at which `count` roots are evenly spaced, the first at 0.
+// With up to two cuts they go from `gap` after one to `gap` before the next, a root at either end.
 std::vector<double>
 hairlineLengths(double total, std::uint32_t count, std::vector<double> cuts, double gap);
 
-// Puts `guides` >= 3 roots on a scalp that is a disc, some evenly along the hairline, the rest
-// spread over the inside, and spans them by triangles that are Delaunay on the sphere of
-// directions. Throws engine::Error if the scalp is no disc or can't be flattened.
-Roots discRoots(const Scalp& scalp, const RootOptions& options, const PartingRows* rows);
-
-// Points picked at random, uniform in area, each known by its number.
-struct RootSamples {
-    std::vector<std::uint32_t> numbers;
-    std::vector<glm::vec3> positions;  // m
-};
-
+// The sample with this number: points picked at random, uniform in area.
 inline SurfacePoint rootSample(const Scalp& scalp, std::uint32_t seed, std::uint32_t number) {
     return sampleSurface(
         scalp, {random01(seed, number, purpose::root_triangle),
                 random01(seed, number, purpose::root_u), random01(seed, number, purpose::root_v)});
-}
-
-// The first `count` samples that are accepted, or fewer if `tries` run out.
-template <class Accept>
-RootSamples takeSamples(
-    const Scalp& scalp, std::uint32_t seed, std::uint32_t count, std::uint64_t tries,
-    Accept&& accept) {
-    RootSamples samples;
-    samples.numbers.reserve(count);
-    samples.positions.reserve(count);
-    for (std::uint32_t i = 0; i < tries && samples.numbers.size() < count; ++i) {
-        const SurfacePoint sample = rootSample(scalp, seed, i);
-        if (!accept(i, sample)) continue;
-        samples.numbers.push_back(i);
-        samples.positions.push_back(sample.position);
-    }
-    return samples;
 }
 
 }  // namespace hair::groom

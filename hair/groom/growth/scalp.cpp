@@ -12,9 +12,10 @@
 #include "engine/error.h"
 
 namespace hair::groom {
-namespace {
 
-// ---- Scalp triangles ----------------------------------------------------------------------------
+// ---- Triangles by name --------------------------------------------------------------------------
+
+namespace {
 
 constexpr float kMember = 0.5f;  // weight from which a vertex belongs to its group
 constexpr std::size_t kMostNames = 30;  // that an error lists
@@ -93,9 +94,9 @@ std::vector<std::uint32_t> scalpTriangles(const Mesh& mesh, const std::string& n
         list("materials", materials) + list("parts", mesh.parts) + list("vertex groups", groups));
 }
 
-namespace {
+// ---- The scalp ----------------------------------------------------------------------------------
 
-// ---- Scalp --------------------------------------------------------------------------------------
+namespace {
 
 constexpr std::uint32_t kNone = ~0u;
 
@@ -192,9 +193,9 @@ glm::dvec2 textureCoordinate(const Scalp& scalp, const SurfacePoint& point) {
     return coordinate;
 }
 
-namespace {
+// ---- The map to the plane -----------------------------------------------------------------------
 
-// ---- Flatten ------------------------------------------------------------------------------------
+namespace {
 
 constexpr int kCandidates = 256;  // centres tried
 
@@ -295,9 +296,9 @@ Flattening flatten(const Scalp& scalp) {
     return flattening;
 }
 
-namespace {
+// ---- Outlines -----------------------------------------------------------------------------------
 
-// ---- Outline ------------------------------------------------------------------------------------
+namespace {
 
 constexpr double kMargin = 0.001;
 

@@ -10,6 +10,7 @@
 
 #include "hair/groom/mesh/mesh.h"
 
+// The scalp: its triangles in a mesh, points on it, and its map to the plane.
 namespace hair::groom {
 
 // The part of a mesh on which hair grows.
@@ -31,7 +32,7 @@ struct SurfacePoint {
     glm::vec3 weights;       // of the triangle's corners, sum 1
 };
 
-// Takes the triangles of what has the name: see scalp.h. Vertices at the same position
+// Takes the triangles that scalpTriangles() gives for the name. Vertices at the same position
 // become one, with the mean of their normals; triangles that vanish by that are left out. Throws
 // engine::Error if nothing has the name or the triangles have no area.
 Scalp extractScalp(const Mesh& mesh, const std::string& name = "scalp");
@@ -42,7 +43,7 @@ SurfacePoint surfacePoint(const Scalp& scalp, std::uint32_t triangle, const glm:
 // The point that three numbers in [0, 1) pick; uniform numbers give points uniform in area.
 SurfacePoint sampleSurface(const Scalp& scalp, const std::array<float, 3>& random);
 
-// Only of a scalp that has texture coordinates.
+// The texture coordinates at a point of a scalp that has them.
 glm::dvec2 textureCoordinate(const Scalp& scalp, const SurfacePoint& point);
 
 // A map from the scalp to the plane: the direction in which a point is seen from `centre`,

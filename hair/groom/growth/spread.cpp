@@ -12,20 +12,18 @@
 namespace hair::groom {
 namespace {
 
-// ---- Point grid ---------------------------------------------------------------------------------
-
 constexpr int kCubeBits = 10;
 constexpr std::uint32_t kCubeMask = (1u << kCubeBits) - 1;
 
-// Every third bit from the lowest.
+// Moves bits to every third place from the lowest.
 std::uint32_t spreadBits(std::uint32_t value) {
     std::uint32_t spread = 0;
     for (int bit = 0; bit < kCubeBits; ++bit) spread |= (value >> bit & 1) << 3 * bit;
     return spread;
 }
 
-// Of a key, so that buckets of near cubes follow each other. Morton 1966, A computer oriented
-// geodetic data base.
+// A key's number such that buckets of near cubes follow each other. Morton 1966, A computer
+// oriented geodetic data base.
 std::uint32_t mortonCode(std::uint32_t key) {
     return spreadBits(key & kCubeMask) | spreadBits(key >> kCubeBits & kCubeMask) << 1 |
            spreadBits(key >> 2 * kCubeBits) << 2;
@@ -38,6 +36,8 @@ void prefetch([[maybe_unused]] const void* address) {
 }
 
 }  // namespace
+
+// ---- Points in cubes ----------------------------------------------------------------------------
 
 PointGrid::PointGrid(std::span<const glm::vec3> points, double radius)
     : radius_(radius), square_limit_(static_cast<float>(radius * radius * 1.0001)),
@@ -110,7 +110,7 @@ std::size_t PointGrid::number(const Cube& cube) const {
            (buckets_.size() - 1);
 }
 
-// Differs between cubes that are less than 2^10 apart.
+// A key that differs between cubes that are less than 2^10 apart.
 std::uint32_t PointGrid::key(const Cube& cube) {
     const auto along = [](int coordinate) {
         return static_cast<std::uint32_t>(coordinate) & kCubeMask;
@@ -142,7 +142,7 @@ std::size_t PointGrid::findNear(const glm::vec3& point, Neighbours& neighbours) 
     return count;
 }
 
-// ---- Spread -------------------------------------------------------------------------------------
+// ---- Sample elimination -------------------------------------------------------------------------
 
 std::vector<std::uint32_t> spread(
     std::span<const glm::vec3> candidates, std::span<const glm::vec3> fixed, std::uint32_t count,

@@ -15,8 +15,26 @@
 #include "hair/groom/growth/triangulate.h"
 
 namespace hair::groom {
+namespace {
 
-// ---- Triangle net -------------------------------------------------------------------------------
+constexpr auto kNone = TriangleNet::kNone;
+constexpr auto after = TriangleNet::after;
+constexpr auto before = TriangleNet::before;
+
+// How far beyond straight the way past a vertex may bend for the edge there to count as inside,
+// rad.
+constexpr double kStraight = 0.02;
+
+// The largest angle of a triangle that is left on the boundary, cos 120 degrees.
+constexpr double kFlattest = -0.5;
+
+double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+}  // namespace
+
+// ---- Triangles that know their neighbours -------------------------------------------------------
 
 TriangleNet::TriangleNet(std::span<const std::array<std::uint32_t, 3>> triangles) {
     struct Side {
@@ -141,26 +159,7 @@ void TriangleNet::erase(std::uint32_t cell) {
     }
 }
 
-namespace {
-
-// ---- Surface net --------------------------------------------------------------------------------
-
-constexpr auto kNone = TriangleNet::kNone;
-constexpr auto after = TriangleNet::after;
-constexpr auto before = TriangleNet::before;
-
-// How far beyond straight the way past a vertex may bend for the edge there to count as inside,
-// rad.
-constexpr double kStraight = 0.02;
-
-// The largest angle of a triangle that is left on the boundary, cos 120 degrees.
-constexpr double kFlattest = -0.5;
-
-double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
-
-}  // namespace
+// ---- A scalp cut at roots -----------------------------------------------------------------------
 
 SurfaceNet::SurfaceNet(const Scalp& scalp, std::span<const SurfacePoint> roots)
     : root_count_(static_cast<std::uint32_t>(roots.size())), net_(cutAtRoots(scalp, roots)) {
@@ -174,8 +173,8 @@ SurfaceNet::SurfaceNet(const Scalp& scalp, std::span<const SurfacePoint> roots)
     separateFans(corners);
 }
 
-// Of these corners, which are all that their vertices have: a vertex where several sheets meet
-// becomes one for each.
+// Makes a vertex where several sheets meet one vertex for each. `corners` are all that their
+// vertices have.
 void SurfaceNet::separateFans(std::span<const std::uint32_t> corners) {
     std::unordered_set<std::uint32_t> seen;
     for (const std::uint32_t corner : corners) {
@@ -207,7 +206,7 @@ bool SurfaceNet::areJoined(std::uint32_t corner, std::uint32_t vertex) const {
     });
 }
 
-// Both new triangles face the way of the old ones.
+// Whether both new triangles face the way of the old ones.
 bool SurfaceNet::staysUnfolded(std::uint32_t corner) const {
     const glm::dvec3 a = position(corner);
     const glm::dvec3 b = position(after(corner));
@@ -331,7 +330,7 @@ void SurfaceNet::remove(std::uint32_t vertex, Stuck stuck) {
     flipSuspects();
 }
 
-// From inside to the boundary, so that as little as possible is dropped with it.
+// Works from inside to the boundary, so that as little as possible is dropped with that.
 void SurfaceNet::removeScalpVertices() {
     const auto isLeft = [&](std::uint32_t vertex) {
         return sources_[vertex] >= root_count_ && corners_[vertex] != kNone;

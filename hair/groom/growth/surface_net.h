@@ -9,6 +9,7 @@
 
 #include "hair/groom/growth/scalp.h"
 
+// Triangles that are changed by flips of edges.
 namespace hair::groom {
 
 // Triangles that know their neighbours, to be changed by flips. Corner c of cell t has the number
@@ -95,7 +96,7 @@ public:
     void removeScalpVertices();
     // Drops long, low triangles from the boundary.
     void peel();
-    // Of roots only, after removeScalpVertices().
+    // The triangles between the roots, after removeScalpVertices().
     std::vector<std::array<std::uint32_t, 3>> triangles() const;
 
 private:

@@ -16,9 +16,10 @@
 #include "hair/random.h"
 
 namespace hair::groom {
-namespace {
 
-// ---- Ear clipping -------------------------------------------------------------------------------
+// ---- Ears of a polygon --------------------------------------------------------------------------
+
+namespace {
 
 struct Edge {
     GridPoint a;
@@ -34,7 +35,8 @@ bool boxesMeet(const Edge& p, const Edge& q) {
 
 int sign(std::int64_t value) { return (value > 0) - (value < 0); }
 
-// End points count. Where the boxes meet, collinear edges overlap.
+// Whether two edges have a point in common, end points included. Where the boxes meet, collinear
+// edges overlap.
 bool edgesMeet(const Edge& p, const Edge& q) {
     if (!boxesMeet(p, q)) return false;
     return sign(orientation(p.a, p.b, q.a)) * sign(orientation(p.a, p.b, q.b)) <= 0 &&
@@ -62,8 +64,8 @@ void checkSimple(std::span<const GridPoint> polygon) {
     }
 }
 
-// Twice the area, counter-clockwise positive. Below 2^(2 kGridBits + 1) for a simple polygon, and
-// sums that overflow on the way wrap back.
+// By the sign of twice the area. That is below 2^(2 kGridBits + 1) for a simple polygon, and sums
+// that overflow on the way wrap back.
 bool isClockwise(std::span<const GridPoint> polygon) {
     std::uint64_t sum = 0;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -115,9 +117,9 @@ std::vector<std::array<std::uint32_t, 3>> clipEars(std::span<const GridPoint> po
     return triangles;
 }
 
-namespace {
+// ---- Delaunay triangulation of a polygon --------------------------------------------------------
 
-// ---- Triangulate --------------------------------------------------------------------------------
+namespace {
 
 // The polygon is cut into ears, the points inside are inserted one after the other, and edges are
 // flipped until they are all Delaunay. Boundary edges have a triangle on one side only, so nothing
@@ -241,7 +243,7 @@ void checkDistinct(std::span<const GridPoint> points) {
         "points " + std::to_string(first) + " and " + std::to_string(second) + " coincide");
 }
 
-// Bits of x at the even places, of y at the odd ones: points that follow each other are close.
+// The bits of x at the even places, of y at the odd ones: points that follow each other are close.
 std::uint64_t mortonCode(GridPoint point) {
     std::uint64_t code = 0;
     for (int bit = 0; bit < kGridBits; ++bit) {
@@ -286,15 +288,15 @@ triangulate(std::span<const glm::dvec2> points, std::uint32_t boundary_count) {
     return triangulation.triangles();
 }
 
-namespace {
+// ---- Triangles of a scalp cut at roots ----------------------------------------------------------
 
-// ---- Cut at roots -------------------------------------------------------------------------------
+namespace {
 
 // Roots keep this weight of each corner, so that rounding puts none on an edge.
 constexpr double kLeastWeight = 1e-6;
 
-// The triangle's corners and its roots, in weights: affine, so the triangles are Delaunay only
-// after makeDelaunay().
+// Cuts a triangle at its roots, in the plane of weights. That is affine to space, so the triangles
+// are Delaunay only after makeDelaunay().
 void cut(
     std::vector<std::array<std::uint32_t, 3>>& triangles,
     const std::array<std::uint32_t, 3>& corners, std::span<const std::uint32_t> members,
@@ -330,11 +332,12 @@ cutAtRoots(const Scalp& scalp, std::span<const SurfacePoint> roots) {
     return triangles;
 }
 
+// ---- Triangles between roots on a surface -------------------------------------------------------
+
 namespace {
 
-// ---- Surface triangles --------------------------------------------------------------------------
-
-// [triangle of the scalp], a number that triangles have in common if a way over edges joins them.
+// The piece of each triangle of the scalp: a number that triangles have in common if a way over
+// edges joins them.
 std::vector<std::uint32_t> pieces(const Scalp& scalp) {
     const TriangleNet net(scalp.triangles);
     std::vector<std::uint32_t> parent(scalp.triangles.size());
@@ -351,7 +354,7 @@ std::vector<std::uint32_t> pieces(const Scalp& scalp) {
     return parent;
 }
 
-// For pieces without a triangle.
+// Joins the roots of pieces without a triangle.
 void joinLonely(
     std::vector<std::array<std::uint32_t, 3>>& triangles, const Scalp& scalp,
     std::span<const SurfacePoint> roots) {

@@ -10,6 +10,7 @@
 
 #include "hair/groom/groom.h"
 
+// The strands between guides: each bound to three of them.
 namespace hair::groom {
 
 // Binds every strand of a dense groom to three of its guides, whose roots are near and whose mean
@@ -39,15 +40,15 @@ struct Products {
     std::array<std::array<double, kMostCandidates>, kMostCandidates> of{};
 };
 
-// A weighted mean of three of those points, heaviest first; where fewer have a weight, the first
-// stands in for the rest.
+// A weighted mean of three of the points of Products, heaviest first; where fewer have a weight,
+// the first stands in for the rest.
 struct Mean {
     std::array<std::size_t, 3> members{};
     std::array<double, 3> weights{1.0, 0.0, 0.0};  // sum 1, none negative
 };
 
-// The mean of at most three points that comes nearest to the one point. Of means that come about as
-// near it takes that of points which are near themselves: in a plane, where several triangles hold
+// The mean of at most three points that comes nearest to the one point. Where several come about as
+// near it is that of points which are near themselves: in a plane, where several triangles hold
 // the point, the Delaunay triangle.
 Mean nearestMean(const Products& products);
 

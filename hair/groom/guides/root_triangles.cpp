@@ -25,18 +25,7 @@
 namespace hair::groom {
 namespace {
 
-// ---- Drop triangles -----------------------------------------------------------------------------
-
-// Leaves out the triangles that reach over places where no roots are: those with an edge of more
-// than three times the spacing round their corners, and slivers that are lower than 1 % of their
-// length, which hulls of rows of roots have. The spacing at a root is the median of its edges and
-// then of those medians among its neighbours, the lower one of two: on the edge of a face or a
-// parting a root has no more edges across it than others, two of them along it (a polygon's corners
-// have less than two diagonals each), and its neighbours inland have none.
-// Evenly spread roots have no edge of more than 2 spacings between them, random ones about one
-// triangle in a thousand with an edge of more than 3. If none is left, all are kept.
-std::vector<std::array<std::uint32_t, 3>> withoutLongTriangles(
-    std::vector<std::array<std::uint32_t, 3>> triangles, std::span<const glm::vec3> roots);
+// ---- Long triangles -----------------------------------------------------------------------------
 
 constexpr double kLongest = 3.0;  // spacings
 constexpr double kLowest = 0.01;  // height / longest edge
@@ -75,7 +64,7 @@ private:
     std::vector<std::uint32_t> ends_;
 };
 
-// [root]; 0 for those without an edge.
+// The spacing at each root; 0 at roots without an edge.
 std::vector<double>
 spacings(std::span<const Triangle> triangles, std::span<const glm::vec3> roots) {
     const Neighbours neighbours(triangles, roots.size());
@@ -96,6 +85,14 @@ spacings(std::span<const Triangle> triangles, std::span<const glm::vec3> roots) 
     return round;
 }
 
+// Leaves out the triangles that reach over places where no roots are: those with an edge of more
+// than three times the spacing round their corners, and slivers that are lower than 1 % of their
+// length, which hulls of rows of roots have. The spacing at a root is the median of its edges and
+// then of those medians among its neighbours, the lower one of two: on the edge of a face or a
+// parting a root has no more edges across it than others, two of them along it (a polygon's corners
+// have less than two diagonals each), and its neighbours inland have none.
+// Evenly spread roots have no edge of more than 2 spacings between them, random ones about one
+// triangle in a thousand with an edge of more than 3. If none is left, all are kept.
 std::vector<Triangle>
 withoutLongTriangles(std::vector<Triangle> triangles, std::span<const glm::vec3> roots) {
     const std::vector<double> spacing = spacings(triangles, roots);
@@ -117,15 +114,15 @@ withoutLongTriangles(std::vector<Triangle> triangles, std::span<const glm::vec3>
     return kept.empty() ? triangles : kept;
 }
 
-// ---- Fit roots ----------------------------------------------------------------------------------
+// ---- The surface that roots lie on --------------------------------------------------------------
 
 // The simplest surface that roots lie on.
 struct RootSurface {
     enum class Kind { line, plane, sphere };
     Kind kind = Kind::line;
-    // Of a sphere, from its centre, with the middle of the largest gap between the roots opposite
-    // the axis. Of a plane, along its normal, from a centre so far away that the map is as good as
-    // parallel. Of a line, only the axis counts: its direction.
+    // A sphere is seen from its centre, with the middle of the largest gap between the roots
+    // opposite the axis; a plane along its normal, from a centre so far away that the map is as
+    // good as parallel. Of a line only the axis counts, its direction.
     Flattening flattening;
     bool all_round = false;  // a sphere with roots on all sides
 };
@@ -135,8 +132,8 @@ constexpr std::size_t kFewestOnSphere = 10;  // through four roots a sphere goes
 constexpr double kFlattestSphere = 50.0;  // radius / extent: a bulge of 1 / 400 of the extent
 constexpr double kFarCentre = 1e4;  // of a plane's map, in extents
 constexpr int kDirections = 256;  // 14 degrees apart, in which a gap is looked for
-// Of the mean of unit vectors to the roots. It is (1 + cos a) / 2 for roots spread evenly up to an
-// angle a from the axis, which is then 120 degrees.
+// Length of the mean of unit vectors to the roots, below which they are on all sides. It is (1 +
+// cos a) / 2 for roots spread evenly up to an angle a from the axis, which is then 120 degrees.
 constexpr double kAllRound = 0.25;
 
 struct Axes {
@@ -270,9 +267,9 @@ RootSurface onSphere(std::span<const glm::vec3> roots, const glm::dvec3& centre)
         .all_round = size < kAllRound};
 }
 
-// A line where the roots are within 1e-4 of their extent of one. A sphere where that fits ten roots
-// or more better than a plane and its radius is at most 50 times their extent.
-// At least one root.
+// The surface of one root or more: a line where they are within 1e-4 of their extent of one, a
+// sphere where that fits ten roots or more better than a plane and its radius is at most 50 times
+// their extent, and else a plane.
 RootSurface fitRoots(std::span<const glm::vec3> roots) {
     const Cloud cloud = cloudOf(roots);
     const Axes& axes = cloud.axes;
@@ -285,11 +282,11 @@ RootSurface fitRoots(std::span<const glm::vec3> roots) {
         .flattening = flattening(cloud.mean - kFarCentre * cloud.extent * normal, normal)};
 }
 
-// ---- Root triangles -----------------------------------------------------------------------------
+// ---- Triangles ----------------------------------------------------------------------------------
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-// Along a line there is no triangle that has an area: pairs of neighbours, from the first root's
+// Triangles of roots on a line, which have no area: pairs of neighbours, from the first root's
 // end to the other.
 Triangles joinAlong(std::span<const glm::vec3> roots, glm::dvec3 axis) {
     if (roots.size() == 1) return {{0, 0, 0}};
@@ -310,8 +307,8 @@ struct Places {
     std::vector<GridPoint> points;  // [place], ascending by x, then y
 };
 
-// On the grid that triangulate() rounds to: where the extent is the whole grid, it takes the points
-// as they are, and which are on the convex hull is as exact here as there.
+// The places of roots on the grid that triangulate() rounds to: where the extent is the whole grid,
+// it takes the points as they are, and which are on the convex hull is as exact here as there.
 Places placesOf(std::span<const glm::vec3> roots, const Flattening& flattening) {
     std::vector<glm::dvec2> flat;
     for (const glm::vec3& root : roots) flat.push_back(flattening(root));

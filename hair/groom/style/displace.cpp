@@ -14,17 +14,9 @@
 #include "hair/random.h"
 
 namespace hair::groom {
-
-// ---- Along strand -------------------------------------------------------------------------------
-
-AlongStrand::AlongStrand(std::span<const glm::vec3> points) : arcs_(points.size(), 0.0) {
-    for (std::size_t i = 1; i < points.size(); ++i)
-        arcs_[i] = arcs_[i - 1] + glm::distance(glm::dvec3(points[i - 1]), glm::dvec3(points[i]));
-}
-
 namespace {
 
-// ---- Displace -----------------------------------------------------------------------------------
+// ---- Displacement -------------------------------------------------------------------------------
 
 // Moves the points of every strand but its root. `offsets(groom, strand, along)` gives a function
 // from a point's index to its displacement, which grows from 0 at the root to all of it at the
@@ -49,7 +41,7 @@ inline const glm::vec3* rootNormalOf(const Groom& groom, std::uint32_t strand) {
     return groom.root_normals.empty() ? nullptr : &groom.root_normals[strand];
 }
 
-// ---- Strand frames ------------------------------------------------------------------------------
+// ---- Frames -------------------------------------------------------------------------------------
 
 constexpr double kParallel = 1e-3;  // sine of the angle below which two directions span no plane
 
@@ -57,8 +49,8 @@ glm::dvec3 perpendicularPart(const glm::dvec3& vector, const glm::dvec3& unit) {
     return vector - glm::dot(vector, unit) * unit;
 }
 
-// One for each point: of the chord between its neighbours, or, where those coincide, of the segment
-// before.
+// The tangent at each point: that of the chord between its neighbours, or, where those coincide, of
+// the segment before.
 std::vector<glm::dvec3> tangents(std::span<const glm::vec3> points) {
     std::vector<glm::dvec3> tangents(points.size());
     glm::dvec3 last = rootDirection(points);
@@ -111,7 +103,28 @@ carried(const StrandFrame& frame, const glm::dvec3& step, const glm::dvec3& next
     return length > kParallel ? normal / length : across(next_tangent);
 }
 
+// ---- Noise --------------------------------------------------------------------------------------
+
+// A random point of a cube, drawn in along its ray.
+glm::dvec3 randomInBall(std::uint32_t seed, std::uint32_t purpose, std::uint32_t index) {
+    glm::dvec3 point;
+    for (std::uint32_t axis = 0; axis < 3; ++axis)
+        point[static_cast<int>(axis)] = 2.0 * random01(seed, index, purpose + axis) - 1.0;
+    const double length = glm::length(point);
+    if (length == 0.0) return point;
+    return point * (std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)}) / length);
+}
+
 }  // namespace
+
+// ---- Places along a strand ----------------------------------------------------------------------
+
+AlongStrand::AlongStrand(std::span<const glm::vec3> points) : arcs_(points.size(), 0.0) {
+    for (std::size_t i = 1; i < points.size(); ++i)
+        arcs_[i] = arcs_[i - 1] + glm::distance(glm::dvec3(points[i - 1]), glm::dvec3(points[i]));
+}
+
+// ---- Frames -------------------------------------------------------------------------------------
 
 glm::dvec3 rootDirection(std::span<const glm::vec3> points) {
     for (std::size_t i = 1; i < points.size(); ++i) {
@@ -144,7 +157,7 @@ strandFrames(std::span<const glm::vec3> points, const glm::vec3* root_normal) {
     return frames;
 }
 
-// ---- Curl ---------------------------------------------------------------------------------------
+// ---- Curls, frizz and waves ---------------------------------------------------------------------
 
 Groom curl(Groom groom, const CurlSettings& settings, std::uint32_t seed) {
     if (settings.radius == 0.0f) return groom;
@@ -164,22 +177,6 @@ Groom curl(Groom groom, const CurlSettings& settings, std::uint32_t seed) {
         });
 }
 
-namespace {
-
-// ---- Smooth noise -------------------------------------------------------------------------------
-
-// A random point of a cube, drawn in along its ray.
-glm::dvec3 randomInBall(std::uint32_t seed, std::uint32_t purpose, std::uint32_t index) {
-    glm::dvec3 point;
-    for (std::uint32_t axis = 0; axis < 3; ++axis)
-        point[static_cast<int>(axis)] = 2.0 * random01(seed, index, purpose + axis) - 1.0;
-    const double length = glm::length(point);
-    if (length == 0.0) return point;
-    return point * (std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)}) / length);
-}
-
-}  // namespace
-
 glm::dvec3 smoothNoise(std::uint32_t seed, std::uint32_t purpose, double x) {
     const double whole = std::floor(x);
     const auto index = static_cast<std::uint32_t>(std::fmod(whole, 4294967296.0));
@@ -187,8 +184,6 @@ glm::dvec3 smoothNoise(std::uint32_t seed, std::uint32_t purpose, double x) {
         randomInBall(seed, purpose, index), randomInBall(seed, purpose, index + 1),
         ease(0.0, 1.0, x - whole));
 }
-
-// ---- Frizz --------------------------------------------------------------------------------------
 
 Groom frizz(Groom groom, const FrizzSettings& settings, std::uint32_t seed) {
     if (settings.amplitude == 0.0f) return groom;
@@ -201,8 +196,6 @@ Groom frizz(Groom groom, const FrizzSettings& settings, std::uint32_t seed) {
             };
         });
 }
-
-// ---- Wave ---------------------------------------------------------------------------------------
 
 Groom wave(Groom groom, const WaveSettings& settings, std::uint32_t seed) {
     if (settings.amplitude == 0.0f) return groom;

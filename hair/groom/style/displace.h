@@ -6,6 +6,8 @@
 
 #include <glm/vec3.hpp>
 
+// What displaces the points of strands: places along a strand, frames that do not turn about it,
+// and smooth noise.
 namespace hair::groom {
 
 // Where the points of a strand are along it.
@@ -15,7 +17,7 @@ public:
 
     double arc(std::size_t point) const { return arcs_[point]; }  // from the root
     double length() const { return arcs_.back(); }
-    // Of the length, 0 to 1; 0 everywhere on a strand without length.
+    // The part of the length up to a point, 0 to 1; 0 everywhere on a strand without length.
     double fraction(std::size_t point) const {
         return length() > 0.0 ? arcs_[point] / length() : 0.0;
     }

@@ -18,7 +18,7 @@
 
 namespace hair::groom {
 
-// ---- Style --------------------------------------------------------------------------------------
+// ---- All of it in order -------------------------------------------------------------------------
 
 Groom style(Groom groom, const StyleSettings& settings, std::uint32_t seed) {
     groom = clump(std::move(groom), settings.clump, seed);
@@ -29,9 +29,9 @@ Groom style(Groom groom, const StyleSettings& settings, std::uint32_t seed) {
     return taper(std::move(groom), settings.taper);
 }
 
-namespace {
+// ---- Clumps -------------------------------------------------------------------------------------
 
-// ---- Clump --------------------------------------------------------------------------------------
+namespace {
 
 // Centre strands by the place of their root, in cubes as wide as the distance between centres.
 class Centres {
@@ -40,7 +40,7 @@ public:
 
     void add(std::uint32_t strand) { cubes_[cube(strand)].push_back(strand); }
 
-    // The nearest to a strand's root, if one is nearer than the spacing.
+    // The centre nearest to a strand's root, if one is nearer than the spacing.
     std::optional<std::uint32_t> nearest(std::uint32_t strand) const {
         std::optional<std::uint32_t> found;
         double least = spacing_;
@@ -123,9 +123,9 @@ Groom clump(Groom groom, const ClumpSettings& settings, std::uint32_t seed) {
     return groom;
 }
 
-namespace {
+// ---- Cutting ------------------------------------------------------------------------------------
 
-// ---- Cut ----------------------------------------------------------------------------------------
+namespace {
 
 constexpr double kLeast = 1e-3;  // part of a strand that is always left
 
@@ -151,7 +151,7 @@ double arcLeft(std::span<const glm::vec3> points, const AlongStrand& along, cons
     return std::max(left, kLeast * along.length());
 }
 
-// The points of the groom that a strand's new points lie between, the greater one's share.
+// The points of the groom that a strand's new point lies between, and the greater one's share.
 struct Between {
     std::size_t point;
     double share;
@@ -201,9 +201,9 @@ Groom cut(Groom groom, const CutSettings& settings) {
     return groom;
 }
 
-namespace {
+// ---- Strands of a file --------------------------------------------------------------------------
 
-// ---- Strand edits -------------------------------------------------------------------------------
+namespace {
 
 template <class Value>
 std::vector<Value> pickPoints(
@@ -260,9 +260,9 @@ StrandSet scaleLengths(StrandSet strands, double factor) {
     return strands;
 }
 
-namespace {
+// ---- Follow hairs -------------------------------------------------------------------------------
 
-// ---- Followers ----------------------------------------------------------------------------------
+namespace {
 
 // A random point of the disc across the strand's direction at the root, uniform in area.
 glm::dvec3 randomInDisc(
@@ -310,7 +310,7 @@ StrandSet addFollowers(
     return all;
 }
 
-// ---- Taper --------------------------------------------------------------------------------------
+// ---- Widths -------------------------------------------------------------------------------------
 
 Groom taper(Groom groom, const TaperSettings& settings) {
     if (settings.root_width == 0.0f) return groom;

@@ -6,29 +6,11 @@
 #include "hair/groom/groom.h"
 #include "hair/groom_settings.h"
 
-namespace hair::groom {
-
-// TressFX's follow hairs, which its files leave to the loader: after each strand `count` copies of
-// it, moved within a disc of `radius` (file's unit) across its direction at the root. At the tip
-// the displacement is `tip_separation` times as large, in between linearly. Root triangles go on
-// joining the same strands. Throws engine::Error if that makes 2^32 points or more.
-// After TressFX 4.1, TressFXAsset::GenerateFollowHairs, which takes the square round that disc and
-// at vertex k of V a factor of 1 + separation * k / V.
-StrandSet addFollowers(
-    const StrandSet& strands, std::uint32_t count, float radius, float tip_separation,
-    std::uint32_t seed);
-
-// The strands of these indices, in this order and with what they have; one may come more than once.
-// Without the root triangles, whose corners may be gone.
-// Throws engine::Error if there are 2^32 points or more.
-StrandSet pickStrands(const StrandSet& strands, std::span<const std::uint32_t> indices);
-
-// Points and widths times `factor`. What a file says of its unit stays.
-StrandSet scaleLengths(StrandSet strands, double factor);
-
 // Styling: pure functions from a groom to a groom. Roots, counts, normals, triangles and the order
 // of strands stay; every random number is a hash of (seed, strand, purpose). Settings that do
-// nothing, which the defaults are, leave the groom as it is to the bit.
+// nothing, which the defaults are, leave the groom as it is to the bit. Below them are edits of
+// strands as files hold them.
+namespace hair::groom {
 
 // Strands are drawn to the centre strand of their clump: vertex k to its vertex k, by
 // strength * smoothstep(start, 1, position along the strand). Centre strands stay; their roots are
@@ -55,7 +37,25 @@ Groom cut(Groom groom, const CutSettings& settings);
 // Widths: root_width up to `start`, from there linear in arc length to tip_width.
 Groom taper(Groom groom, const TaperSettings& settings);
 
-// All of the above whose settings do something, in the order of the members of StyleSettings.
+// Every kind of styling whose settings do something, in the order of the members of StyleSettings.
 Groom style(Groom groom, const StyleSettings& settings, std::uint32_t seed);
+
+// TressFX's follow hairs, which its files leave to the loader: after each strand `count` copies of
+// it, moved within a disc of `radius` (file's unit) across its direction at the root. At the tip
+// the displacement is `tip_separation` times as large, in between linearly. Root triangles go on
+// joining the same strands. Throws engine::Error if that makes 2^32 points or more.
+// After TressFX 4.1, TressFXAsset::GenerateFollowHairs, which takes the square round that disc and
+// at vertex k of V a factor of 1 + separation * k / V.
+StrandSet addFollowers(
+    const StrandSet& strands, std::uint32_t count, float radius, float tip_separation,
+    std::uint32_t seed);
+
+// The strands of these indices, in this order and with what they have; one may come more than once.
+// Without the root triangles, whose corners may be gone.
+// Throws engine::Error if there are 2^32 points or more.
+StrandSet pickStrands(const StrandSet& strands, std::span<const std::uint32_t> indices);
+
+// Points and widths times `factor`. What a file says of its unit stays.
+StrandSet scaleLengths(StrandSet strands, double factor);
 
 }  // namespace hair::groom
