@@ -17,15 +17,16 @@ const float kCurlScale = 1.4196230828767126;
 vec3 fade(vec3 t) { return t * t * t * (t * (6.0 * t - 15.0) + 10.0); }
 vec3 fadeSlope(vec3 t) { return 30.0 * t * t * (t - 1.0) * (t - 1.0); }
 
-// In (-1, 1), from ten bits each; mean 0 and variance 1/3 to a millionth.
+// Components in (-1, 1), from ten bits each; mean 0 and variance 1/3 to a millionth.
 vec3 signedVector(uint bits) {
     uvec3 tens = (uvec3(bits) >> uvec3(2u, 12u, 22u)) & 1023u;
     return (vec3(tens) + 0.5) / 512.0 - 1.0;
 }
 
-// At `fraction` of `cell`, per cell; r.m.s. 1 in each component. With the potential sum W_i G_i d_i
-// over the cell's corners, where row r of G_i is the gradient of the potential's component r there,
-// the curl is sum grad W_i x (G_i d_i) + W_i curl(G_i d_i): exact, so its divergence is too.
+// The noise at `fraction` of `cell`, per cell; r.m.s. 1 in each component. With the potential sum
+// W_i G_i d_i over the cell's corners, where row r of G_i is the gradient of the potential's
+// component r there, the curl is sum grad W_i x (G_i d_i) + W_i curl(G_i d_i): exact, so its
+// divergence is too.
 vec3 curlNoise(uvec3 cell, vec3 fraction, uint seed) {
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < 8u; ++i) {

@@ -5,7 +5,7 @@
 
 const vec4 kNoRotation = vec4(0.0, 0.0, 0.0, 1.0);
 
-// Rotation by b, then by a.
+// The rotation by b, then by a.
 vec4 multiply(vec4 a, vec4 b) {
     return vec4(a.w * b.xyz + b.w * a.xyz + cross(a.xyz, b.xyz), a.w * b.w - dot(a.xyz, b.xyz));
 }

@@ -16,7 +16,7 @@ uint hash(uint seed, uint index, uint purpose) {
     return pcg(purpose + pcg(index + pcg(seed)));
 }
 
-// In [0, 1): the top 24 bits, all of which a float holds.
+// A number in [0, 1): the top 24 bits, all of which a float holds.
 float unitFloat(uint bits) { return float(bits >> 8u) * (1.0 / 16777216.0); }
 
 float random01(uint seed, uint index, uint purpose) {

@@ -32,7 +32,7 @@ vec3 surfaceNormal() {
     return mappedNormal(normal, position, coordinates, texel);
 }
 
-// Part of each light that gets here. The triangle's own normal is what its depths go by.
+// The part of a light that gets to the point. The triangle's own normal is what its depths go by.
 float visiblePart(PictureParameters picture, uint light) {
     if (kMeshShadows == 0u && kHairShadows == 0u) return 1.0;
     vec3 flat_normal = cross(dFdx(position), dFdy(position));
@@ -40,7 +40,7 @@ float visiblePart(PictureParameters picture, uint light) {
     return visibility(picture, lightPath(picture, light, position, flat_normal));
 }
 
-// Working colours; the thesis has such a head.
+// The matt surface in working colours; the thesis has such a head.
 vec3 shadeMatt(PictureParameters picture, vec3 base_color, vec3 normal) {
     vec3 sum = vec3(0.0);
     float ambient = kEnvironment != 0u ? 0.0 : picture.ambient;
@@ -62,7 +62,8 @@ Surface widened(Surface surface, LightSample light) {
     return surface;
 }
 
-// Linear light. What comes from all around is reflected as blurred as by a matt surface.
+// The surface in linear light. What comes from all around is reflected as blurred as by a matt
+// surface.
 vec3 shadeSurface(PictureParameters picture, Surface surface, vec3 normal, vec3 to_eye) {
     vec3 sum = vec3(0.0);
     vec3 around = vec3(0.0);

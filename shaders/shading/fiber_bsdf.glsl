@@ -94,14 +94,14 @@ FiberView fiberView(HairOptics optics, vec3 to_eye, float h) {
     return view;
 }
 
-// |phi_i - phi_o - Phi(p)|, 0 to pi.
+// The distances |phi_i - phi_o - Phi(p)|, 0 to pi.
 vec3 azimuthalDistances(FiberView view, vec2 light) {
     vec3 along = light.x * view.centre_y + light.y * view.centre_z;
     vec3 across = light.y * view.centre_y - light.x * view.centre_z;
     return atan(abs(across), along);
 }
 
-// N_p at these distances; the rest goes everywhere alike.
+// N_p at distances from azimuthalDistances(); the rest goes everywhere alike.
 vec4 azimuthalLobes(HairOptics optics, vec3 distances) {
     vec3 e = exp(-distances * optics.inverse_azimuthal_scale);
     float scale = optics.inverse_azimuthal_scale * optics.trimmed;

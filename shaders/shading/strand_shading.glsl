@@ -55,7 +55,7 @@ Reflected reflectedLight(PictureParameters picture, StrandFragment fragment, vec
     if (kModel == kModelKajiyaKay) {
         KajiyaKayLight model =
             kajiyaKay(fragment.tangent, light.to_light, fragment.to_eye, exponent);
-        // Its lobe has a width along the strand only.
+        // The lobe of Kajiya and Kay has a width along the strand only.
         reflected = Reflected(model.diffuse, model.specular);
         if (hasSpheres()) reflected.specular *= sqrt(exponent / picture.exponent);
     } else {
@@ -66,7 +66,7 @@ Reflected reflectedLight(PictureParameters picture, StrandFragment fragment, vec
     return reflected;
 }
 
-// phong and kajiya_kay.
+// Working colours of the models phong and kajiya_kay.
 vec3 shadeOpaque(PictureParameters picture, StrandFragment fragment, vec3 hair_color) {
     vec3 normal = cylinderNormal(fragment);
     vec3 sum = vec3(0.0);
@@ -93,7 +93,8 @@ HairOptics widened(HairOptics optics, LightSample light) {
     return optics;
 }
 
-// marschner and dual_scattering. A light's irradiance is pi times its color.
+// Working colours of the models marschner and dual_scattering. A light's irradiance is pi times its
+// color.
 vec3 shadeFiber(PictureParameters picture, StrandFragment fragment) {
     HairOptics optics = HairOpticsReference(picture.optics).optics;
     mat3 frame = fiberFrame(fragment);
@@ -118,7 +119,7 @@ vec3 shadeFiber(PictureParameters picture, StrandFragment fragment) {
     return sum;
 }
 
-// Working colours. `hair_color` is the picture's, or with a texture's factor.
+// The point in working colours. `hair_color` is the picture's, or with a texture's factor.
 vec3 shadeStrand(PictureParameters picture, StrandFragment fragment, vec3 hair_color) {
     vec3 sum;
     if (kModel == kModelPhong || kModel == kModelKajiyaKay) {

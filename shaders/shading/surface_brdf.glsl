@@ -2,7 +2,7 @@
 #ifndef HAIRBENCH_SURFACE_BRDF_GLSL
 #define HAIRBENCH_SURFACE_BRDF_GLSL
 
-// Linear colours.
+// A surface; its colour is linear.
 struct Surface {
     vec3 base_color;
     float metallic;

@@ -7,12 +7,12 @@
 // Where the four layers end, in depths of the first: behind the last, opacity grows no more.
 const vec4 kLayerEnds = vec4(1.0, 3.0, 7.0, 15.0);
 
-// Metres along the light's view: depth_terms as in ShadowMap.
+// The distance along the light's view, m, of a depth; depth_terms as in ShadowMap.
 float viewDepth(vec4 depth_terms, float depth) {
     return (depth_terms.y - depth * depth_terms.w) / (depth * depth_terms.z - depth_terms.x);
 }
 
-// What depth grows by per metre there.
+// What depth grows by per metre at `z` metres along the light's view.
 float depthPerMetre(vec4 depth_terms, float z) {
     float w = depth_terms.z * z + depth_terms.w;
     return (depth_terms.x * depth_terms.w - depth_terms.y * depth_terms.z) / (w * w);

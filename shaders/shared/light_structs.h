@@ -5,8 +5,8 @@ const uint kLightPoint = 0u;
 const uint kLightDirectional = 1u;
 const uint kLightSphere = 2u;
 
-// What lights of a picture are beside the thesis's, points of the same strength everywhere: bits of
-// kLightKinds in shading/options.glsl.
+// Kinds of lights beside the thesis's, points of the same strength everywhere: bits of kLightKinds
+// in shading/options.glsl.
 const uint kSomeDirectional = 1u;
 const uint kSomeSpheres = 2u;
 const uint kSomeWeaken = 4u;  // with distance

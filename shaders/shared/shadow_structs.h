@@ -18,7 +18,7 @@ struct ShadowMap {
     uint casters;  // kMeshesCast | kHairCasts; 0: the light throws no shadows
 };
 
-// Read by whatever is lit.
+// The shadows of a picture, read by whatever is lit.
 struct ShadowParameters {
     ShadowMap maps[kMostLights];  // [light]
     float side;  // of a part of the atlas, texels

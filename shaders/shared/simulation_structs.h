@@ -26,7 +26,7 @@ struct RigidFrame {
 const uint kFollowsHead = 0u;
 const uint kFollowsWorld = 1u;
 
-// A sphere where a == b. At the time when its frame is the identity.
+// A body with the shape of a capsule, or a sphere where a == b, where its frame is the identity.
 struct Capsule {
     vec3 a;  // one end of the axis, m
     float radius;  // m
@@ -80,7 +80,7 @@ struct SubstepPush {
     uint64_t solver;  // the solver's own parameters
     uint64_t accelerations;  // m/s^2, beside gravity; address 0: none
     RigidFrame frame;  // of the head at the end of the substep
-    RigidFrame frame_before;  // and at its start
+    RigidFrame frame_before;  // of the head at the start of the substep
     uint first_strand;  // of those that this dispatch moves
 };
 
@@ -101,7 +101,8 @@ struct DragPush {
     uint64_t accelerations;  // m/s^2, written
     vec3 mean_wind;  // m/s
     float fluctuation;  // r.m.s. of each component, m/s
-    // The largest eddies' lattice moves with the mean wind; where the world's origin is in it now.
+    // Where the world's origin is now in the lattice of the largest eddies, which moves with the
+    // mean wind.
     uvec3 cell;  // modulo 2^32
     vec3 fraction;  // of the cell, [0, 1)
     float cells_per_metre;

@@ -23,7 +23,7 @@ struct VolumeSample {
     float unused;
 };
 
-// For a simulation's whole life.
+// What the grids of a simulation have for its whole life.
 struct VolumeParameters {
     uint64_t guides;   // GuideParameters
     uint64_t shares;   // float [strand][vertex]

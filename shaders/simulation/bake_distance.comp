@@ -18,7 +18,7 @@ layout(buffer_reference, scalar) readonly buffer Triangles { TreeTriangle at[]; 
 layout(buffer_reference, scalar) readonly buffer Normals { TriangleNormals at[]; };
 layout(buffer_reference, scalar) writeonly buffer Distances { float at[]; };
 
-// To the box, squared; 0 inside.
+// The square distance to a box; 0 inside.
 float boxDistance(vec3 p, vec3 lower, vec3 upper) {
     vec3 apart = max(max(lower - p, p - upper), vec3(0.0));
     return dot(apart, apart);

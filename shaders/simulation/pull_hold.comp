@@ -15,7 +15,7 @@ void main() {
     float dt = guides.step.whole;
     vec3 position = Vectors(guides.positions).at[held].xyz;
     vec3 velocity = (position - Vectors(guides.previous).at[held].xyz) / guides.step.sub;
-    // At the step's end without this hand.
+    // Where the vertex would be at the step's end without this hand.
     vec3 others = guides.gravity + Vectors(push.accelerations).at[held].xyz;
     vec3 velocity_then = velocity + dt * others;
     vec3 position_then = position + dt * velocity_then;

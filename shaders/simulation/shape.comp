@@ -20,12 +20,13 @@
 #include "simulation/integrate.glsl"
 #include "simulation/packed_vectors.glsl"
 
-// A multiple of kChunks.
+// The workgroup is a multiple of kChunks.
 layout(local_size_x_id = kShapeGroupSizeConstant) in;
 layout(constant_id = kShapeVerticesPerStrandConstant) const uint kVerticesPerStrand = 8;
 // Whether there are bodies.
 layout(constant_id = kShapeCollidesConstant) const bool kCollides = true;
-// Even where a strand has more than one chunk, so that all segments between chunks are black.
+// The number is even where a strand has more than one chunk, so that all segments between chunks
+// are black.
 layout(constant_id = kShapeVerticesPerChunkConstant) const uint kVerticesPerChunk = 8;
 
 layout(push_constant, scalar) uniform Push { SubstepPush push; };
@@ -46,7 +47,7 @@ vec4 points[kVerticesPerChunk + 2];  // w: inverse mass
 vec4 rest_edges[kVerticesPerChunk + 1];
 vec3 goal_edges[kVerticesPerChunk + 1];
 
-// Between chunks. Halves are used in turn, so that one barrier is enough.
+// What chunks exchange. Halves are used in turn, so that one barrier is enough.
 shared vec4 firsts[2][gl_WorkGroupSize.x];
 shared vec4 lasts[2][gl_WorkGroupSize.x];
 shared vec4 rotations[2][gl_WorkGroupSize.x];

@@ -23,8 +23,8 @@ ivec3 stencilOffset(uint i) { return ivec3(i % 3, i / 3 % 3, i / 9) - 1; }
 // A point of the first grid in the coordinates of another.
 vec3 onGrid(vec3 point, uint grid) { return point + 0.5 * float(grid); }
 
-// Along each axis, the quadratic B-splines round the middles of a cell and its neighbours before
-// and after it.
+// The values, along each axis, of the quadratic B-splines round the middles of a cell and its
+// neighbours before and after it.
 struct Splines {
     vec3 at[3];
 };
@@ -39,7 +39,7 @@ Splines splinesAt(vec3 point, ivec3 cell) {
     return splines;
 }
 
-// Their slopes, 1/cell, for a point in the cell itself.
+// The slopes of the splines, 1/cell, for a point in the cell itself.
 Splines slopesAt(vec3 point, ivec3 cell) {
     vec3 offset = point - (vec3(cell) + 0.5);
     return Splines(vec3[3](offset - 0.5, -2.0 * offset, offset + 0.5));
@@ -50,7 +50,7 @@ float weight(Splines splines, uint i) {
     return splines.at[i % 3].x * splines.at[i / 3 % 3].y * splines.at[i / 9].z;
 }
 
-// How it grows with the vertex's place, 1/cell.
+// How weight() grows with the vertex's place, 1/cell.
 vec3 weightGradient(Splines splines, Splines slopes, uint i) {
     vec3 along = vec3(splines.at[i % 3].x, splines.at[i / 3 % 3].y, splines.at[i / 9].z);
     vec3 slope = vec3(slopes.at[i % 3].x, slopes.at[i / 3 % 3].y, slopes.at[i / 9].z);
@@ -62,8 +62,8 @@ uint cellIndex(uint grid, ivec3 cell, uint resolution) {
     return ((grid * resolution + c.z) * resolution + c.y) * resolution + c.x;
 }
 
-// From velocity times share to fixed point. `fastest` is no less than any component, so the sum of
-// all vertices fits.
+// The factor from velocity times share to fixed point. `fastest` is no less than any component, so
+// the sum of all vertices fits.
 float momentumScale(float fastest) {
     return fastest > 1.0e-20 ? float(kVolumeOne) / fastest : 0.0;
 }
@@ -73,7 +73,7 @@ vec4 scaled(VolumeSample vertex, float momentum_scale) {
     return vertex.share * vec4(vertex.velocity * momentum_scale, float(kVolumeOne));
 }
 
-// What it adds to a cell, fixed point.
+// What a vertex adds to a cell, fixed point. `scaled_vertex` is from scaled().
 ivec4 fixedPoint(vec4 scaled_vertex, float weight) { return ivec4(round(weight * scaled_vertex)); }
 
 #endif

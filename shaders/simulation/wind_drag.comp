@@ -25,7 +25,8 @@ layout(local_size_x = kGuideGroupSize) in;
 
 layout(push_constant, scalar) uniform Push { DragPush push; };
 
-// Below it the two segments at a vertex lie on each other and have no direction together.
+// Sum of two unit tangents below which the two segments at a vertex lie on each other and have no
+// direction together.
 const float kFolded = 1.0e-3;
 
 vec3 directionOf(vec3 edge) {
@@ -33,8 +34,8 @@ vec3 directionOf(vec3 edge) {
     return len < kShortestSegment ? vec3(0.0) : edge / len;
 }
 
-// Halfway between the tangents of the segments above and below, of second order on a curved strand;
-// that of the one above where they are folded. Zero where neither has one.
+// The tangent at a vertex: halfway between those of the segments above and below, of second order
+// on a curved strand; that of the one above where they are folded. Zero where neither has one.
 vec3 tangentBetween(vec3 above, vec3 below) {
     vec3 sum = directionOf(above) + directionOf(below);
     float len = length(sum);

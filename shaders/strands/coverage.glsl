@@ -10,7 +10,7 @@ struct PixelFilter {
     float reach;  // it is 0 beyond
 };
 
-// For a pixel at this distance from the strand's middle, in any unit.
+// The coverage of a pixel at a distance from the strand's middle, in any unit.
 PixelFilter pixelFilter(float offset) {
     vec2 widths = abs(vec2(dFdx(offset), dFdy(offset)));
     float widest = max(max(widths.x, widths.y), 1e-12);

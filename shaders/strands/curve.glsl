@@ -10,7 +10,7 @@ vec4 splineWeights(float t) {
            6.0;
 }
 
-// Derivatives of the weights by t.
+// Derivatives of splineWeights() by t.
 vec4 splineSlopes(float t) {
     float s = 1.0 - t;
     return vec4(-s * s, (3.0 * t - 4.0) * t, (4.0 - 3.0 * s) * s, t * t) / 2.0;
@@ -25,7 +25,7 @@ vec4 interpolationWeights(float t) {
            2.0;
 }
 
-// Derivatives of these weights by t.
+// Derivatives of interpolationWeights() by t.
 vec4 interpolationSlopes(float t) {
     float s = 1.0 - t;
     return vec4((3.0 * t - 1.0) * s, (9.0 * t - 10.0) * t, (10.0 - 9.0 * s) * s,

@@ -13,7 +13,8 @@ layout(buffer_reference, scalar) writeonly buffer Normals { vec3 at[]; };
 
 const float kShortest = 1e-3;  // of a normal's part across the tangent; below, it has no direction
 
-// Along the chord between a vertex's neighbours, as the strands' curve; `before` where they meet.
+// The unit vector along the chord between a vertex's neighbours, as the strands' curve; `before`
+// where they meet.
 vec3 vertexTangent(uint first, uint vertex, vec3 before) {
     GuidePoints guides = GuidePoints(push.guides);
     uint last = push.vertices_per_guide - 1u;

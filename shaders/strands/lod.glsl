@@ -81,7 +81,7 @@ StrandLod forcedLod(PictureParameters picture) {
 
 uint drawnStrands(StrandLod lod) { return uint(ceil(lod.density)); }
 
-// The part of its width that a strand is drawn with: 1, but for the last strand, which fades in.
+// The part of a strand's width that it is drawn with: 1, but for the last strand, which fades in.
 float strandShare(StrandLod lod, uint strand) {
     return clamp(lod.density - float(strand), 0.0, 1.0);
 }

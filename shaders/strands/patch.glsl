@@ -39,7 +39,7 @@ StrandPatch strandPatch(PictureParameters picture, uint patch_index) {
     return result;
 }
 
-// The three guides of all its strands.
+// The three guides of all strands of the patch.
 uvec3 patchGuides(PictureParameters picture, StrandPatch strand_patch) {
     if (kSource == kSourceGroom) return boundStrand(picture, strand_patch.first_strand).guides;
     RootTriangles triangles = RootTriangles(picture.root_triangles);

@@ -6,11 +6,11 @@
 #include "common/picture.glsl"
 #include "strands/pixel_samples.glsl"
 
-// Of a pixel whose corner touches the edge, the centre is half a diagonal away, and of its samples
-// one may be as far again. A bit more, for rounding.
+// A pixel whose corner touches the edge has its centre half a diagonal away, and one of its samples
+// may be as far again. A bit more than the half, for rounding.
 const float kHalfDiagonal = 0.7075;  // px
 
-// m, at this place.
+// The margin at a place, m.
 float pixelMargin(PictureParameters picture, vec3 position) {
     float depth = max((picture.view_projection * vec4(position, 1.0)).w, 0.0);
     float pixel = picture.pixel_near + picture.pixel_slope * depth;

@@ -35,7 +35,7 @@ QuadEnd quadEnd(PictureParameters picture, int end) {
     return quad;
 }
 
-// The outputs of one of its corners; across: -1 or 1.
+// The outputs of a corner of the quad; across: -1 or 1.
 void makeCorner(PictureParameters picture, int end, QuadEnd quad, float across) {
     vec3 corner = position_and_width[end].xyz + across * quad.side;
     gl_Position = picture.view_projection * vec4(corner, 1.0);

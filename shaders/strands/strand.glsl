@@ -36,7 +36,7 @@ float guideWidth(PictureParameters picture, PatchStrand strand, uint vertex) {
                                     guides.widths[at.z]));
 }
 
-// At t of a segment, at level 0 of detail.
+// The width at t of a segment, at level 0 of detail.
 float strandWidth(PictureParameters picture, PatchStrand strand, uint segment, float t,
                   float along) {
     if (kWidth == kWidthGroom) {

@@ -17,7 +17,7 @@ bool hasDirection(vec3 edge, float rest_length) {
            rest_length >= kShortestSegment;
 }
 
-// Past one more segment.
+// The transport past one more segment.
 Transport transport(Transport before, vec3 edge, float rest_length) {
     vec3 tangent = hasDirection(edge, rest_length) ? normalize(edge) : before.tangent;
     return Transport(tangent, multiply(rotationBetween(before.tangent, tangent), before.rotation));

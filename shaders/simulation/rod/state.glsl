@@ -10,14 +10,14 @@ layout(buffer_reference, scalar) readonly buffer RodReference { RodParameters pa
 layout(buffer_reference, scalar) readonly buffer RodSegments { RodSegment at[]; };
 layout(buffer_reference, scalar) buffer RodMotions { RodMotion at[]; };
 
-// The third axis.
+// The third axis of the frame that a unit quaternion turns to.
 vec3 axisOf(vec4 q) {
     return vec3(
         2.0 * (q.x * q.z + q.w * q.y), 2.0 * (q.y * q.z - q.w * q.x),
         q.w * q.w + q.z * q.z - q.x * q.x - q.y * q.y);
 }
 
-// Its columns are the three axes.
+// The rotation as a matrix, whose columns are the three axes.
 mat3 matrixOf(vec4 q) {
     return mat3(
         q.w * q.w + q.x * q.x - q.y * q.y - q.z * q.z, 2.0 * (q.x * q.y + q.w * q.z),
@@ -25,7 +25,8 @@ mat3 matrixOf(vec4 q) {
         q.w * q.w + q.y * q.y - q.x * q.x - q.z * q.z, 2.0 * (q.y * q.z + q.w * q.x), axisOf(q));
 }
 
-// Turned by a rotation vector, to second order; by less than half a turn however long it is.
+// The orientation turned by a rotation vector, to second order; by less than half a turn however
+// long it is.
 vec4 turned(vec4 orientation, vec3 rotation) {
     return normalize(multiply(vec4(0.5 * rotation, 1.0), orientation));
 }

@@ -1,5 +1,5 @@
 #version 460
-// strands/strand.geom, watched.
+// strands/strand.geom with its stage watched: strands/watch.glsl.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/quad.glsl"
 #include "strands/watch.glsl"

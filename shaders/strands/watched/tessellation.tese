@@ -1,5 +1,5 @@
 #version 460
-// strands/tessellation.tese, watched.
+// strands/tessellation.tese with its stage watched: strands/watch.glsl.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/evaluation.glsl"
 #include "strands/watch.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// strands/tessellation.vert, watched.
+// strands/tessellation.vert with its stage watched: strands/watch.glsl.
 #extension GL_GOOGLE_include_directive : require
 #include "strands/patch_number.glsl"
 #include "strands/watch.glsl"
