@@ -1,6 +1,5 @@
 #include "engine/buffer_image.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "engine/commands.h"

@@ -1,10 +1,8 @@
 #include "engine/commands.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
-#include "engine/buffer_image.h"
 #include "engine/pipeline.h"
 
 namespace engine {

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <span>
-#include <string>
 #include <type_traits>
 
 #include "engine/buffer_image.h"

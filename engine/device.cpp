@@ -1,6 +1,5 @@
 #include "engine/device.h"
 
-#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>

@@ -5,7 +5,6 @@
 #include <cctype>
 #include <cstring>
 #include <iterator>
-#include <utility>
 
 #include "engine/device.h"
 

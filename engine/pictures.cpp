@@ -3,7 +3,6 @@
 #include <cassert>
 #include <limits>
 #include <memory>
-#include <string>
 
 #include "engine/error.h"
 #include "engine/files.h"

@@ -5,7 +5,6 @@
 #include <cassert>
 #include <cstddef>
 #include <map>
-#include <span>
 #include <utility>
 
 #include "engine/shaders.h"

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/error.h"
 

@@ -1,6 +1,5 @@
 #include "engine/ui.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>

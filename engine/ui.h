@@ -32,7 +32,8 @@ public:
     // Letters of another size, from the next picture on. Not between begin() and end().
     void setScale(float scale);
 
-    // For ImGui::Image; the image is sampled in SHADER_READ_ONLY_OPTIMAL and must live as long.
+    // An image for ImGui::Image, which is sampled in SHADER_READ_ONLY_OPTIMAL and must live as
+    // long.
     class Texture {
     public:
         Texture(const Device& device, const Image& image);

@@ -1,7 +1,6 @@
 #include "engine/window.h"
 
 #include <cstdlib>
-#include <utility>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

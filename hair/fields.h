@@ -56,7 +56,7 @@ private:
 // Where a member is within its struct.
 class Place {
 public:
-    // Both in the same struct.
+    // `member` is in the struct at `settings`.
     Place(const void* settings, const void* member)
         : offset_(static_cast<std::size_t>(
               static_cast<const std::byte*>(member) - static_cast<const std::byte*>(settings))) {}

@@ -18,7 +18,7 @@ constexpr std::uint32_t hash(std::uint32_t seed, std::uint32_t index, std::uint3
     return pcg(purpose + pcg(index + pcg(seed)));
 }
 
-// In [0, 1): the hash's top 24 bits, all of which a float holds.
+// A number in [0, 1): the hash's top 24 bits, all of which a float holds.
 constexpr float random01(std::uint32_t seed, std::uint32_t index, std::uint32_t purpose) {
     return static_cast<float>(hash(seed, index, purpose) >> 8u) * 0x1p-24f;
 }

@@ -1,12 +1,9 @@
 #include "hair/groom/files.h"
 
-#include <algorithm>
 #include <array>
 #include <memory>
-#include <string>
 
 #include "engine/error.h"
-#include "engine/files.h"
 #include "hair/groom/formats/cyhair.h"
 #include "hair/groom/formats/gltf.h"
 #include "hair/groom/formats/hgl.h"
@@ -112,7 +109,7 @@ const StrandImporter& strandImporterOf(const fs::path& path) {
 StrandSet importStrands(const fs::path& path) {
     engine::OpenFile file(path);
     const StrandImporter& importer = importerOf(path, file);
-    // Not filled with zeros first: grooms have hundreds of megabytes.
+    // The bytes are not filled with zeros first: grooms have hundreds of megabytes.
     const auto storage = std::make_unique_for_overwrite<char[]>(file.size());
     const std::span bytes(storage.get(), file.size());
     file.read(bytes);

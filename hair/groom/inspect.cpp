@@ -4,18 +4,14 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstdint>
 #include <functional>
 #include <limits>
 #include <numeric>
 #include <span>
 #include <sstream>
-#include <utility>
-#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
 
 #include "engine/error.h"
 #include "hair/groom/mesh/surface.h"

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
 #include "hair/reference/constraints.h"

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cassert>
 #include <iterator>
-#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "hair/reference/constraints.h"
 #include "hair/reference/hair_hair.h"
 #include "hair/reference/rod.h"
 #include "hair/reference/wind.h"

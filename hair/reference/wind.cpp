@@ -1,6 +1,5 @@
 #include "hair/reference/wind.h"
 
-#include <array>
 #include <cmath>
 #include <numbers>
 

@@ -4,11 +4,8 @@
 #include <array>
 #include <cassert>
 #include <limits>
-#include <span>
 
-#include "engine/buffer_image.h"
 #include "engine/error.h"
-#include "engine/target.h"
 #include "hair/gpu_structs.h"
 #include "hair/rendering/strand_offsets.h"
 #include "hair/shader_codes.h"
@@ -154,8 +151,6 @@ private:
     std::vector<engine::Draw> draws_;
     engine::GraphicsPipeline pipeline_;
 };
-
-// ---- The table ----------------------------------------------------------------------------------
 
 template <class Made>
 std::unique_ptr<StrandBackend> make(const BackendContext& context) {

@@ -8,9 +8,7 @@
 
 #include <glm/trigonometric.hpp>
 
-#include "engine/buffer_image.h"
 #include "hair/gpu_structs.h"
-#include "hair/rendering/render_assets.h"
 
 namespace hair::rendering {
 namespace {

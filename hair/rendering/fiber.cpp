@@ -4,14 +4,12 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <span>
 #include <vector>
 
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "engine/buffer_image.h"
 #include "hair/rendering/render_assets.h"
 
 namespace hair::rendering {
@@ -291,7 +289,7 @@ FiberAverages averageOverFiber(const Fiber& fiber, double theta) {
             const glm::dvec3 carried = width * path.attenuations[p];
             averages.forward += forward * carried;
             averages.backward += (1 - forward) * carried;
-            // That lobes are not in one place spreads light too.
+            // Lobes in different places spread light too.
             const double shift = fiber.shifts[p];
             const double spread = fiber.variances[p] + square(shift);
             forward_means.add(forward * mean(carried), shift, spread);

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "engine/buffer_image.h"
 #include "engine/error.h"
 #include "hair/gpu_structs.h"
 #include "hair/groom/style/displace.h"

@@ -10,11 +10,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/target.h"
-#include "hair/gpu_structs.h"
-#include "hair/rendering/render_assets.h"
 
 namespace hair::rendering {
 namespace {

@@ -7,10 +7,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "engine/buffer_image.h"
-#include "hair/gpu_structs.h"
 #include "hair/rendering/lights.h"
-#include "hair/rendering/render_assets.h"
-#include "hair/rendering/strand_offsets.h"
 
 namespace hair::rendering {
 namespace {

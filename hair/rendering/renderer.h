@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 
 #include "engine/frame_loop.h"
@@ -53,7 +52,7 @@ public:
 
     void record(engine::Passes& passes, const StrandView& view);
 
-    // From the next picture on.
+    // `camera` is for the next picture and those after it.
     void setCamera(const CameraSettings& camera) { settings_.camera = camera; }
 
     const engine::Target& target() const { return target_; }

@@ -7,7 +7,6 @@
 
 #include "engine/target.h"
 #include "hair/gpu_structs.h"
-#include "hair/rendering/render_assets.h"
 #include "hair/rendering/strand_pass.h"
 
 namespace hair::rendering {

@@ -79,7 +79,7 @@ public:
         const engine::Device& device, const RenderSettings& settings, const groom::Mesh& mesh,
         const engine::SampledImage& blank);
 
-    // In the mesh's order.
+    // The materials in the mesh's order.
     std::span<const MeshMaterial> materials() const { return materials_; }
 
 private:

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
-#include <span>
 #include <string>
 
 #include <glm/common.hpp>
@@ -17,7 +15,6 @@
 
 #include "engine/error.h"
 #include "engine/target.h"
-#include "hair/settings.h"
 
 namespace hair::rendering {
 namespace {

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,7 +45,7 @@ class ShadowScene {
 public:
     ShadowScene(const Settings& settings, const RenderAssets& assets);
 
-    // With the head and the hair where `view` has them.
+    // The bounds with the head and the hair where `view` has them.
     ShadowBounds bounds(const StrandView& view) const;
 
 private:

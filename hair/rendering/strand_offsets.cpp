@@ -3,27 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <numbers>
 #include <optional>
-#include <span>
 #include <string>
-#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
-#include <glm/vec3.hpp>
 
 #include "engine/error.h"
 #include "hair/gpu_structs.h"
 #include "hair/groom/build_groom.h"
-#include "hair/groom/groom.h"
 #include "hair/groom/style/displace.h"
 #include "hair/groom/style/style.h"
 #include "hair/random.h"
-#include "hair/settings.h"
 
 namespace hair::rendering {
 namespace {
@@ -225,7 +219,8 @@ FramesPass::FramesPass(const engine::Device& device, const StrandView& view)
 
 void FramesPass::record(engine::Commands& commands, const StrandView& view) const {
     using engine::Access;
-    // After the simulation, and whoever still draws with the frames that are overwritten.
+    // The pass waits for the simulation, and for whoever still draws with the frames that are
+    // overwritten.
     commands.barrier(engine::Access::anything, engine::Access::compute_write);
     commands.bind(
         pipeline_, gpu::FramesPush{

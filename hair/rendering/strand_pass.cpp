@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <memory>
 
-#include "engine/buffer_image.h"
 #include "engine/error.h"
-#include "engine/target.h"
 #include "hair/gpu_structs.h"
-#include "hair/rendering/groom_buffers.h"
 #include "hair/rendering/lights.h"
 #include "hair/rendering/render_assets.h"
 #include "hair/shader_codes.h"
@@ -187,7 +183,7 @@ private:
     void list(
         engine::Commands& commands, const engine::Target& target,
         const std::function<void(engine::Commands&)>& draw) const {
-        // After the last picture's passes.
+        // The lists may still be in use by the last picture's passes.
         commands.barrier(engine::Access::fragment_write, engine::Access::transfer_write);
         commands.fill(heads_, gpu::kNoFragment);
         commands.fill(counter_, 0);

@@ -2,21 +2,16 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstddef>
 #include <limits>
 #include <numeric>
-#include <span>
 #include <sstream>
 #include <string>
-#include <utility>
 
 #include <glm/common.hpp>
 
-#include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/error.h"
 #include "engine/pipeline.h"
-#include "hair/groom/mesh/surface.h"
 #include "hair/simulation/stiffness.h"
 
 namespace hair::simulation {
@@ -24,7 +19,8 @@ namespace {
 
 // ---- A tree of boxes ----------------------------------------------------------------------------
 
-// On lavapipe 12 bake 1.4 times as fast as 4: going through a leaf costs less than finding it.
+// Triangles in a leaf. On lavapipe 12 bake 1.4 times as fast as 4: going through a leaf costs less
+// than finding it.
 constexpr std::size_t kMostInLeaf = 12;
 
 struct Box {

@@ -10,8 +10,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "engine/buffer_image.h"
-#include "hair/gpu_structs.h"
 #include "hair/simulation/stiffness.h"
 
 namespace hair::simulation {

@@ -63,7 +63,7 @@ public:
     // `pulls` are others that checkPulls has passed.
     void setPulls(std::vector<PullSettings> pulls) noexcept { pulls_ = std::move(pulls); }
 
-    // For the time step that begins at `time`. `guides` is the address of gpu::GuideParameters.
+    // Records the time step that begins at `time`. `guides` is the address of gpu::GuideParameters.
     // Orders its work after earlier compute work; the caller orders what comes after.
     void record(
         engine::Commands& commands, std::uint64_t guides, std::uint64_t accelerations,

@@ -8,7 +8,6 @@
 #include <iterator>
 #include <utility>
 
-#include "engine/buffer_image.h"
 #include "hair/gpu_structs.h"
 #include "hair/simulation/stiffness.h"
 
@@ -239,7 +238,7 @@ void Simulation::recordSubsteps(engine::Commands& commands, double from, double 
         const double part = static_cast<double>(substep) / step_.count;
         return toGpu(motion_.at(from + part * (to - from)));
     };
-    // After the forces, an earlier step, and whoever still draws what is overwritten.
+    // The step waits for the forces, an earlier step, and whoever still draws what is overwritten.
     commands.barrier(engine::Access::anything, engine::Access::compute_write);
     for (std::uint32_t i = 0; i < step_.count; ++i) {
         if (i > 0) commands.barrier(engine::Access::compute_write, engine::Access::compute_write);

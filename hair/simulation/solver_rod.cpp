@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <span>
 
 #include <glm/geometric.hpp>
@@ -115,7 +113,7 @@ std::size_t scratchOfStrand(const groom::Groom& groom) {
     return sizeof(glm::vec4) * gpu::kRodScratchRows * groom.vertices_per_strand;
 }
 
-// Whole groups whose scratch memory fits, at least one.
+// Strands in a dispatch: whole groups whose scratch memory fits, at least one.
 std::uint32_t strandsInDispatch(const groom::Groom& groom) {
     const std::size_t groups = kMostScratch / (gpu::kRodGroupSize * scratchOfStrand(groom));
     const std::size_t most = gpu::kRodGroupSize * std::max<std::size_t>(groups, 1);

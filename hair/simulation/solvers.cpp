@@ -16,31 +16,23 @@
 namespace hair::simulation {
 namespace {
 
-// ---- Hair at rest on a moving head --------------------------------------------------------------
-
 // Hair frozen on a head that moves: solver `none` with keyframes.
 class RestSolver : public GuideSolver {
 public:
-    RestSolver(const engine::Device& device, const groom::Groom& groom);
+    RestSolver(const engine::Device& device, const groom::Groom& groom)
+        : vertex_count_(groom.strand_count * groom.vertices_per_strand),
+          pipeline_(
+              device, {.shader = "simulation/rest.comp", .push_size = sizeof(gpu::SubstepPush)}) {}
 
-    void record(engine::Commands& commands, gpu::SubstepPush push) const override;
+    void record(engine::Commands& commands, gpu::SubstepPush push) const override {
+        commands.bind(pipeline_, push);
+        dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
+    }
 
 private:
     std::uint32_t vertex_count_;
     engine::ComputePipeline pipeline_;
 };
-
-RestSolver::RestSolver(const engine::Device& device, const groom::Groom& groom)
-    : vertex_count_(groom.strand_count * groom.vertices_per_strand),
-      pipeline_(device, {.shader = "simulation/rest.comp", .push_size = sizeof(gpu::SubstepPush)}) {
-}
-
-void RestSolver::record(engine::Commands& commands, gpu::SubstepPush push) const {
-    commands.bind(pipeline_, push);
-    dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
-}
-
-// ---- The table ----------------------------------------------------------------------------------
 
 static_assert(sizeof(gpu::Step) == 12 && offsetof(gpu::Step, sub) == 4);
 static_assert(offsetof(gpu::Step, count) == 8);

@@ -1,6 +1,5 @@
 #include "hair/simulation/stiffness.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace hair::simulation {

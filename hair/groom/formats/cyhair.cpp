@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <string>
 #include <utility>
 
 #include <glm/vec3.hpp>
@@ -26,7 +25,7 @@ enum class HairArray : std::uint32_t {
     transparency = 8,
     colors = 16,
 };
-inline constexpr std::uint32_t kAllHairArrays = 31;
+constexpr std::uint32_t kAllHairArrays = 31;
 
 // The beginning of a .hair file as it lies there; cyhair.h says what follows.
 struct HairHeader {
@@ -34,7 +33,8 @@ struct HairHeader {
     std::uint32_t hair_count = 0;
     std::uint32_t point_count = 0;
     std::uint32_t arrays = 0;
-    // Where there is no array. Transparency and colour are what the format's author begins with.
+    // Values where there is no array. Transparency and colour are what the format's author begins
+    // with.
     std::uint32_t default_segments = 0;
     float default_thickness = 0.0f;  // 0: not known
     float default_transparency = 0.0f;

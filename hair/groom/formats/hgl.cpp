@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <string>
 
 #include "hair/groom/formats/binary_file.h"
 #include "hair/groom/formats/text.h"

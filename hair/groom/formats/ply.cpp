@@ -4,21 +4,15 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <cstring>
 #include <limits>
-#include <optional>
 #include <span>
-#include <string>
-#include <string_view>
 #include <utility>
 
 #include "engine/error.h"
 #include "hair/groom/formats/binary_file.h"
 #include "hair/groom/formats/polylines.h"
 #include "hair/groom/formats/text.h"
-#include "hair/groom/groom.h"
 
 namespace hair::groom {
 namespace {

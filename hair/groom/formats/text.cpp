@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdint>
-#include <string_view>
 #include <system_error>
 
 #include "hair/groom/build_groom.h"

@@ -1,14 +1,10 @@
 #include "hair/groom/formats/usd_import.h"
 
-#include <array>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <limits>
-#include <span>
-#include <string>
-#include <string_view>
 #include <system_error>
 #include <utility>
 

@@ -16,7 +16,8 @@ class Texture {
 public:
     Texture(std::uint32_t width, std::uint32_t height, std::vector<float> brightness);
 
-    // Between the four nearest pixels' centres; coordinates beyond the edge count as on it.
+    // The brightness between the four nearest pixels' centres; coordinates beyond the edge count as
+    // on it.
     double operator()(const glm::dvec2& coordinate) const;
 
 private:

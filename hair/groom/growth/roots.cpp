@@ -6,9 +6,6 @@
 #include <optional>
 
 #include "engine/error.h"
-#include "hair/groom/growth/parting.h"
-#include "hair/groom/growth/root_density.h"
-#include "hair/groom/growth/scalp.h"
 #include "hair/groom/growth/spread.h"
 #include "hair/groom/growth/triangulate.h"
 
@@ -44,8 +41,8 @@ constexpr std::uint32_t kCandidatesPerRoot = 10;
 constexpr std::uint32_t kLeastProbes = 4096;
 constexpr std::uint64_t kTriesPerRoot = 1000;
 
-// For a mask so uneven that more would have to be spread for each that is kept, the rest of the
-// roots is independent.
+// Roots that are spread for each that the mask keeps, at most. Where it is so uneven that more
+// would be needed, the rest of the roots is independent.
 constexpr double kMostSpreadPerRoot = 4.0;
 
 // A triangle is bald where the density is below this.

@@ -316,7 +316,7 @@ bool isNearEdge(const glm::dvec2& point, const glm::dvec2& a, const glm::dvec2& 
 
 }  // namespace
 
-// As many rows as edges; an edge is in all rows that it and its margin reach.
+// There are as many rows as edges; an edge is in all rows that it and its margin reach.
 Outline::Outline(std::vector<glm::dvec2> polygon) : polygon_(std::move(polygon)) {
     const std::size_t count = polygon_.size();
     struct Range {

@@ -1,6 +1,5 @@
 #include "hair/groom/growth/spread.h"
 
-#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cmath>

@@ -35,7 +35,8 @@ public:
         std::ranges::make_heap(bins_[open_]);
     }
 
-    // Only of a queue that isn't empty. weightOf(item) is its weight now.
+    // The item with the greatest weight, of a queue that isn't empty. weightOf(item) is an item's
+    // weight now.
     template <class WeightOf>
     std::uint32_t pop(WeightOf&& weightOf) {
         while (true) {
@@ -96,7 +97,7 @@ public:
             for (std::uint32_t i = cube.bucket.first; i < cube.bucket.end; ++i) {
                 const Point& other = points_[i];
                 const glm::vec3 gap = other.position - point;
-                // Most end here, without a root. Cubes can share a bucket.
+                // Most points end here, without a square root. Cubes can share a bucket.
                 if (glm::dot(gap, gap) > square_limit_ || other.key != cube.key) continue;
                 const double distance = glm::distance(other.position, point);
                 if (distance < radius_ && other.place != place) visit(other.place, distance);

@@ -1,14 +1,11 @@
 #include "hair/groom/guides/bind_strands.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include <glm/common.hpp>

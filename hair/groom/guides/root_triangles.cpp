@@ -1,23 +1,18 @@
 #include "hair/groom/guides/root_triangles.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include "hair/groom/growth/scalp.h"
-#include "hair/groom/growth/spread.h"
 #include "hair/groom/growth/triangulate.h"
 #include "hair/groom/mesh/surface.h"
 #include "hair/groom/style/displace.h"

@@ -37,7 +37,7 @@ Groom displace(Groom groom, double start, Offsets&& offsets) {
 }
 
 // The normal of the scalp at the root of a strand, if it is known.
-inline const glm::vec3* rootNormalOf(const Groom& groom, std::uint32_t strand) {
+const glm::vec3* rootNormalOf(const Groom& groom, std::uint32_t strand) {
     return groom.root_normals.empty() ? nullptr : &groom.root_normals[strand];
 }
 

@@ -26,7 +26,7 @@ private:
     std::vector<double> arcs_;  // [point]
 };
 
-// From 0 at `from`, and before it, to 1 at `to`, and after it, level at both: smoothstep, whatever
+// Smoothstep from 0 at `from`, and before it, to 1 at `to`, and after it, level at both, whatever
 // the order of the two.
 constexpr double ease(double from, double to, double x) {
     if (x <= from) return 0.0;
