@@ -27,8 +27,8 @@ public:
     // known ones.
     std::span<const std::uint32_t> code(std::string_view path) const;
 
-    // From now on the code of these shaders and of no others is replaced. Pipelines that exist keep
-    // theirs.
+    // These and no others are replaced from now on; paths that the program has no code of are
+    // added. Pipelines that exist keep their code.
     void replace(Replacements replacements) { replacements_ = std::move(replacements); }
     const Replacements& replacements() const { return replacements_; }
 

@@ -23,7 +23,6 @@ using uint = std::uint32_t;
 #include "shaders/shared/fragment_structs.h"
 #include "shaders/shared/light_structs.h"
 #include "shaders/shared/mesh_structs.h"
-#include "shaders/shared/model_probe_structs.h"
 #include "shaders/shared/optics_structs.h"
 #include "shaders/shared/options.h"
 #include "shaders/shared/overlay_structs.h"

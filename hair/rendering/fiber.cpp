@@ -380,7 +380,7 @@ glm::dvec3 dualScattering(
 
 // Scalar layout aligns 64-bit members to 8, as C++ does.
 static_assert(offsetof(gpu::HairOptics, averages) == 80 && sizeof(gpu::HairOptics) == 88);
-static_assert(sizeof(gpu::FiberAverage) == 40 && sizeof(gpu::FiberProbe) == 56);
+static_assert(sizeof(gpu::FiberAverage) == 40);
 
 HairOpticsBuffers::HairOpticsBuffers(const engine::Device& device, const Settings& settings) {
     gpu::HairOptics optics = makeHairOptics(settings.shading);

@@ -1,22 +1,28 @@
 # Compiles GLSL to SPIR-V when the project is built and puts it into a static library, so that the
 # program needs no file at run time. Expects GLSLANG_VALIDATOR and SPIRV_VAL (Dependencies.cmake).
 
-# hairbench_shaders(<target> SHADERS <path>...)
-# Adds the static library <target>, which defines engine::shaderCode() (engine/shaders.h).
-# A path is an entry point, relative to shaders/ and with the stage as its extension:
-# simulation/wind.comp, strands/tessellation.tese. Included files are found relative to shaders/ too
-# and need not be listed: the compiler reports them, and changing one rebuilds whoever includes it.
-# One program has one such library.
+# hairbench_shaders(<target> HEADER <path> NAMESPACE <name> SHADERS <path>...)
+# Adds the static library <target>, which defines <name>::shaderCode() and <name>::shaderPaths() as
+# <header> declares them. engine/shaders.h has those of the program.
+# A path is an entry point, relative to the folder that calls this and with the stage as its
+# extension: simulation/wind.comp, strands/tessellation.tese. Included files are found relative to
+# that folder and to shaders/, and need not be listed: the compiler reports them, and changing one
+# rebuilds whoever includes it.
 function(hairbench_shaders target)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SHADERS")
-    set(source_dir "${PROJECT_SOURCE_DIR}/shaders")
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "HEADER;NAMESPACE" "SHADERS")
+    set(source_dir "${CMAKE_CURRENT_SOURCE_DIR}")
     set(output_dir "${CMAKE_CURRENT_BINARY_DIR}/${target}")
+    file(RELATIVE_PATH shared_dir "${source_dir}" "${PROJECT_SOURCE_DIR}/shaders")
+    set(include_dirs -I.)
+    if(shared_dir)
+        list(APPEND include_dirs "-I${shared_dir}")
+    endif()
 
     set(arrays "")
     set(rows "")
     set(embedded "")
     foreach(shader IN LISTS arg_SHADERS)
-        _hairbench_shader("${source_dir}" "${output_dir}" "${shader}")
+        _hairbench_shader("${source_dir}" "${output_dir}" "${shader}" ${include_dirs})
         string(MAKE_C_IDENTIFIER "${shader}" name)
         string(APPEND arrays
             "constexpr std::uint32_t ${name}[] = {\n#include \"${output_dir}/${shader}.inc\"\n};\n")
@@ -24,6 +30,8 @@ function(hairbench_shaders target)
         list(APPEND embedded "${output_dir}/${shader}.inc")
     endforeach()
 
+    set(HAIRBENCH_SHADER_HEADER "${arg_HEADER}")
+    set(HAIRBENCH_SHADER_NAMESPACE "${arg_NAMESPACE}")
     set(HAIRBENCH_SHADER_ARRAYS "${arrays}")
     set(HAIRBENCH_SHADER_ROWS "${rows}")
     configure_file("${CMAKE_CURRENT_FUNCTION_LIST_DIR}/shader_code.cpp.in"
@@ -36,7 +44,8 @@ function(hairbench_shaders target)
     target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}")
 endfunction()
 
-# One shader: GLSL -> SPIR-V, validated where spirv-val exists -> a list of words to #include.
+# One shader: GLSL -> SPIR-V, validated where spirv-val exists -> a list of words to #include. The
+# remaining arguments are the compiler's -I.
 function(_hairbench_shader source_dir output_dir shader)
     set(spirv "${output_dir}/${shader}.spv")
     set(embed "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/EmbedShader.cmake")
@@ -48,12 +57,12 @@ function(_hairbench_shader source_dir output_dir shader)
         set(validate COMMAND "${SPIRV_VAL}" --target-env vulkan1.3 --scalar-block-layout "${spirv}")
     endif()
     # -g keeps names and texts for captures, messages and reloading (engine/shaders.h); -gVS
-    # would need an extension. Files are named relative to shaders/, so that the code is the same
-    # wherever the project lies and engine/shaders.h can make the same.
+    # would need an extension. Files are named relative to the shader's folder, so that the code is
+    # the same wherever the project lies and engine/shaders.h can make the same.
     set(absolute "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/AbsoluteDepfile.cmake")
     add_custom_command(
         OUTPUT "${spirv}"
-        COMMAND "${GLSLANG_VALIDATOR}" --quiet --target-env vulkan1.3 -g -I.
+        COMMAND "${GLSLANG_VALIDATOR}" --quiet --target-env vulkan1.3 -g ${ARGN}
             --depfile "${spirv}.d" -o "${spirv}" "${shader}"
         COMMAND "${CMAKE_COMMAND}" "-DDEPFILE=${spirv}.d" "-DOUTPUT=${spirv}"
             "-DFOLDER=${source_dir}" -P "${absolute}"

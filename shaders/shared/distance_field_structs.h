@@ -50,22 +50,4 @@ struct BakeDistancePush {
     uint block_count;  // of this dispatch
 };
 
-// Where simulation/probe_distance.comp asks, and what it gets.
-struct DistanceProbe {
-    vec3 position;  // m
-    vec3 before;  // m: where friction holds it
-    float distance;  // m; written
-    vec3 gradient;  // of the distance; written
-    vec3 pushed;  // m: where contact puts the position; written
-};
-
-// Push constants of simulation/probe_distance.comp.
-struct ProbeDistancePush {
-    DistanceField field;
-    uint64_t probes;  // DistanceProbe
-    uint count;
-    float margin;  // m
-    float friction;  // Coulomb's coefficient
-};
-
 #endif

@@ -17,13 +17,4 @@ struct EnvironmentPush {
     uint64_t environment;  // EnvironmentParameters
 };
 
-// Push constants of environment/probe.comp.
-struct EnvironmentProbePush {
-    uint64_t environment;  // EnvironmentParameters
-    uint64_t directions;  // vec3 [direction], unit length
-    uint64_t radiance;  // vec3 [direction], written: what comes from there
-    uint64_t light;  // vec3 [direction], written: what surfaces that face there get
-    uint count;
-};
-
 #endif

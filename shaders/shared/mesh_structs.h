@@ -16,20 +16,4 @@ struct MeshPush {
     uint is_moving;  // 1: with the head
 };
 
-// What shading/probe_surface.comp is asked and what it answers.
-struct SurfaceProbe {
-    vec3 base_color;
-    float metallic;
-    float roughness;
-    vec3 normal;
-    vec3 to_eye;
-    vec3 to_light;
-    vec3 f;  // 1/sr, written
-};
-
-struct SurfaceProbePush {
-    uint64_t probes;  // SurfaceProbe [probe]
-    uint count;
-};
-
 #endif

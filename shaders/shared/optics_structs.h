@@ -25,21 +25,4 @@ struct FiberAverage {
     vec2 shifts;  // mean of theta_i + theta_o, forward and local, rad
 };
 
-// What shading/probe_fiber.comp is asked, and what it says.
-struct FiberProbe {
-    vec3 to_eye;
-    float h;
-    vec3 to_light;
-    float strands;
-    vec3 bsdf;  // f |cos theta_i|; written
-    vec3 dual_scattering;  // written
-};
-
-// Push constants of shading/probe_fiber.comp.
-struct ProbeFiberPush {
-    uint64_t optics;  // HairOptics
-    uint64_t probes;  // FiberProbe
-    uint count;
-};
-
 #endif

@@ -26,18 +26,4 @@ struct ShadowParameters {
     float softness;  // texels
 };
 
-// A point to be asked about, and what shadows/probe.frag finds.
-struct ShadowProbe {
-    vec3 position;  // m
-    uint light;
-    vec3 normal;  // of the surface, unit length; 0: of a strand
-};
-
-// Push constants of shadows/probe.
-struct ShadowProbePush {
-    uint64_t picture;  // PictureParameters
-    uint64_t probes;  // ShadowProbe [column]
-    uint count;
-};
-
 #endif

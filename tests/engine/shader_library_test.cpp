@@ -27,6 +27,12 @@ TEST(ShaderLibrary, HasTheCodeOfTheProgramUntilItIsReplaced) {
     EXPECT_EQ(library.code("busy/busy.comp").data(), built.data());
 }
 
+TEST(ShaderLibrary, TakesCodeOfPathsThatTheProgramDoesNotHave) {
+    ShaderLibrary library;
+    library.replace({{"none.comp", {1, 2, 3}}});
+    EXPECT_THAT(library.code("none.comp"), ElementsAre(1u, 2u, 3u));
+}
+
 TEST(ShaderLibrary, ThrowsForAnUnknownShader) {
     EXPECT_THROW(ShaderLibrary().code("none.comp"), Error);
 }

@@ -12,6 +12,7 @@
 #include "hair/gpu_structs.h"
 #include "hair/rendering/environment.h"
 #include "tests/gpu_fixture.h"
+#include "tests/probe_shaders.h"
 #include "tests/rendering/device_hair.h"
 #include "tests/rendering/environments.h"
 #include "tests/rendering/pictures.h"
@@ -42,9 +43,10 @@ protected:
         RenderAssets assets;
         assets.environment = std::move(picture);
         const EnvironmentPass environment(device(), settings, assets);
+        probe_shaders::addTo(device());
         const engine::ComputePipeline pipeline(
             device(),
-            {.shader = "environment/probe.comp",
+            {.shader = "probe_environment.comp",
              .constants = {{gpu::kLinearLightConstant, settings.render.tone_map != ToneMap::none}},
              .push_size = sizeof(gpu::EnvironmentProbePush)});
         const engine::Buffer directions = engine::makeBuffer(device(), std::span(at), "directions");

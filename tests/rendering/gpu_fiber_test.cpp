@@ -11,6 +11,7 @@
 #include "hair/rendering/fiber.h"
 #include "hair/simulation/stiffness.h"
 #include "tests/gpu_fixture.h"
+#include "tests/probe_shaders.h"
 #include "tests/rendering/fiber_rig.h"
 #include "tests/rendering/published_fiber.h"
 
@@ -28,9 +29,9 @@ protected:
         settings.shading = shading;
         const HairOpticsBuffers optics(device(), settings);
         const engine::Buffer buffer = engine::makeBuffer(device(), probes, "fiber probes");
+        probe_shaders::addTo(device());
         const engine::ComputePipeline pipeline(
-            device(),
-            {.shader = "shading/probe_fiber.comp", .push_size = sizeof(gpu::ProbeFiberPush)});
+            device(), {.shader = "probe_fiber.comp", .push_size = sizeof(gpu::ProbeFiberPush)});
         const gpu::ProbeFiberPush push{
             .optics = optics.address(),
             .probes = buffer.address(),

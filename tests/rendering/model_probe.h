@@ -7,9 +7,9 @@
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/pipeline.h"
-#include "hair/gpu_structs.h"
 #include "hair/rendering/lights.h"
 #include "tests/gpu_fixture.h"
+#include "tests/probe_shaders.h"
 
 namespace hair::rendering {
 
@@ -21,8 +21,9 @@ inline std::vector<gpu::ModelProbe> probeModels(
     Settings settings;
     settings.render.tone_map = ToneMap::srgb;  // linear colours
     settings.shading.lights = lights;
+    probe_shaders::addTo(device);
     const engine::ComputePipeline pipeline(
-        device, {.shader = "shading/probe_models.comp", .push_size = sizeof(gpu::ProbeModelsPush)});
+        device, {.shader = "probe_models.comp", .push_size = sizeof(gpu::ProbeModelsPush)});
     const engine::Buffer light_buffer =
         engine::makeBuffer(device, std::span<const gpu::Light>(makeLights(settings)), "lights");
     const engine::Buffer buffer =

@@ -13,6 +13,7 @@
 #include "hair/rendering/scene_meshes.h"
 #include "hair/rendering/shadow_pass.h"
 #include "hair/rendering/strand_pass.h"
+#include "tests/probe_shaders.h"
 #include "tests/rendering/device_hair.h"
 
 namespace hair::rendering {
@@ -31,8 +32,9 @@ inline std::vector<FoundPath> findPaths(
     const RenderAssets& assets, std::span<const gpu::ShadowProbe> probes) {
     static_assert(sizeof(gpu::ShadowProbe) == 28 && sizeof(gpu::ShadowProbePush) == 24);
     constexpr VkFormat kFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+    probe_shaders::addTo(device);
     const engine::GraphicsPipeline pipeline(
-        device, {.shaders = {"composite/screen.vert", "shadows/probe.frag"},
+        device, {.shaders = {"composite/screen.vert", "probe_shadows.frag"},
                  .constants = shadingConstants(settings),
                  .push_size = sizeof(gpu::ShadowProbePush),
                  .colors = {{kFormat}},

@@ -10,9 +10,9 @@
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/pipeline.h"
-#include "hair/gpu_structs.h"
 #include "hair/simulation/stiffness.h"
 #include "tests/gpu_fixture.h"
+#include "tests/probe_shaders.h"
 #include "tests/rendering/surface_reference.h"
 
 namespace hair::rendering {
@@ -48,9 +48,9 @@ protected:
     static std::vector<SurfaceProbe> asked(const std::vector<SurfaceProbe>& probes) {
         const engine::Buffer buffer =
             engine::makeBuffer(device(), std::span(probes), "surface probes");
+        probe_shaders::addTo(device());
         const engine::ComputePipeline pipeline(
-            device(),
-            {.shader = "shading/probe_surface.comp", .push_size = sizeof(gpu::SurfaceProbePush)});
+            device(), {.shader = "probe_surface.comp", .push_size = sizeof(gpu::SurfaceProbePush)});
         const gpu::SurfaceProbePush push{
             .probes = buffer.address(), .count = static_cast<std::uint32_t>(probes.size())};
         device().runOnce([&](engine::Commands& commands) {

@@ -9,6 +9,7 @@
 #include "engine/pipeline.h"
 #include "hair/simulation/bodies.h"
 #include "hair/simulation/stiffness.h"
+#include "tests/probe_shaders.h"
 
 namespace hair::simulation {
 
@@ -24,9 +25,9 @@ inline std::vector<gpu::DistanceProbe> probe(
     static_assert(sizeof(gpu::DistanceProbe) == 52 && offsetof(gpu::DistanceProbe, pushed) == 40);
     static_assert(offsetof(gpu::ProbeDistancePush, friction) == 56);
     const engine::Buffer buffer = engine::makeBuffer(device, probes, "distance probes");
+    probe_shaders::addTo(device);
     const engine::ComputePipeline pipeline(
-        device,
-        {.shader = "simulation/probe_distance.comp", .push_size = sizeof(gpu::ProbeDistancePush)});
+        device, {.shader = "probe_distance.comp", .push_size = sizeof(gpu::ProbeDistancePush)});
     const gpu::ProbeDistancePush push{
         .field = field.parameters(),
         .probes = buffer.address(),

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define HAIRBENCH_SHADOW_BINDING 0
 #include "common/picture.glsl"
+#include "probes.glsl"
 #include "shading/shadows.glsl"
 
 layout(buffer_reference, scalar) readonly buffer Probes { ShadowProbe at[]; };

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/picture.glsl"
 #include "environment/radiance.glsl"
+#include "probes.glsl"
 #include "shading/environment.glsl"
 
 layout(buffer_reference, scalar) readonly buffer ProbeDirections { vec3 directions[]; };

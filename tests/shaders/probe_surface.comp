@@ -2,9 +2,8 @@
 // What surfaces reflect, at directions of the host's choice; one invocation each.
 #extension GL_GOOGLE_include_directive : require
 
-#include "common/extensions.glsl"
+#include "probes.glsl"
 #include "shading/surface_brdf.glsl"
-#include "shared/mesh_structs.h"
 
 layout(local_size_x = 64) in;
 

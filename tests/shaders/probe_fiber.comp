@@ -2,6 +2,7 @@
 // What a fibre scatters, in directions of the host's choice; one invocation per probe.
 #extension GL_GOOGLE_include_directive : require
 
+#include "probes.glsl"
 #include "shading/dual_scattering.glsl"
 
 layout(local_size_x = 64) in;

@@ -2,10 +2,10 @@
 // What lights and models say at points of the host's choice; one invocation per point.
 #extension GL_GOOGLE_include_directive : require
 
+#include "probes.glsl"
 #include "shading/kajiya_kay.glsl"
 #include "shading/lights.glsl"
 #include "shading/phong.glsl"
-#include "shared/model_probe_structs.h"
 
 layout(local_size_x = 64) in;
 

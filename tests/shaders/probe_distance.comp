@@ -2,8 +2,7 @@
 // What the constraint makes of a field, at points of the host's choice; one invocation per point.
 #extension GL_GOOGLE_include_directive : require
 
-#include "common/extensions.glsl"
-#include "shared/distance_field_structs.h"
+#include "probes.glsl"
 #include "simulation/constraints/distance_field.glsl"
 
 layout(local_size_x = 64) in;

@@ -1,0 +1,108 @@
+#ifndef HAIRBENCH_PROBE_STRUCTS_H
+#define HAIRBENCH_PROBE_STRUCTS_H
+
+// What tests ask shaders and what these answer. Needs shared/distance_field_structs.h before it.
+
+// Where probe_distance.comp asks, and what it gets.
+struct DistanceProbe {
+    vec3 position;  // m
+    vec3 before;  // m: where friction holds it
+    float distance;  // m; written
+    vec3 gradient;  // of the distance; written
+    vec3 pushed;  // m: where contact puts the position; written
+};
+
+// Push constants of probe_distance.comp.
+struct ProbeDistancePush {
+    DistanceField field;
+    uint64_t probes;  // DistanceProbe
+    uint count;
+    float margin;  // m
+    float friction;  // Coulomb's coefficient
+};
+
+// Push constants of probe_environment.comp.
+struct EnvironmentProbePush {
+    uint64_t environment;  // EnvironmentParameters
+    uint64_t directions;  // vec3 [direction], unit length
+    uint64_t radiance;  // vec3 [direction], written: what comes from there
+    uint64_t light;  // vec3 [direction], written: what surfaces that face there get
+    uint count;
+};
+
+// What probe_fiber.comp is asked, and what it says.
+struct FiberProbe {
+    vec3 to_eye;
+    float h;
+    vec3 to_light;
+    float strands;
+    vec3 bsdf;  // f |cos theta_i|; written
+    vec3 dual_scattering;  // written
+};
+
+// Push constants of probe_fiber.comp.
+struct ProbeFiberPush {
+    uint64_t optics;  // HairOptics
+    uint64_t probes;  // FiberProbe
+    uint count;
+};
+
+// What probe_models.comp is asked about a point and a light, and what it says.
+struct ModelProbe {
+    vec3 position;  // m
+    uint light;
+    vec3 normal;  // unit length
+    float exponent;
+    vec3 tangent;  // unit length
+    vec3 to_eye;  // unit length
+    // The shader writes to_light and all members below it.
+    vec3 to_light;  // unit length
+    vec3 color;
+    float angular_radius;  // rad
+    float matt;  // mattResponse()
+    float phong_diffuse;
+    float phong_specular;
+    float kajiya_kay_diffuse;
+    float kajiya_kay_specular;
+    float widened_exponent;
+};
+
+// Push constants of probe_models.comp.
+struct ProbeModelsPush {
+    uint64_t lights;  // Light
+    uint64_t probes;  // ModelProbe
+    uint count;
+};
+
+// A point to be asked about, and what probe_shadows.frag finds.
+struct ShadowProbe {
+    vec3 position;  // m
+    uint light;
+    vec3 normal;  // of the surface, unit length; 0: of a strand
+};
+
+// Push constants of probe_shadows.frag.
+struct ShadowProbePush {
+    uint64_t picture;  // PictureParameters
+    uint64_t probes;  // ShadowProbe [column]
+    uint count;
+};
+
+// What probe_surface.comp is asked and what it answers.
+struct SurfaceProbe {
+    vec3 base_color;
+    float metallic;
+    float roughness;
+    vec3 normal;
+    vec3 to_eye;
+    vec3 to_light;
+    vec3 f;  // 1/sr, written
+};
+
+// Push constants of probe_surface.comp.
+struct SurfaceProbePush {
+    uint64_t probes;  // SurfaceProbe [probe]
+    uint count;
+};
+
+#endif
