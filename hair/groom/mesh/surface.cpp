@@ -259,12 +259,7 @@ ClosedMesh closeMesh(const Mesh& mesh) {
 
 namespace {
 
-// ---- Nearest surface ----------------------------------------------------------------------------
-
-constexpr std::size_t kMostInLeaf = 4;
-constexpr std::size_t kMostLevels = 64;  // every split halves, and counts have 32 bits
-
-using Corners = std::array<glm::vec3, 3>;
+// ---- Triangle tree ------------------------------------------------------------------------------
 
 struct Box {
     glm::vec3 low{std::numeric_limits<float>::max()};
@@ -280,6 +275,68 @@ struct Box {
         return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     }
 };
+
+}  // namespace
+
+TriangleTree buildTriangleTree(
+    std::span<const glm::vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
+    std::size_t most_in_leaf) {
+    assert(!triangles.empty() && most_in_leaf > 0);
+    std::vector<glm::vec3> centroids;
+    centroids.reserve(triangles.size());
+    for (const auto& [a, b, c] : triangles)
+        centroids.push_back((positions[a] + positions[b] + positions[c]) / 3.0f);
+    TriangleTree tree;
+    tree.order.resize(triangles.size());
+    std::iota(tree.order.begin(), tree.order.end(), 0u);
+
+    struct Open {
+        std::size_t node, first, count;
+    };
+    std::vector<Open> open{{0, 0, triangles.size()}};
+    tree.nodes.resize(1);
+    while (!open.empty()) {
+        const auto [node, first, count] = open.back();
+        open.pop_back();
+        const auto members = std::span(tree.order).subspan(first, count);
+        Box box;
+        Box middle;
+        for (const std::uint32_t triangle : members) {
+            for (const std::uint32_t corner : triangles[triangle]) box.add(positions[corner]);
+            middle.add(centroids[triangle]);
+        }
+        tree.nodes[node] = {
+            box.low, box.high, static_cast<std::uint32_t>(first),
+            static_cast<std::uint32_t>(count)};
+        if (count <= most_in_leaf) continue;
+
+        // Equal centroids go by number, so that the tree is the same everywhere.
+        const int axis = middle.longestAxis();
+        const std::size_t half = count / 2;
+        std::ranges::nth_element(
+            members, members.begin() + static_cast<std::ptrdiff_t>(half),
+            [&](std::uint32_t a, std::uint32_t b) {
+                return std::pair(centroids[a][axis], a) < std::pair(centroids[b][axis], b);
+            });
+        const std::size_t child = tree.nodes.size();
+        tree.nodes[node].first = static_cast<std::uint32_t>(child);
+        tree.nodes[node].count = 0;
+        tree.nodes.resize(child + 2);
+        // The first half is split first: nodes are numbered depth first.
+        open.push_back({child + 1, first + half, count - half});
+        open.push_back({child, first, half});
+    }
+    return tree;
+}
+
+namespace {
+
+// ---- Nearest surface ----------------------------------------------------------------------------
+
+constexpr std::size_t kMostInLeaf = 4;
+constexpr std::size_t kMostLevels = 64;  // every split halves, and counts have 32 bits
+
+using Corners = std::array<glm::vec3, 3>;
 
 double square(const glm::dvec3& v) { return glm::dot(v, v); }
 
@@ -332,52 +389,10 @@ void compare(const glm::dvec3& p, const Corners& corners, std::size_t slot, Cand
 }  // namespace
 
 NearestSurface::NearestSurface(
-    std::span<const glm::vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles) {
-    assert(!triangles.empty());
-    std::vector<glm::vec3> centroids;
-    centroids.reserve(triangles.size());
-    for (const auto& [a, b, c] : triangles)
-        centroids.push_back((positions[a] + positions[b] + positions[c]) / 3.0f);
-    sources_.resize(triangles.size());
-    std::iota(sources_.begin(), sources_.end(), 0u);
-
-    struct Open {
-        std::size_t node, first, count;
-    };
-    std::vector<Open> open{{0, 0, triangles.size()}};
-    nodes_.resize(1);
-    while (!open.empty()) {
-        const auto [node, first, count] = open.back();
-        open.pop_back();
-        const auto members = std::span(sources_).subspan(first, count);
-        Box box;
-        Box middle;
-        for (const std::uint32_t triangle : members) {
-            for (const std::uint32_t corner : triangles[triangle]) box.add(positions[corner]);
-            middle.add(centroids[triangle]);
-        }
-        nodes_[node] = {
-            box.low, box.high, static_cast<std::uint32_t>(first),
-            static_cast<std::uint32_t>(count)};
-        if (count <= kMostInLeaf) continue;
-
-        // Equal centroids go by number, so that the tree is the same everywhere.
-        const int axis = middle.longestAxis();
-        const std::size_t half = count / 2;
-        std::ranges::nth_element(
-            members, members.begin() + static_cast<std::ptrdiff_t>(half),
-            [&](std::uint32_t a, std::uint32_t b) {
-                return std::pair(centroids[a][axis], a) < std::pair(centroids[b][axis], b);
-            });
-        const std::size_t child = nodes_.size();
-        nodes_[node].first = static_cast<std::uint32_t>(child);
-        nodes_[node].count = 0;
-        nodes_.resize(child + 2);
-        open.push_back({child, first, half});
-        open.push_back({child + 1, first + half, count - half});
-    }
+    std::span<const glm::vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles)
+    : tree_(buildTriangleTree(positions, triangles, kMostInLeaf)) {
     corners_.reserve(triangles.size());
-    for (const std::uint32_t triangle : sources_) {
+    for (const std::uint32_t triangle : tree_.order) {
         const auto& [a, b, c] = triangles[triangle];
         corners_.push_back({positions[a], positions[b], positions[c]});
     }
@@ -391,14 +406,15 @@ MeshPoint NearestSurface::operator()(const glm::dvec3& point) const {
     std::array<Waiting, kMostLevels> waiting;
     std::size_t count = 0;
     const auto wait = [&](std::uint32_t node) {
-        waiting[count++] = {node, squareDistance(point, nodes_[node].low, nodes_[node].high)};
+        const TriangleTree::Node& box = tree_.nodes[node];
+        waiting[count++] = {node, squareDistance(point, box.low, box.high)};
     };
     Candidate best;
     wait(0);
     while (count > 0) {
         const Waiting next = waiting[--count];
         if (next.square >= best.square) continue;
-        const Node& node = nodes_[next.node];
+        const TriangleTree::Node& node = tree_.nodes[next.node];
         for (std::size_t i = 0; i < node.count; ++i)
             compare(point, corners_[node.first + i], node.first + i, best);
         if (node.count > 0) continue;
@@ -409,7 +425,7 @@ MeshPoint NearestSurface::operator()(const glm::dvec3& point) const {
     }
 
     const Corners& corners = corners_[best.slot];
-    MeshPoint found{.triangle = sources_[best.slot], .weights = best.weights};
+    MeshPoint found{.triangle = tree_.order[best.slot], .weights = best.weights};
     for (int i = 0; i < 3; ++i)
         found.position += best.weights[i] * glm::dvec3(corners[static_cast<std::size_t>(i)]);
     found.distance = glm::distance(found.position, point);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -35,6 +36,24 @@ struct ClosedMesh {
 // inside is out.
 ClosedMesh closeMesh(const Mesh& mesh);
 
+// A hierarchy of boxes round triangles, for nearest neighbours. Every node is split in two halves
+// with as many triangles, so no path from the root is longer than halving makes it.
+struct TriangleTree {
+    struct Node {
+        glm::vec3 low;
+        glm::vec3 high;
+        std::uint32_t first;  // of a leaf's triangles in `order`; else of two children side by side
+        std::uint32_t count;  // of a leaf's triangles; 0: an inner node
+    };
+    std::vector<Node> nodes;  // the root first
+    std::vector<std::uint32_t> order;  // the mesh's triangles as the leaves number them
+};
+
+// At least one triangle; those without area count too.
+TriangleTree buildTriangleTree(
+    std::span<const glm::vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
+    std::size_t most_in_leaf);
+
 // A point of a triangle mesh.
 struct MeshPoint {
     glm::dvec3 position{0.0};
@@ -43,7 +62,7 @@ struct MeshPoint {
     double distance = 0.0;  // from where it was asked for
 };
 
-// Finds the point of a mesh that is nearest to a point, by a hierarchy of boxes. Borrows nothing.
+// Finds the point of a mesh that is nearest to a point. Borrows nothing.
 class NearestSurface {
 public:
     // At least one triangle; those without area count too.
@@ -54,15 +73,8 @@ public:
     MeshPoint operator()(const glm::dvec3& point) const;
 
 private:
-    struct Node {
-        glm::vec3 low;
-        glm::vec3 high;
-        std::uint32_t first;  // of its triangles in `corners_`, or of its two children
-        std::uint32_t count;  // triangles; 0: an inner node
-    };
-    std::vector<Node> nodes_;
+    TriangleTree tree_;
     std::vector<std::array<glm::vec3, 3>> corners_;  // in the order of the leaves
-    std::vector<std::uint32_t> sources_;  // the mesh's triangle of each
 };
 
 }  // namespace hair::groom
