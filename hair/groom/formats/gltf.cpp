@@ -11,7 +11,6 @@
 #include "hair/groom/formats/polylines.h"
 #include "hair/groom/formats/text.h"
 #include "hair/groom/mesh/gltf_model.h"
-#include "hair/groom/mesh/import_gltf.h"
 
 namespace hair::groom {
 namespace {
@@ -238,14 +237,12 @@ public:
 
 private:
     StrandSet readVertices(const tinygltf::Primitive& primitive, const glm::dmat4& transform) {
-        const auto position = findAttribute(primitive, "POSITION");
-        if (!position) throw engine::Error("no POSITION");
         StrandSet set;
-        set.points = readVectors(model_, *position);
+        set.points = readPositions(model_, primitive);
         const std::size_t count = set.points.size();
         if (const auto color = findAttribute(primitive, "COLOR_0")) {
             GltfColors read = readColors(model_, *color);
-            set.colors.values = checked(std::move(read.colors), count, "COLOR_0");
+            set.colors.values = matching(std::move(read.colors), count, "COLOR_0");
             for (const float opacity : read.opacities)
                 set.transparencies.values.push_back(1.0f - opacity);
         }
@@ -271,16 +268,7 @@ private:
     readOwn(const tinygltf::Primitive& primitive, const char* name, std::size_t count) const {
         const auto accessor = findAttribute(primitive, name);
         if (!accessor) return {};
-        return checked(readScalars(model_, *accessor), count, name);
-    }
-
-    template <class Value>
-    static std::vector<Value>
-    checked(std::vector<Value> values, std::size_t count, const char* name) {
-        if (values.size() != count) {
-            throw engine::Error(std::string(name) + " and POSITION differ in count");
-        }
-        return values;
+        return matching(readScalars(model_, *accessor), count, name);
     }
 
     static void checkFinite(const StrandSet& set) {

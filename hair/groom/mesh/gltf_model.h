@@ -9,12 +9,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -80,6 +82,17 @@ std::optional<int> findAttribute(const tinygltf::Primitive& primitive, const std
 std::vector<float> readScalars(const tinygltf::Model& model, int accessor);
 std::vector<glm::vec3> readVectors(const tinygltf::Model& model, int accessor);
 
+// POSITION, which every primitive needs.
+std::vector<glm::vec3>
+readPositions(const tinygltf::Model& model, const tinygltf::Primitive& primitive);
+
+// `values` of the attribute `name` of a primitive that has `count` positions.
+template <class Value>
+std::vector<Value> matching(std::vector<Value> values, std::size_t count, const std::string& name) {
+    if (values.size() == count) return values;
+    throw engine::Error(name + " and POSITION differ in count");
+}
+
 // Accessors of float, or of normalized unsigned bytes or shorts.
 std::vector<glm::vec2> readTextureCoordinates(const tinygltf::Model& model, int accessor);
 
@@ -93,5 +106,19 @@ GltfColors readColors(const tinygltf::Model& model, int accessor);
 // no indices.
 std::vector<std::uint32_t> readIndices(
     const tinygltf::Model& model, const tinygltf::Primitive& primitive, std::size_t vertex_count);
+
+// A primitive where it stands in the scene.
+struct GltfPlace {
+    const tinygltf::Primitive& primitive;
+    const glm::dmat4& transform;  // to the scene, metres
+    const std::string& name;  // of the node, or else of the mesh
+    int node;
+};
+
+// Visits the primitives of the default scene's meshes. Errors, of `visit` as well, begin with the
+// mesh and primitive where there is one. Throws engine::Error also where the scene's nodes are no
+// tree.
+void forEachPrimitive(
+    const tinygltf::Model& model, const std::function<void(const GltfPlace& place)>& visit);
 
 }  // namespace hair::groom

@@ -1,23 +1,25 @@
 #include "hair/groom/mesh/import_gltf.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include <glm/gtc/quaternion.hpp>
-#include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
 
 #include "engine/error.h"
+#include "engine/files.h"
 #include "engine/pictures.h"
 #include "hair/groom/mesh/gltf_model.h"
 #include "hair/groom/mesh/mesh.h"
@@ -210,71 +212,6 @@ GltfMaterials readMaterials(
     return {std::move(materials), reader.takePictures()};
 }
 
-// ---- Gltf scene ---------------------------------------------------------------------------------
-
-using Visit = std::function<void(const GltfPlace& place)>;
-
-glm::dmat4 localTransform(const tinygltf::Node& node) {
-    if (node.matrix.size() == 16) return glm::make_mat4(node.matrix.data());  // both column-major
-    glm::dmat4 transform(1.0);
-    if (node.translation.size() == 3) {
-        transform[3] = glm::dvec4(glm::make_vec3(node.translation.data()), 1.0);
-    }
-    if (node.rotation.size() == 4) {
-        const std::vector<double>& r = node.rotation;  // x, y, z, w
-        transform *= glm::mat4_cast(glm::normalize(glm::dquat(r[3], r[0], r[1], r[2])));
-    }
-    if (node.scale.size() == 3) {
-        for (int axis = 0; axis < 3; ++axis)
-            transform[axis] *= node.scale[static_cast<std::size_t>(axis)];
-    }
-    return transform;
-}
-
-void visitMesh(
-    const tinygltf::Model& model, int node_index, const glm::dmat4& transform, const Visit& visit) {
-    const tinygltf::Node& node = at(model.nodes, node_index, "node");
-    const tinygltf::Mesh& mesh = at(model.meshes, node.mesh, "mesh");
-    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
-        try {
-            visit(
-                {mesh.primitives[i], transform, node.name.empty() ? mesh.name : node.name,
-                 node_index});
-        } catch (const engine::Error& error) {
-            throw engine::Error(
-                numbered("mesh", node.mesh) + ", primitive " + std::to_string(i), error.what());
-        }
-    }
-}
-
-}  // namespace
-
-void forEachPrimitive(const tinygltf::Model& model, const Visit& visit) {
-    struct Step {
-        int node;
-        glm::dmat4 parent;
-    };
-    if (model.scenes.empty()) throw engine::Error("the file has no scene");
-    std::vector<Step> steps;
-    for (const int root : at(model.scenes, std::max(model.defaultScene, 0), "scene").nodes) {
-        steps.push_back({root, glm::dmat4(1.0)});
-    }
-    std::vector<bool> visited(model.nodes.size());
-    for (std::size_t next = 0; next < steps.size(); ++next) {
-        const auto [index, parent] = steps[next];
-        const tinygltf::Node& node = at(model.nodes, index, "node");
-        if (visited[static_cast<std::size_t>(index)]) {
-            throw engine::Error(numbered("node", index), "is reached twice");
-        }
-        visited[static_cast<std::size_t>(index)] = true;
-        const glm::dmat4 transform = parent * localTransform(node);
-        if (node.mesh >= 0) visitMesh(model, index, transform, visit);
-        for (const int child : node.children) steps.push_back({child, transform});
-    }
-}
-
-namespace {
-
 // ---- Import gltf --------------------------------------------------------------------------------
 
 using Corners = std::array<std::size_t, 3>;  // numbers of indices
@@ -347,19 +284,9 @@ public:
     }
 
 private:
-    // What an attribute has to be as long as.
-    template <class Value>
-    static std::vector<Value>
-    checked(std::vector<Value> values, std::size_t count, const char* name) {
-        if (values.size() == count) return values;
-        throw engine::Error(std::string(name) + " and POSITION differ in count");
-    }
-
     // Returns their number.
     std::size_t addVertices(const tinygltf::Primitive& primitive, const glm::dmat4& transform) {
-        const auto position = findAttribute(primitive, "POSITION");
-        if (!position) throw engine::Error("no POSITION");
-        const std::vector<glm::vec3> positions = readVectors(model_, *position);
+        const std::vector<glm::vec3> positions = readPositions(model_, primitive);
         const std::size_t count = positions.size();
         const std::size_t first = mesh_.positions.size();
         if (count > std::numeric_limits<std::uint32_t>::max() - first) {
@@ -367,7 +294,7 @@ private:
         }
         std::vector<glm::vec3> normals(count, glm::vec3(0.0f));
         if (const auto normal = findAttribute(primitive, "NORMAL")) {
-            normals = checked(readVectors(model_, *normal), count, "NORMAL");
+            normals = matching(readVectors(model_, *normal), count, "NORMAL");
         }
         const glm::dmat3 normal_transform = glm::transpose(glm::inverse(glm::dmat3(transform)));
         for (std::size_t i = 0; i < count; ++i) {
@@ -376,7 +303,7 @@ private:
         }
         if (const auto accessor = findAttribute(primitive, "TEXCOORD_0")) {
             const auto coordinates =
-                checked(readTextureCoordinates(model_, *accessor), count, "TEXCOORD_0");
+                matching(readTextureCoordinates(model_, *accessor), count, "TEXCOORD_0");
             mesh_.texture_coordinates.resize(first, glm::vec2(0.0f));  // of those without
             mesh_.texture_coordinates.insert(
                 mesh_.texture_coordinates.end(), coordinates.begin(), coordinates.end());
@@ -392,7 +319,7 @@ private:
             if (accessor.type != TINYGLTF_TYPE_SCALAR ||
                 accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
                 continue;
-            const auto added = checked(readScalars(model_, index), count, name.c_str());
+            const auto added = matching(readScalars(model_, index), count, name.c_str());
             std::vector<float>& weights = weightsOf(mesh_, groupName(name));
             weights.resize(first, 0.0f);
             weights.insert(weights.end(), added.begin(), added.end());
@@ -431,19 +358,14 @@ private:
     int part_node_ = -1;
 };
 
-std::vector<std::byte> readFile(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::vector<std::byte> bytes(std::filesystem::file_size(path));
-    file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (!file) throw engine::Error("can't be read");
-    return bytes;
-}
-
 }  // namespace
 
 Mesh importGltf(const std::filesystem::path& path, Textures textures) {
+    engine::OpenFile file(path);
+    std::vector<char> bytes(file.size());
+    file.read(bytes);
     const tinygltf::Model model = loadGltf(
-        readFile(path), path,
+        std::as_bytes(std::span(bytes)), path,
         textures == Textures::decoded ? GltfImages::named : GltfImages::skipped);
     MeshReader reader(model);
     forEachPrimitive(model, [&](const GltfPlace& place) { reader.add(place); });

@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/error.h"
+#include "engine/files.h"
 #include "hair/groom/files.h"
 #include "hair/groom/mesh/import_gltf.h"
 #include "hair/groom/mesh/mesh.h"
@@ -181,7 +182,8 @@ constexpr std::array mesh_importers{
     MeshImporter{assimp_extensions, importAssimp},
 };
 
-const MeshImporter& importerFor(const std::string& extension) {
+const MeshImporter& importerFor(const std::filesystem::path& path) {
+    const std::string extension = lowerCaseExtension(path);
     std::string known;
     for (const MeshImporter& importer : mesh_importers) {
         for (const std::string_view name : importer.extensions) {
@@ -189,7 +191,8 @@ const MeshImporter& importerFor(const std::string& extension) {
             known.append(known.empty() ? "" : ", ").append(name);
         }
     }
-    throw engine::Error("unknown mesh format '" + extension + "'; known are " + known);
+    throw engine::Error(
+        path.string(), "unknown mesh format '" + extension + "'; known are " + known);
 }
 
 bool isFinite(const glm::vec3& v) {
@@ -258,11 +261,9 @@ void completeNormals(Mesh& mesh) {
 std::span<const MeshImporter> meshImporters() { return mesh_importers; }
 
 Mesh importMesh(const std::filesystem::path& path, Textures textures) {
+    const MeshImporter& importer = importerFor(path);
+    engine::OpenFile{path};  // what can't be opened is refused in the same words for every format
     try {
-        const MeshImporter& importer = importerFor(lowerCaseExtension(path));
-        std::error_code error;
-        if (!std::filesystem::exists(path, error)) throw engine::Error("no such file");
-        if (!std::filesystem::is_regular_file(path, error)) throw engine::Error("not a file");
         Mesh mesh = importer.import(path, textures);
         check(mesh);
         completeNormals(mesh);
