@@ -202,10 +202,6 @@ DistanceField::DistanceField(
     }
 }
 
-std::vector<float> DistanceField::distances(const engine::Device& device) const {
-    return engine::downloadAs<float>(device, distances_);
-}
-
 Bodies::Bodies(
     const engine::Device& device, const SimulationSettings& settings,
     std::span<const groom::Mesh> meshes)

@@ -28,10 +28,7 @@ public:
         float padding);
 
     const gpu::DistanceField& parameters() const { return parameters_; }
-    std::size_t bytes() const { return distances_.size(); }
-
-    // [z][y][x], m; downloaded, for set-up and tests.
-    std::vector<float> distances(const engine::Device& device) const;
+    const engine::Buffer& distances() const { return distances_; }  // float [z][y][x], m
 
 private:
     gpu::DistanceField parameters_;

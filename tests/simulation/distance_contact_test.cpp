@@ -107,7 +107,7 @@ double interpolate(
 // most 1 / gap^2. Near the grid's planes, where the gradient jumps, no differences are taken.
 TEST_F(DistanceContactTest, ValueAndGradientAreThoseOfTheInterpolant) {
     const DistanceField field = sphere(10, 0.03f);
-    const auto distances = field.distances(device());
+    const auto distances = engine::downloadAs<float>(device(), field.distances());
     const gpu::DistanceField& grid = field.parameters();
     constexpr double kStep = 1e-5;
     // The position in the cell is known to some roundings of 0.2 m; the slopes change by up to

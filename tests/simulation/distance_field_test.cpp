@@ -35,7 +35,8 @@ protected:
         std::vector<float> distances;
 
         Baked(const groom::Mesh& mesh, std::uint32_t resolution, float padding)
-            : field(device(), mesh, resolution, padding), distances(field.distances(device())) {}
+            : field(device(), mesh, resolution, padding),
+              distances(engine::downloadAs<float>(device(), field.distances())) {}
 
         const gpu::DistanceField& grid() const { return field.parameters(); }
 
@@ -171,7 +172,7 @@ TEST_F(DistanceFieldTest, GridIsAsFineAsAskedAndCoversThePadding) {
     EXPECT_EQ(coarse.parameters().origin.x, 0.875f);
     EXPECT_EQ(coarse.parameters().origin.y, 1.875f);
     EXPECT_NEAR(coarse.parameters().origin.z, 3.15 - 2.5 * 0.125, 0x1p-22);
-    EXPECT_EQ(coarse.bytes(), 4u * 11 * 7 * 6);
+    EXPECT_EQ(coarse.distances().size(), 4u * 11 * 7 * 6);
     const DistanceField fine(device(), mesh, 16, 0.125f);
     EXPECT_EQ(fine.parameters().cell, 0.0625f);
     EXPECT_EQ(fine.parameters().points, glm::uvec3(21, 13, 10));
