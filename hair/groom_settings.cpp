@@ -11,9 +11,10 @@ const Table& tableOf(const WhorlSettings*) {
          number(
              "strength", &S::strength, -10, 10, "1",
              "length, at the radius, of the vector round the centre that is added to the "
-             "direction; "
-             "positive is counter-clockwise seen from outside"),
-         number("radius", &S::radius, 0.001, 10, "m", "distance at which it is strongest")});
+             "direction; positive is counter-clockwise seen from outside"),
+         number(
+             "radius", &S::radius, 0.001, 10, "m",
+             "distance from the centre at which the whorl is strongest")});
     return table;
 }
 
@@ -21,7 +22,7 @@ const Table& tableOf(const PartingSettings*) {
     using S = PartingSettings;
     static const Table table = tableWith<S>(
         {number("from", &S::from, -100, 100, "m", "one end of the line, on or near the scalp"),
-         number("to", &S::to, -100, 100, "m", "its other end"),
+         number("to", &S::to, -100, 100, "m", "the other end of the line, on or near the scalp"),
          number(
              "strength", &S::strength, 0, 10, "1",
              "length, at the line, of the vector away from it that is added to the direction; 0 is "
@@ -35,7 +36,7 @@ const Table& tableOf(const PartingSettings*) {
 const Table& tableOf(const GrowSettings*) {
     using S = GrowSettings;
     static const Table table = tableWith<S>(
-        {fileName("mesh", &S::mesh, "the mesh; the path is relative to the scene file"),
+        {fileName("mesh", &S::mesh, "mesh that hair grows on, relative to the scene file"),
          text(
              "scalp", &S::scalp,
              "where hair grows: the name of a material, part (mesh, object, group) or vertex group "
@@ -129,11 +130,13 @@ const Table& tableOf(const FrizzSettings*) {
 const Table& tableOf(const CutSettings*) {
     using S = CutSettings;
     static const Table table = tableWith<S>(
-        {number("length", &S::length, 0, 10, "m", "longer strands are cut to this; 0 cuts none"),
-         number("point", &S::point, -100, 100, "m", "a point of a plane"),
+        {number(
+             "length", &S::length, 0, 10, "m",
+             "length that longer strands are cut to; 0 cuts none"),
+         number("point", &S::point, -100, 100, "m", "point on the cutting plane"),
          number(
              "normal", &S::normal, -1, 1, "1",
-             "direction in which nothing is left beyond the plane; without length there is no "
+             "normal of the cutting plane: hair on the side that it points to is cut off; zero: no "
              "plane")});
     return table;
 }
@@ -143,19 +146,22 @@ const Table& tableOf(const TaperSettings*) {
     static const Table table = tableWith<S>(
         {number(
              "root_width", &S::root_width, 0, 0.1, "m",
-             "width that the groom gets, up to the start; 0 leaves its widths as they are"),
+             "width at the root and up to start; 0 leaves the groom's widths as they are"),
          number("tip_width", &S::tip_width, 0, 0.1, "m", "width at the tip"),
-         number("start", &S::start, 0, 1, "1", "fraction of the length at which the width falls")});
+         number(
+             "start", &S::start, 0, 1, "1", "fraction of the length from which the width falls")});
     return table;
 }
 
 const Table& tableOf(const StyleSettings*) {
     using S = StyleSettings;
     static const Table table = tableWith<S>(
-        {group("clump", &S::clump, "strands drawn together"),
-         group("wave", &S::wave, "waves in a plane"), group("curl", &S::curl, "helices"),
-         group("frizz", &S::frizz, "disorder"), group("cut", &S::cut, "scissors"),
-         group("taper", &S::taper, "widths")});
+        {group("clump", &S::clump, "clumps of strands drawn together at their tips"),
+         group("wave", &S::wave, "plane waves along strands"),
+         group("curl", &S::curl, "strands wound into helices"),
+         group("frizz", &S::frizz, "random displacement of strands"),
+         group("cut", &S::cut, "strands cut to a length or at a plane"),
+         group("taper", &S::taper, "width of strands from root to tip")});
     return table;
 }
 
@@ -168,8 +174,12 @@ const Table& tableOf(const FilePlacementSettings*) {
              "scale", &S::scale, 1e-6, 1e6, "1",
              "metres in the file's unit of length; formats that state their unit are already in "
              "metres"),
-         number("rotation", &S::rotation, -360, 360, "deg", "about x, then y, then z"),
-         number("translation", &S::translation, -1000, 1000, "m", "after scale and rotation")});
+         number(
+             "rotation", &S::rotation, -360, 360, "deg",
+             "rotation of the strands about x, then y, then z"),
+         number(
+             "translation", &S::translation, -1000, 1000, "m",
+             "translation of the strands, after scale and rotation")});
     return table;
 }
 
@@ -182,21 +192,19 @@ const Table& tableOf(const GroomSettings*) {
              "file; empty: guides are grown"),
          fileName(
              "mesh", &S::mesh,
-             "what the strands of the file grow on; empty: nothing, they float. Grown guides have "
-             "/groom/grow/mesh"),
+             "mesh that the strands of the file grow on; empty: none, they float. Grown guides "
+             "have /groom/grow/mesh"),
          group("placement", &S::placement, "where the strands of the file go"),
          number(
              "vertices", &S::vertices, 0, 256, "count",
              "vertices per strand that the file is resampled to, 0 or at least 2; 0: as many as "
-             "its "
-             "longest list has"),
+             "its longest strand has"),
          number(
              "guides", &S::guides, 0, 200000, "count",
              "guides to grow, or to choose from the file; 0: all of the file's strands, or 86 "
-             "grown "
-             "ones"),
+             "grown ones"),
          group("grow", &S::grow, "guides grown on a scalp"),
-         group("style", &S::style, "what is done to the guides then")});
+         group("style", &S::style, "styling of the guides")});
     return table;
 }
 

@@ -29,12 +29,12 @@ const Table& tableOf(const LodSettings*) {
 const Table& tableOf(const CameraSettings*) {
     using S = CameraSettings;
     static const Table table = tableWith<S>(
-        {number("position", &S::position, -1000, 1000, "m", "eye"),
-         number("target", &S::target, -1000, 1000, "m", "point looked at"),
+        {number("position", &S::position, -1000, 1000, "m", "position of the camera"),
+         number("target", &S::target, -1000, 1000, "m", "point that the camera looks at"),
          number("up", &S::up, -1, 1, "1", "up direction"),
          number("field_of_view", &S::field_of_view, 1, 170, "deg", "vertical field of view"),
-         number("near_plane", &S::near_plane, 0.0001, 100, "m", "near plane"),
-         number("far_plane", &S::far_plane, 0.001, 10000, "m", "far plane")});
+         number("near_plane", &S::near_plane, 0.0001, 100, "m", "distance of the near plane"),
+         number("far_plane", &S::far_plane, 0.001, 10000, "m", "distance of the far plane")});
     return table;
 }
 
@@ -51,11 +51,11 @@ const Table& tableOf(const MeshSettings*) {
     using S = MeshSettings;
     static const Table table = tableWith<S>(
         {fileName("file", &S::file, "mesh (.gltf, .glb, .obj, ...), relative to the scene"),
-         number("translation", &S::translation, -1000, 1000, "m", "where its origin is"),
+         number("translation", &S::translation, -1000, 1000, "m", "where the mesh's origin is"),
          number(
              "rotation", &S::rotation, -360, 360, "deg",
-             "about x, then y, then z; before it is moved"),
-         number("scale", &S::scale, 0.0001, 10000, "1", "size; before it is turned")});
+             "rotation about x, then y, then z, before the translation"),
+         number("scale", &S::scale, 0.0001, 10000, "1", "scale, before the rotation")});
     return table;
 }
 
@@ -72,21 +72,19 @@ const Table& tableOf(const RenderSettings*) {
              "coverage", &S::coverage,
              {{Coverage::sampled, "sampled"}, {Coverage::analytic, "analytic"}},
              "sampled: a strand is where samples hit it; analytic: a strand thinner than a pixel "
-             "is "
-             "as wide as one and as much fainter, which needs a transparency"),
+             "is as wide as one and as much fainter, which needs a transparency"),
          choice(
              "transparency", &S::transparency,
              {{Transparency::none, "none"},
               {Transparency::alpha_to_coverage, "alpha_to_coverage"},
               {Transparency::weighted_blended, "weighted_blended"},
               {Transparency::fragment_list, "fragment_list"}},
-             "what opacity does; none: nothing; alpha_to_coverage: it covers as many samples, "
-             "which "
-             "needs msaa; weighted_blended: McGuire and Bavoil 2013; fragment_list: fragments "
-             "sorted per pixel"),
+             "what opacity does; none: nothing; alpha_to_coverage: covers a fraction of the "
+             "samples, which needs msaa; weighted_blended: McGuire and Bavoil 2013; fragment_list: "
+             "fragments sorted per pixel"),
          number(
              "list_length", &S::list_length, 1, 256, "count",
-             "of fragment_list: fragments that there is room for, per rendered pixel in the mean"),
+             "capacity of fragment_list: mean number of fragments per rendered pixel"),
          choice(
              "tone_map", &S::tone_map,
              {{ToneMap::none, "none"},
@@ -95,7 +93,9 @@ const Table& tableOf(const RenderSettings*) {
               {ToneMap::agx, "agx"}},
              "none: light is added up in display RGB, as in the thesis; the others add up linear "
              "light; srgb: clipped; aces, agx: film-like"),
-         number("exposure", &S::exposure, -20, 20, "stops", "of linear light, before the tone map"),
+         number(
+             "exposure", &S::exposure, -20, 20, "stops",
+             "exposure of linear light, before the tone map"),
          number("background", &S::background, 0, 1, "1", "background colour, display RGB"),
          fileName(
              "environment", &S::environment,
@@ -106,9 +106,9 @@ const Table& tableOf(const RenderSettings*) {
              "factor of the environment's light"),
          number(
              "environment_turn", &S::environment_turn, -360, 360, "deg",
-             "of the environment about +y"),
+             "rotation of the environment about +y"),
          toggle("head", &S::head, "draw the mesh that the hair grows on"),
-         list("meshes", &S::meshes, 16, "other meshes"),
+         list("meshes", &S::meshes, 16, "meshes beside the head"),
          toggle("hair", &S::hair, "draw the strands; without them a frame is its simulation"),
          choice(
              "show", &S::show,
@@ -131,15 +131,14 @@ const Table& tableOf(const RunSettings*) {
         {number("warmup", &S::warmup, 2, 10000, "count", "frames drawn before measuring"),
          number(
              "frames", &S::frames, 1, 1000000, "count",
-             "frames of a round: each round of a mode plays these ones"),
+             "frames of a round; every round of a mode plays the same frames"),
          number(
              "precision", &S::precision, 0, 1, "1",
-             "rounds are played until half the interval of the frame time's median is this share "
-             "of "
-             "it; 0: for max_time"),
+             "rounds are played until the half-width of the confidence interval of the median "
+             "frame time is this fraction of the median; 0: until max_time"),
          number(
              "max_time", &S::max_time, 0, 86400, "s",
-             "no more rounds are begun in a mode after so long; 0: one round"),
+             "time after which no more rounds are begun in a mode; 0: one round"),
          number(
              "frame_time", &S::frame_time, 0, 1, "s",
              "simulated time that a frame advances; 0 draws the same instant again"),

@@ -13,20 +13,22 @@ const Table& tableOf(const LightSettings*) {
               {LightType::directional, "directional"},
               {LightType::sphere, "sphere"}},
              "point; directional: from infinity; sphere: a point light with a radius"),
-         number("position", &S::position, -1000, 1000, "m", "of points and spheres"),
+         number(
+             "position", &S::position, -1000, 1000, "m",
+             "position of a point light, centre of a sphere light"),
          number(
              "direction", &S::direction, -1, 1, "1",
-             "in which the light of a directional one goes"),
+             "direction in which a directional light shines"),
          number(
              "color", &S::color, 0, 100, "1",
-             "what a white matt surface that faces it shows, display RGB"),
+             "colour of a white matt surface that faces the light, display RGB"),
          number("strength", &S::strength, 0, 10000, "1", "factor of color"),
          number(
              "reference_distance", &S::reference_distance, 0, 1000, "m",
-             "distance at which it has its color and beyond which it is weaker; 0: it is the same "
-             "everywhere"),
-         number("radius", &S::radius, 0, 100, "m", "of spheres"),
-         toggle("shadows", &S::shadows, "whether what is between stops it: /shading/shadows")});
+             "distance at which the light has its color and beyond which it is weaker; 0: the same "
+             "at any distance"),
+         number("radius", &S::radius, 0, 100, "m", "radius of a sphere light"),
+         toggle("shadows", &S::shadows, "whether the light casts shadows: /shading/shadows")});
     return table;
 }
 
@@ -38,16 +40,16 @@ const Table& tableOf(const ShadowSettings*) {
              "hair", &S::hair,
              {{HairShadows::none, "none"}, {HairShadows::deep_opacity, "deep_opacity"}},
              "what hair throws on hair and meshes; deep_opacity: Yuksel and Keyser 2008"),
-         number("resolution", &S::resolution, 64, 4096, "px", "side of a light's map"),
+         number("resolution", &S::resolution, 64, 4096, "px", "width and height of a light's map"),
          number(
              "layer_depth", &S::layer_depth, 0.0001, 10, "m",
-             "of the first layer of opacity; each of the next is twice as deep"),
+             "depth of the first opacity layer; each layer is twice as deep as the one before it"),
          number(
              "stopped", &S::stopped, 0, 1, "1",
-             "of phong, kajiya_kay and meshes: part of the light that a strand stops"),
+             "fraction of the light that a strand stops, for phong, kajiya_kay and meshes"),
          number(
              "softness", &S::softness, 0, 16, "px",
-             "radius in the map over which it is averaged")});
+             "radius in a light's map over which its shadow is averaged")});
     return table;
 }
 
@@ -62,7 +64,7 @@ const Table& tableOf(const ShadingSettings*) {
               {ShadingModel::dual_scattering, "dual_scattering"}},
              "how a strand is lit; phong: thesis (5), (6); kajiya_kay: Kajiya and Kay 1989; "
              "marschner: light that a fibre reflects and lets through once (R, TT, TRT), d'Eon et "
-             "al. 2011 and Chiang et al. 2016; dual_scattering: the same and what other strands "
+             "al. 2011 and Chiang et al. 2016; dual_scattering: marschner and what other strands "
              "scatter, Zinke et al. 2008"),
          choice(
              "color_from", &S::color_from,
@@ -78,7 +80,9 @@ const Table& tableOf(const ShadingSettings*) {
          number("ambient", &S::ambient, 0, 10, "1", "ambient factor"),
          number("diffuse", &S::diffuse, 0, 10, "1", "k_d of phong and kajiya_kay"),
          number("specular", &S::specular, 0, 10, "1", "k_s of phong and kajiya_kay"),
-         number("exponent", &S::exponent, 1, 10000, "1", "n of their specular term"),
+         number(
+             "exponent", &S::exponent, 1, 10000, "1",
+             "n, the specular exponent of phong and kajiya_kay"),
          number(
              "longitudinal_roughness", &S::longitudinal_roughness, 0.05, 1, "1",
              "beta_m of marschner and dual_scattering (Chiang et al. 2016)"),

@@ -34,7 +34,7 @@ const Table& tableOf(const FtlSettings*) {
     using S = FtlSettings;
     static const Table table = tableWith<S>({number(
         "velocity_correction", &S::velocity_correction, 0, 1, "1",
-        "part of the projection of the vertex below that a velocity gets back")});
+        "fraction of the next vertex's position correction that a velocity gets back")});
     return table;
 }
 
@@ -51,7 +51,8 @@ const Table& tableOf(const MaterialSettings*) {
         {number("density", &S::density, 1, 20000, "kg/m^3", "mass per volume"),
          number(
              "radius", &S::radius, 1e-6, 0.01, "m",
-             "radius of the round cross-section; stiffness of `rod`, drag of the wind"),
+             "radius of the round cross-section, for the stiffness of `rod` and the drag of the "
+             "wind"),
          number("youngs_modulus", &S::youngs_modulus, 1, 1e12, "Pa", "E: resists bending"),
          number("shear_modulus", &S::shear_modulus, 1, 1e12, "Pa", "G: resists twist")});
     return table;
@@ -141,8 +142,7 @@ const Table& tableOf(const HairHairSettings*) {
          number(
              "repulsion", &S::repulsion, 0, 1000, "m^2/s^2",
              "square of the speed of sound in crowded hair: its pressure over the density beyond "
-             "the crowding; 0.1 to 0.6 for hair of 15 cm; used up to half of (cell / time "
-             "step)^2"),
+             "the crowding; 0.1 to 0.6 for hair of 15 cm; used up to half of (cell / time step)^2"),
          number(
              "crowding", &S::crowding, 0.1, 100, "1",
              "density from which hair repels hair, over the mean density at rest"),
@@ -156,7 +156,7 @@ const Table& tableOf(const HairHairSettings*) {
 const Table& tableOf(const Keyframe*) {
     using S = Keyframe;
     static const Table table = tableWith<S>(
-        {number("time", &S::time, 0, 100000, "s", "simulated time; keyframes are in its order"),
+        {number("time", &S::time, 0, 100000, "s", "simulated time; keyframes are in order of time"),
          number(
              "rotation", &S::rotation, -36000, 36000, "deg",
              "pitch (nod, about +x), yaw (turn, about +y) and roll (about +z), applied roll first"),
@@ -169,7 +169,7 @@ const Table& tableOf(const MotionSettings*) {
     static const Table table = tableWith<S>(
         {list(
              "keyframes", &S::keyframes, 10000,
-             "poses of the head, with smooth motion between them; none: it stands still"),
+             "poses of the head, with smooth motion between them; none: the head stands still"),
          number("pivot", &S::pivot, -100, 100, "m", "point that rotations turn about"),
          toggle(
              "repeat", &S::repeat, "start again with the first keyframe at the time of the last")});
@@ -179,8 +179,10 @@ const Table& tableOf(const MotionSettings*) {
 const Table& tableOf(const PullKey*) {
     using S = PullKey;
     static const Table table = tableWith<S>(
-        {number("time", &S::time, 0, 100000, "s", "simulated time; keys are in its order"),
-         number("position", &S::position, -100, 100, "m", "of the hand; straight between keys")});
+        {number("time", &S::time, 0, 100000, "s", "simulated time; keys are in order of time"),
+         number(
+             "position", &S::position, -100, 100, "m",
+             "position of the hand, which moves straight between keys")});
     return table;
 }
 
@@ -188,15 +190,19 @@ const Table& tableOf(const PullSettings*) {
     using S = PullSettings;
     static const Table table = tableWith<S>(
         {number("guide", &S::guide, 0, 4294967295.0, "1", "guide that is held"),
-         number("vertex", &S::vertex, 1, 65535, "1", "its vertex that is held; 0 is the root"),
+         number(
+             "vertex", &S::vertex, 1, 65535, "1",
+             "vertex of the guide that is held; 0 is the root"),
          number(
              "radius", &S::radius, 0, 10, "m",
-             "at this distance from the vertex, at rest, hair gets 1/e of the acceleration; 0: the "
-             "vertex alone"),
+             "distance from the held vertex, at rest, at which hair gets 1/e of the acceleration; "
+             "0: that vertex alone"),
          number(
              "stiffness", &S::stiffness, 0, 100000, "1/s^2",
              "acceleration by distance from the vertex to the hand; damped critically"),
-         list("path", &S::path, 10000, "where the hand is; none: it does not pull")});
+         list(
+             "path", &S::path, 10000,
+             "keys of the hand's position; none: the hand does not pull")});
     return table;
 }
 
@@ -233,14 +239,13 @@ const Table& tableOf(const SimulationSettings*) {
              "stiffness_scaling", &S::stiffness_scaling,
              {{StiffnessScaling::invariant, "invariant"}, {StiffnessScaling::thesis, "thesis"}},
              "invariant: stiffness means the same at any time step, iteration count and segment "
-             "length; "
-             "thesis: the raw factor, applied once per iteration"),
+             "length; thesis: the raw factor, applied once per iteration"),
          group("global", &S::global, "pull toward the rest position"),
          group("local", &S::local, "pull toward the rest shape"),
          group("length", &S::length, "inextensible segments"),
          group("ftl", &S::ftl, "follow the leader"),
          group("rod", &S::rod, "Cosserat rods"),
-         group("material", &S::material, "of a hair, for `rod` and the drag of the wind"),
+         group("material", &S::material, "material of a hair, for `rod` and the drag of the wind"),
          group("wind", &S::wind, "wind"),
          group("collision", &S::collision, "contact with bodies"),
          list("colliders", &S::colliders, 65536, "capsules that push guides out"),

@@ -25,7 +25,7 @@ const Table& tableOf(const StrandVariationSettings*) {
     static const Table table = tableWith<S>(
         {number("amplitude", &S::amplitude, 0, 1, "m", "largest offset from the smooth strand"),
          number("frequency", &S::frequency, 0, 10000, "1/m", "changes of direction per metre"),
-         number("share", &S::share, 0, 1, "1", "part of the strands that is offset"),
+         number("share", &S::share, 0, 1, "1", "fraction of the strands that is offset"),
          number(
              "start", &S::start, 0, 1, "1",
              "fraction of the length over which the offset grows from 0")});
@@ -40,8 +40,7 @@ const Table& tableOf(const StrandSettings*) {
              {{Backend::tessellation, "tessellation"},
               {Backend::pulling_geometry, "pulling_geometry"}},
              "tessellation: control, isolines, evaluation, geometry; pulling_geometry: points "
-             "evaluated in "
-             "the vertex stage, the same geometry stage"),
+             "evaluated in the vertex stage, the same geometry stage"),
          choice(
              "source", &S::source,
              {{StrandSource::root_triangles, "root_triangles"}, {StrandSource::groom, "groom"}},
@@ -54,15 +53,18 @@ const Table& tableOf(const StrandSettings*) {
               {Interpolation::mixed, "mixed"}},
              "multi: the weighted mean of the three guides; single: the guide that weighs most, "
              "moved to the strand's root; mixed: between the two"),
-         number("blend", &S::blend, 0, 1, "1", "mixed is single at 0 and multi at 1"),
+         number(
+             "blend", &S::blend, 0, 1, "1",
+             "weight of multi in mixed interpolation: 0 is single, 1 is multi"),
          toggle(
              "collision_rule", &S::collision_rule,
-             "from where one of its guides touches a body down to the tip, a strand is single"),
+             "a strand is interpolated as single from where one of its guides touches a body to "
+             "the tip"),
          choice(
              "randomness", &S::randomness,
              {{Randomness::hashed, "hashed"}, {Randomness::thesis, "thesis"}},
-             "places of strands between guides; hashed: other ones in every root triangle; thesis: "
-             "one pattern for all, from a sine"),
+             "where strands are between guides; hashed: different places in every root triangle; "
+             "thesis: one pattern for all triangles, from a sine"),
          number(
              "density", &S::density, 1, 4096, "count",
              "strands per root triangle; the source groom has its own"),
@@ -81,7 +83,7 @@ const Table& tableOf(const StrandSettings*) {
              "to the scene file; empty: none"),
          number(
              "opacity", &S::opacity, 0, 1, "1",
-             "of a strand; /render/transparency makes use of it"),
+             "opacity of a strand, which /render/transparency makes use of"),
          fileName(
              "texture", &S::texture,
              "picture (.png, ...) on strands: across them and, downward, from root to tip; its "
@@ -96,8 +98,8 @@ const Table& tableOf(const StrandSettings*) {
              "thesis's, which floats off the scalp; catmull_rom: through every vertex"),
          choice(
              "taper", &S::taper, {{Taper::strand, "strand"}, {Taper::segment, "segment"}},
-             "strand: width falls along the whole strand; segment: the published program's, "
-             "which restarts in every guide segment"),
+             "strand: width falls along the whole strand; segment: the published program's, which "
+             "restarts in every guide segment"),
          number(
              "taper_start", &S::taper_start, 0, 1, "1",
              "part of the taper over which the width stays root_width"),
