@@ -17,11 +17,52 @@
 namespace benchmarks::viewer {
 namespace {
 
-// ---- User input ---------------------------------------------------------------------------------
-
 constexpr float kPictureTime = 1.0f / 60.0f;  // s
 
+struct Named {
+    std::string_view name;
+    int key;
+};
+
+constexpr Named kModifiers[] = {
+    {"ctrl", ImGuiMod_Ctrl},
+    {"shift", ImGuiMod_Shift},
+    {"alt", ImGuiMod_Alt},
+    {"super", ImGuiMod_Super}};
+
+// Names beside Dear ImGui's own.
+constexpr Named kOthers[] = {
+    {"left", ImGuiKey_LeftArrow}, {"right", ImGuiKey_RightArrow}, {"up", ImGuiKey_UpArrow},
+    {"down", ImGuiKey_DownArrow}, {".", ImGuiKey_Period},         {",", ImGuiKey_Comma},
+    {"/", ImGuiKey_Slash},        {"-", ImGuiKey_Minus},          {"=", ImGuiKey_Equal},
+    {"[", ImGuiKey_LeftBracket},  {"]", ImGuiKey_RightBracket}};
+
+bool isIn(const std::string& window, const std::string& wanted) {
+    return wanted.empty() || window == wanted || window.starts_with(wanted + '/');
+}
+
+// What "##" hides: "##/strands/density" is "/strands/density".
+std::string hiddenPart(const std::string& label) {
+    const std::size_t at = label.find("##");
+    if (at == std::string::npos) return {};
+    return label.substr(std::min(label.find_first_not_of('#', at), label.size()));
+}
+
+bool isCalled(const engine::UiItem& item, const ItemName& name) {
+    if (name.item.empty()) return item.is_window && item.window == name.window;
+    if (item.label.empty() || !isIn(item.window, name.window)) return false;
+    return item.text() == name.item || item.label == name.item ||
+           hiddenPart(item.label) == name.item;
+}
+
+[[noreturn]] void refuse(const std::string& pointer, const char* wanted, const scene::Json& value) {
+    throw engine::Error(
+        pointer, std::string("must be ") + wanted + ", not " + scene::described(value));
+}
+
 }  // namespace
+
+// ---- Mouse and keyboard -------------------------------------------------------------------------
 
 UserInput::UserInput() {
     ImGuiContext* const context = ImGui::GetCurrentContext();
@@ -75,35 +116,13 @@ void UserInput::type(const std::string& text) {
     events_.emplace_back([=](ImGuiIO& io) { io.AddInputCharactersUTF8(text.c_str()); });
 }
 
-namespace {
-
-// ---- Key names ----------------------------------------------------------------------------------
-
-struct Named {
-    std::string_view name;
-    int key;
-};
-
-constexpr Named kModifiers[] = {
-    {"ctrl", ImGuiMod_Ctrl},
-    {"shift", ImGuiMod_Shift},
-    {"alt", ImGuiMod_Alt},
-    {"super", ImGuiMod_Super}};
-
-// Beside Dear ImGui's own names.
-constexpr Named kOthers[] = {
-    {"left", ImGuiKey_LeftArrow}, {"right", ImGuiKey_RightArrow}, {"up", ImGuiKey_UpArrow},
-    {"down", ImGuiKey_DownArrow}, {".", ImGuiKey_Period},         {",", ImGuiKey_Comma},
-    {"/", ImGuiKey_Slash},        {"-", ImGuiKey_Minus},          {"=", ImGuiKey_Equal},
-    {"[", ImGuiKey_LeftBracket},  {"]", ImGuiKey_RightBracket}};
+// ---- Names of keys ------------------------------------------------------------------------------
 
 std::string lowerCase(std::string text) {
     std::ranges::transform(
         text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
 }
-
-}  // namespace
 
 int keyChord(const std::string& text, const std::string& pointer) {
     int chord = 0;
@@ -133,29 +152,7 @@ int keyChord(const std::string& text, const std::string& pointer) {
     throw engine::Error(pointer, scene::unknownName("unknown key", rest, known));
 }
 
-namespace {
-
-// ---- Find item ----------------------------------------------------------------------------------
-
-bool isIn(const std::string& window, const std::string& wanted) {
-    return wanted.empty() || window == wanted || window.starts_with(wanted + '/');
-}
-
-// What "##" hides: "##/strands/density" is "/strands/density".
-std::string hiddenPart(const std::string& label) {
-    const std::size_t at = label.find("##");
-    if (at == std::string::npos) return {};
-    return label.substr(std::min(label.find_first_not_of('#', at), label.size()));
-}
-
-bool isCalled(const engine::UiItem& item, const ItemName& name) {
-    if (name.item.empty()) return item.is_window && item.window == name.window;
-    if (item.label.empty() || !isIn(item.window, name.window)) return false;
-    return item.text() == name.item || item.label == name.item ||
-           hiddenPart(item.label) == name.item;
-}
-
-}  // namespace
+// ---- Names of widgets ---------------------------------------------------------------------------
 
 std::string described(const ItemName& name) {
     if (name.item.empty()) return "window \"" + name.window + '"';
@@ -195,16 +192,7 @@ engine::UiItem itemNamed(const engine::UiItems& items, const ItemName& name) {
         "no " + described(name) + " is seen", wants_window ? name.window : name.item, known));
 }
 
-namespace {
-
-// ---- Members ------------------------------------------------------------------------------------
-
-[[noreturn]] void refuse(const std::string& pointer, const char* wanted, const scene::Json& value) {
-    throw engine::Error(
-        pointer, std::string("must be ") + wanted + ", not " + scene::described(value));
-}
-
-}  // namespace
+// ---- Values in a script -------------------------------------------------------------------------
 
 Members::Members(
     const scene::Json& object, const std::string& pointer, const std::vector<const char*>& known)
@@ -280,7 +268,7 @@ std::vector<std::string> textsOf(const scene::Json& value, const std::string& po
     return texts;
 }
 
-// ---- Driver -------------------------------------------------------------------------------------
+// ---- Pictures of the window ---------------------------------------------------------------------
 
 void Driver::then(std::function<void()> act) {
     acts_.emplace_back([act = std::move(act)] {
@@ -315,7 +303,7 @@ const Side& Driver::side(std::size_t index) const {
     return viewer.side(index);
 }
 
-// ---- Place --------------------------------------------------------------------------------------
+// ---- Places in the window -----------------------------------------------------------------------
 
 std::optional<ItemName> itemOf(const Members& members) {
     const auto item = members.text("item"), window = members.text("window");

@@ -17,12 +17,14 @@ struct ImGuiContext;
 struct ImGuiContextHook;
 struct ImGuiIO;
 
+// What the steps of a script are made from: the mouse and keyboard that they have, the widgets and
+// places that they name, their values as JSON.
 namespace benchmarks::viewer {
 
-// A mouse and a keyboard for Dear ImGui's current context, in place of the user's: what GLFW told
-// of those is dropped just before widgets would see it. Time is no clock's either, but 1/60 s from
-// picture to picture, so that a double click is one on a slow machine. What is called between two
-// pictures is seen by the second. Must not outlive the context.
+// A mouse and a keyboard for Dear ImGui's current context, in place of the user's, whose events are
+// dropped just before widgets would see them. Time advances by 1/60 s from picture to picture, so
+// that a double click is one on a slow machine. What is called between two pictures is seen by the
+// second. Must not outlive the context.
 class UserInput {
 public:
     UserInput();
@@ -30,21 +32,24 @@ public:
     UserInput(const UserInput&) = delete;
     UserInput& operator=(const UserInput&) = delete;
 
-    // px from the window's top left corner.
+    // Moves the mouse, in px from the window's top left corner.
     void move(float x, float y);
     enum class Change { press, release };
     void button(int button, Change change);  // ImGuiMouseButton
-    void wheel(float x, float y);            // notches; up and left are positive
-    void key(int chord, Change change);      // ImGuiKeyChord
+    void wheel(float x, float y);  // notches; up and left are positive
+    void key(int chord, Change change);  // ImGuiKeyChord
     void type(const std::string& text);
 
 private:
     static void feed(ImGuiContext* context, ImGuiContextHook* hook);
 
     unsigned hook_ = 0;
-    bool trickles_ = true;  // as it was before
+    bool trickles_ = true;  // the context's setting before
     std::vector<std::function<void(ImGuiIO&)>> events_;
 };
+
+// Text in lower case, as names of keys and actions are compared.
+std::string lowerCase(std::string text);
 
 // "ctrl+shift+z", "f12", "space", "?": an ImGuiKeyChord. Names are Dear ImGui's (ImGui::GetKeyName)
 // in any case, and the signs that are on keys. Throws engine::Error "<pointer>: ...".
@@ -57,13 +62,14 @@ struct ItemName {
     std::string window;
 };
 
-// Of those that are seen; none where there is none. Throws engine::Error where there are several.
+// The widget of a name among those that are seen; none where there is none. Throws engine::Error
+// where there are several.
 std::optional<engine::UiItem> findItem(const engine::UiItems& items, const ItemName& name);
 
-// Throws engine::Error with what is there instead.
+// findItem(), which must be there. Throws engine::Error with the names that are there instead.
 engine::UiItem itemNamed(const engine::UiItems& items, const ItemName& name);
 
-// "item \"x\" in Scene".
+// A name for messages: "item \"x\" in Scene".
 std::string described(const ItemName& name);
 
 // The members of an object in a script. Errors are "<JSON pointer>: <reason>".
@@ -75,10 +81,10 @@ public:
         const std::vector<const char*>& known);
 
     bool has(const char* name) const;
-    // Throws engine::Error where it is absent.
+    // Throws engine::Error where the member is absent.
     const scene::Json& at(const char* name) const;
 
-    // Absent, or of that type: else they throw engine::Error.
+    // The member in its type; none where it is absent. Throw engine::Error for another type.
     std::optional<std::string> text(const char* name) const;
     std::optional<bool> flag(const char* name) const;
     std::optional<std::uint32_t> count(const char* name) const;
@@ -91,15 +97,15 @@ private:
     std::string pointer_;
 };
 
-// The same of values that are no members.
+// A value in its type. Throw engine::Error "<pointer>: <reason>" for another type.
 std::string textOf(const scene::Json& value, const std::string& pointer);
 bool flagOf(const scene::Json& value, const std::string& pointer);
 std::uint32_t countOf(const scene::Json& value, const std::string& pointer);
 std::array<float, 2> pairOf(const scene::Json& value, const std::string& pointer);
-// One, or an array of them.
+// A string, or an array of strings.
 std::vector<std::string> textsOf(const scene::Json& value, const std::string& pointer);
 
-// What the steps of a script act on. One that takes several pictures of the window says what
+// What the steps of a script act on. A step that takes several pictures of the window says what
 // comes before each of them.
 class Driver {
 public:
@@ -109,19 +115,19 @@ public:
     engine::UiItems items;
     UserInput input;
 
-    // Before the next picture, or after those that were asked for earlier.
+    // Does something before the next picture that nothing was asked for.
     void then(std::function<void()> act);
-    // Pictures with nothing new.
+    // Waits for pictures.
     void wait(int pictures);
-    // So many that everything has answered: the settings are followed, then drawn, then shown.
+    // Waits until everything has answered: settings are followed, then drawn, then shown.
     void settle() { wait(3); }
-    // Pictures until `holds` is true, at most `pictures`: then engine::Error(`failure`).
+    // Waits until `holds` is true. Throws engine::Error(`failure`) after `pictures`.
     void until(std::function<bool()> holds, int pictures, const std::string& failure);
 
-    // What comes before the next picture; false: nothing was asked for.
+    // Does what comes before the next picture; false where nothing was asked for.
     bool goOn();
 
-    // Throws engine::Error where there is none.
+    // Throws engine::Error where there is no such side.
     const Side& side(std::size_t index) const;
 
 private:
@@ -134,12 +140,13 @@ struct Place {
     std::array<float, 2> at{0.5f, 0.5f};
 };
 
-// A name alone, or an object with "item" and "window", and the point as its member `at`; without an
-// item it is in px from the window's top left corner.
+// The widget that the members "item" and "window" name; none where both are absent.
 std::optional<ItemName> itemOf(const Members& members);
+// The place that these two and the point `at` name; without a widget the point is in px from the
+// window's top left corner.
 Place placeOf(const Members& members, const char* at);
 
-// px. Throws engine::Error where the widget is not seen; `at` other shares of it.
+// A place in px. Throws engine::Error where the widget is not seen or is disabled.
 std::array<float, 2> pixelsOf(const Driver& driver, const Place& place);
 
 }  // namespace benchmarks::viewer

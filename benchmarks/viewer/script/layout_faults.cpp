@@ -8,12 +8,10 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-struct ImDrawList;
-
 namespace benchmarks::viewer {
 namespace {
 
-// ---- Drawn letters ------------------------------------------------------------------------------
+// ---- Letters as they were drawn -----------------------------------------------------------------
 
 // A letter as it is drawn, px.
 struct DrawnLetter {
@@ -23,13 +21,13 @@ struct DrawnLetter {
     float right = 0.0f;
     float top = 0.0f;
     float bottom = 0.0f;
-    bool cut = false;  // at its left or right side
+    bool cut = false;  // at the left or right side
 };
 
 // Letters reach over their advance, and so over what was made as wide as their text, by parts of a
 // pixel.
 constexpr float kTolerance = 1.0f;  // px
-// One that is whole has all of its part of the texture, to the last bit.
+// Share of its part of the texture from which on a letter is whole.
 constexpr float kWhole = 0.999f;
 
 struct Quad {
@@ -80,9 +78,9 @@ bool isCut(const Quad& quad, const ImFontGlyph& glyph, const ImVec4& clip) {
            quad.last.pos.x > clip.z + kTolerance;
 }
 
-// Those of a list of drawing commands. Dear ImGui cuts letters in two ways: it makes the rectangle
-// of the letter smaller itself, or lets the device do so by a clip rectangle. What is cut at the
-// top or bottom was scrolled there.
+// The letters of a list of drawing commands. Dear ImGui cuts letters in two ways: it makes the
+// rectangle of the letter smaller itself, or lets the device do so by a clip rectangle. What is cut
+// at the top or bottom was scrolled there.
 std::vector<DrawnLetter> drawnLetters(const ImDrawList& list) {
     std::vector<DrawnLetter> letters;
     const ImTextureID texture = ImGui::GetIO().Fonts->TexID;
@@ -106,7 +104,7 @@ std::vector<DrawnLetter> drawnLetters(const ImDrawList& list) {
     return letters;
 }
 
-// ---- Layout faults ------------------------------------------------------------------------------
+// ---- Faults -------------------------------------------------------------------------------------
 
 std::string pixels(float number) {
     return std::to_string(static_cast<int>(std::ceil(number))) + " px";

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/scene/json.h"
+#include "benchmarks/viewer/player.h"
 #include "benchmarks/viewer/script/input.h"
 #include "benchmarks/viewer/script/verbs.h"
 #include "engine/files.h"

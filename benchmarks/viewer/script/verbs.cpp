@@ -13,6 +13,8 @@
 
 #include "benchmarks/scene/json.h"
 #include "benchmarks/scene/settings_json.h"
+#include "benchmarks/viewer/actions.h"
+#include "benchmarks/viewer/player.h"
 #include "benchmarks/viewer/scene_file.h"
 #include "benchmarks/viewer/script/input.h"
 #include "benchmarks/viewer/script/layout_faults.h"
@@ -23,37 +25,9 @@
 namespace benchmarks::viewer {
 namespace {
 
-// ---- Verbs --------------------------------------------------------------------------------------
+// ---- Steps that fail where what they say does not hold ------------------------------------------
 
-constexpr Verb kVerbs[] = {
-    {"wait", readWait},       {"frames", readFrames}, {"play", readPlay},
-    {"seek", readSeek},       {"set", readSet},       {"perform", readPerform},
-    {"drop", readDrop},       {"resize", readResize}, {"move", readMove},
-    {"click", readClick},     {"drag", readDrag},     {"scroll", readScroll},
-    {"key", readKey},         {"type", readType},     {"screenshot", readScreenshot},
-    {"picture", readPicture}, {"save", readSave},     {"state", readState},
-    {"expect", readExpect},
-};
-
-}  // namespace
-
-std::span<const Verb> verbTable() { return kVerbs; }
-
-const Verb& verbNamed(const std::string& name, const std::string& pointer) {
-    const auto found = std::ranges::find(kVerbs, std::string_view(name), &Verb::name);
-    if (found != std::end(kVerbs)) return *found;
-    std::vector<std::string> known;
-    for (const Verb& verb : kVerbs) known.emplace_back(verb.name);
-    throw engine::Error(pointer, scene::unknownName("unknown verb", name, known));
-}
-
-namespace {
-
-// ---- Expect -------------------------------------------------------------------------------------
-
-// Steps that fail where what they say does not hold.
-
-// What one member of "expect" says. `side` is what it says it of.
+// What one member of "expect" says of a side.
 using Check = std::function<void(const Driver&, const Side& side)>;
 
 struct Expectation {
@@ -76,7 +50,7 @@ Check readHash(const scene::Json& value, const std::string& pointer, const Scrip
     };
 }
 
-// Of the first side in a file that "state" wrote.
+// The picture's hash of the first side in a file that "state" wrote.
 std::string hashIn(const std::filesystem::path& file) {
     const scene::Json state = scene::parseJson(engine::readFile(file), file.string());
     const scene::Json::json_pointer place("/sides/0/image_hash");
@@ -195,7 +169,7 @@ Check readItem(const scene::Json& value, const std::string& pointer, const Scrip
     };
 }
 
-// Of many, the first few say enough.
+// Fails where there are faults, with the first few of them.
 void checkNone(const std::vector<std::string>& faults) {
     constexpr std::size_t kMost = 5;
     if (faults.empty()) return;
@@ -234,8 +208,6 @@ constexpr Expectation kExpectations[] = {
     {"nothing_outside", readNothingOutside},
 };
 
-}  // namespace
-
 Act readExpect(const scene::Json& value, const std::string& pointer, const ScriptFolders& folders) {
     std::vector<const char*> known{"side"};
     for (const Expectation& row : kExpectations) known.push_back(row.name);
@@ -251,9 +223,7 @@ Act readExpect(const scene::Json& value, const std::string& pointer, const Scrip
     };
 }
 
-namespace {
-
-// ---- Shown state --------------------------------------------------------------------------------
+// ---- Steps that write files ---------------------------------------------------------------------
 
 scene::Json sideState(const Side& side) {
     const Player& player = side.player();
@@ -298,10 +268,6 @@ scene::Json shownState(const Driver& driver) {
         {"items", items}};
 }
 
-// ---- File verbs ---------------------------------------------------------------------------------
-
-// Steps that write files.
-
 struct OneSide {
     std::filesystem::path file;
     std::uint32_t side = 0;
@@ -316,8 +282,6 @@ oneSide(const scene::Json& value, const std::string& pointer, const ScriptFolder
         folders.out / textOf(members.at("file"), members.pointerOf("file")),
         members.count("side").value_or(0)};
 }
-
-}  // namespace
 
 Act readScreenshot(
     const scene::Json& value, const std::string& pointer, const ScriptFolders& folders) {
@@ -354,9 +318,7 @@ Act readState(const scene::Json& value, const std::string& pointer, const Script
     };
 }
 
-// ---- Key verbs ----------------------------------------------------------------------------------
-
-// Steps of the keyboard.
+// ---- Steps of the keyboard ----------------------------------------------------------------------
 
 Act readKey(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
     const int chord = keyChord(textOf(value, pointer), pointer);
@@ -375,15 +337,11 @@ Act readType(const scene::Json& value, const std::string& pointer, const ScriptF
     };
 }
 
-namespace {
-
-// ---- Mouse verbs --------------------------------------------------------------------------------
-
-// Steps of the mouse.
+// ---- Steps of the mouse -------------------------------------------------------------------------
 
 using Change = UserInput::Change;
 
-constexpr int kDragPictures = 6;  // from one end to the other
+constexpr int kDragPictures = 6;  // pictures that a drag takes from one end to the other
 
 // In the order of ImGuiMouseButton.
 constexpr std::string_view kButtons[] = {"left", "right", "middle"};
@@ -398,7 +356,7 @@ int buttonOf(const Members& members) {
     return static_cast<int>(found - std::begin(kButtons));
 }
 
-// What is held down on the keyboard meanwhile.
+// The keys that are held down while the mouse does something.
 int keysOf(const Members& members) {
     const auto keys = members.text("keys");
     return keys ? keyChord(*keys, members.pointerOf("keys")) : 0;
@@ -426,8 +384,6 @@ void moveTo(Driver& driver, std::array<float, 2> to) {
 scene::Json asObject(const scene::Json& value) {
     return value.is_string() ? scene::Json{{"item", value}} : value;
 }
-
-}  // namespace
 
 Act readMove(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
     const scene::Json object = asObject(value);
@@ -493,9 +449,7 @@ Act readScroll(const scene::Json& value, const std::string& pointer, const Scrip
     };
 }
 
-// ---- Play verbs ---------------------------------------------------------------------------------
-
-// Steps about time.
+// ---- Steps about time ---------------------------------------------------------------------------
 
 Act readWait(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
     const auto pictures = static_cast<int>(countOf(value, pointer));
@@ -528,19 +482,9 @@ Act readSeek(const scene::Json& value, const std::string& pointer, const ScriptF
     };
 }
 
-namespace {
-
-// ---- Scene verbs --------------------------------------------------------------------------------
-
-// Steps about the scene and the window, without mouse and keys.
+// ---- Steps about the scene and the window -------------------------------------------------------
 
 constexpr int kLongestResize = 200;  // pictures: desktops answer when they like
-
-std::string lowerCase(std::string text) {
-    std::ranges::transform(
-        text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 // "File/Open scene", without the dots that menus have.
 std::string fullName(const ActionRow& row) {
@@ -564,8 +508,6 @@ Action actionNamed(const std::string& name, const std::string& pointer) {
         throw engine::Error(pointer, scene::unknownName("unknown action", name, known));
     throw engine::Error(pointer, "several menus have a \"" + name + "\"; write <menu>/" + name);
 }
-
-}  // namespace
 
 Act readSet(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
     if (!value.is_object() || value.empty())
@@ -623,6 +565,28 @@ Act readResize(const scene::Json& value, const std::string& pointer, const Scrip
             kLongestResize, "the desktop does not give the window that size");
         driver.settle();
     };
+}
+
+// ---- The table ----------------------------------------------------------------------------------
+
+constexpr Verb kVerbs[] = {
+    {"wait", readWait},       {"frames", readFrames}, {"play", readPlay},
+    {"seek", readSeek},       {"set", readSet},       {"perform", readPerform},
+    {"drop", readDrop},       {"resize", readResize}, {"move", readMove},
+    {"click", readClick},     {"drag", readDrag},     {"scroll", readScroll},
+    {"key", readKey},         {"type", readType},     {"screenshot", readScreenshot},
+    {"picture", readPicture}, {"save", readSave},     {"state", readState},
+    {"expect", readExpect},
+};
+
+}  // namespace
+
+const Verb& verbNamed(const std::string& name, const std::string& pointer) {
+    const auto found = std::ranges::find(kVerbs, std::string_view(name), &Verb::name);
+    if (found != std::end(kVerbs)) return *found;
+    std::vector<std::string> known;
+    for (const Verb& verb : kVerbs) known.emplace_back(verb.name);
+    throw engine::Error(pointer, scene::unknownName("unknown verb", name, known));
 }
 
 }  // namespace benchmarks::viewer
