@@ -11,7 +11,7 @@
 namespace benchmarks::viewer {
 namespace {
 
-// ---- Action -------------------------------------------------------------------------------------
+// ---- The table and its keys ---------------------------------------------------------------------
 
 constexpr int kCtrl = ImGuiMod_Ctrl;
 constexpr int kShift = ImGuiMod_Shift;
@@ -27,7 +27,7 @@ constexpr std::array kActions{
         "writes exactly the state shown as a scene that the runner plays to the same picture"},
     ActionRow{
         Action::save_scene_as, "File", "Save scene as...", kCtrl | kShift | ImGuiKey_S,
-        "Ctrl+Shift+S", "the same, to another file"},
+        "Ctrl+Shift+S", "writes the state shown as a scene, to a path that is asked for"},
     ActionRow{
         Action::copy_axes, "File", "Copy as -a...", kCtrl | kShift | ImGuiKey_C, "Ctrl+Shift+C",
         "puts what differs from the scene on the clipboard, as options of the command line"},
@@ -44,11 +44,10 @@ constexpr std::array kActions{
         "takes the last change of a setting back"},
     ActionRow{
         Action::redo, "Edit", "Redo", kCtrl | ImGuiKey_Y, "Ctrl+Y",
-        "makes a change again that was taken back"},
+        "makes the change again that was taken back last"},
 
     ActionRow{Action::play, "Play", "Play", ImGuiKey_Space, "Space", "plays or pauses"},
-    ActionRow{
-        Action::step, "Play", "Step", ImGuiKey_Period, ".", "plays one frame, while it is paused"},
+    ActionRow{Action::step, "Play", "Step", ImGuiKey_Period, ".", "plays one frame, while paused"},
     ActionRow{Action::restart, "Play", "Restart", ImGuiKey_Home, "Home", "back to frame 0"},
 
     ActionRow{
@@ -115,10 +114,11 @@ constexpr std::array kActions{
         "shows the scene twice, as A and B, whose settings can differ"},
     ActionRow{
         Action::edit_other, "Window", "Edit the other side", ImGuiKey_Tab, "Tab",
-        "the panel of settings is that of the other side"},
+        "makes the panel of settings that of the other side"},
     ActionRow{
         Action::panel_scene, "Window", "Scene", kCtrl | ImGuiKey_1, "Ctrl+1", "every setting"},
-    ActionRow{Action::panel_files, "Window", "Files", kCtrl | ImGuiKey_2, "Ctrl+2", "other scenes"},
+    ActionRow{
+        Action::panel_files, "Window", "Files", kCtrl | ImGuiKey_2, "Ctrl+2", "scenes to open"},
     ActionRow{
         Action::panel_timings, "Window", "Timings", kCtrl | ImGuiKey_3, "Ctrl+3",
         "where the time goes"},
@@ -128,11 +128,16 @@ constexpr std::array kActions{
     ActionRow{
         Action::panel_shaders, "Window", "Shaders", kCtrl | ImGuiKey_5, "Ctrl+5",
         "what was reloaded, and what the compiler says"},
-    ActionRow{Action::left_column, "Window", "Left column", ImGuiKey_F9, "F9", "shows or hides it"},
     ActionRow{
-        Action::right_column, "Window", "Right column", ImGuiKey_F10, "F10", "shows or hides it"},
+        Action::left_column, "Window", "Left column", ImGuiKey_F9, "F9",
+        "shows or hides the left column"},
+    ActionRow{
+        Action::right_column, "Window", "Right column", ImGuiKey_F10, "F10",
+        "shows or hides the right column"},
 
-    ActionRow{Action::help, "Help", "Keys and mouse", ImGuiKey_F1, "? or F1", "shows these lines"},
+    ActionRow{
+        Action::help, "Help", "Keys and mouse", ImGuiKey_F1, "? or F1",
+        "shows the keys and what the mouse does"},
 };
 
 bool repeats(Action action) {
@@ -146,47 +151,13 @@ bool isPressed(const ActionRow& row) {
     return ImGui::IsKeyPressed(key, repeats(row.action));
 }
 
-}  // namespace
-
-std::span<const ActionRow> actionTable() { return kActions; }
-
-const ActionRow& rowOf(Action action) {
-    return *std::ranges::find(kActions, action, &ActionRow::action);
-}
-
-std::vector<std::span<const ActionRow>> actionMenus() {
-    std::vector<std::span<const ActionRow>> menus;
-    auto first = kActions.begin();
-    while (first != kActions.end()) {
-        const auto last = std::find_if(first, kActions.end(), [&](const ActionRow& row) {
-            return std::string_view(row.menu) != first->menu;
-        });
-        menus.emplace_back(first, last);
-        first = last;
-    }
-    return menus;
-}
-
-std::vector<Action> pressedActions() {
-    std::vector<Action> actions;
-    if (ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup))
-        return actions;
-    for (const ActionRow& row : kActions)
-        if (isPressed(row)) actions.push_back(row.action);
-    // Where the sign is depends on the keyboard.
-    if (ImGui::GetIO().InputQueueCharacters.contains('?')) actions.push_back(Action::help);
-    return actions;
-}
-
-namespace {
-
-// ---- Help panel ---------------------------------------------------------------------------------
+// ---- Help ---------------------------------------------------------------------------------------
 
 struct Gesture {
     const char* what;
     const char* does;
 };
-// What no action does.
+// Gestures that are no actions.
 constexpr std::array kMouse{
     Gesture{"Left drag", "camera: orbits; other tools: moves their handles"},
     Gesture{"Right or middle drag", "pans"},
@@ -234,33 +205,9 @@ void keysOf(std::span<const ActionRow> rows) {
     ImGui::EndTable();
 }
 
-}  // namespace
-
-void helpPanel(bool& open) {
-    if (!open) return;
-    const ImVec2 room = ImGui::GetMainViewport()->Size;
-    const float letter = ImGui::GetFontSize();
-    ImGui::SetNextWindowSize(
-        {std::min(44.0f * letter, room.x - 2.0f * letter),
-         std::min(40.0f * letter, room.y - 4.0f * letter)});
-    ImGui::SetNextWindowPos({room.x * 0.5f, room.y * 0.5f}, ImGuiCond_Always, {0.5f, 0.5f});
-    constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                                        ImGuiWindowFlags_NoCollapse |
-                                        ImGuiWindowFlags_NoSavedSettings;
-    if (ImGui::Begin("Keys and mouse", &open, kFlags)) {
-        gestures("Mouse in the picture", kMouse);
-        gestures("Widgets", kWidgets);
-        for (const auto& rows : actionMenus()) keysOf(rows);
-    }
-    ImGui::End();
-    if (ImGui::IsKeyPressed(ImGuiKey_Escape)) open = false;
-}
-
-namespace {
-
 // ---- Menu bar -----------------------------------------------------------------------------------
 
-// Those before which a menu has a line.
+// Whether a menu has a separator before an action.
 bool startsGroup(Action action) {
     switch (action) {
     case Action::copy_axes:
@@ -288,6 +235,62 @@ bool item(const ActionRow& row, const ActionState& state) {
 
 }  // namespace
 
+// ---- The table and its keys ---------------------------------------------------------------------
+
+std::span<const ActionRow> actionTable() { return kActions; }
+
+const ActionRow& rowOf(Action action) {
+    return *std::ranges::find(kActions, action, &ActionRow::action);
+}
+
+std::vector<std::span<const ActionRow>> actionMenus() {
+    std::vector<std::span<const ActionRow>> menus;
+    auto first = kActions.begin();
+    while (first != kActions.end()) {
+        const auto last = std::find_if(first, kActions.end(), [&](const ActionRow& row) {
+            return std::string_view(row.menu) != first->menu;
+        });
+        menus.emplace_back(first, last);
+        first = last;
+    }
+    return menus;
+}
+
+std::vector<Action> pressedActions() {
+    std::vector<Action> actions;
+    if (ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup))
+        return actions;
+    for (const ActionRow& row : kActions)
+        if (isPressed(row)) actions.push_back(row.action);
+    // Where the sign is depends on the keyboard.
+    if (ImGui::GetIO().InputQueueCharacters.contains('?')) actions.push_back(Action::help);
+    return actions;
+}
+
+// ---- Help ---------------------------------------------------------------------------------------
+
+void helpPanel(bool& open) {
+    if (!open) return;
+    const ImVec2 room = ImGui::GetMainViewport()->Size;
+    const float letter = ImGui::GetFontSize();
+    ImGui::SetNextWindowSize(
+        {std::min(44.0f * letter, room.x - 2.0f * letter),
+         std::min(40.0f * letter, room.y - 4.0f * letter)});
+    ImGui::SetNextWindowPos({room.x * 0.5f, room.y * 0.5f}, ImGuiCond_Always, {0.5f, 0.5f});
+    constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                        ImGuiWindowFlags_NoCollapse |
+                                        ImGuiWindowFlags_NoSavedSettings;
+    if (ImGui::Begin("Keys and mouse", &open, kFlags)) {
+        gestures("Mouse in the picture", kMouse);
+        gestures("Widgets", kWidgets);
+        for (const auto& rows : actionMenus()) keysOf(rows);
+    }
+    ImGui::End();
+    if (ImGui::IsKeyPressed(ImGuiKey_Escape)) open = false;
+}
+
+// ---- Menu bar -----------------------------------------------------------------------------------
+
 std::vector<Action> menuBar(const std::function<ActionState(Action)>& state) {
     std::vector<Action> chosen;
     if (!ImGui::BeginMainMenuBar()) return chosen;
@@ -303,7 +306,7 @@ std::vector<Action> menuBar(const std::function<ActionState(Action)>& state) {
     return chosen;
 }
 
-// ---- Setting actions ----------------------------------------------------------------------------
+// ---- What an action stands for ------------------------------------------------------------------
 
 bool* switchOf(Action action, hair::Settings& settings) {
     hair::OverlaySettings& overlays = settings.render.overlays;

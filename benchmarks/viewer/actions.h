@@ -9,9 +9,9 @@
 #include "benchmarks/viewer/toolbar.h"
 #include "hair/settings.h"
 
+// What the menus and keys do: a table of actions, from which menu bar, keys and help are made.
 namespace benchmarks::viewer {
 
-// What the menus and keys do.
 enum class Action {
     open_scene,
     save_scene,
@@ -22,7 +22,7 @@ enum class Action {
     quit,
     undo,
     redo,
-    play,  // and pause
+    play,  // plays or pauses
     step,
     restart,
     frame_groom,
@@ -43,7 +43,7 @@ enum class Action {
     tool_head,
     tool_colliders,
     compare,  // on and off
-    edit_other,  // of two sides
+    edit_other,  // the other of two sides
     present_fifo,
     present_mailbox,
     present_immediate,
@@ -65,21 +65,21 @@ inline constexpr Action kLastAction = Action::help;
 
 struct ActionRow {
     Action action;
-    const char* menu;  // that it is in
-    const char* name;  // there
+    const char* menu;  // the menu's name
+    const char* name;  // the item's name
     int key;           // ImGuiKeyChord; 0: none
-    const char* keys;  // as people read it
+    const char* keys;  // the keys as people read them
     const char* help;
 };
 
-// In the order of the menus.
+// All actions, in the order of the menus.
 std::span<const ActionRow> actionTable();
 const ActionRow& rowOf(Action action);
-// The same, menu by menu.
+// The rows of each menu.
 std::vector<std::span<const ActionRow>> actionMenus();
 
-// Those whose keys were pressed since the last picture; none while text is being typed or a menu is
-// open.
+// The actions whose keys were pressed since the last picture; none while text is being typed or a
+// menu is open.
 std::vector<Action> pressedActions();
 
 // A window of Dear ImGui with the keys and the mouse's buttons, over everything else while `open`;
@@ -92,17 +92,17 @@ struct ActionState {
     bool enabled = true;
 };
 
-// The window's menu, made from the table of actions; those that were chosen. `state` is asked about
-// the ones that are seen.
+// Shows the window's menu, made from the table of actions, and returns the actions that were
+// chosen. `state` is asked about the actions that are seen.
 std::vector<Action> menuBar(const std::function<ActionState(Action)>& state);
 
-// The setting that an action switches on and off; null: it is no such action.
+// The setting that an action switches on and off; null where it switches none.
 bool* switchOf(Action action, hair::Settings& settings);
 
-// The tool that an action takes up.
+// The tool that an action takes up; none where it takes up none.
 std::optional<Tool> toolOf(Action action);
 
-// The preset that an action looks from, which has its name; null: it is no such action.
+// The preset that an action looks from, which has its name; null where there is none.
 const CameraPreset* presetOf(Action action);
 
 }  // namespace benchmarks::viewer

@@ -10,9 +10,7 @@
 
 namespace benchmarks::viewer {
 
-using engine::Access;
-
-// ---- Difference pass ----------------------------------------------------------------------------
+// ---- The pass -----------------------------------------------------------------------------------
 
 namespace gpu {
 using uint = std::uint32_t;
@@ -36,7 +34,6 @@ DifferencePass::DifferencePass(const engine::Device& device)
 void DifferencePass::record(
     engine::Commands& commands, const engine::Image& a, const engine::Image& b,
     const engine::Image& difference, std::uint32_t gain) {
-    using engine::Access;
     const auto [width, height] = difference.extent();
     pixels_ = std::uint64_t{width} * height;
     commands.barrier(engine::Access::anything, engine::Access::transfer_write);
@@ -62,7 +59,7 @@ DifferenceFigures DifferencePass::figures() const {
         .sum = std::uint64_t{counts.carry} << 32 | counts.sum};
 }
 
-// ---- Difference text ----------------------------------------------------------------------------
+// ---- Words --------------------------------------------------------------------------------------
 
 std::string differenceText(const DifferenceFigures& figures) {
     if (figures.different == 0) return "identical";
@@ -71,7 +68,7 @@ std::string differenceText(const DifferenceFigures& figures) {
            report::shortNumber(100.0 * figures.share()) + " % of the pixels differ";
 }
 
-// ---- Shown picture ------------------------------------------------------------------------------
+// ---- Pictures that widgets show -----------------------------------------------------------------
 
 const engine::Image&
 ShownPicture::renew(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage) {
@@ -102,7 +99,7 @@ void ShownPicture::copy(engine::Commands& commands, const engine::Image& output)
         engine::Access::transfer_write, engine::Access::graphics_read);
 }
 
-// ---- Picture difference -------------------------------------------------------------------------
+// ---- The difference as a picture ----------------------------------------------------------------
 
 void PictureDifference::record(
     engine::Commands& commands, const ShownPicture& a, const ShownPicture& b, std::uint32_t gain) {

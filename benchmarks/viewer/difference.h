@@ -14,20 +14,19 @@ class Commands;
 class Image;
 }  // namespace engine
 
-namespace engine {}  // namespace engine
-
+// Copies of the drawn pictures for widgets, and the difference of two: as a picture and in figures.
 namespace benchmarks::viewer {
 
 // How much two pictures differ, in steps of 1/255 of display colours. Exact.
 struct DifferenceFigures {
-    std::uint64_t pixels = 0;     // of a picture
-    std::uint64_t different = 0;  // of them, in one channel at least
-    std::uint32_t most = 0;       // of one channel
-    std::uint64_t sum = 0;        // over red, green and blue of all pixels
+    std::uint64_t pixels = 0;  // of a picture
+    std::uint64_t different = 0;  // pixels that differ in at least one channel
+    std::uint32_t most = 0;  // largest difference of a channel
+    std::uint64_t sum = 0;  // of differences over red, green and blue of all pixels
 
-    // Of a channel of a pixel.
+    // Mean difference of a channel of a pixel.
     double mean() const { return static_cast<double>(sum) / (3.0 * static_cast<double>(pixels)); }
-    // Of the pixels, that differ.
+    // Share of the pixels that differ.
     double share() const { return static_cast<double>(different) / static_cast<double>(pixels); }
 
     bool operator==(const DifferenceFigures&) const = default;
@@ -45,7 +44,7 @@ public:
         engine::Commands& commands, const engine::Image& a, const engine::Image& b,
         const engine::Image& difference, std::uint32_t gain);
 
-    // Of the pictures recorded last, once the device is done with them.
+    // The figures of the pictures recorded last, once the device is done with them.
     DifferenceFigures figures() const;
 
 private:
@@ -63,11 +62,12 @@ class ShownPicture {
 public:
     explicit ShownPicture(const engine::Device& device) : device_(device) {}
 
-    // Records the copy of what was drawn. The device must be done with the last one.
+    // Records the copy of what was drawn. The device must be done with the last copy.
     void copy(engine::Commands& commands, const engine::Image& output);
 
-    // The image, of that size and with undefined contents, for who records into it instead and
-    // leaves it in SHADER_READ_ONLY_OPTIMAL. The device must be done with the last one.
+    // The image, of that size and with undefined contents, for callers that record into it instead
+    // of a copy and leave it in SHADER_READ_ONLY_OPTIMAL. The device must be done with the last
+    // picture.
     const engine::Image& renew(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage);
 
     bool isThere() const { return shown_ != nullptr; }
@@ -85,27 +85,27 @@ private:
 
     const engine::Device& device_;
     std::unique_ptr<Shown> shown_;
-    // Of another size: widgets that are about to be drawn still show it.
+    // The last picture of another size: widgets that are about to be drawn still show it.
     std::unique_ptr<Shown> retired_;
 };
 
-// The difference of two pictures that are shown, as one that can be shown too.
+// The difference of two pictures that are shown, as a picture that can be shown too.
 class PictureDifference {
 public:
     explicit PictureDifference(const engine::Device& device) : pass_(device), picture_(device) {}
 
-    // Of pictures of one size whose copies were recorded before. The device must be done with the
-    // last one.
+    // Records the difference of pictures of one size whose copies were recorded before. The device
+    // must be done with the last difference.
     void record(
         engine::Commands& commands, const ShownPicture& a, const ShownPicture& b,
         std::uint32_t gain);
 
-    // Nothing is to be known of the last one any more.
+    // Drops the last difference and its figures.
     void forget();
 
     bool isThere() const { return recorded_; }
     const ShownPicture& picture() const { return picture_; }
-    // Of the picture before the last one, which the device is done with.
+    // The figures of the difference before the last one, which the device is done with.
     const std::optional<DifferenceFigures>& figures() const { return figures_; }
 
 private:

@@ -1,7 +1,6 @@
 #include "benchmarks/viewer/recorder.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <string>
 
 #include "benchmarks/scene/scene.h"
@@ -13,21 +12,19 @@
 namespace benchmarks::viewer {
 namespace {
 
-// ---- Four digits --------------------------------------------------------------------------------
-
 // "0012"; larger numbers have as many digits as they need.
-inline std::string fourDigits(std::uint32_t number) {
+std::string fourDigits(std::uint32_t number) {
     std::string digits = std::to_string(number);
     return std::string(4 - std::min<std::size_t>(digits.size(), 4), '0') + digits;
 }
-
-// ---- Recorder -----------------------------------------------------------------------------------
 
 std::filesystem::path pictureOf(const std::filesystem::path& folder, std::uint32_t number) {
     return folder / (fourDigits(number) + ".png");
 }
 
 }  // namespace
+
+// ---- Recordings ---------------------------------------------------------------------------------
 
 void Recorder::start(const std::filesystem::path& folder) {
     const std::filesystem::path first = pictureOf(folder, 0);
@@ -61,7 +58,7 @@ std::string Recorder::message() const {
            " to " + folder_->string();
 }
 
-// ---- Screenshot ---------------------------------------------------------------------------------
+// ---- Screenshots --------------------------------------------------------------------------------
 
 void writeScreenshot(
     const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,

@@ -12,15 +12,31 @@
 namespace benchmarks::viewer {
 namespace {
 
-// ---- List pages ---------------------------------------------------------------------------------
-
-constexpr std::size_t kElements = 10;  // of a page
+constexpr std::size_t kElements = 10;  // per page
 
 std::size_t pages(std::size_t count) {
     return std::max<std::size_t>((count + kElements - 1) / kElements, 1);
 }
 
+constexpr std::array<std::string_view, 4> kAcronyms{"ftl", "lod", "msaa", "ssaa"};
+
+constexpr std::array kSigns{
+    std::pair<std::string_view, std::string_view>{"^2", "²"},
+    std::pair<std::string_view, std::string_view>{"^3", "³"},
+    std::pair<std::string_view, std::string_view>{"deg", "°"}};
+
+// Makes room where Dear ImGui has more to write.
+int resize(ImGuiInputTextCallbackData* data) {
+    if (data->EventFlag != ImGuiInputTextFlags_CallbackResize) return 0;
+    auto& text = *static_cast<std::string*>(data->UserData);
+    text.resize(static_cast<std::size_t>(data->BufTextLen));
+    data->Buf = text.data();
+    return 0;
+}
+
 }  // namespace
+
+// ---- Pages of a list ----------------------------------------------------------------------------
 
 ElementRange elementsOf(std::size_t page, std::size_t count) {
     const std::size_t first = std::min(page, pages(count) - 1) * kElements;
@@ -43,13 +59,7 @@ ElementRange turnPages(std::size_t count) {
     return elementsOf(static_cast<std::size_t>(page), count);
 }
 
-namespace {
-
 // ---- Names --------------------------------------------------------------------------------------
-
-constexpr std::array<std::string_view, 4> kAcronyms{"ftl", "lod", "msaa", "ssaa"};
-
-}  // namespace
 
 std::string shownName(std::string_view name) {
     std::string shown(name);
@@ -73,16 +83,7 @@ std::string searchable(std::string_view text) {
     return found;
 }
 
-namespace {
-
-// ---- Number text --------------------------------------------------------------------------------
-
-constexpr std::array kSigns{
-    std::pair<std::string_view, std::string_view>{"^2", "²"},
-    std::pair<std::string_view, std::string_view>{"^3", "³"},
-    std::pair<std::string_view, std::string_view>{"deg", "°"}};
-
-}  // namespace
+// ---- Numbers and units --------------------------------------------------------------------------
 
 std::string shownUnit(const char* unit) {
     std::string text = unit;
@@ -107,26 +108,13 @@ std::string numberFormat(const char* conversion, const char* unit) {
 
 double dragSpeed(double value, double minimum, double maximum) {
     const double range = maximum - minimum;
-    // All of a small range across a panel.
+    // A drag across a panel covers all of a small range.
     if (range <= 4.0) return range / 400.0;
-    // Of a large one a hundredth of what the number is, so that the digits that matter move.
+    // In a large range a pixel is a hundredth of the number, so that the digits that matter move.
     return std::max(std::abs(value) * 0.01, std::min(range / 4000.0, 0.01));
 }
 
-namespace {
-
-// ---- Text input ---------------------------------------------------------------------------------
-
-// Makes room where Dear ImGui has more to write.
-int resize(ImGuiInputTextCallbackData* data) {
-    if (data->EventFlag != ImGuiInputTextFlags_CallbackResize) return 0;
-    auto& text = *static_cast<std::string*>(data->UserData);
-    text.resize(static_cast<std::size_t>(data->BufTextLen));
-    data->Buf = text.data();
-    return 0;
-}
-
-}  // namespace
+// ---- Fields of text -----------------------------------------------------------------------------
 
 bool textInput(const char* label, std::string& text, const char* hint) {
     return ImGui::InputTextWithHint(

@@ -14,15 +14,16 @@
 
 #include <imgui.h>
 
+#include "benchmarks/report/text.h"
 #include "engine/pipeline.h"
 #include "engine/shaders.h"
 
 namespace benchmarks::viewer {
 namespace {
 
-// ---- Selectable text ----------------------------------------------------------------------------
+// ---- Text that can be copied --------------------------------------------------------------------
 
-// With line breaks where words go on in the next line.
+// Text with line breaks where words go on in the next line.
 std::string wrapped(const std::string& text, float width) {
     std::string lines;
     const char* const end = text.data() + text.size();
@@ -59,9 +60,103 @@ void selectableText(const char* id, const std::string& text, const ImVec4& color
     ImGui::PopStyleColor(2);
 }
 
+// ---- Reload -------------------------------------------------------------------------------------
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kBetweenLooks = std::chrono::milliseconds(250);
+
+std::string lineOf(const WatchedFiles::Text& text, int line) {
+    std::istringstream lines(text.value_or(""));
+    std::string found;
+    for (int i = 0; i < line; ++i)
+        if (!std::getline(lines, found)) return {};
+    return found;
+}
+
+// ---- The panel ----------------------------------------------------------------------------------
+
+ImVec4 textColor() { return ImGui::GetStyleColorVec4(ImGuiCol_Text); }
+
+// Red, and readable on dark as on light.
+ImVec4 problemColor() {
+    const ImVec4 text = textColor();
+    return {
+        0.3f * text.x + 0.7f * 0.9f, 0.3f * text.y + 0.7f * 0.25f, 0.3f * text.z + 0.7f * 0.2f,
+        1.0f};
+}
+
+std::string timeOfDay(std::chrono::system_clock::time_point when) {
+    const std::time_t time = std::chrono::system_clock::to_time_t(when);
+    std::tm local{};
+    localtime_r(&time, &local);
+    char text[16];
+    return {text, std::strftime(text, sizeof text, "%H:%M:%S", &local)};
+}
+
+std::string heading(const ShaderProblem& problem) {
+    if (problem.file.empty()) return problem.text;
+    const std::string line = problem.line > 0 ? ":" + std::to_string(problem.line) : "";
+    return problem.file + line + " " + problem.text;
+}
+
+void showReloaded(const ReloadedShaders& reloaded) {
+    if (reloaded.paths.empty()) return;
+    const std::string title = "Reloaded at " + timeOfDay(reloaded.when) + "###reloaded";
+    if (!ImGui::CollapsingHeader(title.c_str(), ImGuiTreeNodeFlags_DefaultOpen)) return;
+    ImGui::TextDisabled(
+        "%s, %.1f s", report::countText(reloaded.paths.size(), "shader").c_str(), reloaded.seconds);
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("From the change of a file to the picture with it.");
+    std::string paths;
+    for (const std::string& path : reloaded.paths) paths += (paths.empty() ? "" : "\n") + path;
+    selectableText("##paths", paths, textColor());
+}
+
+void showProblems(const std::vector<ShaderProblem>& problems) {
+    if (problems.empty()) return;
+    ImGui::PushStyleColor(ImGuiCol_Text, problemColor());
+    ImGui::TextWrapped(
+        "%s. The last good code is drawn.", report::countText(problems.size(), "problem").c_str());
+    ImGui::PopStyleColor();
+    std::string all;
+    for (std::size_t i = 0; i < problems.size(); ++i) {
+        const ShaderProblem& problem = problems[i];
+        const std::string text = heading(problem);
+        ImGui::PushID(static_cast<int>(i));
+        selectableText("##problem", text, problemColor());
+        ImGui::Indent();
+        const std::size_t first = problem.source.find_first_not_of(" \t");
+        if (first != std::string::npos)
+            selectableText("##source", problem.source.substr(first), textColor());
+        ImGui::Unindent();
+        ImGui::PopID();
+        all += text + '\n' + (problem.source.empty() ? "" : problem.source + '\n');
+    }
+    if (ImGui::Button("Copy problems")) ImGui::SetClipboardText(all.c_str());
+}
+
+void showChanged(const std::vector<std::string>& changed) {
+    if (changed.empty()) {
+        ImGui::TextWrapped("All files are as the program was built with them.");
+        return;
+    }
+    ImGui::TextDisabled("Changed since the build");
+    ImGui::TextWrapped("The runner draws with what the program was built with.");
+    for (std::size_t i = 0; i < changed.size(); ++i) {
+        ImGui::PushID(static_cast<int>(i));
+        const bool needs_rebuild = ShaderReload::needsRebuild(changed[i]);
+        selectableText(
+            "##changed",
+            changed[i] + (needs_rebuild ? " is shared with C++: not reloaded, build anew" : ""),
+            needs_rebuild ? problemColor() : textColor());
+        ImGui::PopID();
+    }
+}
+
 }  // namespace
 
-// ---- Watched files ------------------------------------------------------------------------------
+// ---- Files that are watched ---------------------------------------------------------------------
 
 void WatchedFiles::watch(const std::string& file, Text text) {
     files_.try_emplace(file, File{.text = std::move(text), .read = {}, .seen = {}});
@@ -107,23 +202,7 @@ WatchedFiles::Text WatchedFiles::read(const std::string& file) const {
     return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
-namespace {
-
-// ---- Shader reload ------------------------------------------------------------------------------
-
-using Clock = std::chrono::steady_clock;
-
-constexpr auto kBetweenLooks = std::chrono::milliseconds(250);
-
-std::string lineOf(const WatchedFiles::Text& text, int line) {
-    std::istringstream lines(text.value_or(""));
-    std::string found;
-    for (int i = 0; i < line; ++i)
-        if (!std::getline(lines, found)) return {};
-    return found;
-}
-
-}  // namespace
+// ---- Reload -------------------------------------------------------------------------------------
 
 struct ShaderReload::Parts {
     Parts(const engine::Device& device, const std::filesystem::path& folder);
@@ -192,7 +271,7 @@ WatchedFiles::Text ShaderReload::Parts::textFor(const std::string& file) {
     return found == built.end() ? std::nullopt : WatchedFiles::Text(found->second);
 }
 
-// From the code in use.
+// Whether a file differs from the code in use.
 bool ShaderReload::Parts::differs(const std::string& file) {
     if (needsRebuild(file)) return false;
     if (const auto other = used.find(file); other != used.end())
@@ -222,7 +301,7 @@ void ShaderReload::Parts::compile(
         if (needsRebuild(file) && !built.contains(file))
             addProblem(file, 0, "is shared with C++ and new: build the program anew");
     attempt->files[path] = {compiled.files.begin(), compiled.files.end()};
-    // What makes up for an error may be in any of them.
+    // The fix of an error may be in any of these files.
     now_files[path].insert(compiled.files.begin(), compiled.files.end());
     if (compiled.error) return;
 
@@ -314,93 +393,7 @@ const ReloadedShaders& ShaderReload::reloaded() const { return parts_->reloaded;
 bool ShaderReload::watches() const { return parts_->watches; }
 const std::filesystem::path& ShaderReload::folder() const { return parts_->files.folder(); }
 
-namespace {
-
-// ---- Shader panel -------------------------------------------------------------------------------
-
-ImVec4 textColor() { return ImGui::GetStyleColorVec4(ImGuiCol_Text); }
-
-// Red, and readable on dark as on light.
-ImVec4 problemColor() {
-    const ImVec4 text = textColor();
-    return {
-        0.3f * text.x + 0.7f * 0.9f, 0.3f * text.y + 0.7f * 0.25f, 0.3f * text.z + 0.7f * 0.2f,
-        1.0f};
-}
-
-std::string counted(std::size_t count, const std::string& what) {
-    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
-std::string timeOfDay(std::chrono::system_clock::time_point when) {
-    const std::time_t time = std::chrono::system_clock::to_time_t(when);
-    std::tm local{};
-    localtime_r(&time, &local);
-    char text[16];
-    return {text, std::strftime(text, sizeof text, "%H:%M:%S", &local)};
-}
-
-std::string heading(const ShaderProblem& problem) {
-    if (problem.file.empty()) return problem.text;
-    const std::string line = problem.line > 0 ? ":" + std::to_string(problem.line) : "";
-    return problem.file + line + " " + problem.text;
-}
-
-void showReloaded(const ReloadedShaders& reloaded) {
-    if (reloaded.paths.empty()) return;
-    const std::string title = "Reloaded at " + timeOfDay(reloaded.when) + "###reloaded";
-    if (!ImGui::CollapsingHeader(title.c_str(), ImGuiTreeNodeFlags_DefaultOpen)) return;
-    ImGui::TextDisabled(
-        "%s, %.1f s", counted(reloaded.paths.size(), "shader").c_str(), reloaded.seconds);
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("From the change of a file to the picture with it.");
-    std::string paths;
-    for (const std::string& path : reloaded.paths) paths += (paths.empty() ? "" : "\n") + path;
-    selectableText("##paths", paths, textColor());
-}
-
-void showProblems(const std::vector<ShaderProblem>& problems) {
-    if (problems.empty()) return;
-    ImGui::PushStyleColor(ImGuiCol_Text, problemColor());
-    ImGui::TextWrapped(
-        "%s. The last good code is drawn.", counted(problems.size(), "problem").c_str());
-    ImGui::PopStyleColor();
-    std::string all;
-    for (std::size_t i = 0; i < problems.size(); ++i) {
-        const ShaderProblem& problem = problems[i];
-        const std::string text = heading(problem);
-        ImGui::PushID(static_cast<int>(i));
-        selectableText("##problem", text, problemColor());
-        ImGui::Indent();
-        const std::size_t first = problem.source.find_first_not_of(" \t");
-        if (first != std::string::npos)
-            selectableText("##source", problem.source.substr(first), textColor());
-        ImGui::Unindent();
-        ImGui::PopID();
-        all += text + '\n' + (problem.source.empty() ? "" : problem.source + '\n');
-    }
-    if (ImGui::Button("Copy problems")) ImGui::SetClipboardText(all.c_str());
-}
-
-void showChanged(const std::vector<std::string>& changed) {
-    if (changed.empty()) {
-        ImGui::TextWrapped("All files are as the program was built with them.");
-        return;
-    }
-    ImGui::TextDisabled("Changed since the build");
-    ImGui::TextWrapped("The runner draws with what the program was built with.");
-    for (std::size_t i = 0; i < changed.size(); ++i) {
-        ImGui::PushID(static_cast<int>(i));
-        const bool needs_rebuild = ShaderReload::needsRebuild(changed[i]);
-        selectableText(
-            "##changed",
-            changed[i] + (needs_rebuild ? " is shared with C++: not reloaded, build anew" : ""),
-            needs_rebuild ? problemColor() : textColor());
-        ImGui::PopID();
-    }
-}
-
-}  // namespace
+// ---- The panel ----------------------------------------------------------------------------------
 
 void shaderPanel(const ShaderReload& reload) {
     ImGui::TextDisabled("Watched folder");

@@ -12,14 +12,15 @@
 
 #include "engine/device.h"
 
+// Shaders that are compiled and drawn with as soon as they are saved.
 namespace benchmarks::viewer {
 
 // What a compiler says of a shader.
 struct ShaderProblem {
-    std::string file;  // relative to the folder of shaders; may be empty: of no single one
+    std::string file;  // relative to the folder of shaders; empty where it is no single file's
     int line = 0;      // from 1; 0: of no line
     std::string text;
-    std::string source;  // that line, as it was compiled
+    std::string source;  // the line as it was compiled
 };
 
 // Shaders that took the place of others.
@@ -34,7 +35,7 @@ struct ReloadedShaders {
 // while one of them does not compile, of none.
 class ShaderReload {
 public:
-    // `folder` is a copy of shaders/; one that does not exist is watched for nothing.
+    // `folder` is a copy of shaders/. Nothing is watched where it does not exist.
     ShaderReload(const engine::Device& device, const std::filesystem::path& folder);
     ~ShaderReload();
     ShaderReload(const ShaderReload&) = delete;
@@ -48,14 +49,14 @@ public:
     // The code before comes back; `reason` is a problem of the shaders that were new.
     void reject(const std::string& reason);
 
-    // Of what was compiled last; empty: all is well.
+    // What is wrong with what was compiled last; empty: nothing.
     const std::vector<ShaderProblem>& problems() const;
     // Files that differ from what the program was built with, relative to the folder.
     const std::vector<std::string>& changed() const;
-    // Those that C++ has too: they are compiled as the program was built with them, whatever they
-    // say now, for buffers are laid out so.
+    // Whether C++ includes a file too. It is compiled as the program was built with it, whatever it
+    // says now, for buffers are laid out so.
     static bool needsRebuild(std::string_view file) { return file.starts_with("shared/"); }
-    // What accept() took last; without paths: nothing yet.
+    // What accept() took last; it has no paths where that is nothing.
     const ReloadedShaders& reloaded() const;
     // Whether the folder has shaders of the program.
     bool watches() const;
@@ -78,9 +79,9 @@ public:
 
     explicit WatchedFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-    // From now on too. `text` is what it is taken for until a look finds another.
+    // Watches a file. It counts as having `text` until a look finds another.
     void watch(const std::string& file, Text text);
-    // Of a file that isn't watched yet: as it is now, and it is watched from now on.
+    // A file's text. A file that isn't watched yet is read, and watched from now on.
     const Text& text(const std::string& file);
 
     // Looks at the files on disk. True where a text became another.
