@@ -13,19 +13,18 @@
 
 #include "benchmarks/measure/case.h"
 #include "benchmarks/viewer/gizmo.h"
-#include "benchmarks/viewer/picking.h"
 
 namespace benchmarks::viewer {
 namespace {
 
-// ---- Orbit camera -------------------------------------------------------------------------------
+// ---- Cameras ------------------------------------------------------------------------------------
 
 constexpr CameraPreset kPresets[] = {
     {"Front", {0, 0.1f, 1}, 1.0f},         {"Side", {1, 0.1f, 0}, 1.0f},
     {"Back", {0, 0.1f, -1}, 1.0f},         {"Top", {0, 1, 0.25f}, 1.0f},
     {"Close-up", {0.5f, 0.25f, 1}, 0.25f}, {"Far", {0, 0.1f, 1}, 9.0f}};
 
-// Angle to /camera/up that is kept.
+// rad: the smallest angle between the view and /camera/up.
 constexpr float kClosest = 0.02f;
 
 struct Frame {
@@ -37,7 +36,7 @@ glm::vec3 upOf(const hair::CameraSettings& camera) {
     return length > 0.0f ? camera.up / length : glm::vec3{0, 1, 0};
 }
 
-// Across `up`, of any direction.
+// Some unit vector across `up`.
 glm::vec3 across(glm::vec3 up) {
     return glm::normalize(
         glm::cross(up, std::abs(up.z) < 0.9f ? glm::vec3{0, 0, 1} : glm::vec3{1, 0, 0}));
@@ -61,21 +60,71 @@ float visibleHeight(const hair::CameraSettings& camera) {
     return 2.0f * distanceOf(camera) * std::tan(glm::radians(camera.field_of_view) / 2.0f);
 }
 
-// From which a sphere's outline fills the picture's shorter side; beyond 90 degrees as at 90: the
-// camera would be at its surface.
+// The distance from which a sphere's outline fills the picture's shorter side. A field of view
+// wider than 90 degrees counts as 90: the camera would be at the sphere's surface.
 float fittingDistance(const hair::CameraSettings& camera, float radius, float aspect) {
     const float half = std::tan(glm::radians(std::min(camera.field_of_view, 90.0f)) / 2.0f);
     return radius / std::sin(std::atan(half * std::min(aspect, 1.0f)));
 }
 
-// Within what the picture shows at all.
+// The nearest distance at which the target is well between the near and the far plane.
 float allowedDistance(const hair::CameraSettings& camera, float distance) {
     return std::clamp(
         distance, 2.0f * camera.near_plane,
         std::max(2.0f * camera.near_plane, 0.5f * camera.far_plane));
 }
 
+// ---- Mouse and keys -----------------------------------------------------------------------------
+
+constexpr float kPictureOfZoom = 20.0f;  // steps of zoom for a drag as long as the picture is high
+constexpr float kZoomSpeed = 8.0f;  // steps per s while a key is down
+constexpr float kFlySpeed = 0.8f;  // distances to the target per s
+constexpr float kFaster = 4.0f;  // factor with Shift
+constexpr double kPause = 0.3;  // s within which moves are one edit
+constexpr float kLongest = 0.1f;  // s that a slow frame counts: nobody wants to leap
+
+// 1 while a key of `forward` is down, -1 while one of `backward` is, 0 for both or neither.
+float direction(std::array<ImGuiKey, 2> forward, std::array<ImGuiKey, 2> backward) {
+    const auto down = [](std::array<ImGuiKey, 2> keys) {
+        return ImGui::IsKeyDown(keys[0]) || ImGui::IsKeyDown(keys[1]) ? 1.0f : 0.0f;
+    };
+    return down(forward) - down(backward);
+}
+
+bool differs(const hair::CameraSettings& a, const hair::CameraSettings& b) {
+    return a.position != b.position || a.target != b.target || a.up != b.up;
+}
+
+// Undoes a move to where no scene could have the camera.
+void keepAllowed(hair::CameraSettings& camera, const hair::CameraSettings& before) {
+    using S = hair::CameraSettings;
+    if (allowed(&S::position, camera.position) != camera.position ||
+        allowed(&S::target, camera.target) != camera.target)
+        camera = before;
+}
+
+// The point of the hair or the head that a pixel shows; none where it shows neither.
+std::optional<glm::vec3>
+pointUnder(const PictureView& view, glm::vec2 pixel, float reach, const Player& player) {
+    const hair::Settings& settings = player.settings();
+    const measure::Case& played = player.played();
+    std::optional<glm::vec3> point;
+    if (settings.render.hair)
+        point = pickHair(view, played.guides(), played.groom().vertices_per_strand, pixel, reach);
+    if (!settings.render.head) return point;
+    const std::optional<hair::groom::Mesh> mesh = measure::loadMesh(settings, player.directory());
+    if (!mesh) return point;
+    const Ray ray = view.ray(pixel);
+    const auto hit = pickMesh(ray, *mesh, played.head());
+    if (!hit) return point;
+    const glm::vec3 skin = ray.from + ray.direction * *hit;
+    if (!point || view.depth(skin) < view.depth(*point)) return skin;
+    return point;
+}
+
 }  // namespace
+
+// ---- Cameras ------------------------------------------------------------------------------------
 
 std::span<const CameraPreset> cameraPresets() { return kPresets; }
 
@@ -138,56 +187,7 @@ void focus(hair::CameraSettings& camera, glm::vec3 point) {
     camera.target = point;
 }
 
-namespace {
-
-// ---- Camera tool --------------------------------------------------------------------------------
-
-constexpr float kPictureOfZoom = 20.0f;  // steps of zoom for a drag as long as the picture is high
-constexpr float kZoomSpeed = 8.0f;  // steps per s while a key is down
-constexpr float kFlySpeed = 0.8f;  // distances to the target per s
-constexpr float kFaster = 4.0f;  // with shift
-constexpr double kPause = 0.3;  // s within which moves are one edit
-constexpr float kLongest = 0.1f;  // s that a slow frame counts: nobody wants to leap
-
-// 1 while a key of the one sort is down, -1 while one of the other is.
-float direction(std::array<ImGuiKey, 2> forward, std::array<ImGuiKey, 2> backward) {
-    const auto down = [](std::array<ImGuiKey, 2> keys) {
-        return ImGui::IsKeyDown(keys[0]) || ImGui::IsKeyDown(keys[1]) ? 1.0f : 0.0f;
-    };
-    return down(forward) - down(backward);
-}
-
-bool differs(const hair::CameraSettings& a, const hair::CameraSettings& b) {
-    return a.position != b.position || a.target != b.target || a.up != b.up;
-}
-
-// Where no scene could have it, it stays.
-void keepAllowed(hair::CameraSettings& camera, const hair::CameraSettings& before) {
-    using S = hair::CameraSettings;
-    if (allowed(&S::position, camera.position) != camera.position ||
-        allowed(&S::target, camera.target) != camera.target)
-        camera = before;
-}
-
-}  // namespace
-
-std::optional<glm::vec3>
-pointUnder(const PictureView& view, glm::vec2 pixel, float reach, const Player& player) {
-    const hair::Settings& settings = player.settings();
-    const measure::Case& played = player.played();
-    std::optional<glm::vec3> point;
-    if (settings.render.hair)
-        point = pickHair(view, played.guides(), played.groom().vertices_per_strand, pixel, reach);
-    if (!settings.render.head) return point;
-    const std::optional<hair::groom::Mesh> mesh = measure::loadMesh(settings, player.directory());
-    if (!mesh) return point;
-    const Ray ray = view.ray(pixel);
-    const auto hit = pickMesh(ray, *mesh, played.head());
-    if (!hit) return point;
-    const glm::vec3 skin = ray.from + ray.direction * *hit;
-    if (!point || view.depth(skin) < view.depth(*point)) return skin;
-    return point;
-}
+// ---- Mouse and keys -----------------------------------------------------------------------------
 
 Edit CameraTool::mouse(const Pointer& pointer, Left left, hair::CameraSettings& camera) const {
     const ImGuiIO& io = ImGui::GetIO();
@@ -205,7 +205,8 @@ Edit CameraTool::mouse(const Pointer& pointer, Left left, hair::CameraSettings& 
     return {.changed = true, .continues = true};
 }
 
-// Of two pictures it is the one under the mouse; where that is elsewhere, the first.
+// Whether keys move this picture's camera: of two pictures the one under the mouse; the first where
+// the mouse is elsewhere.
 bool CameraTool::takesKeys(const Pointer& pointer) {
     const int frame = ImGui::GetFrameCount();
     if (pointer.hovers) {

@@ -11,12 +11,12 @@
 #include <glm/gtc/quaternion.hpp>
 #include <imgui.h>
 
-#include "benchmarks/viewer/picking.h"
+#include "benchmarks/viewer/edit.h"
 
 namespace benchmarks::viewer {
 namespace {
 
-// ---- Collider handles ---------------------------------------------------------------------------
+// ---- Handles of a collider ----------------------------------------------------------------------
 
 glm::vec3 toWorld(
     const hair::Collider& collider, const hair::simulation::RigidMotion& head,
@@ -24,7 +24,7 @@ glm::vec3 toWorld(
     return collider.follows == hair::Follows::head ? glm::vec3(head(point)) : point;
 }
 
-// Across the capsule and the view, to where the rim's handle is.
+// Unit vector across the capsule and the view, from its axis to the rim's handle.
 glm::vec3 rimDirection(const ColliderAxis& axis, const PictureView& view) {
     const glm::vec3 side = glm::cross(axis.b - axis.a, view.back());
     const float length = glm::length(side);
@@ -33,7 +33,90 @@ glm::vec3 rimDirection(const ColliderAxis& axis, const PictureView& view) {
 
 glm::vec3 allowedPoint(glm::vec3 point) { return allowed(&hair::Collider::a, point); }
 
+// ---- The tool -----------------------------------------------------------------------------------
+
+// Outlines that are drawn at most: more would hide the picture. All colliders can be selected.
+constexpr std::size_t kMostOutlines = 200;
+
+const char* tooltipOf(ColliderPart part) {
+    switch (part) {
+    case ColliderPart::middle:
+        return "Drag: moves the collider.";
+    case ColliderPart::end_a:
+    case ColliderPart::end_b:
+        return "Drag: moves this end.";
+    case ColliderPart::stretch:
+        return "Drag: stretches the sphere to a capsule.";
+    case ColliderPart::rim:
+        return "Drag: changes the radius.";
+    }
+    return "";
+}
+
+// Radius in px of a sphere's outline, which is where the camera's rays touch it, wider than its
+// middle. 0 where the camera is inside.
+float outlineRadius(const PictureView& view, const glm::vec3& center, float radius) {
+    const float distance = glm::length(view.eye() - center);
+    if (distance <= radius) return 0.0f;
+    const float touching = std::sqrt(distance * distance - radius * radius) / distance;
+    return radius / touching * view.pixelsPerMetre(center);
+}
+
+// Draws a capsule as it is seen: two circles and the lines that touch both.
+void outline(
+    const PictureView& view, Handles& handles, const ColliderAxis& axis, float radius,
+    Handles::Color color) {
+    const auto a = view.pixel(axis.a), b = view.pixel(axis.b);
+    if (!a || !b) return;
+    const float at_a = outlineRadius(view, axis.a, radius);
+    const float at_b = outlineRadius(view, axis.b, radius);
+    if (at_a <= 0.0f || at_b <= 0.0f) return;
+    handles.circle(*a, at_a, color);
+    const float length = glm::length(*b - *a);
+    if (length < 1.0f) return;
+    handles.circle(*b, at_b, color);
+    const glm::vec2 along = (*b - *a) / length;
+    const glm::vec2 across{-along.y, along.x};
+    for (const float side : {-1.0f, 1.0f})
+        handles.line(*a + across * (side * at_a), *b + across * (side * at_b), color);
+}
+
+std::string textOf(const hair::Collider& collider, std::size_t index) {
+    std::array<char, 80> text{};
+    std::snprintf(
+        text.data(), text.size(), "collider %zu, radius %.1f cm", index,
+        static_cast<double>(collider.radius) * 100.0);
+    return text.data();
+}
+
+glm::vec3 toHead(const glm::vec3& point, const hair::simulation::RigidMotion& head) {
+    return glm::conjugate(head.rotation) * (glm::dvec3(point) - head.translation);
+}
+
+bool same(const hair::Collider& a, const hair::Collider& b) {
+    return a.a == b.a && a.b == b.b && a.radius == b.radius;
+}
+
+// The collider that is in front under a pixel.
+std::optional<std::size_t> pickCollider(
+    const PictureView& view, std::span<const hair::Collider> colliders,
+    const hair::simulation::RigidMotion& head, glm::vec2 pixel) {
+    const Ray ray = view.ray(pixel);
+    std::optional<std::size_t> best;
+    double nearest = 0.0;
+    for (std::size_t i = 0; i < colliders.size(); ++i) {
+        const ColliderAxis axis = axisOf(colliders[i], head);
+        const auto hit = pickCapsule(ray, axis.a, axis.b, colliders[i].radius);
+        if (!hit || (best && *hit >= nearest)) continue;
+        nearest = *hit;
+        best = i;
+    }
+    return best;
+}
+
 }  // namespace
+
+// ---- Handles of a collider ----------------------------------------------------------------------
 
 ColliderAxis axisOf(const hair::Collider& collider, const hair::simulation::RigidMotion& head) {
     return {toWorld(collider, head, collider.a), toWorld(collider, head, collider.b)};
@@ -74,22 +157,6 @@ hair::Collider withMoved(
     return after;
 }
 
-std::optional<std::size_t> pickCollider(
-    const PictureView& view, std::span<const hair::Collider> colliders,
-    const hair::simulation::RigidMotion& head, glm::vec2 pixel) {
-    const Ray ray = view.ray(pixel);
-    std::optional<std::size_t> best;
-    double nearest = 0.0;
-    for (std::size_t i = 0; i < colliders.size(); ++i) {
-        const ColliderAxis axis = axisOf(colliders[i], head);
-        const auto hit = pickCapsule(ray, axis.a, axis.b, colliders[i].radius);
-        if (!hit || (best && *hit >= nearest)) continue;
-        nearest = *hit;
-        best = i;
-    }
-    return best;
-}
-
 hair::Collider colliderInFront(const Sphere& groom) {
     const float radius = allowed(&hair::Collider::radius, 0.2f * groom.radius);
     const glm::vec3 center =
@@ -97,73 +164,7 @@ hair::Collider colliderInFront(const Sphere& groom) {
     return {.a = center, .b = center, .radius = radius, .follows = hair::Follows::head};
 }
 
-namespace {
-
-// ---- Collider tool ------------------------------------------------------------------------------
-
-// Outlines of more than so many others would hide the picture; all can be selected.
-constexpr std::size_t kMostOutlines = 200;
-
-const char* tooltipOf(ColliderPart part) {
-    switch (part) {
-    case ColliderPart::middle:
-        return "Drag: moves the collider.";
-    case ColliderPart::end_a:
-    case ColliderPart::end_b:
-        return "Drag: moves this end.";
-    case ColliderPart::stretch:
-        return "Drag: stretches the sphere to a capsule.";
-    case ColliderPart::rim:
-        return "Drag: changes the radius.";
-    }
-    return "";
-}
-
-// px. The outline of a sphere is where the camera's rays touch it: wider than its middle is. 0
-// where the camera is inside.
-float outlineRadius(const PictureView& view, const glm::vec3& center, float radius) {
-    const float distance = glm::length(view.eye() - center);
-    if (distance <= radius) return 0.0f;
-    const float touching = std::sqrt(distance * distance - radius * radius) / distance;
-    return radius / touching * view.pixelsPerMetre(center);
-}
-
-// As seen: two circles and the lines that touch both.
-void outline(
-    const PictureView& view, Handles& handles, const ColliderAxis& axis, float radius,
-    Handles::Color color) {
-    const auto a = view.pixel(axis.a), b = view.pixel(axis.b);
-    if (!a || !b) return;
-    const float at_a = outlineRadius(view, axis.a, radius);
-    const float at_b = outlineRadius(view, axis.b, radius);
-    if (at_a <= 0.0f || at_b <= 0.0f) return;
-    handles.circle(*a, at_a, color);
-    const float length = glm::length(*b - *a);
-    if (length < 1.0f) return;
-    handles.circle(*b, at_b, color);
-    const glm::vec2 along = (*b - *a) / length;
-    const glm::vec2 across{-along.y, along.x};
-    for (const float side : {-1.0f, 1.0f})
-        handles.line(*a + across * (side * at_a), *b + across * (side * at_b), color);
-}
-
-std::string textOf(const hair::Collider& collider, std::size_t index) {
-    std::array<char, 80> text{};
-    std::snprintf(
-        text.data(), text.size(), "collider %zu, radius %.1f cm", index,
-        static_cast<double>(collider.radius) * 100.0);
-    return text.data();
-}
-
-glm::vec3 toHead(const glm::vec3& point, const hair::simulation::RigidMotion& head) {
-    return glm::conjugate(head.rotation) * (glm::dvec3(point) - head.translation);
-}
-
-bool same(const hair::Collider& a, const hair::Collider& b) {
-    return a.a == b.a && a.b == b.b && a.radius == b.radius;
-}
-
-}  // namespace
+// ---- The tool -----------------------------------------------------------------------------------
 
 std::optional<ColliderHandle> ColliderTool::handleUnder(
     const Pointer& pointer, const hair::Settings& settings, const Player& player) const {
@@ -243,7 +244,8 @@ Edit ColliderTool::options(OptionsLine& line, hair::Settings& settings, const Pl
     std::vector<hair::Collider>& colliders = settings.simulation.colliders;
     const bool has_room = colliders.size() < mostOf(&hair::SimulationSettings::colliders);
     if (line.button(
-            "Add collider", has_room, "A sphere in front of the face that moves with the head")) {
+            "Add collider", has_room,
+            "Adds a sphere in front of the face, which moves with the head")) {
         Sphere groom = sphereRound(player.played().guides());
         groom.center = toHead(groom.center, player.played().head());
         colliders.push_back(colliderInFront(groom));
@@ -251,7 +253,7 @@ Edit ColliderTool::options(OptionsLine& line, hair::Settings& settings, const Pl
         return {.changed = true};
     }
     const bool is_selected = selected_ && *selected_ < colliders.size();
-    if (!line.button("Remove collider", is_selected, "Takes the selected one away")) return {};
+    if (!line.button("Remove collider", is_selected, "Removes the selected collider")) return {};
     colliders.erase(colliders.begin() + static_cast<std::ptrdiff_t>(*selected_));
     selected_.reset();
     drag_.reset();

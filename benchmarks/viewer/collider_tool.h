@@ -2,19 +2,19 @@
 
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "benchmarks/viewer/edit.h"
 #include "benchmarks/viewer/gizmo.h"
 #include "benchmarks/viewer/picking.h"
 #include "benchmarks/viewer/player.h"
 #include "hair/settings.h"
 #include "hair/simulation/head_motion.h"
-#include "hair/simulation_settings.h"
 
+// The tool that moves, stretches, adds and removes colliders in the picture.
 namespace benchmarks::viewer {
 
 // What a capsule is held by. A sphere has no ends: its `stretch` makes it a capsule.
@@ -29,7 +29,7 @@ std::vector<ColliderHandle> colliderHandles(
     const hair::Collider& collider, const hair::simulation::RigidMotion& head,
     const PictureView& view);
 
-// The ends of its axis in the world.
+// The ends of a capsule's axis in the world.
 struct ColliderAxis {
     glm::vec3 a, b;
 };
@@ -39,11 +39,6 @@ ColliderAxis axisOf(const hair::Collider& collider, const hair::simulation::Rigi
 hair::Collider withMoved(
     const hair::Collider& collider, const hair::simulation::RigidMotion& head,
     const PictureView& view, ColliderPart part, const glm::vec3& by);
-
-// The one that is in front under a pixel.
-std::optional<std::size_t> pickCollider(
-    const PictureView& view, std::span<const hair::Collider> colliders,
-    const hair::simulation::RigidMotion& head, glm::vec2 pixel);
 
 // A sphere in front of the face of a groom, as it is on a head that has not moved (+z is where
 // faces look); it follows the head.
@@ -56,12 +51,12 @@ public:
         const Pointer& pointer, Handles& handles, hair::Settings& settings, const Player& player);
     bool drags() const { return drag_.has_value(); }
 
-    // Buttons that add one and take it away, in one line.
+    // Buttons that add a collider and remove the selected one, in one line.
     Edit options(OptionsLine& line, hair::Settings& settings, const Player& player);
 
 private:
     struct Drag {
-        const Player* player;  // whose picture
+        const Player* player;  // whose picture the mouse is in
         ColliderHandle held;
         hair::Collider start;
         glm::vec2 from;  // px

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
 #include <imgui.h>
 
 namespace benchmarks::viewer {
 namespace {
 
-// ---- Columns ------------------------------------------------------------------------------------
+// ---- Panes and splitters ------------------------------------------------------------------------
 
 constexpr ImGuiWindowFlags kFixed =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
@@ -54,13 +55,41 @@ float splitter(const char* name, const Box& box) {
     return dragged;
 }
 
-// From the width that there is: what was not to be had is not what dragging goes on from.
+// Dragging starts from the width that the column got, not from one that there was no room for.
 void drag(Column& column, const Box& box, float letters) {
     if (letters == 0.0f) return;
     column.width = std::max(box.width / ImGui::GetFontSize() + letters, kNarrowestColumn);
 }
 
+constexpr std::array kTabs{Tab::scene, Tab::files, Tab::timings, Tab::compare, Tab::shaders};
+constexpr std::size_t kLeft = 2;  // the first ones are the left column's
+
+// ---- Status line --------------------------------------------------------------------------------
+
+float widthOf(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
+
+// A text cut to the room that it has, px, never within a character.
+std::string cut(const std::string& text, float room) {
+    if (widthOf(text) <= room) return text;
+    std::size_t length = text.size();
+    const auto fits = [&] { return widthOf(text.substr(0, length) + "...") <= room; };
+    while (length > 0 && !fits()) {
+        --length;
+        while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0u) == 0x80u) --length;
+    }
+    return text.substr(0, length) + "...";
+}
+
+void cutText(const std::string& text, float room, ImGuiCol color) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(color));
+    ImGui::TextUnformatted(cut(text, room).c_str());
+    ImGui::PopStyleColor();
+    if (widthOf(text) > room && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text.c_str());
+}
+
 }  // namespace
+
+// ---- Panes and splitters ------------------------------------------------------------------------
 
 void pane(const char* name, const Box& box, Surface surface, const std::function<void()>& body) {
     if (box.empty()) return;
@@ -85,14 +114,7 @@ void splitters(const Layout& layout, Preferences& preferences) {
     drag(preferences.right, layout.right, -right);
 }
 
-namespace {
-
 // ---- Tabs ---------------------------------------------------------------------------------------
-
-constexpr std::array kTabs{Tab::scene, Tab::files, Tab::timings, Tab::compare, Tab::shaders};
-constexpr std::size_t kLeft = 2;  // the first ones are the left column's
-
-}  // namespace
 
 const char* tabName(Tab tab) {
     switch (tab) {
@@ -139,6 +161,52 @@ bool tabStrip(std::span<const Tab> tabs, Tab& chosen) {
         ImGui::PopStyleColor();
     }
     return changed;
+}
+
+// ---- Buttons to choose from ---------------------------------------------------------------------
+
+void sameLineIfItFits(const char* label) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float width = ImGui::CalcTextSize(label, nullptr, true).x + 2.0f * style.FramePadding.x;
+    ImGui::SameLine();
+    if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+}
+
+bool choiceButton(const char* label, const char* help, Chosen chosen) {
+    const bool pressed_in = chosen == Chosen::yes;
+    if (pressed_in)
+        ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+    const bool pressed = ImGui::Button(label);
+    if (pressed_in) ImGui::PopStyleColor();
+    ImGui::SetItemTooltip("%s", help);
+    return pressed;
+}
+
+// ---- Status line --------------------------------------------------------------------------------
+
+void statusLine(const StatusText& status) {
+    ImGui::AlignTextToFramePadding();
+    const float gap = 1.5f * ImGui::GetFontSize();
+    const float room = ImGui::GetContentRegionAvail().x;
+    const float picture = widthOf(status.picture);
+    // The device's name gives way first.
+    float device = std::min(widthOf(status.device), 0.3f * room);
+    float left = std::max(room - picture - device - 2.0f * gap, 0.0f);
+    if (widthOf(status.text) > left) {
+        left = std::max(room - picture - gap, 0.0f);
+        device = 0.0f;
+    }
+    const float start = ImGui::GetCursorPosX();
+    const ImGuiCol color = status.tone == StatusText::Tone::hint      ? ImGuiCol_TextDisabled
+                           : status.tone == StatusText::Tone::problem ? ImGuiCol_PlotHistogram
+                                                                      : ImGuiCol_Text;
+    cutText(status.text, left, color);
+    if (device > 0.0f) {
+        ImGui::SameLine(start + left + gap);
+        cutText(status.device, device, ImGuiCol_TextDisabled);
+    }
+    ImGui::SameLine(start + room - picture);
+    cutText(status.picture, picture, ImGuiCol_TextDisabled);
 }
 
 }  // namespace benchmarks::viewer

@@ -9,32 +9,13 @@
 #include "benchmarks/report/text.h"
 #include "benchmarks/scene/json.h"
 #include "benchmarks/scene/settings_json.h"
+#include "benchmarks/viewer/columns.h"
 #include "benchmarks/viewer/difference.h"
 
 namespace benchmarks::viewer {
-
-// ---- Choice buttons -----------------------------------------------------------------------------
-
-void sameLineIfItFits(const char* label) {
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const float width = ImGui::CalcTextSize(label, nullptr, true).x + 2.0f * style.FramePadding.x;
-    ImGui::SameLine();
-    if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
-}
-
-bool choiceButton(const char* label, const char* help, Chosen chosen) {
-    const bool pressed_in = chosen == Chosen::yes;
-    if (pressed_in)
-        ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-    const bool pressed = ImGui::Button(label);
-    if (pressed_in) ImGui::PopStyleColor();
-    ImGui::SetItemTooltip("%s", help);
-    return pressed;
-}
-
 namespace {
 
-// ---- Settings differences -----------------------------------------------------------------------
+// ---- Settings that differ -----------------------------------------------------------------------
 
 bool isListOfGroups(const scene::Json& value) {
     return value.is_array() && !value.empty() && value.front().is_object();
@@ -49,7 +30,7 @@ std::string textOf(const scene::Json* value) {
     return '[' + text + ']';
 }
 
-// Null: there is none.
+// Adds how two values differ; null: one side has no such value.
 void compare(
     const std::string& pointer, const scene::Json* a, const scene::Json* b,
     std::vector<SettingDifference>& differences) {
@@ -71,26 +52,16 @@ void compare(
     differences.push_back({pointer, textOf(a), textOf(b)});
 }
 
-}  // namespace
-
-std::vector<SettingDifference>
-settingsDifferences(const hair::Settings& a, const hair::Settings& b) {
-    const scene::Json a_document = scene::writeSettings(a), b_document = scene::writeSettings(b);
-    std::vector<SettingDifference> differences;
-    compare("", &a_document, &b_document, differences);
-    return differences;
-}
-
-namespace {
-
-// ---- Compare panel ------------------------------------------------------------------------------
+// ---- The panel ----------------------------------------------------------------------------------
 
 constexpr std::array kViews{
     Choice<Views>{
         "Side by side", Views::side_by_side,
-        "Both at one scale: beside each other, or one above the other where they are larger then."},
+        "Both pictures at one scale: beside each other, or one above the other where that is "
+        "larger."},
     Choice<Views>{
-        "Slider", Views::slider, "One over the other: A left of a line that is dragged, B right."},
+        "Slider", Views::slider,
+        "One picture over the other: A left of a line that is dragged, B right."},
     Choice<Views>{
         "Difference", Views::difference,
         "How far the colours of each pixel are apart, brightened: black where they are the same."},
@@ -98,7 +69,7 @@ constexpr std::array kViews{
     Choice<Views>{"Only B", Views::b, "The second picture alone."}};
 
 constexpr std::array kGains{
-    Choice<std::uint32_t>{"x 1", 1, "As it is."},
+    Choice<std::uint32_t>{"x 1", 1, "The difference as it is."},
     Choice<std::uint32_t>{"x 2", 2, "A step of 255 is shown as 2."},
     Choice<std::uint32_t>{"x 4", 4, "A step of 255 is shown as 4."},
     Choice<std::uint32_t>{"x 8", 8, "A step of 255 is shown as 8."},
@@ -120,7 +91,7 @@ CompareWish startButton() {
 CompareWish sideButtons() {
     CompareWish wish = CompareWish::nothing;
     if (ImGui::Button("Stop comparing")) wish = CompareWish::stop;
-    ImGui::SetItemTooltip("A alone. The settings of B are gone unless they were saved.");
+    ImGui::SetItemTooltip("Shows A alone. The settings of B are gone unless they were saved.");
     sameLineIfItFits("Swap");
     if (ImGui::Button("Swap")) wish = CompareWish::swap;
     ImGui::SetItemTooltip("A becomes B, and B becomes A.");
@@ -130,7 +101,7 @@ CompareWish sideButtons() {
     return wish;
 }
 
-// A line each: a narrow panel would break one line of them all within a number.
+// Each figure has a line: a narrow panel would break a line of all within a number.
 void figureLines(const DifferenceFigures& figures) {
     ImGui::BeginGroup();
     if (figures.different == 0) {
@@ -142,8 +113,9 @@ void figureLines(const DifferenceFigures& figures) {
             "pixels that differ: %s %%", report::shortNumber(100.0 * figures.share()).c_str());
     }
     ImGui::EndGroup();
-    ImGui::SetItemTooltip("Of the display's colours, in steps of 1/255. The average is\n"
-                          "over red, green and blue of all pixels.");
+    ImGui::SetItemTooltip(
+        "How far the display's colours are apart, in steps of 1/255. The average is\n"
+        "over red, green and blue of all pixels.");
 }
 
 void differencePart(PictureArea& area) {
@@ -184,6 +156,18 @@ void settingsPart(const std::vector<SettingDifference>& differences) {
 }
 
 }  // namespace
+
+// ---- Settings that differ -----------------------------------------------------------------------
+
+std::vector<SettingDifference>
+settingsDifferences(const hair::Settings& a, const hair::Settings& b) {
+    const scene::Json a_document = scene::writeSettings(a), b_document = scene::writeSettings(b);
+    std::vector<SettingDifference> differences;
+    compare("", &a_document, &b_document, differences);
+    return differences;
+}
+
+// ---- The panel ----------------------------------------------------------------------------------
 
 CompareWish
 ComparePanel::show(PictureArea& area, const hair::Settings& a, const hair::Settings* b) {

@@ -1,50 +1,23 @@
 #pragma once
 
-#include <cstddef>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "benchmarks/viewer/picture_area.h"
 #include "hair/settings.h"
 
+// The panel for comparing two settings: how their pictures are shown, and what differs.
 namespace benchmarks::viewer {
-
-// One of several buttons of which one is pressed in.
-template <class Value>
-struct Choice {
-    const char* label;
-    Value value;
-    const char* help;
-};
-
-enum class Chosen { no, yes };
-
-// On the same line as the item before where there is room, else on the next one.
-void sameLineIfItFits(const char* label);
-bool choiceButton(const char* label, const char* help, Chosen chosen);
-
-// In one line, or as many as they take.
-template <class Value>
-void choiceButtons(std::span<const Choice<Value>> choices, Value& value) {
-    for (std::size_t i = 0; i < choices.size(); ++i) {
-        const Choice<Value>& choice = choices[i];
-        if (i > 0) sameLineIfItFits(choice.label);
-        const Chosen chosen = choice.value == value ? Chosen::yes : Chosen::no;
-        if (choiceButton(choice.label, choice.help, chosen)) value = choice.value;
-    }
-}
 
 // What the user wants of the two sides.
 enum class CompareWish {
     nothing,
     start,  // a second side, equal to the first
-    stop,   // a alone
+    stop,   // a is shown alone
     swap,
-    copy_a_to_b,  // a's settings
+    copy_a_to_b,  // b gets a's settings
 };
 
-// Everything about comparing two settings: how their pictures are shown, and what differs.
 class ComparePanel {
 public:
     int edited = 0;           // the side that the settings panel changes; 0: a, 1: b
@@ -57,14 +30,14 @@ public:
 // A field that two settings have different values of.
 struct SettingDifference {
     std::string pointer;  // JSON pointer: /strands/density
-    std::string a;        // as JSON, on one line; empty: it has none
+    std::string a;        // JSON on one line; empty where a has no such field
     std::string b;
 
     bool operator==(const SettingDifference&) const = default;
 };
 
-// In the order of scene files. Numbers of one vector are one value; members of a list are compared
-// one by one.
+// The fields that differ, in the order of scene files. Numbers of one vector are one value; members
+// of a list are compared one by one.
 std::vector<SettingDifference>
 settingsDifferences(const hair::Settings& a, const hair::Settings& b);
 

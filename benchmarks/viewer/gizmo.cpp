@@ -26,7 +26,7 @@ struct Plane {
     glm::vec3 u, v;  // across the axis, unit length; u x v is the axis
 };
 
-// Of a ring, with u to the camera.
+// The plane of a ring, with u toward the camera.
 Plane planeOf(const PictureView& view, const Gizmo& gizmo, int axis) {
     const glm::vec3 normal = gizmo.turn_axes[static_cast<std::size_t>(axis)];
     const glm::vec3 toward = glm::normalize(view.eye() - gizmo.origin);
@@ -55,7 +55,43 @@ angleUnder(const PictureView& view, const Gizmo& gizmo, const Plane& plane, glm:
     return std::atan2(glm::dot(point, v), glm::dot(point, u));
 }
 
+// px from a point to a line between two others.
+float pixelsToSegment(glm::vec2 point, glm::vec2 a, glm::vec2 b) {
+    const glm::vec2 line = b - a;
+    const float square = glm::dot(line, line);
+    const float share =
+        square > 0.0f ? std::clamp(glm::dot(point - a, line) / square, 0.0f, 1.0f) : 0.0f;
+    return glm::length(point - a - line * share);
+}
+
+// ---- Handles ------------------------------------------------------------------------------------
+
+constexpr ImU32 kOutline = IM_COL32(0, 0, 0, 190);
+constexpr ImU32 kBox = IM_COL32(0, 0, 0, 190);
+
+// Sizes in heights of the font.
+constexpr float kLine = 0.13f;
+constexpr float kBorder = 0.09f;  // width of the outline on each side
+constexpr float kDot = 0.36f;
+constexpr float kHead = 0.75f;  // length of an arrow's head
+constexpr float kPadding = 0.3f;
+
+float sized(float fonts) { return fonts * ImGui::GetFontSize(); }
+ImVec2 at(glm::vec2 point) { return {point.x, point.y}; }
+
+// ---- Options of a tool --------------------------------------------------------------------------
+
+constexpr const char* kBar = "|";
+
+float spacing() { return ImGui::GetStyle().ItemSpacing.x; }
+
+float buttonWidth(const char* name) {
+    return ImGui::CalcTextSize(name, nullptr, true).x + 2.0f * ImGui::GetStyle().FramePadding.x;
+}
+
 }  // namespace
+
+// ---- Gizmo --------------------------------------------------------------------------------------
 
 glm::vec3 moveAxis(int axis) {
     glm::vec3 unit{0.0f};
@@ -129,32 +165,7 @@ float turned(const PictureView& view, const Gizmo& gizmo, int axis, glm::vec2 fr
     return glm::dot(view.dragged(nearest, from, to), plane.v) / gizmo.size;
 }
 
-float pixelsToSegment(glm::vec2 point, glm::vec2 a, glm::vec2 b) {
-    const glm::vec2 line = b - a;
-    const float square = glm::dot(line, line);
-    const float share =
-        square > 0.0f ? std::clamp(glm::dot(point - a, line) / square, 0.0f, 1.0f) : 0.0f;
-    return glm::length(point - a - line * share);
-}
-
-namespace {
-
 // ---- Handles ------------------------------------------------------------------------------------
-
-constexpr ImU32 kOutline = IM_COL32(0, 0, 0, 190);
-constexpr ImU32 kBox = IM_COL32(0, 0, 0, 190);
-
-// In font sizes.
-constexpr float kLine = 0.13f;
-constexpr float kBorder = 0.09f;  // of the outline, on each side
-constexpr float kDot = 0.36f;
-constexpr float kHead = 0.75f;  // of an arrow
-constexpr float kPadding = 0.3f;
-
-float sized(float fonts) { return fonts * ImGui::GetFontSize(); }
-ImVec2 at(glm::vec2 point) { return {point.x, point.y}; }
-
-}  // namespace
 
 Handles::Handles(const PictureRect& seen) : seen_(seen), list_(ImGui::GetWindowDrawList()) {
     list_->PushClipRect(at(seen.corner), at(seen.corner + seen.size), true);
@@ -225,5 +236,52 @@ void Handles::box(glm::vec2 corner, const std::string& text) {
     list_->AddRectFilled(at(corner - padding), at(corner + size + padding), kBox, sized(kPadding));
     list_->AddText(at(corner), kPlain, text.c_str());
 }
+
+// ---- Options of a tool --------------------------------------------------------------------------
+
+void OptionsLine::place(float width) {
+    if (!is_empty_) {
+        ImGui::SameLine();
+        const float bar = separates_ ? ImGui::CalcTextSize(kBar).x + spacing() : 0.0f;
+        if (ImGui::GetContentRegionAvail().x < bar + width) {
+            ImGui::NewLine();
+        } else if (separates_) {
+            ImGui::TextDisabled("%s", kBar);
+            ImGui::SameLine();
+        }
+    }
+    is_empty_ = separates_ = false;
+}
+
+bool OptionsLine::button(const char* name, bool enabled, const char* tooltip) {
+    place(buttonWidth(name));
+    ImGui::BeginDisabled(!enabled);
+    const bool pressed = ImGui::Button(name);
+    ImGui::EndDisabled();
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_ForTooltip | ImGuiHoveredFlags_AllowWhenDisabled))
+        ImGui::SetTooltip("%s", tooltip);
+    return pressed;
+}
+
+bool OptionsLine::choice(const char* name, Choice choice, const char* tooltip) {
+    place(buttonWidth(name));
+    const bool chosen = choice == Choice::chosen;
+    if (chosen)
+        ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+    const bool pressed = ImGui::Button(name);
+    if (chosen) ImGui::PopStyleColor();
+    ImGui::SetItemTooltip("%s", tooltip);
+    return pressed;
+}
+
+bool OptionsLine::slider(
+    const char* name, float& value, float minimum, float maximum, const char* format) {
+    const float width = 9.0f * ImGui::GetFontSize();
+    place(width + ImGui::CalcTextSize(name).x + ImGui::GetStyle().ItemInnerSpacing.x);
+    ImGui::SetNextItemWidth(width);
+    return ImGui::SliderFloat(name, &value, minimum, maximum, format);
+}
+
+void OptionsLine::separator() { separates_ = true; }
 
 }  // namespace benchmarks::viewer

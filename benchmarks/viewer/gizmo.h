@@ -12,13 +12,16 @@
 
 #include "benchmarks/viewer/picking.h"
 
+struct ImDrawList;
+
+// What tools show: the gizmo that moves and turns, handles over the picture, a line of options.
 namespace benchmarks::viewer {
 
-// Three arrows that move something along the axes of the world, and three rings that turn it. Where
-// it is in a picture, and what dragging a part of it means; drawing is elsewhere.
+// Three arrows that move something along the axes of the world, and three rings that turn it:
+// where it is in a picture, and what dragging a part of it means. HeadTool draws it.
 struct Gizmo {
     glm::vec3 origin{0.0f};
-    std::array<glm::vec3, 3> turn_axes{};  // of the rings, unit length; right-handed turns
+    std::array<glm::vec3, 3> turn_axes{};  // axes of the rings, unit length; right-handed turns
     float size = 1.0f;  // radius of the rings, m; arrows are shorter
 };
 
@@ -30,12 +33,13 @@ struct GizmoPart {
     bool operator==(const GizmoPart&) const = default;
 };
 
-// x, y or z of the world.
+// The axis of an arrow: x, y or z of the world.
 glm::vec3 moveAxis(int axis);
 
 // Where an arrow ends.
 glm::vec3 arrowTip(const Gizmo& gizmo, int axis);
-// Whether it is long enough in the picture to be dragged: one that points at the camera is not.
+// Whether an arrow is long enough in the picture to be dragged: one that points at the camera is
+// not.
 bool canBeDragged(const PictureView& view, const Gizmo& gizmo, int axis);
 
 // The ring's half that is nearer to the camera, from end to end; all of a ring that faces it.
@@ -50,15 +54,6 @@ float moved(const PictureView& view, const Gizmo& gizmo, int axis, glm::vec2 fro
 
 // rad about a ring's axis, less than half a turn, that dragging it from one pixel to another turns.
 float turned(const PictureView& view, const Gizmo& gizmo, int axis, glm::vec2 from, glm::vec2 to);
-
-// px from a point to a line between two others.
-float pixelsToSegment(glm::vec2 point, glm::vec2 a, glm::vec2 b);
-
-}  // namespace benchmarks::viewer
-
-struct ImDrawList;
-
-namespace benchmarks::viewer {
 
 // Lines and dots over a picture, each with an outline that makes it stand out from bright and dark.
 // Draws into the current window of Dear ImGui, within what is seen of the picture; all sizes scale
@@ -85,9 +80,9 @@ public:
     void circle(glm::vec2 center, float radius, Color color);
     void dot(glm::vec2 center, Color color);
     void arrow(glm::vec2 from, glm::vec2 tip, Color color);
-    // Beside a point, where the picture has room for it.
+    // Text beside a point, moved to where the picture has room for it.
     void label(glm::vec2 beside, const std::string& text);
-    // At the top of the picture: what the user should know.
+    // Text at the top of the picture: what the user should know.
     void hint(const std::string& text);
 
 private:
@@ -95,6 +90,31 @@ private:
 
     PictureRect seen_;
     ImDrawList* list_;
+};
+
+// A tool's options: widgets in a line that goes on in the next one where the window has no more
+// room.
+class OptionsLine {
+public:
+    // True when it was pressed.
+    bool button(const char* name, bool enabled, const char* tooltip);
+
+    // A button of several of which the chosen one looks pressed.
+    enum class Choice { open, chosen };
+    bool choice(const char* name, Choice choice, const char* tooltip);
+
+    // True where the value was changed. Ctrl+click takes a number beyond the slider's ends.
+    bool slider(const char* name, float& value, float minimum, float maximum, const char* format);
+
+    // Between groups of widgets that are in one line.
+    void separator();
+
+private:
+    // Moves to where the next widget goes, which is `width` px wide.
+    void place(float width);
+
+    bool is_empty_ = true;
+    bool separates_ = false;  // a separator goes before the next widget
 };
 
 }  // namespace benchmarks::viewer

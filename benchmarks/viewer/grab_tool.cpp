@@ -11,16 +11,16 @@
 #include <glm/geometric.hpp>
 #include <imgui.h>
 
-#include "benchmarks/viewer/picking.h"
+#include "benchmarks/viewer/edit.h"
 
 namespace benchmarks::viewer {
 namespace {
 
-// ---- Hand path ----------------------------------------------------------------------------------
+// ---- The path of a hand -------------------------------------------------------------------------
 
 constexpr std::size_t kKeysOfAMove = 3;  // the present, the next frame, and where it stays
 
-// Leaves what was played, with a key at the present; nothing where the path begins later.
+// Cuts a path to what was played, with a key at the present; to nothing where it begins later.
 void cut(std::vector<hair::PullKey>& path, float now) {
     if (path.empty()) return;
     const glm::vec3 present = handAt(path, now);
@@ -28,7 +28,76 @@ void cut(std::vector<hair::PullKey>& path, float now) {
     if (!path.empty() && path.back().time < now) path.push_back({now, present});
 }
 
+// ---- The tool that grabs ------------------------------------------------------------------------
+
+constexpr float kCentimetres = 100.0f;  // per m
+constexpr float kMostRadius = 10.0f;  // cm, at the end of the slider
+
+std::size_t indexOf(const GuideVertex& held, const Player& player) {
+    return std::size_t{held.guide} * player.played().groom().vertices_per_strand + held.vertex;
+}
+
+bool samePath(const std::vector<hair::PullKey>& a, const std::vector<hair::PullKey>& b) {
+    const auto same = [](const hair::PullKey& x, const hair::PullKey& y) {
+        return x.time == y.time && x.position == y.position;
+    };
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
+}
+
+std::optional<GuideVertex>
+under(const Pointer& pointer, const std::vector<glm::vec3>& guides, const Player& player) {
+    const hair::groom::Groom& groom = player.played().groom();
+    // Of two vertices that are equally near to the mouse, the one in front.
+    return pickVertex(
+        pointer.view, guides, groom.vertices_per_strand, pointer.at, 2.5f * Handles::reach(),
+        sphereRound(groom.points).radius);
+}
+
+// ---- The wind's arrow ---------------------------------------------------------------------------
+
+// Lengths in radii of the groom.
+constexpr float kStill = 0.35f;
+constexpr float kDoubling = 0.4f;  // more for every doubling of the wind that is strong
+
+// The wind from which on each doubling makes the arrow kDoubling longer: a light breeze.
+float breeze(const hair::WindSettings& wind) {
+    return wind.mode == hair::WindMode::drag ? 2.0f : 3.0f;  // m/s; m/s^2
+}
+
+const char* windUnit(const hair::WindSettings& wind) {
+    return wind.mode == hair::WindMode::drag ? "m/s" : "m/s²";
+}
+
+// The direction with unit length.
+glm::vec3 windDirection(const hair::WindSettings& wind) {
+    const float length = glm::length(wind.direction);
+    return length > 0.0f ? wind.direction / length : glm::vec3{1, 0, 0};
+}
+
+// ---- The tool of the wind -----------------------------------------------------------------------
+
+// The groom at rest, where the head is: its arrow does not sway with the hair.
+Sphere groomOf(const Player& player) {
+    Sphere groom = sphereRound(player.played().groom().points);
+    groom.center = player.played().head()(groom.center);
+    return groom;
+}
+
+std::string textOf(const hair::WindSettings& wind) {
+    std::array<char, 64> text{};
+    std::snprintf(
+        text.data(), text.size(), "wind %.3g %s", static_cast<double>(windOf(wind)),
+        windUnit(wind));
+    return text.data();
+}
+
+bool same(const hair::WindSettings& a, const hair::WindSettings& b) {
+    return a.direction == b.direction && windOf(a) == windOf(b);
+}
+
 }  // namespace
+
+// ---- The path of a hand -------------------------------------------------------------------------
 
 glm::vec3 handAt(std::span<const hair::PullKey> path, float time) {
     const auto after = std::ranges::upper_bound(path, time, {}, &hair::PullKey::time);
@@ -62,34 +131,7 @@ bool hasRoom(std::span<const hair::PullKey> path) {
     return path.size() + kKeysOfAMove <= mostOf(&hair::PullSettings::path);
 }
 
-namespace {
-
-// ---- Grab tool ----------------------------------------------------------------------------------
-
-constexpr float kCentimetres = 100.0f;  // per m
-constexpr float kMostRadius = 10.0f;  // cm, at the end of the slider
-
-std::size_t indexOf(const GuideVertex& held, const Player& player) {
-    return std::size_t{held.guide} * player.played().groom().vertices_per_strand + held.vertex;
-}
-
-bool samePath(const std::vector<hair::PullKey>& a, const std::vector<hair::PullKey>& b) {
-    const auto same = [](const hair::PullKey& x, const hair::PullKey& y) {
-        return x.time == y.time && x.position == y.position;
-    };
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
-}
-
-std::optional<GuideVertex>
-under(const Pointer& pointer, const std::vector<glm::vec3>& guides, const Player& player) {
-    const hair::groom::Groom& groom = player.played().groom();
-    // Of two that are equally near to the mouse, the one in front.
-    return pickVertex(
-        pointer.view, guides, groom.vertices_per_strand, pointer.at, 2.5f * Handles::reach(),
-        sphereRound(groom.points).radius);
-}
-
-}  // namespace
+// ---- The tool that grabs ------------------------------------------------------------------------
 
 Edit GrabTool::drag(const Pointer& pointer, hair::Settings& settings, const Player& player) {
     std::vector<hair::PullSettings>& pulls = settings.simulation.pulls;
@@ -104,7 +146,7 @@ Edit GrabTool::drag(const Pointer& pointer, hair::Settings& settings, const Play
              .radius = allowed(&hair::PullSettings::radius, radius_),
              .path = {{moment.now, drag_->start}}});
     }
-    // It may have been undone on the way.
+    // The pull may have been undone meanwhile.
     if (!drag_->pull || *drag_->pull >= pulls.size()) {
         if (!pointer.holds || drag_->pull) drag_.reset();
         return edit;
@@ -180,43 +222,23 @@ Edit GrabTool::options(OptionsLine& line, hair::Settings& settings) {
     if (line.slider("Radius", centimetres, 0.0f, kMostRadius, "%.1f cm"))
         radius_ = allowed(&hair::PullSettings::radius, centimetres / kCentimetres);
     ImGui::SetItemTooltip(
-        "How far from the held vertex hair is pulled along: at this distance, at rest, by 1/e as "
-        "much. Of the next pull.");
+        "Radius of the next pull: the distance from the held vertex, at rest, at which hair gets "
+        "1/e of the pull");
     std::vector<hair::PullSettings>& pulls = settings.simulation.pulls;
     const std::string name = "Clear pulls (" + std::to_string(pulls.size()) + ")###clear_pulls";
-    if (!line.button(name.c_str(), !pulls.empty(), "No hand has ever pulled at this hair"))
+    if (!line.button(
+            name.c_str(), !pulls.empty(),
+            "Removes all pulls, as if no hand had ever pulled at this hair"))
         return {};
     pulls.clear();
     drag_.reset();
     return {.changed = true};
 }
 
-namespace {
-
-// ---- Wind arrow ---------------------------------------------------------------------------------
-
-// Lengths in radii of the groom.
-constexpr float kStill = 0.35f;
-constexpr float kDoubling = 0.4f;  // more for every doubling of the wind that is strong
-
-// From which wind on doubling it makes the arrow so much longer: a light breeze.
-float breeze(const hair::WindSettings& wind) {
-    return wind.mode == hair::WindMode::drag ? 2.0f : 3.0f;  // m/s; m/s^2
-}
-
-}  // namespace
+// ---- The wind's arrow ---------------------------------------------------------------------------
 
 float windOf(const hair::WindSettings& wind) {
     return wind.mode == hair::WindMode::drag ? wind.speed : wind.strength;
-}
-
-const char* windUnit(const hair::WindSettings& wind) {
-    return wind.mode == hair::WindMode::drag ? "m/s" : "m/s²";
-}
-
-glm::vec3 windDirection(const hair::WindSettings& wind) {
-    const float length = glm::length(wind.direction);
-    return length > 0.0f ? wind.direction / length : glm::vec3{1, 0, 0};
 }
 
 glm::vec3 windTip(const hair::WindSettings& wind, const Sphere& groom) {
@@ -240,30 +262,7 @@ void setWind(hair::WindSettings& wind, float value) {
     if (windOf(wind) > 0.0f) wind.direction = windDirection(wind);
 }
 
-namespace {
-
-// ---- Wind tool ----------------------------------------------------------------------------------
-
-// The groom at rest, where the head is: its arrow does not sway with the hair.
-Sphere groomOf(const Player& player) {
-    Sphere groom = sphereRound(player.played().groom().points);
-    groom.center = player.played().head()(groom.center);
-    return groom;
-}
-
-std::string textOf(const hair::WindSettings& wind) {
-    std::array<char, 64> text{};
-    std::snprintf(
-        text.data(), text.size(), "wind %.3g %s", static_cast<double>(windOf(wind)),
-        windUnit(wind));
-    return text.data();
-}
-
-bool same(const hair::WindSettings& a, const hair::WindSettings& b) {
-    return a.direction == b.direction && windOf(a) == windOf(b);
-}
-
-}  // namespace
+// ---- The tool of the wind -----------------------------------------------------------------------
 
 Edit WindTool::update(
     const Pointer& pointer, Handles& handles, hair::Settings& settings, const Player& player) {
@@ -308,7 +307,9 @@ Edit WindTool::options(OptionsLine& line, hair::Settings& settings) {
     ImGui::SetItemTooltip(
         is_drag ? "Mean speed of the wind: /simulation/wind/speed"
                 : "Acceleration by the wind: /simulation/wind/strength");
-    if (line.button("Still air", windOf(wind) > 0.0f, "No wind; the arrow keeps its direction")) {
+    if (line.button(
+            "Still air", windOf(wind) > 0.0f,
+            "Sets the wind to 0; the arrow keeps its direction")) {
         setWind(wind, 0.0f);
         edit.changed = true;
     }

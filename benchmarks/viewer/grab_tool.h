@@ -7,12 +7,13 @@
 
 #include <glm/vec3.hpp>
 
+#include "benchmarks/viewer/edit.h"
 #include "benchmarks/viewer/gizmo.h"
 #include "benchmarks/viewer/picking.h"
 #include "benchmarks/viewer/player.h"
 #include "hair/settings.h"
-#include "hair/simulation_settings.h"
 
+// The tools that put forces on hair: hands that pull at it, and the wind.
 namespace benchmarks::viewer {
 
 // Pulls at hair with the mouse: an entry of /simulation/pulls, whose path is written while frames
@@ -30,11 +31,11 @@ public:
 
 private:
     struct Drag {
-        const Player* player;  // whose picture
+        const Player* player;  // whose picture the mouse is in
         GuideVertex held;
         glm::vec3 start;  // where the vertex was
         glm::vec2 from;   // px
-        std::optional<std::size_t> pull;  // that it writes; none before the mouse moves
+        std::optional<std::size_t> pull;  // the entry that is written; none before the mouse moves
     };
     Edit drag(const Pointer& pointer, hair::Settings& settings, const Player& player);
     void draw(
@@ -45,10 +46,32 @@ private:
     std::optional<Drag> drag_;
 };
 
-// The path of a hand that the mouse drags, key by key while frames are played. What was played
-// keeps its keys: playing the path anew gives the same hair.
+// Turns and stretches the wind's arrow: the tip is dragged.
+class WindTool {
+public:
+    Edit update(
+        const Pointer& pointer, Handles& handles, hair::Settings& settings, const Player& player);
+    bool drags() const { return drag_.has_value(); }
 
-// Straight between keys; before the first and after the last where these are. There is a key.
+    // A slider for the wind and a button for still air, in one line.
+    static Edit options(OptionsLine& line, hair::Settings& settings);
+
+private:
+    struct Drag {
+        const Player* player;  // whose picture the mouse is in
+        glm::vec3 tip;  // where the arrow was held
+        glm::vec2 from;  // px
+    };
+    std::optional<Drag> drag_;
+};
+
+// ---- The path of a hand -------------------------------------------------------------------------
+
+// The mouse writes a path key by key while frames are played. What was played keeps its keys:
+// playing the path anew gives the same hair.
+
+// Where the hand is: straight between keys, and at the first or last key before and after them.
+// `path` has at least one key.
 glm::vec3 handAt(std::span<const hair::PullKey> path, float time);
 
 // The hand is at `position` from the next frame on, and stays there.
@@ -58,43 +81,23 @@ void moveHand(std::vector<hair::PullKey>& path, const Moment& moment, glm::vec3 
 // have begun after now, because time was set back.
 void letGo(std::vector<hair::PullKey>& path, const Moment& moment);
 
-// Whether moveHand has room for its keys.
+// Whether a path has room for the keys of moveHand().
 bool hasRoom(std::span<const hair::PullKey> path);
 
-// The arrow that shows the wind: from the middle of the groom to where the wind blows. Its length
-// grows with the logarithm of the wind, so that a breeze and a storm both fit a picture; it has one
-// in still air too, so that it can be held.
+// ---- The wind's arrow ---------------------------------------------------------------------------
 
-// What the arrow's length is: strength, m/s^2, or in drag mode the mean speed, m/s.
+// The arrow points from the middle of the groom to where the wind blows. Its length grows with the
+// logarithm of the wind, so that a breeze and a storm both fit a picture; in still air it has a
+// length too, so that it can be held.
+
+// The wind that the arrow's length shows: strength, m/s^2, or in drag mode the mean speed, m/s.
 float windOf(const hair::WindSettings& wind);
-const char* windUnit(const hair::WindSettings& wind);
-
-glm::vec3 windDirection(const hair::WindSettings& wind);  // unit length
 
 // Where the arrow of a groom ends.
 glm::vec3 windTip(const hair::WindSettings& wind, const Sphere& groom);
 
-// Makes the wind one whose arrow ends there; a tip at the middle leaves its direction.
+// Sets the wind whose arrow ends at `tip`; a tip at the middle of the groom leaves the direction.
 void setWindTip(hair::WindSettings& wind, const Sphere& groom, const glm::vec3& tip);
 void setWind(hair::WindSettings& wind, float value);
-
-// The wind's arrow in the picture: dragging its tip turns and stretches it.
-class WindTool {
-public:
-    Edit update(
-        const Pointer& pointer, Handles& handles, hair::Settings& settings, const Player& player);
-    bool drags() const { return drag_.has_value(); }
-
-    // The wind as a number, in one line.
-    static Edit options(OptionsLine& line, hair::Settings& settings);
-
-private:
-    struct Drag {
-        const Player* player;  // whose picture
-        glm::vec3 tip;  // where it was held
-        glm::vec2 from;  // px
-    };
-    std::optional<Drag> drag_;
-};
 
 }  // namespace benchmarks::viewer

@@ -11,15 +11,15 @@
 #include <glm/trigonometric.hpp>
 #include <imgui.h>
 
-#include "benchmarks/viewer/picking.h"
+#include "benchmarks/viewer/edit.h"
 #include "hair/simulation/head_motion.h"
 
 namespace benchmarks::viewer {
 namespace {
 
-// ---- Head keys ----------------------------------------------------------------------------------
+// ---- Keyframes ----------------------------------------------------------------------------------
 
-// What poses may differ by and count as the same: some steps of the floats that keyframes are made
+// Differences up to which poses count as the same: some steps of the floats that keyframes are made
 // of, far below what can be seen.
 constexpr float kDegrees = 1e-3f;
 constexpr float kMetres = 1e-6f;
@@ -52,7 +52,7 @@ hair::Keyframe unwound(hair::Keyframe key, const hair::Keyframe& before) {
     return key;
 }
 
-// Leaves what was, with a keyframe at the present.
+// Cuts a motion to what was played, with a keyframe at the present.
 void cut(hair::MotionSettings& motion, float now) {
     const hair::Keyframe present = keyOf(headAt(motion, double{now}), now);
     motion.repeat = false;
@@ -61,49 +61,11 @@ void cut(hair::MotionSettings& motion, float now) {
         motion.keyframes.push_back(present);
 }
 
-}  // namespace
+// ---- The tool -----------------------------------------------------------------------------------
 
-HeadPose headAt(const hair::MotionSettings& motion, double time) {
-    return poseOf(hair::simulation::HeadMotion(motion).keyframeAt(time));
-}
-
-hair::MotionSettings
-motionUntil(const hair::MotionSettings& motion, const Moment& moment, double frame_time) {
-    hair::MotionSettings until = motion;
-    if (motion.keyframes.empty()) return until;
-    cut(until, moment.now);
-    if (frame_time <= 0.0) return until;
-    const hair::simulation::HeadMotion before(motion), after(until);
-    std::vector<hair::Keyframe> keys;
-    bool is_same = true;
-    for (double frame = 1.0; static_cast<float>(frame * frame_time) <= moment.now; frame += 1.0) {
-        const double time = frame * frame_time;
-        const hair::Keyframe key = before.keyframeAt(time);
-        is_same &= same(key, after.keyframeAt(time));
-        keys.push_back(keys.empty() ? key : unwound(key, keys.back()));
-    }
-    if (!is_same && keys.size() + kKeysOfAMove <= mostKeys()) until.keyframes = std::move(keys);
-    return until;
-}
-
-bool moveHead(hair::MotionSettings& motion, const Moment& moment, const HeadPose& pose) {
-    const HeadPose wanted{
-        allowed(&hair::Keyframe::rotation, pose.rotation),
-        allowed(&hair::Keyframe::translation, pose.translation)};
-    if (wanted == headAt(motion, double{moment.next})) return false;
-    if (motion.keyframes.size() + kKeysOfAMove > mostKeys()) return false;
-    cut(motion, moment.now);
-    motion.keyframes.push_back(keyOf(wanted, moment.next));
-    return true;
-}
-
-namespace {
-
-// ---- Head tool ----------------------------------------------------------------------------------
-
-constexpr float kSize = 5.0f;  // of the gizmo, font sizes
-// In small pictures and wide views it would fill all: shares of the picture's height, and of the
-// distance to the camera, that it may have.
+constexpr float kSize = 5.0f;  // radius of the gizmo, font sizes
+// Shares of the picture's height and of the distance to the camera that the gizmo has at most: it
+// would fill small pictures and wide views.
 constexpr float kMostShare = 0.3f;
 constexpr float kMostDepth = 0.4f;
 constexpr const char* kMoves[] = {"x", "y", "z"};
@@ -151,6 +113,44 @@ void draw(
 }
 
 }  // namespace
+
+// ---- Keyframes ----------------------------------------------------------------------------------
+
+HeadPose headAt(const hair::MotionSettings& motion, double time) {
+    return poseOf(hair::simulation::HeadMotion(motion).keyframeAt(time));
+}
+
+hair::MotionSettings
+motionUntil(const hair::MotionSettings& motion, const Moment& moment, double frame_time) {
+    hair::MotionSettings until = motion;
+    if (motion.keyframes.empty()) return until;
+    cut(until, moment.now);
+    if (frame_time <= 0.0) return until;
+    const hair::simulation::HeadMotion before(motion), after(until);
+    std::vector<hair::Keyframe> keys;
+    bool is_same = true;
+    for (double frame = 1.0; static_cast<float>(frame * frame_time) <= moment.now; frame += 1.0) {
+        const double time = frame * frame_time;
+        const hair::Keyframe key = before.keyframeAt(time);
+        is_same &= same(key, after.keyframeAt(time));
+        keys.push_back(keys.empty() ? key : unwound(key, keys.back()));
+    }
+    if (!is_same && keys.size() + kKeysOfAMove <= mostKeys()) until.keyframes = std::move(keys);
+    return until;
+}
+
+bool moveHead(hair::MotionSettings& motion, const Moment& moment, const HeadPose& pose) {
+    const HeadPose wanted{
+        allowed(&hair::Keyframe::rotation, pose.rotation),
+        allowed(&hair::Keyframe::translation, pose.translation)};
+    if (wanted == headAt(motion, double{moment.next})) return false;
+    if (motion.keyframes.size() + kKeysOfAMove > mostKeys()) return false;
+    cut(motion, moment.now);
+    motion.keyframes.push_back(keyOf(wanted, moment.next));
+    return true;
+}
+
+// ---- The tool -----------------------------------------------------------------------------------
 
 Gizmo headGizmo(const glm::vec3& pivot, const HeadPose& pose, float size) {
     const glm::quat yaw = glm::angleAxis(glm::radians(pose.rotation.y), glm::vec3{0, 1, 0});
@@ -240,7 +240,9 @@ Edit HeadTool::options(OptionsLine& line, hair::Settings& settings) {
     hair::MotionSettings& motion = settings.simulation.motion;
     const std::string name =
         "Clear motion (" + std::to_string(motion.keyframes.size()) + ")###clear_motion";
-    if (!line.button(name.c_str(), !motion.keyframes.empty(), "No keyframes: the head never moved"))
+    if (!line.button(
+            name.c_str(), !motion.keyframes.empty(),
+            "Removes all keyframes, as if the head had never moved"))
         return {};
     motion.keyframes.clear();
     motion.repeat = false;

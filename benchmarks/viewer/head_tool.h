@@ -4,12 +4,13 @@
 
 #include <glm/vec3.hpp>
 
+#include "benchmarks/viewer/edit.h"
 #include "benchmarks/viewer/gizmo.h"
 #include "benchmarks/viewer/picking.h"
 #include "benchmarks/viewer/player.h"
 #include "hair/settings.h"
-#include "hair/simulation_settings.h"
 
+// The tool that moves the head with a gizmo, by keyframes of its motion.
 namespace benchmarks::viewer {
 
 // A pose of the head, as keyframes have it.
@@ -22,14 +23,14 @@ struct HeadPose {
 
 HeadPose headAt(const hair::MotionSettings& motion, double time);
 
-// A motion that is the same up to now and rests from then on: with the keyframes so far, if they
-// say the same without those after now, else with one for each of the frames so far, which were
-// `frame_time` long (as far as there may be so many keyframes). It does not repeat.
+// A motion that is the same up to now and rests from then on, and does not repeat. It has the
+// keyframes so far where these give the same motion without those after now, else one for each of
+// the frames so far, which were `frame_time` long, as far as the settings allow so many.
 hair::MotionSettings
 motionUntil(const hair::MotionSettings& motion, const Moment& moment, double frame_time);
 
-// Of a motion that rests from now on: the head has the pose from the next frame on. False, and
-// nothing is done, where it has it already or where there is no room for more keyframes.
+// Gives the head a pose from the next frame on, in a motion that rests from now on. False, and
+// nothing is done, where the head has the pose already or there is no room for more keyframes.
 bool moveHead(hair::MotionSettings& motion, const Moment& moment, const HeadPose& pose);
 
 // Moves the head with a gizmo at its pivot: keyframes of /simulation/motion from now on.
@@ -46,11 +47,11 @@ public:
 
 private:
     struct Drag {
-        const Player* player;  // whose picture
+        const Player* player;  // whose picture the mouse is in
         GizmoPart part;
-        Gizmo gizmo;     // as it was when it was held
+        Gizmo gizmo;     // when the drag began
         HeadPose start;
-        HeadPose pose;   // as it is wanted
+        HeadPose pose;   // that is wanted
         glm::vec2 from;  // px
         glm::vec2 last;  // px
         float angle = 0.0f;  // rad so far; more than a turn is possible

@@ -3,91 +3,22 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdint>
-#include <functional>
-#include <iterator>
-#include <map>
 #include <string>
-#include <utility>
-#include <vector>
+#include <system_error>
 
 #include <imgui.h>
-#include <nlohmann/json.hpp>
 
-#include "benchmarks/measure/case.h"
-#include "benchmarks/measure/metrics.h"
 #include "benchmarks/measure/progress.h"
-#include "benchmarks/reference/picture_errors.h"
-#include "benchmarks/report/environment.h"
-#include "benchmarks/report/report.h"
 #include "benchmarks/report/statistics.h"
 #include "benchmarks/report/text.h"
-#include "benchmarks/run/case.h"
-#include "benchmarks/scene/settings_json.h"
-#include "benchmarks/viewer/timings_panel.h"
+#include "benchmarks/viewer/player.h"
 #include "engine/device.h"
 #include "engine/error.h"
-#include "engine/frame_loop.h"
-#include "engine/shaders.h"
 
 namespace benchmarks::viewer {
-
-// ---- Changed shaders ----------------------------------------------------------------------------
-
-void warnOfChangedShaders(const engine::Device& device, report::Trust& trust) {
-    std::string names;
-    for (const auto& [path, code] : device.shaders().replacements())
-        names += (names.empty() ? "" : ", ") + path;
-    if (names.empty()) return;
-    trust.warnings.push_back("shaders that are not those of the build: " + names);
-}
-
-// ---- Count statistics ---------------------------------------------------------------------------
-
-report::CaseResult countStatistics(const engine::Device& device, measure::Case& shown) {
-    report::CaseResult result;
-    if (!device.hasPipelineStatistics()) return result;
-    device.runOnce([](engine::Commands&) {});  // the window may still be copying the picture
-    engine::FrameLoop loop(device, engine::Timing::statistics);
-    loop.frame([&](engine::Passes& passes) { shown.draw(passes); });
-    measure::addStatistics(loop.finish().front(), device, shown, result);
-    return result;
-}
-
-// ---- Frozen side --------------------------------------------------------------------------------
-
-FrozenSide frozenSide(const Side& side, ShownSide shown) {
-    const Player& player = side.player();
-    measure::addTransparency(player.played(), shown.metrics);
-    if (!player.previews()) {
-        shown.metrics.image_hash = player.played().pictureHash();
-        shown.metrics.state_hash = player.played().stateHash();
-    }
-    return {.shown = std::move(shown), .settings = player.settings(), .frame = player.frame()};
-}
-
-report::CaseResult frozenResult(const FrozenSide& frozen, const report::CaseResult& statistics) {
-    report::CaseResult result = frozen.shown.metrics;
-    result.statistics = statistics.statistics;
-    std::vector<std::string>& warnings = result.trust.warnings;
-    std::ranges::copy(statistics.trust.warnings, std::back_inserter(warnings));
-    std::string frames = report::countText(frozen.shown.isolated, "isolated frame") + " and " +
-                         report::countText(frozen.shown.overlapped, "overlapped frame");
-    if (const auto& range = frozen.shown.range)
-        frames +=
-            " between " + std::to_string(range->first) + " and " + std::to_string(range->second);
-    warnings.push_back(
-        "taken in the viewer: " + frames +
-        ", one at a time and with the window's pictures between them, in no rounds; their "
-        "timestamps were not held against the CPU's clock");
-    if (!result.image_hash.empty())
-        warnings.push_back("the hashes are of frame " + std::to_string(frozen.frame));
-    return result;
-}
-
 namespace {
 
-// ---- Measured table -----------------------------------------------------------------------------
+// ---- What was measured --------------------------------------------------------------------------
 
 constexpr double kAlpha = 0.05;
 
@@ -136,9 +67,81 @@ void measuredTable(const report::CaseResult& result) {
         ImGui::TextWrapped("Warning: %s", warning.c_str());
 }
 
+constexpr const char* kPopup = "Measuring";
+// Time between two looks at the window's events. A look takes some microseconds, which then is no
+// share of a frame's time that matters.
+constexpr std::chrono::milliseconds kLook{100};
+
 }  // namespace
 
-// ---- Save box -----------------------------------------------------------------------------------
+// ---- Widgets for figures ------------------------------------------------------------------------
+
+std::string numberText(std::optional<double> number) {
+    return number ? report::shortNumber(*number) : "-";
+}
+
+void helpMarker(const char* help) {
+    if (*help == 0) return;
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_DelayShort) && ImGui::BeginTooltip()) {
+        ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24.0f);
+        ImGui::TextUnformatted(help);
+        ImGui::PopTextWrapPos();
+        ImGui::EndTooltip();
+    }
+}
+
+void rightText(const std::string& text) {
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+    if (room > 0.0f) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
+    ImGui::TextUnformatted(text.c_str());
+}
+
+FigureTable::FigureTable(const char* id, Columns columns, const char* title) : columns_(columns) {
+    const int count = columns == Columns::compared ? 4 : 2;
+    open_ = ImGui::BeginTable(id, count, ImGuiTableFlags_SizingFixedFit);
+    if (!open_) return;
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+    for (int i = 1; i < count; ++i) ImGui::TableSetupColumn("");
+    if (columns == Columns::one && *title == 0) return;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", title);
+    if (columns == Columns::one) return;
+    for (const char* side : {"A", "B", "B / A"}) {
+        ImGui::TableNextColumn();
+        rightText(side);
+    }
+}
+
+FigureTable::~FigureTable() {
+    if (open_) ImGui::EndTable();
+}
+
+void FigureTable::row(
+    const char* name, const char* help, std::optional<double> a, std::optional<double> b) {
+    row(name, help, numberText(a), numberText(b));
+    if (!open_ || columns_ == Columns::one) return;
+    ImGui::TableNextColumn();
+    rightText(a && b && *a > 0.0 ? report::shortNumber(*b / *a) : "-");
+}
+
+void FigureTable::row(
+    const char* name, const char* help, const std::string& a, const std::string& b) {
+    if (!open_) return;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(name);
+    ImGui::PopTextWrapPos();
+    helpMarker(help);
+    ImGui::TableNextColumn();
+    rightText(a);
+    if (columns_ == Columns::one) return;
+    ImGui::TableNextColumn();
+    rightText(b);
+}
+
+// ---- The box that asks for a file ---------------------------------------------------------------
 
 void SaveBox::save(const std::function<void(const std::filesystem::path&)>& write) {
     try {
@@ -183,131 +186,7 @@ void SaveBox::show(
     if (!told_.empty()) ImGui::TextWrapped("%s", told_.c_str());
 }
 
-namespace {
-
-// ---- Own memory ---------------------------------------------------------------------------------
-
-// What one thing holds of the device's memory while others hold some too: what has joined since the
-// beginning, but for what others did meanwhile.
-class OwnMemory {
-public:
-    explicit OwnMemory(const engine::MemoryLedger& all) : all_(all), others_(all.bytes()) {}
-
-    // Does what is not the thing's.
-    void others(const std::function<void()>& action);
-
-    // memory.device and memoryMetrics(), of it alone.
-    std::vector<report::Metric> metrics() const;
-
-private:
-    const engine::MemoryLedger& all_;
-    std::map<engine::MemoryLedger::Entry, std::uint64_t> others_;
-};
-
-void OwnMemory::others(const std::function<void()>& action) {
-    const auto before = all_.bytes();
-    action();
-    for (const auto& [entry, bytes] : all_.bytes()) others_[entry] += bytes;
-    // What was there before is counted already. Sums are taken modulo 2^64, so that it may shrink.
-    for (const auto& [entry, bytes] : before) others_[entry] -= bytes;
-}
-
-std::vector<report::Metric> OwnMemory::metrics() const {
-    engine::MemoryLedger own;
-    std::vector<engine::MemoryLedger::Line> lines;
-    std::uint64_t sum = 0;
-    for (const auto& [entry, bytes] : all_.bytes()) {
-        const auto found = others_.find(entry);
-        const std::uint64_t rest = bytes - (found == others_.end() ? 0 : found->second);
-        if (rest > 0) lines.emplace_back(own, entry, rest);
-        sum += rest;
-    }
-    std::vector<report::Metric> metrics{
-        {report::ofMemory(report::Measured::allocated), {static_cast<double>(sum)}}};
-    std::ranges::move(measure::memoryMetrics(own), std::back_inserter(metrics));
-    return metrics;
-}
-
-}  // namespace
-
-// ---- Side measurement ---------------------------------------------------------------------------
-
-SideMeasurement measureSide(
-    const engine::Device& device, const hair::Settings& settings,
-    const std::filesystem::path& directory, const std::string& name,
-    const measure::MeasureHooks& hooks) {
-    SideMeasurement measured{.settings = settings, .result = {.name = name}, .picture = {}};
-    report::CaseResult& result = measured.result;
-    result.index = result.order = 0;
-    OwnMemory memory(device.memory());
-    const measure::MeasureHooks own_hooks{
-        .stop = hooks.stop, .progress = [&](const measure::SamplingState& state) {
-            if (hooks.progress) memory.others([&] { hooks.progress(state); });
-            device.runOnce([](engine::Commands&) {});  // waits for all that was submitted
-        }};
-    measure::Case test_case(device, settings, directory);
-    measured.picture = measure::measure(device, test_case, settings.run, own_hooks, result);
-    std::erase_if(result.metrics, [](const report::Metric& metric) {
-        const report::Measured what = metric.id.what;
-        return what == report::Measured::allocated || what == report::Measured::heap ||
-               what == report::Measured::purpose;
-    });
-    std::ranges::move(memory.metrics(), std::back_inserter(result.metrics));
-    if (!settings.run.reference.empty()) {
-        reference::ReferenceComparison references;
-        references.add(
-            directory / settings.run.reference, settings.render.width, settings.render.height,
-            measured.picture, result);
-    }
-    warnOfChangedShaders(device, result.trust);
-    result.trust.warnings.push_back(
-        "measured in the viewer: pipelines and files were warm, and the window's pictures were "
-        "drawn between rounds");
-    return measured;
-}
-
-// ---- Viewer report ------------------------------------------------------------------------------
-
-report::Report viewerReport(
-    const engine::Device& device, const ReportOrigin& origin, const hair::Settings& settings,
-    report::CaseResult result) {
-    scene::Document document(scene::writeSettings(settings));
-    report::Report report;
-    report.environment =
-        report::describeEnvironment(device, origin.command, settings.seed, origin.validation);
-    report.scene.path = origin.scene.string();
-    report.scene.hash = report::hashText(document.text());
-    report.scene.document = std::move(document);
-    report.case_count = 1;
-    result.name = origin.name;
-    result.index = result.order = 0;
-    report.cases.push_back(std::move(result));
-    return report;
-}
-
-std::filesystem::path reportPath(const ReportOrigin& origin, const std::string& kind) {
-    return std::filesystem::path("results/local") / (origin.name + '-' + kind + ".json");
-}
-
-void saveReport(
-    report::Report report, const hair::RenderSettings& render,
-    std::span<const std::uint8_t> picture, const std::filesystem::path& file) {
-    if (!picture.empty())
-        report.cases.front().picture =
-            run::writeCasePicture(picture, render.width, render.height, file, 0);
-    report::writeReport(report::reportJson(report), file);
-}
-
-namespace {
-
-// ---- Measure panel ------------------------------------------------------------------------------
-
-constexpr const char* kPopup = "Measuring";
-// Between two looks at the window's events. A look takes some microseconds, of which a frame's time
-// then has no share that matters.
-constexpr std::chrono::milliseconds kLook{100};
-
-}  // namespace
+// ---- The panel ----------------------------------------------------------------------------------
 
 void MeasurePanel::buttons(std::size_t sides) {
     static constexpr const char* kNames[] = {"Measure A", "Measure B"};

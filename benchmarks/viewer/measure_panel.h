@@ -1,49 +1,52 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
-#include <vector>
+#include <utility>
 
-#include "benchmarks/measure/case.h"
 #include "benchmarks/measure/measure.h"
-#include "benchmarks/report/report.h"
-#include "benchmarks/viewer/player.h"
 #include "benchmarks/viewer/timings.h"
-#include "engine/device.h"
-#include "hair/settings.h"
 
+// The runner's measurement at a button, with the widgets for figures and files that the panel of
+// timings has too.
 namespace benchmarks::viewer {
 
-// Adds a warning where shaders are not those that the program was built with: a report of them is
-// none of the build that it names.
-void warnOfChangedShaders(const engine::Device& device, report::Trust& trust);
+// A number's text; "-" where it is not known.
+std::string numberText(std::optional<double> number);
 
-// Draws the frame that a case shows once more, untimed, and counts with pipeline statistics as the
-// runner does: result.statistics, and a warning for each count that is not as expected. The frame
-// and its picture stay what they were. Nothing where the device counts none.
-report::CaseResult countStatistics(const engine::Device& device, measure::Case& shown);
+// A tooltip for the last item; none for an empty text.
+void helpMarker(const char* help);
 
-// What was shown of a side when the user froze it.
-struct FrozenSide {
-    ShownSide shown;
-    hair::Settings settings;
-    std::uint32_t frame = 0;  // that the hashes are of
+// Text at the right end of the room that is left in a line or cell.
+void rightText(const std::string& text);
+
+// A table of lines "what  figure", and where two sides are compared "what  A  B  B / A". Long names
+// take several lines.
+class FigureTable {
+public:
+    enum class Columns { one, compared };
+
+    // Within the current window of Dear ImGui, until the table leaves its scope. `title` says what
+    // all figures are; it may be empty.
+    FigureTable(const char* id, Columns columns, const char* title = "");
+    ~FigureTable();
+    FigureTable(const FigureTable&) = delete;
+    FigureTable& operator=(const FigureTable&) = delete;
+
+    void
+    row(const char* name, const char* help, std::optional<double> a,
+        std::optional<double> b = std::nullopt);
+    void row(const char* name, const char* help, const std::string& a, const std::string& b = {});
+
+private:
+    Columns columns_;
+    bool open_ = false;
 };
 
-// With what reading back from the device tells: hashes of the picture and the guides, unless the
-// side shows no frame of its settings, and what blended fragments took.
-FrozenSide frozenSide(const Side& side, ShownSide shown);
-
-// What a report has of it: the metrics in their modes, `statistics` (countStatistics(), or
-// nothing), and warnings that say how it was all measured.
-report::CaseResult frozenResult(const FrozenSide& frozen, const report::CaseResult& statistics);
-
-// A button that asks where a file is to go and writes it there, and what came of it.
+// A button that asks for a path and writes a file there, and says what came of it.
 class SaveBox {
 public:
     explicit SaveBox(std::string button) : button_(std::move(button)) {}
@@ -59,69 +62,32 @@ private:
 
     std::string button_;
     std::string path_;
-    std::string problem_;  // of the last try
+    std::string problem_;  // why the last try failed
     std::string told_;  // what was written
 };
 
-// What the runner found out of settings.
-struct SideMeasurement {
-    hair::Settings settings;
-    report::CaseResult result;
-    std::vector<std::uint8_t> picture;  // [row][column] RGBA, top row first: that which is hashed
-};
-
-// Measures settings as `hairbench run` does, with a case of its own, so that what is shown stays as
-// it is. The memory in the result is that case's. What `hooks.progress` does to the device, such as
-// a picture of the window, is done before the next round begins. Throws as Case and measure().
-SideMeasurement measureSide(
-    const engine::Device& device, const hair::Settings& settings,
-    const std::filesystem::path& directory, const std::string& name,
-    const measure::MeasureHooks& hooks);
-
-// Where what the viewer shows came from.
-struct ReportOrigin {
-    std::filesystem::path scene;
-    std::string name;  // of the scene
-    std::vector<std::string> command;  // line that the viewer was started with
-    engine::Validation validation = engine::Validation::off;
-};
-
-// The report of one case, as the runner's of a scene that has these settings and no sweep.
-report::Report viewerReport(
-    const engine::Device& device, const ReportOrigin& origin, const hair::Settings& settings,
-    report::CaseResult result);
-
-// results/local/<scene>-<kind>.json
-std::filesystem::path reportPath(const ReportOrigin& origin, const std::string& kind);
-
-// Writes it, with the case's picture beside it where there is one: [row][column] RGBA, top row
-// first. Throws engine::Error "<path>: <reason>".
-void saveReport(
-    report::Report report, const hair::RenderSettings& render,
-    std::span<const std::uint8_t> picture, const std::filesystem::path& file);
-
 // How the window lives on while something is measured.
 struct MeasuringWindow {
-    // Draws a picture of the window in which nothing is played. Between rounds: what the device
-    // does beside frames would be in their times.
+    // Draws a picture of the window in which nothing is played. Called between rounds: what the
+    // device does beside frames would be in their times.
     std::function<void()> picture;
-    // Looks at what happened to the window, and says whether it is to close. Between frames, a few
+    // Looks at the window's events, and says whether it is to close. Called between frames, a few
     // times a second.
     std::function<bool()> closes;
 };
 
-// The runner's measurement of what a side shows, at a button: within a window of Dear ImGui, but
-// for the measurement itself.
+// Measures what a side shows as the runner does, and shows and saves what came of it.
 class MeasurePanel {
 public:
     explicit MeasurePanel(const engine::Device& device) : device_(device) {}
 
-    // A button for each of one or two sides, what was measured and the button that saves it. While
-    // it is measured: how far it is, in front of everything else, and a button that ends it.
+    // Shows, within the current window of Dear ImGui, a button for each of one or two sides, what
+    // was measured and the button that saves it. While it is measured: how far it is, in front of
+    // everything else, and a button that ends it.
     void show(std::size_t sides, const ReportOrigin& origin);
 
-    // The side whose button was pressed: then measure() is to be called, outside of Dear ImGui's
-    // picture.
+    // The side whose button was pressed: measure() is to be called next, between two pictures of
+    // the window.
     std::optional<std::size_t> wanted() const { return wanted_; }
     void measure(const Side& side, const ReportOrigin& origin, const MeasuringWindow& window);
 
@@ -131,7 +97,7 @@ private:
 
     const engine::Device& device_;
     std::optional<std::size_t> wanted_;
-    std::string kind_ = "viewer";  // of report that the last one is
+    std::string kind_ = "viewer";  // of the last report, for its name
     bool measuring_ = false;
     bool cancelled_ = false;
     std::optional<measure::SamplingState> state_;

@@ -10,6 +10,7 @@
 #include "benchmarks/viewer/player.h"
 #include "benchmarks/viewer/scene_file.h"
 
+// The scene that is open, on one side or two, and the widgets of its time.
 namespace benchmarks::viewer {
 
 // Whether the camera of one side is the other's too.
@@ -24,8 +25,8 @@ public:
 
     const SceneFile& file() const { return file_; }
 
-    // Another scene, in place of this one: there is one side then. Throws as Side; what was there
-    // is then kept.
+    // Opens another scene in place of this one, on one side. Throws as Side; this scene is then
+    // kept.
     void open(const SceneFile& file);
 
     std::size_t sideCount() const { return b_ ? 2 : 1; }
@@ -33,7 +34,7 @@ public:
     const Side& side(std::size_t index) const { return index == 1 && b_ ? *b_ : *a_; }
     std::vector<Side*> sides();
 
-    // Starts with the same settings, at the same frame. Throws as Side.
+    // Adds a second side, with the settings and at the frame of the first. Throws as Side.
     void startComparing();
     void stopComparing();
     void swapSides();
@@ -43,15 +44,16 @@ public:
     void setEdited(std::size_t index) { edited_ = index < sideCount() ? index : 0; }
     Side& editedSide() { return side(edited_); }
     const Side& editedSide() const { return side(edited_); }
-    // What its settings are compared with: the file's, or for the second side the first one's.
+    // What the edited side's settings are compared with: the file's, or for the second side those
+    // of the first.
     const hair::Settings& reference() const;
 
     Cameras cameras = Cameras::linked;
-    // As Side::edit; where cameras are linked, the other side's follows.
+    // Side::edit() of a side; where cameras are linked, the other side's camera follows.
     void edit(std::size_t index, const hair::Settings& settings, Edit edit);
 
-    // Lets all follow their settings, and plays the frames that are due for a picture of the window
-    // after `seconds`; at most one where every frame is wanted. Whether anything was played.
+    // Lets the sides follow their settings, and plays the frames that are due for a picture of the
+    // window after `seconds`; at most one where every frame is wanted. True where any was played.
     enum class Frames { as_due, every_one };
     bool play(PlayState& state, double seconds, Frames frames);
 

@@ -10,119 +10,11 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 #include <glm/vec4.hpp>
-#include <imgui.h>
 
 #include "hair/rendering/lights.h"
 
 namespace benchmarks::viewer {
 namespace {
-
-// ---- Options line -------------------------------------------------------------------------------
-
-constexpr const char* kBar = "|";
-
-float spacing() { return ImGui::GetStyle().ItemSpacing.x; }
-
-float buttonWidth(const char* name) {
-    return ImGui::CalcTextSize(name, nullptr, true).x + 2.0f * ImGui::GetStyle().FramePadding.x;
-}
-
-}  // namespace
-
-void OptionsLine::place(float width) {
-    if (!is_empty_) {
-        ImGui::SameLine();
-        const float bar = separates_ ? ImGui::CalcTextSize(kBar).x + spacing() : 0.0f;
-        if (ImGui::GetContentRegionAvail().x < bar + width) {
-            ImGui::NewLine();
-        } else if (separates_) {
-            ImGui::TextDisabled("%s", kBar);
-            ImGui::SameLine();
-        }
-    }
-    is_empty_ = separates_ = false;
-}
-
-bool OptionsLine::button(const char* name, bool enabled, const char* tooltip) {
-    place(buttonWidth(name));
-    ImGui::BeginDisabled(!enabled);
-    const bool pressed = ImGui::Button(name);
-    ImGui::EndDisabled();
-    if (ImGui::IsItemHovered(ImGuiHoveredFlags_ForTooltip | ImGuiHoveredFlags_AllowWhenDisabled))
-        ImGui::SetTooltip("%s", tooltip);
-    return pressed;
-}
-
-bool OptionsLine::choice(const char* name, Choice choice, const char* tooltip) {
-    place(buttonWidth(name));
-    const bool chosen = choice == Choice::chosen;
-    if (chosen)
-        ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-    const bool pressed = ImGui::Button(name);
-    if (chosen) ImGui::PopStyleColor();
-    ImGui::SetItemTooltip("%s", tooltip);
-    return pressed;
-}
-
-bool OptionsLine::slider(
-    const char* name, float& value, float minimum, float maximum, const char* format) {
-    const float width = 9.0f * ImGui::GetFontSize();
-    place(width + ImGui::CalcTextSize(name).x + ImGui::GetStyle().ItemInnerSpacing.x);
-    ImGui::SetNextItemWidth(width);
-    return ImGui::SliderFloat(name, &value, minimum, maximum, format);
-}
-
-void OptionsLine::separator() { separates_ = true; }
-
-// ---- Picture view -------------------------------------------------------------------------------
-
-PictureView::PictureView(
-    const hair::CameraSettings& camera, const hair::RenderSettings& render, const PictureRect& rect)
-    : rect_(rect),
-      projection_(hair::rendering::viewProjection(
-          camera, static_cast<float>(render.width) / static_cast<float>(render.height))),
-      inverse_(glm::inverse(projection_)), eye_(camera.position),
-      right_(glm::normalize(glm::cross(camera.target - camera.position, camera.up))),
-      back_(glm::normalize(camera.position - camera.target)),
-      pixels_at_one_(rect.size.y / (2.0f * std::tan(glm::radians(camera.field_of_view) / 2.0f))) {
-    up_ = glm::cross(back_, right_);
-}
-
-std::optional<glm::vec2> PictureView::pixel(const glm::vec3& point) const {
-    const glm::dvec4 clip = projection_ * glm::dvec4(point, 1.0);
-    if (clip.w <= 0.0 || clip.z < 0.0) return {};
-    const glm::vec2 share = (glm::dvec2(clip) / clip.w + 1.0) / 2.0;
-    return rect_.corner + share * rect_.size;
-}
-
-Ray PictureView::ray(glm::vec2 pixel) const {
-    const glm::dvec2 unit = 2.0 * glm::dvec2(rect_.share(pixel)) - 1.0;
-    const glm::dvec4 point = inverse_ * glm::dvec4(unit, 0.0, 1.0);  // on the near plane
-    const glm::dvec3 eye = eye_;
-    return {eye, glm::normalize(glm::dvec3(point) / point.w - eye)};
-}
-
-glm::vec3 PictureView::onPlane(glm::vec2 pixel, const glm::vec3& through) const {
-    const Ray line = ray(pixel);
-    const glm::dvec3 normal = back_;
-    return line.from + line.direction * (glm::dot(normal, glm::dvec3(through) - line.from) /
-                                         glm::dot(normal, line.direction));
-}
-
-glm::vec3 PictureView::dragged(const glm::vec3& point, glm::vec2 from, glm::vec2 to) const {
-    return onPlane(to, point) - onPlane(from, point);
-}
-
-float PictureView::pixelsPerMetre(const glm::vec3& at) const {
-    const float distance = depth(at);
-    return distance > 0.0f ? pixels_at_one_ / distance : 0.0f;
-}
-
-float PictureView::depth(const glm::vec3& point) const { return glm::dot(eye_ - point, back_); }
-
-namespace {
-
-// ---- Picking ------------------------------------------------------------------------------------
 
 // Möller and Trumbore 1997, Fast, minimum storage ray/triangle intersection: m along the ray.
 std::optional<double>
@@ -179,6 +71,54 @@ double distanceToSegment(const glm::dvec3& point, const glm::dvec3& a, const glm
 }
 
 }  // namespace
+
+// ---- The view -----------------------------------------------------------------------------------
+
+PictureView::PictureView(
+    const hair::CameraSettings& camera, const hair::RenderSettings& render, const PictureRect& rect)
+    : rect_(rect),
+      projection_(hair::rendering::viewProjection(
+          camera, static_cast<float>(render.width) / static_cast<float>(render.height))),
+      inverse_(glm::inverse(projection_)), eye_(camera.position),
+      right_(glm::normalize(glm::cross(camera.target - camera.position, camera.up))),
+      back_(glm::normalize(camera.position - camera.target)),
+      pixels_at_one_(rect.size.y / (2.0f * std::tan(glm::radians(camera.field_of_view) / 2.0f))) {
+    up_ = glm::cross(back_, right_);
+}
+
+std::optional<glm::vec2> PictureView::pixel(const glm::vec3& point) const {
+    const glm::dvec4 clip = projection_ * glm::dvec4(point, 1.0);
+    if (clip.w <= 0.0 || clip.z < 0.0) return {};
+    const glm::vec2 share = (glm::dvec2(clip) / clip.w + 1.0) / 2.0;
+    return rect_.corner + share * rect_.size;
+}
+
+Ray PictureView::ray(glm::vec2 pixel) const {
+    const glm::dvec2 unit = 2.0 * glm::dvec2(rect_.share(pixel)) - 1.0;
+    const glm::dvec4 point = inverse_ * glm::dvec4(unit, 0.0, 1.0);  // on the near plane
+    const glm::dvec3 eye = eye_;
+    return {eye, glm::normalize(glm::dvec3(point) / point.w - eye)};
+}
+
+glm::vec3 PictureView::onPlane(glm::vec2 pixel, const glm::vec3& through) const {
+    const Ray line = ray(pixel);
+    const glm::dvec3 normal = back_;
+    return line.from + line.direction * (glm::dot(normal, glm::dvec3(through) - line.from) /
+                                         glm::dot(normal, line.direction));
+}
+
+glm::vec3 PictureView::dragged(const glm::vec3& point, glm::vec2 from, glm::vec2 to) const {
+    return onPlane(to, point) - onPlane(from, point);
+}
+
+float PictureView::pixelsPerMetre(const glm::vec3& at) const {
+    const float distance = depth(at);
+    return distance > 0.0f ? pixels_at_one_ / distance : 0.0f;
+}
+
+float PictureView::depth(const glm::vec3& point) const { return glm::dot(eye_ - point, back_); }
+
+// ---- What is under a pixel ----------------------------------------------------------------------
 
 Sphere sphereRound(std::span<const glm::vec3> points) {
     glm::vec3 low = points.front(), high = points.front();

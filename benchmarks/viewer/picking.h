@@ -1,82 +1,26 @@
 #pragma once
 
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <type_traits>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "hair/fields.h"
 #include "hair/groom/mesh/mesh.h"
 #include "hair/settings.h"
 #include "hair/simulation/head_motion.h"
-#include "hair/simulation_settings.h"
 
+// Which point of the scene a pixel of a shown picture stands for: views, rays and what they hit.
 namespace benchmarks::viewer {
-
-inline float within(float value, double minimum, double maximum) {
-    float inside = static_cast<float>(std::fmin(std::fmax(double{value}, minimum), maximum));
-    // The nearest float to a limit can be beyond it.
-    if (double{inside} < minimum) inside = std::nextafter(inside, 1e30f);
-    if (double{inside} > maximum) inside = std::nextafter(inside, -1e30f);
-    return inside;
-}
-
-// The value that is nearest to `value` among those that the table of `Owner` allows for a member.
-template <class Owner, class Value>
-Value allowed(Value Owner::* member, Value value) {
-    const Owner owner;
-    const hair::Field& field = hair::fieldAt(owner, &(owner.*member));
-    const hair::Range& range = std::get<hair::Number<Value>>(field.kind);
-    if constexpr (std::is_same_v<Value, glm::vec3>)
-        for (int i = 0; i < 3; ++i) value[i] = within(value[i], range.minimum, range.maximum);
-    else
-        value = within(value, range.minimum, range.maximum);
-    return value;
-}
-
-// How many entries the table allows for a list.
-template <class Owner, class Element>
-std::size_t mostOf(std::vector<Element> Owner::* member) {
-    const Owner owner;
-    return std::get<hair::List>(hair::fieldAt(owner, &(owner.*member)).kind).maximum_count;
-}
-
-// Widgets in a line that goes on in the next one where the window has no more room.
-class OptionsLine {
-public:
-    // True when it was pressed; one that is not enabled is gray.
-    bool button(const char* name, bool enabled, const char* tooltip);
-
-    // One of several: that which is chosen looks pressed.
-    enum class Choice { open, chosen };
-    bool choice(const char* name, Choice choice, const char* tooltip);
-
-    // True while it is another value. Ctrl+click takes a number beyond the slider's ends.
-    bool slider(const char* name, float& value, float minimum, float maximum, const char* format);
-
-    // Between groups of widgets that are in one line.
-    void separator();
-
-private:
-    // Where the next widget is, which has this width, px.
-    void place(float width);
-
-    bool is_empty_ = true;
-    bool separates_ = false;  // what is placed next from what is there
-};
 
 // Where a picture is in the window, in Dear ImGui's coordinates.
 struct PictureRect {
     glm::vec2 corner{0.0f};  // top left
     glm::vec2 size{1.0f};
 
-    // Of a point in the window: (0, 0) top left to (1, 1) bottom right.
+    // Where a point of the window is in the picture: (0, 0) top left to (1, 1) bottom right.
     glm::vec2 share(glm::vec2 point) const { return (point - corner) / size; }
 };
 
@@ -85,8 +29,8 @@ struct Ray {
     glm::dvec3 direction;  // unit length
 };
 
-// A picture that is shown somewhere in the window: what of the scene is where. Pixels are Dear
-// ImGui's coordinates, y down.
+// Where what of the scene is in a picture that is shown in the window. Pixels are Dear ImGui's
+// coordinates, y down.
 class PictureView {
 public:
     // `render` gives the picture's proportions; `rect` shows all of it.
@@ -96,15 +40,16 @@ public:
 
     // Where a point is shown, even outside of the picture; none behind the near plane.
     std::optional<glm::vec2> pixel(const glm::vec3& point) const;
-    // From the camera through a pixel.
+    // The ray from the camera through a pixel.
     Ray ray(glm::vec2 pixel) const;
     // What a pixel shows of the plane that faces the camera and goes through a point.
     glm::vec3 onPlane(glm::vec2 pixel, const glm::vec3& through) const;
-    // How far a point goes in that plane while the mouse goes from one pixel to another.
+    // How far a point goes, in the plane through it that faces the camera, while the mouse goes
+    // from one pixel to another.
     glm::vec3 dragged(const glm::vec3& point, glm::vec2 from, glm::vec2 to) const;
-    // Of a length across the view at a point; 0 behind the camera.
+    // px that 1 m across the view has at a point; 0 behind the camera.
     float pixelsPerMetre(const glm::vec3& at) const;
-    // m along the view; negative: behind the camera.
+    // m along the view to a point; negative: behind the camera.
     float depth(const glm::vec3& point) const;
 
     const PictureRect& rect() const { return rect_; }
@@ -118,7 +63,7 @@ private:
     glm::dmat4 projection_;  // world -> clip
     glm::dmat4 inverse_;
     glm::vec3 eye_, right_, up_, back_;
-    float pixels_at_one_;  // of 1 m at a depth of 1 m
+    float pixels_at_one_;  // px of 1 m at a depth of 1 m
 };
 
 struct Sphere {
@@ -126,7 +71,7 @@ struct Sphere {
     float radius = 0.0f;
 };
 
-// Round the middle of the points' bounding box. There is at least one point.
+// A sphere round points, about the middle of their bounding box. There is at least one point.
 Sphere sphereRound(std::span<const glm::vec3> points);
 
 // A vertex that is no root, of guides [guide][vertex].
@@ -135,8 +80,8 @@ struct GuideVertex {
     std::uint32_t vertex = 1;
 };
 
-// The vertex nearest to a pixel, at most `reach` px from it: what is nearer to the camera by
-// `depth_scale` (m) counts as if it were nearer to the pixel by `reach`.
+// The vertex nearest to a pixel, at most `reach` px from it: a vertex that is nearer to the camera
+// by `depth_scale` (m) counts as if it were nearer to the pixel by `reach`.
 std::optional<GuideVertex> pickVertex(
     const PictureView& view, std::span<const glm::vec3> guides, std::uint32_t vertices_per_guide,
     glm::vec2 pixel, float reach, float depth_scale);
@@ -157,11 +102,11 @@ pickCapsule(const Ray& ray, const glm::vec3& a, const glm::vec3& b, float radius
 // The mouse over a picture, in one frame of the window.
 struct Pointer {
     PictureView view;
-    glm::vec2 at{0.0f};     // px in the window
-    glm::vec2 moved{0.0f};  // since the last frame of the window
-    bool hovers = false;    // over the picture
-    bool pressed = false;   // the left button has just gone down on it
-    bool holds = false;     // the left button went down on it and is down
+    glm::vec2 at{0.0f};  // px in the window
+    glm::vec2 moved{0.0f};  // px since the last frame of the window
+    bool hovers = false;  // over the picture
+    bool pressed = false;  // the left button has just gone down on it
+    bool holds = false;  // the left button went down on it and is down
 };
 
 }  // namespace benchmarks::viewer

@@ -11,20 +11,21 @@
 #include <imgui.h>
 #include <imgui_internal.h>  // owners of keys
 
-#include "benchmarks/report/statistics.h"
-#include "benchmarks/report/text.h"
-#include "benchmarks/viewer/compare_panel.h"
-#include "benchmarks/viewer/difference.h"
-#include "benchmarks/viewer/picking.h"
+#include "benchmarks/viewer/columns.h"
 
 namespace benchmarks::viewer {
 namespace {
 
-// ---- Arrange ------------------------------------------------------------------------------------
+// ---- Where pictures go --------------------------------------------------------------------------
 
 enum Axis { kHorizontal, kVertical };
 
 glm::vec2 middleOf(const PictureRect& rect) { return rect.corner + rect.size * 0.5f; }
+
+// The largest scale at which a picture fits a room.
+float fittingScale(glm::vec2 room, glm::vec2 picture) {
+    return glm::max(glm::min(room.x / picture.x, room.y / picture.y), 0.0f);
+}
 
 // The room that two pictures take beside each other along an axis, without a gap.
 glm::vec2 sizeOfBoth(const std::array<glm::vec2, 2>& sizes, Axis along) {
@@ -40,7 +41,7 @@ float scaleOfBoth(
     return fittingScale(left, sizeOfBoth(pixels, along));
 }
 
-// As large as there is room, the two together in its middle; each fills its pane.
+// Two pictures as large as there is room, together in its middle; each fills its pane.
 std::array<Placed, 2>
 fitted(const PictureRect& room, const std::array<glm::vec2, 2>& pixels, float gap, Axis along) {
     const float scale = scaleOfBoth(room, pixels, gap, along);
@@ -56,63 +57,14 @@ fitted(const PictureRect& room, const std::array<glm::vec2, 2>& pixels, float ga
     return placed;
 }
 
-}  // namespace
-
-PictureRect common(const PictureRect& a, const PictureRect& b) {
-    const glm::vec2 from = glm::max(a.corner, b.corner);
-    const glm::vec2 to = glm::min(a.corner + a.size, b.corner + b.size);
-    return {from, glm::max(to - from, glm::vec2(0.0f))};
-}
-
-float fittingScale(glm::vec2 room, glm::vec2 picture) {
-    return glm::max(glm::min(room.x / picture.x, room.y / picture.y), 0.0f);
-}
-
-glm::vec2 visibleShare(const Placed& placed) {
-    return glm::min(placed.pane.size / placed.picture.size, glm::vec2(1.0f));
-}
-
-glm::vec2 reachableFocus(glm::vec2 focus, glm::vec2 visible_share) {
-    return glm::clamp(focus, visible_share * 0.5f, 1.0f - visible_share * 0.5f);
-}
-
-Placed arrangeOne(const PictureRect& room, glm::vec2 pixels, const Magnification& magnification) {
-    const glm::vec2 size =
-        pixels * (magnification.scale ? *magnification.scale : fittingScale(room.size, pixels));
-    Placed placed{room, {{}, size}};
-    const glm::vec2 focus = reachableFocus(magnification.focus, visibleShare(placed));
-    placed.picture.corner = middleOf(room) - focus * size;
-    // Pixels that have a size of their own start where the screen's do.
-    if (magnification.scale) placed.picture.corner = glm::floor(placed.picture.corner);
-    return placed;
-}
-
-std::array<Placed, 2> arrangeTwo(
-    const PictureRect& room, const std::array<glm::vec2, 2>& pixels, float gap,
-    const Magnification& magnification) {
-    const bool beside =
-        scaleOfBoth(room, pixels, gap, kHorizontal) >= scaleOfBoth(room, pixels, gap, kVertical);
-    const Axis along = beside ? kHorizontal : kVertical;
-    if (!magnification.scale) return fitted(room, pixels, gap, along);
-    std::array<Placed, 2> placed;
-    for (std::size_t i = 0; i < 2; ++i) {
-        PictureRect half = room;
-        half.size[along] = glm::max((room.size[along] - gap) * 0.5f, 1.0f);
-        if (i == 1) half.corner[along] += half.size[along] + gap;
-        placed[i] = arrangeOne(half, pixels[i], magnification);
-    }
-    return placed;
-}
-
-namespace {
-
-// ---- Divider ------------------------------------------------------------------------------------
+// ---- The line between two pictures --------------------------------------------------------------
 
 constexpr float kGrab = 1.0f;  // width of what can be grabbed, in font sizes
-constexpr float kStep = 0.01f;  // share that a key moves it
+constexpr float kStep = 0.01f;  // share that a key moves the line by
 constexpr float kFastStep = 0.1f;
 
-// Taken from all others: else they would move the keyboard's focus, and the camera.
+// The step that the arrow keys ask for. The keys are taken from all other widgets: they would move
+// the keyboard's focus, and the camera.
 float stepOfKeys() {
     const ImGuiID owner = ImGui::GetItemID();
     const auto pressed = [&](ImGuiKey key) {
@@ -124,8 +76,8 @@ float stepOfKeys() {
     return (right ? step : 0.0f) - (left ? step : 0.0f);
 }
 
-// Light in dark edges, so that it is seen on every picture; a handle in the middle says that it
-// moves.
+// Draws the line light in dark edges, so that it is seen on every picture; a handle in the middle
+// says that it moves.
 void draw(float x, const PictureRect& rect, ImU32 color) {
     const float font = ImGui::GetFontSize();
     const float top = rect.corner.y, bottom = top + rect.size.y;
@@ -167,25 +119,12 @@ void divider(const char* id, const PictureRect& rect, float& share) {
     draw(at(), rect, is_marked ? ImGui::GetColorU32(ImGuiCol_SliderGrabActive) : IM_COL32_WHITE);
 }
 
-}  // namespace
-
-// ---- Frame time caption -------------------------------------------------------------------------
-
-std::string frameTimeCaption(const TimingHistory& history) {
-    std::vector<double> times;
-    for (const engine::FrameRecord& frame : history.isolated().records) times.push_back(frame.wall);
-    return times.empty() ? "" : report::shortNumber(report::summarize(times).median) + " ms";
-}
-
-namespace {
-
-// ---- Picture tag --------------------------------------------------------------------------------
+// ---- Words on a picture -------------------------------------------------------------------------
 
 enum class Corner { top_left, top_right };
 
-// A few words over a corner of a picture, readable on every one; in more lines where it is narrow,
-// and none where there is no room for them.
-// `rect` is what is seen of the picture.
+// A few words over a corner of a picture, readable on every picture; in more lines where it is
+// narrow, and none where there is no room for them. `rect` is what is seen of the picture.
 void pictureTag(const std::string& text, const PictureRect& rect, Corner corner) {
     const float font = ImGui::GetFontSize();
     const float margin = font * 0.4f, padding = font * 0.35f;
@@ -207,7 +146,7 @@ void pictureTag(const std::string& text, const PictureRect& rect, Corner corner)
         nullptr, widest);
 }
 
-// ---- Zoom bar -----------------------------------------------------------------------------------
+// ---- Zoom and scroll bars -----------------------------------------------------------------------
 
 using Zoom = std::optional<int>;
 
@@ -218,7 +157,7 @@ constexpr std::array kZooms{
     Choice<Zoom>{"4x", 4, "A pixel of the picture is 4 x 4 of the screen's."},
     Choice<Zoom>{"8x", 8, "A pixel of the picture is 8 x 8 of the screen's."}};
 
-constexpr double kSteps = 1e6;  // that a bar divides a picture into
+constexpr double kSteps = 1e6;  // steps that a scroll bar divides a picture into
 
 void scrollBar(const char* id, const ImRect& bar, ImGuiAxis axis, float visible, float& focus) {
     const double first = (double{focus} - double{visible} / 2) * kSteps;
@@ -260,7 +199,7 @@ void pictureScrollBars(const PictureRect& room, glm::vec2 visible_share, glm::ve
             focus.y);
 }
 
-// ---- Picture area -------------------------------------------------------------------------------
+// ---- The area -----------------------------------------------------------------------------------
 
 constexpr ImGuiKey kMoveKey = ImGuiKey_M;  // held, the mouse moves magnified pictures
 
@@ -300,6 +239,52 @@ bool isMouseDown() {
 
 }  // namespace
 
+// ---- Where pictures go --------------------------------------------------------------------------
+
+PictureRect common(const PictureRect& a, const PictureRect& b) {
+    const glm::vec2 from = glm::max(a.corner, b.corner);
+    const glm::vec2 to = glm::min(a.corner + a.size, b.corner + b.size);
+    return {from, glm::max(to - from, glm::vec2(0.0f))};
+}
+
+glm::vec2 visibleShare(const Placed& placed) {
+    return glm::min(placed.pane.size / placed.picture.size, glm::vec2(1.0f));
+}
+
+glm::vec2 reachableFocus(glm::vec2 focus, glm::vec2 visible_share) {
+    return glm::clamp(focus, visible_share * 0.5f, 1.0f - visible_share * 0.5f);
+}
+
+Placed arrangeOne(const PictureRect& room, glm::vec2 pixels, const Magnification& magnification) {
+    const glm::vec2 size =
+        pixels * (magnification.scale ? *magnification.scale : fittingScale(room.size, pixels));
+    Placed placed{room, {{}, size}};
+    const glm::vec2 focus = reachableFocus(magnification.focus, visibleShare(placed));
+    placed.picture.corner = middleOf(room) - focus * size;
+    // Pixels that have a size of their own start where the screen's do.
+    if (magnification.scale) placed.picture.corner = glm::floor(placed.picture.corner);
+    return placed;
+}
+
+std::array<Placed, 2> arrangeTwo(
+    const PictureRect& room, const std::array<glm::vec2, 2>& pixels, float gap,
+    const Magnification& magnification) {
+    const bool beside =
+        scaleOfBoth(room, pixels, gap, kHorizontal) >= scaleOfBoth(room, pixels, gap, kVertical);
+    const Axis along = beside ? kHorizontal : kVertical;
+    if (!magnification.scale) return fitted(room, pixels, gap, along);
+    std::array<Placed, 2> placed;
+    for (std::size_t i = 0; i < 2; ++i) {
+        PictureRect half = room;
+        half.size[along] = glm::max((room.size[along] - gap) * 0.5f, 1.0f);
+        if (i == 1) half.corner[along] += half.size[along] + gap;
+        placed[i] = arrangeOne(half, pixels[i], magnification);
+    }
+    return placed;
+}
+
+// ---- The area -----------------------------------------------------------------------------------
+
 PictureArea::PictureArea(const engine::Device& device)
     : a_(device), b_(device), difference_(device) {}
 
@@ -329,7 +314,7 @@ std::vector<Placed> PictureArea::arrange(const PictureRect& room) const {
     return {both.begin(), both.end()};
 }
 
-// A bar takes room, which may make the other one needed.
+// The size of the room beside scroll bars. A bar takes room, which may make the other one needed.
 glm::vec2 PictureArea::roomBesideBars(const PictureRect& room) const {
     PictureRect left = room;
     for (int i = 0; i < 2; ++i) {
@@ -373,7 +358,7 @@ std::vector<PictureArea::Shown> PictureArea::show(const std::array<std::string, 
     return shown;
 }
 
-// What the mouse does on a picture is its user's, but with the move key.
+// The item over a picture. What the mouse does on it is the caller's, but with the move key.
 PictureArea::Shown PictureArea::item(const Placed& placed, const PictureRect& clip, int side) {
     Shown shown{.rect = placed.picture, .side = side, .clip = clip};
     if (clip.size.x <= 0.0f || clip.size.y <= 0.0f) return shown;
@@ -402,7 +387,7 @@ void PictureArea::showPicture(
     shown.push_back(item(placed, clip, side));
 }
 
-// One of them, or both in panes of their own.
+// Shows one picture, or both in panes of their own.
 void PictureArea::showAlone(
     std::vector<Shown>& shown, const std::vector<Placed>& placed,
     const std::array<std::string, 2>& captions) {

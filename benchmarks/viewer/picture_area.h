@@ -10,14 +10,15 @@
 
 #include "benchmarks/viewer/difference.h"
 #include "benchmarks/viewer/picking.h"
-#include "benchmarks/viewer/player.h"
 
-// Where pictures go in a window: geometry only, in Dear ImGui's coordinates.
+// The part of the window with the pictures: where they go, and how one or two are shown.
 namespace benchmarks::viewer {
+
+// ---- Where pictures go: geometry only, in Dear ImGui's coordinates ------------------------------
 
 // How much of a picture is to be seen.
 struct Magnification {
-    std::optional<float> scale;   // of a picture's pixels; absent: as large as there is room
+    std::optional<float> scale;  // of the picture's pixels; absent: as large as there is room
     glm::vec2 focus{0.5f, 0.5f};  // share of the picture that is in the middle, if it can be
 };
 
@@ -27,18 +28,15 @@ struct Placed {
     PictureRect picture;  // all of it
 };
 
-// What two have in common; of size 0 where that is nothing.
+// The overlap of two rectangles; of size 0 where there is none.
 PictureRect common(const PictureRect& a, const PictureRect& b);
 
-// The largest scale at which a picture fits a room.
-float fittingScale(glm::vec2 room, glm::vec2 picture);
-
-// Of a picture of `pixels`, in the middle of the room where it fits. Where it doesn't, no part of
-// the room stays empty.
+// Places a picture of `pixels` in the middle of the room where it fits. Where it doesn't, no part
+// of the room stays empty.
 Placed arrangeOne(const PictureRect& room, glm::vec2 pixels, const Magnification& magnification);
 
-// Of two pictures at one scale, `gap` apart: beside each other or, where they are larger then, one
-// above the other.
+// Places two pictures at one scale, `gap` apart: beside each other or, where they are larger then,
+// one above the other.
 std::array<Placed, 2> arrangeTwo(
     const PictureRect& room, const std::array<glm::vec2, 2>& pixels, float gap,
     const Magnification& magnification);
@@ -49,17 +47,15 @@ glm::vec2 visibleShare(const Placed& placed);
 // The nearest focus that can be in the middle of the pane.
 glm::vec2 reachableFocus(glm::vec2 focus, glm::vec2 visible_share);
 
-// "12.3 ms": the median over the isolated frames that are known, from submission to completion;
-// empty while there are none.
-std::string frameTimeCaption(const TimingHistory& history);
+// ---- The area -----------------------------------------------------------------------------------
 
 // How two pictures are shown.
 enum class Views {
     a,
     b,
     side_by_side,
-    slider,      // a left of it and b right of it
-    difference,  // of display colours, brightened
+    slider,  // a left of a line and b right of it
+    difference,  // of display colours, times the gain
 };
 
 // The pictures of one or two sides, with their own proportions: as large as there is room, or
@@ -68,28 +64,27 @@ class PictureArea {
 public:
     explicit PictureArea(const engine::Device& device);
 
-    Views views = Views::a;      // while there are two
-    std::uint32_t gain = 4;      // of the difference
-    std::optional<int> zoom;     // px of the window for a px of a picture; absent: fits
-    float divider_share = 0.5f;  // of what is seen of the pictures, left of the slider
+    Views views = Views::a;  // how two pictures are shown
+    std::uint32_t gain = 4;  // factor of the difference
+    std::optional<int> zoom;  // px of the window for a px of a picture; absent: fits
+    float divider_share = 0.5f;  // where the slider is in what is seen of the pictures
 
     // Records copies of what the sides have drawn; `b` may be null. Before the window is rendered.
     void copy(engine::Commands& commands, const engine::Image& a, const engine::Image* b);
 
     struct Shown {
-        PictureRect rect;  // of the whole picture, which may be partly hidden
+        PictureRect rect;  // the whole picture, which may be partly hidden
         int side = 0;  // 0: a, 1: b
         bool hovered = false;
-        PictureRect clip;  // what is seen of it
+        PictureRect clip;  // what is seen of the picture
     };
-    // Shows them within the current window of Dear ImGui, below a line of zooms. `captions` stand
-    // beside the sides' letters, while there are two. Every picture is an item; the last one that
-    // the mouse holds is what ImGui::IsItemActive() is asked about: see `held`.
+    // Shows the pictures within the current window of Dear ImGui, below a line of zooms; each is an
+    // item. `captions` stand beside the letters of two sides.
     std::vector<Shown> show(const std::array<std::string, 2>& captions = {});
     // The side whose picture the mouse holds down on; -1: none.
     int held() const { return held_; }
 
-    // Of the picture of the difference that was shown last; none while it isn't.
+    // The figures of the difference that was shown last; none while it isn't shown.
     const std::optional<DifferenceFigures>& difference() const { return difference_.figures(); }
 
 private:

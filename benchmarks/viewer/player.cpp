@@ -12,31 +12,14 @@
 #include "engine/device.h"
 
 namespace benchmarks::viewer {
-
-// ---- Pacer --------------------------------------------------------------------------------------
-
-std::uint32_t Pacer::framesFor(double seconds, double frame_time, std::optional<double> speed) {
-    if (!speed) {
-        due_ = 0.0;
-        return 1;
-    }
-    if (frame_time <= 0.0) return 0;
-    due_ = std::min(due_ + seconds * *speed / frame_time, double{kMostFrames});
-    const double whole = std::floor(due_);
-    due_ -= whole;
-    return static_cast<std::uint32_t>(whole);
-}
-
 namespace {
 
-// ---- Player -------------------------------------------------------------------------------------
-
-// What a change means for what is there.
+// What a change of settings affects.
 enum class Effect {
     none,
     camera,
     drawing,
-    forces,  // what the simulation can take on the way
+    forces,  // what a running simulation can take
     everything,
 };
 
@@ -59,7 +42,34 @@ Effect effectOf(const hair::Settings& before, const hair::Settings& after) {
     return without("camera") ? Effect::camera : Effect::drawing;
 }
 
+scene::Document documentOf(const hair::Settings& settings) {
+    return scene::Document(scene::writeSettings(settings));
+}
+
+bool sameButCamera(hair::Settings a, const hair::Settings& b) {
+    a.camera = b.camera;
+    return documentOf(a) == documentOf(b);
+}
+
+constexpr double kPause = 0.5;  // s without a new frame: longer than a slow device takes for one
+
 }  // namespace
+
+// ---- Pacer --------------------------------------------------------------------------------------
+
+std::uint32_t Pacer::framesFor(double seconds, double frame_time, std::optional<double> speed) {
+    if (!speed) {
+        due_ = 0.0;
+        return 1;
+    }
+    if (frame_time <= 0.0) return 0;
+    due_ = std::min(due_ + seconds * *speed / frame_time, double{kMostFrames});
+    const double whole = std::floor(due_);
+    due_ -= whole;
+    return static_cast<std::uint32_t>(whole);
+}
+
+// ---- Player -------------------------------------------------------------------------------------
 
 Player::Player(
     const engine::Device& device, const hair::Settings& settings,
@@ -98,7 +108,7 @@ void Player::preview(const hair::Settings& settings) {
     drawWith(settings);
 }
 
-// Draws the same frame otherwise.
+// Draws the same frame with other settings.
 void Player::drawWith(const hair::Settings& settings) {
     if (effectOf(settings_, settings) == Effect::camera)
         case_->setCamera(settings.camera);
@@ -180,39 +190,7 @@ const scene::Document& EditHistory::redo() {
     return current();
 }
 
-// ---- Timing history -----------------------------------------------------------------------------
-
-void TimingHistory::add(
-    const engine::FrameRecord& frame, engine::Timing timing, std::uint32_t number) {
-    TimedFrames& frames = timing == engine::Timing::overlapped ? overlapped_ : isolated_;
-    if (frames.size() == kFrames) {
-        frames.records.erase(frames.records.begin());
-        frames.numbers.erase(frames.numbers.begin());
-    }
-    frames.records.push_back(frame);
-    frames.numbers.push_back(number);
-}
-
-void TimingHistory::clear() {
-    isolated_ = {};
-    overlapped_ = {};
-    ++revision_;
-}
-
-namespace {
-
 // ---- Side ---------------------------------------------------------------------------------------
-
-scene::Document documentOf(const hair::Settings& settings) {
-    return scene::Document(scene::writeSettings(settings));
-}
-
-bool sameButCamera(hair::Settings a, const hair::Settings& b) {
-    a.camera = b.camera;
-    return documentOf(a) == documentOf(b);
-}
-
-}  // namespace
 
 Side::Side(
     const engine::Device& device, const hair::Settings& settings,
@@ -277,7 +255,7 @@ void Side::rebuild() {
     timings_.clear();
 }
 
-// ---- Moment -------------------------------------------------------------------------------------
+// ---- Moment of a drag ---------------------------------------------------------------------------
 
 Moment momentAfter(std::uint32_t frame, double frame_time, double time_step) {
     const double step = frame_time > 0.0 ? frame_time : time_step;
@@ -303,13 +281,7 @@ Moment momentOf(const Player& player) {
         player.frame(), double{settings.run.frame_time}, double{settings.simulation.time_step});
 }
 
-namespace {
-
 // ---- Running clock ------------------------------------------------------------------------------
-
-constexpr double kPause = 0.5;  // s without a new frame: longer than a slow device takes for one
-
-}  // namespace
 
 bool RunningClock::runs(const Player& player, double seconds) {
     const auto [entry, is_new] = seen_.try_emplace(&player, Seen{.frame = player.frame()});

@@ -12,29 +12,21 @@
 
 #include "benchmarks/measure/case.h"
 #include "benchmarks/scene/json.h"
+#include "benchmarks/viewer/edit.h"
+#include "benchmarks/viewer/timings.h"
 #include "engine/frame_loop.h"
 
+// What is played: frames by the window's clock, a case that follows its settings, and a side that
+// has the settings, their history and the player.
 namespace benchmarks::viewer {
-
-// What widgets or the mouse did to settings in one frame of the window.
-struct Edit {
-    bool changed = false;    // they are other ones now
-    bool continues = false;  // and go on changing: something is being dragged
-
-    Edit& operator|=(const Edit& other) {
-        changed |= other.changed;
-        continues |= other.continues;
-        return *this;
-    }
-};
 
 // How many frames are to be played for a picture of the window.
 class Pacer {
 public:
-    static constexpr std::uint32_t kMostFrames = 16;  // of a picture: a slow device falls behind
+    static constexpr std::uint32_t kMostFrames = 16;  // per picture: a slow device falls behind
 
     // `seconds` since the last picture; `frame_time` simulated s that a frame advances; `speed` in
-    // simulated seconds per second, absent: always one. A time or speed of 0 gives none.
+    // simulated seconds per second, absent: always one frame. A time or speed of 0 gives no frame.
     std::uint32_t framesFor(double seconds, double frame_time, std::optional<double> speed);
 
 private:
@@ -45,7 +37,7 @@ private:
 // decides only when a frame is played.
 struct PlayState {
     bool playing = true;
-    bool step = false;  // one frame, while it is paused
+    bool step = false;  // plays one frame while paused
     std::optional<std::uint32_t> seek;
     // Simulated seconds per second; absent: one frame for every picture of the window.
     std::optional<double> speed;
@@ -54,7 +46,7 @@ struct PlayState {
 // Plays one case as the runner does, frame by frame, and lets its settings change on the way. What
 // it shows is always the frame that the runner would have drawn with these settings from the first
 // frame on: where a change bears on the simulation, it is played anew up to the frame that was
-// reached. Only a preview is not that.
+// reached. Only a preview shows something else.
 class Player {
 public:
     // Draws frame 0. Throws as Case does.
@@ -62,7 +54,7 @@ public:
         const engine::Device& device, const hair::Settings& settings,
         const std::filesystem::path& directory);
 
-    // Throws engine::Error for settings that can't be; what was there is then kept.
+    // Plays with these settings. Throws engine::Error for impossible ones, and keeps the last.
     void apply(const hair::Settings& settings);
 
     // While something is being dragged: what can change without delay does, and the simulation goes
@@ -72,8 +64,8 @@ public:
     // Whether what is shown is no frame of any settings: apply() plays it anew.
     bool previews() const { return previews_; }
 
-    // Everything anew, for shaders that changed, up to the frame that was reached. Throws as Case;
-    // what was there is then kept.
+    // Makes everything anew, for shaders that changed, up to the frame that was reached. Throws as
+    // Case, and keeps what was there.
     void rebuild();
 
     // Plays and draws the next frame. `timing` is isolated or overlapped.
@@ -85,7 +77,7 @@ public:
     std::uint32_t frame() const { return frame_; }
     // Simulated s at the end of the frame.
     double time() const;
-    // As they are played.
+    // The settings that are played.
     const hair::Settings& settings() const { return settings_; }
     const std::filesystem::path& directory() const { return directory_; }
     const measure::Case& played() const { return *case_; }
@@ -116,10 +108,10 @@ public:
 
     const scene::Document& current() const { return documents_[index_]; }
 
-    // A new state; what was undone is gone. One that `continues` the last, as while a slider is
-    // dragged, replaces it.
+    // Adds a state; what was undone is gone. A state that `continues` the last one, as while a
+    // slider is dragged, replaces it.
     void edit(scene::Document document, bool continues);
-    // What comes next continues nothing: the slider was let go.
+    // The next state continues nothing: the slider was let go.
     void settle() { continuing_ = false; }
 
     bool canUndo() const { return index_ > 0; }
@@ -133,36 +125,6 @@ private:
     bool continuing_ = false;
 };
 
-// What was measured of frames that were timed in one way, oldest first.
-struct TimedFrames {
-    std::vector<engine::FrameRecord> records;
-    std::vector<std::uint32_t> numbers;  // of each frame in the simulation, from 0
-
-    std::size_t size() const { return records.size(); }
-};
-
-// What was measured of the last frames that were drawn, by the way they were timed. Frames of
-// different settings don't mix: who changes them clears it.
-class TimingHistory {
-public:
-    static constexpr std::size_t kFrames = 300;  // of each way
-
-    // `timing` is isolated or overlapped.
-    void add(const engine::FrameRecord& frame, engine::Timing timing, std::uint32_t number);
-    void clear();
-
-    const TimedFrames& isolated() const { return isolated_; }
-    const TimedFrames& overlapped() const { return overlapped_; }
-
-    // Another one after each clear(): what was found out before it is of other settings.
-    std::uint64_t revision() const { return revision_; }
-
-private:
-    TimedFrames isolated_;
-    TimedFrames overlapped_;
-    std::uint64_t revision_ = 0;
-};
-
 // Settings that widgets change, what they were, and the hair that follows them. A viewer that
 // compares has two.
 class Side {
@@ -173,9 +135,10 @@ public:
         const engine::Device& device, const hair::Settings& settings,
         const std::filesystem::path& directory);
 
-    // As widgets have them. They may be impossible: then problem() says why, and others are played.
+    // The settings that widgets have. They may be impossible: then problem() says why, and others
+    // are played.
     const hair::Settings& wanted() const { return wanted_; }
-    // As they are on disk.
+    // The settings on disk.
     const hair::Settings& original() const { return original_; }
     const std::string& problem() const { return problem_; }
 
@@ -194,7 +157,7 @@ public:
     // Plays frames, the last of which is drawn and measured.
     void play(std::uint32_t frames, engine::Timing timing);
     void seek(std::uint32_t frame);
-    // Everything anew, for shaders that changed. Throws as Case; what was there is then kept.
+    // Player::rebuild(), with no timings of the old shaders.
     void rebuild();
 
     const Player& player() const { return player_; }
@@ -213,8 +176,8 @@ private:
     TimingHistory timings_;
 };
 
-// The simulated times (s) that a drag writes keys at. It can change nothing that was played
-// already: what is dragged is where the mouse has it from the next frame on. Strictly ascending.
+// The simulated times, s, strictly ascending, that a drag writes keys at. A drag changes nothing
+// that was played already: what is dragged is where the mouse has it from the next frame on.
 struct Moment {
     float now = 0.0f;
     float next = 0.0f;  // end of the next frame
@@ -226,8 +189,7 @@ Moment momentAfter(std::uint32_t frame, double frame_time, double time_step);
 
 Moment momentOf(const Player& player);
 
-// Whether frames are being played: seen by their numbers, so that it holds for a pause as for a
-// device that is too slow.
+// Whether frames are being played, by their numbers: a device that is too slow counts as paused.
 class RunningClock {
 public:
     // `seconds` of the window's clock.

@@ -17,11 +17,9 @@
 namespace benchmarks::viewer {
 namespace {
 
-using engine::PresentMode;
-
 // ---- Layout -------------------------------------------------------------------------------------
 
-// Heights of a letter.
+// Sizes in heights of a letter.
 constexpr float kSplitter = 0.4f;
 constexpr float kPlay = 2.3f;
 constexpr float kStatus = 1.8f;
@@ -29,54 +27,6 @@ constexpr float kLeastPicture = 8.0f;  // beside the last column
 
 // Whole pixels: letters are blurred between them.
 float pixels(float letters, float letter) { return std::round(letters * letter); }
-
-}  // namespace
-
-Layout arrange(
-    float width, float height, float top, float letter, const Column& left, const Column& right) {
-    Layout layout;
-    const float status = std::min(pixels(kStatus, letter), std::max(height - top, 0.0f));
-    const float play = std::min(pixels(kPlay, letter), std::max(height - top - status, 0.0f));
-    layout.status = {0.0f, height - status, width, status};
-    layout.play = {0.0f, layout.status.y - play, width, play};
-
-    const float splitter = pixels(kSplitter, letter);
-    const float narrowest = pixels(kNarrowestColumn, letter);
-    const float picture = pixels(kNarrowestPicture, letter);
-    const float least = pixels(kLeastPicture, letter);
-    layout.merged = width < 2.0f * (narrowest + splitter) + picture;
-    const bool fits = width >= narrowest + splitter + least;
-    const bool has_left = fits && (left.shown || (layout.merged && right.shown));
-    const bool has_right = right.shown && !layout.merged;
-
-    const float others = has_right ? narrowest + 2.0f * splitter + picture : splitter + picture;
-    const float left_width =
-        has_left
-            ? std::clamp(pixels(left.width, letter), narrowest, std::max(narrowest, width - others))
-            : 0.0f;
-    const float left_end = has_left ? left_width + splitter : 0.0f;
-    const float right_width = has_right
-                                  ? std::clamp(
-                                        pixels(right.width, letter), narrowest,
-                                        std::max(narrowest, width - left_end - splitter - picture))
-                                  : 0.0f;
-    const float right_start = has_right ? width - right_width : width;
-    const float picture_end = has_right ? right_start - splitter : width;
-
-    const float tall = std::max(layout.play.y - top, 0.0f);
-    if (has_left) {
-        layout.left = {0.0f, top, left_width, tall};
-        layout.left_splitter = {left_width, top, splitter, tall};
-    }
-    layout.picture = {left_end, top, std::max(picture_end - left_end, 0.0f), tall};
-    if (has_right) {
-        layout.right_splitter = {picture_end, top, splitter, tall};
-        layout.right = {right_start, top, right_width, tall};
-    }
-    return layout;
-}
-
-namespace {
 
 // ---- Theme --------------------------------------------------------------------------------------
 
@@ -174,7 +124,101 @@ void setColors(ImGuiStyle& style, const Palette& palette) {
     colors[ImGuiCol_ModalWindowDimBg] = color(0x000000, 0.45f);
 }
 
+// ---- Reading preferences ------------------------------------------------------------------------
+
+constexpr std::array kPresentModes{
+    engine::PresentMode::fifo, engine::PresentMode::mailbox, engine::PresentMode::immediate};
+constexpr std::array kThemes{Theme::dark, Theme::light};
+
+constexpr float kWidestColumn = 200.0f;
+
+std::filesystem::path folderFrom(const char* variable) {
+    const char* const value = std::getenv(variable);
+    return value ? value : "";
+}
+
+// Reads a member where it is a number in this range.
+template <class Number>
+void readNumber(
+    const scene::Json& object, const char* name, Number minimum, Number maximum, Number& value) {
+    const auto found = object.find(name);
+    if (found == object.end() || !found->is_number()) return;
+    const double number = found->get<double>();
+    if (number >= static_cast<double>(minimum) && number <= static_cast<double>(maximum))
+        value = static_cast<Number>(number);
+}
+
+// Reads a member where it is one of these names.
+template <class Values, class Value, class Name>
+void readName(
+    const scene::Json& object, const char* name, const Values& values, Name nameOf, Value& value) {
+    const auto found = object.find(name);
+    if (found == object.end() || !found->is_string()) return;
+    for (const Value each : values)
+        if (found->get<std::string>() == nameOf(each)) value = each;
+}
+
+void readColumn(const scene::Json& object, const char* name, Column& column) {
+    const auto found = object.find(name);
+    if (found == object.end() || !found->is_object()) return;
+    readNumber(*found, "width", kNarrowestColumn, kWidestColumn, column.width);
+    const auto shown = found->find("shown");
+    if (shown != found->end() && shown->is_boolean()) column.shown = shown->get<bool>();
+}
+
+scene::Json columnJson(const Column& column) {
+    return {{"width", column.width}, {"shown", column.shown}};
+}
+
 }  // namespace
+
+// ---- Layout -------------------------------------------------------------------------------------
+
+Layout arrange(
+    float width, float height, float top, float letter, const Column& left, const Column& right) {
+    Layout layout;
+    const float status = std::min(pixels(kStatus, letter), std::max(height - top, 0.0f));
+    const float play = std::min(pixels(kPlay, letter), std::max(height - top - status, 0.0f));
+    layout.status = {0.0f, height - status, width, status};
+    layout.play = {0.0f, layout.status.y - play, width, play};
+
+    const float splitter = pixels(kSplitter, letter);
+    const float narrowest = pixels(kNarrowestColumn, letter);
+    const float picture = pixels(kNarrowestPicture, letter);
+    const float least = pixels(kLeastPicture, letter);
+    layout.merged = width < 2.0f * (narrowest + splitter) + picture;
+    const bool fits = width >= narrowest + splitter + least;
+    const bool has_left = fits && (left.shown || (layout.merged && right.shown));
+    const bool has_right = right.shown && !layout.merged;
+
+    const float others = has_right ? narrowest + 2.0f * splitter + picture : splitter + picture;
+    const float left_width =
+        has_left
+            ? std::clamp(pixels(left.width, letter), narrowest, std::max(narrowest, width - others))
+            : 0.0f;
+    const float left_end = has_left ? left_width + splitter : 0.0f;
+    const float right_width = has_right
+                                  ? std::clamp(
+                                        pixels(right.width, letter), narrowest,
+                                        std::max(narrowest, width - left_end - splitter - picture))
+                                  : 0.0f;
+    const float right_start = has_right ? width - right_width : width;
+    const float picture_end = has_right ? right_start - splitter : width;
+
+    const float tall = std::max(layout.play.y - top, 0.0f);
+    if (has_left) {
+        layout.left = {0.0f, top, left_width, tall};
+        layout.left_splitter = {left_width, top, splitter, tall};
+    }
+    layout.picture = {left_end, top, std::max(picture_end - left_end, 0.0f), tall};
+    if (has_right) {
+        layout.right_splitter = {picture_end, top, splitter, tall};
+        layout.right = {right_start, top, right_width, tall};
+    }
+    return layout;
+}
+
+// ---- Theme --------------------------------------------------------------------------------------
 
 const char* themeName(Theme theme) { return theme == Theme::dark ? "dark" : "light"; }
 
@@ -200,55 +244,7 @@ ImGuiStyle styleOf(Theme theme, float scale) {
     return style;
 }
 
-namespace {
-
 // ---- Preferences --------------------------------------------------------------------------------
-
-constexpr std::array kPresentModes{
-    engine::PresentMode::fifo, engine::PresentMode::mailbox, engine::PresentMode::immediate};
-constexpr std::array kThemes{Theme::dark, Theme::light};
-
-constexpr float kWidestColumn = 200.0f;
-
-std::filesystem::path folderFrom(const char* variable) {
-    const char* const value = std::getenv(variable);
-    return value ? value : "";
-}
-
-// The member, where it is a number in this range.
-template <class Number>
-void readNumber(
-    const scene::Json& object, const char* name, Number minimum, Number maximum, Number& value) {
-    const auto found = object.find(name);
-    if (found == object.end() || !found->is_number()) return;
-    const double number = found->get<double>();
-    if (number >= static_cast<double>(minimum) && number <= static_cast<double>(maximum))
-        value = static_cast<Number>(number);
-}
-
-// The member, where it is one of these names.
-template <class Values, class Value, class Name>
-void readName(
-    const scene::Json& object, const char* name, const Values& values, Name nameOf, Value& value) {
-    const auto found = object.find(name);
-    if (found == object.end() || !found->is_string()) return;
-    for (const Value each : values)
-        if (found->get<std::string>() == nameOf(each)) value = each;
-}
-
-void readColumn(const scene::Json& object, const char* name, Column& column) {
-    const auto found = object.find(name);
-    if (found == object.end() || !found->is_object()) return;
-    readNumber(*found, "width", kNarrowestColumn, kWidestColumn, column.width);
-    const auto shown = found->find("shown");
-    if (shown != found->end() && shown->is_boolean()) column.shown = shown->get<bool>();
-}
-
-scene::Json columnJson(const Column& column) {
-    return {{"width", column.width}, {"shown", column.shown}};
-}
-
-}  // namespace
 
 std::optional<std::filesystem::path> usersPreferences() {
     std::filesystem::path folder = folderFrom("XDG_CONFIG_HOME");
@@ -308,7 +304,7 @@ void remember(Preferences& preferences, const std::filesystem::path& scene) {
     if (preferences.recent.size() > kMostRecent) preferences.recent.resize(kMostRecent);
 }
 
-// ---- Preferences file ---------------------------------------------------------------------------
+// ---- The file -----------------------------------------------------------------------------------
 
 PreferencesFile::PreferencesFile(const std::filesystem::path& path) : path_(path) {
     std::error_code none;
@@ -330,23 +326,6 @@ void PreferencesFile::keep() {
         problem_ = std::string("preferences are not kept: ") + error.what();
         path_.clear();
     }
-}
-
-// ---- Recent scenes ------------------------------------------------------------------------------
-
-std::optional<std::filesystem::path> recentScenes(std::span<const std::filesystem::path> scenes) {
-    std::optional<std::filesystem::path> chosen;
-    ImGui::SetNextItemWidth(-1.0f);
-    if (!ImGui::BeginCombo("##recent", "Recent scenes", ImGuiComboFlags_HeightLarge)) return chosen;
-    for (const std::filesystem::path& scene : scenes) {
-        ImGui::PushID(scene.c_str());
-        if (ImGui::Selectable(scene.filename().c_str())) chosen = scene;
-        if (ImGui::IsItemHovered(ImGuiHoveredFlags_DelayShort))
-            ImGui::SetTooltip("%s", scene.c_str());
-        ImGui::PopID();
-    }
-    ImGui::EndCombo();
-    return chosen;
 }
 
 }  // namespace benchmarks::viewer

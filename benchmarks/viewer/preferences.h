@@ -3,13 +3,18 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "engine/presenter.h"
 
+struct ImGuiStyle;
+
+// What the user wants of the window and what is kept of it: layout, theme and the file of
+// preferences.
 namespace benchmarks::viewer {
+
+// ---- Layout -------------------------------------------------------------------------------------
 
 // A part of the window, in Dear ImGui's coordinates.
 struct Box {
@@ -25,7 +30,7 @@ struct Box {
 
 // A column of panels beside the picture, as the user wants it.
 struct Column {
-    float width = 20.0f;  // heights of a letter, so that it is right at any scale
+    float width = 20.0f;  // in heights of a letter, so that it is right at any scale
     bool shown = true;
 
     bool operator==(const Column&) const = default;
@@ -40,24 +45,20 @@ struct Layout {
     Box right;
     Box play;
     Box status;
-    bool merged = false;  // there is room for one column: it has the panels of both
+    bool merged = false;  // the one column that has room has the panels of both
 };
 
-// The narrowest column whose widgets are whole, and the picture beside two of them, heights of a
-// letter.
+// The narrowest column whose widgets are whole, and the narrowest picture beside two columns, in
+// heights of a letter.
 inline constexpr float kNarrowestColumn = 18.0f;
 inline constexpr float kNarrowestPicture = 22.0f;
 
-// Of a window of this size whose menu ends at `top`; `letter` is the height of a letter. Columns
-// give way to the picture, and where there is no room for two they become one.
+// The layout of a window of this size whose menu ends at `top`; `letter` is the height of a letter.
+// Columns give way to the picture, and where there is no room for two they become one.
 Layout arrange(
     float width, float height, float top, float letter, const Column& left, const Column& right);
 
-}  // namespace benchmarks::viewer
-
-struct ImGuiStyle;
-
-namespace benchmarks::viewer {
+// ---- Theme --------------------------------------------------------------------------------------
 
 enum class Theme { dark, light };
 
@@ -66,11 +67,13 @@ const char* themeName(Theme theme);
 // Colours and sizes of widgets, for letters that are `scale` times as large as usual.
 ImGuiStyle styleOf(Theme theme, float scale);
 
+// ---- Preferences --------------------------------------------------------------------------------
+
 // What the viewer remembers from one time to the next. Nothing that bears on a picture or a number
 // of a scene is in it.
 struct Preferences {
     Theme theme = Theme::dark;
-    float zoom = 1.0f;  // of letters and widgets, over the screen's
+    float zoom = 1.0f;  // of letters and widgets, over the screen's scale
     Column left{.width = 19.0f};
     Column right{.width = 19.0f};
     std::uint32_t width = 1600;  // of the window, screen coordinates
@@ -85,28 +88,29 @@ inline constexpr float kSmallestZoom = 0.5f;
 inline constexpr float kLargestZoom = 4.0f;
 inline constexpr std::size_t kMostRecent = 10;
 
-// $XDG_CONFIG_HOME/hairbench/viewer.json, or in ~/.config; none where neither is known.
+// $XDG_CONFIG_HOME/hairbench/viewer.json, else ~/.config/hairbench/viewer.json; none where neither
+// folder is known.
 std::optional<std::filesystem::path> usersPreferences();
 
-// JSON text and back. What a text lacks, or has out of range, is as in Preferences{}; one that is
-// no JSON throws engine::Error.
+// Preferences as JSON text, and read from it. What the text lacks, or has out of range, is as in
+// Preferences{}; text that is no JSON object throws engine::Error.
 std::string preferencesText(const Preferences& preferences);
 Preferences readPreferences(const std::string& text);
 
-// A scene was opened.
+// Puts a scene that was opened first among the recent ones.
 void remember(Preferences& preferences, const std::filesystem::path& scene);
 
 // The preferences and the file that they are kept in.
 class PreferencesFile {
 public:
-    // An empty path: nothing is read or written. What can't be read becomes problem(), and the
-    // preferences are those of a first time.
+    // With an empty path nothing is read or written. A file that can't be read becomes problem(),
+    // and the preferences are Preferences{}.
     explicit PreferencesFile(const std::filesystem::path& path);
 
     Preferences now;
 
-    // Writes them where they have changed. After the first time that this fails, which becomes
-    // problem(), never again.
+    // Writes the preferences where they have changed. The first failure becomes problem(), and
+    // nothing is written from then on.
     void keep();
 
     // One line; empty: all is well.
@@ -117,8 +121,5 @@ private:
     Preferences kept_;
     std::string problem_;
 };
-
-// Scenes that were open before, within the current window of Dear ImGui; the one that was chosen.
-std::optional<std::filesystem::path> recentScenes(std::span<const std::filesystem::path> scenes);
 
 }  // namespace benchmarks::viewer

@@ -1,7 +1,9 @@
 #include "benchmarks/viewer/scene_file.h"
 
 #include <algorithm>
+#include <fstream>
 #include <functional>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -10,22 +12,24 @@
 #include "benchmarks/scene/scene.h"
 #include "benchmarks/scene/settings_json.h"
 #include "benchmarks/scene/sweep.h"
-#include "benchmarks/viewer/drop.h"
 #include "engine/error.h"
 #include "engine/files.h"
 #include "engine/pictures.h"
 #include "hair/fields.h"
 #include "hair/groom/files.h"
+#include "hair/groom/formats/ply.h"
 #include "hair/groom/formats/text.h"
+#include "hair/groom/inspect.h"
+#include "hair/groom/mesh/gltf_model.h"
 #include "hair/groom/mesh/import_mesh.h"
+#include "hair/groom/mesh/surface.h"
 
 namespace benchmarks::viewer {
 namespace {
 
-using engine::Error;
 namespace fs = std::filesystem;
 
-// ---- Case arguments -----------------------------------------------------------------------------
+// ---- Settings as arguments of the command line --------------------------------------------------
 
 struct Argument {
     std::string pointer;
@@ -76,7 +80,7 @@ std::vector<Argument> axisArguments(const scene::Scene& scene, scene::Json& want
     return arguments;
 }
 
-// Adds what differs and no axis has.
+// Adds the fields that differ and are no axes.
 void addChanges(
     const scene::Json& original, const scene::Json& wanted, const std::string& pointer,
     const std::vector<scene::Axis>& axes, std::vector<Argument>& arguments) {
@@ -93,7 +97,7 @@ void addChanges(
     arguments.push_back({pointer, wanted, !is_list && pointer != "/description"});
 }
 
-// Lists without the members that are as in a new element.
+// Leaves out of lists the members that have their defaults.
 void shorten(std::vector<Argument>& arguments, const hair::Settings& settings) {
     const scene::Json changed = scene::changedFields(settings);
     for (Argument& argument : arguments) {
@@ -103,7 +107,7 @@ void shorten(std::vector<Argument>& arguments, const hair::Settings& settings) {
     }
 }
 
-// What the program makes of the arguments has to be what they were made of.
+// Throws unless the program makes of the arguments the settings that they were made of.
 void check(scene::Scene scene, const std::vector<Argument>& arguments, const scene::Json& wanted) {
     std::vector<scene::Axis> axes;
     for (const Argument& argument : arguments) {
@@ -118,29 +122,7 @@ void check(scene::Scene scene, const std::vector<Argument>& arguments, const sce
             scene.path.string(), "a command line can't say it; save a scene instead");
 }
 
-}  // namespace
-
-std::string caseArguments(const scene::Scene& scene, const hair::Settings& settings) {
-    scene::Json wanted = scene::writeSettings(settings);
-    std::vector<Argument> arguments;
-    try {
-        arguments = axisArguments(scene, wanted);
-    } catch (const engine::Error& error) {
-        throw engine::Error(scene.path.string(), error.what());
-    }
-    addChanges(scene::writeSettings(scene.settings), wanted, "", scene.axes, arguments);
-    shorten(arguments, settings);
-    check(scene, arguments, wanted);
-    std::string text;
-    for (const Argument& argument : arguments)
-        text += (text.empty() ? "" : " ") + std::string(argument.in_name ? "-a " : "--set ") +
-                quoted(argument.pointer + '=' + valueText(argument.value));
-    return text;
-}
-
-namespace {
-
-// ---- Readable json ------------------------------------------------------------------------------
+// ---- JSON that people read ----------------------------------------------------------------------
 
 constexpr std::size_t kColumns = 100;
 constexpr std::size_t kIndent = 2;
@@ -182,20 +164,11 @@ std::string onLines(const scene::Json& value, std::size_t indent) {
     return value.is_object() ? '{' + lines + '}' : '[' + lines + ']';
 }
 
-}  // namespace
-
-std::string readableJson(const scene::Json& document) {
-    const bool lines = document.is_structured() && !document.empty();
-    return (lines ? onLines(document, 0) : document.dump()) + '\n';
-}
-
-namespace {
-
-// ---- Save scene ---------------------------------------------------------------------------------
+// ---- Scenes, opened and saved -------------------------------------------------------------------
 
 constexpr const char* kSchema = "scene.schema.json";
 
-// Without links, so that ".." leads where it says.
+// A folder's path without links, so that ".." leads where it says.
 fs::path folderOf(const fs::path& folder) {
     return fs::weakly_canonical(fs::absolute(folder.empty() ? fs::path(".") : folder));
 }
@@ -228,39 +201,9 @@ void forEachFileName(hair::SettingsRef settings, const FileNameVisitor& visit) {
         std::visit([&](const auto& row) { visitFileNames(row, settings, visit); }, field.kind);
 }
 
-}  // namespace
+// ---- Files dropped on the window ----------------------------------------------------------------
 
-hair::Settings movedFiles(hair::Settings settings, const fs::path& from, const fs::path& to) {
-    const fs::path old_folder = folderOf(from);
-    const fs::path folder = folderOf(to);
-    if (old_folder == folder) return settings;
-    forEachFileName(settings, [&](std::string& name) {
-        if (name.empty() || fs::path(name).is_absolute()) return;
-        const fs::path old = old_folder / name;
-        // A link that a name is itself stays one: what it leads to may change.
-        const fs::path file = folderOf(old.parent_path()) / old.filename();
-        name = file.lexically_relative(folder).generic_string();
-    });
-    return settings;
-}
-
-std::string sceneText(const hair::Settings& settings, const fs::path& from, const fs::path& to) {
-    scene::Json document = scene::Json::object();
-    std::error_code error;
-    if (fs::exists(to / kSchema, error)) document["$schema"] = kSchema;
-    document.update(scene::changedFields(movedFiles(settings, from, to)));
-    return readableJson(document);
-}
-
-void saveScene(const hair::Settings& settings, const fs::path& from, const fs::path& file) {
-    engine::writeFileAtomically(file, sceneText(settings, from, file.parent_path()));
-}
-
-namespace {
-
-// ---- Scene file ---------------------------------------------------------------------------------
-
-// One that is damaged counts: opening it says how.
+// Whether a picture has a scene in it. A damaged scene counts: opening it says what is wrong.
 bool hasScene(const fs::path& picture) {
     try {
         return scene::sceneOfScreenshot(picture).has_value();
@@ -307,12 +250,195 @@ void addMesh(hair::RenderSettings& render, const fs::path& file, const std::stri
     render.meshes.push_back({.file = name});
 }
 
+enum class Holds { strands, triangles };
+
+Holds inObj(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    bool lines = false;
+    for (std::string line; std::getline(file, line);) {
+        const std::size_t first = line.find_first_not_of(" \t");
+        if (first == std::string::npos || first + 1 >= line.size()) continue;
+        if (line[first + 1] != ' ' && line[first + 1] != '\t') continue;  // "vn", "fo"
+        if (line[first] == 'f') return Holds::triangles;
+        lines = lines || line[first] == 'l';
+    }
+    return lines ? Holds::strands : Holds::triangles;
+}
+
+Holds inPly(const fs::path& path) {
+    constexpr std::streamsize kLongestHeader = 1 << 20;  // bytes
+    std::string head(kLongestHeader, '\0');
+    std::ifstream file(path, std::ios::binary);
+    file.read(head.data(), kLongestHeader);
+    head.resize(static_cast<std::size_t>(file.gcount()));
+    const hair::groom::PlyHeader header = hair::groom::readPlyHeader(head);
+    for (const char* name : {"strand", "polyline", "line"})
+        if (header.find(name)) return Holds::strands;
+    const hair::groom::PlyElement* const faces = header.find("face");
+    const bool has_faces = faces && faces->count > 0;
+    return header.find("edge") && !has_faces ? Holds::strands : Holds::triangles;
+}
+
+Holds inGltf(const fs::path& path) {
+    constexpr int kFirstOfTriangles = 4;  // glTF 2.0, mesh.primitive.mode: 0 to 3 points and lines
+    const std::string file = engine::readFile(path);
+    const scene::Json document = scene::Json::parse(
+        hair::groom::isGlb(file) ? hair::groom::glbChunks(file).json : std::string_view(file),
+        nullptr, false);
+    bool lines = false;
+    for (const scene::Json& mesh : document.value("meshes", scene::Json::array()))
+        for (const scene::Json& primitive : mesh.value("primitives", scene::Json::array())) {
+            if (primitive.value("mode", kFirstOfTriangles) >= kFirstOfTriangles)
+                return Holds::triangles;
+            lines = true;
+        }
+    return lines ? Holds::strands : Holds::triangles;
+}
+
+// What is in a file of a format that can hold strands and meshes: OBJ, PLY, glTF. Triangles where
+// the file has any: an OBJ with an `f` line, a glTF with a primitive of triangles (or of no stated
+// mode), a PLY with faces and without an element of strands. (Faces of two corners, as which assimp
+// writes lines, are not told from others.) Of an OBJ it reads up to the first face, of a PLY the
+// header, of a glTF the JSON. A file that can't be read counts as triangles: its import says what
+// is wrong.
+Holds strandsOrTriangles(const fs::path& file) {
+    const std::string extension = hair::groom::lowerCaseExtension(file);
+    try {
+        if (extension == ".obj") return inObj(file);
+        if (extension == ".ply") return inPly(file);
+        return inGltf(file);
+    } catch (const engine::Error&) {
+        return Holds::triangles;
+    } catch (const scene::Json::exception&) {  // JSON, but no glTF
+        return Holds::triangles;
+    }
+}
+
+constexpr std::uint32_t kMostAsGuides = 1000;  // strands that all become guides
+constexpr std::uint32_t kGuides = 300;  // guides of a dense groom: docs/grooms.md
+constexpr std::uint32_t kRootsAsked = 1000;  // roots that are held against the mesh, about
+constexpr double kOnSurface = 0.01;  // m
+
+bool growOn(
+    const hair::groom::Mesh& mesh, const hair::groom::StrandSet& strands, double metres_per_unit) {
+    const hair::groom::NearestSurface nearest(mesh.positions, mesh.triangles);
+    const std::uint32_t step = std::max(strands.strandCount() / kRootsAsked, 1u);
+    std::vector<float> distances;
+    for (std::uint32_t i = 0; i < strands.strandCount(); i += step) {
+        const glm::dvec3 root(strands.points[strands.first(i)]);
+        distances.push_back(static_cast<float>(nearest(root * metres_per_unit).distance));
+    }
+    return hair::groom::spreadOf(distances).quartile3 <= kOnSurface;
+}
+
+// Removes what moves with a head that is no longer there.
+void removeBodiesOfHead(hair::SimulationSettings& simulation) {
+    std::erase_if(simulation.colliders, [](const hair::Collider& collider) {
+        return collider.follows == hair::Follows::head;
+    });
+    std::erase_if(simulation.distance_fields, [](const hair::DistanceFieldSettings& field) {
+        return field.follows == hair::Follows::head || field.mesh.empty();
+    });
+}
+
+// Settings whose hair is that of a file, without what belonged to the hair before: its style, its
+// placement and the hands that pull at it.
+//   - A unit that the file doesn't state is guessed as `groom info` does.
+//   - Of more than 1,000 strands 300 become guides, and all are drawn, each moved by three of them.
+//   - The mesh stays where the roots are on it (three quarters of them within 1 cm); otherwise it
+//     goes, with the bodies that follow it, and the strands float.
+// `name` is what the settings call the file; other names in them are relative to `directory`.
+hair::Settings withGroom(
+    hair::Settings settings, const fs::path& directory, const fs::path& file,
+    const std::string& name) {
+    const hair::groom::StrandSet strands = hair::groom::importStrands(file);
+    const double metres_per_unit = strands.metres_per_unit.value_or(
+        hair::groom::inspect(strands, nullptr, {}).metres_per_unit);
+
+    hair::GroomSettings& groom = settings.groom;
+    const std::string head = groom.file.empty() ? groom.grow.mesh : groom.mesh;
+    const bool has_head =
+        !head.empty() &&
+        growOn(hair::groom::importMesh(directory / head), strands, metres_per_unit);
+    groom.file = name;
+    groom.mesh = has_head ? head : "";
+    groom.placement = {};
+    if (!strands.metres_per_unit) groom.placement.scale = static_cast<float>(metres_per_unit);
+    groom.vertices = 0;
+    groom.style = {};
+    if (!has_head) removeBodiesOfHead(settings.simulation);
+    settings.simulation.pulls.clear();
+
+    const bool dense = strands.strandCount() > kMostAsGuides;
+    groom.guides = dense ? kGuides : 0;
+    if (dense) settings.strands.source = hair::StrandSource::groom;
+    if (!strands.widths.known()) settings.strands.width = hair::WidthSource::scene;
+    return settings;
+}
+
 }  // namespace
+
+// ---- Settings as arguments of the command line --------------------------------------------------
+
+std::string caseArguments(const scene::Scene& scene, const hair::Settings& settings) {
+    scene::Json wanted = scene::writeSettings(settings);
+    std::vector<Argument> arguments;
+    try {
+        arguments = axisArguments(scene, wanted);
+    } catch (const engine::Error& error) {
+        throw engine::Error(scene.path.string(), error.what());
+    }
+    addChanges(scene::writeSettings(scene.settings), wanted, "", scene.axes, arguments);
+    shorten(arguments, settings);
+    check(scene, arguments, wanted);
+    std::string text;
+    for (const Argument& argument : arguments)
+        text += (text.empty() ? "" : " ") + std::string(argument.in_name ? "-a " : "--set ") +
+                quoted(argument.pointer + '=' + valueText(argument.value));
+    return text;
+}
+
+// ---- JSON that people read ----------------------------------------------------------------------
+
+std::string readableJson(const scene::Json& document) {
+    const bool lines = document.is_structured() && !document.empty();
+    return (lines ? onLines(document, 0) : document.dump()) + '\n';
+}
+
+// ---- Scenes, opened and saved -------------------------------------------------------------------
 
 SceneFile openScene(const fs::path& path) {
     const scene::Scene scene = scene::loadScene(path);
     return {scene.path, scene.directory, scene.name, scene.settings};
 }
+
+hair::Settings movedFiles(hair::Settings settings, const fs::path& from, const fs::path& to) {
+    const fs::path old_folder = folderOf(from);
+    const fs::path folder = folderOf(to);
+    if (old_folder == folder) return settings;
+    forEachFileName(settings, [&](std::string& name) {
+        if (name.empty() || fs::path(name).is_absolute()) return;
+        const fs::path old = old_folder / name;
+        // A link that a name is itself stays one: what it leads to may change.
+        const fs::path file = folderOf(old.parent_path()) / old.filename();
+        name = file.lexically_relative(folder).generic_string();
+    });
+    return settings;
+}
+
+std::string sceneText(const hair::Settings& settings, const fs::path& from, const fs::path& to) {
+    scene::Json document = scene::Json::object();
+    std::error_code error;
+    if (fs::exists(to / kSchema, error)) document["$schema"] = kSchema;
+    document.update(scene::changedFields(movedFiles(settings, from, to)));
+    return readableJson(document);
+}
+
+void saveScene(const hair::Settings& settings, const fs::path& from, const fs::path& file) {
+    engine::writeFileAtomically(file, sceneText(settings, from, file.parent_path()));
+}
+
+// ---- Files dropped on the window ----------------------------------------------------------------
 
 Dropped whatIs(const fs::path& file) {
     const std::string extension = hair::groom::lowerCaseExtension(file);

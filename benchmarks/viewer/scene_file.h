@@ -7,6 +7,8 @@
 #include "benchmarks/scene/scene.h"
 #include "hair/settings.h"
 
+// The files of the viewer: scenes that are opened, saved and quoted as arguments of the command
+// line, and what becomes of a file that is dropped on the window.
 namespace benchmarks::viewer {
 
 // What follows `hairbench run SCENE` on a command line to play these settings and nothing else:
@@ -18,9 +20,9 @@ namespace benchmarks::viewer {
 // break a rule.
 std::string caseArguments(const scene::Scene& scene, const hair::Settings& settings);
 
-// JSON text as scenes/ has it, with a newline at the end: members of the document on lines of their
-// own, indented by two spaces; whatever is inside them on one line where that has 100 columns at
-// most.
+// JSON text as the files of scenes/ have it, with a newline at the end: members of the document on
+// lines of their own, indented by two spaces; whatever is inside a member on one line where that
+// has at most 100 columns.
 std::string readableJson(const scene::Json& document);
 
 // The settings with file names that were relative to `from` and are now to `to`. Empty and absolute
@@ -34,7 +36,7 @@ std::string sceneText(
     const hair::Settings& settings, const std::filesystem::path& from,
     const std::filesystem::path& to);
 
-// Writes it in one step. Throws engine::Error "<path>: <reason>".
+// Writes sceneText() in one step. Throws engine::Error "<path>: <reason>".
 void saveScene(
     const hair::Settings& settings, const std::filesystem::path& from,
     const std::filesystem::path& file);
@@ -53,14 +55,16 @@ SceneFile openScene(const std::filesystem::path& path);
 
 // What is to be done with a file that was dropped on the window: .json and PNGs with a scene in
 // them, or damaged, are scenes, .exr and .hdr environments, and what strands and meshes are read
-// from goes by its first bytes or its extension; drop.h says how formats of both
-// are told apart.
+// from goes by its first bytes or its extension. A file of a format of both (OBJ, PLY, glTF) is a
+// mesh where it has triangles.
 enum class Dropped { scene, groom, mesh, environment, unknown };
 Dropped whatIs(const std::filesystem::path& file);
 
-// Settings with the groom (drop.h) or environment of a file in place of what was there, or
-// with one more mesh beside the head. The file's name is relative to `directory` where it is below
-// it, otherwise absolute. Throws engine::Error that names the file for what can't be used.
+// Settings with the groom or environment of a file in place of what was there, or with one more
+// mesh beside the head. The file's name is relative to `directory` where it is below it, otherwise
+// absolute. A groom takes the style, the placement and the pulls of the hair before with it; where
+// its roots are not on the mesh, the mesh goes too. Throws engine::Error that names the file for
+// what can't be used.
 hair::Settings withDropped(
     hair::Settings settings, const std::filesystem::path& directory,
     const std::filesystem::path& file);

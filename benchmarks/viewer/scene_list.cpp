@@ -11,36 +11,7 @@ namespace benchmarks::viewer {
 
 namespace fs = std::filesystem;
 
-// ---- Listed scene -------------------------------------------------------------------------------
-
-std::vector<fs::path> sceneFilesIn(const fs::path& folder) {
-    std::vector<fs::path> files;
-    std::error_code error;
-    for (fs::directory_iterator each(folder.empty() ? fs::path(".") : folder, error), end;
-         !error && each != end; each.increment(error)) {
-        const std::string name = each->path().filename().string();
-        std::error_code ignored;
-        if (name.ends_with(".json") && !name.ends_with(".schema.json") &&
-            each->is_regular_file(ignored))
-            files.push_back(folder / name);
-    }
-    std::ranges::sort(files);
-    return files;
-}
-
-ListedScene listedScene(const fs::path& path) {
-    ListedScene listed{.name = path.stem().string()};
-    try {
-        listed.description = scene::loadScene(path).settings.description;
-    } catch (const engine::Error& error) {
-        listed.problem = error.what();
-    }
-    return listed;
-}
-
 namespace {
-
-// ---- Scene list ---------------------------------------------------------------------------------
 
 // Lines of the list before it scrolls, however little room there is.
 constexpr float kFewestLines = 4.0f;
@@ -81,6 +52,35 @@ void tooltip(const ListedScene& scene, const fs::path& path) {
 }
 
 }  // namespace
+
+// ---- Scenes of a folder -------------------------------------------------------------------------
+
+std::vector<fs::path> sceneFilesIn(const fs::path& folder) {
+    std::vector<fs::path> files;
+    std::error_code error;
+    for (fs::directory_iterator each(folder.empty() ? fs::path(".") : folder, error), end;
+         !error && each != end; each.increment(error)) {
+        const std::string name = each->path().filename().string();
+        std::error_code ignored;
+        if (name.ends_with(".json") && !name.ends_with(".schema.json") &&
+            each->is_regular_file(ignored))
+            files.push_back(folder / name);
+    }
+    std::ranges::sort(files);
+    return files;
+}
+
+ListedScene listedScene(const fs::path& path) {
+    ListedScene listed{.name = path.stem().string()};
+    try {
+        listed.description = scene::loadScene(path).settings.description;
+    } catch (const engine::Error& error) {
+        listed.problem = error.what();
+    }
+    return listed;
+}
+
+// ---- The list -----------------------------------------------------------------------------------
 
 SceneList::SceneList(const fs::path& folder) : folder_(folder) { refresh(); }
 
@@ -147,6 +147,23 @@ std::optional<fs::path> SceneList::show(const fs::path& open) {
             }
     }
     ImGui::EndChild();
+    return chosen;
+}
+
+// ---- Recent scenes ------------------------------------------------------------------------------
+
+std::optional<fs::path> recentScenes(std::span<const fs::path> scenes) {
+    std::optional<fs::path> chosen;
+    ImGui::SetNextItemWidth(-1.0f);
+    if (!ImGui::BeginCombo("##recent", "Recent scenes", ImGuiComboFlags_HeightLarge)) return chosen;
+    for (const fs::path& scene : scenes) {
+        ImGui::PushID(scene.c_str());
+        if (ImGui::Selectable(scene.filename().c_str())) chosen = scene;
+        if (ImGui::IsItemHovered(ImGuiHoveredFlags_DelayShort))
+            ImGui::SetTooltip("%s", scene.c_str());
+        ImGui::PopID();
+    }
+    ImGui::EndCombo();
     return chosen;
 }
 

@@ -18,7 +18,7 @@
 namespace benchmarks::viewer {
 namespace {
 
-// ---- Field line ---------------------------------------------------------------------------------
+// ---- The line of a field ------------------------------------------------------------------------
 
 // How a setting's name and widget share a panel.
 enum class FieldShape {
@@ -65,18 +65,19 @@ void showName(const FieldText& text) {
     ImGui::TextDisabled("%s", text.unit.c_str());
 }
 
-// At the right end of the line that the last item is on.
+// A button that sets a value back, at the right end of the line that the last item is on.
 bool reset(const FieldText& text, float end) {
     ImGui::SameLine(end - resetWidth());
     const std::string label = std::string(resetLabel()) + "##" + text.pointer + "/reset";
     const bool pressed = ImGui::Button(label.c_str(), {resetWidth(), 0.0f});
-    if (ImGui::IsItemHovered(ImGuiHoveredFlags_DelayShort)) ImGui::SetTooltip("as it was");
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_DelayShort))
+        ImGui::SetTooltip("sets the value back");
     return pressed;
 }
 
 // The line of a setting, or two of them, within the current window of Dear ImGui: its name and its
 // widget, whose width is set and which is the last item that `widget` makes. A box has its name by
-// itself. True where it is to be as it was.
+// itself. True where the value is to be set back.
 bool fieldLine(
     const FieldText& text, FieldShape shape, FieldMark mark, const std::function<void()>& widget) {
     const bool changed = mark == FieldMark::changed;
@@ -105,12 +106,10 @@ bool fieldLine(
     return is_reset;
 }
 
-// ---- Settings panel -----------------------------------------------------------------------------
-
 // ---- The widget of one value --------------------------------------------------------------------
 
-// Of the next item's width, within the current window of Dear ImGui. True where it changed the
-// value.
+// Each editValue() shows the widget of one value, of the next item's width, within the current
+// window of Dear ImGui. True where it changed the value.
 
 bool isColor(const std::string& name, const hair::Range& range) {
     return range.minimum == 0.0 && range.maximum == 1.0 &&
@@ -312,7 +311,7 @@ private:
         });
     }
 
-    // True where it is to go.
+    // True where the element is to be removed.
     bool showElement(std::size_t index, hair::SettingsRef element, hair::SettingsView before) {
         const std::string name = std::to_string(index);
         bool removed = false;
@@ -323,7 +322,7 @@ private:
         return removed;
     }
 
-    // Everything else has one value.
+    // A row of one value.
     template <class Row>
     void show(
         const hair::Field& field, const Row& row, hair::SettingsRef settings,

@@ -7,81 +7,13 @@
 
 #include <imgui.h>
 
-#include "benchmarks/viewer/actions.h"
-#include "benchmarks/viewer/columns.h"
-#include "benchmarks/viewer/compare_panel.h"
-#include "benchmarks/viewer/open_scene.h"
-#include "benchmarks/viewer/picture_area.h"
-#include "benchmarks/viewer/preferences.h"
 #include "benchmarks/viewer/recorder.h"
-#include "benchmarks/viewer/scene_file.h"
 #include "benchmarks/viewer/setting_text.h"
 #include "benchmarks/viewer/settings_panel.h"
-#include "benchmarks/viewer/shader_reload.h"
-#include "benchmarks/viewer/viewer.h"
 #include "engine/shaders.h"
 
 namespace benchmarks::viewer {
 namespace {
-
-// ---- Status line --------------------------------------------------------------------------------
-
-struct StatusText {
-    std::string text;  // a message, or a hint
-    enum class Tone { hint, message, problem } tone = Tone::hint;
-    std::string device;
-    std::string picture;  // its size and what else there is to say of it
-};
-
-float widthOf(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
-
-// As much of it as there is room for, in bytes; never a part of a character.
-std::string cut(const std::string& text, float room) {
-    if (widthOf(text) <= room) return text;
-    std::size_t length = text.size();
-    const auto fits = [&] { return widthOf(text.substr(0, length) + "...") <= room; };
-    while (length > 0 && !fits()) {
-        --length;
-        while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0u) == 0x80u) --length;
-    }
-    return text.substr(0, length) + "...";
-}
-
-void cutText(const std::string& text, float room, ImGuiCol color) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(color));
-    ImGui::TextUnformatted(cut(text, room).c_str());
-    ImGui::PopStyleColor();
-    if (widthOf(text) > room && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text.c_str());
-}
-
-// One line within the current window of Dear ImGui. What there is no room for is cut, and its
-// tooltip has it whole.
-void statusLine(const StatusText& status) {
-    ImGui::AlignTextToFramePadding();
-    const float gap = 1.5f * ImGui::GetFontSize();
-    const float room = ImGui::GetContentRegionAvail().x;
-    const float picture = widthOf(status.picture);
-    // The device's name gives way first.
-    float device = std::min(widthOf(status.device), 0.3f * room);
-    float left = std::max(room - picture - device - 2.0f * gap, 0.0f);
-    if (widthOf(status.text) > left) {
-        left = std::max(room - picture - gap, 0.0f);
-        device = 0.0f;
-    }
-    const float start = ImGui::GetCursorPosX();
-    const ImGuiCol color = status.tone == StatusText::Tone::hint      ? ImGuiCol_TextDisabled
-                           : status.tone == StatusText::Tone::problem ? ImGuiCol_PlotHistogram
-                                                                      : ImGuiCol_Text;
-    cutText(status.text, left, color);
-    if (device > 0.0f) {
-        ImGui::SameLine(start + left + gap);
-        cutText(status.device, device, ImGuiCol_TextDisabled);
-    }
-    ImGui::SameLine(start + room - picture);
-    cutText(status.picture, picture, ImGuiCol_TextDisabled);
-}
-
-// ---- Panels -------------------------------------------------------------------------------------
 
 constexpr double kToldFor = 12.0;  // s that a message is shown for
 
@@ -101,7 +33,49 @@ std::string hintOf(Tool tool) {
     return {};
 }
 
+constexpr const char* kTitle = "Save scene as";
+
+bool exists(const std::string& path) {
+    std::error_code none;
+    return std::filesystem::exists(path, none);
+}
+
+constexpr float kZoomStep = 1.125f;
+
+std::optional<engine::PresentMode> presentModeOf(Action action) {
+    switch (action) {
+    case Action::present_fifo:
+        return engine::PresentMode::fifo;
+    case Action::present_mailbox:
+        return engine::PresentMode::mailbox;
+    case Action::present_immediate:
+        return engine::PresentMode::immediate;
+    default:
+        return std::nullopt;
+    }
+}
+
+std::optional<Tab> tabOf(Action action) {
+    switch (action) {
+    case Action::open_scene:
+    case Action::panel_files:
+        return Tab::files;
+    case Action::panel_scene:
+        return Tab::scene;
+    case Action::panel_timings:
+        return Tab::timings;
+    case Action::panel_compare:
+        return Tab::compare;
+    case Action::panel_shaders:
+        return Tab::shaders;
+    default:
+        return std::nullopt;
+    }
+}
+
 }  // namespace
+
+// ---- What the window shows ----------------------------------------------------------------------
 
 void Viewer::Parts::showScene() {
     Side& side = scene.editedSide();
@@ -272,18 +246,7 @@ void Viewer::Parts::showWindow() {
     if (const auto path = path_popup.show()) saveAs(*path);
 }
 
-namespace {
-
-// ---- Path popup ---------------------------------------------------------------------------------
-
-constexpr const char* kTitle = "Save scene as";
-
-bool exists(const std::string& path) {
-    std::error_code none;
-    return std::filesystem::exists(path, none);
-}
-
-}  // namespace
+// ---- The box that asks for a path ---------------------------------------------------------------
 
 void PathPopup::open(const std::filesystem::path& suggested) {
     typed_ = suggested.string();
@@ -319,44 +282,7 @@ std::optional<std::filesystem::path> PathPopup::show() {
     return accepted;
 }
 
-namespace {
-
-// ---- Perform ------------------------------------------------------------------------------------
-
-constexpr float kZoomStep = 1.125f;
-
-std::optional<engine::PresentMode> presentModeOf(Action action) {
-    switch (action) {
-    case Action::present_fifo:
-        return engine::PresentMode::fifo;
-    case Action::present_mailbox:
-        return engine::PresentMode::mailbox;
-    case Action::present_immediate:
-        return engine::PresentMode::immediate;
-    default:
-        return std::nullopt;
-    }
-}
-
-std::optional<Tab> tabOf(Action action) {
-    switch (action) {
-    case Action::open_scene:
-    case Action::panel_files:
-        return Tab::files;
-    case Action::panel_scene:
-        return Tab::scene;
-    case Action::panel_timings:
-        return Tab::timings;
-    case Action::panel_compare:
-        return Tab::compare;
-    case Action::panel_shaders:
-        return Tab::shaders;
-    default:
-        return std::nullopt;
-    }
-}
-
-}  // namespace
+// ---- What menus and keys do ---------------------------------------------------------------------
 
 void Viewer::Parts::compare() {
     message.attempt([&] {
@@ -372,7 +298,7 @@ void Viewer::Parts::compare() {
     });
 }
 
-// Whether it is an action on settings.
+// Changes settings; false where the action is none on settings.
 bool Viewer::Parts::changeSetting(Action action) {
     hair::Settings settings = scene.editedSide().wanted();
     const Player& player = scene.editedSide().player();
@@ -389,7 +315,7 @@ bool Viewer::Parts::changeSetting(Action action) {
     return true;
 }
 
-// Where there is room for one column only, it is both.
+// Where there is room for one column only, both are shown or hidden.
 void Viewer::Parts::toggleColumn(Column& column) {
     Preferences& now = preferences.now;
     if (merged)
@@ -398,7 +324,7 @@ void Viewer::Parts::toggleColumn(Column& column) {
         column.shown = !column.shown;
 }
 
-// Whether it is an action on the window's arrangement.
+// Changes the window's arrangement; false where the action is none on it.
 bool Viewer::Parts::changeWindow(Action action) {
     Preferences& now = preferences.now;
     const auto zoomTo = [&](float zoom) {
@@ -535,118 +461,6 @@ ActionState Viewer::Parts::stateOf(Action action) const {
         return {.checked = help};
     default:
         return {};
-    }
-}
-
-namespace {
-
-// ---- Perform files ------------------------------------------------------------------------------
-
-// What is shown is what these settings make: nothing is being dragged, and nothing was refused.
-void bringUpToDate(Side& side) {
-    side.settle();
-    side.follow();
-    if (!side.problem().empty())
-        throw engine::Error("what the panel says can't be", side.problem());
-}
-
-}  // namespace
-
-std::filesystem::path Viewer::Parts::suggestedPath() const {
-    const SceneFile& file = scene.file();
-    if (scene.wasSaved()) return file.path;
-    return freeName(file.path.parent_path(), file.name, ".json");
-}
-
-void Viewer::Parts::open(const std::filesystem::path& path) {
-    message.attempt([&] {
-        const SceneFile file = openScene(path);
-        scene.open(file);
-        scenes = SceneList(file.directory);
-        area.views = Views::a;
-        window.setTitle("hairbench " + file.name);
-        remember(preferences.now, file.path);
-        message.tell("opened " + file.path.string());
-    });
-}
-
-// A scene that somebody wrote has more than its state in it, such as a sweep: it is replaced only
-// where the user says so.
-void Viewer::Parts::save() {
-    if (scene.wasSaved())
-        saveAs(scene.file().path);
-    else
-        path_popup.open(suggestedPath());
-}
-
-void Viewer::Parts::saveAs(const std::filesystem::path& path) {
-    message.attempt([&] {
-        Side& side = scene.editedSide();
-        bringUpToDate(side);
-        saveScene(side.wanted(), scene.file().directory, path);
-        scene.savedAs(path);
-        window.setTitle("hairbench " + scene.file().name);
-        remember(preferences.now, path);
-        message.tell("saved to " + path.string());
-    });
-}
-
-void Viewer::Parts::copyArguments() {
-    message.attempt([&] {
-        const scene::Scene saved = scene::loadScene(scene.file().path);
-        // It may have been saved to another folder than the one that it was opened in.
-        const std::string arguments = caseArguments(
-            saved,
-            movedFiles(scene.editedSide().wanted(), scene.file().directory, saved.directory));
-        ImGui::SetClipboardText(arguments.c_str());
-        message.tell(arguments.empty() ? "nothing differs from the scene" : "copied: " + arguments);
-    });
-}
-
-void Viewer::Parts::screenshot() {
-    message.attempt([&] {
-        Side& side = scene.editedSide();
-        bringUpToDate(side);
-        const std::filesystem::path folder = std::filesystem::current_path();
-        const std::filesystem::path path =
-            freeName(folder, "hairbench-" + scene.file().name, ".png");
-        const hair::Settings& settings = side.player().settings();
-        writeScreenshot(
-            path, settings.render.width, settings.render.height, side.player().played().picture(),
-            sceneText(settings, scene.file().directory, folder));
-        message.tell("wrote " + path.string());
-    });
-}
-
-void Viewer::Parts::record() {
-    message.attempt([&] {
-        if (recorder.records()) {
-            message.tell(
-                "recorded " + std::to_string(recorder.written()) + " frames to " +
-                recorder.folder().string());
-            recorder.stop();
-            return;
-        }
-        recorder.start(
-            freeName(std::filesystem::current_path(), "hairbench-" + scene.file().name, ""));
-        message.tell("recording to " + recorder.folder().string());
-    });
-}
-
-void Viewer::Parts::drop(const std::filesystem::path& file) {
-    const Dropped what = whatIs(file);
-    if (what == Dropped::scene) {
-        open(file);
-    } else if (what == Dropped::unknown) {
-        message.complain(
-            file.string() + ": no scene, screenshot, groom, mesh or environment, by its name");
-    } else {
-        message.attempt([&] {
-            const hair::Settings settings =
-                withDropped(scene.editedSide().wanted(), scene.file().directory, file);
-            scene.edit(scene.edited(), settings, {.changed = true});
-            message.tell("took " + file.string());
-        });
     }
 }
 

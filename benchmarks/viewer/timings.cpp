@@ -1,19 +1,32 @@
 #include "benchmarks/viewer/timings.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
+#include <map>
 #include <utility>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "benchmarks/measure/metrics.h"
 #include "benchmarks/measure/trust.h"
+#include "benchmarks/reference/picture_errors.h"
+#include "benchmarks/report/environment.h"
+#include "benchmarks/report/text.h"
+#include "benchmarks/run/case.h"
+#include "benchmarks/scene/settings_json.h"
+#include "benchmarks/viewer/player.h"
+#include "engine/device.h"
+#include "engine/frame_loop.h"
+#include "engine/shaders.h"
 
 namespace benchmarks::viewer {
 namespace {
 
-// ---- Frame metrics ------------------------------------------------------------------------------
+// ---- Metrics of frames --------------------------------------------------------------------------
 
-// Of an overlapped frame that has the device to itself.
+// Whether a metric of overlapped frames holds where each frame has the device to itself.
 bool holdsForOneFrame(const report::MetricId& id) {
     return id == report::ofFrame(report::Measured::device_time) ||
            id == report::ofCpu(report::Measured::record_time) ||
@@ -39,25 +52,8 @@ void addIsolated(
     measure::addPassSum(frames.records, result);
 }
 
-}  // namespace
-
-report::CaseResult frameMetrics(const TimingHistory& history, std::string_view device_type) {
-    report::CaseResult result;
-    addOverlapped(history.overlapped(), result);
-    addIsolated(history.isolated(), device_type, result);
-    return result;
-}
-
-const report::Metric* metricOf(const report::CaseResult& result, const report::MetricId& id) {
-    const report::Metric* const found = report::findMetric(result.metrics, id);
-    return found && !found->samples.empty() ? found : nullptr;
-}
-
-namespace {
-
-// ---- Frame split --------------------------------------------------------------------------------
-
-constexpr double kLow = 0.01;
+// Share of the frames that are slower than the "1 % low" and "1 % high".
+constexpr double kSlowest = 0.01;
 
 template <class Get>
 double medianOf(const TimedFrames& frames, Get get) {
@@ -72,7 +68,105 @@ std::optional<double> medianOf(const report::CaseResult& metrics, const report::
     return report::summarize(metric->samples).median;
 }
 
+// Numbers of the frames that ran a pass: passTimes() has one time for each.
+std::vector<std::uint32_t> numbersOf(const TimedFrames& frames, const std::string& pass) {
+    std::vector<std::uint32_t> numbers;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const auto& passes = frames.records[i].passes;
+        if (std::ranges::find(passes, pass, &engine::PassTime::name) != passes.end())
+            numbers.push_back(frames.numbers[i]);
+    }
+    return numbers;
+}
+
+std::optional<std::pair<std::uint32_t, std::uint32_t>> rangeOf(const TimingHistory& history) {
+    std::vector<std::uint32_t> numbers = history.isolated().numbers;
+    numbers.insert(
+        numbers.end(), history.overlapped().numbers.begin(), history.overlapped().numbers.end());
+    if (numbers.empty()) return std::nullopt;
+    const auto [first, last] = std::ranges::minmax(numbers);
+    return std::pair(first, last);
+}
+
+// ---- Memory of one thing ------------------------------------------------------------------------
+
+// What one thing holds of the device's memory while others hold some too: what has joined since the
+// beginning, but for what others did meanwhile.
+class OwnMemory {
+public:
+    explicit OwnMemory(const engine::MemoryLedger& all) : all_(all), others_(all.bytes()) {}
+
+    // Does something whose memory is not the thing's.
+    void others(const std::function<void()>& action);
+
+    // memory.device and memoryMetrics() of the thing alone.
+    std::vector<report::Metric> metrics() const;
+
+private:
+    const engine::MemoryLedger& all_;
+    std::map<engine::MemoryLedger::Entry, std::uint64_t> others_;
+};
+
+void OwnMemory::others(const std::function<void()>& action) {
+    const auto before = all_.bytes();
+    action();
+    for (const auto& [entry, bytes] : all_.bytes()) others_[entry] += bytes;
+    // What was there before is counted already. Sums are taken modulo 2^64, so that it may shrink.
+    for (const auto& [entry, bytes] : before) others_[entry] -= bytes;
+}
+
+std::vector<report::Metric> OwnMemory::metrics() const {
+    engine::MemoryLedger own;
+    std::vector<engine::MemoryLedger::Line> lines;
+    std::uint64_t sum = 0;
+    for (const auto& [entry, bytes] : all_.bytes()) {
+        const auto found = others_.find(entry);
+        const std::uint64_t rest = bytes - (found == others_.end() ? 0 : found->second);
+        if (rest > 0) lines.emplace_back(own, entry, rest);
+        sum += rest;
+    }
+    std::vector<report::Metric> metrics{
+        {report::ofMemory(report::Measured::allocated), {static_cast<double>(sum)}}};
+    std::ranges::move(measure::memoryMetrics(own), std::back_inserter(metrics));
+    return metrics;
+}
+
 }  // namespace
+
+// ---- History of frames --------------------------------------------------------------------------
+
+void TimingHistory::add(
+    const engine::FrameRecord& frame, engine::Timing timing, std::uint32_t number) {
+    TimedFrames& frames = timing == engine::Timing::overlapped ? overlapped_ : isolated_;
+    if (frames.size() == kFrames) {
+        frames.records.erase(frames.records.begin());
+        frames.numbers.erase(frames.numbers.begin());
+    }
+    frames.records.push_back(frame);
+    frames.numbers.push_back(number);
+}
+
+void TimingHistory::clear() {
+    isolated_ = {};
+    overlapped_ = {};
+    ++revision_;
+}
+
+// ---- Metrics of frames --------------------------------------------------------------------------
+
+report::CaseResult frameMetrics(const TimingHistory& history, std::string_view device_type) {
+    report::CaseResult result;
+    addOverlapped(history.overlapped(), result);
+    addIsolated(history.isolated(), device_type, result);
+    return result;
+}
+
+const report::Metric* metricOf(const report::CaseResult& result, const report::MetricId& id) {
+    const report::Metric* const found = report::findMetric(result.metrics, id);
+    return found && !found->samples.empty() ? found : nullptr;
+}
+
+// ---- Frame rate, and where a frame's time goes --------------------------------------------------
 
 std::optional<FrameRate> frameRate(const report::CaseResult& metrics) {
     const report::Metric* const walls =
@@ -82,8 +176,8 @@ std::optional<FrameRate> frameRate(const report::CaseResult& metrics) {
         .fps = report::framesPerSecond(walls->samples),
         .median = report::summarize(walls->samples).median,
         .low = std::nullopt};
-    if (walls->samples.size() >= measure::fewestForLow(kLow))
-        rate.low = report::lowRates(walls->samples, kLow);
+    if (walls->samples.size() >= measure::fewestForLow(kSlowest))
+        rate.low = report::lowRates(walls->samples, kSlowest);
     return rate;
 }
 
@@ -106,32 +200,15 @@ frameSplit(const TimingHistory& history, const report::CaseResult& metrics) {
         .device_overlapped = medianOf(metrics, report::ofFrame(report::Measured::device_time))};
 }
 
-namespace {
-
-// ---- Pass rows ----------------------------------------------------------------------------------
-
-constexpr double kHigh = 0.01;  // share of the frames that take longer
-
-// Of the frames that ran the pass: passTimes() has one time for each.
-std::vector<std::uint32_t> numbersOf(const TimedFrames& frames, const std::string& pass) {
-    std::vector<std::uint32_t> numbers;
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        const auto& passes = frames.records[i].passes;
-        if (std::ranges::find(passes, pass, &engine::PassTime::name) != passes.end())
-            numbers.push_back(frames.numbers[i]);
-    }
-    return numbers;
-}
-
-}  // namespace
+// ---- Passes -------------------------------------------------------------------------------------
 
 TimeSeries
 timeSeries(std::string name, std::vector<double> times, std::vector<std::uint32_t> numbers) {
     TimeSeries series{
         .name = std::move(name), .times = std::move(times), .numbers = std::move(numbers)};
     series.summary = report::summarize(series.times);
-    if (series.times.size() >= measure::fewestForLow(kHigh))
-        series.high = report::quantile(series.times, 1.0 - kHigh);
+    if (series.times.size() >= measure::fewestForLow(kSlowest))
+        series.high = report::quantile(series.times, 1.0 - kSlowest);
     return series;
 }
 
@@ -156,20 +233,7 @@ std::optional<PassRows> passRows(const TimedFrames& isolated) {
     return rows;
 }
 
-namespace {
-
-// ---- Shown side ---------------------------------------------------------------------------------
-
-std::optional<std::pair<std::uint32_t, std::uint32_t>> rangeOf(const TimingHistory& history) {
-    std::vector<std::uint32_t> numbers = history.isolated().numbers;
-    numbers.insert(
-        numbers.end(), history.overlapped().numbers.begin(), history.overlapped().numbers.end());
-    if (numbers.empty()) return std::nullopt;
-    const auto [first, last] = std::ranges::minmax(numbers);
-    return std::pair(first, last);
-}
-
-}  // namespace
+// ---- What is shown of a side --------------------------------------------------------------------
 
 ShownSide shownTimings(const TimingHistory& history, std::string_view device_type) {
     ShownSide shown;
@@ -187,6 +251,125 @@ ShownSide shownSide(const Side& side, std::string_view device_type) {
     ShownSide shown = shownTimings(side.timings(), device_type);
     shown.metrics.counts = side.player().played().counts();
     return shown;
+}
+
+std::string frameTimeCaption(const TimingHistory& history) {
+    std::vector<double> times;
+    for (const engine::FrameRecord& frame : history.isolated().records) times.push_back(frame.wall);
+    return times.empty() ? "" : report::shortNumber(report::summarize(times).median) + " ms";
+}
+
+// ---- Reports of what is shown or measured -------------------------------------------------------
+
+void warnOfChangedShaders(const engine::Device& device, report::Trust& trust) {
+    std::string names;
+    for (const auto& [path, code] : device.shaders().replacements())
+        names += (names.empty() ? "" : ", ") + path;
+    if (names.empty()) return;
+    trust.warnings.push_back("shaders that are not those of the build: " + names);
+}
+
+report::CaseResult countStatistics(const engine::Device& device, measure::Case& shown) {
+    report::CaseResult result;
+    if (!device.hasPipelineStatistics()) return result;
+    device.runOnce([](engine::Commands&) {});  // the window may still be copying the picture
+    engine::FrameLoop loop(device, engine::Timing::statistics);
+    loop.frame([&](engine::Passes& passes) { shown.draw(passes); });
+    measure::addStatistics(loop.finish().front(), device, shown, result);
+    return result;
+}
+
+FrozenSide frozenSide(const Side& side, ShownSide shown) {
+    const Player& player = side.player();
+    measure::addTransparency(player.played(), shown.metrics);
+    if (!player.previews()) {
+        shown.metrics.image_hash = player.played().pictureHash();
+        shown.metrics.state_hash = player.played().stateHash();
+    }
+    return {.shown = std::move(shown), .settings = player.settings(), .frame = player.frame()};
+}
+
+report::CaseResult frozenResult(const FrozenSide& frozen, const report::CaseResult& statistics) {
+    report::CaseResult result = frozen.shown.metrics;
+    result.statistics = statistics.statistics;
+    std::vector<std::string>& warnings = result.trust.warnings;
+    std::ranges::copy(statistics.trust.warnings, std::back_inserter(warnings));
+    std::string frames = report::countText(frozen.shown.isolated, "isolated frame") + " and " +
+                         report::countText(frozen.shown.overlapped, "overlapped frame");
+    if (const auto& range = frozen.shown.range)
+        frames +=
+            " between " + std::to_string(range->first) + " and " + std::to_string(range->second);
+    warnings.push_back(
+        "taken in the viewer: " + frames +
+        ", one at a time and with the window's pictures between them, in no rounds; their "
+        "timestamps were not held against the CPU's clock");
+    if (!result.image_hash.empty())
+        warnings.push_back("the hashes are of frame " + std::to_string(frozen.frame));
+    return result;
+}
+
+SideMeasurement measureSide(
+    const engine::Device& device, const hair::Settings& settings,
+    const std::filesystem::path& directory, const std::string& name,
+    const measure::MeasureHooks& hooks) {
+    SideMeasurement measured{.settings = settings, .result = {.name = name}, .picture = {}};
+    report::CaseResult& result = measured.result;
+    result.index = result.order = 0;
+    OwnMemory memory(device.memory());
+    const measure::MeasureHooks own_hooks{
+        .stop = hooks.stop, .progress = [&](const measure::SamplingState& state) {
+            if (hooks.progress) memory.others([&] { hooks.progress(state); });
+            device.runOnce([](engine::Commands&) {});  // waits for all that was submitted
+        }};
+    measure::Case test_case(device, settings, directory);
+    measured.picture = measure::measure(device, test_case, settings.run, own_hooks, result);
+    std::erase_if(result.metrics, [](const report::Metric& metric) {
+        const report::Measured what = metric.id.what;
+        return what == report::Measured::allocated || what == report::Measured::heap ||
+               what == report::Measured::purpose;
+    });
+    std::ranges::move(memory.metrics(), std::back_inserter(result.metrics));
+    if (!settings.run.reference.empty()) {
+        reference::ReferenceComparison references;
+        references.add(
+            directory / settings.run.reference, settings.render.width, settings.render.height,
+            measured.picture, result);
+    }
+    warnOfChangedShaders(device, result.trust);
+    result.trust.warnings.push_back(
+        "measured in the viewer: pipelines and files were warm, and the window's pictures were "
+        "drawn between rounds");
+    return measured;
+}
+
+report::Report viewerReport(
+    const engine::Device& device, const ReportOrigin& origin, const hair::Settings& settings,
+    report::CaseResult result) {
+    scene::Document document(scene::writeSettings(settings));
+    report::Report report;
+    report.environment =
+        report::describeEnvironment(device, origin.command, settings.seed, origin.validation);
+    report.scene.path = origin.scene.string();
+    report.scene.hash = report::hashText(document.text());
+    report.scene.document = std::move(document);
+    report.case_count = 1;
+    result.name = origin.name;
+    result.index = result.order = 0;
+    report.cases.push_back(std::move(result));
+    return report;
+}
+
+std::filesystem::path reportPath(const ReportOrigin& origin, const std::string& kind) {
+    return std::filesystem::path("results/local") / (origin.name + '-' + kind + ".json");
+}
+
+void saveReport(
+    report::Report report, const hair::RenderSettings& render,
+    std::span<const std::uint8_t> picture, const std::filesystem::path& file) {
+    if (!picture.empty())
+        report.cases.front().picture =
+            run::writeCasePicture(picture, render.width, render.height, file, 0);
+    report::writeReport(report::reportJson(report), file);
 }
 
 }  // namespace benchmarks::viewer

@@ -19,82 +19,14 @@
 #include "benchmarks/measure/trust.h"
 #include "benchmarks/report/report.h"
 #include "benchmarks/report/text.h"
-#include "benchmarks/viewer/measure_panel.h"
+#include "benchmarks/viewer/player.h"
 #include "benchmarks/viewer/timings.h"
 #include "engine/device.h"
 
 namespace benchmarks::viewer {
-
-// ---- Figure table -------------------------------------------------------------------------------
-
-std::string numberText(std::optional<double> number) {
-    return number ? report::shortNumber(*number) : "-";
-}
-
-void helpMarker(const char* help) {
-    if (*help == 0) return;
-    if (ImGui::IsItemHovered(ImGuiHoveredFlags_DelayShort) && ImGui::BeginTooltip()) {
-        ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24.0f);
-        ImGui::TextUnformatted(help);
-        ImGui::PopTextWrapPos();
-        ImGui::EndTooltip();
-    }
-}
-
-void rightText(const std::string& text) {
-    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
-    if (room > 0.0f) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
-    ImGui::TextUnformatted(text.c_str());
-}
-
-FigureTable::FigureTable(const char* id, Columns columns, const char* title) : columns_(columns) {
-    const int count = columns == Columns::compared ? 4 : 2;
-    open_ = ImGui::BeginTable(id, count, ImGuiTableFlags_SizingFixedFit);
-    if (!open_) return;
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
-    for (int i = 1; i < count; ++i) ImGui::TableSetupColumn("");
-    if (columns == Columns::one && *title == 0) return;
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s", title);
-    if (columns == Columns::one) return;
-    for (const char* side : {"A", "B", "B / A"}) {
-        ImGui::TableNextColumn();
-        rightText(side);
-    }
-}
-
-FigureTable::~FigureTable() {
-    if (open_) ImGui::EndTable();
-}
-
-void FigureTable::row(
-    const char* name, const char* help, std::optional<double> a, std::optional<double> b) {
-    row(name, help, numberText(a), numberText(b));
-    if (!open_ || columns_ == Columns::one) return;
-    ImGui::TableNextColumn();
-    rightText(a && b && *a > 0.0 ? report::shortNumber(*b / *a) : "-");
-}
-
-void FigureTable::row(
-    const char* name, const char* help, const std::string& a, const std::string& b) {
-    if (!open_) return;
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextUnformatted(name);
-    ImGui::PopTextWrapPos();
-    helpMarker(help);
-    ImGui::TableNextColumn();
-    rightText(a);
-    if (columns_ == Columns::one) return;
-    ImGui::TableNextColumn();
-    rightText(b);
-}
-
 namespace {
 
-// ---- Share bar ----------------------------------------------------------------------------------
+// ---- Bars ---------------------------------------------------------------------------------------
 
 struct Share {
     std::string name;
@@ -148,7 +80,7 @@ void stackedBar(const char* id, std::span<const Share> shares, const char* unit)
     }
 }
 
-// ---- Frame figures ------------------------------------------------------------------------------
+// ---- Figures of a frame -------------------------------------------------------------------------
 
 FigureTable::Columns columnsFor(const ShownSide* compared) {
     return compared ? FigureTable::Columns::compared : FigureTable::Columns::one;
@@ -174,8 +106,8 @@ std::string lowHelp(const ShownSide& side) {
     if (!side.rate || !side.rate->low)
         return text + "; known from 100 frames on: with fewer, it would be the slowest frame's";
     return text +
-           ".\nOf the mean of the slowest 1 %: " + report::shortNumber(side.rate->low->mean) +
-           "; of the frame at which the slowest reach 1 % of all the time: " +
+           ".\nBy the mean of the slowest 1 %: " + report::shortNumber(side.rate->low->mean) +
+           "; by the frame at which the slowest reach 1 % of all the time: " +
            report::shortNumber(side.rate->low->integral);
 }
 
@@ -209,10 +141,10 @@ void frameFigures(const ShownSide& side, const ShownSide* compared) {
     };
     count(
         "Isolated frames",
-        "Their passes are timed by themselves, between full barriers. The last 300 are kept",
+        "Frames whose passes are timed by themselves, between full barriers. The last 300 are kept",
         &ShownSide::isolated);
     count(
-        "Overlapped frames", "The device may overlap their passes. The last 300 are kept",
+        "Overlapped frames", "Frames whose passes the device may overlap. The last 300 are kept",
         &ShownSide::overlapped);
 }
 
@@ -232,9 +164,9 @@ void splitFigures(const ShownSide& side, const ShownSide* compared) {
     using Known = std::optional<double>;
     row("Recording", "CPU: recording the commands of an isolated frame.",
         [](const FrameSplit& split) { return Known(split.record); });
-    row("Submission", "CPU: the call that submits them.",
+    row("Submission", "CPU: the call that submits the commands of an isolated frame.",
         [](const FrameSplit& split) { return Known(split.submit); });
-    row("Waiting", "CPU: from there until the device is done.",
+    row("Waiting", "CPU: from submission until the device is done.",
         [](const FrameSplit& split) { return Known(split.wait); });
     row("CPU time",
         "What all threads of the program used of the CPU from recording to completion: on a "
@@ -254,7 +186,7 @@ void splitFigures(const ShownSide& side, const ShownSide* compared) {
         [](const FrameSplit& split) { return split.saved(); });
 }
 
-// ---- Memory table -------------------------------------------------------------------------------
+// ---- Memory and counts --------------------------------------------------------------------------
 
 double bytesOf(const report::Metric& metric) { return metric.samples.front(); }
 
@@ -287,7 +219,10 @@ void memoryTable(const engine::MemoryLedger& ledger) {
     line(
         "all of these",
         "Device memory that buffers and images hold, of both sides where two are compared", scene);
-    line("window", "What the window itself holds: its picture, and copies of those in it", window);
+    line(
+        "window",
+        "Device memory that the window itself holds: its picture, and copies of the pictures in it",
+        window);
     ImGui::EndTable();
 }
 
@@ -307,7 +242,7 @@ void countTable(
     }
 }
 
-// ---- Sparkline ----------------------------------------------------------------------------------
+// ---- Line of a history --------------------------------------------------------------------------
 
 // A line through values that are not negative, from 0 at the bottom to their maximum, as an item of
 // Dear ImGui. The index of the value that the mouse is at.
@@ -340,7 +275,7 @@ sparkline(const char* id, std::span<const double> values, ImVec2 size, ImU32 col
     return index;
 }
 
-// ---- Pass table ---------------------------------------------------------------------------------
+// ---- Table of passes ----------------------------------------------------------------------------
 
 constexpr float kLeastHistory = 4.0f;  // letters' heights that a history takes at least
 
@@ -350,7 +285,7 @@ std::string percent(double share) {
     return text;
 }
 
-// Which columns there is room for.
+// The columns that a table of passes has room for.
 struct Layout {
     bool compared = false;
     bool history = false;
@@ -499,9 +434,9 @@ void passTable(const PassRows& rows, const PassRows* compared, const TimeSeries*
     ImGui::EndTable();
 }
 
-// ---- Statistics table ---------------------------------------------------------------------------
+// ---- Pipeline statistics ------------------------------------------------------------------------
 
-// Both are read on dark and on light.
+// Colours that are read on dark and on light.
 constexpr ImU32 kRight = IM_COL32(46, 160, 67, 255);
 constexpr ImU32 kWrong = IM_COL32(218, 54, 51, 255);
 
@@ -512,8 +447,8 @@ void verdict(const report::Statistic& statistic) {
     ImGui::TextUnformatted(right ? "=" : "!=");
     ImGui::PopStyleColor();
     helpMarker(
-        right ? "as many as follow from the settings"
-              : "another number than follows from the settings");
+        right ? "the count that follows from the settings"
+              : "not the count that follows from the settings");
 }
 
 void show(const report::Statistic& statistic) {
@@ -541,8 +476,6 @@ void statisticsTable(const std::vector<report::Statistic>& statistics) {
     ImGui::EndTable();
 }
 
-// ---- Timings panel ------------------------------------------------------------------------------
-
 bool section(const char* name, ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_DefaultOpen) {
     return ImGui::CollapsingHeader(name, flags);
 }
@@ -554,6 +487,8 @@ void remember(std::vector<double>& times, double time) {
 }
 
 }  // namespace
+
+// ---- The panel ----------------------------------------------------------------------------------
 
 void TimingsPanel::show(
     Side& side, Side* compared, const ReportOrigin& origin, double ui_milliseconds) {

@@ -2,18 +2,32 @@
 
 #include <imgui.h>
 
-#include "benchmarks/viewer/picking.h"
-
 namespace benchmarks::viewer {
 namespace {
-
-// ---- Picture tools ------------------------------------------------------------------------------
 
 float aspectOf(const hair::Settings& settings) {
     return static_cast<float>(settings.render.width) / static_cast<float>(settings.render.height);
 }
 
+struct ToolRow {
+    Tool tool;
+    const char* name;
+    const char* tooltip;
+};
+
+constexpr ToolRow kTools[] = {
+    {Tool::camera, "Camera",
+     "Drag: orbit. Shift+drag, or right or middle button: pan. Wheel, Ctrl+drag, + and -: zoom.\n"
+     "W A S D Q E: fly, with Shift faster. Double click: look at what is under the mouse.\n"
+     "The other tools do the same where the mouse is on no handle."},
+    {Tool::wind, "Wind", "The wind's arrow: drag its tip to turn and to stretch it"},
+    {Tool::grab, "Grab", "Drag hair: a hand pulls at it, and is kept in the scene"},
+    {Tool::head, "Head", "Arrows and rings at the head's pivot: drag them to move the head"},
+    {Tool::colliders, "Colliders", "Capsules that hair collides with: click to select, then drag"}};
+
 }  // namespace
+
+// ---- Mouse and keys over a picture --------------------------------------------------------------
 
 bool PictureTools::drags() const {
     return wind_.drags() || grab_.drags() || head_.drags() || colliders_.drags();
@@ -41,9 +55,9 @@ Edit PictureTools::update(
     const PictureRect& rect, const PictureRect& clip, bool hovered, bool held,
     hair::Settings& settings, const Player& player) {
     const ImGuiIO& io = ImGui::GetIO();
-    // Keys for the camera are not the handles'.
+    // A press with Shift, Ctrl or Alt is the camera's, not a handle's.
     const bool is_plain = !io.KeyShift && !io.KeyCtrl && !io.KeyAlt;
-    // The camera and proportions of what is shown, which what is wanted can be ahead of.
+    // The view is that of the settings that are shown: the wanted ones can be ahead of them.
     const Pointer pointer{
         .view = {player.settings().camera, player.settings().render, rect},
         .at = {io.MousePos.x, io.MousePos.y},
@@ -73,27 +87,7 @@ Edit PictureTools::look(
     return {.changed = true};
 }
 
-namespace {
-
-// ---- Toolbar ------------------------------------------------------------------------------------
-
-struct ToolRow {
-    Tool tool;
-    const char* name;
-    const char* tooltip;
-};
-
-constexpr ToolRow kTools[] = {
-    {Tool::camera, "Camera",
-     "Drag: orbit. Shift+drag, or right or middle button: pan. Wheel, Ctrl+drag, + and -: zoom.\n"
-     "W A S D Q E: fly, with Shift faster. Double click: look at what is under the mouse.\n"
-     "The other tools do the same where the mouse is on no handle."},
-    {Tool::wind, "Wind", "The wind's arrow: drag its tip to turn and to stretch it"},
-    {Tool::grab, "Grab", "Drag hair: a hand pulls at it, and is kept in the scene"},
-    {Tool::head, "Head", "Arrows and rings at the head's pivot: drag them to move the head"},
-    {Tool::colliders, "Colliders", "Capsules that hair collides with: click to select, then drag"}};
-
-}  // namespace
+// ---- The line of tools --------------------------------------------------------------------------
 
 Edit PictureTools::toolbar(hair::Settings& settings, const Player& player) {
     ImGui::PushID("tools");
@@ -109,7 +103,7 @@ Edit PictureTools::toolbar(hair::Settings& settings, const Player& player) {
     switch (tool) {
     case Tool::camera:
         for (const CameraPreset& preset : cameraPresets())
-            if (line.button(preset.name, true, "Looks at the groom from there"))
+            if (line.button(preset.name, true, "Looks at the whole groom from this direction"))
                 edit |= look(settings, player, preset);
         break;
     case Tool::wind:

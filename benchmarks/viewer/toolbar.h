@@ -2,12 +2,14 @@
 
 #include "benchmarks/viewer/camera_tool.h"
 #include "benchmarks/viewer/collider_tool.h"
+#include "benchmarks/viewer/edit.h"
 #include "benchmarks/viewer/grab_tool.h"
 #include "benchmarks/viewer/head_tool.h"
 #include "benchmarks/viewer/picking.h"
 #include "benchmarks/viewer/player.h"
 #include "hair/settings.h"
 
+// The tools for the picture: which one the mouse has, and the line of buttons to choose it.
 namespace benchmarks::viewer {
 
 // What the mouse does in the picture; where it is on no handle, it moves the camera.
@@ -28,9 +30,9 @@ public:
     // more where there is no room) within the current window.
     Edit toolbar(hair::Settings& settings, const Player& player);
 
-    // The mouse and keys over the picture shown in `rect`, of which `clip` is seen: whether it is
-    // over it, and whether a button that was pressed on it is down. Draws handles into the current
-    // window. What is dragged changes settings.
+    // Takes the mouse and keys over the picture shown in `rect`, of which `clip` is seen, and draws
+    // handles into the current window. `hovered`: the mouse is over the picture; `held`: a button
+    // that was pressed on it is down. What is dragged changes settings.
     Edit update(
         const PictureRect& rect, const PictureRect& clip, bool hovered, bool held,
         hair::Settings& settings, const Player& player);
@@ -40,7 +42,7 @@ public:
 
     // Looks at the whole groom from where the camera is.
     Edit frameGroom(hair::Settings& settings, const Player& player) const;
-    // Looks at it from a preset's direction.
+    // Looks at the whole groom from a preset's direction.
     Edit look(hair::Settings& settings, const Player& player, const CameraPreset& preset) const;
 
 private:
