@@ -80,9 +80,8 @@ constexpr std::array kSides{
     Choice<int>{"Edit B", 1, "The settings panel and the keys change B."}};
 
 CompareWish startButton() {
-    ImGui::TextWrapped(
-        "Two settings of one scene, A and B: side by side, with a slider between them, or "
-        "their difference. B begins as A is now.");
+    ImGui::TextWrapped("Two settings of one scene, A and B: side by side, with a slider between "
+                       "them, or their difference. B begins as A is now.");
     const bool starts = ImGui::Button("Start comparing");
     ImGui::SetItemTooltip("Plays the scene a second time, as B.");
     return starts ? CompareWish::start : CompareWish::nothing;

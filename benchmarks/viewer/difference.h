@@ -19,10 +19,10 @@ namespace benchmarks::viewer {
 
 // How much two pictures differ, in steps of 1/255 of display colours. Exact.
 struct DifferenceFigures {
-    std::uint64_t pixels = 0;  // of a picture
+    std::uint64_t pixels = 0;  // that a picture has
     std::uint64_t different = 0;  // pixels that differ in at least one channel
     std::uint32_t most = 0;  // largest difference of a channel
-    std::uint64_t sum = 0;  // of differences over red, green and blue of all pixels
+    std::uint64_t sum = 0;  // sum of differences over red, green and blue of all pixels
 
     // Mean difference of a channel of a pixel.
     double mean() const { return static_cast<double>(sum) / (3.0 * static_cast<double>(pixels)); }

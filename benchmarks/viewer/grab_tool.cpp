@@ -221,9 +221,8 @@ Edit GrabTool::options(OptionsLine& line, hair::Settings& settings) {
     float centimetres = radius_ * kCentimetres;
     if (line.slider("Radius", centimetres, 0.0f, kMostRadius, "%.1f cm"))
         radius_ = allowed(&hair::PullSettings::radius, centimetres / kCentimetres);
-    ImGui::SetItemTooltip(
-        "Radius of the next pull: the distance from the held vertex, at rest, at which hair gets "
-        "1/e of the pull");
+    ImGui::SetItemTooltip("Radius of the next pull: the distance from the held vertex, at rest, at "
+                          "which hair gets 1/e of the pull");
     std::vector<hair::PullSettings>& pulls = settings.simulation.pulls;
     const std::string name = "Clear pulls (" + std::to_string(pulls.size()) + ")###clear_pulls";
     if (!line.button(

@@ -193,12 +193,10 @@ void MeasurePanel::buttons(std::size_t sides) {
     for (std::size_t i = 0; i < sides; ++i) {
         if (i > 0) ImGui::SameLine();
         if (ImGui::Button(sides > 1 ? kNames[i] : "Measure")) wanted_ = i;
-        helpMarker(
-            "Measures the settings as 'hairbench run' does: rounds of /run/warmup and /run/frames "
-            "frames from the first frame on, in each mode until the median is known to "
-            "/run/precision or /run/max_time is over. What is shown waits meanwhile, and is then "
-            "as "
-            "it was");
+        helpMarker("Measures the settings as 'hairbench run' does: rounds of /run/warmup and "
+                   "/run/frames frames from the first frame on, in each mode until the median is "
+                   "known to /run/precision or /run/max_time is over. What is shown waits "
+                   "meanwhile, and is then as it was");
     }
 }
 

@@ -97,7 +97,7 @@ private:
 
     const engine::Device& device_;
     std::optional<std::size_t> wanted_;
-    std::string kind_ = "viewer";  // of the last report, for its name
+    std::string kind_ = "viewer";  // kind of the last report, for its file name
     bool measuring_ = false;
     bool cancelled_ = false;
     std::optional<measure::SamplingState> state_;

@@ -42,8 +42,7 @@ void speedCombo(std::optional<double>& speed) {
         ImGui::EndCombo();
     }
     tip("simulated time per real time; Every frame: one for each picture of the window, as fast as "
-        "they "
-        "come.\nThe simulation's steps are the same at any speed");
+        "they come.\nThe simulation's steps are the same at any speed");
 }
 
 }  // namespace
@@ -168,8 +167,7 @@ void playPanel(PlayState& state, std::uint32_t frame, double time) {
     ImGui::InputScalar("##frame", ImGuiDataType_U32, &wanted);
     if (ImGui::IsItemDeactivatedAfterEdit()) state.seek = wanted;
     tip("the frame that is shown; type another number to go there: the scene is played up to it "
-        "from "
-        "frame 0 on");
+        "from frame 0 on");
     ImGui::SameLine();
     ImGui::Text("%.3f s", time);
     tip("simulated time at the end of the frame");

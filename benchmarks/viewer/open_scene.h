@@ -68,7 +68,7 @@ private:
     std::unique_ptr<Side> b_;
     std::size_t edited_ = 0;
     bool was_saved_ = false;
-    engine::Timing timing_ = engine::Timing::isolated;  // of the last frame
+    engine::Timing timing_ = engine::Timing::isolated;  // how the last frame was timed
     Pacer pacer_;
 };
 

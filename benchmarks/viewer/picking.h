@@ -42,8 +42,6 @@ public:
     std::optional<glm::vec2> pixel(const glm::vec3& point) const;
     // The ray from the camera through a pixel.
     Ray ray(glm::vec2 pixel) const;
-    // What a pixel shows of the plane that faces the camera and goes through a point.
-    glm::vec3 onPlane(glm::vec2 pixel, const glm::vec3& through) const;
     // How far a point goes, in the plane through it that faces the camera, while the mouse goes
     // from one pixel to another.
     glm::vec3 dragged(const glm::vec3& point, glm::vec2 from, glm::vec2 to) const;
@@ -59,6 +57,9 @@ public:
     const glm::vec3& eye() const { return eye_; }
 
 private:
+    // What a pixel shows of the plane that faces the camera and goes through a point.
+    glm::vec3 onPlane(glm::vec2 pixel, const glm::vec3& through) const;
+
     PictureRect rect_;
     glm::dmat4 projection_;  // world -> clip
     glm::dmat4 inverse_;

@@ -18,7 +18,8 @@ namespace benchmarks::viewer {
 
 // How much of a picture is to be seen.
 struct Magnification {
-    std::optional<float> scale;  // of the picture's pixels; absent: as large as there is room
+    std::optional<float>
+        scale;  // px of the window per px of the picture; absent: as large as there is room
     glm::vec2 focus{0.5f, 0.5f};  // share of the picture that is in the middle, if it can be
 };
 
@@ -55,7 +56,7 @@ enum class Views {
     b,
     side_by_side,
     slider,  // a left of a line and b right of it
-    difference,  // of display colours, times the gain
+    difference,  // difference of display colours, times the gain
 };
 
 // The pictures of one or two sides, with their own proportions: as large as there is room, or

@@ -71,7 +71,6 @@ public:
     // Plays and draws the next frame. `timing` is isolated or overlapped.
     void next(engine::Timing timing = engine::Timing::isolated);
     void skip();  // plays the next frame and does not draw it
-    void redraw();  // draws the frame again
     void seek(std::uint32_t frame);  // plays from the first frame on
 
     std::uint32_t frame() const { return frame_; }
@@ -88,6 +87,7 @@ public:
 private:
     void play(engine::Timing timing, const std::function<void(engine::Passes&)>& record);
     void drawWith(const hair::Settings& settings);
+    void redraw();
     void replace(std::unique_ptr<measure::Case> other, const hair::Settings& settings);
 
     const engine::Device& device_;

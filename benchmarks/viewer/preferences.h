@@ -73,10 +73,10 @@ ImGuiStyle styleOf(Theme theme, float scale);
 // of a scene is in it.
 struct Preferences {
     Theme theme = Theme::dark;
-    float zoom = 1.0f;  // of letters and widgets, over the screen's scale
+    float zoom = 1.0f;  // scale of letters and widgets, over the screen's
     Column left{.width = 19.0f};
     Column right{.width = 19.0f};
-    std::uint32_t width = 1600;  // of the window, screen coordinates
+    std::uint32_t width = 1600;  // the window's, in screen coordinates
     std::uint32_t height = 900;
     engine::PresentMode present_mode = engine::PresentMode::fifo;
     std::vector<std::filesystem::path> recent;  // scenes, the last one first

@@ -25,7 +25,7 @@ struct ShaderProblem {
 
 // Shaders that took the place of others.
 struct ReloadedShaders {
-    std::vector<std::string> paths;  // of entry points
+    std::vector<std::string> paths;  // entry points that were compiled
     double seconds = 0;              // until pipelines were made of them
     std::chrono::system_clock::time_point when;
 };

@@ -127,7 +127,7 @@ struct Viewer::Parts {
 
     PreferencesFile preferences;
     bool driven;        // by a script, or for a number of pictures: it never waits for events
-    float fixed_scale;  // of the command line, in place of the screen's; 0: none
+    float fixed_scale;  // the command line's, in place of the screen's; 0: none
     float styled_scale = 0.0f;
     Theme styled_theme = Theme::dark;
     engine::Window window;
@@ -141,7 +141,7 @@ struct Viewer::Parts {
     SceneList scenes;
     PictureTools tools;
     TimingsPanel timings;
-    ReportOrigin origin;  // of the scene that is open
+    ReportOrigin origin;  // what reports of the open scene quote
     Recorder recorder;
     PlayState state;
     Message message;

@@ -167,8 +167,8 @@ report::CaseResult frozenResult(const FrozenSide& frozen, const report::CaseResu
 struct SideMeasurement {
     hair::Settings settings;
     report::CaseResult result;
-    std::vector<std::uint8_t>
-        picture;  // [row][column] RGBA, top row first: the picture that is hashed
+    // [row][column] RGBA, top row first: the picture that is hashed.
+    std::vector<std::uint8_t> picture;
 };
 
 // Measures settings as `hairbench run` does, with a case of its own, so that what is shown stays as

@@ -20,8 +20,6 @@ public:
     // took of the device, which is in no other figure.
     void show(Side& side, Side* compared, const ReportOrigin& origin, double ui_milliseconds);
 
-    bool frozen() const { return frozen_.has_value(); }
-
     // The part of the panel that measures as the runner does.
     MeasurePanel& measuring() { return measure_; }
 
@@ -33,6 +31,7 @@ private:
         std::uint32_t frame = 0;
     };
 
+    bool frozen() const { return frozen_.has_value(); }
     void controls(Side& side, Side* compared, const ReportOrigin& origin);
     void statistics(Side& side);
     const report::CaseResult* countedOf(const Side& side) const;

@@ -19,9 +19,9 @@ struct PlayState;   // player.h
 
 struct ViewOptions {
     scene::SceneOptions scene;
-    std::uint32_t width = 1600;  // of the window, screen coordinates
+    std::uint32_t width = 1600;  // the window's, in screen coordinates
     std::uint32_t height = 900;
-    double scale = 0.0;                // of letters and widgets; 0: the screen's
+    double scale = 0.0;                // scale of letters and widgets; 0: the screen's
     std::uint32_t frames = 0;  // pictures after which the window closes; 0: it stays open
     std::filesystem::path screenshot;  // written of the window's last picture; empty: none
     std::filesystem::path script;  // steps that drive the window; empty: none
@@ -55,7 +55,7 @@ public:
     engine::Presenter::Picture picture() const;
     // The last thing that went wrong or that the user was told; may be empty.
     const std::string& message() const;
-    float scale() const;  // of letters and widgets
+    float scale() const;  // scale of letters and widgets
     engine::PresentMode presentMode() const;
 
     // Warnings and errors of the validation layer, so far.
