@@ -77,8 +77,8 @@ glm::vec3 handAt(std::span<const hair::PullKey> path, float time);
 // The hand is at `position` from the next frame on, and stays there.
 void moveHand(std::vector<hair::PullKey>& path, const Moment& moment, glm::vec3 position);
 
-// The pull ends now; one that no frame was played of pulls for the next frame. Empty where it would
-// have begun after now, because time was set back.
+// Ends the pull now; a pull of which no frame was played pulls for the next frame. The path becomes
+// empty where it would have begun after now, because time was set back.
 void letGo(std::vector<hair::PullKey>& path, const Moment& moment);
 
 // Whether a path has room for the keys of moveHand().

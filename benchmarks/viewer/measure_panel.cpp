@@ -18,6 +18,11 @@
 namespace benchmarks::viewer {
 namespace {
 
+// A number's text; "-" where it is not known.
+std::string numberText(std::optional<double> number) {
+    return number ? report::shortNumber(*number) : "-";
+}
+
 // ---- What was measured --------------------------------------------------------------------------
 
 constexpr double kAlpha = 0.05;
@@ -75,10 +80,6 @@ constexpr std::chrono::milliseconds kLook{100};
 }  // namespace
 
 // ---- Widgets for figures ------------------------------------------------------------------------
-
-std::string numberText(std::optional<double> number) {
-    return number ? report::shortNumber(*number) : "-";
-}
 
 void helpMarker(const char* help) {
     if (*help == 0) return;

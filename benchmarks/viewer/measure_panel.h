@@ -14,9 +14,6 @@
 // timings has too.
 namespace benchmarks::viewer {
 
-// A number's text; "-" where it is not known.
-std::string numberText(std::optional<double> number);
-
 // A tooltip for the last item; none for an empty text.
 void helpMarker(const char* help);
 
