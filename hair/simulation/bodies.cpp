@@ -163,11 +163,6 @@ fieldsOf(const SimulationSettings& settings, const std::vector<DistanceField>& f
 
 }  // namespace
 
-TriangleTree buildTriangleTree(const groom::ClosedMesh& mesh) {
-    assert(!mesh.triangles.empty());
-    return Builder(mesh).take();
-}
-
 DistanceField::DistanceField(
     const engine::Device& device, const groom::Mesh& mesh, std::uint32_t resolution,
     float padding) {
