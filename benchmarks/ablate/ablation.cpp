@@ -12,8 +12,6 @@
 
 namespace benchmarks::ablate {
 
-// ---- Ablation -----------------------------------------------------------------------------------
-
 std::optional<std::uint64_t>
 measuredCount(std::span<const StopRecord> stops, Stop stop, std::string_view name) {
     for (const StopRecord& record : stops) {
@@ -26,7 +24,7 @@ measuredCount(std::span<const StopRecord> stops, Stop stop, std::string_view nam
 
 namespace {
 
-// ---- Ablation text ------------------------------------------------------------------------------
+// ---- JSON ---------------------------------------------------------------------------------------
 
 void putText(scene::Json& object, const char* key, const std::string& text) {
     if (!text.empty()) object[key] = text;
@@ -155,7 +153,7 @@ std::string ablationText(const AblationReport& report) {
 
 namespace {
 
-// ---- Ablation table -----------------------------------------------------------------------------
+// ---- Table for a terminal -----------------------------------------------------------------------
 
 std::string rungTitle(const StopRecord& stop) {
     switch (stop.times.stop) {

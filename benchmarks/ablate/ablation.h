@@ -11,6 +11,7 @@
 #include "benchmarks/ablate/attribution.h"
 #include "benchmarks/report/report.h"
 
+// Report of an ablation: what each stop of each case measured, and what the stages cost.
 namespace benchmarks::ablate {
 
 // A stop as it was measured.

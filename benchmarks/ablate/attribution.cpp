@@ -10,7 +10,7 @@
 namespace benchmarks::ablate {
 namespace {
 
-// ---- Attribution --------------------------------------------------------------------------------
+// ---- Marginal costs and what they leave open ----------------------------------------------------
 
 constexpr double kAlpha = 0.05;
 
@@ -88,7 +88,7 @@ Attribution attribute(std::span<const StopTimes> stops) {
 
 namespace {
 
-// ---- Attribution warnings -----------------------------------------------------------------------
+// ---- Warnings -----------------------------------------------------------------------------------
 
 constexpr double kDiscardTolerance = 0.1;  // of the geometry rung
 constexpr double kClosureTolerance = 0.02;  // of the pass: a change of this share matters to nobody
@@ -158,7 +158,7 @@ std::vector<std::string> attributionWarnings(const Attribution& attribution) {
 
 namespace {
 
-// ---- Unit costs ---------------------------------------------------------------------------------
+// ---- Costs per strand, segment, fragment --------------------------------------------------------
 
 struct Unit {
     const char* name;

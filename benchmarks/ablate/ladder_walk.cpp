@@ -25,7 +25,7 @@
 namespace benchmarks::ablate {
 namespace {
 
-// ---- Coverage check -----------------------------------------------------------------------------
+// ---- Samples covered with and without a fragment shader -----------------------------------------
 
 constexpr std::array kAlike{
     std::pair{Stop::raster, Stop::fragment},
@@ -48,7 +48,7 @@ std::vector<std::string> coverageWarnings(std::span<const StopRecord> stops) {
     return warnings;
 }
 
-// ---- Still hair ---------------------------------------------------------------------------------
+// ---- Hair that stands still ---------------------------------------------------------------------
 
 StillHair::StillHair(
     const engine::Device& device, const hair::Settings& settings,
@@ -64,7 +64,7 @@ StillHair::StillHair(
 
 namespace {
 
-// ---- Stop view ----------------------------------------------------------------------------------
+// ---- One stop of the ladder ---------------------------------------------------------------------
 
 constexpr const char* kPass = "strands";
 
@@ -139,7 +139,7 @@ std::vector<std::uint8_t> StopView::picture() const {
 
 namespace {
 
-// ---- Ladder walk --------------------------------------------------------------------------------
+// ---- All stops of a case, up and down -----------------------------------------------------------
 
 // All stops of a case, counted when they are made, then timed.
 class LadderWalk {
@@ -228,7 +228,7 @@ void LadderWalk::walk(std::uint32_t laps, const std::function<void(const std::st
     }
 }
 
-// ---- Ablate case --------------------------------------------------------------------------------
+// ---- A case -------------------------------------------------------------------------------------
 
 WorkCounts workOf(const std::vector<StopRecord>& stops, const hair::rendering::StrandPlan& plan) {
     constexpr const char* kEvaluations = "tessellation_evaluation_invocations";

@@ -19,6 +19,7 @@
 #include "hair/rendering/render_assets.h"
 #include "hair/rendering/renderer.h"
 
+// Measures the strands pass of a case at every stop of the ladder.
 namespace benchmarks::ablate {
 
 // Plays a case to the last frame that `run` measures of it and draws its hair, which then stands

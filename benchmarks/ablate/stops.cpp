@@ -16,7 +16,7 @@ namespace {
 using hair::rendering::StrandStage;
 using hair::rendering::StrandStages;
 
-// ---- Ladder -------------------------------------------------------------------------------------
+// ---- Stops of the ladder ------------------------------------------------------------------------
 
 constexpr std::array kNames{
     std::pair{Stop::empty, "empty"},
@@ -110,7 +110,7 @@ std::string ablationObstacle(const hair::Settings& settings) {
     return {};
 }
 
-// ---- Laps ---------------------------------------------------------------------------------------
+// ---- Times --------------------------------------------------------------------------------------
 
 double lapTime(const Lap& lap) {
     return 0.5 * (report::summarize(lap.up).median + report::summarize(lap.down).median);
@@ -130,7 +130,7 @@ bool hasStop(std::span<const StopTimes> stops, Stop stop) {
 
 namespace {
 
-// ---- Stop counts --------------------------------------------------------------------------------
+// ---- Counts -------------------------------------------------------------------------------------
 
 class Lines {
 public:

@@ -5,7 +5,7 @@
 
 namespace benchmarks::commands {
 
-// ---- Check commands -----------------------------------------------------------------------------
+// ---- physics, validate, schema, devices ---------------------------------------------------------
 
 void addCheckCommands(const CommandLine& line) {
     addCommand<PhysicsOptions>(
@@ -37,7 +37,7 @@ void addCheckCommands(const CommandLine& line) {
 
 namespace {
 
-// ---- Groom commands -----------------------------------------------------------------------------
+// ---- groom --------------------------------------------------------------------------------------
 
 constexpr const char* kConvertNotes = R"(Done in this order: scale, followers, vertices, guides.
 Without --scale lengths stay as they are, but that .hgl is always in metres: what IN states of its
@@ -108,7 +108,7 @@ void addGroomCommands(const CommandLine& line) {
 
 namespace {
 
-// ---- Measuring commands -------------------------------------------------------------------------
+// ---- run, gate, ablate, doctor ------------------------------------------------------------------
 
 constexpr const char* kGateNotes =
     R"(A and B are a build folder, a program, or a command line that 'run SCENE --out FILE ...' is added to;
@@ -221,7 +221,7 @@ void addMeasuringCommands(const CommandLine& line) {
 
 namespace {
 
-// ---- Picture commands ---------------------------------------------------------------------------
+// ---- view, render, simulate, export, reference, diff, lod ---------------------------------------
 
 constexpr const char* kLodNotes =
     R"(The hair of one frame stands still; the camera keeps its direction. Error: root mean square of
@@ -358,7 +358,7 @@ void addPictureCommands(const CommandLine& line) {
 
 namespace {
 
-// ---- Report commands ----------------------------------------------------------------------------
+// ---- compare, report, convert, merge ------------------------------------------------------------
 
 std::vector<std::string> formatNames() {
     std::vector<std::string> names;
@@ -427,7 +427,7 @@ void addReportCommands(const CommandLine& line) {
 
 namespace {
 
-// ---- Shared options -----------------------------------------------------------------------------
+// ---- Options that several commands have ---------------------------------------------------------
 
 // "2%" and "0.02" -> 0.02
 std::string asShare(std::string& text) {

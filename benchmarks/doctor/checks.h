@@ -7,6 +7,7 @@
 
 #include "benchmarks/doctor/facts.h"
 
+// Judges facts about the machine: whether timings can be trusted, and what to do where not.
 namespace benchmarks::doctor {
 
 enum class Health {

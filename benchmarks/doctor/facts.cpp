@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// ---- Loaded layers ------------------------------------------------------------------------------
+// ---- Vulkan layers in this process --------------------------------------------------------------
 
 // Most follow the convention of the first; the others are widely installed and do not.
 constexpr std::array<std::string_view, 6> kMarks{"VkLayer",   "vkLayer",  "MangoHud",
@@ -59,7 +59,7 @@ std::vector<std::string> loadedLayers() {
 
 namespace {
 
-// ---- Processor settings -------------------------------------------------------------------------
+// ---- How Linux runs the processors --------------------------------------------------------------
 
 // The first word; empty where there is no such file.
 std::string wordIn(const fs::path& path) {
@@ -119,7 +119,7 @@ std::optional<bool> onBattery(const fs::path& root) {
     return battery;
 }
 
-// ---- Timestamp step -----------------------------------------------------------------------------
+// ---- Resolution of timestamps -------------------------------------------------------------------
 
 std::optional<TimestampSteps> timestampSteps(std::span<const std::uint64_t> ticks) {
     TimestampSteps steps;
@@ -150,7 +150,7 @@ std::optional<TimestampSteps> timestampSteps(const engine::Device& device) {
 
 namespace {
 
-// ---- Gather facts -------------------------------------------------------------------------------
+// ---- All facts ----------------------------------------------------------------------------------
 
 // Of a second in which this process does nothing.
 LoadFacts loadNow() {

@@ -18,7 +18,7 @@
 namespace benchmarks::doctor {
 namespace {
 
-// ---- Doctor scene -------------------------------------------------------------------------------
+// ---- The doctor's scene -------------------------------------------------------------------------
 
 constexpr std::uint32_t kGuides = 48;
 constexpr std::uint32_t kVertices = 8;  // of a guide
@@ -77,7 +77,7 @@ std::filesystem::path writeDoctorScene(const std::filesystem::path& folder) {
 
 namespace {
 
-// ---- Play pairs ---------------------------------------------------------------------------------
+// ---- Passes and pairs of equal runs -------------------------------------------------------------
 
 constexpr int kPairs = 12;
 constexpr int kRounds = 3;  // of isolated frames

@@ -11,7 +11,7 @@
 namespace benchmarks::doctor {
 namespace {
 
-// ---- Doctor report ------------------------------------------------------------------------------
+// ---- JSON ---------------------------------------------------------------------------------------
 
 scene::Json toJson(const Finding& finding) {
     scene::Json object = {
@@ -80,7 +80,7 @@ std::string doctorReportText(const DoctorReport& report) {
 
 namespace {
 
-// ---- Doctor text --------------------------------------------------------------------------------
+// ---- Text for a terminal ------------------------------------------------------------------------
 
 std::string tableOf(const std::vector<report::Column>& columns, std::size_t rows) {
     std::string text;

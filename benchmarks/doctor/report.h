@@ -7,6 +7,7 @@
 #include "benchmarks/doctor/sensitivity.h"
 #include "benchmarks/report/report.h"
 
+// Report of the doctor: findings, smallest detectable slowdowns, planted slowdowns.
 namespace benchmarks::doctor {
 
 inline constexpr const char* kDoctorSchema = "hairbench-doctor/1.0.0";

@@ -22,7 +22,7 @@
 namespace benchmarks::doctor {
 namespace {
 
-// ---- Own gate -----------------------------------------------------------------------------------
+// ---- Gates of this program against itself -------------------------------------------------------
 
 // Gates of this program against itself, on the doctor's scene.
 class OwnGate {
@@ -55,7 +55,7 @@ gate::GateOptions OwnGate::options(std::vector<std::string> b_sets) const {
     return options;
 }
 
-// ---- Planted work -------------------------------------------------------------------------------
+// ---- Busy work for a wanted slowdown ------------------------------------------------------------
 
 // How much of /run/busy_work makes a pass slower by how much.
 struct PlantedWork {
@@ -130,7 +130,7 @@ PlantedWork findBusyWork(const OwnGate& own, const report::MetricId& metric, dou
     return busy;
 }
 
-// ---- Smallest slowdown --------------------------------------------------------------------------
+// ---- Smallest slowdown that a gate finds --------------------------------------------------------
 
 constexpr int kGates = 1000;  // 90 % of them are known to a percent
 constexpr double kFound = 0.9;
@@ -156,7 +156,7 @@ smallestSlowdown(std::span<const double> differences, double decisive_change, st
     return std::expm1(std::log1p(decisive_change) + report::quantile(missing, kFound));
 }
 
-// ---- Sensitivity --------------------------------------------------------------------------------
+// ---- Calibration on this machine ----------------------------------------------------------------
 
 std::vector<Sensitivity>
 measureSensitivity(const engine::DeviceOptions& device, std::uint32_t pairs) {
@@ -192,7 +192,7 @@ measureSensitivity(const engine::DeviceOptions& device, std::uint32_t pairs) {
 
 namespace {
 
-// ---- Planted gates ------------------------------------------------------------------------------
+// ---- Gates with a planted slowdown --------------------------------------------------------------
 
 constexpr double kMargin = 1.5;  // what is planted over what can be found
 

@@ -9,6 +9,7 @@
 #include "benchmarks/gate/blocks.h"
 #include "benchmarks/report/metric.h"
 
+// How small a slowdown a gate can find on this machine.
 namespace benchmarks::doctor {
 
 // How small a slowdown of one metric a gate can find on this machine.

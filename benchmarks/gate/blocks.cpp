@@ -33,7 +33,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// ---- Block report -------------------------------------------------------------------------------
+// ---- Report of a block --------------------------------------------------------------------------
 
 BlockCase readCase(const scene::Json& result) {
     BlockCase read{.outcome = report::caseOutcome(result), .metrics = {}};
@@ -187,7 +187,7 @@ ChildEnd runChild(const std::vector<std::string>& command, const std::filesystem
     }
 }
 
-// ---- Side ---------------------------------------------------------------------------------------
+// ---- Command of a side --------------------------------------------------------------------------
 
 bool isProgram(const fs::path& path) {
     std::error_code ignored;
@@ -294,7 +294,7 @@ blockCommand(const Side& side, const fs::path& scene, const fs::path& out, std::
 
 namespace {
 
-// ---- Block runner -------------------------------------------------------------------------------
+// ---- Run of a block -----------------------------------------------------------------------------
 
 constexpr std::size_t kMostLines = 12;  // of a failed process that are shown
 constexpr std::size_t kMostBytes = 4000;

@@ -12,6 +12,7 @@
 #include "benchmarks/scene/sweep.h"
 #include "engine/process.h"
 
+// Processes of a gate: which command each side runs, and what a process reported.
 namespace benchmarks::gate {
 
 struct BlockCase {

@@ -12,7 +12,7 @@
 namespace benchmarks::gate {
 namespace {
 
-// ---- Gate report --------------------------------------------------------------------------------
+// ---- JSON ---------------------------------------------------------------------------------------
 
 const char* phaseName(Phase phase) {
     switch (phase) {
@@ -140,7 +140,7 @@ scene::Json gateReport(
 
 namespace {
 
-// ---- Gate text ----------------------------------------------------------------------------------
+// ---- Text for a terminal ------------------------------------------------------------------------
 
 // "build/old, hairbench 0.1.0 (1a2b3c4)"
 std::string sideText(const Side& side, const std::optional<BlockReport>& first) {

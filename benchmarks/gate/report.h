@@ -6,6 +6,7 @@
 #include "benchmarks/gate/session.h"
 #include "benchmarks/scene/json.h"
 
+// Report of a gate, as JSON and for a terminal.
 namespace benchmarks::gate {
 
 inline constexpr const char* kGateSchema = "hairbench-gate/1.0.0";

@@ -6,6 +6,7 @@
 
 #include "benchmarks/report/change.h"
 
+// Stopping rule of a gate.
 namespace benchmarks::gate {
 
 struct GateMetric {

@@ -15,7 +15,7 @@
 namespace benchmarks::gate {
 namespace {
 
-// ---- Gate run -----------------------------------------------------------------------------------
+// ---- Verdicts and differences of a run ----------------------------------------------------------
 
 // The two blocks of a pair, as they came.
 struct PairOfBlocks {
@@ -67,7 +67,7 @@ std::vector<std::vector<double>> pairDifferences(const GateRun& run, Phase phase
 
 namespace {
 
-// ---- Gate session -------------------------------------------------------------------------------
+// ---- Warm-up, calibration, gate -----------------------------------------------------------------
 
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 

@@ -12,6 +12,7 @@
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/compare.h"
 
+// A gate: warm-up, calibration and pairs of processes until the verdicts are known.
 namespace benchmarks::gate {
 
 // A metric of a case that both sides have and a verdict is passed on.

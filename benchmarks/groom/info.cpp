@@ -18,7 +18,7 @@
 namespace benchmarks::groom {
 namespace {
 
-// ---- Groom guides -------------------------------------------------------------------------------
+// ---- Choice of guides ---------------------------------------------------------------------------
 
 // In metres where the unit is known, or else in the file's.
 std::string
@@ -57,7 +57,7 @@ rootTriangles(const hair::groom::StrandSet& strands, const hair::groom::Mesh* me
 
 namespace {
 
-// ---- Groom oddities -----------------------------------------------------------------------------
+// ---- What is odd about a groom ------------------------------------------------------------------
 
 // Human hair is 17 to 181 µm thick; wider and narrower than by a factor of ten is another unit, or
 // a width to draw with.
@@ -174,7 +174,7 @@ findOddities(const hair::groom::StrandSet& strands, const hair::groom::StrandFin
 
 namespace {
 
-// ---- Groom info json ----------------------------------------------------------------------------
+// ---- JSON ---------------------------------------------------------------------------------------
 
 // JSON has no NaN and no infinity.
 void put(scene::Json& object, const char* key, double value) {
@@ -272,7 +272,7 @@ std::string groomInfoJson(const GroomInfo& info) {
 
 namespace {
 
-// ---- Groom info text ----------------------------------------------------------------------------
+// ---- Text for a terminal ------------------------------------------------------------------------
 
 constexpr std::size_t kNameWidth = 16;
 constexpr std::size_t kLineWidth = 100;

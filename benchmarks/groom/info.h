@@ -11,6 +11,7 @@
 #include "hair/groom/inspect.h"
 #include "hair/groom/mesh/mesh.h"
 
+// What `hairbench groom` says of a file of hair, and guides chosen from strands.
 namespace benchmarks::groom {
 
 // Guides chosen from strands, with all that those have but root triangles.

@@ -20,7 +20,7 @@
 namespace benchmarks::lod {
 namespace {
 
-// ---- Lod difference -----------------------------------------------------------------------------
+// ---- Differences of pictures --------------------------------------------------------------------
 
 // Of difference(i), i running over the colours of all pixels.
 template <class Difference>
@@ -58,7 +58,7 @@ double whiteShare(std::span<const std::uint8_t> picture) {
 
 namespace {
 
-// ---- Lod report ---------------------------------------------------------------------------------
+// ---- Totals and JSON ----------------------------------------------------------------------------
 
 scene::Json toJson(const LodTimes& times) {
     return {{"strands", times.strands}, {"frame", times.frame}};
@@ -131,7 +131,7 @@ std::string lodReportText(const LodReport& report) {
 
 namespace {
 
-// ---- Lod table ----------------------------------------------------------------------------------
+// ---- Table for a terminal -----------------------------------------------------------------------
 
 std::string fixed(double number, const char* format) {
     char text[32];
@@ -190,7 +190,7 @@ std::string lodTable(const LodReport& report) {
 
 namespace {
 
-// ---- Lod walk -----------------------------------------------------------------------------------
+// ---- Walk along the camera path -----------------------------------------------------------------
 
 constexpr std::uint32_t kWarmUps = 2;  // frames of a pipeline before it is timed
 constexpr std::uint32_t kRepeats = 5;  // timed frames of a step

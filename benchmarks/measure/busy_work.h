@@ -9,6 +9,7 @@
 #include "engine/frame_loop.h"
 #include "engine/pipeline.h"
 
+// Work that slows down one pass by a known amount, to test what finds slowdowns.
 namespace benchmarks::measure {
 
 // Steps of work that nobody needs and no driver can leave out: what it makes is written to a

@@ -17,7 +17,7 @@
 namespace benchmarks::measure {
 namespace {
 
-// ---- Assets -------------------------------------------------------------------------------------
+// ---- Files that a case reads --------------------------------------------------------------------
 
 void checkFields(
     const hair::Settings& settings, const std::optional<hair::groom::Mesh>& grown_on,
@@ -116,7 +116,7 @@ void checkAssets(const hair::Settings& settings, const std::filesystem::path& sc
 
 namespace {
 
-// ---- Case ---------------------------------------------------------------------------------------
+// ---- The case -----------------------------------------------------------------------------------
 
 template <class Asset>
 const Asset* pointerTo(const std::optional<Asset>& asset) {
@@ -263,8 +263,6 @@ hair::rendering::StrandView Case::viewOf(const hair::rendering::GroomBuffers& bu
     return view;
 }
 
-// ---- Dropped fragments --------------------------------------------------------------------------
-
 std::string droppedFragments(const Case& test_case) {
     const std::optional<hair::rendering::ListedFragments> listed = test_case.blend().listed();
     if (!listed || listed->dropped() == 0) return {};
@@ -272,7 +270,7 @@ std::string droppedFragments(const Case& test_case) {
            " fragments did not fit /render/list_length: the picture lacks them";
 }
 
-// ---- Simulated strands --------------------------------------------------------------------------
+// ---- Strands for a file -------------------------------------------------------------------------
 
 hair::groom::StrandSet drawnStrands(const hair::rendering::StrandPoints& points) {
     hair::groom::StrandSet set;

@@ -12,7 +12,7 @@
 namespace benchmarks::measure {
 namespace {
 
-// ---- Pci address --------------------------------------------------------------------------------
+// ---- Address on the PCI bus ---------------------------------------------------------------------
 
 bool tellsAddress(VkPhysicalDevice device) {
     std::uint32_t count = 0;
@@ -50,7 +50,7 @@ std::optional<PciAddress> pciAddress(const engine::DeviceInfo& device) {
 
 namespace {
 
-// ---- Amdgpu -------------------------------------------------------------------------------------
+// ---- AMD: sysfs of amdgpu -----------------------------------------------------------------------
 
 struct Levels {
     std::optional<double> present;  // MHz
@@ -126,7 +126,7 @@ openAmdgpu(const PciAddress& address, const std::filesystem::path& devices) {
 
 namespace {
 
-// ---- Nvml ---------------------------------------------------------------------------------------
+// ---- NVIDIA: NVML -------------------------------------------------------------------------------
 
 // NVML's C interface as far as it is used here, after the NVML API Reference: results and enums
 // are ints, a device is an opaque pointer.

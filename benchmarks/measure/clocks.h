@@ -9,6 +9,7 @@
 
 #include "engine/instance.h"
 
+// Clocks and temperature of a device, as its driver tells them.
 namespace benchmarks::measure {
 
 // What a device says of its clocks at one moment; what it does not say is absent.

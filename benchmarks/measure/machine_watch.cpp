@@ -19,7 +19,7 @@
 namespace benchmarks::measure {
 namespace {
 
-// ---- Medians ------------------------------------------------------------------------------------
+// ---- Medians of readings and rounds -------------------------------------------------------------
 
 // The median of one member over those that know it; absent where none does.
 template <class Thing>
@@ -42,7 +42,7 @@ std::vector<std::string> everyReason(const std::vector<Thing>& things) {
     return reasons;
 }
 
-// ---- Clock sampler ------------------------------------------------------------------------------
+// ---- Sampling of clocks -------------------------------------------------------------------------
 
 // A round is tenths of a second long; drivers renew what they say about as often as this.
 constexpr std::chrono::milliseconds kPeriod{50};
@@ -100,7 +100,7 @@ void addClocks(const std::vector<ClockReading>& readings, report::Conditions& co
     conditions.throttle_reasons = everyReason(counted);
 }
 
-// ---- Processor load -----------------------------------------------------------------------------
+// ---- Load of the processors ---------------------------------------------------------------------
 
 std::optional<ProcessorTicks> readProcessorTicks(const std::filesystem::path& path) {
     std::ifstream file(path);
@@ -138,7 +138,7 @@ loadBetween(const ProcessorTicks& before, const ProcessorTicks& after, double ow
         .others = std::clamp(others / total, 0.0, 1.0)};
 }
 
-// ---- Machine watch ------------------------------------------------------------------------------
+// ---- Conditions of a round ----------------------------------------------------------------------
 
 bool isThrottled(const report::Conditions& round) {
     return round.clock_mhz && round.base_clock_mhz &&

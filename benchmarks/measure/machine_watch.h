@@ -13,6 +13,7 @@
 #include "benchmarks/report/report.h"
 #include "engine/device.h"
 
+// Conditions of a measurement: clocks, throttling, steal time, load by other processes.
 namespace benchmarks::measure {
 
 // Reads a clock source again and again while a round is played: before and after it the device is

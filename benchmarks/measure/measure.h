@@ -10,6 +10,7 @@
 #include "benchmarks/report/report.h"
 #include "engine/process.h"
 
+// Measures one case.
 namespace benchmarks::measure {
 
 // How far a mode of a case is, for who waits.

@@ -23,7 +23,7 @@ using engine::FrameRecord;
 using engine::PassTime;
 using engine::ProcessUse;
 
-// ---- Check timestamps ---------------------------------------------------------------------------
+// ---- Timestamps against the CPU's clock ---------------------------------------------------------
 
 constexpr std::uint32_t kPairs = 2;  // between two looks
 constexpr std::uint32_t kMostPairs = 16;
@@ -51,7 +51,7 @@ std::vector<std::string> checkTimestamps(
 
 namespace {
 
-// ---- Drawn counts -------------------------------------------------------------------------------
+// ---- Pipeline statistics and fragment lists -----------------------------------------------------
 
 std::optional<std::uint64_t>
 expectedOf(const std::optional<hair::rendering::ExpectedCounts>& expected, std::string_view name) {
@@ -118,7 +118,7 @@ void addTransparency(const Case& test_case, report::CaseResult& result) {
 
 namespace {
 
-// ---- Isolated metrics ---------------------------------------------------------------------------
+// ---- Isolated and wall-clock frames -------------------------------------------------------------
 
 // CPU time and instructions of what `metric_of` makes metrics of. A count that some of the frames
 // lack is left out: samples of different frames would be none of one quantity.
@@ -186,7 +186,7 @@ void addPassUse(std::span<const engine::FrameRecord> wall_clock, report::CaseRes
 
 namespace {
 
-// ---- Overlapped metrics -------------------------------------------------------------------------
+// ---- Overlapped frames --------------------------------------------------------------------------
 
 template <class Get>
 std::vector<double> collect(std::span<const engine::FrameRecord> frames, Get get) {
@@ -252,7 +252,7 @@ void addOverlappedMetrics(std::span<const engine::FrameRecord> frames, report::C
 
 namespace {
 
-// ---- Memory metrics -----------------------------------------------------------------------------
+// ---- Device memory ------------------------------------------------------------------------------
 
 struct Row {
     std::string_view beginning;  // of the names

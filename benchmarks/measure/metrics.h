@@ -11,6 +11,7 @@
 #include "engine/device.h"
 #include "engine/frame_loop.h"
 
+// Metrics, statistics and counts of a case, from its frames.
 namespace benchmarks::measure {
 
 // Plays isolated frames and frames whose passes are submitted and waited for one at a time, in

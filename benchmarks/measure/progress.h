@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 
+// Progress on stderr.
 namespace benchmarks::measure {
 
 struct SamplingState;  // measure.h

@@ -18,7 +18,7 @@ namespace benchmarks::measure {
 using engine::FrameRecord;
 using engine::Timing;
 
-// ---- Round player -------------------------------------------------------------------------------
+// ---- Rounds of one mode -------------------------------------------------------------------------
 
 void playFrame(engine::FrameLoop& loop, const Play& play) {
     if (play.hooks.stop()) throw engine::Interrupted();
@@ -65,7 +65,7 @@ RoundEnd RoundPlayer::readEnd() const {
 
 namespace {
 
-// ---- Sample rounds ------------------------------------------------------------------------------
+// ---- Rounds until the median is known -----------------------------------------------------------
 
 // Times are looked at again when there is a twentieth more of them: looking takes time too.
 constexpr std::size_t kLookShare = 20;
@@ -163,7 +163,7 @@ SampledRounds sampleRounds(const SamplingRule& rule, const SamplingTools& tools)
 
 namespace {
 
-// ---- Sample mode --------------------------------------------------------------------------------
+// ---- A mode of a case ---------------------------------------------------------------------------
 
 using Seconds = std::chrono::duration<double>;
 

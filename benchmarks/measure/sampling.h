@@ -14,6 +14,7 @@
 #include "benchmarks/report/report.h"
 #include "engine/frame_loop.h"
 
+// Rounds of one mode of a case, until its median frame time is known.
 namespace benchmarks::measure {
 
 // What a case's frames are played with.

@@ -13,7 +13,7 @@
 namespace benchmarks::measure {
 namespace {
 
-// ---- Steady state -------------------------------------------------------------------------------
+// ---- Trend of a series --------------------------------------------------------------------------
 
 constexpr std::size_t kMostExact = 33;
 
@@ -91,7 +91,7 @@ bool isSteady(std::span<const double> samples, const SteadyRule& rule) {
     return drift <= rule.tolerance * std::abs(report::quantile(window, 0.5));
 }
 
-// ---- Frame profile ------------------------------------------------------------------------------
+// ---- Times relative to their frame --------------------------------------------------------------
 
 std::vector<double> withoutProfile(const RoundTimes& rounds) {
     std::vector<double> relative = allTimes(rounds);
@@ -127,7 +127,7 @@ std::vector<double> allTimes(std::span<const std::vector<double>> rounds) {
 
 namespace {
 
-// ---- Settling -----------------------------------------------------------------------------------
+// ---- Rounds that still settle -------------------------------------------------------------------
 
 constexpr std::size_t kShortest = 8;  // 2 / 8! is below any share of the level
 constexpr std::size_t kMostBlocks = 64;  // the tests take time with the cube of it

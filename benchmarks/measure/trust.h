@@ -6,6 +6,7 @@
 
 #include "engine/frame_loop.h"
 
+// Whether times of passes can be believed.
 namespace benchmarks::measure {
 
 // How far timings may be off and still be believed, as a ratio.

@@ -11,7 +11,7 @@
 namespace benchmarks::physics {
 namespace {
 
-// ---- Check catenary -----------------------------------------------------------------------------
+// ---- Catenary -----------------------------------------------------------------------------------
 
 constexpr std::uint32_t kCatenarySegments = 32;
 constexpr double kCatenaryLength = 0.2;  // m
@@ -59,7 +59,7 @@ void checkCatenary(const engine::Device& device, hair::Solver solver, Findings& 
 
 namespace {
 
-// ---- Check free fall ----------------------------------------------------------------------------
+// ---- Free fall ----------------------------------------------------------------------------------
 
 // By the equivalence principle nothing acts on hair that falls together with its head. The head
 // goes along a true parabola, with a keyframe at every step: in between, the harmonic mean of
@@ -118,7 +118,7 @@ void checkFreeFall(const engine::Device& device, hair::Solver solver, Findings& 
 
 namespace {
 
-// ---- Check hanging chain ------------------------------------------------------------------------
+// ---- Hanging chain ------------------------------------------------------------------------------
 
 constexpr std::uint32_t kHangingSegments = 64;
 constexpr double kHangingLength = 0.3;  // m
@@ -160,7 +160,7 @@ void checkHangingChain(const engine::Device& device, hair::Solver solver, Findin
 
 namespace {
 
-// ---- Check length -------------------------------------------------------------------------------
+// ---- Length -------------------------------------------------------------------------------------
 
 constexpr double kStretchTolerance = 0.01;  // of the worst segment, promised of `rod`
 
@@ -200,7 +200,7 @@ void checkLength(const engine::Device& device, hair::Solver solver, Findings& fi
 
 namespace {
 
-// ---- Check pendulum -----------------------------------------------------------------------------
+// ---- Pendulum -----------------------------------------------------------------------------------
 
 constexpr double kPendulumLink = 0.05;  // m
 // w h. Projection along the predicted links lowers the frequency by (w h)^2 / 3, 8e-4. A much
@@ -253,7 +253,7 @@ void checkPendulum(
 
 namespace {
 
-// ---- Check projectile ---------------------------------------------------------------------------
+// ---- Projectile ---------------------------------------------------------------------------------
 
 // n steps of Verlet in single precision at up to 4 m add up to about 1.5e-4 m of rounding, or 3e-5
 // of the drop (a random walk of velocity, 0.3 ulp a step); three times that.

@@ -8,7 +8,7 @@
 namespace benchmarks::physics {
 namespace {
 
-// ---- Check bend twist ---------------------------------------------------------------------------
+// ---- Bend-twist ---------------------------------------------------------------------------------
 
 // The set-up of the bend-twist test of Romero et al. 2021: a curl that hangs from a clamp stays in
 // its plane where its weight rules, and winds out of it where its curvature does; cbrt(Gamma) /
@@ -54,7 +54,7 @@ void checkBendTwist(const engine::Device& device, hair::Solver solver, Findings&
 
 namespace {
 
-// ---- Check bending frequency --------------------------------------------------------------------
+// ---- Bending frequency --------------------------------------------------------------------------
 
 constexpr std::uint32_t kBendingSegments = 32;
 constexpr double kBendingLength = 0.1;  // m
@@ -98,7 +98,7 @@ void checkBendingFrequency(const engine::Device& device, hair::Solver solver, Fi
 
 namespace {
 
-// ---- Check cantilever ---------------------------------------------------------------------------
+// ---- Cantilever and its convergence -------------------------------------------------------------
 
 // Romero et al. 2021, Physical validation of simulators in computer graphics, section 4.1: a
 // straight hair, clamped horizontally, under its weight.
@@ -205,7 +205,7 @@ void checkConvergence(const engine::Device& device, hair::Solver solver, Finding
 
 namespace {
 
-// ---- Check clamp twist --------------------------------------------------------------------------
+// ---- Clamp twist --------------------------------------------------------------------------------
 
 // Nothing holds a curl's free end, so in the end there is no torque and no twist in it: it must
 // turn as far as its root does about its own axis.

@@ -15,7 +15,7 @@ namespace {
 using engine::Device;
 using hair::Solver;
 
-// ---- Checks -------------------------------------------------------------------------------------
+// ---- All checks ---------------------------------------------------------------------------------
 
 constexpr unsigned kMasses[] = {1, 2, 3, 5};
 // The ratios at which Romero et al. 2021 and the tables of docs/physics.md are read.
@@ -49,7 +49,7 @@ std::span<const Check> allChecks() { return kChecks; }
 
 namespace {
 
-// ---- Check energy -------------------------------------------------------------------------------
+// ---- Energy -------------------------------------------------------------------------------------
 
 // A hair let go from the horizontal. What its energy is compared with is the weight's at half its
 // length: what it loses from there to hanging down.
@@ -133,7 +133,7 @@ void checkEnergy(const engine::Device& device, hair::Solver solver, Findings& fi
 
 namespace {
 
-// ---- Check invariance ---------------------------------------------------------------------------
+// ---- Invariance to step, substeps, segments, iterations -----------------------------------------
 
 // Does hair move the same whatever the step, the number of segments and of iterations? Default hair
 // let go from the horizontal; the finest run is the reference.
@@ -234,7 +234,7 @@ void checkIterationInvariance(
 
 namespace {
 
-// ---- Check state hash ---------------------------------------------------------------------------
+// ---- State hash ---------------------------------------------------------------------------------
 
 std::vector<glm::vec3> play(const engine::Device& device, hair::Solver solver) {
     Experiment experiment(device, livelyGroom(), livelyHair(solver));

@@ -18,7 +18,7 @@ namespace {
 
 using hair::Solver;
 
-// ---- Experiment ---------------------------------------------------------------------------------
+// ---- Strands and their simulation ---------------------------------------------------------------
 
 constexpr std::uint32_t kBatch = 64;  // steps per submission
 constexpr std::uint32_t kSeed = 1;
@@ -126,7 +126,7 @@ double greatestDistance(std::span<const glm::dvec3> a, std::span<const glm::dvec
 
 namespace {
 
-// ---- Solver settings ----------------------------------------------------------------------------
+// ---- Settings of the solvers --------------------------------------------------------------------
 
 // Weight over stiffness of a rod that is to hang like a chain: it bends within L / sqrt(Gamma) of
 // the clamp, a thousandth of its length.
@@ -214,7 +214,7 @@ void setIterations(hair::SimulationSettings& settings, std::uint32_t iterations)
     settings.rod.iterations = iterations;
 }
 
-// ---- Lively -------------------------------------------------------------------------------------
+// ---- Lively hair --------------------------------------------------------------------------------
 
 hair::SimulationSettings livelyHair(hair::Solver solver) {
     hair::SimulationSettings settings = defaultHair(solver);
@@ -243,7 +243,7 @@ hair::groom::Groom livelyGroom() {
 
 namespace {
 
-// ---- Trajectory ---------------------------------------------------------------------------------
+// ---- Release from the horizontal ----------------------------------------------------------------
 
 constexpr int kSamples = 60;
 constexpr double kInterval = 1.0 / 30.0;  // s

@@ -14,6 +14,7 @@
 #include "hair/settings.h"
 #include "hair/simulation/simulation.h"
 
+// A strand or groom under one solver, played step by step, and the settings of each check.
 namespace benchmarks::physics {
 
 // A strand in `segments` equal segments from the origin along a unit vector, at rest. m

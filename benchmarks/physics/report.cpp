@@ -12,7 +12,7 @@
 
 namespace benchmarks::physics {
 
-// ---- Findings -----------------------------------------------------------------------------------
+// ---- Findings of a check ------------------------------------------------------------------------
 
 const char* verdictName(Verdict verdict) {
     switch (verdict) {
@@ -107,7 +107,7 @@ Outcome& Findings::add(Outcome outcome) {
 
 namespace {
 
-// ---- Report -------------------------------------------------------------------------------------
+// ---- JSON ---------------------------------------------------------------------------------------
 
 scene::Json toJson(const Outcome& outcome) {
     scene::Json object = {{"check", outcome.check}, {"solver", outcome.solver}};
@@ -155,7 +155,7 @@ std::string physicsReportText(const PhysicsReport& report) {
 
 namespace {
 
-// ---- Table --------------------------------------------------------------------------------------
+// ---- Table for a terminal -----------------------------------------------------------------------
 
 // Errors range from 1e-8 to 1: three digits whatever their size.
 std::string figure(std::optional<double> number) {

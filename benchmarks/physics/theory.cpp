@@ -43,7 +43,7 @@ glm::dvec2 Catenary::at(double s) const {
 
 namespace {
 
-// ---- Deflection ---------------------------------------------------------------------------------
+// ---- Small deflections of a strand --------------------------------------------------------------
 
 // The greatest slope of a strand in a small vibration: 0.03^2 / 16 is its effect on a pendulum's
 // frequency, 6e-5.
@@ -119,7 +119,7 @@ double energyOf(
     return energy;
 }
 
-// ---- Oscillation --------------------------------------------------------------------------------
+// ---- Frequency of samples -----------------------------------------------------------------------
 
 std::optional<double> frequencyOf(std::span<const double> samples, double interval) {
     double first = 0.0;
@@ -138,7 +138,7 @@ std::optional<double> frequencyOf(std::span<const double> samples, double interv
 
 namespace {
 
-// ---- Theory -------------------------------------------------------------------------------------
+// ---- Cantilever under its weight ----------------------------------------------------------------
 
 constexpr int kSteps = 4000;
 
@@ -196,7 +196,7 @@ double cantileverRatio(double gamma, double natural_turn) {
 
 namespace {
 
-// ---- Vibrate ------------------------------------------------------------------------------------
+// ---- Frequency of a released strand -------------------------------------------------------------
 
 constexpr int kPeriods = 5;
 constexpr int kSamplesPerPeriod = 40;
@@ -218,7 +218,7 @@ std::optional<double> measureFrequency(Experiment& experiment, const Vibration& 
 
 namespace {
 
-// ---- Vibration ----------------------------------------------------------------------------------
+// ---- Modes and frequencies ----------------------------------------------------------------------
 
 constexpr double kFirstBesselRoot = 2.404825557695773;  // of J0, Abramowitz and Stegun table 9.5
 constexpr double kFirstBeamRoot = 1.8751040687119611;  // of cos z cosh z = -1

@@ -10,6 +10,8 @@
 #include "benchmarks/physics/experiment.h"
 #include "hair/settings.h"
 
+// What theory says of hanging, bending and swinging strands, and how simulations are measured
+// against it.
 namespace benchmarks::physics {
 
 // A chain of `length` that hangs between pins at (0, 0) and (span, 0): y = a cosh((x - x0) / a) +

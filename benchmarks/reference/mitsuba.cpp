@@ -30,7 +30,7 @@
 
 namespace benchmarks::reference {
 
-// ---- Curve control points -----------------------------------------------------------------------
+// ---- Control points of curves -------------------------------------------------------------------
 
 // The spline passes (c[i-1] + 4 c[i] + c[i+1]) / 6 at knot i. Natural ends, c[-1] - 2 c[0] + c[1]
 // = 0, make c[0] the first point and likewise the last, which leaves a tridiagonal system for
@@ -56,7 +56,7 @@ std::vector<glm::dvec4> interpolatingControlPoints(std::span<const glm::dvec4> p
 
 namespace {
 
-// ---- Mitsuba optics -----------------------------------------------------------------------------
+// ---- Units of lights ----------------------------------------------------------------------------
 
 // Squared distance at which the light has its colour, m^2.
 double referenceSquared(const hair::LightSettings& light, const glm::dvec3& target) {
@@ -91,7 +91,7 @@ lightRadiance(const hair::LightSettings& light, const glm::dvec3& color, const g
 
 namespace {
 
-// ---- Mitsuba xml --------------------------------------------------------------------------------
+// ---- XML elements -------------------------------------------------------------------------------
 
 // Elements of a Mitsuba scene, each with its line's end.
 
@@ -111,7 +111,7 @@ std::string rgb(const char* name, const Vector& linear) {
     return element("rgb", name, scene::decimalTexts(linear, ", "));
 }
 
-// ---- Mitsuba lights -----------------------------------------------------------------------------
+// ---- Emitters -----------------------------------------------------------------------------------
 
 void writePoint(std::ostream& out, const glm::vec3& position, const glm::dvec3& intensity) {
     out << "<emitter type=\"point\">\n    <point name=\"position\" value=\""
@@ -170,7 +170,7 @@ void writeMitsubaLights(
         writeLight(out, settings, light);
 }
 
-// ---- Mitsuba scene ------------------------------------------------------------------------------
+// ---- The scene file -----------------------------------------------------------------------------
 
 // Fair hair is seen through many fibres: paths are long, and end by chance only late.
 constexpr const char* kBegin = R"(<?xml version="1.0" encoding="utf-8"?>
@@ -264,7 +264,7 @@ void writeMitsubaScene(
     out << "</scene>\n";
 }
 
-// ---- Mitsuba shapes -----------------------------------------------------------------------------
+// ---- Curves and PLY -----------------------------------------------------------------------------
 
 void writeMitsubaCurves(std::ostream& out, const hair::groom::StrandSet& strands) {
     std::vector<glm::dvec4> points;
@@ -319,7 +319,7 @@ void writeMaterialPly(
 
 namespace {
 
-// ---- Mitsuba meshes -----------------------------------------------------------------------------
+// ---- Files of meshes ----------------------------------------------------------------------------
 
 // A material's picture times its colour, both linear, as display RGB again: Mitsuba has no factor.
 engine::Pixels colored(engine::Pixels picture, const glm::vec3& color) {
@@ -381,7 +381,7 @@ std::vector<MitsubaParts::Mesh> writeMitsubaMesh(
     return parts;
 }
 
-// ---- Mitsuba export -----------------------------------------------------------------------------
+// ---- Export of a frame --------------------------------------------------------------------------
 
 void play(const engine::Device& device, measure::Case& played, std::uint32_t frame) {
     engine::FrameLoop loop(device, engine::Timing::statistics);

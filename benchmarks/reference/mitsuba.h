@@ -18,6 +18,7 @@
 #include "hair/settings.h"
 #include "hair/simulation/head_motion.h"
 
+// Export of a frame as a scene of Mitsuba 3.
 namespace benchmarks::reference {
 
 // Control points of the uniform cubic B-spline that goes through `points`, the first at its start

@@ -15,7 +15,7 @@
 namespace benchmarks::reference {
 namespace {
 
-// ---- Reference tool -----------------------------------------------------------------------------
+// ---- The Python tools ---------------------------------------------------------------------------
 
 std::string interpreter() {
     const char* wanted = std::getenv("HAIRBENCH_REFERENCE_PYTHON");

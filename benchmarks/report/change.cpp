@@ -16,7 +16,7 @@
 namespace benchmarks::report {
 namespace {
 
-// ---- Verdict ------------------------------------------------------------------------------------
+// ---- Verdicts on pairs --------------------------------------------------------------------------
 
 constexpr double kNormalDeviations = 1.4826;  // a normal distribution's sigma over its MAD
 
@@ -89,7 +89,7 @@ std::vector<Comparison> compare(
 
 namespace {
 
-// ---- Change -------------------------------------------------------------------------------------
+// ---- Texts, JSON, exit status -------------------------------------------------------------------
 
 void putFinite(scene::Json& object, const char* key, double value) {
     if (std::isfinite(value)) object[key] = value;
@@ -192,7 +192,7 @@ std::string percentText(double share) {
 
 namespace {
 
-// ---- Median ratio -------------------------------------------------------------------------------
+// ---- Medians of two single processes ------------------------------------------------------------
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSmallestLevel = 1e-9;  // below it nobody asks

@@ -14,7 +14,7 @@
 namespace benchmarks::report {
 namespace {
 
-// ---- Environment differences --------------------------------------------------------------------
+// ---- What differs between machines and builds ---------------------------------------------------
 
 struct Place {
     const char* name;
@@ -61,7 +61,7 @@ std::vector<std::string> environmentDifferences(const scene::Json& a, const scen
     return differences;
 }
 
-// ---- Judged metrics -----------------------------------------------------------------------------
+// ---- Metrics that are judged --------------------------------------------------------------------
 
 bool isSoftwareDevice(const scene::Json& environment) {
     const auto device = environment.find("device");
@@ -101,7 +101,7 @@ double costOf(const Metric& metric, double value) {
 
 namespace {
 
-// ---- Mismatch -----------------------------------------------------------------------------------
+// ---- Mismatches of cases ------------------------------------------------------------------------
 
 std::string statusText(const CaseOutcome& outcome) {
     return outcome.reason.empty() ? outcome.status : outcome.status + ": " + outcome.reason;
@@ -150,7 +150,7 @@ scene::Json mismatchJson(const Mismatch& mismatch) {
 
 namespace {
 
-// ---- Report comparison --------------------------------------------------------------------------
+// ---- Two reports --------------------------------------------------------------------------------
 
 constexpr double kLevel = VerdictRule{}.alpha;
 

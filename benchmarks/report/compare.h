@@ -10,6 +10,7 @@
 #include "benchmarks/report/metric.h"
 #include "benchmarks/scene/json.h"
 
+// Comparison of two reports, each of one process.
 namespace benchmarks::report {
 
 // Whether both reports name the same device and kind of device; its driver may have changed.

@@ -17,7 +17,7 @@
 namespace benchmarks::report {
 namespace {
 
-// ---- Device record ------------------------------------------------------------------------------
+// ---- Device -------------------------------------------------------------------------------------
 
 template <class Number>
 struct Limit {
@@ -72,7 +72,7 @@ DeviceRecord describeDevice(const engine::Device& of) {
 
 namespace {
 
-// ---- Environment --------------------------------------------------------------------------------
+// ---- Host, build, command -----------------------------------------------------------------------
 
 std::string processorName() {
     std::ifstream file("/proc/cpuinfo");
@@ -155,7 +155,7 @@ Environment describeEnvironment(
         .validation = validation == engine::Validation::on};
 }
 
-// ---- Hash ---------------------------------------------------------------------------------------
+// ---- Hashes -------------------------------------------------------------------------------------
 
 std::string hashBytes(std::span<const std::byte> bytes) {
     std::uint64_t hash = 0xcbf29ce484222325u;  // offset basis

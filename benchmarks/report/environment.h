@@ -9,6 +9,7 @@
 #include "benchmarks/report/report.h"
 #include "engine/device.h"
 
+// Describes the device, host and build of a report.
 namespace benchmarks::report {
 
 // What a report says of a device. Its limits are Vulkan's, and, where a driver is right only up to

@@ -19,7 +19,7 @@
 namespace benchmarks::report {
 namespace {
 
-// ---- Exporters ----------------------------------------------------------------------------------
+// ---- Table of formats ---------------------------------------------------------------------------
 
 constexpr Exporter kExporters[] = {
     {"csv", "comma-separated values: a row for each metric of each case", ".csv", csv},
@@ -54,7 +54,7 @@ std::string exportReport(const scene::Json& report, std::string_view format) {
 
 namespace {
 
-// ---- Readings -----------------------------------------------------------------------------------
+// ---- What formats take from a report ------------------------------------------------------------
 
 // What exporters take from a written report. A member that a report must have and has not is
 // thrown by nlohmann: exportReport() makes it an engine::Error.
@@ -107,7 +107,7 @@ std::string documentText(const scene::Json& document) {
     return document.dump(1, ' ', false, scene::Json::error_handler_t::replace) + '\n';
 }
 
-// ---- Bmf ----------------------------------------------------------------------------------------
+// ---- Bencher Metric Format ----------------------------------------------------------------------
 
 // Of bencher's own measures, `latency` is in ns and smaller is better, `throughput` in operations
 // per second and larger is better. Others are made when they first come.
@@ -142,7 +142,7 @@ std::string bmf(const scene::Json& report) {
 
 namespace {
 
-// ---- Csv ----------------------------------------------------------------------------------------
+// ---- CSV ----------------------------------------------------------------------------------------
 
 constexpr const char* kMetricMembers[] = {"unit",   "mode",    "median",         "mad",
                                           "mean",   "minimum", "first_quartile", "third_quartile",
@@ -191,7 +191,7 @@ std::string csv(const scene::Json& report) {
     return text;
 }
 
-// ---- Custom smaller is better -------------------------------------------------------------------
+// ---- github-action-benchmark --------------------------------------------------------------------
 
 std::string customSmallerIsBetter(const scene::Json& report) {
     scene::Json entries = scene::Json::array();
@@ -209,7 +209,7 @@ std::string customSmallerIsBetter(const scene::Json& report) {
 
 namespace {
 
-// ---- Gbench -------------------------------------------------------------------------------------
+// ---- google-benchmark ---------------------------------------------------------------------------
 
 constexpr double kMicrosecondsPerMillisecond = 1000.0;
 

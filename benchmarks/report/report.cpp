@@ -20,9 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// ---- Report -------------------------------------------------------------------------------------
-
-// ---- Members that are absent when unknown ---------------------------------------------------
+// ---- Members that are absent when unknown -------------------------------------------------------
 
 void put(scene::Json& object, const char* key, const std::string& text) {
     if (!text.empty()) object[key] = text;
@@ -41,7 +39,7 @@ void put(scene::Json& object, const char* key, const std::optional<Number>& numb
         object[key] = *number;
 }
 
-// ---- Parts ----------------------------------------------------------------------------------
+// ---- Parts of a report --------------------------------------------------------------------------
 
 scene::Json toJson(const DeviceRecord& device) {
     scene::Json object = scene::Json::object();
@@ -246,7 +244,7 @@ std::string reportText(const Report& report) {
 
 namespace {
 
-// ---- Samples file -------------------------------------------------------------------------------
+// ---- Samples beside a report --------------------------------------------------------------------
 
 // Beside what a link points to, as the report itself.
 fs::path folderOf(const fs::path& report) { return fs::weakly_canonical(report).parent_path(); }
@@ -346,7 +344,7 @@ void moveSamplesIn(scene::Json& report, const fs::path& path) {
         });
 }
 
-// ---- Report file --------------------------------------------------------------------------------
+// ---- Files --------------------------------------------------------------------------------------
 
 bool isReadable(std::string_view schema) {
     const std::string_view mine = kReportSchema;

@@ -12,7 +12,7 @@
 namespace benchmarks::report {
 namespace {
 
-// ---- Statistics ---------------------------------------------------------------------------------
+// ---- Order statistics and rates -----------------------------------------------------------------
 
 constexpr double kMillisecondsPerSecond = 1000.0;
 
@@ -92,7 +92,7 @@ LowRates lowRates(std::span<const double> frame_ms, double fraction) {
 
 namespace {
 
-// ---- Signed rank --------------------------------------------------------------------------------
+// ---- Signed-rank test ---------------------------------------------------------------------------
 
 // P(sum = s) of the ranks with a positive sign, each sign as likely as the other. Every step is a
 // mean of two earlier probabilities, so that nothing cancels.
@@ -200,7 +200,7 @@ SignedRankP signedRankP(std::span<const double> differences, double median) {
 
 namespace {
 
-// ---- Median interval ----------------------------------------------------------------------------
+// ---- Confidence interval of a median ------------------------------------------------------------
 
 // Of n independent samples so many may be cut off at either end, and with what confidence the
 // median is then inside: 1 - 2 P(Binomial(n, 1/2) < cut).
@@ -291,7 +291,7 @@ bool isPrecise(std::span<const double> samples, const PrecisionRule& rule) {
            rule.target;
 }
 
-// ---- Multiple tests -----------------------------------------------------------------------------
+// ---- False discovery rate -----------------------------------------------------------------------
 
 std::vector<double> falseDiscoveryAdjusted(std::span<const double> p_values) {
     if (!std::ranges::all_of(p_values, [](double p) { return p >= 0.0 && p <= 1.0; }))

@@ -17,7 +17,7 @@
 namespace benchmarks::report {
 namespace {
 
-// ---- Columns ------------------------------------------------------------------------------------
+// ---- Columns of a table -------------------------------------------------------------------------
 
 std::string padded(const std::string& text, std::size_t width, bool right) {
     const std::string space(width - std::min(width, text.size()), ' ');
@@ -40,11 +40,9 @@ std::string columnsLine(const std::vector<Column>& columns, std::size_t row) {
 
 namespace {
 
-// ---- Table --------------------------------------------------------------------------------------
-
 constexpr std::size_t kLongestReason = 45;
 
-// ---- What a case says -----------------------------------------------------------------------
+// ---- Cells of a case ----------------------------------------------------------------------------
 
 // The member's value; null where it is absent.
 const scene::Json& member(const scene::Json& object, const std::string& name) {
@@ -86,7 +84,7 @@ std::string statusCell(const scene::Json& result) {
     return reason.empty() ? cell : cell + ": " + shortened(reason);
 }
 
-// ---- Columns --------------------------------------------------------------------------------
+// ---- Columns of a report ------------------------------------------------------------------------
 
 // Pointers of the axes that have more than one value in the report, in the sweep's order.
 std::vector<std::string> varyingAxes(const scene::Json& cases) {
@@ -156,7 +154,7 @@ std::vector<Column> columns(const scene::Json& report) {
     return all;
 }
 
-// ---- Text -----------------------------------------------------------------------------------
+// ---- Table of a report --------------------------------------------------------------------------
 
 std::string header(const scene::Json& report) {
     const scene::Json& device = member(member(report, "environment"), "device");
@@ -193,7 +191,7 @@ std::string table(const scene::Json& report) {
     return lines;
 }
 
-// ---- Quantity text ------------------------------------------------------------------------------
+// ---- Quantities ---------------------------------------------------------------------------------
 
 std::string countText(std::uint64_t count) {
     std::string text = std::to_string(count);

@@ -8,6 +8,7 @@
 
 #include "benchmarks/scene/json.h"
 
+// Numbers, quantities and tables for a terminal.
 namespace benchmarks::report {
 
 // A column of a table on a terminal.

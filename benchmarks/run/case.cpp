@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// ---- Case picture -------------------------------------------------------------------------------
+// ---- Picture of a case --------------------------------------------------------------------------
 
 constexpr std::uint32_t kWidest = 480;  // px
 
@@ -59,7 +59,7 @@ std::string writeCasePicture(
 
 namespace {
 
-// ---- Picture folder -----------------------------------------------------------------------------
+// ---- Pictures of older runs ---------------------------------------------------------------------
 
 // "12.png", or what a run that was killed left of writing it; anything else is the user's.
 bool isCasePicture(const std::string& name) {
@@ -88,7 +88,7 @@ void removeOtherPictures(const scene::Json& report, const fs::path& path) {
 
 namespace {
 
-// ---- Run case -----------------------------------------------------------------------------------
+// ---- The case -----------------------------------------------------------------------------------
 
 report::CaseResult emptyResult(const PlannedCase& planned) {
     return {.name = planned.spec.name, .index = planned.index, .axes = planned.spec.axes};

@@ -13,6 +13,7 @@
 #include "benchmarks/scene/json.h"
 #include "engine/device.h"
 
+// One case of a run: its measurement and the picture beside the report.
 namespace benchmarks::run {
 
 // Writes a case's picture, [row][column] RGBA, top row first, beside the report, as a PNG at most

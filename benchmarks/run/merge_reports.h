@@ -6,6 +6,7 @@
 
 #include "benchmarks/scene/json.h"
 
+// Joins the reports of a sweep's shards.
 namespace benchmarks::run {
 
 struct MergeRules {

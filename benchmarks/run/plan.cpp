@@ -23,7 +23,7 @@
 namespace benchmarks::run {
 namespace {
 
-// ---- Run plan -----------------------------------------------------------------------------------
+// ---- Plan ---------------------------------------------------------------------------------------
 
 report::SceneRecord recordOf(const std::filesystem::path& path, scene::Document document) {
     std::string hash = report::hashText(document.text());
@@ -90,7 +90,7 @@ std::vector<std::size_t> shuffledOrder(std::size_t count, std::uint32_t seed) {
 
 namespace {
 
-// ---- Estimate -----------------------------------------------------------------------------------
+// ---- Estimate of memory and time ----------------------------------------------------------------
 
 // Overlapped, isolated, and by the CPU's clock where timestamps are not trusted.
 constexpr double kModes = 3;

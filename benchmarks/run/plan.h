@@ -11,6 +11,7 @@
 #include "benchmarks/report/report.h"
 #include "benchmarks/scene/sweep.h"
 
+// Which cases a run plays, in which order, and how long that takes.
 namespace benchmarks::run {
 
 struct RunOptions {

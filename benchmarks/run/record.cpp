@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// ---- Identity -----------------------------------------------------------------------------------
+// ---- Whether two reports belong together --------------------------------------------------------
 
 struct Member {
     const char* name;
@@ -148,7 +148,7 @@ void Journal::remove() {
 
 namespace {
 
-// ---- Run record ---------------------------------------------------------------------------------
+// ---- Record -------------------------------------------------------------------------------------
 
 bool canHaveJournal(const fs::path& out) {
     std::error_code ignored;

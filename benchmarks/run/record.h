@@ -13,6 +13,7 @@
 #include "benchmarks/run/plan.h"
 #include "benchmarks/scene/json.h"
 
+// Journal of a run, from which an interrupted run is resumed.
 namespace benchmarks::run {
 
 // In what two reports, or their headers (headerJson), differ that one sweep has in common: the

@@ -20,7 +20,7 @@ namespace {
 
 using engine::Error;
 
-// ---- Axis range ---------------------------------------------------------------------------------
+// ---- Ranges -------------------------------------------------------------------------------------
 
 constexpr std::string_view kPowersOfTwo = "pow2:";
 constexpr double kLargestExponent = 52.0;  // doubles, and with them JSON readers, count further
@@ -78,7 +78,7 @@ std::optional<std::vector<Document>> rangeValues(std::string_view text) {
     return values;
 }
 
-// ---- Axis ---------------------------------------------------------------------------------------
+// ---- Axes and labels ----------------------------------------------------------------------------
 
 std::vector<std::string> splitAtTopLevelCommas(std::string_view text) {
     std::vector<std::string> parts(1);
@@ -190,7 +190,7 @@ std::string valueLabel(const Json& value) {
 
 namespace {
 
-// ---- Read sweep ---------------------------------------------------------------------------------
+// ---- A scene's sweep ----------------------------------------------------------------------------
 
 // Calls `action` and puts the context in front of the reasons it throws.
 template <class Action>

@@ -6,6 +6,7 @@
 
 #include "benchmarks/scene/json.h"
 
+// Axes of a sweep: the fields that it varies and their values.
 namespace benchmarks::scene {
 
 // A field that a sweep varies, with those that change with it.

@@ -8,7 +8,7 @@
 
 namespace benchmarks::scene {
 
-// ---- Frame path ---------------------------------------------------------------------------------
+// ---- File names ---------------------------------------------------------------------------------
 
 FramePaths::FramePaths(const std::filesystem::path& pattern) {
     const std::string text = pattern.string();
@@ -43,7 +43,7 @@ std::filesystem::path FramePaths::of(std::uint32_t frame) const {
     return before_ + number + after_;
 }
 
-// ---- Frame range --------------------------------------------------------------------------------
+// ---- Range --------------------------------------------------------------------------------------
 
 FrameRange parseFrameRange(std::string_view text) {
     const auto refuse = [&](const char* reason) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+// Ranges of frames and the names of their files.
 namespace benchmarks::scene {
 
 // Names of the files of a sequence: a path with one "%d" or "%04d", in whose place the frame's

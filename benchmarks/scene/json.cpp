@@ -13,7 +13,7 @@
 
 namespace benchmarks::scene {
 
-// ---- Names --------------------------------------------------------------------------------------
+// ---- Unknown names ------------------------------------------------------------------------------
 
 std::size_t editDistance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);  // row[j]: from the read part of a to b[0, j)
@@ -43,7 +43,7 @@ unknownName(std::string_view what, std::string_view name, const std::vector<std:
 
 namespace {
 
-// ---- Pointer ------------------------------------------------------------------------------------
+// ---- JSON pointers ------------------------------------------------------------------------------
 
 std::string unescaped(std::string_view token, std::string_view pointer) {
     std::string text;
@@ -148,7 +148,7 @@ std::string described(const Json& value) {
 
 namespace {
 
-// ---- Json text ----------------------------------------------------------------------------------
+// ---- Documents and parsing ----------------------------------------------------------------------
 
 constexpr std::size_t kDeepest = 64;
 
@@ -276,8 +276,6 @@ Json parseJson(std::string_view text, const std::string& name) {
     Json::sax_parse(text, &builder);
     return builder.take();
 }
-
-// ---- Text at ------------------------------------------------------------------------------------
 
 std::string textAt(const Json& document, const char* pointer) {
     const Json::json_pointer place(pointer);

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+// JSON documents, JSON pointers and errors about names.
 namespace benchmarks::scene {
 
 // Members keep the order in which they were written: reports and sweeps are read by people.

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using engine::Error;
 
-// ---- Merge patch --------------------------------------------------------------------------------
+// ---- Merge patch of a base ----------------------------------------------------------------------
 
 void requireRemovable(
     const Json& target, const Json& known, const std::string& key, const std::string& pointer) {
@@ -57,7 +57,7 @@ void mergePatch(Json& target, const Json& patch, const Json& known) {
     merge(target, patch, known, "");
 }
 
-// ---- Screenshot scene ---------------------------------------------------------------------------
+// ---- Scene in a screenshot ----------------------------------------------------------------------
 
 std::optional<std::string> sceneOfScreenshot(const std::filesystem::path& path) {
     const std::string file = engine::readFile(path);
@@ -70,7 +70,7 @@ std::optional<std::string> sceneOfScreenshot(const std::filesystem::path& path) 
 
 namespace {
 
-// ---- Scene --------------------------------------------------------------------------------------
+// ---- Scene file ---------------------------------------------------------------------------------
 
 // Calls `action` and puts the file's name in front of the reasons it throws.
 template <class Action>

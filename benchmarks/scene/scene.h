@@ -10,6 +10,7 @@
 #include "benchmarks/scene/json.h"
 #include "hair/settings.h"
 
+// Scene files.
 namespace benchmarks::scene {
 
 // Applies a scene's document to its base's, as JSON merge patch (RFC 7386): objects are merged,

@@ -19,7 +19,7 @@ namespace {
 
 using hair::Settings;
 
-// ---- Check settings -----------------------------------------------------------------------------
+// ---- Rules between fields -----------------------------------------------------------------------
 
 using Broken = std::optional<std::string>;  // the reason, if the rule is broken
 
@@ -188,7 +188,7 @@ void checkSettings(const hair::Settings& settings) {
 
 namespace {
 
-// ---- Schema -------------------------------------------------------------------------------------
+// ---- JSON Schema --------------------------------------------------------------------------------
 
 // Whether null may stand for a member: not inside a list, whose elements a merge patch replaces as
 // a whole.

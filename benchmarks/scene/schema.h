@@ -4,6 +4,7 @@
 
 #include "hair/settings.h"
 
+// Rules between settings, and the JSON Schema of scene files.
 namespace benchmarks::scene {
 
 // The rules between fields, which no table row can say, such as a near plane in front of the far

@@ -14,7 +14,7 @@
 namespace benchmarks::scene {
 namespace {
 
-// ---- Read settings ------------------------------------------------------------------------------
+// ---- Reading ------------------------------------------------------------------------------------
 
 engine::Error mismatch(const std::string& pointer, const std::string& expected, const Json& found) {
     return {pointer, "expected " + expected + ", found " + described(found)};
@@ -175,7 +175,7 @@ hair::Settings readSettings(const Json& document) {
 
 namespace {
 
-// ---- Write settings -----------------------------------------------------------------------------
+// ---- Writing ------------------------------------------------------------------------------------
 
 // The shortest decimal that reads back as the same float: 0.002, not 0.0020000000949949026.
 Json shortestNumber(float value) {

@@ -10,8 +10,7 @@ namespace hair {
 class SettingsView;
 }  // namespace hair
 
-namespace benchmarks::scene {}  // namespace benchmarks::scene
-
+// Settings as JSON, by the tables of hair/settings.h.
 namespace benchmarks::scene {
 
 // Members of a scene file that are not settings but the scene reader's.
@@ -28,7 +27,7 @@ hair::Settings readSettings(const Json& document);
 // that reads back bit-equal.
 Json writeSettings(const hair::Settings& settings);
 
-// The same for a part of the settings.
+// Writes a part of the settings, as writeSettings() does the whole.
 Json writeFields(hair::SettingsView settings);
 
 // The members of settings that are not the defaults, in the table's order: what a scene has to say.

@@ -20,7 +20,7 @@ namespace {
 
 using engine::Error;
 
-// ---- Suite --------------------------------------------------------------------------------------
+// ---- Suites -------------------------------------------------------------------------------------
 
 // Null where the file is none: loadScene() says what is wrong with it.
 Json suiteDocument(const std::filesystem::path& path) {
@@ -79,7 +79,7 @@ std::vector<Scene> loadScenes(const std::filesystem::path& path) {
 
 namespace {
 
-// ---- Sweep --------------------------------------------------------------------------------------
+// ---- Cases of a sweep ---------------------------------------------------------------------------
 
 // The pointers that change with the axis.
 std::vector<std::string> fields(const Axis& axis) {
@@ -220,7 +220,7 @@ std::function<bool(const std::string& name)> nameMatcher(const std::string& rege
 
 namespace {
 
-// ---- Select cases -------------------------------------------------------------------------------
+// ---- Cases that the command line selects --------------------------------------------------------
 
 // "POINTER=VALUE".
 void setField(Scene& scene, const std::string& argument) {

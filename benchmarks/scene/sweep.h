@@ -13,6 +13,7 @@
 #include "benchmarks/scene/scene.h"
 #include "engine/device.h"
 
+// Cases of scenes, sweeps and suites.
 namespace benchmarks::scene {
 
 // A suite is a file that names scenes, each relative to it: {"$schema": ..., "description": ...,
