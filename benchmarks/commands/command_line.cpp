@@ -1,9 +1,155 @@
 #include "benchmarks/commands/command_line.h"
 
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "benchmarks/commands/commands.h"
+#include "benchmarks/report/change.h"
+#include "benchmarks/report/environment.h"
 #include "benchmarks/report/exporters.h"
 #include "benchmarks/viewer/viewer.h"
 
 namespace benchmarks::commands {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  hairbench run scenes/thesis.json -a /strands/density=16,32,64 -a /render/msaa=1,4
+  hairbench run scenes/thesis.json --filter 'guides:86/.*msaa:1' --out results/mine.json
+  hairbench run scenes/full.json --resume
+  hairbench merge part*.json -o whole.json
+  hairbench report results/mine.json -o mine.html
+  hairbench gate --a build/old --b build/new --scene scenes/smoke.json
+  hairbench ablate scenes/rest.json
+  hairbench doctor
+  hairbench render scenes/strong_wind.json -o wind.png --frame 60
+  hairbench render scenes/strong_wind.json -o out/%04d.png --frames 0:240
+  hairbench validate scenes/*.json
+  hairbench groom info hair.hair --mesh head.glb
+  hairbench groom convert hair.hair guides.hgl --guides 200 --vertices 16 --scale 0.01
+  hairbench simulate scenes/nod.json --frames 60 --export nod.usda
+  hairbench reference scenes/strong_wind.json -o truth.exr --samples 256
+  hairbench diff truth.exr picture.png -o difference.png
+  hairbench lod scenes/rest.json --from 0.5 --to 20 --steps 40 -o lod.json
+  hairbench physics --solver rod --check 'cantilever|catenary'
+Exit status: 0 ok, 1 internal error or a full disk, 2 usage or invalid scene, 3 a check of the
+physics or of doctor failed, 10 slower, 11 inconclusive, 12 pictures or states differ, 13 no such
+baseline or one of something else, 14 nothing ran, 77 no suitable device, 130 interrupted (what was
+done is saved) or merged with cases missing.)";
+
+// What the parsed command line asks for.
+using Command = std::function<int()>;
+
+// Where commands are added: the one that is parsed puts what it does into `chosen`. `arguments` is
+// the whole command line, as reports quote it.
+struct CommandLine {
+    CLI::App& app;
+    Command& chosen;
+    const std::vector<std::string>& arguments;
+};
+
+// A command whose options live as long as the app.
+template <class Options>
+CLI::App* addCommand(
+    const CommandLine& line, CLI::App& parent, const std::string& name,
+    const std::string& description, int (*run)(const Options&),
+    const std::function<void(CLI::App&, Options&)>& add_options) {
+    CLI::App* const command = parent.add_subcommand(name, description);
+    const auto options = std::make_shared<Options>();
+    if constexpr (requires { options->command; }) options->command = line.arguments;
+    add_options(*command, *options);
+    command->callback([&chosen = line.chosen, options, run] {
+        chosen = [options, run] { return run(*options); };
+    });
+    return command;
+}
+
+// ---- Options that several commands have ---------------------------------------------------------
+
+// "2%" and "0.02" -> 0.02
+std::string asShare(std::string& text) {
+    if (!text.ends_with('%')) return {};
+    text.pop_back();
+    try {
+        std::size_t used = 0;
+        const double percent = std::stod(text, &used);
+        if (used != text.size()) return "'" + text + "%' is no share";
+        std::ostringstream share;
+        share << percent / 100.0;
+        text = share.str();
+    } catch (const std::exception&) {
+        return "'" + text + "%' is no share";
+    }
+    return {};
+}
+
+CLI::Option* addRepeated(
+    CLI::App& command, const std::string& name, std::vector<std::string>& values,
+    const std::string& description) {
+    return command.add_option(name, values, description)
+        ->take_all()
+        ->expected(1)
+        ->allow_extra_args(false);
+}
+
+void addDeviceOptions(CLI::App& command, engine::DeviceOptions& options) {
+    command.add_option(
+        "--device", options.wanted,
+        "index or part of the name of the device (see 'hairbench devices')");
+    command.add_flag_callback(
+        "--validate", [&options] { options.validation = engine::Validation::on; },
+        "run under the Vulkan validation layer; slow");
+}
+
+void addSceneOptions(CLI::App& command, scene::SceneOptions& options) {
+    command.add_option("scene", options.scene, "scene file (.json)")->required()->type_name("FILE");
+    addRepeated(
+        command, "-a,--axis", options.axes,
+        "replaces or adds an axis of the sweep: /strands/density=16,32, /groom/guides=pow2:6:12")
+        ->type_name("POINTER=V1,V2");
+    addRepeated(
+        command, "--set", options.sets, "sets a field of every case; it is not in their names")
+        ->type_name("POINTER=VALUE");
+    addDeviceOptions(command, options.device);
+}
+
+void addSamplingOptions(CLI::App& command, scene::SceneOptions& options) {
+    command.add_option("--frames", options.frames, "frames of a round (/run/frames)");
+    command.add_option("--warmup", options.warmup, "frames before each round (/run/warmup)");
+    command
+        .add_option(
+            "--precision", options.precision,
+            "rounds are played until the median is known this well (default 1%)")
+        ->transform(CLI::Validator(asShare, "SHARE"));
+    command.add_option(
+        "--max-time", options.max_time, "s, for the rounds of a mode (default 10); 0: one round");
+}
+
+void addVerdictOptions(CLI::App& command, report::VerdictOptions& options) {
+    command
+        .add_option(
+            "--threshold", options.threshold,
+            "a change of this share matters to nobody (default 2%)")
+        ->transform(CLI::Validator(asShare, "SHARE"))
+        ->check(CLI::Range(0.0, 10.0));
+    command
+        .add_option(
+            "--metrics", options.metrics,
+            "judge the metrics whose name matches (default the times of frames and passes; on a "
+            "software device their CPU time)")
+        ->type_name("REGEX");
+    command
+        .add_option_function<std::string>(
+            "--fail-on", [&options](const std::string&) { options.fail_on_inconclusive = true; },
+            "inconclusive: exit with 11 where nothing is slower but not all is known")
+        ->check(CLI::IsMember({"inconclusive"}));
+}
 
 // ---- physics, validate, schema, devices ---------------------------------------------------------
 
@@ -35,16 +181,12 @@ void addCheckCommands(const CommandLine& line) {
         ->callback([&chosen = line.chosen] { chosen = printDevices; });
 }
 
-namespace {
-
 // ---- groom --------------------------------------------------------------------------------------
 
 constexpr const char* kConvertNotes = R"(Done in this order: scale, followers, vertices, guides.
 Without --scale lengths stay as they are, but that .hgl is always in metres: what IN states of its
 unit is applied. .hgl gets root triangles if IN has none. What a format can't hold is said on
 stderr. OUT may be IN; it is replaced when all is written, and an interrupt leaves it alone.)";
-
-}  // namespace
 
 void addGroomCommands(const CommandLine& line) {
     CLI::App* const groom = line.app.add_subcommand("groom", "inspects and converts files of hair");
@@ -105,8 +247,6 @@ void addGroomCommands(const CommandLine& line) {
             command.footer(kConvertNotes);
         });
 }
-
-namespace {
 
 // ---- run, gate, ablate, doctor ------------------------------------------------------------------
 
@@ -202,8 +342,6 @@ void addDoctorOptions(CLI::App& command, DoctorOptions& options) {
     command.add_option("-o,--out", options.out, "findings as JSON")->type_name("FILE");
 }
 
-}  // namespace
-
 void addMeasuringCommands(const CommandLine& line) {
     addCommand<run::RunOptions>(
         line, line.app, "run", "plays a scene's or a suite's cases and writes a report", runScene,
@@ -219,8 +357,6 @@ void addMeasuringCommands(const CommandLine& line) {
         examineMachine, addDoctorOptions);
 }
 
-namespace {
-
 // ---- view, render, simulate, export, reference, diff, lod ---------------------------------------
 
 constexpr const char* kLodNotes =
@@ -228,8 +364,6 @@ constexpr const char* kLodNotes =
 the picture with /lod's levels less that of level 0, display values counting from 0 to 1. Popping:
 the same of what changes from one place to the next, less what changes at level 0. Coverage: share
 of a square round the hair that it hides, without the head. Times: medians of isolated frames.)";
-
-}  // namespace
 
 void addPictureCommands(const CommandLine& line) {
     addCommand<viewer::ViewOptions>(
@@ -356,8 +490,6 @@ void addPictureCommands(const CommandLine& line) {
         });
 }
 
-namespace {
-
 // ---- compare, report, convert, merge ------------------------------------------------------------
 
 std::vector<std::string> formatNames() {
@@ -384,8 +516,6 @@ void addCompareOptions(CLI::App& command, report::CompareOptions& options) {
     command.add_flag("--json", options.json, "as JSON");
     addVerdictOptions(command, options.verdict);
 }
-
-}  // namespace
 
 void addReportCommands(const CommandLine& line) {
     addCommand<report::CompareOptions>(
@@ -425,89 +555,28 @@ void addReportCommands(const CommandLine& line) {
         });
 }
 
-namespace {
-
-// ---- Options that several commands have ---------------------------------------------------------
-
-// "2%" and "0.02" -> 0.02
-std::string asShare(std::string& text) {
-    if (!text.ends_with('%')) return {};
-    text.pop_back();
-    try {
-        std::size_t used = 0;
-        const double percent = std::stod(text, &used);
-        if (used != text.size()) return "'" + text + "%' is no share";
-        std::ostringstream share;
-        share << percent / 100.0;
-        text = share.str();
-    } catch (const std::exception&) {
-        return "'" + text + "%' is no share";
-    }
-    return {};
-}
-
 }  // namespace
 
-CLI::Option* addRepeated(
-    CLI::App& command, const std::string& name, std::vector<std::string>& values,
-    const std::string& description) {
-    return command.add_option(name, values, description)
-        ->take_all()
-        ->expected(1)
-        ->allow_extra_args(false);
-}
+int runCommandLine(int argc, char** argv) {
+    CLI::App app("hairbench: measures simulated and rendered hair on Vulkan devices", "hairbench");
+    app.set_version_flag("--version", report::versionText());
+    app.require_subcommand(1);
+    app.footer(kExamples);
 
-void addDeviceOptions(CLI::App& command, engine::DeviceOptions& options) {
-    command.add_option(
-        "--device", options.wanted,
-        "index or part of the name of the device (see 'hairbench devices')");
-    command.add_flag_callback(
-        "--validate", [&options] { options.validation = engine::Validation::on; },
-        "run under the Vulkan validation layer; slow");
-}
-
-void addSceneOptions(CLI::App& command, scene::SceneOptions& options) {
-    command.add_option("scene", options.scene, "scene file (.json)")->required()->type_name("FILE");
-    addRepeated(
-        command, "-a,--axis", options.axes,
-        "replaces or adds an axis of the sweep: /strands/density=16,32, /groom/guides=pow2:6:12")
-        ->type_name("POINTER=V1,V2");
-    addRepeated(
-        command, "--set", options.sets, "sets a field of every case; it is not in their names")
-        ->type_name("POINTER=VALUE");
-    addDeviceOptions(command, options.device);
-}
-
-void addSamplingOptions(CLI::App& command, scene::SceneOptions& options) {
-    command.add_option("--frames", options.frames, "frames of a round (/run/frames)");
-    command.add_option("--warmup", options.warmup, "frames before each round (/run/warmup)");
-    command
-        .add_option(
-            "--precision", options.precision,
-            "rounds are played until the median is known this well (default 1%)")
-        ->transform(CLI::Validator(asShare, "SHARE"));
-    command.add_option(
-        "--max-time", options.max_time, "s, for the rounds of a mode (default 10); 0: one round");
-}
-
-void addVerdictOptions(CLI::App& command, report::VerdictOptions& options) {
-    command
-        .add_option(
-            "--threshold", options.threshold,
-            "a change of this share matters to nobody (default 2%)")
-        ->transform(CLI::Validator(asShare, "SHARE"))
-        ->check(CLI::Range(0.0, 10.0));
-    command
-        .add_option(
-            "--metrics", options.metrics,
-            "judge the metrics whose name matches (default the times of frames and passes; on a "
-            "software device their CPU time)")
-        ->type_name("REGEX");
-    command
-        .add_option_function<std::string>(
-            "--fail-on", [&options](const std::string&) { options.fail_on_inconclusive = true; },
-            "inconclusive: exit with 11 where nothing is slower but not all is known")
-        ->check(CLI::IsMember({"inconclusive"}));
+    const std::vector<std::string> arguments(argv, argv + argc);
+    Command chosen;
+    const CommandLine line{.app = app, .chosen = chosen, .arguments = arguments};
+    addMeasuringCommands(line);
+    addReportCommands(line);
+    addPictureCommands(line);
+    addGroomCommands(line);
+    addCheckCommands(line);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? report::kOk : report::kUsageError;
+    }
+    return chosen();
 }
 
 }  // namespace benchmarks::commands

@@ -52,7 +52,7 @@ constexpr Rule kRules[] = {
     // Each dependency has its place.
     {"engine/", "nlohmann/"},
     {"hair/", "nlohmann/", "hair/groom/mesh/gltf_model.cpp"},
-    {"", "CLI/", "benchmarks/commands/command_line.h"},
+    {"", "CLI/", "benchmarks/commands/command_line.cpp"},
     {"engine/", "assimp/"},
     {"benchmarks/", "assimp/"},
     {"hair/", "assimp/", "hair/groom/mesh/import_mesh.cpp"},
