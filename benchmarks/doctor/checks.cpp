@@ -11,45 +11,6 @@
 #include "benchmarks/report/text.h"
 
 namespace benchmarks::doctor {
-namespace {
-
-// ---- Checks -------------------------------------------------------------------------------------
-
-constexpr DoctorCheck kChecks[] = {
-    {"device", judgeDevice},         {"build", judgeBuild},       {"layers", judgeLayers},
-    {"timestamps", judgeTimestamps}, {"pass sum", judgePassSum},  {"pass times", judgeStamps},
-    {"repeatability", judgeRepeat},  {"noise", judgeNoise},       {"clocks", judgeClocks},
-    {"processor", judgeProcessor},   {"other load", judgeOthers}, {"steal", judgeSteal},
-    {"power", judgePower},
-};
-
-}  // namespace
-
-const char* healthName(Health health) {
-    switch (health) {
-    case Health::ok:
-        return "ok";
-    case Health::unknown:
-        return "not told";
-    case Health::warn:
-        return "warn";
-    case Health::bad:
-        return "bad";
-    }
-    return "";
-}
-
-std::span<const DoctorCheck> doctorChecks() { return kChecks; }
-
-std::vector<Finding> judgeAll(const Facts& facts) {
-    std::vector<Finding> findings;
-    for (const DoctorCheck& check : kChecks) {
-        Judgement judgement = check.judge(facts);
-        findings.push_back(
-            {check.name, judgement.health, std::move(judgement.seen), std::move(judgement.advice)});
-    }
-    return findings;
-}
 
 // ---- Texts --------------------------------------------------------------------------------------
 
@@ -57,11 +18,6 @@ std::string shareText(double share) {
     char text[32];
     std::snprintf(text, sizeof text, "%.1f %%", share * 100.0);
     return text;
-}
-
-std::string changeText(double share) {
-    if (!std::isfinite(share)) return "any amount";
-    return shareText(std::abs(share)) + (share < 0.0 ? " less" : " more");
 }
 
 std::string joined(const std::vector<std::string>& parts, std::string_view between) {
@@ -75,7 +31,7 @@ std::string joined(const std::vector<std::string>& parts, std::string_view betwe
 
 namespace {
 
-// ---- Judge machine ------------------------------------------------------------------------------
+// ---- The machine --------------------------------------------------------------------------------
 
 // Shares of all processors' time from which others disturb, and from which they rule.
 constexpr double kLittleLoad = 0.05;
@@ -84,6 +40,12 @@ constexpr double kLittleSteal = 0.01;
 constexpr double kMuchSteal = 0.1;
 
 bool isSoftware(const Facts& facts) { return facts.device.type == "cpu"; }
+
+// "1.2 % more", "0.3 % less" of shares of 0.012 and -0.003.
+std::string changeText(double share) {
+    if (!std::isfinite(share)) return "any amount";
+    return shareText(std::abs(share)) + (share < 0.0 ? " less" : " more");
+}
 
 std::string megahertz(double clock) { return report::shortNumber(clock) + " MHz"; }
 
@@ -94,7 +56,7 @@ std::string clockText(const ClockFacts& clocks) {
                    ? megahertz(*clocks.highest_mhz)
                    : megahertz(*clocks.lowest_mhz) + " to " + megahertz(*clocks.highest_mhz);
     else
-        text = "shaders' clock not told";
+        text = "shader clock unknown";
     if (const auto base = clocks.conditions.base_clock_mhz) text += " of " + megahertz(*base);
     if (clocks.held) text += ", held by the administrator";
     if (const auto degrees = clocks.conditions.temperature)
@@ -109,8 +71,6 @@ Health disturbance(const Facts& facts, double share, double little, double much)
     if (share <= little) return Health::ok;
     return share > much && isSoftware(facts) ? Health::bad : Health::warn;
 }
-
-}  // namespace
 
 Judgement judgeClocks(const Facts& facts) {
     if (isSoftware(facts)) return {Health::ok, "the processor's: see there"};
@@ -144,7 +104,7 @@ Judgement judgeProcessor(const Facts& facts) {
                                        : std::string("processors");
     if (processor.quota)
         seen += ", " + report::shortNumber(*processor.quota) + " of them to be used";
-    seen += processor.governors.empty() ? "; frequency scaling not told"
+    seen += processor.governors.empty() ? "; frequency scaling unknown"
                                         : "; governor " + joined(processor.governors, ", ");
     if (isSoftware(facts) && processor.quota && processor.count &&
         *processor.quota < *processor.count)
@@ -183,9 +143,7 @@ Judgement judgePower(const Facts& facts) {
     return {Health::warn, "battery", "plug the machine in: it saves power now"};
 }
 
-namespace {
-
-// ---- Judge program ------------------------------------------------------------------------------
+// ---- The program --------------------------------------------------------------------------------
 
 bool contains(const std::string& text, const char* part) {
     return text.find(part) != std::string::npos;
@@ -193,8 +151,6 @@ bool contains(const std::string& text, const char* part) {
 
 // Picks a device and takes no part in what is submitted to it.
 bool isHarmless(const std::string& layer) { return contains(layer, "MESA_device_select"); }
-
-}  // namespace
 
 Judgement judgeDevice(const Facts& facts) {
     std::string seen = facts.device.name + " (" + facts.device.type + ")";
@@ -234,9 +190,7 @@ Judgement judgeLayers(const Facts& facts) {
     return judgement;
 }
 
-namespace {
-
-// ---- Judge timings ------------------------------------------------------------------------------
+// ---- Timings ------------------------------------------------------------------------------------
 
 // A pass is known to 1 % only if it takes a hundred steps: a tenth of a millisecond of these.
 constexpr double kCoarseStep = 1000.0;  // ns
@@ -251,8 +205,6 @@ constexpr double kNoisy = 0.1;
 double scatter(const std::vector<double>& differences) {
     return report::decisiveChange(0.0, differences);
 }
-
-}  // namespace
 
 Judgement judgeTimestamps(const Facts& facts) {
     const TimestampFacts& stamps = facts.timestamps;
@@ -333,6 +285,44 @@ Judgement judgeNoise(const Facts& facts) {
         Health::warn, seen,
         "only large changes can be found: see other load, clocks and processor; `--pairs 48` says "
         "how large"};
+}
+
+// ---- All checks ---------------------------------------------------------------------------------
+
+constexpr DoctorCheck kChecks[] = {
+    {"device", judgeDevice},         {"build", judgeBuild},       {"layers", judgeLayers},
+    {"timestamps", judgeTimestamps}, {"pass sum", judgePassSum},  {"pass times", judgeStamps},
+    {"repeatability", judgeRepeat},  {"noise", judgeNoise},       {"clocks", judgeClocks},
+    {"processor", judgeProcessor},   {"other load", judgeOthers}, {"steal", judgeSteal},
+    {"power", judgePower},
+};
+
+}  // namespace
+
+const char* healthName(Health health) {
+    switch (health) {
+    case Health::ok:
+        return "ok";
+    case Health::unknown:
+        return "not told";
+    case Health::warn:
+        return "warn";
+    case Health::bad:
+        return "bad";
+    }
+    return "";
+}
+
+std::span<const DoctorCheck> doctorChecks() { return kChecks; }
+
+std::vector<Finding> judgeAll(const Facts& facts) {
+    std::vector<Finding> findings;
+    for (const DoctorCheck& check : kChecks) {
+        Judgement judgement = check.judge(facts);
+        findings.push_back(
+            {check.name, judgement.health, std::move(judgement.seen), std::move(judgement.advice)});
+    }
+    return findings;
 }
 
 }  // namespace benchmarks::doctor

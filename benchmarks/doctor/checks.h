@@ -12,7 +12,7 @@ namespace benchmarks::doctor {
 
 enum class Health {
     ok,
-    unknown,  // the machine does not tell
+    unknown,  // the machine does not say
     warn,     // timings can be used, with care
     bad,      // they can't be trusted
 };
@@ -39,34 +39,14 @@ struct DoctorCheck {
     Judgement (*judge)(const Facts& facts);
 };
 
-// Every check, in the order in which they are shown. A new one is a row here.
+// Every check, in the order in which they are shown. A new one is a row of the table in checks.cpp.
 std::span<const DoctorCheck> doctorChecks();
 
 // What every check says of the facts.
 std::vector<Finding> judgeAll(const Facts& facts);
 
-// Of timings.
-Judgement judgeTimestamps(const Facts& facts);
-Judgement judgePassSum(const Facts& facts);
-Judgement judgeStamps(const Facts& facts);
-Judgement judgeRepeat(const Facts& facts);
-Judgement judgeNoise(const Facts& facts);
-// Of the program.
-Judgement judgeDevice(const Facts& facts);
-Judgement judgeBuild(const Facts& facts);
-Judgement judgeLayers(const Facts& facts);
-// Of the machine.
-Judgement judgeClocks(const Facts& facts);
-Judgement judgeProcessor(const Facts& facts);
-Judgement judgeOthers(const Facts& facts);
-Judgement judgeSteal(const Facts& facts);
-Judgement judgePower(const Facts& facts);
-
 // "12.3 %" of a share of 0.123.
 std::string shareText(double share);
-
-// "1.2 % more", "0.3 % less" of shares of 0.012 and -0.003.
-std::string changeText(double share);
 
 std::string joined(const std::vector<std::string>& parts, std::string_view between);
 

@@ -113,8 +113,8 @@ const Fault kFaults[] = {
          f.clocks->lowest_mhz = 1200;
      },
      "1200 MHz to 1500 MHz"},
-    {"clocks", Health::warn, [](Facts& f) { f.clocks = ClockFacts{}; }, "not told"},
-    {"processor", Health::unknown, [](Facts& f) { f.processor.governors.clear(); }, "not told"},
+    {"clocks", Health::warn, [](Facts& f) { f.clocks = ClockFacts{}; }, "unknown"},
+    {"processor", Health::unknown, [](Facts& f) { f.processor.governors.clear(); }, "unknown"},
     {"processor", Health::warn,
      [](Facts& f) { f.processor.governors = {"performance", "schedutil"}; }, "schedutil"},
     {"processor", Health::warn, [](Facts& f) { f.processor.quota = 1.5; }, "1.50 of them", true},
