@@ -25,7 +25,7 @@ constexpr report::Comparison kNothingKnown{
 Gate::Gate(std::vector<GateMetric> metrics, const report::VerdictRule& rule)
     : metrics_(std::move(metrics)), rule_(rule), differences_(metrics_.size()),
       comparable_(metrics_.size(), 1) {
-    assert(std::ranges::count(kStages, rule_.first_pairs) == 1);
+    assert(std::ranges::count(report::kStages, rule_.first_pairs) == 1);
 }
 
 bool Gate::isStage(std::size_t pairs) const {
