@@ -108,7 +108,7 @@ std::string text(const Cost& cost) {
     return text;
 }
 
-// Of one or both rungs of the tessellation.
+// Sum of the marginal costs of these rungs.
 double marginalOf(const Attribution& attribution, std::span<const Stop> rungs) {
     double sum = 0.0;
     for (const RungCost& rung : attribution.rungs)
@@ -166,7 +166,7 @@ struct Unit {
     std::string note{};
 };
 
-// What a stage handles one by one.
+// The unit of work of a stage.
 Unit ownUnit(Stop rung, const WorkCounts& work) {
     switch (rung) {
     case Stop::vertex:

@@ -51,10 +51,10 @@ struct Attribution {
 // `stops` are those of planStops(), with as many laps each, at least one.
 Attribution attribute(std::span<const StopTimes> stops);
 
-// What speaks against believing it.
+// Warnings about an attribution that is not to be believed.
 std::vector<std::string> attributionWarnings(const Attribution& attribution);
 
-// How much of everything there was. What is not known is absent.
+// Counts of work in one picture. What is not known is absent.
 struct WorkCounts {
     std::optional<std::uint64_t> patches;
     std::optional<std::uint64_t> strands;

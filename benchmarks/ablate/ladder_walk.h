@@ -71,10 +71,10 @@ public:
     // The strands pass of so many frames, after one that isn't timed, ms.
     std::vector<double> visit(engine::FrameLoop& loop, std::uint32_t frames);
 
-    // By frames of their own. Leaves `watch` seeing next to none.
+    // Counts in frames of their own. Leaves `watch` seeing next to none.
     StopCounts count(hair::rendering::StageWatch& watch);
 
-    // Of the last frame, [row][column] RGBA, top row first. Waits for the device.
+    // The last frame, [row][column] RGBA, top row first. Waits for the device.
     std::vector<std::uint8_t> picture() const;
 
 private:

@@ -40,7 +40,7 @@ hair::Settings withPieces(hair::Settings settings, std::uint32_t pieces) {
     return settings;
 }
 
-// Of a guide segment, most of them.
+// Drawn segments per guide segment, at most.
 std::uint32_t drawnPieces(const hair::Settings& settings) {
     if (settings.lod.mode == hair::LodMode::distance) return settings.strands.tessellation;
     return hair::rendering::drawnPieces(

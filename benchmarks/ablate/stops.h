@@ -70,7 +70,7 @@ struct StopTimes {
     std::vector<Lap> laps;
 };
 
-// Of a stop that there is.
+// Times of a stop, which must be among `stops`, one for each lap.
 std::vector<double> lapTimes(std::span<const StopTimes> stops, Stop stop);
 bool hasStop(std::span<const StopTimes> stops, Stop stop);
 
@@ -111,8 +111,8 @@ std::vector<report::Statistic> stopStatistics(
     const StopPlan& stop, const hair::rendering::StrandPlan& plan, const StopCounts& counts,
     bool approximate_fragments);
 
-// Where they differ: a driver that left out a stage that it should have run, or ran one that it
-// shouldn't. "geometry: geometry_invocations: 0, expected 243712".
+// Counts that differ from what is expected: a driver that left out a stage that it should have run,
+// or ran one that it shouldn't. "geometry: geometry_invocations: 0, expected 243712".
 std::vector<std::string>
 countWarnings(const StopPlan& stop, std::span<const report::Statistic> statistics);
 

@@ -19,7 +19,7 @@ int mergeReports(const MergeOptions& options) {
     for (const std::string& note : notes) std::cerr << "hairbench: " << note << '\n';
     std::cout << options.out.string() << ": " << report.at("cases").size() << " cases of "
               << options.reports.size() << " reports\n";
-    // As a run that did not come to its end.
+    // Missing cases give the exit status of an interrupted run.
     return report.at("interrupted").get<bool>() ? report::kInterrupted : report::kOk;
 }
 

@@ -22,7 +22,7 @@ struct TimestampFacts {
     std::optional<double> gap_ns;   // between two stamps with nothing between them, at least
 };
 
-// Of the doctor's scene.
+// How times of passes add up in the doctor's scene.
 struct PassFacts {
     double sum_over_wall = 0.0;       // isolated passes over the wall clock
     std::vector<std::string> faults;  // of timestamps against submit-and-wait
@@ -110,10 +110,10 @@ struct TimestampSteps {
                             // empty pass would seem to take
 };
 
-// Of stamps in the order in which they were taken; absent where none differ.
+// Steps of stamps in the order in which they were taken; absent where none differ.
 std::optional<TimestampSteps> timestampSteps(std::span<const std::uint64_t> ticks);
 
-// Of the device's, taken one after another with nothing between them.
+// Steps of the device's timestamps, taken one after another with nothing between them.
 std::optional<TimestampSteps> timestampSteps(const engine::Device& device);
 
 }  // namespace benchmarks::doctor

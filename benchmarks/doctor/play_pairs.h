@@ -13,7 +13,8 @@
 // frame of which takes milliseconds on a software device and has every pass of the thesis's frame.
 namespace benchmarks::doctor {
 
-// Its /groom/file is kDoctorStrands, relative to the folder that writeDoctorScene() fills.
+// The scene's settings; /groom/file is kDoctorStrands, relative to the folder that
+// writeDoctorScene() fills.
 hair::Settings doctorSettings();
 
 inline constexpr const char* kDoctorStrands = "doctor.hair";

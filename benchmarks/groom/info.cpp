@@ -20,7 +20,7 @@ namespace {
 
 // ---- Choice of guides ---------------------------------------------------------------------------
 
-// In metres where the unit is known, or else in the file's.
+// Lengths are in metres where the unit is known, or else in the unit of the file.
 std::string
 errorText(const hair::groom::ReconstructionError& error, std::optional<double> metres_per_unit) {
     const auto length = [&](double value) {
@@ -64,7 +64,7 @@ namespace {
 constexpr double kThinnest = 1.7e-6;  // m
 constexpr double kThickest = 1.81e-3;  // m
 
-// Of a groom's median strand: stubble and the longest hair that is worn.
+// Bounds of the median strand's length: stubble and the longest hair that is worn.
 constexpr double kShortest = 0.5e-3;  // m
 constexpr double kLongest = 3.0;  // m
 
@@ -318,7 +318,7 @@ std::string numbers(const glm::dvec3& v) {
            report::shortNumber(v.z);
 }
 
-// In one unit, that of its longest side.
+// The box in one unit, that of its longest side.
 std::string boxText(const hair::groom::StrandFindings& found) {
     const glm::dvec3 low = glm::dvec3(found.minimum) * found.metres_per_unit;
     const glm::dvec3 high = glm::dvec3(found.maximum) * found.metres_per_unit;

@@ -14,13 +14,13 @@
 // What `hairbench groom` says of a file of hair, and guides chosen from strands.
 namespace benchmarks::groom {
 
-// Guides chosen from strands, with all that those have but root triangles.
+// Guides chosen from strands, with every attribute but root triangles.
 struct GuideChoice {
     hair::groom::StrandSet guides;
     std::string error;  // of the strands that are made from them, for people
 };
 
-// Throws engine::Error if there are fewer strands.
+// Chooses `count` guides. Throws engine::Error if there are fewer strands.
 GuideChoice
 chooseGuides(const hair::groom::StrandSet& strands, std::uint32_t count, std::uint32_t seed);
 
@@ -53,7 +53,7 @@ inline constexpr std::string_view kGroomSchema = "hairbench-groom/1.0.0";
 // For a terminal; what is odd comes last.
 std::string groomInfoText(const GroomInfo& info);
 
-// The same as JSON. Lengths are in metres; what is not known is absent.
+// The findings as JSON. Lengths are in metres; what is not known is absent.
 std::string groomInfoJson(const GroomInfo& info);
 
 }  // namespace benchmarks::groom

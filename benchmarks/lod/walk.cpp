@@ -22,7 +22,7 @@ namespace {
 
 // ---- Differences of pictures --------------------------------------------------------------------
 
-// Of difference(i), i running over the colours of all pixels.
+// Root mean square of difference(i), i running over the colours of all pixels.
 template <class Difference>
 double rootMeanSquareOf(std::size_t bytes, Difference difference) {
     double sum = 0.0;
@@ -227,7 +227,7 @@ public:
         loop_.frame([&](engine::Passes& passes) { renderer_.record(passes, view_); });
     }
 
-    // Of the frames since the last call.
+    // Medians of the frames since the last call.
     LodTimes times() {
         const std::vector<engine::FrameRecord> frames = loop_.finish();
         std::vector<double> walls;

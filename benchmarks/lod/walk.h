@@ -10,9 +10,12 @@
 #include "benchmarks/measure/case.h"
 #include "benchmarks/report/report.h"
 
-// Differences of pictures of one size, [row][column] RGBA, over the red, green and blue of all
-// pixels; display values count from 0 to 1.
+// What level of detail costs and saves along a camera path, and its report, which
+// results/lod.schema.json describes.
 namespace benchmarks::lod {
+
+// Differences of pictures of one size, [row][column] RGBA, are over the red, green and blue of all
+// pixels; display values count from 0 to 1.
 
 using Picture = std::vector<std::uint8_t>;
 
@@ -27,9 +30,6 @@ double popping(
 
 // The mean red: what white things cover of a black picture.
 double whiteShare(std::span<const std::uint8_t> picture);
-
-// What level of detail costs and saves along a camera path, and its JSON: results/lod.schema.json
-// describes it.
 
 inline constexpr const char* kLodSchema = "hairbench-lod/1.0.0";
 
@@ -56,7 +56,7 @@ struct LodStep {
 struct LodTotals {
     std::optional<double> worst_popping;
     double mean_coverage_change = 0.0;   // mean of coverage / full_coverage - 1
-    double worst_coverage_change = 0.0;  // that of the greatest size
+    double worst_coverage_change = 0.0;  // the change of the greatest size
     double strands_speed_up = 0.0;       // of all steps' time
     double frame_speed_up = 0.0;
 };

@@ -21,16 +21,18 @@
 #include "hair/simulation/head_motion.h"
 #include "hair/simulation/simulation.h"
 
+// One set of settings, ready to play, and what it reads from files.
+namespace benchmarks::measure {
+
 // What a case reads from files. `directory` is what file names in the settings are relative to;
 // errors begin with the path of the file.
-namespace benchmarks::measure {
 
 // The mesh that the hair grows on and that is drawn under it. Absent where hair comes from a file
 // and nobody says what it grows on.
 std::optional<hair::groom::Mesh>
 loadMesh(const hair::Settings& settings, const std::filesystem::path& directory);
 
-// Of /simulation/distance_fields, in their order. `grown_on` is what loadMesh gave.
+// The meshes of /simulation/distance_fields, in their order. `grown_on` is what loadMesh gave.
 std::vector<hair::groom::Mesh> loadFieldMeshes(
     const hair::Settings& settings, const std::optional<hair::groom::Mesh>& grown_on,
     const std::filesystem::path& directory);
@@ -72,7 +74,7 @@ public:
     // but /groom, /simulation, /seed and /run. The device must be done with what was submitted. As
     // the constructor throws; nothing has changed then.
     void setDrawing(const hair::Settings& settings);
-    // The same for /camera alone, at no cost.
+    // Sets /camera alone, at no cost.
     void setCamera(const hair::CameraSettings& camera);
 
     // Goes on from here with the wind, colliders, motion and pulls of `settings`, which are the
@@ -89,10 +91,10 @@ public:
     // The picture of the last frame, [row][column] RGBA, top row first.
     std::vector<std::uint8_t> picture() const;
     std::string pictureHash() const;
-    // Its linear light, [row][column] RGB: before exposure and tone map, or, where there is no tone
-    // map, what a display shows.
+    // The picture's linear light, [row][column] RGB: before exposure and tone map, or, where there
+    // is no tone map, what a display shows.
     std::vector<float> radiance() const;
-    // Of the guides' positions.
+    // Hash of the guides' positions.
     std::string stateHash() const;
 
     // The strands of the last frame as they are drawn. Waits for the device.

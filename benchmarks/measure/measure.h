@@ -29,13 +29,12 @@ struct MeasureHooks {
 };
 
 // Plays the case in rounds of /run/warmup and /run/frames frames, overlapped and then isolated,
-// until the frame time is known to /run/precision or /run/max_time is over
-// (sampling.h), checks that all made the same picture and state, holds the timestamps
-// against the CPU's clock, and counts with pipeline statistics in a frame of its own. Fills in
-// metrics, statistics, counts, sampling, conditions, trust and hashes of `result`. Returns the
-// picture that is hashed, [row][column] RGBA, top row first: that of a round's last frame. Throws
-// Interrupted where the user asks to stop, engine::Error if the device was throttled in all rounds
-// or there is no /run/busy_pass.
+// until the frame time is known to /run/precision or /run/max_time is over, checks that all made
+// the same picture and state, holds the timestamps against the CPU's clock, and counts with
+// pipeline statistics in a frame of its own. Fills in metrics, statistics, counts, sampling,
+// conditions, trust and hashes of `result`. Returns the picture that is hashed, [row][column] RGBA,
+// top row first: that of a round's last frame. Throws Interrupted where the user asks to stop,
+// engine::Error if the device was throttled in all rounds or there is no /run/busy_pass.
 std::vector<std::uint8_t> measure(
     const engine::Device& device, Case& test_case, const hair::RunSettings& run,
     const MeasureHooks& hooks, report::CaseResult& result);

@@ -25,7 +25,8 @@ std::vector<std::string> checkTimestamps(
 // them against the counts that follow from the settings. Nothing where the device has none.
 void addStatistics(const Play& play, report::CaseResult& result);
 
-// The same of a frame that was played so: Timing::statistics. Nothing where it has no strands.
+// Adds the statistics of a frame that was played with Timing::statistics. Nothing where it has no
+// strands.
 void addStatistics(
     const engine::FrameRecord& frame, const engine::Device& device, const Case& test_case,
     report::CaseResult& result);
@@ -57,7 +58,7 @@ void addPassSum(std::span<const engine::FrameRecord> isolated, report::CaseResul
 // instructions are counted, frame.instructions.
 void addFrameUse(std::span<const engine::FrameRecord> isolated, report::CaseResult& result);
 
-// The same of passes, by the wall-clock frames: pass.*.cpu.time, pass.*.instructions.
+// What passes used of the CPU, by the wall-clock frames: pass.*.cpu.time, pass.*.instructions.
 void addPassUse(std::span<const engine::FrameRecord> wall_clock, report::CaseResult& result);
 
 // What a buffer or image of this name is for: "simulation", "groom", "targets", ...; "other" if its

@@ -49,8 +49,8 @@ public:
     // CPU ms from the start of recording the very first frame until it was complete.
     double firstFrame() const { return first_frame_; }
 
-    // Of the first round, and of the last one so far. Reading them back takes time, so it is done
-    // between rounds and for these two only.
+    // Picture and state of the first round, and of the last one so far. Reading them back takes
+    // time, so it is done between rounds and for these two only.
     const RoundEnd& firstEnd();
     RoundEnd lastEnd();
 

@@ -75,7 +75,8 @@ struct SettlingRule {
 // How many rounds at the start are to be left out because times still settled, from one level per
 // round: the fewest after which nothing settles. Something does where
 //   - the next 8, 16, 32 ... rounds, or all that are left, show a trend by Mann and Kendall's test
-//     (steady_state.h), and the median of their first quarter is off that of their last; or
+//   (trend()),
+//     and the median of their first quarter is off that of their last; or
 //   - the next 2, 3 or 4 rounds are all above or all below all that follow, which of n rounds in
 //     random order happens to k with a chance of 2 / binomial(n, k), and their median is off
 // by more than the tolerance. Each test has its share of the level (Bonferroni). Long stretches

@@ -7,7 +7,7 @@
 #include "hair/settings.h"
 
 // The validation suite: docs/physics.md says what each check does and where its theory is from.
-// Each plays one solver on the device, and throws Interrupted (measure.h) when the user asks to
+// Each plays one solver on the device, and throws engine::Interrupted when the user asks to
 // stop.
 namespace benchmarks::physics {
 
@@ -34,7 +34,7 @@ void checkCatenary(const engine::Device&, hair::Solver, Findings&);
 // Sag of a clamped hair under its weight, for these ratios of weight to stiffness.
 void checkCantilever(
     const engine::Device&, hair::Solver, std::span<const double> gammas, Findings&);
-// Its error, from coarse to fine.
+// Error of the sag of a clamped hair, from coarse to fine segments.
 void checkConvergence(const engine::Device&, hair::Solver, Findings&);
 // First frequency of a clamped hair without weight.
 void checkBendingFrequency(const engine::Device&, hair::Solver, Findings&);

@@ -21,11 +21,11 @@ namespace benchmarks::physics {
 hair::groom::Groom
 straightStrand(std::uint32_t segments, double length, const glm::dvec3& direction);
 
-// One that is `length` long and constantly curved (1/m) from -y toward +x. Its vertices lie on the
-// circle.
+// A strand that is `length` long and constantly curved (1/m) from -y toward +x. Its vertices lie on
+// the circle.
 hair::groom::Groom curvedStrand(std::uint32_t segments, double length, double curvature);
 
-// A groom in a simulation that is played step by step. Throws Interrupted (measure.h) between
+// A groom in a simulation that is played step by step. Throws engine::Interrupted between
 // submissions when the user asked to stop. Borrows the device.
 class Experiment {
 public:
@@ -39,9 +39,9 @@ public:
     // takes longer than `seconds`.
     bool settle(double distance, double seconds);
 
-    // At these positions without velocity.
+    // Sets the positions, without velocity.
     void place(std::span<const glm::dvec3> positions);
-    // With these velocities; both one substep ago. m/s
+    // Sets positions and velocities, both of one substep ago. m/s
     void launch(std::span<const glm::dvec3> positions, std::span<const glm::dvec3> velocities);
     void pin(std::uint32_t vertex);
 
@@ -49,7 +49,7 @@ public:
 
     double timeStep() const { return settings_.time_step; }
     double substep() const { return substep_; }
-    // In this time, at least one.
+    // Steps in this time, at least one.
     std::uint32_t stepsIn(double seconds) const;
 
 private:
@@ -112,7 +112,7 @@ enum class Need {
     iterations
 };
 
-// Why it can't be had; absent where it can.
+// Why a solver can't give what a check needs; absent where it can.
 std::optional<std::string> lack(hair::Solver solver, Need need);
 
 // Sets the number of iterations of a solver that has one.

@@ -9,7 +9,8 @@
 #include "hair/fields.h"
 #include "hair/settings.h"
 
-// What the validation suite found out, as plain values.
+// What the validation suite found out, as plain values, and its report, which
+// results/physics.schema.json describes.
 namespace benchmarks::physics {
 
 // Only what a solver promises is gated, and passes or fails. Anything else that could be measured
@@ -100,8 +101,6 @@ private:
     std::vector<Outcome> outcomes_;
     std::vector<Curve> curves_;
 };
-
-// What the validation suite found out, and its JSON: results/physics.schema.json describes it.
 
 inline constexpr const char* kPhysicsSchema = "hairbench-physics/1.0.0";
 

@@ -54,7 +54,7 @@ std::optional<double> frequencyOf(std::span<const double> samples, double interv
 // Good to 7 digits for gamma up to 10^4.
 double cantileverRatio(double gamma, double natural_turn = 0.0);
 
-// Releases a strand that is deflected along `sideways` (theory.h) and measures the frequency
+// Releases a strand that is deflected along `sideways` and measures the frequency
 // with which it swings through five of the periods that theory expects. Absent if it does not
 // swing.
 struct Vibration {
@@ -74,7 +74,7 @@ inline constexpr double kPi = 3.14159265358979323846;
 // 22.7.12).
 double laguerre(unsigned n, double x);
 
-// Its n roots, ascending.
+// The n roots of Laguerre's polynomial L_n, ascending.
 std::vector<double> laguerreRoots(unsigned n);
 
 // A pendulum of n equal masses on links of equal length. Mass k above the lowest one (k = 0) obeys
@@ -96,7 +96,7 @@ double hangingChainPeriod(double length, double gravity);
 // cos z cosh z = -1. Stiffness EI in N m^2, line density in kg/m. Hz
 double cantileverFrequency(double stiffness, double line_density, double length);
 
-// Its shape at s in [0, 1], 1 at the tip.
+// Shape of that beam at its first frequency, at s in [0, 1]; 1 at the tip.
 double cantileverShape(double s);
 
 }  // namespace benchmarks::physics

@@ -24,8 +24,9 @@ struct PictureErrors {
     double flip = 0.0;
 };
 
-// Of two files, PNG or EXR; writes FLIP's error map where `map` is not empty. Throws engine::Error
-// where the environment of references is missing, files can't be read or their sizes differ.
+// Compares two files, PNG or EXR; writes FLIP's error map where `map` is not empty. Throws
+// engine::Error where the environment of references is missing, files can't be read or their sizes
+// differ.
 PictureErrors comparePictures(
     const std::filesystem::path& reference, const std::filesystem::path& picture,
     const std::filesystem::path& map);

@@ -9,7 +9,7 @@
 #include "benchmarks/report/statistics.h"
 #include "benchmarks/scene/json.h"
 
-// Whether B is slower than A, from pairs of process blocks.
+// Whether B is slower than A: verdicts on metrics, and the exit statuses that they give.
 namespace benchmarks::report {
 
 // When a comparison fails.

@@ -21,8 +21,6 @@ bool isSameDevice(const scene::Json& a, const scene::Json& b);
 // interrupted. A member that either report lacks is not known to differ.
 std::vector<std::string> environmentDifferences(const scene::Json& a, const scene::Json& b);
 
-// Which metrics of a report a comparison passes a verdict on.
-
 // Whether the report's device is the processor itself, where CPU time is what passes cost.
 bool isSoftwareDevice(const scene::Json& environment);
 
@@ -46,14 +44,16 @@ Clock judgedClock(bool software_device, std::span<const MetricId> metrics);
 // Which metrics count.
 using MetricChoice = std::function<bool(const MetricId&)>;
 
-// Those in whose name a regex is found; an empty function for an empty one. Throws engine::Error
+// The metrics in whose name a regex is found; an empty function for an empty one. Throws
+// engine::Error
 // "--metrics: ..." for a malformed one.
 MetricChoice metricsNamed(const std::string& regex);
 
 // The times of frames and passes by the wall clock, or their CPU time and their instructions.
 MetricChoice timesBy(Clock clock);
 
-// Of the same metric in two reports. One of which neither less nor more is better is not judged.
+// Judges a metric that two reports have. A metric of which neither less nor more is better is not
+// judged.
 Judgement judgementOf(const MetricChoice& chosen, const MetricReading& a, const MetricReading& b);
 
 // Larger is worse: a value in the metric's unit, or 1 / value where higher is better.
@@ -76,7 +76,7 @@ struct Mismatch {
     std::string b;
 };
 
-// Of a case's object in a report.
+// Reads the outcome from a case's object in a report.
 CaseOutcome caseOutcome(const scene::Json& result);
 
 // Hashes that either report does not know agree. Of a case that neither played nothing differs.

@@ -16,15 +16,15 @@ namespace benchmarks::report {
 // What a metric is of.
 enum class MetricOf {
     frame,
-    cpu,  // its work on overlapped frames
-    gpu,  // the same of the device
+    cpu,  // the host's work on overlapped frames
+    gpu,  // its work on overlapped frames
     pass,  // one pass, by its name
     image,  // the picture, against a reference
     memory,  // of the device
     other,  // not known here: some other program's report has it
 };
 
-// Which quantity of it. results/README.md says what each is.
+// Which quantity is measured. results/README.md says what each is.
 enum class Measured {
     rate,
     low_1_percentile,
@@ -111,13 +111,13 @@ MetricId metricNamed(std::string_view name);
 // Whether it is the time of a pass by the wall clock or by timestamps.
 bool isPassTime(const MetricId& id);
 
-// The same of a whole frame or a pass.
+// Whether it is the time of a whole frame or of a pass, by the wall clock or by timestamps.
 bool isFrameOrPassTime(const MetricId& id);
 
 // Whether it is what a frame or a pass used of the processor: its CPU time or instructions.
 bool isOfProcessor(const MetricId& id);
 
-// Whether it is what a frame or a pass costs by any measure: either of the two.
+// Whether it is what a frame or a pass costs by any measure: time, CPU time or instructions.
 bool isFrameOrPassCost(const MetricId& id);
 
 // Whether it is of a frame or of a pass, and the same quantity of it as the other one is.

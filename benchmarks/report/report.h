@@ -59,7 +59,7 @@ struct Environment {
     std::optional<bool> validation;  // whether the validation layer was on: times are then useless
 };
 
-// As reports of any kind write it.
+// The environment as reports of any kind write it.
 scene::Json environmentJson(const Environment& environment);
 
 struct SceneRecord {
@@ -169,7 +169,7 @@ bool isReadable(std::string_view schema);
 scene::Json readReport(const std::filesystem::path& path);
 
 // Writes a report in one step: whoever opens the file sees the old one or the new one. Large
-// samples go into a file beside it (report.h). Creates missing folders. Throws engine::Error
+// samples go into a file beside it. Creates missing folders. Throws engine::Error
 // "<path>: <reason>".
 void writeReport(const scene::Json& report, const std::filesystem::path& path);
 
@@ -183,11 +183,11 @@ inline constexpr std::size_t kMostSamplesInReport = 2000;
 // was. Throws engine::Error "<path>: <reason>".
 bool moveSamplesOut(scene::Json& report, const std::filesystem::path& path);
 
-// The file of an older report there, when it is needed no more.
+// Removes the samples file of an older report at `path`.
 void removeSamples(const std::filesystem::path& path);
 
-// Undoes that for a report that was read from `path`. Throws engine::Error where the file is
-// missing, damaged or of another report.
+// Undoes moveSamplesOut() for a report that was read from `path`. Throws engine::Error where the
+// file is missing, damaged or of another report.
 void moveSamplesIn(scene::Json& report, const std::filesystem::path& path);
 
 }  // namespace benchmarks::report

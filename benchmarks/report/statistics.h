@@ -5,9 +5,13 @@
 #include <span>
 #include <vector>
 
-// Wilcoxon 1945, Individual comparisons by ranking methods; exact throughout. It takes differences
-// to be independent and each distributed symmetrically about one median; nothing about the shape.
+// Order statistics, confidence intervals of medians, signed-rank tests and their correction for
+// multiple testing.
 namespace benchmarks::report {
+
+// The signed-rank test: Wilcoxon 1945, Individual comparisons by ranking methods; exact throughout.
+// It takes differences to be independent and each distributed symmetrically about one median;
+// nothing about the shape.
 
 // More differences than this are an engine::Error: the distribution of the sum has n (n + 1) / 2
 // steps.

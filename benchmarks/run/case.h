@@ -23,8 +23,7 @@ std::string writeCasePicture(
     std::span<const std::uint8_t> pixels, std::uint32_t width, std::uint32_t height,
     const std::filesystem::path& report, std::size_t index);
 
-// Removes the pictures that older runs left beside the report (case.h) and that it does
-// not name.
+// Removes the pictures that older runs left beside the report and that it does not name.
 void removeOtherPictures(const scene::Json& report, const std::filesystem::path& path);
 
 // Measures a case. One that can't run here, or that fails, is part of the result with its reason.

@@ -40,7 +40,7 @@ private:
     std::vector<std::string>& notes_;
 };
 
-// Those of older reports, which do not say it, come last.
+// Cases of older reports, which state no index, come last.
 std::size_t indexOf(const scene::Json& result) {
     return result.value("index", std::numeric_limits<std::size_t>::max());
 }

@@ -41,17 +41,18 @@ public:
     Journal(const Journal&) = delete;
     Journal& operator=(const Journal&) = delete;
 
-    // Its whole lines, up to one that is no JSON, which only a torn disk leaves. Throws
+    // The whole lines, up to one that is no JSON, which only a torn disk leaves. Throws
     // engine::Error where the first is none: it is some other file.
     std::vector<scene::Json> read();
 
-    // Behind the lines that read() gave. Throws WriteFailed, and leaves those before as they were.
+    // Appends behind the lines that read() gave. Throws WriteFailed, and leaves those before as
+    // they were.
     void append(const scene::Json& line);
 
-    // Without lines, from here on.
+    // Forgets all lines: the next append() is the first.
     void clear();
 
-    // The file, once nobody needs it.
+    // Removes the file, once nobody needs it.
     void remove();
 
 private:
@@ -86,7 +87,7 @@ public:
         std::size_t place = 0;  // of the case in the plan
         std::size_t order = 0;  // in which it runs, from 0
     };
-    // Those that are left, in the order that the seed of the run's beginning decides.
+    // The cases that are left, in the order that the seed of the run's beginning decides.
     const std::vector<Turn>& remaining() const { return remaining_; }
     std::size_t done() const;
     // False where `out` is no file, beside which nothing can be.

@@ -26,8 +26,8 @@ struct AxisValue {
 Document parseValue(const std::string& text);
 
 // "POINTER=V1,V2" of the command line. Commas inside brackets and quotes belong to the value:
-// /camera/position=[0,0,1],[0,0,2] has two.
-// Ranges (axis.h) stand for their values: /groom/guides=pow2:6:12,86. Throws engine::Error.
+// /camera/position=[0,0,1],[0,0,2] has two. Ranges stand for their values:
+// /groom/guides=pow2:6:12,86. Throws engine::Error.
 Axis parseAxis(std::string_view argument);
 
 // The axis if its pointer names a field of `resolved` (a scene's document with every field) and
@@ -36,7 +36,7 @@ Axis parseAxis(std::string_view argument);
 // group it is for, so that one axis can vary several fields together.
 Axis checkedAxis(const Axis& axis, const Json& resolved);
 
-// The same of an axis that may have a value more than once, as tied ones do.
+// checkedAxis() for an axis that may have a value more than once, as tied ones do.
 Axis echoedAxis(const Axis& axis, const Json& resolved);
 
 // A short, distinct name for each pointer: its last token, with tokens before it as far as it takes

@@ -39,7 +39,8 @@ struct FrameRange {
     }
 };
 
-// Of "A:B" or "A:B:STEP". Throws engine::Error for anything else, and where there is no frame.
+// The range that "A:B" or "A:B:STEP" names. Throws engine::Error for anything else, and where there
+// is no frame.
 FrameRange parseFrameRange(std::string_view text);
 
 }  // namespace benchmarks::scene

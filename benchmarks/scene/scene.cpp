@@ -82,7 +82,7 @@ auto inFile(const fs::path& path, Action&& action) {
     }
 }
 
-// Of a scene file, or of a screenshot that has one in it.
+// The text of a scene file, or of the scene in a screenshot.
 std::string readScene(const fs::path& path) {
     if (std::error_code error; fs::is_directory(path, error))
         throw engine::Error(path.string(), "is a folder, not a scene file");
