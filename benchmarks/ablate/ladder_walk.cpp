@@ -18,6 +18,7 @@
 #include "benchmarks/measure/metrics.h"
 #include "benchmarks/measure/trust.h"
 #include "benchmarks/report/environment.h"
+#include "benchmarks/scene/assets.h"
 #include "engine/error.h"
 #include "engine/process.h"
 #include "hair/rendering/backends.h"
@@ -53,8 +54,8 @@ std::vector<std::string> coverageWarnings(std::span<const StopRecord> stops) {
 StillHair::StillHair(
     const engine::Device& device, const hair::Settings& settings,
     const std::filesystem::path& directory, std::uint32_t frame)
-    : case_(device, settings, directory), mesh_(measure::loadMesh(settings, directory)),
-      assets_(measure::loadRenderAssets(settings, mesh_ ? &*mesh_ : nullptr, directory)) {
+    : case_(device, settings, directory), mesh_(scene::loadMesh(settings, directory)),
+      assets_(scene::loadRenderAssets(settings, mesh_ ? &*mesh_ : nullptr, directory)) {
     engine::FrameLoop loop(device, engine::Timing::statistics);
     for (std::uint32_t i = 0; i <= frame; ++i) {
         engine::checkInterrupted();

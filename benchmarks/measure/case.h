@@ -21,35 +21,8 @@
 #include "hair/simulation/head_motion.h"
 #include "hair/simulation/simulation.h"
 
-// One set of settings, ready to play, and what it reads from files.
+// One set of settings, ready to play.
 namespace benchmarks::measure {
-
-// What a case reads from files. `directory` is what file names in the settings are relative to;
-// errors begin with the path of the file.
-
-// The mesh that the hair grows on and that is drawn under it. Absent where hair comes from a file
-// and nobody says what it grows on.
-std::optional<hair::groom::Mesh>
-loadMesh(const hair::Settings& settings, const std::filesystem::path& directory);
-
-// The meshes of /simulation/distance_fields, in their order. `grown_on` is what loadMesh gave.
-std::vector<hair::groom::Mesh> loadFieldMeshes(
-    const hair::Settings& settings, const std::optional<hair::groom::Mesh>& grown_on,
-    const std::filesystem::path& directory);
-
-// The strands of /strands/offsets; absent where it is empty.
-std::optional<hair::groom::StrandSet>
-loadOffsets(const hair::Settings& settings, const std::filesystem::path& directory);
-
-// What pictures show beside the hair. `head` is what loadMesh gave, or null.
-hair::rendering::RenderAssets loadRenderAssets(
-    const hair::Settings& settings, const hair::groom::Mesh* head,
-    const std::filesystem::path& directory);
-
-// Reads and checks all that a case of this scene needs, without a device: the errors of a bad asset
-// before anything runs. Where the fault is in how the scene uses a file, the error is
-// "<scene>: <JSON pointer>: <reason>".
-void checkAssets(const hair::Settings& settings, const std::filesystem::path& scene);
 
 // One set of settings, ready to play: the groom, its simulation and its renderer. Owns every GPU
 // object that it uses; leaving its scope frees them.

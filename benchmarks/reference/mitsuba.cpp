@@ -16,6 +16,7 @@
 
 #include "benchmarks/measure/case.h"
 #include "benchmarks/measure/progress.h"
+#include "benchmarks/scene/assets.h"
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
 #include "engine/files.h"
@@ -404,12 +405,12 @@ std::vector<MitsubaParts::Mesh> writeMeshes(
     const std::filesystem::path& folder, const scene::Scene& scene, const hair::Settings& settings,
     const hair::simulation::RigidMotion& head) {
     std::vector<MitsubaParts::Mesh> parts;
-    if (const auto mesh = measure::loadMesh(settings, scene.directory);
+    if (const auto mesh = scene::loadMesh(settings, scene.directory);
         mesh && settings.render.head)
         parts = writeMitsubaMesh(folder, "head", *mesh, head);
     const auto& wanted = settings.render.meshes;
     hair::rendering::RenderAssets assets =
-        measure::loadRenderAssets(settings, nullptr, scene.directory);
+        scene::loadRenderAssets(settings, nullptr, scene.directory);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         const hair::groom::Mesh mesh =
             hair::rendering::placed(std::move(assets.meshes[i]), wanted[i]);

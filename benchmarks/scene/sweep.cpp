@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/measure/case.h"
+#include "benchmarks/scene/assets.h"
 #include "benchmarks/scene/json.h"
 #include "benchmarks/scene/schema.h"
 #include "benchmarks/scene/settings_json.h"
@@ -265,7 +265,7 @@ std::vector<CaseSpec> selectCases(Scene& scene, const SceneOptions& options) {
         for (const auto& mesh : each.settings.render.meshes) files += '\n' + mesh.file;
         for (const auto& field : each.settings.simulation.distance_fields)
             files += '\n' + field.mesh;
-        if (checked.insert(files).second) measure::checkAssets(each.settings, scene.path);
+        if (checked.insert(files).second) checkAssets(each.settings, scene.path);
     }
     return cases;
 }

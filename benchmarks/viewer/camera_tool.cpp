@@ -12,6 +12,7 @@
 #include <imgui.h>
 
 #include "benchmarks/measure/case.h"
+#include "benchmarks/scene/assets.h"
 #include "benchmarks/viewer/gizmo.h"
 
 namespace benchmarks::viewer {
@@ -112,7 +113,7 @@ pointUnder(const PictureView& view, glm::vec2 pixel, float reach, const Player& 
     if (settings.render.hair)
         point = pickHair(view, played.guides(), played.groom().vertices_per_strand, pixel, reach);
     if (!settings.render.head) return point;
-    const std::optional<hair::groom::Mesh> mesh = measure::loadMesh(settings, player.directory());
+    const std::optional<hair::groom::Mesh> mesh = scene::loadMesh(settings, player.directory());
     if (!mesh) return point;
     const Ray ray = view.ray(pixel);
     const auto hit = pickMesh(ray, *mesh, played.head());

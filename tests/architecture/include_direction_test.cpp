@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <regex>
 #include <set>
 #include <string>
@@ -74,6 +76,22 @@ constexpr Rule kRules[] = {
 };
 
 constexpr std::string_view kFolders[] = {"engine", "hair", "benchmarks", "tests", "shaders"};
+
+// The folders of benchmarks/, each of which includes only itself and those before it.
+constexpr std::string_view kLayers[] = {"scene",  "report", "measure",   "groom", "physics",
+                                        "lod",    "ablate", "reference", "run",   "gate",
+                                        "doctor", "viewer", "commands"};
+
+// Where the folder of a file below benchmarks/ stands in kLayers; absent for any other file.
+std::optional<std::ptrdiff_t> layerOf(std::string_view file) {
+    constexpr std::string_view kRoot = "benchmarks/";
+    if (!file.starts_with(kRoot)) return std::nullopt;
+    const std::string_view folder =
+        file.substr(kRoot.size(), file.find('/', kRoot.size()) - kRoot.size());
+    const auto layer = std::ranges::find(kLayers, folder);
+    if (layer == std::end(kLayers)) return std::nullopt;
+    return layer - std::begin(kLayers);
+}
 
 bool breaks(const Rule& rule, std::string_view file, std::string_view include) {
     return file.starts_with(rule.folder) && include.starts_with(rule.forbidden) &&
@@ -156,6 +174,18 @@ TEST(IncludeDirection, HoldsInEverySource) {
                 }
             }
         }
+    }
+}
+
+TEST(IncludeDirection, PointsDownWithinBenchmarks) {
+    const std::filesystem::path root = HAIRBENCH_SOURCE_DIR;
+    for (const std::string& file : sources(root, "benchmarks")) {
+        const auto layer = layerOf(file);
+        EXPECT_TRUE(layer || file == "benchmarks/main.cpp") << file << " is in no layer";
+        if (!layer) continue;
+        for (const std::string& include : includes(root / file))
+            if (const auto below = layerOf(include))
+                EXPECT_LE(*below, *layer) << file << " includes " << include;
     }
 }
 

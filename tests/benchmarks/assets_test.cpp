@@ -1,4 +1,5 @@
 #include "benchmarks/measure/case.h"
+#include "benchmarks/scene/assets.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ TEST(Assets, RefusesAFieldOfAnOpenMeshBeforeAnythingRuns) {
     folder.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
     const auto scene = folder.write("s.json", "{}");
     const std::string error =
-        folder.relative(errorText([&] { measure::checkAssets(withField("open.obj"), scene); }));
+        folder.relative(errorText([&] { scene::checkAssets(withField("open.obj"), scene); }));
     EXPECT_EQ(
         error.substr(0, error.find(", the first")),
         "s.json: /simulation/distance_fields/0: the surface is not closed: edges with one "
@@ -30,7 +31,7 @@ TEST(Assets, RefusesAFieldOfAnOpenMeshBeforeAnythingRuns) {
 TEST(Assets, TakesTheMeshThatHairGrowsOnForAField) {
     const TemporaryFolder folder;
     EXPECT_EQ(
-        errorText([&] { measure::checkAssets(withField(""), folder.write("s.json", "{}")); }),
+        errorText([&] { scene::checkAssets(withField(""), folder.write("s.json", "{}")); }),
         "no error");
 }
 
@@ -38,7 +39,7 @@ TEST(Assets, NamesAMissingMeshOfAField) {
     const TemporaryFolder folder;
     const auto scene = folder.write("s.json", "{}");
     const std::string error =
-        folder.relative(errorText([&] { measure::checkAssets(withField("none.obj"), scene); }));
+        folder.relative(errorText([&] { scene::checkAssets(withField("none.obj"), scene); }));
     EXPECT_EQ(error.substr(0, 10), "none.obj: ") << error;
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/measure/case.h"
+#include "benchmarks/scene/assets.h"
 #include "hair/rendering/scene_meshes.h"
 #include "tests/error_text.h"
 #include "tests/gpu_fixture.h"
@@ -70,11 +71,11 @@ TEST(MeshAssets, NeedFiles) {
     settings.render.meshes = {{.file = "assets/head.glb"}, {}};
     const std::string scene = HAIRBENCH_SCENES_DIR "/rest.json";
     EXPECT_EQ(
-        errorText([&] { benchmarks::measure::checkAssets(settings, scene); }),
+        errorText([&] { benchmarks::scene::checkAssets(settings, scene); }),
         scene + ": /render/meshes/1/file: is empty");
     settings.render.meshes[1].file = "nowhere.glb";
     EXPECT_EQ(
-        errorText([&] { benchmarks::measure::checkAssets(settings, scene); }),
+        errorText([&] { benchmarks::scene::checkAssets(settings, scene); }),
         HAIRBENCH_SCENES_DIR "/nowhere.glb: no such file");
 }
 

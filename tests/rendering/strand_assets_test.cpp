@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmarks/measure/case.h"
+#include "benchmarks/scene/assets.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
@@ -17,7 +18,7 @@ hair::Settings grown() {
 std::string errorOf(const hair::Settings& settings) {
     const TemporaryFolder folder;
     const auto scene = folder.write("s.json", "{}");
-    return folder.relative(errorText([&] { measure::checkAssets(settings, scene); }));
+    return folder.relative(errorText([&] { scene::checkAssets(settings, scene); }));
 }
 
 TEST(StrandAssets, RefuseWidthsThatTheGroomLacks) {

@@ -31,7 +31,7 @@ using GpuSolver = GpuTest;
 class GpuShapeSolver : public GpuTest, public testing::WithParamInterface<Parallelism> {
 protected:
     static SimulationSettings windy() {
-        SimulationSettings settings = hair::windy();
+        SimulationSettings settings = simulation::windy();
         settings.parallelism = GetParam();
         return settings;
     }

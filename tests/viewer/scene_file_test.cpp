@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "benchmarks/measure/case.h"
+#include "benchmarks/scene/assets.h"
 #include "benchmarks/scene/schema.h"
 #include "benchmarks/viewer/recorder.h"
 #include "engine/pictures.h"
@@ -140,7 +141,7 @@ protected:
 
     hair::groom::Groom build(const hair::Settings& settings) const {
         scene::checkSettings(settings);
-        const auto mesh = measure::loadMesh(settings, folder_.path());
+        const auto mesh = scene::loadMesh(settings, folder_.path());
         return hair::groom::buildGroom(
             settings.groom, mesh ? &*mesh : nullptr, folder_.path(), settings.seed);
     }

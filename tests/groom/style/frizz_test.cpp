@@ -14,10 +14,6 @@ namespace {
 
 constexpr FrizzSettings kFrizz{.amplitude = 0.01f, .frequency = 60.0f, .start = 0.0f};
 
-double offset(const Groom& after, const Groom& before, std::size_t point) {
-    return glm::distance(glm::dvec3(after.points[point]), glm::dvec3(before.points[point]));
-}
-
 TEST(Frizz, MovesNoPointFurtherThanItsAmplitudeAndNoRoot) {
     const Groom before = verticalStrands(1000, 64, 0.2, 0.001);
     const Groom after = frizz(before, kFrizz, 1);

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "hair/groom/groom.h"
+#include "hair/groom/mesh/mesh.h"
+#include "hair/rendering/render_assets.h"
+#include "hair/settings.h"
+
+// What a case reads from files, before there is a device. `directory` is what file names in the
+// settings are relative to; errors begin with the path of the file.
+namespace benchmarks::scene {
+
+// The mesh that the hair grows on and that is drawn under it. Absent where hair comes from a file
+// and nobody says what it grows on.
+std::optional<hair::groom::Mesh>
+loadMesh(const hair::Settings& settings, const std::filesystem::path& directory);
+
+// The meshes of /simulation/distance_fields, in their order. `grown_on` is what loadMesh gave.
+std::vector<hair::groom::Mesh> loadFieldMeshes(
+    const hair::Settings& settings, const std::optional<hair::groom::Mesh>& grown_on,
+    const std::filesystem::path& directory);
+
+// The strands of /strands/offsets; absent where it is empty.
+std::optional<hair::groom::StrandSet>
+loadOffsets(const hair::Settings& settings, const std::filesystem::path& directory);
+
+// What pictures show beside the hair. `head` is what loadMesh gave, or null.
+hair::rendering::RenderAssets loadRenderAssets(
+    const hair::Settings& settings, const hair::groom::Mesh* head,
+    const std::filesystem::path& directory);
+
+// Reads and checks all that a case of this scene needs, without a device: the errors of a bad asset
+// before anything runs. Where the fault is in how the scene uses a file, the error is
+// "<scene>: <JSON pointer>: <reason>".
+void checkAssets(const hair::Settings& settings, const std::filesystem::path& scene);
+
+}  // namespace benchmarks::scene
