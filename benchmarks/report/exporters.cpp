@@ -19,41 +19,6 @@
 namespace benchmarks::report {
 namespace {
 
-// ---- Table of formats ---------------------------------------------------------------------------
-
-constexpr Exporter kExporters[] = {
-    {"csv", "comma-separated values: a row for each metric of each case", ".csv", csv},
-    {"markdown", "a table for GitHub, a row for each case", ".md", markdown},
-    {"gbench", "google-benchmark's JSON: times, for its compare.py and others", ".json", gbench},
-    {"bmf", "Bencher Metric Format", ".json", bmf},
-    {"customSmallerIsBetter", "for github-action-benchmark: times and memory", ".json",
-     customSmallerIsBetter},
-    {"perfetto", "Chrome's trace events: frames and passes", ".json", perfetto},
-};
-
-}  // namespace
-
-std::span<const Exporter> exporters() { return kExporters; }
-
-std::string exportReport(const scene::Json& report, std::string_view format) {
-    const auto exporter = std::ranges::find(kExporters, format, &Exporter::name);
-    if (exporter == std::end(kExporters)) {
-        std::vector<std::string> names;
-        for (const Exporter& each : kExporters) names.emplace_back(each.name);
-        throw engine::Error(scene::unknownName("unknown format", format, names));
-    }
-    try {
-        const auto schema = report.at("schema").get<std::string>();
-        if (!isReadable(schema))
-            throw engine::Error("/schema", schema + " is not " + kReportSchema);
-        return exporter->write(report);
-    } catch (const scene::Json::exception& error) {
-        throw engine::Error("no report", error.what());
-    }
-}
-
-namespace {
-
 // ---- What formats take from a report ------------------------------------------------------------
 
 // What exporters take from a written report. A member that a report must have and has not is
@@ -123,8 +88,8 @@ Measure measureOf(const Metric& metric) {
     return {metric.name(), 1.0};
 }
 
-}  // namespace
-
+// Bencher Metric Format: times as `latency` in ns, rates as `throughput`, memory as `bytes`; lower
+// and upper value are the quartiles.
 std::string bmf(const scene::Json& report) {
     scene::Json document = scene::Json::object();
     for (const Reading& reading : readings(report)) {
@@ -139,8 +104,6 @@ std::string bmf(const scene::Json& report) {
     }
     return documentText(document);
 }
-
-namespace {
 
 // ---- CSV ----------------------------------------------------------------------------------------
 
@@ -161,8 +124,8 @@ std::string line(const std::vector<std::string>& cells) {
     return text + '\n';
 }
 
-}  // namespace
-
+// RFC 4180, but lines end with LF alone: a row for each metric of each case, with a column for each
+// axis, and a row with the reason for each case that has none. Empty fields are not known.
 std::string csv(const scene::Json& report) {
     const std::vector<std::string> pointers = axisPointers(report);
     std::vector<std::string> titles{"case"};
@@ -193,6 +156,8 @@ std::string csv(const scene::Json& report) {
 
 // ---- github-action-benchmark --------------------------------------------------------------------
 
+// What github-action-benchmark takes as customSmallerIsBetter: times and memory, with the median
+// absolute deviation as range.
 std::string customSmallerIsBetter(const scene::Json& report) {
     scene::Json entries = scene::Json::array();
     for (const Reading& reading : readings(report)) {
@@ -206,8 +171,6 @@ std::string customSmallerIsBetter(const scene::Json& report) {
     }
     return documentText(entries);
 }
-
-namespace {
 
 // ---- google-benchmark ---------------------------------------------------------------------------
 
@@ -232,8 +195,9 @@ scene::Json context(const scene::Json& report) {
     return context;
 }
 
-}  // namespace
-
+// google-benchmark's JSON, of times only: its aggregates and counters are taken for times by those
+// who read it. Each metric is a benchmark of its own, "<case>/<metric>", whose real time and CPU
+// time are both the median, as some readers look at the one and some at the other.
 std::string gbench(const scene::Json& report) {
     scene::Json benchmarks = scene::Json::array();
     for (const Reading& reading : readings(report)) {
@@ -256,8 +220,6 @@ std::string gbench(const scene::Json& report) {
     }
     return documentText({{"context", context(report)}, {"benchmarks", benchmarks}});
 }
-
-namespace {
 
 // ---- Markdown -----------------------------------------------------------------------------------
 
@@ -306,8 +268,7 @@ std::string aboutTheRun(const scene::Json& report) {
     return text + "\n\n";
 }
 
-}  // namespace
-
+// A table in GitHub's Markdown, a row a case: axes, FPS, medians in ms, how it went.
 std::string markdown(const scene::Json& report) {
     const std::vector<std::string> pointers = axisPointers(report);
     const std::vector<MetricId> metrics = columnMetrics(report);
@@ -335,8 +296,6 @@ std::string markdown(const scene::Json& report) {
     }
     return text;
 }
-
-namespace {
 
 // ---- Perfetto -----------------------------------------------------------------------------------
 
@@ -442,8 +401,8 @@ void addCase(Trace& trace, int process, const scene::Json& result) {
     layFrames(trace, process, overlapped, samplesOf(metrics, ofFrame(Measured::time)), work);
 }
 
-}  // namespace
-
+// Chrome's trace events, which Perfetto opens: for each case, its isolated frames one after another
+// with their passes, and its overlapped frames with what the CPU did for each.
 std::string perfetto(const scene::Json& report) {
     Trace trace;
     int process = 0;
@@ -453,6 +412,39 @@ std::string perfetto(const scene::Json& report) {
         {{"traceEvents", trace.take()},
          {"displayTimeUnit", "ms"},
          {"otherData", {{"scene", report.at("scene").at("path")}}}});
+}
+
+// ---- Table of formats ---------------------------------------------------------------------------
+
+constexpr Exporter kExporters[] = {
+    {"csv", "comma-separated values: a row for each metric of each case", ".csv", csv},
+    {"markdown", "a table for GitHub, a row for each case", ".md", markdown},
+    {"gbench", "google-benchmark's JSON: times, for its compare.py and others", ".json", gbench},
+    {"bmf", "Bencher Metric Format", ".json", bmf},
+    {"customSmallerIsBetter", "for github-action-benchmark: times and memory", ".json",
+     customSmallerIsBetter},
+    {"perfetto", "Chrome's trace events: frames and passes", ".json", perfetto},
+};
+
+}  // namespace
+
+std::span<const Exporter> exporters() { return kExporters; }
+
+std::string exportReport(const scene::Json& report, std::string_view format) {
+    const auto exporter = std::ranges::find(kExporters, format, &Exporter::name);
+    if (exporter == std::end(kExporters)) {
+        std::vector<std::string> names;
+        for (const Exporter& each : kExporters) names.emplace_back(each.name);
+        throw engine::Error(scene::unknownName("unknown format", format, names));
+    }
+    try {
+        const auto schema = report.at("schema").get<std::string>();
+        if (!isReadable(schema))
+            throw engine::Error("/schema", schema + " is not " + kReportSchema);
+        return exporter->write(report);
+    } catch (const scene::Json::exception& error) {
+        throw engine::Error("no report", error.what());
+    }
 }
 
 }  // namespace benchmarks::report
