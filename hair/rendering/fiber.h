@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 
 #include <glm/vec3.hpp>
 
@@ -29,7 +28,8 @@ private:
 // Scattering of light by one fibre, in double precision: Chiang et al. 2016, A practical and
 // controllable hair and fur model for production path tracing, in the notation of pbrt-v4 (Pharr,
 // Jakob and Humphreys 2023, Physically based rendering, 4th ed., section 9.9). The shaders' own is
-// in shaders/shading/fiber_bsdf.glsl and shares no mathematics with this one.
+// in shaders/shading/fiber_bsdf.glsl and shares no mathematics with this one; what follows from it
+// for a pair of directions, which only tests ask for, is in hair/reference/fiber.h.
 //
 // Directions are unit vectors away from the fibre, x along it towards the tip; theta is their angle
 // with the plane across it, phi = atan2(z, y). h in [-1, 1] is the place across the fibre where a
@@ -61,13 +61,12 @@ Fiber makeFiber(const ShadingSettings& shading);
 // of incidence, >= 0; `eta` is above 1.
 double fresnel(double cosine, double eta);
 
-// M_p, d'Eon et al. 2011, An energy-conserving hair reflectance model: over theta_i, M_p cos
-// theta_i integrates to 1. It is strongest at theta_i = -theta_o.
-double longitudinal(double theta_i, double theta_o, double variance);
+// The logistic distribution on [-pi, pi], from -pi on.
+double trimmedLogisticCdf(double x, double scale);
 
-// The logistic distribution on [-pi, pi].
-double trimmedLogistic(double x, double scale);
-double trimmedLogisticCdf(double x, double scale);  // from -pi
+// What N_p, the logistic distribution of width `scale`, has in the half turn round an azimuth that
+// is `x` from Phi(p).
+double halfTurn(double x, double scale);
 
 // What a ray does in the fibre.
 struct FiberPath {
@@ -76,16 +75,6 @@ struct FiberPath {
 };
 
 FiberPath fiberPath(const Fiber& fiber, double theta_o, double h);
-
-// f(wo, wi) |cos theta_i|: radiance towards wo from a light of unit irradiance on a plane that
-// faces it. (|cos theta_i| cancels in it, which is why f itself is not asked for.)
-glm::dvec3 scattering(const Fiber& fiber, const glm::dvec3& wo, const glm::dvec3& wi, double h);
-
-// Importance sampling of wi: a lobe by its mean attenuation, then M_p and N_p exactly.
-double samplingPdf(const Fiber& fiber, const glm::dvec3& wo, const glm::dvec3& wi, double h);
-// `u`: four independent numbers in [0, 1).
-glm::dvec3
-sampleDirection(const Fiber& fiber, const glm::dvec3& wo, double h, std::span<const double, 4> u);
 
 // Light that many fibres scatter, in double precision: Zinke, Yuksel, Weber and Keyser 2008, Dual
 // scattering approximation for fast multiple scattering in hair. Forward is away from the light:
@@ -115,22 +104,5 @@ struct LocalScattering {
 // Shift and variance are the means over the series of (14) and (15), of which the paper's (16) and
 // (17) are approximations.
 LocalScattering localScattering(const FiberAverages& averages);
-
-// Light that reaches a fibre behind others. Fibres are met independently, so their number has
-// Poisson's distribution with mean `strands`.
-struct GlobalScattering {
-    double direct = 1;  // part that meets none: exp(-strands)
-    glm::dvec3 forward{0};  // part scattered forward by all that it meets, one at least
-    double shift = 0;  // mean of what theta_i changes by, rad
-    double variance = 0;  // rad^2
-};
-
-GlobalScattering globalScattering(const FiberAverages& averages, double strands);
-
-// f |cos theta_i| of a fibre among others, with what the light loses on its way to it.
-// `density_factor`: d_f = d_b.
-glm::dvec3 dualScattering(
-    const Fiber& fiber, double density_factor, const glm::dvec3& wo, const glm::dvec3& wi, double h,
-    double strands);
 
 }  // namespace hair::rendering

@@ -1,3 +1,4 @@
+#include "hair/reference/fiber.h"
 #include "hair/rendering/fiber.h"
 
 #include <cmath>
@@ -100,16 +101,18 @@ TEST(DualScattering, IsTheFibersOwnWhereNothingElseIs) {
     const Fiber fiber = makeFiber(brownFiber());
     const glm::dvec3 wo = direction(0.2, 0);
     const glm::dvec3 wi = direction(-0.3, 1.0);
-    EXPECT_EQ(dualScattering(fiber, 0, wo, wi, 0.3, 0), scattering(fiber, wo, wi, 0.3));
+    EXPECT_EQ(
+        reference::dualScattering(fiber, 0, wo, wi, 0.3, 0),
+        reference::scattering(fiber, wo, wi, 0.3));
     // Without density only what meets no strand is left.
     EXPECT_NEAR(
-        dualScattering(fiber, 0, wo, wi, 0.3, 2).g,
-        std::exp(-2.0) * scattering(fiber, wo, wi, 0.3).g, 1e-12);
+        reference::dualScattering(fiber, 0, wo, wi, 0.3, 2).g,
+        std::exp(-2.0) * reference::scattering(fiber, wo, wi, 0.3).g, 1e-12);
     // Hair around it adds, hair before it takes away.
-    const double alone = scattering(fiber, wo, wi, 0.3).g;
-    const double among = dualScattering(fiber, 0.7, wo, wi, 0.3, 0).g;
+    const double alone = reference::scattering(fiber, wo, wi, 0.3).g;
+    const double among = reference::dualScattering(fiber, 0.7, wo, wi, 0.3, 0).g;
     EXPECT_GT(among, alone);
-    EXPECT_LT(dualScattering(fiber, 0.7, wo, wi, 0.3, 20).g, 0.1 * among);
+    EXPECT_LT(reference::dualScattering(fiber, 0.7, wo, wi, 0.3, 20).g, 0.1 * among);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include "hair/reference/fiber.h"
 #include "hair/rendering/fiber.h"
 
 #include <array>
@@ -35,11 +36,12 @@ Step meet(const Fiber& fiber, double theta_i, Walk& walk) {
     const glm::dvec3 from = direction(std::sin(theta_i), 0);
     const double h = 2 * walk.number() - 1;
     const std::array u{walk.number(), walk.number(), walk.number(), walk.number()};
-    const glm::dvec3 to = sampleDirection(fiber, from, h, u);
+    const glm::dvec3 to = reference::sampleDirection(fiber, from, h, u);
     return {
         .forward = to.y < 0,
         .theta = -inclination(to),
-        .carried = scattering(fiber, from, to, h) / samplingPdf(fiber, from, to, h)};
+        .carried =
+            reference::scattering(fiber, from, to, h) / reference::samplingPdf(fiber, from, to, h)};
 }
 
 TEST(FiberAverages, AreTheMeansOfSampledDirections) {
@@ -88,8 +90,8 @@ TEST(GlobalScattering, IsThatOfARandomWalk) {
         const Fiber fiber = makeFiber(shading);
         for (const double theta : {0.0, 0.5}) {
             for (const double strands : {0.5, 3.0}) {
-                const GlobalScattering global =
-                    globalScattering(averageOverFiber(fiber, theta), strands);
+                const reference::GlobalScattering global =
+                    reference::globalScattering(averageOverFiber(fiber, theta), strands);
                 double direct = 0;
                 glm::dvec3 forward(0);
                 for (std::uint32_t i = 0; i < kWalks; ++i) {
@@ -167,7 +169,7 @@ TEST(DualScattering, ScattersWhatComesThroughOthersAsARandomWalk) {
         for (std::uint32_t i = 0; i < kAround; ++i) {
             const double h = 2 * random01(2, i, 1) - 1;
             const auto at = [&](double density, double strands) {
-                return dualScattering(fiber, density, eye(i), wi, h, strands).g;
+                return reference::dualScattering(fiber, density, eye(i), wi, h, strands).g;
             };
             const double local = at(1, 0) - at(0, 0);
             scattered +=
@@ -187,7 +189,8 @@ TEST(DualScattering, ScattersWhatComesThroughOthersAsARandomWalk) {
             }
             const glm::dvec3 from = direction(std::sin(theta), 0);
             const double h = 2 * walk.number() - 1;
-            if (carried > 0) walked += carried * scattering(fiber, eye(i), from, h).g / kWalks;
+            if (carried > 0)
+                walked += carried * reference::scattering(fiber, eye(i), from, h).g / kWalks;
         }
         // The greatest value is 0.05. One lobe, with the variance of all of R, TT and TRT, differs
         // from them by 0.002, and standard errors are up to 0.0012.

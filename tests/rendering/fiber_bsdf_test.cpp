@@ -1,3 +1,4 @@
+#include "hair/reference/fiber.h"
 #include "hair/rendering/fiber.h"
 
 #include <algorithm>
@@ -40,7 +41,8 @@ TEST(LongitudinalScattering, IntegratesToOne) {
             double sum = 0;
             for (int i = 0; i < kSteps; ++i) {
                 const double theta = ((i + 0.5) / kSteps - 0.5) * kPi;
-                sum += longitudinal(theta, theta_o, variance) * std::cos(theta) * kPi / kSteps;
+                sum += reference::longitudinal(theta, theta_o, variance) * std::cos(theta) * kPi /
+                       kSteps;
             }
             // The midpoint rule is wrong by step^2 / 24 times what f' changes by from pole to pole.
             const double step = kPi / kSteps;
@@ -59,7 +61,7 @@ TEST(AzimuthalScattering, IntegratesToOneAndToItsCdf) {
                 EXPECT_NEAR(sum, trimmedLogisticCdf(-kPi / 2, scale), 1e-6) << scale;
             }
             const double x = ((i + 0.5) / kSteps * 2 - 1) * kPi;
-            sum += trimmedLogistic(x, scale) * 2 * kPi / kSteps;
+            sum += reference::trimmedLogistic(x, scale) * 2 * kPi / kSteps;
         }
         EXPECT_NEAR(sum, 1, 1e-6) << scale;
     }
@@ -75,7 +77,9 @@ TEST(WhiteFurnace, HoldsWithUniformSamples) {
             for (const double sin_theta_o : {0.2, -0.9}) {
                 double sum = 0;
                 for (const FiberSample& sample : samples)
-                    sum += scattering(fiber, direction(sin_theta_o, 1.0), sample.wi, sample.h).g;
+                    sum += reference::scattering(
+                               fiber, direction(sin_theta_o, 1.0), sample.wi, sample.h)
+                               .g;
                 const double mean_scattered = sum * kSphere / static_cast<double>(samples.size());
                 EXPECT_GT(mean_scattered, 0.95) << m << ' ' << n << ' ' << sin_theta_o;
                 EXPECT_LT(mean_scattered, 1.05) << m << ' ' << n << ' ' << sin_theta_o;
@@ -93,9 +97,9 @@ TEST(WhiteFurnace, HoldsWithImportanceSampling) {
             double sum = 0;
             for (std::uint32_t i = 0; i < kSamples; ++i) {
                 const double h = 2 * random01(5, i, 4) - 1;
-                const glm::dvec3 wi = sampleDirection(fiber, wo, h, numbers(i));
-                const double pdf = samplingPdf(fiber, wo, wi, h);
-                if (pdf > 0) sum += scattering(fiber, wo, wi, h).g / pdf;
+                const glm::dvec3 wi = reference::sampleDirection(fiber, wo, h, numbers(i));
+                const double pdf = reference::samplingPdf(fiber, wo, wi, h);
+                if (pdf > 0) sum += reference::scattering(fiber, wo, wi, h).g / pdf;
             }
             EXPECT_GT(sum / kSamples, 0.99) << m << ' ' << n;
             EXPECT_LT(sum / kSamples, 1.01) << m << ' ' << n;
@@ -118,14 +122,15 @@ TEST(FiberSampling, ComesAsOftenAsItsDensitySays) {
             double uniform = 0;
             const std::vector<FiberSample> samples = uniformSamples(m, n);
             for (const FiberSample& sample : samples)
-                uniform += light(sample.wi) * mean(scattering(fiber, wo, sample.wi, sample.h));
+                uniform +=
+                    light(sample.wi) * mean(reference::scattering(fiber, wo, sample.wi, sample.h));
             uniform *= kSphere / static_cast<double>(samples.size());
             double chosen = 0;
             for (std::uint32_t i = 0; i < kSamples; ++i) {
                 const double h = 2 * random01(5, i, 4) - 1;
-                const glm::dvec3 wi = sampleDirection(fiber, wo, h, numbers(i));
-                chosen +=
-                    light(wi) * mean(scattering(fiber, wo, wi, h)) / samplingPdf(fiber, wo, wi, h);
+                const glm::dvec3 wi = reference::sampleDirection(fiber, wo, h, numbers(i));
+                chosen += light(wi) * mean(reference::scattering(fiber, wo, wi, h)) /
+                          reference::samplingPdf(fiber, wo, wi, h);
             }
             EXPECT_NEAR(chosen / kSamples / uniform, 1, 0.05) << m << ' ' << n;
         }
@@ -176,7 +181,8 @@ TEST(FiberTilt, MovesLobes) {
     const double theta_o = glm::radians(20.0);
     for (double theta_i = -1.0; theta_i < 1.0; theta_i += 0.001) {
         const double value =
-            scattering(black, direction(std::sin(theta_o), 0), direction(std::sin(theta_i), 0), 0)
+            reference::scattering(
+                black, direction(std::sin(theta_o), 0), direction(std::sin(theta_i), 0), 0)
                 .g;
         if (value > best) {
             best = value;
@@ -199,7 +205,7 @@ TEST(FiberScattering, IsFiniteAtTheEdges) {
                 for (const double o : {-1.0, 0.3, 1.0}) {
                     for (const double i : {-1.0, 0.3, 1.0}) {
                         const double value =
-                            scattering(fiber, direction(o, 0), direction(i, kPi), h).g;
+                            reference::scattering(fiber, direction(o, 0), direction(i, kPi), h).g;
                         EXPECT_TRUE(std::isfinite(value)) << h << ' ' << o << ' ' << i;
                         EXPECT_GE(value, 0) << h << ' ' << o << ' ' << i;
                     }

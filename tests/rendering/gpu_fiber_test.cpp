@@ -8,6 +8,7 @@
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/pipeline.h"
+#include "hair/reference/fiber.h"
 #include "hair/rendering/fiber.h"
 #include "hair/simulation/stiffness.h"
 #include "tests/gpu_fixture.h"
@@ -63,8 +64,9 @@ protected:
             const glm::dvec3 wo = direction(2 * u(0) - 1, 2 * kPi * u(1));
             const double h = 2 * u(2) - 1;
             const glm::dvec3 wi =
-                i % 2 == 0 ? direction(2 * u(3) - 1, 2 * kPi * u(4))
-                           : sampleDirection(fiber, wo, h, std::array{u(3), u(4), u(5), u(6)});
+                i % 2 == 0
+                    ? direction(2 * u(3) - 1, 2 * kPi * u(4))
+                    : reference::sampleDirection(fiber, wo, h, std::array{u(3), u(4), u(5), u(6)});
             probes.push_back(asked(wo, wi, h, i % 8 < 2 ? 0 : 12 * u(7) * u(7)));
         }
         return probes;
@@ -109,8 +111,8 @@ TEST_F(GpuFiberTest, AgreesWithTheReference) {
                 const gpu::FiberProbe& answer = answers[i];
                 expectNear(
                     answer.bsdf,
-                    scattering(fiber, answer.to_eye, answer.to_light, double{answer.h}), 1e-3, 1e-5,
-                    i);
+                    reference::scattering(fiber, answer.to_eye, answer.to_light, double{answer.h}),
+                    1e-3, 1e-5, i);
             }
         }
     }
@@ -128,7 +130,7 @@ TEST_F(GpuFiberTest, AgreesWithTheReferenceOfDualScattering) {
             const gpu::FiberProbe& answer = answers[i];
             expectNear(
                 answer.dual_scattering,
-                dualScattering(
+                reference::dualScattering(
                     fiber, double{shading.density_factor}, answer.to_eye, answer.to_light,
                     double{answer.h}, double{answer.strands}),
                 5e-3, 1e-4, i);
