@@ -188,7 +188,8 @@ glm::dvec3 dualScattering(
             fiber, path, theta_i - global.shift, theta_o, global.variance,
             [&](std::size_t p) {
                 return p < path.azimuths.size()
-                           ? halfTurn(phi - path.azimuths[p], fiber.azimuthal_scale) / kPi
+                           ? rendering::halfTurn(phi - path.azimuths[p], fiber.azimuthal_scale) /
+                                 kPi
                            : 1 / (2 * kPi);
             }) +
         behind(global.shift, global.variance, (1 + 2 / kPi * std::cos(phi)) / (2 * kPi));
