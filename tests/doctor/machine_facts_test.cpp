@@ -68,7 +68,7 @@ protected:
     void supply(const std::string& name, const std::string& file, const std::string& text) {
         root_.write("sys/class/power_supply/" + name + '/' + file, text + '\n');
     }
-    std::optional<bool> onBattery() const { return onBattery(root_.path()); }
+    std::optional<bool> onBattery() const { return doctor::onBattery(root_.path()); }
 
 private:
     TemporaryFolder root_;
