@@ -405,8 +405,7 @@ std::vector<MitsubaParts::Mesh> writeMeshes(
     const std::filesystem::path& folder, const scene::Scene& scene, const hair::Settings& settings,
     const hair::simulation::RigidMotion& head) {
     std::vector<MitsubaParts::Mesh> parts;
-    if (const auto mesh = scene::loadMesh(settings, scene.directory);
-        mesh && settings.render.head)
+    if (const auto mesh = scene::loadMesh(settings, scene.directory); mesh && settings.render.head)
         parts = writeMitsubaMesh(folder, "head", *mesh, head);
     const auto& wanted = settings.render.meshes;
     hair::rendering::RenderAssets assets =

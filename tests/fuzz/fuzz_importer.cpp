@@ -23,7 +23,8 @@ extern "C" __attribute__((visibility("default"))) int
 LLVMFuzzerTestOneInput(const unsigned char* bytes, std::size_t size) {
     static const hair::groom::StrandImporter& row = importer();
     try {
-        const hair::groom::StrandSet set = row.read({.bytes = std::as_bytes(std::span(bytes, size))});
+        const hair::groom::StrandSet set =
+            row.read({.bytes = std::as_bytes(std::span(bytes, size))});
         const std::string broken = hair::groom::brokenPromise(set);
         if (broken.empty()) return 0;
         std::fprintf(stderr, "not so: %s\n", broken.c_str());
