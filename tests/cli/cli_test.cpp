@@ -18,10 +18,6 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string scene(const std::string& name) {
-    return std::string("'") + HAIRBENCH_SCENES_DIR + "/" + name + "'";
-}
-
 nlohmann::json reportOf(const fs::path& path) { return nlohmann::json::parse(textOf(path)); }
 
 bool hasDevice() {
@@ -50,7 +46,7 @@ TEST(Cli, SchemaIsTheCommittedOne) {
 }
 
 TEST(Cli, ListsTheWholeSweep) {
-    const Outcome outcome = hairbench("run " + scene("thesis.json") + " --list");
+    const Outcome outcome = hairbench("run " + shippedScene("thesis.json") + " --list");
     EXPECT_EQ(outcome.status, 0);
     // 3 guide counts x 3 densities x 3 tessellation factors x 3 sample counts x 3 levels.
     EXPECT_THAT(outcome.output, HasSubstr("243 cases"));
@@ -63,7 +59,7 @@ TEST(Cli, DryRunEstimatesAndWritesNothing) {
     const TemporaryFolder folder;
     const fs::path out = folder.path() / "report.json";
     const Outcome outcome =
-        hairbench("run " + scene("smoke.json") + " --dry-run --out '" + out.string() + "'");
+        hairbench("run " + shippedScene("smoke.json") + " --dry-run --out '" + out.string() + "'");
     EXPECT_EQ(outcome.status, 0);
     EXPECT_THAT(outcome.output, HasSubstr("memory"));
     EXPECT_THAT(outcome.output, testing::ContainsRegex("smoke/msaa:4 +[0-9.]+ MB +[0-9.]+ "));
@@ -73,13 +69,14 @@ TEST(Cli, DryRunEstimatesAndWritesNothing) {
 
 TEST(Cli, SetsFieldsWithoutNamingCasesAfterThem) {
     const Outcome outcome =
-        hairbench("run " + scene("smoke.json") + " --set /strands/density=8 --list");
+        hairbench("run " + shippedScene("smoke.json") + " --set /strands/density=8 --list");
     EXPECT_EQ(outcome.status, 0);
     EXPECT_EQ(outcome.output, "smoke/msaa:1\nsmoke/msaa:4\n2 cases\n");
-    const Outcome unknown = hairbench("run " + scene("smoke.json") + " --set /no/such=1 --list");
+    const Outcome unknown =
+        hairbench("run " + shippedScene("smoke.json") + " --set /no/such=1 --list");
     EXPECT_EQ(unknown.status, 2);
     EXPECT_THAT(unknown.output, HasSubstr("--set /no/such=1: "));
-    EXPECT_EQ(hairbench("run " + scene("smoke.json") + " --set density --list").status, 2);
+    EXPECT_EQ(hairbench("run " + shippedScene("smoke.json") + " --set density --list").status, 2);
 }
 
 // ---- What is refused: one line, status 2, nothing written ---------------------------------------
@@ -127,15 +124,15 @@ TEST(Cli, RefusesWhatItDoesNotKnow) {
     EXPECT_EQ(hairbench("").status, 2);
     EXPECT_EQ(hairbench("fly").status, 2);
     EXPECT_EQ(hairbench("run").status, 2);
-    EXPECT_EQ(hairbench("run " + scene("smoke.json") + " -a /no/such=1").status, 2);
-    EXPECT_EQ(hairbench("run " + scene("smoke.json") + " --filter '['").status, 2);
+    EXPECT_EQ(hairbench("run " + shippedScene("smoke.json") + " -a /no/such=1").status, 2);
+    EXPECT_EQ(hairbench("run " + shippedScene("smoke.json") + " --filter '['").status, 2);
 }
 
 TEST(Cli, ValidateNamesEveryBadScene) {
     const TemporaryFolder folder;
     const fs::path bad = folder.write("bad.json", "[]");
     const Outcome outcome =
-        hairbench("validate " + scene("smoke.json") + " '" + bad.string() + "'");
+        hairbench("validate " + shippedScene("smoke.json") + " '" + bad.string() + "'");
     EXPECT_EQ(outcome.status, 2);
     EXPECT_THAT(outcome.output, HasSubstr("smoke.json: ok, "));
     EXPECT_THAT(outcome.output, HasSubstr("bad.json: "));
@@ -151,14 +148,15 @@ TEST(Cli, PhysicsRefusesWhatItDoesNotKnow) {
 }
 
 TEST(Cli, NothingMatchesTheFilter) {
-    const Outcome outcome = hairbench("run " + scene("smoke.json") + " --filter none_at_all");
+    const Outcome outcome =
+        hairbench("run " + shippedScene("smoke.json") + " --filter none_at_all");
     EXPECT_EQ(outcome.status, 14);
 }
 
 TEST(Cli, UnknownDeviceIsStatus77) {
     const TemporaryFolder folder;
     const Outcome outcome = hairbench(
-        "run " + scene("smoke.json") + " --device 'no such' --out '" +
+        "run " + shippedScene("smoke.json") + " --device 'no such' --out '" +
         (folder.path() / "r.json").string() + "'");
     EXPECT_EQ(outcome.status, 77);
 }
@@ -181,7 +179,7 @@ protected:
     nlohmann::json run(const std::string& name, const std::string& options) {
         const fs::path out = folder_.path() / (name + ".json");
         const Outcome outcome = hairbench(
-            "run " + scene("smoke.json") + " " + options + " --out '" + out.string() + "'");
+            "run " + shippedScene("smoke.json") + " " + options + " --out '" + out.string() + "'");
         EXPECT_EQ(outcome.status, 0) << outcome.output;
         EXPECT_THAT(outcome.output, HasSubstr("report: " + out.string()));
         return reportOf(out);
@@ -246,7 +244,7 @@ TEST_F(CliRun, SavesWhatWasDoneWhenItIsInterrupted) {
     // minutes; the interrupt comes once the first case is in the journal, and after a minute in any
     // case. With this seed the short case is the first.
     const fs::path script = folder_.write(
-        "interrupt.sh", "set -m\n'" HAIRBENCH_PROGRAM "' run " + scene("smoke.json") +
+        "interrupt.sh", "set -m\n'" HAIRBENCH_PROGRAM "' run " + shippedScene("smoke.json") +
                             " -a /render/msaa=1 -a /run/frames=1,1000000 --order-seed 1 --out '" +
                             out.string() + "' &\nfor i in $(seq 600); do grep -q frames:1 '" +
                             out.string() + ".journal' 2>/dev/null && break; sleep 0.1; done\n" +
@@ -275,8 +273,8 @@ TEST_F(CliRun, ChecksThePhysicsAndSaysWhatItSkipped) {
 
 TEST_F(CliRun, RendersThePictureThatItMeasures) {
     const fs::path picture = folder_.path() / "picture.png";
-    const Outcome outcome =
-        hairbench("render " + scene("smoke.json") + " --frame 3 -o '" + picture.string() + "'");
+    const Outcome outcome = hairbench(
+        "render " + shippedScene("smoke.json") + " --frame 3 -o '" + picture.string() + "'");
     EXPECT_EQ(outcome.status, 0) << outcome.output;
     EXPECT_GT(fs::file_size(picture), 1000u);
 }

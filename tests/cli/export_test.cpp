@@ -22,8 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-std::string scene(const std::string& name) { return "'" HAIRBENCH_SCENES_DIR "/" + name + "' "; }
-
 using Point = std::array<double, 3>;
 
 Point readPoint(std::istream& file) {
@@ -68,7 +66,8 @@ protected:
 
 // 136 root triangles of 16 strands, and 7 segments of 2 pieces.
 TEST_F(ExportCli, WritesAMitsubaScene) {
-    const Outcome outcome = hairbench("export " + scene("smoke.json") + "--mitsuba " + quoted("m"));
+    const Outcome outcome =
+        hairbench("export " + shippedScene("smoke.json") + "--mitsuba " + quoted("m"));
     EXPECT_EQ(outcome.status, 0) << outcome.output;
     EXPECT_THAT(outcome.output, HasSubstr("frame 0 of smoke, 2176 strands, 32640 points, "));
     const std::string hair = textOf(folder_.file("m/hair.txt"));
@@ -83,7 +82,7 @@ TEST_F(ExportCli, WritesAMitsubaScene) {
 TEST_F(ExportCli, MovesTheHeadWithTheHair) {
     for (const char* frame : {"0", "20"}) {
         const Outcome outcome = hairbench(
-            "export " + scene("nod.json") + "-a /strands/density=1 --frame " + frame +
+            "export " + shippedScene("nod.json") + "-a /strands/density=1 --frame " + frame +
             " --mitsuba " + quoted(frame));
         ASSERT_EQ(outcome.status, 0) << outcome.output;
     }
@@ -98,7 +97,7 @@ TEST_F(ExportCli, MovesTheHeadWithTheHair) {
 
 TEST_F(ExportCli, NamesTheSetUpThatReferencesNeed) {
     const Outcome outcome = hairbench(
-        "reference " + scene("smoke.json") + "-o " + quoted("a.png"),
+        "reference " + shippedScene("smoke.json") + "-o " + quoted("a.png"),
         "HAIRBENCH_REFERENCE_PYTHON=/no/such/python ");
     EXPECT_EQ(outcome.status, 2);
     EXPECT_THAT(outcome.output, HasSubstr("run scripts/setup --reference"));
@@ -106,7 +105,8 @@ TEST_F(ExportCli, NamesTheSetUpThatReferencesNeed) {
 }
 
 TEST_F(ExportCli, RefusesAPictureOfAnotherKind) {
-    const Outcome outcome = hairbench("reference " + scene("smoke.json") + "-o " + quoted("a.jpg"));
+    const Outcome outcome =
+        hairbench("reference " + shippedScene("smoke.json") + "-o " + quoted("a.jpg"));
     EXPECT_EQ(outcome.status, 2);
     EXPECT_THAT(outcome.output, HasSubstr("a.jpg: is neither .exr nor .png"));
     EXPECT_TRUE(fs::is_empty(folder_.path()));
@@ -115,7 +115,7 @@ TEST_F(ExportCli, RefusesAPictureOfAnotherKind) {
 TEST_F(ExportCli, RendersAndComparesReferences) {
     if (!hasReferencePython()) GTEST_SKIP() << kNoReference;
     const std::string small =
-        "reference " + scene("smoke.json") + "-a /render/height=36 --samples 2 ";
+        "reference " + shippedScene("smoke.json") + "-a /render/height=36 --samples 2 ";
     for (const char* options : {"-a /render/width=64 -o ", "-a /render/width=48 -o "}) {
         const bool wide = std::string(options).find("64") != std::string::npos;
         const Outcome outcome =
@@ -147,7 +147,7 @@ TEST_F(ExportCli, LeavesNothingWhenItIsInterrupted) {
     const std::string log = quoted("log");
     const fs::path script = folder_.write(
         "interrupt.sh", "set -m\nmkdir " + quoted("scratch") + "\nTMPDIR=" + quoted("scratch") +
-                            "'" HAIRBENCH_PROGRAM "' reference " + scene("smoke.json") +
+                            "'" HAIRBENCH_PROGRAM "' reference " + shippedScene("smoke.json") +
                             "--samples 1000000 -o " + quoted("out/a.exr") + " >" + log +
                             " 2>&1 &\nfor i in $(seq 600); do grep -qF '0 of 1000000' " + log +
                             " && break; sleep 0.1; done\nkill -INT $!\nwait $!\n");

@@ -109,7 +109,7 @@ TEST_F(GroomCli, ConvertMayReplaceItsOwnFile) {
     EXPECT_NEAR(json("four.hair", "--scale 1")["lengths"]["maximum"], 60.0, 1e-5);
 }
 
-struct Refusal {
+struct RefusedGroom {
     const char* name;
     const char* in;
     const char* out;
@@ -117,7 +117,7 @@ struct Refusal {
     const char* reason;
 };
 
-class GroomRefusal : public testing::TestWithParam<Refusal> {};
+class GroomRefusal : public testing::TestWithParam<RefusedGroom> {};
 
 TEST_P(GroomRefusal, IsOneLineWithStatus2AndWritesNothing) {
     const TemporaryFolder folder;
@@ -137,27 +137,28 @@ INSTANTIATE_TEST_SUITE_P(
     , GroomRefusal,
     testing::Values(
         // Before anything is read: there is no such file either.
-        Refusal{
+        RefusedGroom{
             "UnknownExtension", "none.hair", "out.foo", "",
             "can't be written as \".foo\"; known are .hair"},
-        Refusal{"NoExtension", "four.hair", "out", "", "can't be written as \"\""},
-        Refusal{"OneVertex", "none.hair", "out.hair", "--vertices 1", "1 is outside [2, 65536]"},
-        Refusal{
+        RefusedGroom{"NoExtension", "four.hair", "out", "", "can't be written as \"\""},
+        RefusedGroom{
+            "OneVertex", "none.hair", "out.hair", "--vertices 1", "1 is outside [2, 65536]"},
+        RefusedGroom{
             "TooManyVertices", "none.hair", "out.hair", "--vertices 65537",
             "65537 is outside [2, 65536]"},
-        Refusal{
+        RefusedGroom{
             "TooManyGuideVertices", "none.hair", "out.hgl", "--vertices 257",
             "257 is outside [2, 256]"},
-        Refusal{"MeshForNothing", "none.hair", "out.ply", "--mesh m.obj", "root triangles"},
-        Refusal{
+        RefusedGroom{"MeshForNothing", "none.hair", "out.ply", "--mesh m.obj", "root triangles"},
+        RefusedGroom{
             "FollowersInOnePlace", "none.hair", "out.ply", "--followers 2", "--follower-radius"},
-        Refusal{
+        RefusedGroom{
             "RadiusWithoutFollowers", "none.hair", "out.ply", "--follower-radius 2",
             "without --followers"},
-        Refusal{"MissingMesh", "four.hair", "out.hgl", "--mesh none.obj", "none.obj: "},
-        Refusal{"MissingFile", "none.hair", "out.hair", "", "none.hair: "},
-        Refusal{"BrokenFile", "broken.hair", "out.hair", "", "broken.hair: byte"},
-        Refusal{
+        RefusedGroom{"MissingMesh", "four.hair", "out.hgl", "--mesh none.obj", "none.obj: "},
+        RefusedGroom{"MissingFile", "none.hair", "out.hair", "", "none.hair: "},
+        RefusedGroom{"BrokenFile", "broken.hair", "out.hair", "", "broken.hair: byte"},
+        RefusedGroom{
             "TooManyGuides", "four.hair", "out.hair", "--guides 5",
             "5 are more than the 4 strands there are"}),
     [](const auto& each) { return each.param.name; });

@@ -13,6 +13,11 @@ struct Outcome {
     std::string output;
 };
 
+// A shipped scene as an argument.
+inline std::string shippedScene(const std::string& name) {
+    return "'" HAIRBENCH_SCENES_DIR "/" + name + "' ";
+}
+
 inline Outcome runInShell(const std::string& command) {
     FILE* pipe = popen(command.c_str(), "r");
     if (!pipe) throw std::runtime_error("popen failed");

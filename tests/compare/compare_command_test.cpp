@@ -11,7 +11,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-std::vector<double> about(double middle) {
+std::vector<double> nearly(double middle) {
     std::vector<double> samples(41, middle);
     for (int i = 0; i < 41; ++i) samples[static_cast<std::size_t>(i)] *= 1.0 + 0.0001 * (i % 3 - 1);
     samples[20] = middle;
@@ -25,8 +25,8 @@ protected:
     }
     static scene::Json report(double time, const std::string& image = "aaaa") {
         scene::Json made = madeReport();
-        made["cases"].push_back(
-            madeCase("made", {{"frame.time", about(time)}, {"pass.wind.time", about(1.0)}}, image));
+        made["cases"].push_back(madeCase(
+            "made", {{"frame.time", nearly(time)}, {"pass.wind.time", nearly(1.0)}}, image));
         return made;
     }
     const TemporaryFolder& folder() const { return folder_; }

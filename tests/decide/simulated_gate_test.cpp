@@ -45,12 +45,12 @@ std::vector<double> calibrate(Noise& noise, std::size_t pairs) {
     return differences;
 }
 
-struct Outcome {
+struct GateEnd {
     Verdict verdict;
     std::size_t pairs;
 };
 
-Outcome play(
+GateEnd play(
     Noise& noise, double slowdown, const std::vector<double>& calibration,
     const VerdictRule& rule = {}) {
     Machine machine(noise);
@@ -83,7 +83,7 @@ TEST(SimulatedGates, FindASlowdownOf3PercentIn12Pairs) {
     Noise noise(11);
     int found = 0;
     for (int i = 0; i < kGates; ++i) {
-        const Outcome outcome = play(noise, 0.03, {});
+        const GateEnd outcome = play(noise, 0.03, {});
         found += outcome.verdict == Verdict::regressed && outcome.pairs == 12;
     }
     EXPECT_GE(found, kGates * 9 / 10);

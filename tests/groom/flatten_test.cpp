@@ -14,8 +14,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr auto kNoHole = [](std::uint32_t, std::uint32_t) { return false; };
-
 void expectKeepsOrientation(const Scalp& scalp) {
     const Flattening flattening = flatten(scalp);
     for (const auto& [i, j, k] : scalp.triangles) {

@@ -24,7 +24,7 @@ namespace {
 using testing::HasSubstr;
 
 // A float near 0.3 m is stored to 1.5e-8; a difference of two along three axes to about 5e-8.
-constexpr float kRounding = 1e-7f;
+constexpr float kPlaceRounding = 1e-7f;
 
 Groom grow(
     const Mesh& mesh, const GrowSettings& settings, std::uint32_t guides, std::uint32_t seed) {
@@ -210,7 +210,7 @@ TEST(Grow, MakesSegmentsEquallyLong) {
             for (std::uint32_t i = 0; i < 86; ++i) {
                 const auto strand = groom.strand(i);
                 for (std::size_t v = 1; v < vertices; ++v) {
-                    EXPECT_NEAR(glm::distance(strand[v - 1], strand[v]), length, kRounding);
+                    EXPECT_NEAR(glm::distance(strand[v - 1], strand[v]), length, kPlaceRounding);
                 }
             }
         }
@@ -227,7 +227,8 @@ TEST(Grow, FollowsTheNormalWithoutCombAndDroop) {
         EXPECT_GT(glm::dot(along, glm::normalize(strand[0])), 1.0f - 1e-4f);
         for (std::size_t v = 1; v < 7; ++v) {  // straight
             const float part = static_cast<float>(v) / 7.0f;
-            EXPECT_LT(glm::distance(strand[v], glm::mix(strand[0], strand[7], part)), kRounding);
+            EXPECT_LT(
+                glm::distance(strand[v], glm::mix(strand[0], strand[7], part)), kPlaceRounding);
         }
     }
 }

@@ -17,8 +17,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr auto kNoHole = [](std::uint32_t, std::uint32_t) { return false; };
-
 TEST(Scalp, TakesOnlyItsMaterial) {
     const Scalp scalp =
         extractScalp(makeCap({.opening = 1.2f, .hairline = 0.75f, .rings = 8, .sectors = 12}));

@@ -7,6 +7,8 @@
 
 namespace hair::groom {
 
+inline constexpr auto kNoHole = [](std::uint32_t, std::uint32_t) { return false; };
+
 // The part of a sphere round `centre` up to `opening` from +y, its apex a vertex, in rings of
 // `sectors` vertices; outer triangles beyond `hairline` are skin, the rest scalp. Angles in
 // radians; exact normals.

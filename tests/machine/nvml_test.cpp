@@ -15,7 +15,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr PciAddress kAddress{.domain = 0, .bus = 0x65, .device = 0, .function = 0};
+constexpr PciAddress kNvidiaAddress{.domain = 0, .bus = 0x65, .device = 0, .function = 0};
 constexpr int kNotSupported = 3;  // NVML_ERROR_NOT_SUPPORTED
 constexpr int kUnknown = 999;     // NVML_ERROR_UNKNOWN
 
@@ -37,7 +37,7 @@ public:
     ~Fake() { dlclose(library_); }
 
     FakeNvml* operator->() const { return state_; }
-    std::unique_ptr<ClockSource> open() const { return openNvml(kAddress, path_); }
+    std::unique_ptr<ClockSource> open() const { return openNvml(kNvidiaAddress, path_); }
     ClockReading read() const { return open()->read(); }
 
 private:
@@ -47,11 +47,11 @@ private:
 };
 
 TEST(Nvml, IsAbsentWithoutItsLibrary) {
-    EXPECT_EQ(openNvml(kAddress, "libhairbench-no-such-library.so.1"), nullptr);
+    EXPECT_EQ(openNvml(kNvidiaAddress, "libhairbench-no-such-library.so.1"), nullptr);
 }
 
 TEST(Nvml, IsAbsentIfALibraryOfThatNameIsSomethingElse) {
-    EXPECT_EQ(openNvml(kAddress, "libc.so.6"), nullptr);
+    EXPECT_EQ(openNvml(kNvidiaAddress, "libc.so.6"), nullptr);
 }
 
 TEST(Nvml, IsAbsentWithoutADriver) {

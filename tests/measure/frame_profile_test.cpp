@@ -12,12 +12,12 @@ using testing::ElementsAre;
 using testing::Pointwise;
 
 // Rounds of 1, 3 and 1.5 times a profile: by the median round, 1.5, they are 2/3, 2 and 1.
-const RoundTimes kRounds{{2.0, 6.0, 4.0}, {6.0, 18.0, 12.0}, {3.0, 9.0, 6.0}};
+const RoundTimes kSlowerAndFaster{{2.0, 6.0, 4.0}, {6.0, 18.0, 12.0}, {3.0, 9.0, 6.0}};
 
 TEST(FrameProfile, IsWhatAllRoundsShare) {
     const double low = 2.0 / 3.0;
     EXPECT_THAT(
-        withoutProfile(kRounds),
+        withoutProfile(kSlowerAndFaster),
         Pointwise(DoubleEq(), std::vector{low, low, low, 2.0, 2.0, 2.0, 1.0, 1.0, 1.0}));
 }
 
@@ -31,7 +31,7 @@ TEST(FrameProfile, TakesTimesOfNothingForEqual) {
 }
 
 TEST(FrameProfile, LeavesALevelToEachRound) {
-    EXPECT_THAT(roundLevels(kRounds), ElementsAre(DoubleEq(2.0 / 3.0), 2.0, 1.0));
+    EXPECT_THAT(roundLevels(kSlowerAndFaster), ElementsAre(DoubleEq(2.0 / 3.0), 2.0, 1.0));
 }
 
 TEST(FrameProfile, StringsRoundsTogether) {

@@ -10,8 +10,6 @@
 namespace hair::rendering {
 namespace {
 
-constexpr float kUlp = 0x1p-24f;  // rounding of a float, relative
-
 class CurveTest : public GpuTest {
 protected:
     static StrandPoints evaluate(const groom::Groom& groom, const StrandSettings& strands) {

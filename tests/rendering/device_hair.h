@@ -16,6 +16,10 @@
 
 namespace hair::rendering {
 
+inline constexpr double kTurn = 2.0 * std::numbers::pi;
+
+inline constexpr float kUlp = 0x1p-24f;  // rounding of a float, relative
+
 // Contacts as a simulation could mark them, [guide][vertex]: two guides of three touch a body, each
 // somewhere else, and what is below is marked too.
 inline std::vector<bool> madeUpContacts(const groom::Groom& groom) {

@@ -11,11 +11,11 @@
 namespace hair::rendering {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(FiberAverages, AreAllOfTheLightOfAWhiteFiber) {
     for (const float n : kRoughnesses) {
-        for (const double theta : {0.0, 0.6, 1.3, kPi / 2}) {
+        for (const double theta : {0.0, 0.6, 1.3, pi / 2}) {
             const FiberAverages white = averageOverFiber(makeFiber(whiteFiber(0.3f, n)), theta);
             EXPECT_NEAR(white.forward.g + white.backward.g, 1, 1e-9) << n << ' ' << theta;
             const FiberAverages brown = averageOverFiber(makeFiber(brownFiber()), theta);

@@ -13,7 +13,7 @@
 namespace hair::rendering {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 double inclination(const glm::dvec3& w) { return std::asin(w.x); }
 
@@ -163,7 +163,7 @@ TEST(DualScattering, ScattersWhatComesThroughOthersAsARandomWalk) {
     const glm::dvec3 wi = direction(std::sin(theta_i), 0);
     for (const double sin_theta_o : {-0.7, -0.2, 0.5}) {
         const auto eye = [&](std::uint32_t i) {
-            return direction(sin_theta_o, i * 2 * kPi / kAround);
+            return direction(sin_theta_o, i * 2 * pi / kAround);
         };
         double scattered = 0;
         for (std::uint32_t i = 0; i < kAround; ++i) {

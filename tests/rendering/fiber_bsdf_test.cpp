@@ -14,8 +14,8 @@
 namespace hair::rendering {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kSphere = 4 * kPi;
+using std::numbers::pi;
+constexpr double kSphere = 4 * pi;
 
 double mean(const glm::dvec3& color) { return (color.r + color.g + color.b) / 3; }
 
@@ -37,15 +37,15 @@ TEST(FiberFresnel, IsWhatIsWorkedOutByHand) {
 TEST(LongitudinalScattering, IntegratesToOne) {
     constexpr int kSteps = 4000;
     for (const double variance : {4e-4, 0.0065, 0.08, 0.1, 0.3, 2.0, 30.0, 110.0}) {
-        for (const double theta_o : {0.0, 0.7, -1.4, kPi / 2}) {
+        for (const double theta_o : {0.0, 0.7, -1.4, pi / 2}) {
             double sum = 0;
             for (int i = 0; i < kSteps; ++i) {
-                const double theta = ((i + 0.5) / kSteps - 0.5) * kPi;
-                sum += reference::longitudinal(theta, theta_o, variance) * std::cos(theta) * kPi /
+                const double theta = ((i + 0.5) / kSteps - 0.5) * pi;
+                sum += reference::longitudinal(theta, theta_o, variance) * std::cos(theta) * pi /
                        kSteps;
             }
             // The midpoint rule is wrong by step^2 / 24 times what f' changes by from pole to pole.
-            const double step = kPi / kSteps;
+            const double step = pi / kSteps;
             EXPECT_NEAR(sum, 1, 1.1 * step * step / 24 * (1 + 1 / variance) + 1e-9)
                 << variance << ' ' << theta_o;
         }
@@ -58,10 +58,10 @@ TEST(AzimuthalScattering, IntegratesToOneAndToItsCdf) {
         double sum = 0;
         for (int i = 0; i < kSteps; ++i) {
             if (i == kSteps / 4) {
-                EXPECT_NEAR(sum, trimmedLogisticCdf(-kPi / 2, scale), 1e-6) << scale;
+                EXPECT_NEAR(sum, trimmedLogisticCdf(-pi / 2, scale), 1e-6) << scale;
             }
-            const double x = ((i + 0.5) / kSteps * 2 - 1) * kPi;
-            sum += reference::trimmedLogistic(x, scale) * 2 * kPi / kSteps;
+            const double x = ((i + 0.5) / kSteps * 2 - 1) * pi;
+            sum += reference::trimmedLogistic(x, scale) * 2 * pi / kSteps;
         }
         EXPECT_NEAR(sum, 1, 1e-6) << scale;
     }
@@ -138,7 +138,7 @@ TEST(FiberSampling, ComesAsOftenAsItsDensitySays) {
 }
 
 TEST(FiberAttenuation, IsAllOfTheLightThatIsNotAbsorbed) {
-    for (const double theta : {0.0, 0.8, -1.5, kPi / 2}) {
+    for (const double theta : {0.0, 0.8, -1.5, pi / 2}) {
         for (const double h : {-1.0, -0.6, 0.0, 0.99}) {
             Fiber fiber = makeFiber(whiteFiber(0.3f, 0.3f));
             double white = 0;
@@ -205,7 +205,7 @@ TEST(FiberScattering, IsFiniteAtTheEdges) {
                 for (const double o : {-1.0, 0.3, 1.0}) {
                     for (const double i : {-1.0, 0.3, 1.0}) {
                         const double value =
-                            reference::scattering(fiber, direction(o, 0), direction(i, kPi), h).g;
+                            reference::scattering(fiber, direction(o, 0), direction(i, pi), h).g;
                         EXPECT_TRUE(std::isfinite(value)) << h << ' ' << o << ' ' << i;
                         EXPECT_GE(value, 0) << h << ' ' << o << ' ' << i;
                     }

@@ -19,7 +19,7 @@
 namespace hair::rendering {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // What shaders make of probes.
 class GpuFiberTest : public GpuTest {
@@ -61,11 +61,11 @@ protected:
         std::vector<gpu::FiberProbe> probes;
         for (std::uint32_t i = 0; i < count; ++i) {
             const auto u = [&](std::uint32_t number) { return double{random01(3, i, number)}; };
-            const glm::dvec3 wo = direction(2 * u(0) - 1, 2 * kPi * u(1));
+            const glm::dvec3 wo = direction(2 * u(0) - 1, 2 * pi * u(1));
             const double h = 2 * u(2) - 1;
             const glm::dvec3 wi =
                 i % 2 == 0
-                    ? direction(2 * u(3) - 1, 2 * kPi * u(4))
+                    ? direction(2 * u(3) - 1, 2 * pi * u(4))
                     : reference::sampleDirection(fiber, wo, h, std::array{u(3), u(4), u(5), u(6)});
             probes.push_back(asked(wo, wi, h, i % 8 < 2 ? 0 : 12 * u(7) * u(7)));
         }
@@ -90,7 +90,7 @@ TEST_F(GpuFiberTest, HoldsInTheWhiteFurnace) {
             double sum = 0;
             for (const gpu::FiberProbe& answer : probe(whiteFiber(m, n), probes))
                 sum += answer.bsdf.g;
-            const double scattered = sum * 4 * kPi / static_cast<double>(probes.size());
+            const double scattered = sum * 4 * pi / static_cast<double>(probes.size());
             EXPECT_GT(scattered, 0.95) << m << ' ' << n;
             EXPECT_LT(scattered, 1.05) << m << ' ' << n;
         }
@@ -190,7 +190,7 @@ TEST_F(GpuFiberTest, IsFiniteAtTheEdges) {
     for (const double h : {-1.0, 0.0, 0.5, 1.0})
         for (const double o : {-1.0, -0.9999999, 0.3, 1.0})
             for (const double i : {-1.0, -0.3, 0.9999999, 1.0})
-                for (const double phi : {0.0, kPi / 2, kPi})
+                for (const double phi : {0.0, pi / 2, pi})
                     for (const double strands : {0.0, 1e-9, 0.5, 1e4})
                         probes.push_back(asked(direction(o, 0), direction(i, phi), h, strands));
     for (const float roughness : {0.05f, 0.3f, 1.0f}) {

@@ -15,7 +15,7 @@
 namespace hair::rendering {
 namespace {
 
-constexpr double kTolerance = 20 * 0x1p-24 * 1.5 * 2.0;  // as in strand_points_test.cpp
+constexpr double kStrandTolerance = 20 * 0x1p-24 * 1.5 * 2.0;  // as in strand_points_test.cpp
 
 // Every third strand is a guide bound to itself.
 groom::Groom boundGroom(std::uint32_t vertices, std::uint32_t strands) {
@@ -107,8 +107,8 @@ TEST_F(GroomStrandsTest, AreTheSumsOfTheirGuides) {
             const auto& record = points.at(0, strand, i / 5, i % 5);
             const reference::Point point =
                 reference::pointOnStrand(expected, settings, 0, 0, i / 5, t);
-            ASSERT_LT(glm::distance(glm::dvec3(record.position), point.position), kTolerance);
-            ASSERT_LT(glm::distance(glm::dvec3(record.tangent), point.tangent), kTolerance);
+            ASSERT_LT(glm::distance(glm::dvec3(record.position), point.position), kStrandTolerance);
+            ASSERT_LT(glm::distance(glm::dvec3(record.tangent), point.tangent), kStrandTolerance);
             const double width = widthAt(groom, bindings[strand], i / 5, t);
             ASSERT_NEAR(record.width, width, 10 * 0x1p-24 * 1e-3);  // sums of 6 below 1 mm
         }

@@ -14,7 +14,7 @@
 namespace hair::rendering {
 namespace {
 
-constexpr double kTolerance = 20 * 0x1p-24 * 1.5 * 2.0;  // as in expect_near_reference.h
+constexpr double kNearReference = 20 * 0x1p-24 * 1.5 * 2.0;  // as in expect_near_reference.h
 
 class InterpolationTest : public GpuTest {
 protected:
@@ -84,7 +84,7 @@ TEST_F(InterpolationTest, RootsAreTheSame) {
                     glm::distance(
                         points.at(i / 50, i % 50, 0, 0).position,
                         expected.at(i / 50, i % 50, 0, 0).position),
-                    kTolerance);
+                    kNearReference);
             }
         }
     }
@@ -109,7 +109,8 @@ TEST_F(InterpolationTest, GuidesHaveEqualTerritories) {
         followers += along;
         // The nearest corner is the one that weighs most: the triangle is equilateral.
         for (int axis = 0; axis < 3; ++axis) {
-            ASSERT_GE(glm::dot(along, glm::dvec3(root.position)), root.position[axis] - kTolerance);
+            ASSERT_GE(
+                glm::dot(along, glm::dvec3(root.position)), root.position[axis] - kNearReference);
         }
     }
     for (int axis = 0; axis < 3; ++axis)
@@ -132,7 +133,7 @@ TEST_F(InterpolationTest, TurnsWithTheGuides) {
         for (std::size_t i = 0; i < before.records.size(); ++i) {
             ASSERT_LT(
                 glm::distance(turn * before.records[i].position, after.records[i].position),
-                2 * kTolerance);
+                2 * kNearReference);
         }
     }
 }

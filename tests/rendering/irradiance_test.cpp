@@ -17,7 +17,7 @@
 namespace hair::rendering {
 namespace {
 
-const glm::dvec3 kAxis = glm::normalize(glm::dvec3(0.3, 0.8, -0.5));
+const glm::dvec3 kTilted = glm::normalize(glm::dvec3(0.3, 0.8, -0.5));
 
 // Real harmonics by their definition (Ramamoorthi and Hanrahan 2001, eq. 3), with the constants as
 // square roots.
@@ -55,11 +55,11 @@ TEST(Irradiance, OfSmoothLightIsExact) {
     for (const double turn : {0.0, 0.5, -2.0}) {
         const auto harmonics = irradianceHarmonics(
             environmentOf([](const glm::dvec3& d) {
-                const double x = glm::dot(d, kAxis);
+                const double x = glm::dot(d, kTilted);
                 return 1 + 0.4 * x + 0.5 * legendre2(x);
             }),
             turn);
-        const glm::dvec3 axis = turned(kAxis, turn);
+        const glm::dvec3 axis = turned(kTilted, turn);
         for (const glm::dvec3& n : someDirections()) {
             const double x = glm::dot(n, axis);
             EXPECT_NEAR(
@@ -74,10 +74,10 @@ TEST(Irradiance, OfSmoothLightIsExact) {
 // leave out is -1/24 * -3/32 = 0.4 % in the other directions.
 TEST(Irradiance, OfACosineLobeIsWithinAPerCent) {
     const auto harmonics = irradianceHarmonics(
-        environmentOf([](const glm::dvec3& d) { return std::max(glm::dot(d, kAxis), 0.0); }), 0);
-    EXPECT_NEAR(irradianceAt(harmonics, kAxis), 2.0 / 3.0, 0.01 * 2.0 / 3.0);
+        environmentOf([](const glm::dvec3& d) { return std::max(glm::dot(d, kTilted), 0.0); }), 0);
+    EXPECT_NEAR(irradianceAt(harmonics, kTilted), 2.0 / 3.0, 0.01 * 2.0 / 3.0);
     for (const glm::dvec3& n : someDirections()) {
-        const double x = glm::dot(n, kAxis);
+        const double x = glm::dot(n, kTilted);
         EXPECT_NEAR(
             irradianceAt(harmonics, n), 0.25 + x / 3 + 5.0 / 64 * legendre2(x), kQuadrature);
     }

@@ -15,7 +15,6 @@ constexpr Rgb kRed{255, 0, 0};
 constexpr Rgb kGreen{0, 255, 0};
 constexpr Rgb kBlue{0, 0, 255};
 constexpr Rgb kGrey{100, 150, 200};
-constexpr Rgb kBackground{64, 38, 46};
 
 engine::Pixels picture(std::uint32_t width, const std::vector<Rgb>& colors, int opacity = 255) {
     engine::Pixels pixels{width, static_cast<std::uint32_t>(colors.size()) / width, {}};

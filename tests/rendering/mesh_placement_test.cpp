@@ -13,7 +13,6 @@ namespace hair::rendering {
 namespace {
 
 constexpr Rgb kWhite{255, 255, 255};
-constexpr Rgb kBackground{64, 38, 46};
 
 groom::Mesh white() { return quad({.base_color = {1, 1, 1}}); }
 

@@ -15,7 +15,7 @@ using MeshShadowTest = GpuTest;
 constexpr float kHalf = 0.05f;  // m, of the square's side
 
 // Of the filter's weights, up to 49 of them, each of three roundings of 2^-24.
-constexpr float kRounding = 1e-5f;
+constexpr float kMapRounding = 1e-5f;
 
 // Round the origin, with this normal.
 groom::Mesh square(const glm::vec3& normal) {
@@ -82,7 +82,7 @@ void expectGeometry(
         // perspective from the distances here.
         const float filter = 2.0f * (settings.shading.shadows.softness + 0.5f) * kTexel;
         if (std::abs(outside) < filter) continue;
-        ASSERT_NEAR(paths[i].meshes, outside > 0.0f ? 1.0f : 0.0f, kRounding) << i;
+        ASSERT_NEAR(paths[i].meshes, outside > 0.0f ? 1.0f : 0.0f, kMapRounding) << i;
         ASSERT_EQ(paths[i].strands, 0.0f);
         ++(outside > 0.0f ? lit : unlit);
     }
@@ -113,7 +113,7 @@ TEST_F(MeshShadowTest, WhatIsBeforeTheSquareIsLit) {
     const Settings settings = meshShadows({.position = {0.1f, 0.2f, 1.0f}});
     for (const FoundPath& path :
          findPaths(device(), settings, bald(), {.head = &mesh}, grid(0.09f, 0.01f)))
-        ASSERT_NEAR(path.meshes, 1.0f, kRounding);
+        ASSERT_NEAR(path.meshes, 1.0f, kMapRounding);
 }
 
 // Flat surfaces don't shade themselves, however they are turned, up to 6 degrees to the light. A
@@ -147,7 +147,7 @@ TEST_F(MeshShadowTest, SurfacesShadeNotThemselvesButWhatIsCloseBehind) {
                 behind.push_back({place + 1.05f * (0.6f + turned) * kTexel * away, 0, normal});
             }
             for (const FoundPath& path : findPaths(device(), settings, bald(), {.head = &mesh}, on))
-                ASSERT_NEAR(path.meshes, 1.0f, kRounding) << degrees;
+                ASSERT_NEAR(path.meshes, 1.0f, kMapRounding) << degrees;
             for (const FoundPath& path :
                  findPaths(device(), settings, bald(), {.head = &mesh}, behind))
                 ASSERT_EQ(path.meshes, 0.0f) << degrees;
@@ -172,7 +172,7 @@ TEST_F(MeshShadowTest, StrandsOnASurfaceAreLit) {
         behind.push_back(on.back() + (3.0f + 1.5f + 0.1f) * kTexel * down);
     }
     for (const FoundPath& path : findPaths(device(), settings, bald(), {.head = &mesh}, on))
-        ASSERT_NEAR(path.meshes, 1.0f, kRounding);
+        ASSERT_NEAR(path.meshes, 1.0f, kMapRounding);
     for (const FoundPath& path : findPaths(device(), settings, bald(), {.head = &mesh}, behind))
         ASSERT_EQ(path.meshes, 0.0f);
 }

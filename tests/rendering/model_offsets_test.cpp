@@ -15,7 +15,6 @@
 namespace hair::rendering {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kTurns = 32.0;
 constexpr double kRadius = 0.004;
 constexpr double kAxis = 0.2;  // m

@@ -13,8 +13,6 @@
 namespace hair::rendering {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
-
 class OffsetStrandsTest : public GpuTest {
 protected:
     static StrandPoints evaluate(const groom::Groom& groom, const Settings& settings) {

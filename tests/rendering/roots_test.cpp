@@ -13,8 +13,6 @@
 namespace hair::rendering {
 namespace {
 
-constexpr float kUlp = 0x1p-24f;
-
 class RootsTest : public GpuTest {
 protected:
     // Roots of all strands, [triangle][strand].

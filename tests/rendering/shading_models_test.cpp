@@ -10,7 +10,7 @@ namespace hair::rendering {
 namespace {
 
 // Some ten roundings, of powers up to 50 times as many.
-constexpr double kRounding = 1e-4;
+constexpr double kModelRounding = 1e-4;
 
 glm::vec3 atDegrees(double from_z, double turn = 0.0) {
     const double a = from_z * std::numbers::pi / 180.0;
@@ -36,11 +36,11 @@ protected:
 TEST_F(ShadingModels, PhongIsThesisEquations5And6) {
     // Light 60 degrees from the normal, the eye in the mirrored direction: cos 60 and 1.
     const gpu::ModelProbe mirrored = probe(atDegrees(60), atDegrees(60, 180), 50.0f);
-    EXPECT_NEAR(mirrored.phong_diffuse, 0.5, kRounding);
-    EXPECT_NEAR(mirrored.phong_specular, 1.0, kRounding);
+    EXPECT_NEAR(mirrored.phong_diffuse, 0.5, kModelRounding);
+    EXPECT_NEAR(mirrored.phong_specular, 1.0, kModelRounding);
     // The eye 10 degrees off: cos(10)^50 = 0.98480775^50 = 0.465128.
     const gpu::ModelProbe off = probe(atDegrees(60), atDegrees(50, 180), 50.0f);
-    EXPECT_NEAR(off.phong_specular, 0.465128, kRounding);
+    EXPECT_NEAR(off.phong_specular, 0.465128, kModelRounding);
     // Light from behind.
     const gpu::ModelProbe behind = probe(atDegrees(120), atDegrees(60, 180), 50.0f);
     EXPECT_EQ(behind.phong_diffuse, 0.0f);
@@ -52,13 +52,15 @@ TEST_F(ShadingModels, PhongIsThesisEquations5And6) {
 TEST_F(ShadingModels, KajiyaKayIsTheirEquations) {
     for (const double turn : {0.0, 77.0, 180.0}) {  // the eye is anywhere on the cone
         const gpu::ModelProbe mirrored = probe(atDegrees(30), atDegrees(150, turn), 20.0f);
-        EXPECT_NEAR(mirrored.kajiya_kay_diffuse, 0.5, kRounding) << turn;  // sin 30
-        EXPECT_NEAR(mirrored.kajiya_kay_specular, 1.0, kRounding) << turn;
+        EXPECT_NEAR(mirrored.kajiya_kay_diffuse, 0.5, kModelRounding) << turn;  // sin 30
+        EXPECT_NEAR(mirrored.kajiya_kay_specular, 1.0, kModelRounding) << turn;
     }
     // 140 degrees: 10 off the cone; cos(10)^20 = 0.736257. Straight across, 60 off: 0.5^20.
     EXPECT_NEAR(
-        probe(atDegrees(30), atDegrees(140, 20), 20.0f).kajiya_kay_specular, 0.736257, kRounding);
-    EXPECT_NEAR(probe(atDegrees(30), atDegrees(90, 20), 2.0f).kajiya_kay_specular, 0.25, kRounding);
+        probe(atDegrees(30), atDegrees(140, 20), 20.0f).kajiya_kay_specular, 0.736257,
+        kModelRounding);
+    EXPECT_NEAR(
+        probe(atDegrees(30), atDegrees(90, 20), 2.0f).kajiya_kay_specular, 0.25, kModelRounding);
     // More than a right angle off: nothing.
     EXPECT_EQ(probe(atDegrees(30), atDegrees(40), 2.0f).kajiya_kay_specular, 0.0f);
     // Light along the strand, in whose length no light meets it.

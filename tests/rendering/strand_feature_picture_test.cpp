@@ -14,11 +14,11 @@ struct Feature {
     StrandSettings strands;
 };
 
-const StrandCurlSettings kCurl{.radius = 0.01f, .frequency = 40.0f};
+const StrandCurlSettings kThinCurl{.radius = 0.01f, .frequency = 40.0f};
 const StrandVariationSettings kVariation{.amplitude = 0.01f};
 
 const Feature kFeatures[] = {
-    {"curl", {.curl = kCurl}},
+    {"curl", {.curl = kThinCurl}},
     {"variation", {.variation = kVariation}},
     {"offsets", {.offsets = "a model"}},
     {"widths", {.width = WidthSource::groom}},
@@ -34,7 +34,7 @@ const Feature kFeatures[] = {
       .interpolation = Interpolation::mixed,
       .collision_rule = true,
       .width = WidthSource::groom,
-      .curl = kCurl,
+      .curl = kThinCurl,
       .variation = kVariation,
       .offsets = "a model",
       .curve = Curve::catmull_rom}},

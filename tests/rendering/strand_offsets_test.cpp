@@ -14,8 +14,6 @@
 namespace hair::rendering {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
-
 // Three parallel guides of this length, m.
 groom::Groom straight(double length) {
     std::vector<glm::vec3> guide;

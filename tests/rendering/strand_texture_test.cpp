@@ -7,12 +7,12 @@
 namespace hair::rendering {
 namespace {
 
-constexpr std::uint32_t kSide = 40;
+constexpr std::uint32_t kPictureSide = 40;
 
 class StrandTextureTest : public GpuTest {
 protected:
     static Settings wideStrand() {
-        Settings settings = quadSettings(kSide);
+        Settings settings = quadSettings(kPictureSide);
         settings.render.hair = true;
         settings.shading.specular = 0.0f;
         settings.shading.color = {1.0f, 1.0f, 1.0f};
@@ -44,8 +44,8 @@ protected:
     // In the middle of the texture's pixels, where linear filtering gives them alone. The strand is
     // half as wide as the picture.
     static Rgb shown(const Pixels& pixels, int column, int row) {
-        const auto x = static_cast<std::uint32_t>(3 * kSide / 4 - 5 - 10 * column);
-        return at(pixels, kSide, x, kSide - 5 - 10 * static_cast<std::uint32_t>(row));
+        const auto x = static_cast<std::uint32_t>(3 * kPictureSide / 4 - 5 - 10 * column);
+        return at(pixels, kPictureSide, x, kPictureSide - 5 - 10 * static_cast<std::uint32_t>(row));
     }
 };
 

@@ -13,7 +13,6 @@
 namespace hair::simulation {
 namespace {
 
-constexpr Solver kSolvers[] = {Solver::shape, Solver::ftl, Solver::rod};
 // Those whose whole state is positions and previous positions.
 constexpr Solver kSolversOfPositions[] = {Solver::shape, Solver::ftl};
 

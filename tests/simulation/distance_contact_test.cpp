@@ -55,7 +55,7 @@ protected:
     }
 };
 
-void expectPoint(const glm::dvec3& point, const glm::dvec3& expected) {
+void expectNear(const glm::dvec3& point, const glm::dvec3& expected) {
     EXPECT_LT(glm::distance(point, expected), kRounding)
         << point.x << " " << point.y << " " << point.z;
 }
@@ -159,9 +159,9 @@ TEST_F(DistanceContactTest, NothingBeyondTheGridTouches) {
 // The top face of a box, in a cell whose nearest face it is.
 TEST_F(DistanceContactTest, PushesOutToTheMarginAlongTheGradient) {
     const DistanceField field = box();
-    expectPoint(pushed(field, {0.125f, 0.875f, 0.25f}), {0.125, 1, 0.25});
-    expectPoint(pushed(field, {0.125f, 0.875f, 0.25f}, {}, {.margin = 0.1f}), {0.125, 1.1, 0.25});
-    expectPoint(pushed(field, {0.125f, 1.0625f, 0.25f}, {}, {.margin = 0.1f}), {0.125, 1.1, 0.25});
+    expectNear(pushed(field, {0.125f, 0.875f, 0.25f}), {0.125, 1, 0.25});
+    expectNear(pushed(field, {0.125f, 0.875f, 0.25f}, {}, {.margin = 0.1f}), {0.125, 1.1, 0.25});
+    expectNear(pushed(field, {0.125f, 1.0625f, 0.25f}, {}, {.margin = 0.1f}), {0.125, 1.1, 0.25});
     const glm::vec3 outside{0.125f, 1.125f, 0.25f};
     EXPECT_EQ(pushed(field, outside, {}, {.margin = 0.1f}), glm::dvec3(outside));
 }
@@ -172,10 +172,10 @@ TEST_F(DistanceContactTest, TakesBackWhatFrictionHolds) {
     const DistanceField field = box();
     const glm::vec3 inside{0.125f, 0.75f, 0.25f};
     const glm::vec3 before{0.125f, 1.0f, 0.05f};
-    expectPoint(pushed(field, inside, before, {.friction = 0.0f}), {0.125, 1, 0.25});
-    expectPoint(pushed(field, inside, before, {.friction = 0.5f}), {0.125, 1, 0.125});
-    expectPoint(pushed(field, inside, before, {.friction = 1.0f}), {0.125, 1, 0.05});
-    expectPoint(pushed(field, inside, before, {.friction = 9.0f}), {0.125, 1, 0.05});
+    expectNear(pushed(field, inside, before, {.friction = 0.0f}), {0.125, 1, 0.25});
+    expectNear(pushed(field, inside, before, {.friction = 0.5f}), {0.125, 1, 0.125});
+    expectNear(pushed(field, inside, before, {.friction = 1.0f}), {0.125, 1, 0.05});
+    expectNear(pushed(field, inside, before, {.friction = 9.0f}), {0.125, 1, 0.05});
 }
 
 // Five cells: the middle of the box is the middle of a cell whose corners are all 0.8 deep.
@@ -183,7 +183,7 @@ TEST_F(DistanceContactTest, LeavesThroughTheTopWhereNoWayIsShortest) {
     const DistanceField field(device(), makeBox({-1, -1, -1}, {1, 1, 1}), 5, 0.0f);
     const auto middle = probe(device(), field, {0, 0, 0}, {}, {.margin = 0.1f});
     EXPECT_NEAR(middle.distance, -0.8, kRounding);
-    expectPoint(middle.pushed, {0, 0.9, 0});
+    expectNear(middle.pushed, {0, 0.9, 0});
 }
 
 // The sampled distance is too large by the interpolation error. Along each axis the sampled slope

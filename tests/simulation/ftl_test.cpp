@@ -11,7 +11,7 @@
 namespace hair::simulation {
 namespace {
 
-glm::dvec3 stays(const glm::dvec3& position, const glm::dvec3&) { return position; }
+glm::dvec3 untouched(const glm::dvec3& position, const glm::dvec3&) { return position; }
 
 struct Strand {
     std::vector<glm::dvec3> rest;
@@ -23,7 +23,7 @@ struct Strand {
         reference::stepFtl(
             positions, previous, rest,
             {.accelerations = accelerations, .substep = h, .velocity_correction = correction},
-            stays);
+            untouched);
     }
 };
 

@@ -21,8 +21,6 @@
 namespace hair::simulation {
 namespace {
 
-constexpr Solver kSolvers[] = {Solver::shape, Solver::ftl, Solver::rod};
-
 class GpuPull : public GpuTest {
 protected:
     static engine::Buffer bufferOf(const std::vector<glm::vec3>& vectors, const char* name) {

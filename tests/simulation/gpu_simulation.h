@@ -8,6 +8,8 @@
 
 namespace hair::simulation {
 
+inline constexpr Solver kSolvers[] = {Solver::shape, Solver::ftl, Solver::rod};
+
 // Runs wind, hair against hair, hands and step `steps` times and waits.
 inline void advance(const engine::Device& device, Simulation& simulation, int steps) {
     device.runOnce([&](engine::Commands& commands) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr glm::vec3 kPivot{0.1f, -0.2f, 0.3f};
 // What points of size 1 differ by for roundings of double.
-constexpr double kRounding = 1e-13;
+constexpr double kDoubleRounding = 1e-13;
 
 // Turns and shifts at times that are no grid, with a halt and coordinates that rise and fall.
 MotionSettings wild() {
@@ -80,7 +80,8 @@ TEST(HeadMotion, HasTheOnlyKeyframesPoseAtAllTimes) {
         for (const double time : {0.0, 1.0, 5.5})
             for (const glm::dvec3& p : {glm::dvec3(1, 0, 0), glm::dvec3(0.3, -0.5, 2.0)})
                 EXPECT_LT(
-                    glm::distance(motion.at(time)(p), posed(settings.keyframes[0], p)), kRounding);
+                    glm::distance(motion.at(time)(p), posed(settings.keyframes[0], p)),
+                    kDoubleRounding);
     }
 }
 
@@ -89,7 +90,7 @@ TEST(HeadMotion, PassesThroughEveryKeyframe) {
         const HeadMotion motion(settings);
         for (const Keyframe& key : settings.keyframes)
             for (const glm::dvec3& p : {glm::dvec3(1, 0, 0), glm::dvec3(0.3, -0.5, 2.0)})
-                EXPECT_LT(glm::distance(motion.at(key.time)(p), posed(key, p)), kRounding)
+                EXPECT_LT(glm::distance(motion.at(key.time)(p), posed(key, p)), kDoubleRounding)
                     << key.time;
     }
 }
@@ -100,11 +101,11 @@ TEST(HeadMotion, TurnsTheWaysThatTheSettingsSay) {
     const auto turned = [](const glm::vec3& rotation, const glm::dvec3& p) {
         return HeadMotion({.keyframes = {{.rotation = rotation}}}).at(0.0)(p);
     };
-    EXPECT_LT(glm::distance(turned({90, 0, 0}, {0, 0, 1}), {0, -1, 0}), kRounding);
-    EXPECT_LT(glm::distance(turned({0, 90, 0}, {0, 0, 1}), {1, 0, 0}), kRounding);
-    EXPECT_LT(glm::distance(turned({0, 0, 90}, {0, 1, 0}), {-1, 0, 0}), kRounding);
+    EXPECT_LT(glm::distance(turned({90, 0, 0}, {0, 0, 1}), {0, -1, 0}), kDoubleRounding);
+    EXPECT_LT(glm::distance(turned({0, 90, 0}, {0, 0, 1}), {1, 0, 0}), kDoubleRounding);
+    EXPECT_LT(glm::distance(turned({0, 0, 90}, {0, 1, 0}), {-1, 0, 0}), kDoubleRounding);
     // Roll: +x to +y; pitch: +y to +z; yaw: +z to +x.
-    EXPECT_LT(glm::distance(turned({90, 90, 90}, {1, 0, 0}), {1, 0, 0}), kRounding);
+    EXPECT_LT(glm::distance(turned({90, 90, 90}, {1, 0, 0}), {1, 0, 0}), kDoubleRounding);
 }
 
 TEST(HeadMotion, KeepsThePivot) {
@@ -112,7 +113,7 @@ TEST(HeadMotion, KeepsThePivot) {
     for (Keyframe& key : settings.keyframes) key.translation = glm::vec3(0.0f);
     const HeadMotion motion(settings);
     for (double time = 0.0; time < 3.0; time += 0.01)
-        EXPECT_LT(glm::distance(motion.at(time)(kPivot), glm::dvec3(kPivot)), kRounding);
+        EXPECT_LT(glm::distance(motion.at(time)(kPivot), glm::dvec3(kPivot)), kDoubleRounding);
 }
 
 TEST(HeadMotion, RestsBeforeTheFirstAndAfterTheLastKeyframe) {
@@ -177,12 +178,12 @@ TEST(HeadMotion, GoesOnTurningThroughTheSeam) {
 TEST(HeadMotion, HoldsStillBetweenEqualPoses) {
     const HeadMotion motion(wild());
     for (double time = 1.75; time < 2.0; time += 0.01)
-        EXPECT_LT(difference(motion.at(time), motion.at(1.75)), kRounding);
+        EXPECT_LT(difference(motion.at(time), motion.at(1.75)), kDoubleRounding);
     const HeadMotion repeated(
         {.keyframes =
              {{.time = 0.0f, .rotation = {5, 6, 7}}, {.time = 1.0f, .rotation = {5, 6, 7}}},
          .repeat = true});
-    EXPECT_LT(difference(repeated.at(0.3), repeated.at(17.0)), kRounding);
+    EXPECT_LT(difference(repeated.at(0.3), repeated.at(17.0)), kDoubleRounding);
 }
 
 // Turned about one axis alone, the head never turns further than a keyframe.

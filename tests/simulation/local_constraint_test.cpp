@@ -14,7 +14,7 @@
 namespace hair::simulation {
 namespace {
 
-constexpr double kExact = 1e-13;  // rounding of double, m
+constexpr double kPositionRounding = 1e-13;  // rounding of double, m
 
 double difference(const glm::dmat3& a, const glm::dmat3& b) {
     return largestDifference(std::array{a[0], a[1], a[2]}, std::array{b[0], b[1], b[2]});
@@ -34,7 +34,7 @@ TEST(LocalConstraint, LeavesTheRestShapeAlone) {
     const auto rest = toDouble(wavyGroom(1, 12).points);
     auto points = rest;
     for (int i = 0; i < 100; ++i) reference::pullToShape(points, rest, 0.95);
-    EXPECT_LT(largestDifference(points, rest), kExact);
+    EXPECT_LT(largestDifference(points, rest), kPositionRounding);
 }
 
 // The whole head turns: the frames are its rotation, twist included, and nothing is pulled.
@@ -43,10 +43,10 @@ TEST(LocalConstraint, LeavesAStrandThatTurnsWithItsRootAlone) {
     const glm::dmat3 head = rotation(1.9, glm::normalize(glm::dvec3(1, 2, -1)));
     const auto points = turned(rest, head);
     for (const glm::dmat3& frame : reference::segmentFrames(points, rest, head))
-        EXPECT_LT(difference(frame, head), kExact);
+        EXPECT_LT(difference(frame, head), kPositionRounding);
     auto pulled = points;
     reference::pullToShape(pulled, rest, 0.95, head);
-    EXPECT_LT(largestDifference(pulled, points), kExact);
+    EXPECT_LT(largestDifference(pulled, points), kPositionRounding);
 }
 
 // The strand alone is bent at the root, without twist: only its first segment is out of place.
@@ -57,8 +57,9 @@ TEST(LocalConstraint, PullsOnlyTheFirstSegmentOfAStrandBentAtItsRoot) {
     const glm::dmat3 bend = rotation(0.8, axis);
     const auto points = turned(rest, bend);
     const auto frames = reference::segmentFrames(points, rest);
-    EXPECT_LT(difference(frames[0], glm::dmat3(1.0)), kExact);
-    for (std::size_t i = 1; i < frames.size(); ++i) EXPECT_LT(difference(frames[i], bend), kExact);
+    EXPECT_LT(difference(frames[0], glm::dmat3(1.0)), kPositionRounding);
+    for (std::size_t i = 1; i < frames.size(); ++i)
+        EXPECT_LT(difference(frames[i], bend), kPositionRounding);
 }
 
 // In a plane parallel transport is plain angles: a frame turns by the tangent's angle now minus at
@@ -76,7 +77,7 @@ TEST(LocalConstraint, TurnsFramesByTheAngleOfTheTangentInAPlane) {
     }
     const auto frames = reference::segmentFrames(points, rest);
     for (std::size_t i = 0; i < frames.size(); ++i)
-        EXPECT_LT(difference(frames[i], rotation(angles[i], {0, 0, 1})), kExact) << i;
+        EXPECT_LT(difference(frames[i], rotation(angles[i], {0, 0, 1})), kPositionRounding) << i;
 }
 
 // Frames turn rest tangents into current ones, and are rotations, in space as well.
@@ -88,8 +89,8 @@ TEST(LocalConstraint, TurnsRestTangentsIntoCurrentOnes) {
     for (std::size_t i = 1; i < points.size(); ++i) {
         const glm::dvec3 s = glm::normalize(rest[i] - rest[i - 1]);
         const glm::dvec3 t = glm::normalize(points[i] - points[i - 1]);
-        EXPECT_LT(glm::distance(frames[i] * s, t), kExact);
-        EXPECT_NEAR(glm::determinant(frames[i]), 1.0, kExact);
+        EXPECT_LT(glm::distance(frames[i] * s, t), kPositionRounding);
+        EXPECT_NEAR(glm::determinant(frames[i]), 1.0, kPositionRounding);
     }
 }
 
@@ -99,7 +100,7 @@ TEST(LocalConstraint, PullsASegmentAtThePinnedRootByTheWholeFactor) {
     std::vector<glm::dvec3> points{{0, 0, 0}, {2, 0, 1}};
     for (int i = 0; i < 3; ++i) reference::pullToShape(points, rest, 0.25);
     const glm::dvec3 expected = rest[1] + 0.421875 * (glm::dvec3(2, 0, 1) - rest[1]);
-    EXPECT_LT(glm::distance(points[1], expected), kExact);
+    EXPECT_LT(glm::distance(points[1], expected), kPositionRounding);
     EXPECT_EQ(points[0], rest[0]);
 }
 
@@ -109,8 +110,8 @@ TEST(LocalConstraint, SharesTheCorrectionBetweenFreeVertices) {
     const std::vector<glm::dvec3> rest{{0, 0, 0}, {0, 1, 0}, {0, 2, 0}};
     std::vector<glm::dvec3> points{{0, 0, 0}, {0, 1, 0}, {1, 1, 0}};
     reference::pullToShape(points, rest, 0.5);
-    EXPECT_LT(glm::distance(points[1], glm::dvec3(0.25, 0.75, 0)), kExact);
-    EXPECT_LT(glm::distance(points[2], glm::dvec3(0.75, 1.25, 0)), kExact);
+    EXPECT_LT(glm::distance(points[1], glm::dvec3(0.25, 0.75, 0)), kPositionRounding);
+    EXPECT_LT(glm::distance(points[2], glm::dvec3(0.75, 1.25, 0)), kPositionRounding);
 }
 
 TEST(LocalConstraint, TurnsHalfRoundWhereTangentsAreOpposite) {
@@ -120,8 +121,8 @@ TEST(LocalConstraint, TurnsHalfRoundWhereTangentsAreOpposite) {
     for (std::size_t i = 1; i < 4; ++i) {
         const glm::dvec3 s = glm::normalize(rest[i] - rest[i - 1]);
         const glm::dvec3 t = glm::normalize(folded[i] - folded[i - 1]);
-        EXPECT_LT(glm::distance(frames[i] * s, t), kExact) << i;
-        EXPECT_NEAR(glm::determinant(frames[i]), 1.0, kExact) << i;
+        EXPECT_LT(glm::distance(frames[i] * s, t), kPositionRounding) << i;
+        EXPECT_NEAR(glm::determinant(frames[i]), 1.0, kPositionRounding) << i;
     }
 }
 
@@ -140,9 +141,9 @@ TEST(LocalConstraint, SeesThroughSegmentsWithoutLength) {
         for (std::size_t i = static_cast<std::size_t>(at) + 1; i < 8; ++i) {
             const glm::dvec3 s = glm::normalize(rest[i] - rest[i - 1]);
             const glm::dvec3 t = glm::normalize(points[i] - points[i - 1]);
-            EXPECT_LT(glm::distance(more[i + 1] * s, t), kExact);
+            EXPECT_LT(glm::distance(more[i + 1] * s, t), kPositionRounding);
             if (at > 0) {
-                EXPECT_LT(difference(more[i + 1], frames[i]), kExact);
+                EXPECT_LT(difference(more[i + 1], frames[i]), kPositionRounding);
             }
         }
     }

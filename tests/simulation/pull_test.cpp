@@ -12,14 +12,14 @@
 namespace hair::simulation {
 namespace {
 
-constexpr double kExact = 1e-12;  // rounding of double
+constexpr double kPullRounding = 1e-12;  // rounding of double
 constexpr double kStep = 0.0625;  // s, without rounding
 
 void expectHand(
     const std::optional<Hand>& hand, const glm::dvec3& position, const glm::dvec3& velocity) {
     ASSERT_TRUE(hand);
-    EXPECT_LT(glm::distance(hand->position, position), kExact);
-    EXPECT_LT(glm::distance(hand->velocity, velocity), kExact);
+    EXPECT_LT(glm::distance(hand->position, position), kPullRounding);
+    EXPECT_LT(glm::distance(hand->velocity, velocity), kPullRounding);
 }
 
 TEST(Hand, GoesStraightBetweenItsKeys) {

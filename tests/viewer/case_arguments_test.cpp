@@ -17,8 +17,6 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string allOf(const hair::Settings& settings) { return scene::writeSettings(settings).dump(); }
-
 // The words that a POSIX shell makes of a command line.
 std::vector<std::string> words(const TemporaryFolder& folder, const std::string& line) {
     const auto script =

@@ -14,7 +14,7 @@
 namespace benchmarks::viewer {
 namespace {
 
-constexpr double kFrame = 1.0 / 60.0;  // s
+constexpr double kFrameTime = 1.0 / 60.0;  // s
 constexpr float kReach = 8.0f;         // px
 // Of pixels as floats, near a scale of 600 px a metre: 1e-4 px are 2e-7 m.
 constexpr float kMetres = 2e-6f;
@@ -124,7 +124,7 @@ TEST(HeadKeys, AscendAndHaveThePoseAtEveryFrameThatIsPlayed) {
     hair::MotionSettings motion;
     std::vector<HeadPose> wanted;
     const auto dragTo = [&](std::uint32_t frame, float x) {
-        moveHead(motion, momentAfter(frame, kFrame, kFrame), {{0, 0, 0}, {x, 0, 0}});
+        moveHead(motion, momentAfter(frame, kFrameTime, kFrameTime), {{0, 0, 0}, {x, 0, 0}});
     };
     // One frame for each picture of the window, then pictures without frames, then several frames.
     dragTo(10, 0.1f);
@@ -134,7 +134,7 @@ TEST(HeadKeys, AscendAndHaveThePoseAtEveryFrameThatIsPlayed) {
     dragTo(16, 0.4f);
     expectAscending(motion);
     const auto at = [&](std::uint32_t frame) {
-        const Moment moment = momentAfter(frame, kFrame, kFrame);
+        const Moment moment = momentAfter(frame, kFrameTime, kFrameTime);
         return headAt(motion, double{moment.now}).translation.x;
     };
     const std::pair<std::uint32_t, float> played[] = {{0, 0.0f},  {10, 0.0f}, {11, 0.1f},
@@ -154,13 +154,13 @@ TEST(HeadKeys, KeepWhereTheHeadWas) {
         nod.repeat = repeats;
         // Between keyframes, at the end of the first round and in the third.
         for (const std::uint32_t frame : {0u, 5u, 29u, 59u, 140u}) {
-            const Moment moment = momentAfter(frame, kFrame, kFrame);
-            const hair::MotionSettings until = motionUntil(nod, moment, kFrame);
+            const Moment moment = momentAfter(frame, kFrameTime, kFrameTime);
+            const hair::MotionSettings until = motionUntil(nod, moment, kFrameTime);
             EXPECT_FALSE(until.repeat);
             expectAscending(until);
             const hair::simulation::HeadMotion before(nod), after(until);
             for (std::uint32_t i = 0; i <= frame; ++i) {
-                const double time = (i + 1.0) * kFrame;
+                const double time = (i + 1.0) * kFrameTime;
                 const hair::simulation::RigidMotion a = before.at(time), b = after.at(time);
                 // A thousandth of a degree, or a keyframe's float of time at 1.7 m/s.
                 EXPECT_NEAR(std::abs(glm::dot(a.rotation, b.rotation)), 1.0, 1e-9);
@@ -178,7 +178,9 @@ TEST(HeadKeys, KeepWhereTheHeadWas) {
 TEST(HeadKeys, StayFewWhereTheMotionHadEnded) {
     const hair::MotionSettings motion{
         .keyframes = {{0.0f, {0, 0, 0}, {0, 0, 0}}, {0.5f, {30, 0, 0}, {0, 0, 0}}}};
-    EXPECT_EQ(motionUntil(motion, momentAfter(100, kFrame, kFrame), kFrame).keyframes.size(), 3u);
+    EXPECT_EQ(
+        motionUntil(motion, momentAfter(100, kFrameTime, kFrameTime), kFrameTime).keyframes.size(),
+        3u);
 }
 
 TEST(ColliderHandles, MoveTheColliderByWhatIsDragged) {

@@ -19,7 +19,7 @@ constexpr float kPixels = 1e-3f;
 
 const PictureRect kRect{{100.0f, 50.0f}, {900.0f, 600.0f}};
 
-hair::CameraSettings camera() {
+hair::CameraSettings lookingDown() {
     hair::CameraSettings camera;
     camera.position = {0.3f, 0.2f, 0.6f};
     camera.target = {0.0f, 0.1f, 0.0f};
@@ -34,7 +34,7 @@ hair::RenderSettings render() {
     return render;
 }
 
-PictureView view() { return {camera(), render(), kRect}; }
+PictureView view() { return {lookingDown(), render(), kRect}; }
 
 // From straight ahead, so that what is where can be said without matrices: 90 degrees show 1 m
 // above and below at a distance of 1 m.

@@ -9,7 +9,7 @@ namespace benchmarks::viewer {
 namespace {
 
 // Corners are sums of a few floats of up to some thousand px, which are exact to 2^-12 or so.
-constexpr float kTolerance = 0.01f;  // px
+constexpr float kPixelTolerance = 0.01f;  // px
 
 const glm::vec2 kRooms[] = {{1600, 900}, {900, 1600}, {640, 641},      {300, 1200},
                             {40, 30},    {2000, 20},  {500.5f, 333.3f}};
@@ -18,14 +18,14 @@ const glm::vec2 kPictures[] = {{1280, 720}, {720, 1280}, {64, 64}, {1, 1}, {8192
 glm::vec2 endOf(const PictureRect& rect) { return rect.corner + rect.size; }
 
 void expectInside(const PictureRect& inner, const PictureRect& outer) {
-    EXPECT_GE(inner.corner.x, outer.corner.x - kTolerance);
-    EXPECT_GE(inner.corner.y, outer.corner.y - kTolerance);
-    EXPECT_LE(endOf(inner).x, endOf(outer).x + kTolerance);
-    EXPECT_LE(endOf(inner).y, endOf(outer).y + kTolerance);
+    EXPECT_GE(inner.corner.x, outer.corner.x - kPixelTolerance);
+    EXPECT_GE(inner.corner.y, outer.corner.y - kPixelTolerance);
+    EXPECT_LE(endOf(inner).x, endOf(outer).x + kPixelTolerance);
+    EXPECT_LE(endOf(inner).y, endOf(outer).y + kPixelTolerance);
 }
 
 void expectMiddle(float from, float to, const PictureRect& room, int axis) {
-    EXPECT_NEAR(from + to, room.corner[axis] * 2 + room.size[axis], 2 * kTolerance);
+    EXPECT_NEAR(from + to, room.corner[axis] * 2 + room.size[axis], 2 * kPixelTolerance);
 }
 
 TEST(ArrangeOne, FillsTheRoomAlongOneAxisInTheMiddle) {
@@ -35,8 +35,8 @@ TEST(ArrangeOne, FillsTheRoomAlongOneAxisInTheMiddle) {
             const PictureRect rect = arrangeOne(room, pixels, {}).picture;
             expectInside(rect, room);
             EXPECT_TRUE(
-                std::abs(rect.size.x - size.x) < kTolerance ||
-                std::abs(rect.size.y - size.y) < kTolerance);
+                std::abs(rect.size.x - size.x) < kPixelTolerance ||
+                std::abs(rect.size.y - size.y) < kPixelTolerance);
             EXPECT_NEAR(rect.size.x / pixels.x, rect.size.y / pixels.y, 1e-4f * rect.size.x);
             for (const int axis : {0, 1})
                 expectMiddle(rect.corner[axis], endOf(rect)[axis], room, axis);
@@ -59,8 +59,8 @@ TEST(ArrangeTwo, KeepsOneScaleAndTheGapAndTheMiddle) {
                 EXPECT_NEAR(second.picture.size.x, b.x * scale, tolerance);
                 EXPECT_NEAR(second.picture.size.y, b.y * scale, tolerance);
                 const glm::vec2 apart = second.picture.corner - endOf(first.picture);
-                const int along = std::abs(apart.x - kGap) < kTolerance ? 0 : 1;
-                EXPECT_NEAR(apart[along], kGap, kTolerance);
+                const int along = std::abs(apart.x - kGap) < kPixelTolerance ? 0 : 1;
+                EXPECT_NEAR(apart[along], kGap, kPixelTolerance);
                 expectMiddle(
                     first.picture.corner[along], endOf(second.picture)[along], room, along);
             }
@@ -90,7 +90,7 @@ TEST(ArrangeTwo, GivesMagnifiedPicturesPanesThatDoNotOverlap) {
     EXPECT_EQ(b.picture.size, pixels[1] * 4.0f);
     const bool across = b.pane.corner.y == a.pane.corner.y;
     const int along = across ? 0 : 1;
-    EXPECT_NEAR(b.pane.corner[along] - endOf(a.pane)[along], 8.0f, kTolerance);
+    EXPECT_NEAR(b.pane.corner[along] - endOf(a.pane)[along], 8.0f, kPixelTolerance);
     EXPECT_EQ(a.pane.size, b.pane.size);
     expectInside(a.pane, room);
     expectInside(b.pane, room);

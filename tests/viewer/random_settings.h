@@ -7,8 +7,14 @@
 #include <random>
 #include <string>
 
+#include "benchmarks/scene/settings_json.h"
 #include "hair/fields.h"
 #include "hair/settings.h"
+
+// All settings as text, to compare.
+inline std::string allOf(const hair::Settings& settings) {
+    return benchmarks::scene::writeSettings(settings).dump();
+}
 
 // Settings of which a few members are others than the defaults, each with a value that its row of
 // the tables allows: bounds, numbers without a short decimal, texts that need quoting, lists.

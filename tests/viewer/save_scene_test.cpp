@@ -17,7 +17,6 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 // Every member; floats by their shortest decimal, which is another one for other bits.
-std::string allOf(const hair::Settings& settings) { return scene::writeSettings(settings).dump(); }
 
 std::size_t longestLine(const std::string& text) {
     std::size_t longest = 0;

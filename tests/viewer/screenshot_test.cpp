@@ -14,8 +14,8 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const std::vector<std::uint8_t> kPixels{255, 0, 0, 255, 0,   255, 0,  128,
-                                        0,   0, 1, 0,   255, 255, 90, 7};
+const std::vector<std::uint8_t> kFourPixels{255, 0, 0, 255, 0,   255, 0,  128,
+                                            0,   0, 1, 0,   255, 255, 90, 7};
 constexpr const char* kScene = "{ \"description\": \"größer\", \"seed\": 7 }\n";
 
 std::string fromHex(const std::string& hex) {
@@ -44,7 +44,7 @@ const std::string kInternational = fromHex(
 class Screenshot : public testing::Test {
 protected:
     std::filesystem::path shot() const {
-        writeScreenshot(folder_.file("a.png"), 2, 2, kPixels, kScene);
+        writeScreenshot(folder_.file("a.png"), 2, 2, kFourPixels, kScene);
         return folder_.file("a.png");
     }
 
@@ -61,7 +61,7 @@ protected:
 
 TEST_F(Screenshot, HasThePictureAndTheScene) {
     const auto path = shot();
-    EXPECT_EQ(engine::readImage(path).rgba, kPixels);
+    EXPECT_EQ(engine::readImage(path).rgba, kFourPixels);
     EXPECT_EQ(scene::sceneOfScreenshot(path), kScene);
 }
 
@@ -81,7 +81,7 @@ TEST_F(Screenshot, KeepsItsSceneInOtherKindsOfText) {
 
 TEST_F(Screenshot, MayHaveNoScene) {
     EXPECT_EQ(sceneIn(pngWith("")), std::nullopt);
-    engine::writePng(folder_.file("c.png"), 2, 2, kPixels);
+    engine::writePng(folder_.file("c.png"), 2, 2, kFourPixels);
     EXPECT_EQ(scene::sceneOfScreenshot(folder_.file("c.png")), std::nullopt);
     EXPECT_EQ(
         folder_.relative(errorText([&] { scene::loadScene(folder_.file("c.png")); })),

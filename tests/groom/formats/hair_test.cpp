@@ -35,13 +35,13 @@ std::string fileWith(std::uint32_t arrays) {
     return bytes.str();
 }
 
-StrandSet read(const std::string& bytes) { return readText(importHair, bytes); }
-std::string error(const std::string& bytes) { return readError(importHair, bytes); }
+StrandSet readHair(const std::string& bytes) { return readText(importHair, bytes); }
+std::string errorOfHair(const std::string& bytes) { return readError(importHair, bytes); }
 
 TEST(ImportHair, ReadsEveryArray) {
     const std::string bytes = fileWith(31);
     ASSERT_EQ(bytes.size(), 128u + 2 * 2 + 5 * (12 + 4 + 4 + 12));
-    const StrandSet strands = read(bytes);
+    const StrandSet strands = readHair(bytes);
     EXPECT_THAT(strands.ends, ElementsAre(3, 5));
     EXPECT_THAT(
         strands.points, ElementsAre(
@@ -61,10 +61,10 @@ TEST(ImportHair, TakesTheHeadersValueWhereAnArrayIsAbsent) {
         SCOPED_TRACE(arrays);
         if ((arrays & kPoints) == 0) {
             EXPECT_THAT(
-                error(fileWith(arrays)), AllOf(StartsWith("byte 12: "), HasSubstr("bit 1")));
+                errorOfHair(fileWith(arrays)), AllOf(StartsWith("byte 12: "), HasSubstr("bit 1")));
             continue;
         }
-        const StrandSet strands = read(fileWith(arrays));
+        const StrandSet strands = readHair(fileWith(arrays));
         EXPECT_EQ(strands.ends, arrays & kSegments ? std::vector({3u, 5u}) : std::vector({3u, 6u}));
         const std::size_t points = strands.ends.back();
         EXPECT_EQ(strands.points.size(), points);
@@ -80,18 +80,19 @@ TEST(ImportHair, TakesTheHeadersValueWhereAnArrayIsAbsent) {
 
 TEST(ImportHair, ReadsStrandsOfOnePointAndInfoWithoutAnEnd) {
     std::string bytes = patched(fileWith(kPoints), 4, 6);  // six strands
-    EXPECT_THAT(error(bytes), HasSubstr("6 strands of 2 segments have 18"));
+    EXPECT_THAT(errorOfHair(bytes), HasSubstr("6 strands of 2 segments have 18"));
     bytes = patched(bytes, 16, 0);
     bytes.replace(40, 88, std::string(88, 'x'));
-    const StrandSet strands = read(bytes);
+    const StrandSet strands = readHair(bytes);
     EXPECT_THAT(strands.ends, ElementsAre(1, 2, 3, 4, 5, 6));
     EXPECT_EQ(strands.comment, std::string(88, 'x'));
 }
 
 TEST(ImportHair, KnowsNoWidthsWhereTheDefaultIsZero) {
-    EXPECT_FALSE(read(patched(fileWith(kPoints), 20, 0.0f)).widths.known());
+    EXPECT_FALSE(readHair(patched(fileWith(kPoints), 20, 0.0f)).widths.known());
     EXPECT_THAT(
-        error(patched(fileWith(kPoints), 20, -1.0f)), "byte 20: the default thickness is negative");
+        errorOfHair(patched(fileWith(kPoints), 20, -1.0f)),
+        "byte 20: the default thickness is negative");
 }
 
 TEST(ImportHair, RefusesEveryTruncationAndMoreBytes) {
@@ -99,50 +100,51 @@ TEST(ImportHair, RefusesEveryTruncationAndMoreBytes) {
         const std::string bytes = fileWith(arrays);
         for (std::size_t size = 0; size < bytes.size(); ++size) {
             EXPECT_THAT(
-                error(bytes.substr(0, size)),
+                errorOfHair(bytes.substr(0, size)),
                 StartsWith("byte " + std::to_string(size) + ": truncated"));
         }
         EXPECT_EQ(
-            error(bytes + "xyz"),
+            errorOfHair(bytes + "xyz"),
             "byte " + std::to_string(bytes.size()) + ": 3 trailing bytes after the last array");
     }
 }
 
 TEST(ImportHair, RefusesWrongHeaders) {
     const std::string bytes = fileWith(31);
-    EXPECT_THAT(error(patched(bytes, 3, 'r')), StartsWith("byte 0: "));
+    EXPECT_THAT(errorOfHair(patched(bytes, 3, 'r')), StartsWith("byte 0: "));
     for (const std::size_t count : {4u, 8u}) {
         for (const std::uint32_t wrong : kWrongCounts)
-            EXPECT_THAT(error(patched(bytes, count, wrong)), StartsWith("byte "));
+            EXPECT_THAT(errorOfHair(patched(bytes, count, wrong)), StartsWith("byte "));
         for (int bit = 0; bit < 32; ++bit) {
             const std::uint32_t right = count == 4 ? 2 : 5;
-            EXPECT_THAT(error(patched(bytes, count, right ^ 1u << bit)), StartsWith("byte "));
+            EXPECT_THAT(errorOfHair(patched(bytes, count, right ^ 1u << bit)), StartsWith("byte "));
         }
     }
-    EXPECT_EQ(error(patched(bytes, 4, 0)), "byte 4: 0 strands, at least 1 is needed");
+    EXPECT_EQ(errorOfHair(patched(bytes, 4, 0)), "byte 4: 0 strands, at least 1 is needed");
     EXPECT_EQ(
-        error(patched(bytes, 4, -1)),
+        errorOfHair(patched(bytes, 4, -1)),
         "byte 292: truncated: 4294967295 strands and 5 points with arrays 31 are 8589934878 bytes");
     for (const std::uint32_t wrong : {0u, 1u, 30u, 32u, 63u, 0x80000002u, 0xffffffffu})
-        EXPECT_THAT(error(patched(bytes, 12, wrong)), StartsWith("byte ")) << wrong;
-    EXPECT_EQ(error(patched(bytes, 12, 63)), "byte 12: arrays 63: only the bits 0 to 4 are known");
-    // Of use only without segments.
-    EXPECT_EQ(error(patched(bytes, 16, -1)), "no error");
+        EXPECT_THAT(errorOfHair(patched(bytes, 12, wrong)), StartsWith("byte ")) << wrong;
     EXPECT_EQ(
-        error(patched(fileWith(kPoints), 16, -1)),
+        errorOfHair(patched(bytes, 12, 63)), "byte 12: arrays 63: only the bits 0 to 4 are known");
+    // Of use only without segments.
+    EXPECT_EQ(errorOfHair(patched(bytes, 16, -1)), "no error");
+    EXPECT_EQ(
+        errorOfHair(patched(fileWith(kPoints), 16, -1)),
         "byte 8: 6 points, but 2 strands of 4294967295 segments have 8589934592");
 }
 
 TEST(ImportHair, RefusesSegmentsThatAreNotThePoints) {
     const std::string bytes = fileWith(31);
     EXPECT_EQ(
-        error(patched<std::uint16_t>(bytes, 128, 1)),
+        errorOfHair(patched<std::uint16_t>(bytes, 128, 1)),
         "byte 8: 5 points, but the strands' segments make 4");
     EXPECT_EQ(
-        error(patched<std::uint16_t>(bytes, 128, 65535)),
+        errorOfHair(patched<std::uint16_t>(bytes, 128, 65535)),
         "byte 128: strand 0 ends after point 65536, there are 5");
     EXPECT_EQ(
-        error(patched<std::uint16_t>(bytes, 130, 2)),
+        errorOfHair(patched<std::uint16_t>(bytes, 130, 2)),
         "byte 130: strand 1 ends after point 6, there are 5");
 }
 
@@ -152,21 +154,22 @@ TEST(ImportHair, RefusesNumbersThatAreNotFinite) {
     for (const float wrong : kNotFinite) {
         for (std::size_t at = kStart; at < bytes.size(); at += 4) {
             EXPECT_THAT(
-                error(patched(bytes, at, wrong)),
+                errorOfHair(patched(bytes, at, wrong)),
                 AllOf(StartsWith("byte " + std::to_string(at) + ": "), HasSubstr("not finite")));
         }
         for (std::size_t at = 20; at < 40; at += 4) {
-            EXPECT_EQ(error(patched(bytes, at, wrong)), "no error");  // not of use
+            EXPECT_EQ(errorOfHair(patched(bytes, at, wrong)), "no error");  // not of use
             EXPECT_THAT(
-                error(patched(fileWith(kPoints), at, wrong)),
+                errorOfHair(patched(fileWith(kPoints), at, wrong)),
                 AllOf(
                     StartsWith("byte " + std::to_string(at) + ": the default "),
                     HasSubstr("not finite")));
         }
     }
-    EXPECT_EQ(error(patched(bytes, kStart + 4, kNotFinite[0])), "byte 136: point 0 is not finite");
+    EXPECT_EQ(
+        errorOfHair(patched(bytes, kStart + 4, kNotFinite[0])), "byte 136: point 0 is not finite");
     EXPECT_THAT(
-        error(patched(bytes, kStart + 60 + 8, -0.5f)),
+        errorOfHair(patched(bytes, kStart + 60 + 8, -0.5f)),
         StartsWith("byte 200: thickness 2 is negative"));
 }
 
@@ -174,7 +177,7 @@ TEST(ExportHair, WritesTheDescribedBytes) {
     for (const std::uint32_t arrays : {2u, 3u, 6u, 10u, 18u, 31u}) {
         // Strands of one size need no array of segments.
         const std::string bytes = fileWith(arrays);
-        const auto [written, warnings] = writeText(exportHair, read(bytes));
+        const auto [written, warnings] = writeText(exportHair, readHair(bytes));
         std::string expected = bytes;
         // Defaults of arrays that are there are ours: unknown, opaque, white.
         if (arrays & kSegments) expected = patched(expected, 16, 0);
@@ -188,7 +191,7 @@ TEST(ExportHair, WritesTheDescribedBytes) {
 }
 
 TEST(ExportHair, SaysWhatItLeavesOut) {
-    StrandSet strands = read(fileWith(31));
+    StrandSet strands = readHair(fileWith(31));
     strands.root_uvs = {{0, 0}, {1, 1}};
     strands.root_triangles = {{0, 1, 1}};
     strands.metres_per_unit = 0.01;
@@ -198,19 +201,19 @@ TEST(ExportHair, SaysWhatItLeavesOut) {
         warnings, ElementsAre(
                       HasSubstr("texture coordinates"), HasSubstr("root triangles"),
                       HasSubstr("unit"), HasSubstr("cut to 87")));
-    EXPECT_EQ(read(bytes).comment, std::string(87, 'x'));
+    EXPECT_EQ(readHair(bytes).comment, std::string(87, 'x'));
 }
 
 TEST(ExportHair, RefusesWhatTheFormatCannotHold) {
     EXPECT_EQ(errorText([] { writeText(exportHair, {}); }), "there are no strands");
     StrandSet strands{.ends = {65536, 65537}};
     strands.points.resize(65537);
-    EXPECT_EQ(read(writeText(exportHair, strands).bytes).ends, strands.ends);
+    EXPECT_EQ(readHair(writeText(exportHair, strands).bytes).ends, strands.ends);
     strands.ends = {65537, 65538};
     strands.points.resize(65538);
     EXPECT_THAT(errorText([&] { writeText(exportHair, strands); }), HasSubstr("65537"));
     strands.ends = {65538};  // one size for all
-    EXPECT_EQ(read(writeText(exportHair, strands).bytes).ends, strands.ends);
+    EXPECT_EQ(readHair(writeText(exportHair, strands).bytes).ends, strands.ends);
 }
 
 }  // namespace

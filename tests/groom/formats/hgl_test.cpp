@@ -22,8 +22,8 @@ std::string smallFile() {
     return bytes.str();
 }
 
-StrandSet read(const std::string& bytes) { return readText(importHgl, bytes); }
-std::string error(const std::string& bytes) { return readError(importHgl, bytes); }
+StrandSet readHgl(const std::string& bytes) { return readText(importHgl, bytes); }
+std::string errorOfHgl(const std::string& bytes) { return readError(importHgl, bytes); }
 
 StrandSet strandsOf(std::uint32_t count, std::uint32_t vertices) {
     StrandSet strands;
@@ -35,7 +35,7 @@ StrandSet strandsOf(std::uint32_t count, std::uint32_t vertices) {
 }
 
 TEST(ImportHgl, ReadsTheDocumentedLayout) {
-    const StrandSet strands = read(smallFile());
+    const StrandSet strands = readHgl(smallFile());
     EXPECT_THAT(strands.ends, ElementsAre(2, 4, 6));
     ASSERT_EQ(strands.points.size(), 6u);
     EXPECT_EQ(strands.points[1], glm::vec3(0.1f, 0.2f, 0.3f));
@@ -48,22 +48,22 @@ TEST(ImportHgl, TakesTheLongestStrandAndNoTriangles) {
     Bytes bytes;
     bytes.u32(1).u32(255).u32(0);
     for (int i = 0; i < 256; ++i) bytes.f32(i, 0, 0);
-    EXPECT_THAT(read(bytes.str()).ends, ElementsAre(256));
+    EXPECT_THAT(readHgl(bytes.str()).ends, ElementsAre(256));
 }
 
 TEST(ImportHgl, TakesTrianglesOfFewGuides) {
     for (const std::size_t corner : {84u, 88u, 92u})
-        EXPECT_EQ(error(patched(smallFile(), corner, 1)), "no error");
+        EXPECT_EQ(errorOfHgl(patched(smallFile(), corner, 1)), "no error");
 }
 
 TEST(ImportHgl, RefusesEveryTruncationAndMoreBytes) {
     const std::string bytes = smallFile();
     for (std::size_t size = 0; size < bytes.size(); ++size) {
         EXPECT_THAT(
-            error(bytes.substr(0, size)),
+            errorOfHgl(bytes.substr(0, size)),
             StartsWith("byte " + std::to_string(size) + ": truncated"));
     }
-    EXPECT_EQ(error(bytes + "x"), "byte 96: 1 trailing bytes after the last triangle");
+    EXPECT_EQ(errorOfHgl(bytes + "x"), "byte 96: 1 trailing bytes after the last triangle");
 }
 
 TEST(ImportHgl, RefusesEveryWrongCount) {
@@ -73,16 +73,17 @@ TEST(ImportHgl, RefusesEveryWrongCount) {
             std::uint32_t count = 0;
             std::memcpy(&count, bytes.data() + offset, 4);
             count ^= 1u << bit;
-            EXPECT_THAT(error(patched(bytes, offset, count)), StartsWith("byte "))
+            EXPECT_THAT(errorOfHgl(patched(bytes, offset, count)), StartsWith("byte "))
                 << "count at " << offset << " is " << count;
         }
     }
-    EXPECT_THAT(error(patched(bytes, 0, 0)), HasSubstr("byte 0: 0 strands"));
-    EXPECT_THAT(error(patched(bytes, 0, -1)), HasSubstr("byte 0: -1 strands"));
-    EXPECT_THAT(error(patched(bytes, 4, 0)), HasSubstr("byte 4: 0 segments is outside [1, 255]"));
-    EXPECT_THAT(error(patched(bytes, 4, 256)), HasSubstr("byte 4: 256 segments"));
-    EXPECT_THAT(error(patched(bytes, 8, -1)), HasSubstr("byte 8: -1 triangles"));
-    EXPECT_THAT(error(patched(bytes, 0, 0x7fffffff)), HasSubstr("truncated"));
+    EXPECT_THAT(errorOfHgl(patched(bytes, 0, 0)), HasSubstr("byte 0: 0 strands"));
+    EXPECT_THAT(errorOfHgl(patched(bytes, 0, -1)), HasSubstr("byte 0: -1 strands"));
+    EXPECT_THAT(
+        errorOfHgl(patched(bytes, 4, 0)), HasSubstr("byte 4: 0 segments is outside [1, 255]"));
+    EXPECT_THAT(errorOfHgl(patched(bytes, 4, 256)), HasSubstr("byte 4: 256 segments"));
+    EXPECT_THAT(errorOfHgl(patched(bytes, 8, -1)), HasSubstr("byte 8: -1 triangles"));
+    EXPECT_THAT(errorOfHgl(patched(bytes, 0, 0x7fffffff)), HasSubstr("truncated"));
 }
 
 TEST(ImportHgl, RefusesPointsThatAreNotFinite) {
@@ -90,9 +91,9 @@ TEST(ImportHgl, RefusesPointsThatAreNotFinite) {
     for (const float wrong : kNotFinite) {
         for (std::size_t i = 0; i < 18; ++i) {
             EXPECT_EQ(
-                error(patched(bytes, 12 + 4 * i, wrong)), "byte " + std::to_string(12 + 4 * i) +
-                                                              ": point " + std::to_string(i / 3) +
-                                                              " is not finite");
+                errorOfHgl(patched(bytes, 12 + 4 * i, wrong)),
+                "byte " + std::to_string(12 + 4 * i) + ": point " + std::to_string(i / 3) +
+                    " is not finite");
         }
     }
 }
@@ -100,13 +101,13 @@ TEST(ImportHgl, RefusesPointsThatAreNotFinite) {
 TEST(ImportHgl, RefusesTrianglesOfGuidesThatAreNotThere) {
     for (const std::size_t corner : {84u, 88u, 92u}) {
         const std::string at = "byte " + std::to_string(corner) + ": triangle 0 names strand ";
-        EXPECT_EQ(error(patched(smallFile(), corner, 3)), at + "3, there are 3");
-        EXPECT_EQ(error(patched(smallFile(), corner, -1)), at + "-1, there are 3");
+        EXPECT_EQ(errorOfHgl(patched(smallFile(), corner, 3)), at + "3, there are 3");
+        EXPECT_EQ(errorOfHgl(patched(smallFile(), corner, -1)), at + "-1, there are 3");
     }
 }
 
 TEST(ExportHgl, WritesTheDocumentedLayout) {
-    const auto [bytes, warnings] = writeText(exportHgl, read(smallFile()));
+    const auto [bytes, warnings] = writeText(exportHgl, readHgl(smallFile()));
     EXPECT_EQ(bytes, smallFile());
     EXPECT_THAT(warnings, IsEmpty());
 }
@@ -114,15 +115,15 @@ TEST(ExportHgl, WritesTheDocumentedLayout) {
 TEST(ExportHgl, ResamplesWhatTheFormatCannotHold) {
     const auto [bytes, warnings] = writeText(exportHgl, strandsOf(2, 257));
     EXPECT_THAT(warnings, ElementsAre(HasSubstr("257 points and are resampled to 256")));
-    EXPECT_THAT(read(bytes).ends, ElementsAre(256, 512));
+    EXPECT_THAT(readHgl(bytes).ends, ElementsAre(256, 512));
     StrandSet ragged = strandsOf(2, 3);
     ragged.ends = {2, 6};
     const Written written = writeText(exportHgl, ragged);
     EXPECT_THAT(written.warnings, ElementsAre(HasSubstr("resampled to 4")));
-    const StrandSet back = read(written.bytes);
+    const StrandSet back = readHgl(written.bytes);
     EXPECT_THAT(back.ends, ElementsAre(4, 8));
     EXPECT_EQ(back.points[3], ragged.points[1]);
-    EXPECT_EQ(read(writeText(exportHgl, strandsOf(3, 1)).bytes).points.size(), 6u);
+    EXPECT_EQ(readHgl(writeText(exportHgl, strandsOf(3, 1)).bytes).points.size(), 6u);
     EXPECT_EQ(errorText([] { writeText(exportHgl, {}); }), "there are no strands");
 }
 

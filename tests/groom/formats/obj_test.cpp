@@ -13,46 +13,39 @@ using testing::StartsWith;
 
 const std::string kVertices = "v 0 0 0\nv 0 1 0\nv 0 2 .5\nv 4 0 0\nv +4 1e0 -0\n";
 
-StrandSet read(const std::string& text) { return readText(importObj, text); }
-std::string error(const std::string& text) { return readError(importObj, text); }
-
-void expectTheStrands(const StrandSet& strands) {
-    EXPECT_THAT(strands.ends, ElementsAre(3, 5));
-    EXPECT_THAT(
-        strands.points, ElementsAre(
-                            glm::vec3(0, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 2, 0.5f),
-                            glm::vec3(4, 0, 0), glm::vec3(4, 1, 0)));
-    EXPECT_FALSE(strands.metres_per_unit);
-}
+StrandSet readObj(const std::string& text) { return readText(importObj, text); }
+std::string errorOfObj(const std::string& text) { return readError(importObj, text); }
 
 TEST(ImportObj, ReadsLines) {
-    const StrandSet strands = read(kVertices + "l 1 2 3\nl 4 5\n");
+    const StrandSet strands = readObj(kVertices + "l 1 2 3\nl 4 5\n");
     expectTheStrands(strands);
     EXPECT_THAT(strands.warnings, IsEmpty());
 }
 
 TEST(ImportObj, ReadsWhatEditorsWrite) {
     expectTheStrands(
-        read("# by hand\r\n#of strands\r\nmtllib a.mtl\r\no hair\r\nv 0 0 0 # root\r\n\r\n"
-             "\tv  0 1\t0 \r\nv 0 \\\r\n2 \\\r\n.5\r\nusemtl brown\r\nl -3 -2 -1\r\n"
-             "v 4 0 0 1.0\r\nv 4 1 0\r\ns off\r\nl -2 -1"));
+        readObj("# by hand\r\n#of strands\r\nmtllib a.mtl\r\no hair\r\nv 0 0 0 # root\r\n\r\n"
+                "\tv  0 1\t0 \r\nv 0 \\\r\n2 \\\r\n.5\r\nusemtl brown\r\nl -3 -2 -1\r\n"
+                "v 4 0 0 1.0\r\nv 4 1 0\r\ns off\r\nl -2 -1"));
     EXPECT_EQ(
-        read("# by hand\n#of strands\nv 0 0 0\nv 1 0 0\n# inside\nl 1 2").comment,
+        readObj("# by hand\n#of strands\nv 0 0 0\nv 1 0 0\n# inside\nl 1 2").comment,
         "by hand\nof strands");
 }
 
 TEST(ImportObj, JoinsSegmentsThatContinueEachOther) {
-    expectTheStrands(read(kVertices + "l 1 2\nl 2 3\nl 4 5\n"));
+    expectTheStrands(readObj(kVertices + "l 1 2\nl 2 3\nl 4 5\n"));
     // Not lines of more points, and not over a group's beginning.
-    EXPECT_THAT(read(kVertices + "l 1 2 3\nl 3 4\n").ends, ElementsAre(3, 5));
-    EXPECT_THAT(read(kVertices + "l 1 2\ng other\nl 2 3\n").ends, ElementsAre(2, 4));
-    EXPECT_THAT(read(kVertices + "l 1 2\nl 3 2\n").ends, ElementsAre(2, 4));
+    EXPECT_THAT(readObj(kVertices + "l 1 2 3\nl 3 4\n").ends, ElementsAre(3, 5));
+    EXPECT_THAT(readObj(kVertices + "l 1 2\ng other\nl 2 3\n").ends, ElementsAre(2, 4));
+    EXPECT_THAT(readObj(kVertices + "l 1 2\nl 3 2\n").ends, ElementsAre(2, 4));
 }
 
-TEST(ImportObj, ReadsVerticesThatFollow) { expectTheStrands(read("l 1 2 3\nl 4 5\n" + kVertices)); }
+TEST(ImportObj, ReadsVerticesThatFollow) {
+    expectTheStrands(readObj("l 1 2 3\nl 4 5\n" + kVertices));
+}
 
 TEST(ImportObj, ReadsColours) {
-    const StrandSet strands = read("v 0 0 0 1 .5 .25\nv 1 0 0 0 0 1\nv 2 0 0\nl 1 2 3\n");
+    const StrandSet strands = readObj("v 0 0 0 1 .5 .25\nv 1 0 0 0 0 1\nv 2 0 0\nl 1 2 3\n");
     EXPECT_THAT(
         strands.colors.values,
         ElementsAre(glm::vec3(1, 0.5f, 0.25f), glm::vec3(0, 0, 1), glm::vec3(1)));
@@ -61,7 +54,7 @@ TEST(ImportObj, ReadsColours) {
 
 TEST(ImportObj, LeavesOutWhatIsNoStrand) {
     const StrandSet strands =
-        read(kVertices + "vt 0 0\nvn 0 0 1\np 1\nf 1 2 3\nf 1/1 2/1 3/1\nl 1/1 2/1\n");
+        readObj(kVertices + "vt 0 0\nvn 0 0 1\np 1\nf 1 2 3\nf 1/1 2/1 3/1\nl 1/1 2/1\n");
     EXPECT_THAT(strands.ends, ElementsAre(2));
     EXPECT_THAT(
         strands.warnings, ElementsAre(
@@ -71,34 +64,36 @@ TEST(ImportObj, LeavesOutWhatIsNoStrand) {
 }
 
 TEST(ImportObj, ReadsNumbersAtTheEndOfFloat) {
-    const StrandSet strands = read("v 1e-50 3.4028235e38 1e-45\nv 1 1 1\nl 1 2\n");
+    const StrandSet strands = readObj("v 1e-50 3.4028235e38 1e-45\nv 1 1 1\nl 1 2\n");
     EXPECT_EQ(strands.points[0], glm::vec3(0.0f, 3.4028235e38f, 1e-45f));
 }
 
 TEST(ImportObj, NamesTheLineOfWhatIsWrong) {
-    EXPECT_THAT(error(""), StartsWith("line 1: the file has no strands: expected line elements"));
-    EXPECT_THAT(error(kVertices), StartsWith("line 5: the file has no strands"));
-    EXPECT_THAT(error("v 0 0\n"), StartsWith("line 1: a vertex of 2 numbers, expected x y z"));
-    EXPECT_THAT(error("v 0 0 0 0 0\n"), StartsWith("line 1: a vertex of 5 numbers"));
-    EXPECT_THAT(error("v 0 0 zero\n"), StartsWith("line 1: 'zero' is no number"));
-    EXPECT_THAT(error("v 0 0 +-1\n"), StartsWith("line 1: '+-1' is no number"));
-    EXPECT_THAT(error("#\nv 0 0 nan\n"), StartsWith("line 2: 'nan' is not a finite float"));
-    EXPECT_THAT(error("v 0 -inf 0\n"), StartsWith("line 1: '-inf' is not a finite float"));
-    EXPECT_THAT(error("v 0 1e39 0\n"), StartsWith("line 1: '1e39' is not a finite float"));
-    EXPECT_THAT(error(kVertices + "l 1\n"), StartsWith("line 6: a line of 1 vertices"));
-    EXPECT_THAT(error(kVertices + "l 1 x\n"), StartsWith("line 6: 'x' is no vertex's index"));
-    EXPECT_THAT(error(kVertices + "l 0 1\n"), StartsWith("line 6: vertex 0 is named"));
     EXPECT_THAT(
-        error(kVertices + "l -6 1\n"), StartsWith("line 6: vertex -6 is named, there are 5"));
+        errorOfObj(""), StartsWith("line 1: the file has no strands: expected line elements"));
+    EXPECT_THAT(errorOfObj(kVertices), StartsWith("line 5: the file has no strands"));
+    EXPECT_THAT(errorOfObj("v 0 0\n"), StartsWith("line 1: a vertex of 2 numbers, expected x y z"));
+    EXPECT_THAT(errorOfObj("v 0 0 0 0 0\n"), StartsWith("line 1: a vertex of 5 numbers"));
+    EXPECT_THAT(errorOfObj("v 0 0 zero\n"), StartsWith("line 1: 'zero' is no number"));
+    EXPECT_THAT(errorOfObj("v 0 0 +-1\n"), StartsWith("line 1: '+-1' is no number"));
+    EXPECT_THAT(errorOfObj("#\nv 0 0 nan\n"), StartsWith("line 2: 'nan' is not a finite float"));
+    EXPECT_THAT(errorOfObj("v 0 -inf 0\n"), StartsWith("line 1: '-inf' is not a finite float"));
+    EXPECT_THAT(errorOfObj("v 0 1e39 0\n"), StartsWith("line 1: '1e39' is not a finite float"));
+    EXPECT_THAT(errorOfObj(kVertices + "l 1\n"), StartsWith("line 6: a line of 1 vertices"));
+    EXPECT_THAT(errorOfObj(kVertices + "l 1 x\n"), StartsWith("line 6: 'x' is no vertex's index"));
+    EXPECT_THAT(errorOfObj(kVertices + "l 0 1\n"), StartsWith("line 6: vertex 0 is named"));
     EXPECT_THAT(
-        error(kVertices + "l 1 2\nl 1 6\nl 3 4\n"),
+        errorOfObj(kVertices + "l -6 1\n"), StartsWith("line 6: vertex -6 is named, there are 5"));
+    EXPECT_THAT(
+        errorOfObj(kVertices + "l 1 2\nl 1 6\nl 3 4\n"),
         StartsWith("line 7: vertex 6 is named, there are 5"));
     EXPECT_THAT(
-        error(kVertices + "l 1 4294967297\n"), StartsWith("line 6: vertex 4294967297 is named"));
+        errorOfObj(kVertices + "l 1 4294967297\n"),
+        StartsWith("line 6: vertex 4294967297 is named"));
     EXPECT_THAT(
-        error(kVertices + "l 1 99999999999999999999\n"),
+        errorOfObj(kVertices + "l 1 99999999999999999999\n"),
         StartsWith("line 6: '99999999999999999999'"));
-    EXPECT_THAT(error("v 0 0 \\\n\\\nx\n"), StartsWith("line 1: 'x' is no number"));
+    EXPECT_THAT(errorOfObj("v 0 0 \\\n\\\nx\n"), StartsWith("line 1: 'x' is no number"));
 }
 
 TEST(ExportObj, ReadsBackBitEqual) {
@@ -106,7 +101,7 @@ TEST(ExportObj, ReadsBackBitEqual) {
     strands.comment = "first line\n\n  third line \\";
     const Written written = writeText(exportObj, strands);
     EXPECT_THAT(written.warnings, ElementsAre(HasSubstr("widths"), HasSubstr("transparencies")));
-    const StrandSet back = read(written.bytes);
+    const StrandSet back = readObj(written.bytes);
     EXPECT_EQ(back.ends, strands.ends);
     expectBitEqual(back.points, strands.points);
     expectBitEqual(back.colors.values, strands.colors.values);
@@ -118,7 +113,7 @@ TEST(ExportObj, KeepsStrandsOfTwoPointsApart) {
     StrandSet strands;
     strands.ends = {2, 4};
     strands.points = {{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {2, 0, 0}};
-    EXPECT_THAT(read(writeText(exportObj, strands).bytes).ends, ElementsAre(2, 4));
+    EXPECT_THAT(readObj(writeText(exportObj, strands).bytes).ends, ElementsAre(2, 4));
 }
 
 TEST(ExportObj, LeavesOutSinglePoints) {
@@ -127,7 +122,7 @@ TEST(ExportObj, LeavesOutSinglePoints) {
     strands.points.resize(3);
     const Written written = writeText(exportObj, strands);
     EXPECT_THAT(written.warnings, ElementsAre(HasSubstr("1 strands of a single point")));
-    EXPECT_THAT(read(written.bytes).ends, ElementsAre(2));
+    EXPECT_THAT(readObj(written.bytes).ends, ElementsAre(2));
     EXPECT_THAT(errorText([] { writeText(exportObj, {}); }), HasSubstr("no strand has two points"));
 }
 

@@ -12,7 +12,7 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 // Typed from the format's description, two strands of three and two points.
-const std::string kVertices = "0 0 0\n0 1 0\n0 2 0.5\n4 0 0\n4 1 0\n";
+const std::string kVertexRows = "0 0 0\n0 1 0\n0 2 0.5\n4 0 0\n4 1 0\n";
 
 std::string ascii(const std::string& elements, const std::string& body) {
     return "ply\nformat ascii 1.0\n" + elements + "end_header\n" + body;
@@ -52,24 +52,15 @@ std::string binary(bool big_endian) {
     return bytes;
 }
 
-void expectTheStrands(const StrandSet& strands) {
-    EXPECT_THAT(strands.ends, ElementsAre(3, 5));
-    EXPECT_THAT(
-        strands.points, ElementsAre(
-                            glm::vec3(0, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 2, 0.5f),
-                            glm::vec3(4, 0, 0), glm::vec3(4, 1, 0)));
-    EXPECT_FALSE(strands.metres_per_unit);
-}
-
-std::string error(const std::string& text) { return readError(importPly, text); }
+std::string errorOfPly(const std::string& text) { return readError(importPly, text); }
 
 TEST(ImportPly, ReadsEdges) {
     expectTheStrands(
-        readText(importPly, ascii(vertexElement() + kEdges, kVertices + "1 2\n0 1\n3 4\n")));
+        readText(importPly, ascii(vertexElement() + kEdges, kVertexRows + "1 2\n0 1\n3 4\n")));
 }
 
 TEST(ImportPly, ReadsListsWithWindowsLineEnds) {
-    std::string text = ascii(vertexElement() + kLists, kVertices + "3 0 1 2\n2 3 4\n");
+    std::string text = ascii(vertexElement() + kLists, kVertexRows + "3 0 1 2\n2 3 4\n");
     for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2)
         text.insert(at, "\r");
     expectTheStrands(readText(importPly, text));
@@ -77,7 +68,7 @@ TEST(ImportPly, ReadsListsWithWindowsLineEnds) {
 
 TEST(ImportPly, ReadsElementsInAnyOrder) {
     expectTheStrands(
-        readText(importPly, ascii(kEdges + vertexElement(), "1 2\n0 1\n3 4\n" + kVertices)));
+        readText(importPly, ascii(kEdges + vertexElement(), "1 2\n0 1\n3 4\n" + kVertexRows)));
 }
 
 TEST(ImportPly, ReadsBothByteOrders) {
@@ -126,38 +117,44 @@ TEST(ImportPly, LeavesOutWhatStrandsDontUse) {
 TEST(ImportPly, RefusesFilesWithoutStrands) {
     const std::string expected = "expected an element 'edge' with integers vertex1 and vertex2";
     EXPECT_THAT(
-        error(ascii(vertexElement(), kVertices)),
+        errorOfPly(ascii(vertexElement(), kVertexRows)),
         AllOf(StartsWith("line 7: "), HasSubstr(expected)));
     EXPECT_THAT(
-        error(ascii(
+        errorOfPly(ascii(
             vertexElement() + "element face 1\nproperty list uchar int vertex_indices\n",
-            kVertices + "3 0 1 2\n")),
+            kVertexRows + "3 0 1 2\n")),
         HasSubstr(expected));
     EXPECT_THAT(
-        error(ascii(
+        errorOfPly(ascii(
             vertexElement() + "element edge 0\nproperty int vertex1\nproperty int vertex2\n",
-            kVertices)),
+            kVertexRows)),
         HasSubstr(expected));
-    EXPECT_THAT(error(ascii(kEdges, "")), HasSubstr("no element 'vertex'"));
+    EXPECT_THAT(errorOfPly(ascii(kEdges, "")), HasSubstr("no element 'vertex'"));
 }
 
 TEST(ImportPly, RefusesWrongHeaders) {
-    EXPECT_THAT(error(""), StartsWith("line 1: the file ends here"));
-    EXPECT_THAT(error("plx\n"), StartsWith("line 1: not a PLY file"));
-    EXPECT_THAT(error("ply\nend_header\n"), StartsWith("line 2: the header has no line 'format'"));
-    EXPECT_THAT(error("ply\nformat ebcdic 1.0\n"), StartsWith("line 2: unknown format 'ebcdic'"));
-    EXPECT_THAT(error(ascii("property float x\n", "")), StartsWith("line 3: a property before"));
-    EXPECT_THAT(error(ascii("element vertex -1\n", "")), StartsWith("line 3: '-1' is no count"));
-    EXPECT_THAT(error(ascii("element vertex\n", "")), StartsWith("line 3: '' is no count"));
-    EXPECT_THAT(error(ascii("element vertex 1\n", "")), StartsWith("line 4: element 'vertex' has"));
+    EXPECT_THAT(errorOfPly(""), StartsWith("line 1: the file ends here"));
+    EXPECT_THAT(errorOfPly("plx\n"), StartsWith("line 1: not a PLY file"));
     EXPECT_THAT(
-        error(ascii("element vertex 1\nproperty half x\n", "")),
+        errorOfPly("ply\nend_header\n"), StartsWith("line 2: the header has no line 'format'"));
+    EXPECT_THAT(
+        errorOfPly("ply\nformat ebcdic 1.0\n"), StartsWith("line 2: unknown format 'ebcdic'"));
+    EXPECT_THAT(
+        errorOfPly(ascii("property float x\n", "")), StartsWith("line 3: a property before"));
+    EXPECT_THAT(
+        errorOfPly(ascii("element vertex -1\n", "")), StartsWith("line 3: '-1' is no count"));
+    EXPECT_THAT(errorOfPly(ascii("element vertex\n", "")), StartsWith("line 3: '' is no count"));
+    EXPECT_THAT(
+        errorOfPly(ascii("element vertex 1\n", "")), StartsWith("line 4: element 'vertex' has"));
+    EXPECT_THAT(
+        errorOfPly(ascii("element vertex 1\nproperty half x\n", "")),
         StartsWith("line 4: unknown type 'half'"));
     EXPECT_THAT(
-        error(ascii("element vertex 1\nproperty list float int x\n", "")),
+        errorOfPly(ascii("element vertex 1\nproperty list float int x\n", "")),
         StartsWith("line 4: a list's length"));
     EXPECT_THAT(
-        error(ascii(vertexElement() + vertexElement(), "")), HasSubstr("'vertex' is there twice"));
+        errorOfPly(ascii(vertexElement() + vertexElement(), "")),
+        HasSubstr("'vertex' is there twice"));
 }
 
 // Nothing is allocated for what the file can't hold: these would be 48 GB and more.
@@ -166,48 +163,49 @@ TEST(ImportPly, RefusesCountsThatTheFileCantHold) {
         const std::string begin = std::string("ply\nformat ") + format + " 1.0\nelement vertex ";
         const std::string rest = "\nproperty float x\nproperty float y\nproperty float z\n" +
                                  kEdges + "end_header\n" + std::string(200, ' ');
-        EXPECT_THAT(error(begin + "4000000000" + rest), HasSubstr("truncated: 4000000000 of"));
-        EXPECT_THAT(error(begin + "9000000000000000000" + rest), HasSubstr("at most 2^32 - 1"));
-        EXPECT_THAT(error(begin + "99999999999999999999" + rest), HasSubstr("is no count"));
+        EXPECT_THAT(errorOfPly(begin + "4000000000" + rest), HasSubstr("truncated: 4000000000 of"));
+        EXPECT_THAT(
+            errorOfPly(begin + "9000000000000000000" + rest), HasSubstr("at most 2^32 - 1"));
+        EXPECT_THAT(errorOfPly(begin + "99999999999999999999" + rest), HasSubstr("is no count"));
     }
     std::string list = binary(false);
     list.replace(list.size() - 8, 4, std::string(4, '\xff'));
-    EXPECT_THAT(error(list), HasSubstr("a list of 4294967295 values is expected"));
+    EXPECT_THAT(errorOfPly(list), HasSubstr("a list of 4294967295 values is expected"));
 }
 
 TEST(ImportPly, RefusesWrongValues) {
     const std::string edges = vertexElement() + kEdges;
     EXPECT_THAT(
-        error(ascii(edges, "0 0 0\n0 nan 0\n0 0 0\n0 0 0\n0 0 0\n0 1\n1 2\n3 4\n")),
+        errorOfPly(ascii(edges, "0 0 0\n0 nan 0\n0 0 0\n0 0 0\n0 0 0\n0 1\n1 2\n3 4\n")),
         StartsWith("line 12: 'y' of vertex 1 is not a finite float"));
     EXPECT_THAT(
-        error(ascii(edges, "0 0 0\n0 1e39 0\n0 0 0\n0 0 0\n0 0 0\n0 1\n1 2\n3 4\n")),
+        errorOfPly(ascii(edges, "0 0 0\n0 1e39 0\n0 0 0\n0 0 0\n0 0 0\n0 1\n1 2\n3 4\n")),
         StartsWith("line 12: 'y' of vertex 1 is not a finite float"));
     EXPECT_THAT(
-        error(ascii(edges, kVertices + "0 1\n1 5\n3 4\n")),
+        errorOfPly(ascii(edges, kVertexRows + "0 1\n1 5\n3 4\n")),
         StartsWith("line 17: vertex 5 is named, there are 5"));
     EXPECT_THAT(
-        error(ascii(edges, kVertices + "0 1\n1 -1\n3 4\n")),
+        errorOfPly(ascii(edges, kVertexRows + "0 1\n1 -1\n3 4\n")),
         StartsWith("line 17: vertex -1 is named, there are 5"));
     EXPECT_THAT(
-        error(ascii(edges, kVertices + "0 1\n1 2\n4 1\n")),
+        errorOfPly(ascii(edges, kVertexRows + "0 1\n1 2\n4 1\n")),
         StartsWith("line 18: this is a third edge at vertex 1"));
     EXPECT_THAT(
-        error(ascii(edges, kVertices + "0 1\n1 2\n3  \n")), StartsWith("line 18: the line"));
+        errorOfPly(ascii(edges, kVertexRows + "0 1\n1 2\n3  \n")), StartsWith("line 18: the line"));
     EXPECT_THAT(
-        error(ascii(edges, kVertices + "0 1\n1 2\n3 4 5\n")),
+        errorOfPly(ascii(edges, kVertexRows + "0 1\n1 2\n3 4 5\n")),
         StartsWith("line 18: '5' is one value more"));
     EXPECT_THAT(
-        error(ascii(edges, kVertices + "0 1\n1 2.5\n3 4\n")),
+        errorOfPly(ascii(edges, kVertexRows + "0 1\n1 2.5\n3 4\n")),
         StartsWith("line 17: '2.5' is no integer"));
     EXPECT_THAT(
-        error(ascii(edges, kVertices + "0 1\n1 2\n3 4\nmore\n")),
+        errorOfPly(ascii(edges, kVertexRows + "0 1\n1 2\n3 4\nmore\n")),
         StartsWith("line 19: 'more' after the last element"));
     EXPECT_THAT(
-        error(ascii(vertexElement() + kLists, kVertices + "3 0 1 2\n0\n")),
+        errorOfPly(ascii(vertexElement() + kLists, kVertexRows + "3 0 1 2\n0\n")),
         StartsWith("line 16: a strand of no points"));
     EXPECT_THAT(
-        error(ascii(
+        errorOfPly(ascii(
             vertexElement("property float width\n") + kLists,
             "0 0 0 -1\n" + std::string("0 0 0 1\n0 0 0 1\n0 0 0 1\n0 0 0 1\n3 0 1 2\n2 3 4"))),
         StartsWith("line 11: 'width' of vertex 0 is negative"));
@@ -217,10 +215,11 @@ TEST(ImportPly, NamesTheByteInBinaryFiles) {
     std::string bytes = binary(false);
     const std::size_t last = bytes.size() - 2;
     bytes[last] = 5;
-    EXPECT_EQ(error(bytes), "byte " + std::to_string(last) + ": vertex 5 is named, there are 5");
+    EXPECT_EQ(
+        errorOfPly(bytes), "byte " + std::to_string(last) + ": vertex 5 is named, there are 5");
     bytes = binary(false) + "x";
     EXPECT_EQ(
-        error(bytes),
+        errorOfPly(bytes),
         "byte " + std::to_string(bytes.size() - 1) + ": 1 trailing bytes after the last element");
 }
 

@@ -79,4 +79,14 @@ inline StrandSet hardStrands() {
     return set;
 }
 
+// The strands of the text formats' examples: three points in a plane, and two beside them.
+inline void expectTheStrands(const StrandSet& strands) {
+    EXPECT_THAT(strands.ends, testing::ElementsAre(3, 5));
+    EXPECT_THAT(
+        strands.points, testing::ElementsAre(
+                            glm::vec3(0, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 2, 0.5f),
+                            glm::vec3(4, 0, 0), glm::vec3(4, 1, 0)));
+    EXPECT_FALSE(strands.metres_per_unit);
+}
+
 }  // namespace hair::groom

@@ -13,7 +13,7 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
 
-const StrandSet kStrands{.ends = {2, 4}, .points = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}}};
+const StrandSet kTwoStrands{.ends = {2, 4}, .points = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}}};
 
 std::string fileError(const std::filesystem::path& path) {
     return errorText([&] { importStrands(path); });
@@ -24,21 +24,22 @@ TEST(ImportStrands, GoesByTheExtensionInAnyCase) {
     for (const StrandExporter& exporter : strandExporters()) {
         if (exporter.extension.starts_with(".usd")) continue;  // another program reads it
         std::string name = "a" + std::string(exporter.extension);
-        exportStrands(kStrands, folder.file(name));
+        exportStrands(kTwoStrands, folder.file(name));
         for (char& c : name) c = static_cast<char>(std::toupper(c));
         std::filesystem::rename(
             folder.file("a" + std::string(exporter.extension)), folder.file(name));
-        EXPECT_EQ(importStrands(folder.file(name)).points, kStrands.points) << name;
+        EXPECT_EQ(importStrands(folder.file(name)).points, kTwoStrands.points) << name;
     }
 }
 
 TEST(ImportStrands, GoesByTheFirstBytesWhereTheyAreAnotherFormats) {
     const TemporaryFolder folder;
     for (const std::string written : {".hair", ".tfx", ".ply", ".glb"}) {
-        exportStrands(kStrands, folder.file("a" + written));
+        exportStrands(kTwoStrands, folder.file("a" + written));
         for (const std::string name : {"b.hair", "b.hgl", "b.obj", "b.gltf", "b.txt", "b"}) {
             std::filesystem::rename(folder.file("a" + written), folder.file(name));
-            EXPECT_EQ(importStrands(folder.file(name)).points, kStrands.points) << written << name;
+            EXPECT_EQ(importStrands(folder.file(name)).points, kTwoStrands.points)
+                << written << name;
             std::filesystem::rename(folder.file(name), folder.file("a" + written));
         }
     }
@@ -46,7 +47,7 @@ TEST(ImportStrands, GoesByTheFirstBytesWhereTheyAreAnotherFormats) {
 
 TEST(ImportStrands, NamesTheFileOnce) {
     const TemporaryFolder folder;
-    const std::string bytes = writeText(strandExporters()[0].write, kStrands).bytes;
+    const std::string bytes = writeText(strandExporters()[0].write, kTwoStrands).bytes;
     const auto path = folder.write("cut.hair", bytes.substr(0, 100));
     EXPECT_EQ(
         fileError(path), path.string() + ": byte 100: truncated: the header alone is 128 bytes");
@@ -85,14 +86,14 @@ TEST(ExportStrands, WritesWholeFilesOrNone) {
 
 TEST(ExportStrands, ListsWhatItKnows) {
     EXPECT_EQ(
-        errorText([] { exportStrands(kStrands, "a.usdc"); }),
+        errorText([] { exportStrands(kTwoStrands, "a.usdc"); }),
         "a.usdc: strands can't be written as \".usdc\"; known are .hair, .hgl, .tfx, .obj, .ply, "
         ".gltf, .glb, .usda");
 }
 
 TEST(ExportStrands, ReturnsTheWarnings) {
     const TemporaryFolder folder;
-    StrandSet strands = kStrands;
+    StrandSet strands = kTwoStrands;
     strands.widths.everywhere = 0.5f;
     EXPECT_THAT(
         exportStrands(strands, folder.file("a.hgl")), testing::ElementsAre(HasSubstr("widths")));

@@ -40,11 +40,11 @@ std::string plainFile() {
     return bytes;
 }
 
-StrandSet read(const std::string& bytes) { return readText(importTfx, bytes); }
-std::string error(const std::string& bytes) { return readError(importTfx, bytes); }
+StrandSet readTfx(const std::string& bytes) { return readText(importTfx, bytes); }
+std::string errorOfTfx(const std::string& bytes) { return readError(importTfx, bytes); }
 
 TEST(ImportTfx, ReadsPositions) {
-    const StrandSet strands = read(plainFile());
+    const StrandSet strands = readTfx(plainFile());
     EXPECT_THAT(strands.ends, ElementsAre(4, 8, 12));
     ASSERT_EQ(strands.points.size(), 12u);
     for (int i = 0; i < 12; ++i)
@@ -60,7 +60,7 @@ TEST(ImportTfx, ReadsPositions) {
 TEST(ImportTfx, ReadsEveryArray) {
     const std::string bytes = fullFile();
     ASSERT_EQ(bytes.size(), kEnd);
-    const StrandSet strands = read(bytes);
+    const StrandSet strands = readTfx(bytes);
     EXPECT_THAT(
         strands.root_uvs,
         ElementsAre(glm::vec2(0, 1), glm::vec2(0.3f, 0.7f), glm::vec2(0.6f, 0.4f)));
@@ -80,14 +80,14 @@ TEST(ImportTfx, ReadsArraysInAnyOrderWithGaps) {
     bytes.f32(4.0).u32(1).u32(2).u32(200).u32(0).u32(0).u32(164).u32(0).zeros(128);
     bytes.zeros(4).f32(0.5).zeros(200 - 168);
     bytes.f32(1, 2, 3, 0, 4, 5, 6, 1).zeros(5);
-    const StrandSet strands = read(bytes.str());
+    const StrandSet strands = readTfx(bytes.str());
     EXPECT_THAT(strands.points, ElementsAre(glm::vec3(1, 2, 3), glm::vec3(4, 5, 6)));
     EXPECT_EQ(strands.widths.everywhere, 0.5f);
 }
 
 TEST(ImportTfx, TellsOfFixedVerticesBeyondTheSecond) {
     EXPECT_THAT(
-        read(patched(plainFile(), kPositions + 3 * 16 + 12, 0.0f)).warnings,
+        readTfx(patched(plainFile(), kPositions + 3 * 16 + 12, 0.0f)).warnings,
         ElementsAre(StartsWith("1 vertices beyond the first two")));
 }
 
@@ -95,31 +95,34 @@ TEST(ImportTfx, RefusesEveryTruncation) {
     for (const std::string& bytes : {plainFile(), fullFile()}) {
         for (std::size_t size = 0; size < bytes.size(); ++size) {
             EXPECT_THAT(
-                error(bytes.substr(0, size)), AllOf(StartsWith("byte "), HasSubstr("truncated")))
+                errorOfTfx(bytes.substr(0, size)),
+                AllOf(StartsWith("byte "), HasSubstr("truncated")))
                 << size;
         }
     }
-    EXPECT_EQ(error(""), "byte 0: truncated: the header alone is 160 bytes");
+    EXPECT_EQ(errorOfTfx(""), "byte 0: truncated: the header alone is 160 bytes");
     EXPECT_EQ(
-        error(fullFile().substr(0, 500)),
+        errorOfTfx(fullFile().substr(0, 500)),
         "byte 500: vertex colours at byte 484: truncated, they end at byte 676, the file at 500");
 }
 
 TEST(ImportTfx, RefusesWrongHeaders) {
     const std::string bytes = fullFile();
     for (const float version : {0.0f, 3.0f, 4.5f, -4.0f, kNotFinite[0]})
-        EXPECT_THAT(error(patched(bytes, 0, version)), StartsWith("byte 0: version ")) << version;
+        EXPECT_THAT(errorOfTfx(patched(bytes, 0, version)), StartsWith("byte 0: version "))
+            << version;
     for (const std::size_t count : {4u, 8u}) {
         for (const std::uint32_t wrong : kWrongCounts) {
             if (count == 4 && wrong == 1) continue;  // fits, with gaps
-            EXPECT_THAT(error(patched(bytes, count, wrong)), StartsWith("byte ")) << wrong;
+            EXPECT_THAT(errorOfTfx(patched(bytes, count, wrong)), StartsWith("byte ")) << wrong;
         }
     }
-    EXPECT_EQ(error(patched(bytes, 4, 0)), "byte 4: 0 strands, at least 1 is needed");
-    EXPECT_EQ(error(patched(bytes, 8, 1)), "byte 8: 1 vertices per strand, at least 2 are needed");
-    EXPECT_EQ(error(patched(bytes, 12, 0)), "byte 12: there are no positions");
+    EXPECT_EQ(errorOfTfx(patched(bytes, 4, 0)), "byte 4: 0 strands, at least 1 is needed");
+    EXPECT_EQ(
+        errorOfTfx(patched(bytes, 8, 1)), "byte 8: 1 vertices per strand, at least 2 are needed");
+    EXPECT_EQ(errorOfTfx(patched(bytes, 12, 0)), "byte 12: there are no positions");
     EXPECT_THAT(
-        error(patched(patched(bytes, 4, -1), 8, -1)),
+        errorOfTfx(patched(patched(bytes, 4, -1), 8, -1)),
         StartsWith("byte 4: 18446744065119617025 vertices"));
 }
 
@@ -127,19 +130,19 @@ TEST(ImportTfx, RefusesArraysThatDoNotFit) {
     const std::string bytes = fullFile();
     for (const std::size_t offset : {12u, 16u, 20u, 24u, 28u}) {
         const std::string at = "byte " + std::to_string(offset) + ": ";
-        EXPECT_THAT(error(patched(bytes, offset, 156)), StartsWith(at)) << "in the header";
-        EXPECT_THAT(error(patched(bytes, offset, 1)), StartsWith(at)) << "in the header";
+        EXPECT_THAT(errorOfTfx(patched(bytes, offset, 156)), StartsWith(at)) << "in the header";
+        EXPECT_THAT(errorOfTfx(patched(bytes, offset, 1)), StartsWith(at)) << "in the header";
         for (const std::uint32_t wrong : {0x7fffffffu, 0x80000000u, 0xffffffffu, 0xfffffffcu})
-            EXPECT_THAT(error(patched(bytes, offset, wrong)), StartsWith("byte ")) << wrong;
+            EXPECT_THAT(errorOfTfx(patched(bytes, offset, wrong)), StartsWith("byte ")) << wrong;
     }
     EXPECT_EQ(
-        error(patched(bytes, 16, kPositions + 16)),
+        errorOfTfx(patched(bytes, 16, kPositions + 16)),
         "byte 16: strand UVs at byte 176 lie on the positions, which end at byte 352");
     EXPECT_EQ(
-        error(patched(bytes, 16, kPositions)),
+        errorOfTfx(patched(bytes, 16, kPositions)),
         "byte 16: strand UVs at byte 160 lie on the positions, which end at byte 352");
     EXPECT_EQ(
-        error(patched(bytes, 28, kColors + 2)),
+        errorOfTfx(patched(bytes, 28, kColors + 2)),
         "byte 28: vertex colours at byte 486: not a multiple of 4");
 }
 
@@ -149,21 +152,21 @@ TEST(ImportTfx, RefusesNumbersThatAreNotFinite) {
         for (std::size_t at = kPositions; at < bytes.size(); at += 4) {
             const bool unread = at >= kVertexUvs && at < kThickness;
             EXPECT_THAT(
-                error(patched(bytes, at, wrong)),
+                errorOfTfx(patched(bytes, at, wrong)),
                 StartsWith(unread ? "no error" : "byte " + std::to_string(at) + ": "));
         }
     }
     EXPECT_EQ(
-        error(patched(bytes, kPositions + 2 * 16 + 8, kNotFinite[0])),
+        errorOfTfx(patched(bytes, kPositions + 2 * 16 + 8, kNotFinite[0])),
         "byte 200: position 2 is not finite");
     EXPECT_THAT(
-        error(patched(bytes, kThickness + 8, -1.0f)),
+        errorOfTfx(patched(bytes, kThickness + 8, -1.0f)),
         StartsWith("byte 480: thickness 2 is negative"));
 }
 
 TEST(ExportTfx, WritesTheDescribedBytes) {
-    EXPECT_EQ(writeText(exportTfx, read(plainFile())).bytes, plainFile());
-    StrandSet strands = read(fullFile());
+    EXPECT_EQ(writeText(exportTfx, readTfx(plainFile())).bytes, plainFile());
+    StrandSet strands = readTfx(fullFile());
     const auto [bytes, warnings] = writeText(exportTfx, strands);
     EXPECT_THAT(warnings, IsEmpty());
     // Without UVs of vertices; colours move to the next multiple of 8.
@@ -181,7 +184,7 @@ TEST(ExportTfx, ResamplesWhatIsNotUniform) {
         .points = {{0, 0, 0}, {3, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}, {3, 1, 0}, {4, 1, 0}}};
     const auto [bytes, warnings] = writeText(exportTfx, strands);
     EXPECT_THAT(warnings, ElementsAre(HasSubstr("resampled to 8")));
-    const StrandSet back = read(bytes);
+    const StrandSet back = readTfx(bytes);
     EXPECT_THAT(back.ends, ElementsAre(8, 16));
     EXPECT_EQ(back.points[7], strands.points[1]);
     EXPECT_EQ(back.points[15], strands.points[6]);
@@ -201,7 +204,7 @@ TEST(ExportTfx, SaysWhatItLeavesOut) {
             HasSubstr("root triangles"), HasSubstr("unit"), HasSubstr("comment"),
             HasSubstr("3 vertices per strand"), HasSubstr("varies along 1 strands"),
             HasSubstr("colours are not known"), HasSubstr("1 transparencies are rounded")));
-    const StrandSet back = read(bytes);
+    const StrandSet back = readTfx(bytes);
     EXPECT_EQ(back.widths.everywhere, 0.2f);
     EXPECT_EQ(back.colors.everywhere, glm::vec3(1.0f));
     EXPECT_EQ(back.transparencies.values.back(), 0.75f);

@@ -17,7 +17,7 @@ using testing::ElementsAre;
 using testing::StartsWith;
 
 template <class Value>
-void put(std::vector<std::byte>& bytes, const Value& value) {
+void append(std::vector<std::byte>& bytes, const Value& value) {
     const auto* first = reinterpret_cast<const std::byte*>(&value);
     bytes.insert(bytes.end(), first, first + sizeof value);
 }
@@ -43,15 +43,15 @@ constexpr std::size_t kTriangles = kWidths + 12 + 4 + 36 + 16;
 
 std::vector<std::byte> stream() {
     std::vector<std::byte> bytes;
-    put(bytes, kHeader);
-    put(bytes, std::array{1u, 2u});
-    for (int k = 0; k < 9; ++k) put(bytes, static_cast<float>(k));
-    put(bytes, std::array{0.5f, 0.25f, 0.125f});
-    put(bytes, 0.75f);
-    for (int k = 0; k < 9; ++k) put(bytes, static_cast<float>(-k));
-    put(bytes, std::array{0.1f, 0.2f, 0.3f, 0.4f});
-    put(bytes, std::array{0u, 1u, 0u});
-    for (const char c : std::string("hairone\ntwo")) put(bytes, c);
+    append(bytes, kHeader);
+    append(bytes, std::array{1u, 2u});
+    for (int k = 0; k < 9; ++k) append(bytes, static_cast<float>(k));
+    append(bytes, std::array{0.5f, 0.25f, 0.125f});
+    append(bytes, 0.75f);
+    for (int k = 0; k < 9; ++k) append(bytes, static_cast<float>(-k));
+    append(bytes, std::array{0.1f, 0.2f, 0.3f, 0.4f});
+    append(bytes, std::array{0u, 1u, 0u});
+    for (const char c : std::string("hairone\ntwo")) append(bytes, c);
     return bytes;
 }
 

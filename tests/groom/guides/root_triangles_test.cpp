@@ -19,7 +19,7 @@ namespace {
 
 using testing::ElementsAre;
 using Triangle = std::array<std::uint32_t, 3>;
-using Triangles = std::vector<Triangle>;
+using TriangleList = std::vector<Triangle>;
 
 // Strands of a segment along `direction`.
 Groom rooted(const std::vector<glm::dvec3>& roots, const glm::dvec3& direction = {0, 0.1, 0}) {
@@ -58,14 +58,14 @@ glm::dvec3 areaVector(const Groom& groom, const Triangle& triangle) {
     return 0.5 * glm::cross(b - a, c - a);
 }
 
-double area(const Groom& groom, const Triangles& triangles) {
+double area(const Groom& groom, const TriangleList& triangles) {
     double sum = 0.0;
     for (const Triangle& triangle : triangles) sum += glm::length(areaVector(groom, triangle));
     return sum;
 }
 
 // How many triangles lie on each edge, in either direction.
-std::map<std::pair<std::uint32_t, std::uint32_t>, int> edgesOf(const Triangles& triangles) {
+std::map<std::pair<std::uint32_t, std::uint32_t>, int> edgesOf(const TriangleList& triangles) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
     for (const Triangle& triangle : triangles)
         for (std::size_t k = 0; k < 3; ++k)
@@ -75,7 +75,7 @@ std::map<std::pair<std::uint32_t, std::uint32_t>, int> edgesOf(const Triangles& 
 
 // Of points on a sphere the Delaunay triangles are the faces of the convex hull (Brown 1979): all
 // points are on the inner side of each. Floats are rounded at 0.1.
-void expectDelaunayOnSphere(const Groom& groom, const Triangles& triangles) {
+void expectDelaunayOnSphere(const Groom& groom, const TriangleList& triangles) {
     for (const Triangle& triangle : triangles) {
         const glm::dvec3 outward = glm::normalize(areaVector(groom, triangle));
         const glm::dvec3 corner(groom.strand(triangle[0])[0]);
@@ -91,7 +91,7 @@ TEST(TriangulateRoots, JoinsOneTwoAndThree) {
         EXPECT_THAT(
             triangulateRoots(rooted({{0, 0, 0}, {x, 0.2, 0.3}}), nullptr),
             ElementsAre(Triangle{0, 1, 1}));
-    const Triangles one = triangulateRoots(rooted({{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}), nullptr);
+    const TriangleList one = triangulateRoots(rooted({{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}), nullptr);
     ASSERT_EQ(one.size(), 1u);
     EXPECT_GT(areaVector(rooted({{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}), one[0]).y, 0.0);
 }
@@ -115,7 +115,7 @@ TEST(TriangulateRoots, CoversAPatchOnTheSideOfItsHair) {
     const std::vector<glm::dvec3> roots = square(9, 0.01);
     for (const double up : {-0.1, 0.1}) {
         const Groom groom = rooted(roots, {0.02, up, 0.0});
-        const Triangles triangles = triangulateRoots(groom, nullptr);
+        const TriangleList triangles = triangulateRoots(groom, nullptr);
         EXPECT_EQ(triangles.size(), 128u);
         EXPECT_NEAR(area(groom, triangles), 0.08 * 0.08, 1e-9);
         for (const Triangle& triangle : triangles)
@@ -127,7 +127,7 @@ TEST(TriangulateRoots, LeavesOutRootsAtATakenPlace) {
     std::vector<glm::dvec3> roots = square(5, 0.01);
     const std::vector<glm::dvec3> again = roots;
     roots.insert(roots.end(), again.begin(), again.end());
-    const Triangles triangles = triangulateRoots(rooted(roots), nullptr);
+    const TriangleList triangles = triangulateRoots(rooted(roots), nullptr);
     EXPECT_EQ(triangles.size(), 32u);
     for (const Triangle& triangle : triangles) EXPECT_LT(std::ranges::max(triangle), 25u);
 }
@@ -136,7 +136,7 @@ TEST(TriangulateRoots, LeavesOutRootsAtATakenPlace) {
 // dropped: 2 n - 2 - h triangles of n roots, h of them on the hairline, one piece (Euler).
 TEST(TriangulateRoots, CoversACap) {
     const Groom groom = rooted(onSphere(800, std::cos(1.75)));
-    const Triangles triangles = triangulateRoots(groom, nullptr);
+    const TriangleList triangles = triangulateRoots(groom, nullptr);
     expectDelaunayOnSphere(groom, triangles);
     const double cap = 2.0 * std::numbers::pi * 0.01 * (1.0 - std::cos(1.75));
     // The outermost roots are half a spacing inside, 4 % of the area; flat triangles take 1 %.
@@ -150,7 +150,7 @@ TEST(TriangulateRoots, CoversACap) {
 TEST(TriangulateRoots, DoesNotDependOnPlaceAndDirection) {
     const glm::dmat3 turn{{0.36, 0.48, -0.8}, {-0.8, 0.6, 0.0}, {0.48, 0.64, 0.6}};  // a rotation
     std::vector<glm::dvec3> roots = onSphere(300, 0.0);
-    const auto asSet = [](const Triangles& triangles) {
+    const auto asSet = [](const TriangleList& triangles) {
         std::set<Triangle> set;
         for (Triangle t : triangles) {
             std::ranges::rotate(t, std::ranges::min_element(t));
@@ -169,13 +169,13 @@ TEST(TriangulateRoots, LeavesAFaceFree) {
     const auto isFace = [](const glm::dvec3& p) { return p.z > 0.03 && p.y < 0.06; };
     std::erase_if(roots, isFace);
     const Groom groom = rooted(roots);
-    const Triangles triangles = triangulateRoots(groom, nullptr);
+    const TriangleList triangles = triangulateRoots(groom, nullptr);
     expectDelaunayOnSphere(groom, triangles);
     const double spacing = std::sqrt(2.0 * std::numbers::pi * 0.01 * 1.2 / 1000.0);
     for (const Triangle& triangle : triangles) {
         const auto [a, b, c] = cornersOf(groom, triangle);
         const glm::dvec3 centre = 0.1 * glm::normalize(a + b + c);
-        // Triangles have edges of three spacings at most, so none is that deep in the face.
+        // TriangleList have edges of three spacings at most, so none is that deep in the face.
         EXPECT_TRUE(centre.z <= 0.03 + 2.0 * spacing || centre.y >= 0.06 - 2.0 * spacing);
     }
     const auto edges = edgesOf(triangles);
@@ -193,7 +193,7 @@ TEST(TriangulateRoots, LeavesAWidePartingFree) {
     for (glm::dvec3& root : roots)
         if (root.x > 0.045) root.x += 0.04;  // a gap of 5 rows: 3.5 diagonals
     const Groom groom = rooted(roots);
-    const Triangles triangles = triangulateRoots(groom, nullptr);
+    const TriangleList triangles = triangulateRoots(groom, nullptr);
     EXPECT_EQ(triangles.size(), 2u * 2u * 4u * 9u);
     EXPECT_NEAR(area(groom, triangles), 2.0 * 0.04 * 0.09, 1e-9);
     for (glm::dvec3& root : roots)
@@ -204,7 +204,7 @@ TEST(TriangulateRoots, LeavesAWidePartingFree) {
 // The surface of a sphere, closed: 2 n - 4 triangles, each edge between two (Euler).
 TEST(TriangulateRoots, GoesAllRoundASphere) {
     const Groom groom = rooted(onSphere(500, -1.0));
-    const Triangles triangles = triangulateRoots(groom, nullptr);
+    const TriangleList triangles = triangulateRoots(groom, nullptr);
     EXPECT_EQ(triangles.size(), 996u);
     expectDelaunayOnSphere(groom, triangles);
     for (const auto& [edge, count] : edgesOf(triangles)) EXPECT_EQ(count, 2);
@@ -218,7 +218,7 @@ TEST(TriangulateRoots, TakesANarrowStrip) {
         roots.emplace_back(0.1 * along, 0.003 * (i % 3), 0.1 * std::cos(along));
     }
     const Groom groom = rooted(roots, {0, 0, 0.1});
-    const Triangles triangles = triangulateRoots(groom, nullptr);
+    const TriangleList triangles = triangulateRoots(groom, nullptr);
     EXPECT_NEAR(area(groom, triangles), 0.006 * 0.003 * 29, 0.1 * 0.006 * 0.003 * 29);
     for (const Triangle& triangle : triangles) EXPECT_GT(areaVector(groom, triangle).z, 0.0);
 }
@@ -232,7 +232,7 @@ TEST(TriangulateRoots, DropsFewTrianglesOfRandomRoots) {
     for (std::uint32_t i = 0; i < 3000; ++i)
         roots.emplace_back(random01(1, i, 1), 0.0, random01(1, i, 2));
     const Groom groom = rooted(roots);
-    const Triangles triangles = triangulateRoots(groom, nullptr);
+    const TriangleList triangles = triangulateRoots(groom, nullptr);
     EXPECT_GT(triangles.size(), 0.985 * 6000.0);
     EXPECT_GT(area(groom, triangles), 0.96);
     EXPECT_EQ(triangulateRoots(groom, nullptr), triangles);
