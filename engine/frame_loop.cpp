@@ -1,6 +1,7 @@
 #include "engine/frame_loop.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -76,7 +77,8 @@ public:
     OneBufferPasses(const Device& device, Timing timing, Slot& slot, std::uint32_t index)
         : device_(device), timing_(timing), slot_data_(slot), commands_(slot.buffer) {
         slot_ = index;
-        if (timing_ == Timing::overlapped) slot_data_.timestamps->write(commands_);
+        if (timing_ == Timing::overlapped && slot_data_.timestamps)
+            slot_data_.timestamps->write(commands_);
     }
 
     void
@@ -85,16 +87,18 @@ public:
         switch (timing_) {
         case Timing::overlapped: {
             record(commands_);
+            if (!slot_data_.timestamps) break;
             const std::uint32_t stamp = slot_data_.timestamps->write(commands_);
             slot_data_.spans.push_back({name, stamp - 1, stamp});
             break;
         }
         case Timing::isolated: {
-            const std::uint32_t first = slot_data_.timestamps->write(commands_);
+            auto& stamps = slot_data_.timestamps;
+            const std::uint32_t first = stamps ? stamps->write(commands_) : 0;
             commands_.barrier(Access::anything, Access::anything);
             record(commands_);
             commands_.barrier(Access::anything, Access::anything);
-            slot_data_.spans.push_back({name, first, slot_data_.timestamps->write(commands_)});
+            if (stamps) slot_data_.spans.push_back({name, first, stamps->write(commands_)});
             break;
         }
         case Timing::statistics:
@@ -177,7 +181,8 @@ struct FrameLoop::Slot {
         check(
             vkAllocateCommandBuffers(device.get(), &allocate, &buffer),
             "allocate a command buffer");
-        if (timing == Timing::overlapped || timing == Timing::isolated) {
+        const bool stamped = timing == Timing::overlapped || timing == Timing::isolated;
+        if (stamped && device.info().timestamp_valid_bits > 0) {
             timestamps.emplace(device, kMaxStamps);
         }
     }
@@ -212,17 +217,15 @@ FrameLoop::FrameLoop(const Device& device, Timing timing)
 FrameLoop::~FrameLoop() { vkQueueWaitIdle(device_.queue()); }
 
 void FrameLoop::frame(const std::function<void(Passes&)>& record) {
-    const std::uint32_t index = static_cast<std::uint32_t>(starts_.size() % slots_.size());
+    const auto index = static_cast<std::uint32_t>(frames_++ % slots_.size());
     Slot& slot = *slots_[index];
     const Clock::time_point start = Clock::now();
     // Frames that overlap have no use of their own, and asking for it takes time.
     const ProcessUse used = timing_ == Timing::overlapped ? ProcessUse{} : processUse();
     collect(slot);
     const Clock::time_point free = Clock::now();
-    if (!starts_.empty()) {
-        records_[starts_.size() - 1].interval = millisecondsBetween(starts_.back(), start);
-    }
-    starts_.push_back(start);
+    if (!records_.empty()) records_.back().interval = millisecondsBetween(start_, start);
+    start_ = start;
     FrameRecord& result = records_.emplace_back();
 
     if (timing_ == Timing::wall_clock) {
@@ -262,11 +265,21 @@ void FrameLoop::frame(const std::function<void(Passes&)>& record) {
 
 std::vector<FrameRecord> FrameLoop::finish() {
     for (const auto& slot : slots_) collect(*slot);
-    if (!starts_.empty()) {
-        records_.back().interval = millisecondsBetween(starts_.back(), Clock::now());
-    }
-    starts_.clear();
+    if (!records_.empty()) records_.back().interval = millisecondsBetween(start_, Clock::now());
     return std::exchange(records_, {});
+}
+
+std::vector<FrameRecord> FrameLoop::completed() {
+    std::size_t count = records_.empty() ? 0 : records_.size() - 1;
+    for (const auto& slot : slots_)
+        if (slot->record) count = std::min(count, *slot->record);
+    const auto end = records_.begin() + static_cast<std::ptrdiff_t>(count);
+    std::vector<FrameRecord> complete(
+        std::make_move_iterator(records_.begin()), std::make_move_iterator(end));
+    records_.erase(records_.begin(), end);
+    for (const auto& slot : slots_)
+        if (slot->record) *slot->record -= count;
+    return complete;
 }
 
 // Waits for the slot's frame and reads what it measured.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,9 @@ struct FrameRecord {
     double submit = 0.0;  // CPU: in vkQueueSubmit2
     double wait = 0.0;  // CPU: for the device (overlapped: until a slot was free)
     ProcessUse use;  // CPU: of the whole process, from recording to completion (not overlapped)
-    double device = 0.0;  // GPU: first to last stamp (overlapped, isolated)
+    // GPU: first to last stamp (overlapped, isolated). Absent, and `passes` empty but in
+    // wall_clock, where the device's queue has no timestamps.
+    std::optional<double> device;
     std::vector<PassTime> passes;  // passes of one name are summed
     std::vector<PassStatistics> statistics;
 };
@@ -76,6 +79,11 @@ public:
 
     void frame(const std::function<void(Passes&)>& record);
 
+    // What was measured of frames that are complete, oldest first, without waiting for any; each
+    // frame is returned once, by this or by finish(). The newest frame is not among them: its
+    // interval ends with the next one.
+    std::vector<FrameRecord> completed();
+
     // Waits for all frames; returns what was measured of each since the last call. The interval of
     // the last frame runs until here, so it contains the wait: leave it out of statistics.
     std::vector<FrameRecord> finish();
@@ -89,8 +97,9 @@ private:
     Handle<VkSemaphore, &vkDestroySemaphore> timeline_;
     std::uint64_t submitted_ = 0;
     std::vector<std::unique_ptr<Slot>> slots_;
-    std::vector<FrameRecord> records_;
-    std::vector<std::chrono::steady_clock::time_point> starts_;
+    std::uint64_t frames_ = 0;
+    std::vector<FrameRecord> records_;  // of frames that were not returned yet
+    std::chrono::steady_clock::time_point start_{};  // of the newest frame
 };
 
 }  // namespace engine

@@ -140,6 +140,14 @@ const Table& tableOf(const RunSettings*) {
              "max_time", &S::max_time, 0, 86400, "s",
              "time after which no more rounds are begun in a mode; 0: one round"),
          number(
+             "warmup_time", &S::warmup_time, 0, 60, "s",
+             "load before a mode is measured on a device that is no processor, at least: its clock "
+             "rises"),
+         number(
+             "round_time", &S::round_time, 0, 60, "s",
+             "time that a round measures at least on a device that is no processor, by playing its "
+             "frames again and again; 0: once"),
+         number(
              "frame_time", &S::frame_time, 0, 1, "s",
              "simulated time that a frame advances; 0 draws the same instant again"),
          text(

@@ -173,8 +173,13 @@ constexpr std::uint32_t kWarmUps = 2;  // frames of a pipeline before it is time
 // Isolated, or by the CPU's clock where timestamps are wrong.
 engine::Timing
 trustedTiming(const engine::Device& device, StopView& pass, std::vector<std::string>& warnings) {
+    engine::FrameLoop stamped(device, engine::Timing::isolated);
+    engine::FrameLoop clocked(device, engine::Timing::wall_clock);
+    const auto played = [&](engine::FrameLoop& loop) {
+        return measure::PlayedFrames{[&] { pass.draw(loop); }, [&] { return loop.finish(); }};
+    };
     const std::vector<std::string> faults =
-        measure::checkTimestamps(device, [&](engine::FrameLoop& loop) { pass.draw(loop); });
+        measure::checkTimestamps(played(stamped), played(clocked));
     if (faults.empty()) return engine::Timing::isolated;
     warnings.push_back("timestamps are not trusted: times are by the CPU's clock");
     warnings.insert(warnings.end(), faults.begin(), faults.end());

@@ -253,9 +253,10 @@ void addGroomCommands(const CommandLine& line) {
 constexpr const char* kGateNotes =
     R"(A and B are a build folder, a program, or a command line that 'run SCENE --out FILE ...' is added to;
 one with {scene} and {out} in it is taken as it is. Whole processes run as A B, B A, A B ...; a sample
-is a process's median. After 12, 24 and 48 pairs it is over if no metric is inconclusive. Exit status:
-0 nothing is slower, 10 something is, 11 inconclusive (--fail-on inconclusive), 12 pictures or states
-differ.)";
+is a process's median. After 12, 24 and 48 pairs verdicts are passed; it is over if no metric is
+inconclusive or one has regressed. One that is stopped gives the verdicts that were passed last. Exit
+status: 0 nothing is slower, 10 something is, 11 inconclusive (--fail-on inconclusive), 12 pictures or
+states differ, 130 interrupted before the first verdict.)";
 
 void addRunOptions(CLI::App& command, run::RunOptions& options) {
     addSceneOptions(command, options.scene);
@@ -311,6 +312,18 @@ void addGateOptions(CLI::App& command, gate::GateOptions& options) {
             "pairs of A with itself first: changes that A has by itself count as none (default 0)")
         ->check(CLI::Range(0, 256));
     addVerdictOptions(command, options.verdict);
+    command
+        .add_option(
+            "--smallest-share", options.verdict.smallest_share,
+            "passes that are less of their frame decide nothing (default 0.02)")
+        ->check(CLI::Range(0.0, 1.0));
+    command.add_flag(
+        "--all", options.all, "go on after a regression until nothing is inconclusive");
+    command
+        .add_option(
+            "--max-minutes", options.max_minutes,
+            "time after which no process is begun; the verdicts passed last are given")
+        ->check(CLI::PositiveNumber);
     command.add_option("-o,--out", options.out, "report (default results/local/gate-<scene>.json)")
         ->type_name("FILE");
     command.footer(kGateNotes);

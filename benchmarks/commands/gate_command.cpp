@@ -24,9 +24,12 @@ void printEnd(const gate::GateRun& run) {
         std::cerr << "hairbench: " << run.failure << '\n';
     else if (run.end == gate::GateRun::End::interrupted)
         std::cerr << "interrupted after " << run.pairs << (run.pairs == 1 ? " pair\n" : " pairs\n");
+    else if (run.end == gate::GateRun::End::out_of_time)
+        std::cerr << "out of time after " << run.pairs << (run.pairs == 1 ? " pair\n" : " pairs\n");
     else if (run.mismatches.empty() && run.changes.empty())
         std::cerr << "hairbench: no case ran in both that has a time to judge\n";
-    else if (run.mismatches.empty())
+    if (run.mismatches.empty() && (run.decided_at > 0 || run.end == gate::GateRun::End::decided) &&
+        !run.changes.empty())
         std::cout << "verdict: " << report::verdictName(gate::overallVerdict(run)) << '\n';
 }
 

@@ -87,9 +87,11 @@ int playCases(
         std::cerr << "going on after " << record.done() << " of " << plan.cases.size()
                   << " cases\n";
     measure::Progress progress(plan.cases.size(), record.done());
+    measure::DeviceKnowledge known;
     const measure::MeasureHooks hooks{
         .stop = engine::interrupted,
-        .progress = [&](const measure::SamplingState& state) { progress.update(state); }};
+        .progress = [&](const measure::SamplingState& state) { progress.update(state); },
+        .known = &known};
     const std::filesystem::path pictures_of =
         options.pictures && record.hasJournal() ? out : std::filesystem::path();
     reference::ReferenceComparison references;

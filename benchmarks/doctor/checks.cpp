@@ -80,7 +80,7 @@ Judgement judgeClocks(const Facts& facts) {
             "watch the clocks by other means: throttling goes unnoticed"};
     const ClockFacts& clocks = *facts.clocks;
     const std::string seen = clockText(clocks);
-    if (measure::isThrottled(clocks.conditions))
+    if (measure::isThrottled(clocks.conditions, 0.0, 0.0))
         return {
             Health::bad, seen,
             "the device is throttled: let it cool down, raise its power limit, end what else uses "
@@ -228,9 +228,16 @@ Judgement judgeTimestamps(const Facts& facts) {
 
 Judgement judgePassSum(const Facts& facts) {
     if (facts.timestamps.valid_bits == 0) return {Health::unknown, "needs timestamps"};
-    const double ratio = facts.passes.sum_over_wall;
-    const std::string seen = "isolated passes add up to " + shareText(ratio) + " of wall clock";
-    if (std::abs(ratio - 1.0) <= measure::kTrustTolerance) return {Health::ok, seen};
+    const measure::PassSum& sum = facts.passes.sum;
+    if (!sum.over_wall) return {Health::unknown, "no frame had timestamps"};
+    std::string seen = "isolated passes add up to " + shareText(*sum.over_wall) + " of wall clock";
+    // A submission takes longer than a frame of a fast device.
+    if (!isSoftware(facts) && sum.over_device)
+        seen += ", " + shareText(*sum.over_device) + " of the device's own time";
+    const bool whole = isSoftware(facts)
+                           ? std::abs(*sum.over_wall - 1.0) <= measure::kTrustTolerance
+                           : !sum.incomplete;
+    if (whole) return {Health::ok, seen};
     return {
         Health::bad, seen,
         "don't believe times of passes here; frame times stand. Close other programs and try "

@@ -219,7 +219,7 @@ Facts gatherFacts(
     if (auto source = measure::openClockSource(device.info())) sampler.emplace(std::move(source));
     if (sampler) sampler->begin();
     facts.repeat = examineRepeat(device, hooks);
-    if (sampler) facts.clocks = clockFacts(sampler->end());
+    if (sampler) facts.clocks = clockFacts(sampler->take());
     return facts;
 }
 

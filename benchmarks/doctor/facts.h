@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "benchmarks/measure/measure.h"
+#include "benchmarks/measure/trust.h"
 #include "benchmarks/report/report.h"
 #include "engine/device.h"
 
@@ -24,7 +25,7 @@ struct TimestampFacts {
 
 // How times of passes add up in the doctor's scene.
 struct PassFacts {
-    double sum_over_wall = 0.0;       // isolated passes over the wall clock
+    measure::PassSum sum;  // of isolated passes
     std::vector<std::string> faults;  // of timestamps against submit-and-wait
 };
 

@@ -8,6 +8,7 @@
 
 #include "benchmarks/measure/metrics.h"
 #include "benchmarks/measure/sampling.h"
+#include "benchmarks/measure/stage.h"
 #include "benchmarks/measure/trust.h"
 #include "benchmarks/report/statistics.h"
 #include "benchmarks/scene/settings_json.h"
@@ -102,21 +103,21 @@ PassFacts examinePasses(const engine::Device& device, const measure::MeasureHook
     writeDoctorScene(folder.path());
     const hair::Settings settings = doctorSettings();
     measure::Case test_case(device, settings, folder.path());
-    const measure::Play play{
-        .device = device, .test_case = test_case, .run = settings.run, .hooks = hooks};
-    measure::RoundPlayer player(play, engine::Timing::isolated);
+    measure::DeviceStage stage(device, test_case, settings.run, hooks);
+    measure::RoundPlayer player(stage.player(engine::Timing::isolated), settings.run);
     // A busy machine only ever adds time outside the passes or between them: the round whose sum is
     // nearest to the wall clock tells most of the device.
     PassFacts facts;
+    const measure::EmptySubmission empty = measure::measureEmptySubmission(stage);
     double nearest = INFINITY;
     for (int i = 0; i < kRounds; ++i) {
-        const double ratio = measure::passSumOverWall(player.round());
-        if (std::abs(ratio - 1.0) >= nearest) continue;
-        nearest = std::abs(ratio - 1.0);
-        facts.sum_over_wall = ratio;
+        const measure::PassSum sum = measure::passSums(player.round(), empty);
+        if (!sum.over_wall || std::abs(*sum.over_wall - 1.0) >= nearest) continue;
+        nearest = std::abs(*sum.over_wall - 1.0);
+        facts.sum = sum;
     }
-    facts.faults = measure::checkTimestamps(
-        device, [&](engine::FrameLoop& loop) { measure::playFrame(loop, play); });
+    report::CaseResult result;
+    facts.faults = measure::checkTimestamps(stage, result);
     return facts;
 }
 
@@ -126,12 +127,10 @@ RepeatFacts examineRepeat(const engine::Device& device, const measure::MeasureHo
     const hair::Settings settings = doctorSettings();
     measure::Case case_a(device, settings, folder.path());
     measure::Case case_b(device, settings, folder.path());
-    measure::RoundPlayer a(
-        {.device = device, .test_case = case_a, .run = settings.run, .hooks = hooks},
-        engine::Timing::overlapped);
-    measure::RoundPlayer b(
-        {.device = device, .test_case = case_b, .run = settings.run, .hooks = hooks},
-        engine::Timing::overlapped);
+    measure::DeviceStage stage_a(device, case_a, settings.run, hooks);
+    measure::DeviceStage stage_b(device, case_b, settings.run, hooks);
+    measure::RoundPlayer a(stage_a.player(engine::Timing::overlapped), settings.run);
+    measure::RoundPlayer b(stage_b.player(engine::Timing::overlapped), settings.run);
     // Pipelines and caches warm up.
     a.round();
     b.round();

@@ -56,6 +56,8 @@ struct GateOptions {
     std::uint32_t pairs = 12;
     std::uint32_t calibration = 0;  // A/A pairs before the gate; 0: none
     report::VerdictOptions verdict;
+    bool all = false;  // go on after a regression, until nothing is inconclusive
+    double max_minutes = 0.0;  // after which no block is begun; 0: no limit
     std::filesystem::path out;  // report of the gate; empty: results/local/gate-<scene>.json
     std::vector<std::string> command;
 };

@@ -32,6 +32,8 @@ const char* endName(GateRun::End end) {
         return "decided";
     case GateRun::End::interrupted:
         return "interrupted";
+    case GateRun::End::out_of_time:
+        return "out_of_time";
     case GateRun::End::failed:
         return "failed";
     }
@@ -83,6 +85,8 @@ scene::Json timesJson(const GateRun& run) {
             {"hint", report::betterName(time.metric.better)}};
         if (time.metric.mode != report::Mode::none)
             object["mode"] = report::modeName(time.metric.mode);
+        if (time.share) object["share"] = *time.share;
+        if (!time.decides) object["decides"] = false;
         if (!time.calibration.empty()) object["calibration"] = time.calibration;
         object["differences"] = numbers(differences[i]);
         list.push_back(std::move(object));
@@ -110,15 +114,17 @@ scene::Json gateReport(
     scene::Json object = {{"schema", kGateSchema}, {"command", command}, {"scene", run.scene}};
     object["end"] = endName(run.end);
     if (!run.failure.empty()) object["failure"] = run.failure;
-    object["verdict"] = run.end == GateRun::End::decided
-                            ? scene::Json(report::verdictName(overallVerdict(run)))
-                            : scene::Json("inconclusive");
+    const bool known = run.end == GateRun::End::decided || run.decided_at > 0;
+    object["verdict"] =
+        report::verdictName(known ? overallVerdict(run) : report::Verdict::inconclusive);
+    if (run.decided_at > 0) object["decided_at"] = run.decided_at;
     object["exit_status"] = exitStatus(run, options);
     object["a"] = sideJson(run, run.a, run.first_a);
     object["b"] = sideJson(run, run.b, run.first_b);
     object["rule"] = {
         {"threshold", run.rule.threshold},
         {"alpha", run.rule.alpha},
+        {"smallest_share", options.smallest_share},
         {"decisions", scene::Json::array()}};
     for (const std::size_t stage : report::kStages)
         if (stage >= run.rule.first_pairs) object["rule"]["decisions"].push_back(stage);
@@ -214,6 +220,10 @@ std::string gateText(const GateRun& run) {
             calibrationText(run) + "\n\n";
     text += report::changesTable(run.changes, showCases(run)) + tooShortText(run) +
             incomparableText(run) + '\n';
+    if (run.end != GateRun::End::decided)
+        text += run.decided_at > 0 ? "stopped; the verdicts are those passed at " +
+                                         std::to_string(run.decided_at) + " pairs\n"
+                                   : std::string("stopped before the first verdict\n");
     return text + report::verdictCounts(run.changes) + '\n';
 }
 

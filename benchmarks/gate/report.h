@@ -9,7 +9,7 @@
 // Report of a gate, as JSON and for a terminal.
 namespace benchmarks::gate {
 
-inline constexpr const char* kGateSchema = "hairbench-gate/1.0.0";
+inline constexpr const char* kGateSchema = "hairbench-gate/1.1.0";
 
 // All of a gate, as results/gate.schema.json describes it: verdicts can be worked out again from
 // it. What is not known is absent.

@@ -22,9 +22,9 @@ constexpr report::Comparison kNothingKnown{
 
 }  // namespace
 
-Gate::Gate(std::vector<GateMetric> metrics, const report::VerdictRule& rule)
+Gate::Gate(std::vector<GateMetric> metrics, const report::VerdictRule& rule, bool all)
     : metrics_(std::move(metrics)), rule_(rule), differences_(metrics_.size()),
-      comparable_(metrics_.size(), 1) {
+      comparable_(metrics_.size(), 1), all_(all) {
     assert(std::ranges::count(report::kStages, rule_.first_pairs) == 1);
 }
 
@@ -37,11 +37,14 @@ Gate::Step Gate::next() const {
     if (waiting_) return a_first ? Step::run_b : Step::run_a;
     if (isStage(pairs_)) {
         if (pairs_ == *std::rbegin(report::kStages)) return Step::decided;
-        const std::vector<report::Comparison> compared = comparisons();
         bool open = false;
-        for (std::size_t i = 0; i < compared.size(); ++i)
-            open |= comparable_[i] && compared[i].verdict == report::Verdict::inconclusive;
-        if (!open) return Step::decided;
+        bool regressed = false;
+        for (std::size_t i = 0; i < decided_.size(); ++i) {
+            if (!metrics_[i].decides) continue;
+            open |= comparable_[i] && decided_[i].verdict == report::Verdict::inconclusive;
+            regressed |= decided_[i].verdict == report::Verdict::regressed;
+        }
+        if (!open || (regressed && !all_)) return Step::decided;
     }
     return a_first ? Step::run_a : Step::run_b;
 }
@@ -71,6 +74,19 @@ void Gate::addPair(const std::vector<double>& a, const std::vector<double>& b) {
             comparable_[i] = 0;
     }
     ++pairs_;
+    if (isStage(pairs_)) passVerdicts();
+}
+
+void Gate::passVerdicts() {
+    std::vector<report::Comparison> now = compareNow();
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        if (!decided_.empty() && decided_[i].verdict != report::Verdict::inconclusive)
+            now[i] = decided_[i];
+        else
+            now[i].pairs = pairs_;
+    }
+    decided_ = std::move(now);
+    decided_at_ = pairs_;
 }
 
 std::size_t Gate::nextDecision() const {
@@ -82,22 +98,32 @@ std::size_t Gate::nextDecision() const {
 }
 
 std::vector<report::Comparison> Gate::comparisons() const {
-    std::vector<std::vector<double>> differences;
-    std::vector<double> decisive_changes;
-    for (std::size_t i = 0; i < metrics_.size(); ++i) {
-        if (!comparable_[i] || pairs_ == 0) continue;
-        differences.push_back(differences_[i]);
-        decisive_changes.push_back(
-            report::decisiveChange(rule_.threshold, metrics_[i].calibration));
-    }
-    const std::vector<report::Comparison> known =
-        report::compare(differences, decisive_changes, rule_.alpha);
+    if (decided_at_ > 0) return decided_;
+    std::vector<report::Comparison> known = compareNow();
+    for (report::Comparison& each : known) each.verdict = report::Verdict::inconclusive;
+    return known;
+}
+
+std::vector<report::Comparison> Gate::compareNow() const {
     std::vector<report::Comparison> comparisons(metrics_.size(), kNothingKnown);
-    for (std::size_t i = 0, next_known = 0; i < metrics_.size(); ++i) {
-        if (comparable_[i] && pairs_ > 0) comparisons[i] = known[next_known++];
-        comparisons[i].decisive_change =
-            report::decisiveChange(rule_.threshold, metrics_[i].calibration);
-        if (!isStage(pairs_)) comparisons[i].verdict = report::Verdict::inconclusive;
+    // What decides nothing does not weigh on the rest's level.
+    for (const bool decides : {true, false}) {
+        std::vector<std::size_t> which;
+        std::vector<std::vector<double>> differences;
+        std::vector<double> decisive_changes;
+        for (std::size_t i = 0; i < metrics_.size(); ++i) {
+            if (metrics_[i].decides != decides) continue;
+            const double decisive =
+                report::decisiveChange(rule_.threshold, metrics_[i].calibration);
+            comparisons[i].decisive_change = decisive;
+            if (!comparable_[i] || pairs_ == 0) continue;
+            which.push_back(i);
+            differences.push_back(differences_[i]);
+            decisive_changes.push_back(decisive);
+        }
+        const std::vector<report::Comparison> known =
+            report::compare(differences, decisive_changes, rule_.alpha);
+        for (std::size_t i = 0; i < which.size(); ++i) comparisons[which[i]] = known[i];
     }
     return comparisons;
 }

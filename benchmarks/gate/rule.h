@@ -11,18 +11,23 @@ namespace benchmarks::gate {
 
 struct GateMetric {
     std::vector<double> calibration{};  // ln(A2/A1) of pairs of one build; may be empty
+    bool decides = true;  // false: it is judged, and nothing waits for it
 };
 
 // Says which build to run next and when enough is known, and judges: whoever has it runs processes.
 // Pairs of blocks go A B, B A, A B ..., so that a drift of the machine raises as many differences
-// as it lowers. After 12, 24 and 48 pairs (from the rule's first_pairs on) it is over if no metric
-// is inconclusive; at 48 whatever is inconclusive stays so. It takes all blocks to be of the same
-// work: whoever has it ends where pictures or states differ.
+// as it lowers. After 12, 24 and 48 pairs (from the rule's first_pairs on) verdicts are passed; one
+// that is not "inconclusive" stays, as each try has its share of the level. It is over if no metric
+// that decides is inconclusive, or if one has regressed and not all are wanted; at 48 whatever is
+// inconclusive stays so. It takes all blocks to be of the same work: whoever has it ends where
+// pictures or states differ.
 class Gate {
 public:
     enum class Step { run_a, run_b, decided };
 
-    explicit Gate(std::vector<GateMetric> metrics, const report::VerdictRule& rule = {});
+    // `all`: a regression does not end it while others are inconclusive.
+    explicit Gate(
+        std::vector<GateMetric> metrics, const report::VerdictRule& rule = {}, bool all = false);
 
     Step next() const;
 
@@ -35,20 +40,28 @@ public:
     // Pairs at which there is something to decide next; the last number of pairs at the end.
     std::size_t nextDecision() const;
 
-    // One for each metric. A verdict is passed at 12, 24 and 48 pairs only: between them all are
-    // inconclusive, so that stopping at a lucky moment decides nothing. A metric with a median that
-    // is not above 0 in some block cannot be compared: it is inconclusive, asks for no more pairs
-    // and leaves the rest alone.
+    // Pairs at which verdicts were passed last; 0: none were.
+    std::size_t decidedAt() const { return decided_at_; }
+
+    // One for each metric: as of decidedAt(), so that stopping at a lucky moment decides nothing,
+    // or, where a verdict was passed before that, as of then. Before the first time what is known
+    // so far, all inconclusive. A metric with a median that is not above 0 in some block cannot be
+    // compared: it is inconclusive, asks for no more pairs and leaves the rest alone.
     std::vector<report::Comparison> comparisons() const;
 
 private:
     void addPair(const std::vector<double>& a, const std::vector<double>& b);
     bool isStage(std::size_t pairs) const;
+    void passVerdicts();
+    std::vector<report::Comparison> compareNow() const;
 
     std::vector<GateMetric> metrics_;
     report::VerdictRule rule_;
     std::vector<std::vector<double>> differences_;  // [metric][pair], ln(B/A)
     std::vector<char> comparable_;  // [metric]
+    bool all_;
+    std::vector<report::Comparison> decided_;  // [metric], of decided_at_; may be empty
+    std::size_t decided_at_ = 0;
     std::optional<std::vector<double>> waiting_;  // the first block of the next pair
     std::size_t pairs_ = 0;
 };

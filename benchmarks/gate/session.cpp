@@ -46,8 +46,10 @@ report::Verdict overallVerdict(const GateRun& run) {
 }
 
 int exitStatus(const GateRun& run, const report::VerdictOptions& options) {
-    if (run.end == GateRun::End::interrupted) return report::kInterrupted;
+    if (run.end == GateRun::End::interrupted && run.decided_at == 0) return report::kInterrupted;
     if (run.end == GateRun::End::failed) return run.failure_status;
+    if (run.end == GateRun::End::out_of_time && run.decided_at == 0)
+        return report::verdictStatus(report::Verdict::inconclusive, options.fail_on_inconclusive);
     if (run.mismatches.empty() && run.changes.empty()) return report::kNothingRan;
     return report::verdictStatus(overallVerdict(run), options.fail_on_inconclusive);
 }
@@ -113,8 +115,9 @@ void addUnmatched(const BlockReport& block, const BlockReport& other, char side,
 }  // namespace
 
 GateSession::GateSession(const GateOptions& options, report::MetricChoice judged)
-    : regex_(options.verdict.metrics), judged_(std::move(judged)), runner_(options.scene.scene),
-      seed_(std::random_device()()) {
+    : max_minutes_(options.max_minutes), all_(options.all),
+      smallest_share_(options.verdict.smallest_share), regex_(options.verdict.metrics),
+      judged_(std::move(judged)), runner_(options.scene.scene), seed_(std::random_device()()) {
     run_.a = parseSide('A', options);
     run_.b = parseSide('B', options);
     run_.scene = options.scene.scene.string();
@@ -145,6 +148,21 @@ bool GateSession::warmUp() {
     return run_.mismatches.empty() && !run_.times.empty();
 }
 
+namespace {
+
+// What a pass is of all passes of its case by the same clock; absent of what is no pass.
+std::optional<double> shareOf(const report::MetricReading& metric, const BlockCase& block_case) {
+    if (metric.id.of != report::MetricOf::pass) return std::nullopt;
+    double sum = 0.0;
+    for (const report::MetricReading& each : block_case.metrics)
+        if (each.id.of == report::MetricOf::pass && each.id.what == metric.id.what &&
+            each.isTimedAs(metric))
+            sum += each.median;
+    return sum > 0.0 ? std::optional(metric.median / sum) : std::nullopt;
+}
+
+}  // namespace
+
 void GateSession::chooseTimes() {
     const std::vector<CommonMetric> common = commonMetrics(*run_.first_a, *run_.first_b);
     std::vector<report::MetricId> metrics;
@@ -155,14 +173,23 @@ void GateSession::chooseTimes() {
     for (const CommonMetric& each : common) {
         const report::Judgement judgement = report::judgementOf(judged, *each.a, *each.b);
         if (judgement == report::Judgement::not_wanted) continue;
+        GateTime time{.case_name = each.case_name, .metric = *each.a};
+        for (const auto& [block, metric] :
+             {std::pair(&*run_.first_a, each.a), std::pair(&*run_.first_b, each.b)})
+            if (const auto share = shareOf(*metric, *findCase(*block, each.case_name)))
+                time.share = std::max(*share, time.share.value_or(0.0));
+        time.decides = !time.share || *time.share >= smallest_share_;
         (judgement == report::Judgement::judged ? run_.times : run_.too_short)
-            .push_back({.case_name = each.case_name, .metric = *each.a});
+            .push_back(std::move(time));
     }
     if (run_.times.empty() && run_.too_short.empty() && !regex_.empty() && !common.empty())
         throw engine::Error("--metrics", "'" + regex_ + "' is in no metric's name");
 }
 
 bool GateSession::block(const Side& side, Phase phase, std::size_t pair) {
+    const std::chrono::duration<double, std::ratio<60>> passed =
+        std::chrono::steady_clock::now() - start_;
+    if (max_minutes_ > 0.0 && passed.count() >= max_minutes_) throw OutOfTime();
     progress_->begin(
         pieceName(phase == Phase::calibration ? "calibration," : "gate,", pair, side.name));
     const auto seed = static_cast<std::uint32_t>(seed_ + pair);
@@ -188,8 +215,9 @@ bool GateSession::calibrate(std::size_t pairs) {
 
 bool GateSession::play() {
     std::vector<GateMetric> metrics;
-    for (const GateTime& each : run_.times) metrics.push_back({.calibration = each.calibration});
-    Gate gate(std::move(metrics), run_.rule);
+    for (const GateTime& each : run_.times)
+        metrics.push_back({.calibration = each.calibration, .decides = each.decides});
+    Gate gate(std::move(metrics), run_.rule, all_);
     while (gate.next() != Gate::Step::decided) {
         const std::size_t decision = gate.nextDecision();
         progress_.emplace(2 * decision, 2 * gate.pairs());
@@ -206,6 +234,7 @@ bool GateSession::play() {
 
 void GateSession::judge(const Gate& gate) {
     run_.pairs = gate.pairs();
+    run_.decided_at = gate.decidedAt();
     run_.changes.clear();
     if (run_.pairs == 0) return;
     const std::vector<report::Comparison> comparisons = gate.comparisons();
@@ -216,7 +245,8 @@ void GateSession::judge(const Gate& gate) {
              .unit = run_.times[i].metric.unit,
              .a = medianOfBlocks(run_, 'A', i),
              .b = medianOfBlocks(run_, 'B', i),
-             .comparison = comparisons[i]});
+             .comparison = comparisons[i],
+             .decides = run_.times[i].decides});
 }
 
 GateRun runGate(const GateOptions& options) {
@@ -227,6 +257,8 @@ GateRun runGate(const GateOptions& options) {
             session.play();
     } catch (const engine::Interrupted&) {
         session.run().end = GateRun::End::interrupted;
+    } catch (const OutOfTime&) {
+        session.run().end = GateRun::End::out_of_time;
     } catch (const BlockFailed& failure) {
         session.run().end = GateRun::End::failed;
         session.run().failure = failure.what();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -20,6 +21,8 @@ struct GateTime {
     std::string case_name;
     report::MetricReading metric;  // of A's first block
     std::vector<double> calibration{};  // ln(A2/A1) of each pair of A with itself; may be empty
+    std::optional<double> share{};  // of a pass: of all passes of its case, in A or B, the larger
+    bool decides = true;  // no pass that is too small a share of its frame
 };
 
 enum class Phase { warm_up, calibration, gate };
@@ -35,7 +38,7 @@ struct BlockRecord {
 
 // All that a gate did, from which its verdicts can be worked out again.
 struct GateRun {
-    enum class End { decided, interrupted, failed };
+    enum class End { decided, interrupted, out_of_time, failed };
 
     Side a;
     Side b;
@@ -50,6 +53,7 @@ struct GateRun {
     std::vector<report::Mismatch> mismatches;
     char unstable = 0;  // the side whose own blocks differ, 'A' or 'B'; else 0
     std::size_t pairs = 0;  // that were compared
+    std::size_t decided_at = 0;  // pairs at which the verdicts were passed; 0: none were
     std::vector<report::Change> changes;  // one for each of `times`; none before a pair is complete
 
     End end = End::decided;
@@ -60,7 +64,8 @@ struct GateRun {
 // `mismatch` if there is one, otherwise as overallVerdict() of its changes.
 report::Verdict overallVerdict(const GateRun& run);
 
-// The exit status of the gate command.
+// The exit status of the gate command. One that was stopped ends as its last verdicts say, where
+// any were passed.
 int exitStatus(const GateRun& run, const report::VerdictOptions& options);
 
 // Differences ln(B/A) of the pairs of a phase whose blocks are complete; in the calibration B is
@@ -68,9 +73,12 @@ int exitStatus(const GateRun& run, const report::VerdictOptions& options);
 // `times`; NaN where a median is missing.
 std::vector<std::vector<double>> pairDifferences(const GateRun& run, Phase phase);
 
+// No block is begun any more.
+struct OutOfTime {};
+
 // A gate in steps: warmUp() first, calibrate() if wanted, then play(). Each returns whether there
 // is anything to go on with: not where pictures or states differ or nothing is to be judged. They
-// throw Interrupted, BlockFailed, engine::Error; what was done until then is in run().
+// throw Interrupted, OutOfTime, BlockFailed, engine::Error; what was done until then is in run().
 class GateSession {
 public:
     // Judges the metrics of `judged`; of an empty one those that options.verdict.metrics finds.
@@ -97,6 +105,10 @@ private:
     void chooseTimes();
     void judge(const Gate& gate);
 
+    const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    double max_minutes_;
+    bool all_;
+    double smallest_share_;
     std::string regex_;  // of the metrics that were asked for; may be empty
     report::MetricChoice judged_;  // empty: the times by the clock that tells most
     BlockRunner runner_;

@@ -100,6 +100,13 @@ void Case::frame(engine::Passes& passes) {
 
 void Case::draw(engine::Passes& passes) { renderer_->record(passes, view()); }
 
+void Case::recordReset(engine::Passes& passes) {
+    passes.pass("reset", engine::PassKind::compute, [&](engine::Commands& commands) {
+        simulation_.recordReset(commands);
+    });
+    fixed_step_.reset();
+}
+
 void Case::reset() {
     simulation_.reset();
     fixed_step_.reset();

@@ -56,7 +56,9 @@ public:
     // throws.
     void carryOn(const hair::SimulationSettings& settings);
 
-    // Back to the first frame. The device must be done with what was submitted.
+    // Records the way back to the first frame, after all that was recorded or submitted before.
+    void recordReset(engine::Passes& passes);
+    // The same at once. The device must be done with what was submitted.
     void reset();
 
     // The picture of the last frame on the device, in TRANSFER_SRC_OPTIMAL.

@@ -150,7 +150,7 @@ struct Reason {
 constexpr unsigned long long kIdle = 0x1;
 constexpr unsigned long long kHeld = 0x2;  // the applications clocks setting
 constexpr Reason kReasons[] = {
-    {0x4, "power cap"},
+    {0x4, kPowerCap},
     {0x8, "hardware slowdown"},
     {0x10, "sync boost"},
     {0x20, "software thermal slowdown"},

@@ -20,10 +20,15 @@ struct ClockReading {
     std::optional<double> base_clock_mhz;
     std::optional<double> memory_clock_mhz;
     std::optional<double> temperature;  // degrees Celsius
+    std::optional<double> load;  // share of the time in which the device had work, 0 to 1
+    std::optional<double> age;  // s since it was so; absent: now
     bool idle = false;  // nothing ran just then: its clocks say nothing of a measurement
     bool held = false;  // an administrator set the clocks
     std::vector<std::string> throttle_reasons;  // why the clocks are lower than they might be
 };
+
+// The throttle reason of a board that draws as much power as it may.
+inline constexpr const char* kPowerCap = "power cap";
 
 // A driver's way of telling clocks. Only reads: no setting is ever changed.
 class ClockSource {

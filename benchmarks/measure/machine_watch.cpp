@@ -66,14 +66,15 @@ void ClockSampler::begin() {
         const std::lock_guard lock(mutex_);
         readings_.clear();
         running_ = true;
+        restarted_ = true;
+        since_ = std::chrono::steady_clock::now();
     }
     changed_.notify_one();
 }
 
-std::vector<ClockReading> ClockSampler::end() {
+std::vector<ClockReading> ClockSampler::take() {
     const std::lock_guard lock(mutex_);
-    running_ = false;
-    readings_.push_back(source_->read());
+    since_ = std::chrono::steady_clock::now();
     return std::exchange(readings_, {});
 }
 
@@ -81,23 +82,35 @@ void ClockSampler::sampleUntilStopped() {
     std::unique_lock lock(mutex_);
     while (!stopped_) {
         changed_.wait(lock, [this] { return running_ || stopped_; });
-        // The first reading is one period in: the device has work by then.
-        const bool still =
-            !changed_.wait_for(lock, kPeriod, [this] { return !running_ || stopped_; });
-        if (still) readings_.push_back(source_->read());
+        restarted_ = false;
+        const bool still = !changed_.wait_for(
+            lock, kPeriod, [this] { return !running_ || restarted_ || stopped_; });
+        if (!still) continue;
+        lock.unlock();
+        const auto asked = std::chrono::steady_clock::now();
+        ClockReading reading = source_->read();
+        lock.lock();
+        const std::chrono::duration<double> age(reading.age.value_or(0.0));
+        if (running_ && !restarted_ && asked - age >= since_)
+            readings_.push_back(std::move(reading));
     }
 }
 
 void addClocks(const std::vector<ClockReading>& readings, report::Conditions& conditions) {
     std::vector<ClockReading> busy;
-    std::ranges::copy_if(
-        readings, std::back_inserter(busy), [](const ClockReading& each) { return !each.idle; });
-    const std::vector<ClockReading>& counted = busy.empty() ? readings : busy;
-    conditions.clock_mhz = medianOf(counted, &ClockReading::clock_mhz);
-    conditions.base_clock_mhz = medianOf(counted, &ClockReading::base_clock_mhz);
-    conditions.memory_clock_mhz = medianOf(counted, &ClockReading::memory_clock_mhz);
-    conditions.temperature = medianOf(counted, &ClockReading::temperature);
-    conditions.throttle_reasons = everyReason(counted);
+    std::ranges::copy_if(readings, std::back_inserter(busy), [](const ClockReading& each) {
+        return !each.idle && each.load.value_or(1.0) >= kIdleLoad;
+    });
+    for (const ClockReading& each : busy)
+        if (each.clock_mhz)
+            conditions.lowest_clock_mhz =
+                std::min(*each.clock_mhz, conditions.lowest_clock_mhz.value_or(*each.clock_mhz));
+    conditions.clock_mhz = medianOf(busy, &ClockReading::clock_mhz);
+    conditions.base_clock_mhz = medianOf(busy, &ClockReading::base_clock_mhz);
+    conditions.memory_clock_mhz = medianOf(busy, &ClockReading::memory_clock_mhz);
+    conditions.temperature = medianOf(busy, &ClockReading::temperature);
+    conditions.load = medianOf(busy, &ClockReading::load);
+    conditions.throttle_reasons = everyReason(busy);
 }
 
 // ---- Load of the processors ---------------------------------------------------------------------
@@ -140,17 +153,44 @@ loadBetween(const ProcessorTicks& before, const ProcessorTicks& after, double ow
 
 // ---- Conditions of a round ----------------------------------------------------------------------
 
-bool isThrottled(const report::Conditions& round) {
-    return round.clock_mhz && round.base_clock_mhz &&
-           *round.clock_mhz < kThrottledShare * *round.base_clock_mhz;
+bool isHeatOrPower(std::string_view reason) {
+    return std::ranges::any_of(
+        std::initializer_list<std::string_view>{"power", "thermal", "hardware slowdown", "current"},
+        [&](std::string_view word) { return reason.find(word) != std::string_view::npos; });
 }
+
+bool isFullyLoaded(const report::Conditions& round) { return round.load.value_or(0.0) >= 0.9; }
+
+bool isThrottled(const report::Conditions& round, double held, double held_before) {
+    for (const std::string& reason : round.throttle_reasons)
+        if (isHeatOrPower(reason) &&
+            (reason != kPowerCap || !round.clock_mhz || *round.clock_mhz < kCappedShare * held))
+            return true;
+    if (!round.lowest_clock_mhz) return false;
+    return *round.lowest_clock_mhz < kHeldShare * held ||
+           (isFullyLoaded(round) && *round.lowest_clock_mhz < kThrottledShare * held_before);
+}
+
+namespace {
+
+std::optional<double> lowestClock(const std::vector<report::Conditions>& rounds) {
+    std::optional<double> lowest;
+    for (const report::Conditions& round : rounds)
+        if (round.lowest_clock_mhz)
+            lowest = std::min(*round.lowest_clock_mhz, lowest.value_or(*round.lowest_clock_mhz));
+    return lowest;
+}
+
+}  // namespace
 
 report::Conditions medianConditions(const std::vector<report::Conditions>& rounds) {
     return {
         .clock_mhz = medianOf(rounds, &report::Conditions::clock_mhz),
+        .lowest_clock_mhz = lowestClock(rounds),
         .base_clock_mhz = medianOf(rounds, &report::Conditions::base_clock_mhz),
         .memory_clock_mhz = medianOf(rounds, &report::Conditions::memory_clock_mhz),
         .temperature = medianOf(rounds, &report::Conditions::temperature),
+        .load = medianOf(rounds, &report::Conditions::load),
         .steal = medianOf(rounds, &report::Conditions::steal),
         .other_load = medianOf(rounds, &report::Conditions::other_load),
         .throttle_reasons = everyReason(rounds)};
@@ -181,16 +221,19 @@ void MachineWatch::begin() {
     if (sources_->clocks) sources_->clocks->begin();
 }
 
-report::Conditions MachineWatch::end() {
+report::Conditions MachineWatch::take() {
     report::Conditions conditions;
-    if (sources_->clocks) addClocks(sources_->clocks->end(), conditions);
+    if (sources_->clocks) addClocks(sources_->clocks->take(), conditions);
     const std::optional<ProcessorTicks> now = readProcessorTicks();
-    if (!now || !sources_->ticks) return conditions;
-    const double own = engine::processUse().cpu - sources_->own;
-    if (const auto load = loadBetween(*sources_->ticks, *now, own)) {
-        conditions.steal = load->steal;
-        conditions.other_load = load->others;
+    const double used = engine::processUse().cpu;
+    if (now && sources_->ticks) {
+        if (const auto load = loadBetween(*sources_->ticks, *now, used - sources_->own)) {
+            conditions.steal = load->steal;
+            conditions.other_load = load->others;
+        }
     }
+    sources_->ticks = now;
+    sources_->own = used;
     return conditions;
 }
 

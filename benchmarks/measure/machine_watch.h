@@ -1,11 +1,13 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -16,7 +18,7 @@
 // Conditions of a measurement: clocks, throttling, steal time, load by other processes.
 namespace benchmarks::measure {
 
-// Reads a clock source again and again while a round is played: before and after it the device is
+// Reads a clock source again and again while frames are played: before and after the device is
 // idle, and its clocks with it. A reading takes some tens of microseconds of one processor, in a
 // thread that sleeps otherwise.
 class ClockSampler {
@@ -26,9 +28,10 @@ public:
     ClockSampler(const ClockSampler&) = delete;
     ClockSampler& operator=(const ClockSampler&) = delete;
 
+    // From now on, and anew. The first reading is one period away: the device has work by then.
     void begin();
-    // One reading at least: that at the end.
-    std::vector<ClockReading> end();
+    // The readings since begin() or the last take(), of that time alone. Takes none itself.
+    std::vector<ClockReading> take();
 
 private:
     void sampleUntilStopped();
@@ -37,20 +40,43 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     bool running_ = false;
+    bool restarted_ = false;
     bool stopped_ = false;
     std::vector<ClockReading> readings_;
+    std::chrono::steady_clock::time_point since_;  // what the readings may tell of
     std::thread thread_;
 };
 
-// Medians of what the readings know, of those that were not taken of an idle device if there are
-// such; every throttle reason of theirs, each once.
+// A device that had work for less of the time than this was idle.
+inline constexpr double kIdleLoad = 0.5;
+
+// Medians of what the readings know that were taken under load, the lowest clock among them, and
+// every throttle reason of theirs, each once. Readings of an idle device tell nothing.
 void addClocks(const std::vector<ClockReading>& readings, report::Conditions& conditions);
 
-// A round whose shader clock is below this share of the base clock is left out (nvbench's rule).
+// Whether a driver's throttle reason is heat or power; others, as a clock that somebody set, are no
+// throttling.
+bool isHeatOrPower(std::string_view reason);
+
+// Whether the device says that it had hardly a moment without work.
+bool isFullyLoaded(const report::Conditions& round);
+
+// Rounds of one mode give the device the same work, so a clock below this share of what it held in
+// another is held back.
+inline constexpr double kHeldShare = 0.9;
+// Other cases may draw more power and hold another clock: below this share of what the device held
+// in any of them, under full load, it is held back (nvbench's share).
 inline constexpr double kThrottledShare = 0.75;
 
-// What went on in a round; what is not known is absent.
-bool isThrottled(const report::Conditions& round);
+// A board at its power limit is at work as it is meant to be while its clock is steady: with that
+// reason a clock below this share of what it held is held back.
+inline constexpr double kCappedShare = 0.97;
+
+// Whether heat or power held the device back in a round: its driver says so, or its lowest clock
+// under load does. `held` is the highest clock of the mode's rounds, `held_before` that of other
+// cases of the run, MHz; 0: unknown. The board's base clock is no measure: locked clocks may be
+// below it.
+bool isThrottled(const report::Conditions& round, double held, double held_before);
 
 // Medians of all rounds' numbers, and every throttle reason.
 report::Conditions medianConditions(const std::vector<report::Conditions>& rounds);
@@ -70,8 +96,8 @@ public:
     MachineWatch& operator=(const MachineWatch&) = delete;
 
     void begin();
-    // Since begin().
-    report::Conditions end();
+    // Since begin() or the last take().
+    report::Conditions take();
 
 private:
     struct Sources;

@@ -23,20 +23,36 @@ struct SamplingState {
     double max_seconds = 0.0;               // when its last round begins at the latest
 };
 
+// What a run has learnt of its device, from case to case.
+struct DeviceKnowledge {
+    double held_clock_mhz = 0.0;  // the highest shader clock under full load; 0: none is known
+    // Names of the passes of frames whose timestamps were checked and are right.
+    std::vector<std::vector<std::string>> trusted_passes;
+};
+
 struct MeasureHooks {
     std::function<bool()> stop;  // asked between frames; true ends all with Interrupted
     std::function<void(const SamplingState&)> progress{};  // told after each round; may be empty
+    DeviceKnowledge* known = nullptr;  // of the run; null: each case learns for itself
 };
 
 // Plays the case in rounds of /run/warmup and /run/frames frames, overlapped and then isolated,
 // until the frame time is known to /run/precision or /run/max_time is over, checks that all made
 // the same picture and state, holds the timestamps against the CPU's clock, and counts with
 // pipeline statistics in a frame of its own. Fills in metrics, statistics, counts, sampling,
-// conditions, trust and hashes of `result`. Returns the picture that is hashed, [row][column] RGBA,
-// top row first: that of a round's last frame. Throws Interrupted where the user asks to stop,
-// engine::Error if the device was throttled in all rounds or there is no /run/busy_pass.
+// conditions, trust and hashes of `result`; its status is `failed`, and its samples those of
+// throttled rounds, if the device was throttled in all rounds. Returns the picture that is hashed,
+// [row][column] RGBA, top row first: that of a round's last frame. Throws Interrupted where the
+// user asks to stop, engine::Error if there is no /run/busy_pass.
 std::vector<std::uint8_t> measure(
     const engine::Device& device, Case& test_case, const hair::RunSettings& run,
     const MeasureHooks& hooks, report::CaseResult& result);
+
+// What of it needs no case, on any stage: metrics of frames and passes, sampling, conditions, trust
+// and hashes.
+class Stage;
+std::vector<std::uint8_t> measureFrames(
+    Stage& stage, const hair::RunSettings& run, const MeasureHooks& hooks,
+    report::CaseResult& result);
 
 }  // namespace benchmarks::measure

@@ -28,24 +28,92 @@ using engine::ProcessUse;
 constexpr std::uint32_t kPairs = 2;  // between two looks
 constexpr std::uint32_t kMostPairs = 16;
 
+// Work that is planted in one pass after another: many times what submitting it may take.
+constexpr double kPlantedTime = 10.0;  // ms
+constexpr double kMostPlantedSteps = 1u << 30;
+
+// Clocks of a device and its host drift apart by some 1e-5; what is wrong is wrong by much.
+constexpr double kRateTolerance = 0.01;
+
 }  // namespace
 
-std::vector<std::string> checkTimestamps(
-    const engine::Device& device, const std::function<void(engine::FrameLoop&)>& play_frame) {
-    engine::FrameLoop stamped(device, engine::Timing::isolated);
-    engine::FrameLoop clocked(device, engine::Timing::wall_clock);
+std::vector<std::string> checkTimestamps(const PlayedFrames& stamped, const PlayedFrames& clocked) {
     std::vector<engine::FrameRecord> stamped_frames;
     std::vector<engine::FrameRecord> clocked_frames;
     std::vector<std::string> faults;
     do {
         for (std::uint32_t i = 0; i < kPairs; ++i) {
-            play_frame(stamped);
-            play_frame(clocked);
+            stamped.play();
+            clocked.play();
         }
         std::ranges::move(stamped.finish(), std::back_inserter(stamped_frames));
         std::ranges::move(clocked.finish(), std::back_inserter(clocked_frames));
         faults = timestampFaults(stamped_frames, clocked_frames);
     } while (!faults.empty() && stamped_frames.size() < kMostPairs);
+    return faults;
+}
+
+namespace {
+
+PlayedFrames playedBy(Player& player) {
+    return {[&] { player.frame(); }, [&] { return player.finish(); }};
+}
+
+double timeOf(std::span<const engine::FrameRecord> frames, const std::string& pass) {
+    const std::vector<double> times = passTimes(frames, pass);
+    return times.empty() ? 0.0 : std::ranges::min(times);
+}
+
+std::vector<engine::FrameRecord> playTwice(Player& player) {
+    player.frame();
+    player.frame();
+    return player.finish();
+}
+
+// Steps of planted work that take the pass kPlantedTime by the CPU's clock.
+std::uint32_t stepsToSee(Stage& stage, const std::string& pass, double without) {
+    double steps = 1024.0;
+    while (steps < kMostPlantedSteps) {
+        const std::unique_ptr<Player> player =
+            stage.player(engine::Timing::wall_clock, {pass, static_cast<std::uint32_t>(steps)});
+        const double planted = timeOf(playTwice(*player), pass) - without;
+        if (planted >= kPlantedTime) break;
+        // What is long enough to be told from a submission says how much more is needed.
+        steps *= planted > 0.2 * kPlantedTime ? 1.2 * kPlantedTime / planted : 4.0;
+    }
+    return static_cast<std::uint32_t>(std::min(steps, kMostPlantedSteps));
+}
+
+std::vector<std::string> rateFaults(std::optional<double> rate) {
+    if (!rate || std::abs(*rate - 1.0) <= kRateTolerance) return {};
+    return {
+        "the device's timestamps run at " + report::shortNumber(*rate) +
+        " of the rate that their period says"};
+}
+
+}  // namespace
+
+std::vector<std::string> checkTimestamps(Stage& stage, report::CaseResult& result) {
+    result.trust.timestamp_rate = stage.timestampRate();
+    std::vector<std::string> faults = rateFaults(result.trust.timestamp_rate);
+    if (stage.isProcessor()) {
+        const auto stamped = stage.player(engine::Timing::isolated);
+        const auto clocked = stage.player(engine::Timing::wall_clock);
+        std::ranges::move(
+            checkTimestamps(playedBy(*stamped), playedBy(*clocked)), std::back_inserter(faults));
+        return faults;
+    }
+    const auto plain = stage.player(engine::Timing::wall_clock);
+    const std::vector<engine::FrameRecord> frames = playTwice(*plain);
+    std::uint32_t steps = 0;
+    for (const std::string& pass : passNames(frames)) {
+        if (steps == 0) steps = stepsToSee(stage, pass, timeOf(frames, pass));
+        const auto stamped = stage.player(engine::Timing::isolated, {pass, steps});
+        const auto clocked = stage.player(engine::Timing::wall_clock, {pass, steps});
+        for (std::string& fault : checkTimestamps(playedBy(*stamped), playedBy(*clocked)))
+            if (std::ranges::find(faults, fault) == faults.end())
+                faults.push_back(std::move(fault) + ", with planted work in " + pass);
+    }
     return faults;
 }
 
@@ -66,13 +134,11 @@ expectedOf(const std::optional<hair::rendering::ExpectedCounts>& expected, std::
 
 }  // namespace
 
-void addStatistics(const Play& play, report::CaseResult& result) {
-    if (!play.device.hasPipelineStatistics()) return;
-    engine::FrameLoop loop(play.device, engine::Timing::statistics);
-    Play plain = play;
-    plain.busy = nullptr;
-    playFrame(loop, plain);
-    addStatistics(loop.finish().front(), play.device, play.test_case, result);
+void addStatistics(const engine::Device& device, Case& test_case, report::CaseResult& result) {
+    if (!device.hasPipelineStatistics()) return;
+    engine::FrameLoop loop(device, engine::Timing::statistics);
+    loop.frame([&](engine::Passes& passes) { test_case.frame(passes); });
+    addStatistics(loop.finish().front(), device, test_case, result);
 }
 
 void addStatistics(
@@ -156,12 +222,28 @@ void addPassTimes(
             {report::ofPass(pass, report::Measured::time), passTimes(frames, pass), mode});
 }
 
-void addPassSum(std::span<const engine::FrameRecord> isolated, report::CaseResult& result) {
-    const double ratio = passSumOverWall(isolated);
-    result.trust.pass_sum_over_wall = ratio;
-    if (std::abs(ratio - 1.0) > kTrustTolerance) {
+void addPassSum(
+    std::span<const engine::FrameRecord> isolated, const EmptySubmission& empty, bool processor,
+    report::CaseResult& result) {
+    const PassSum sum = passSums(isolated, empty);
+    result.trust.pass_sum_over_wall = sum.over_wall;
+    result.trust.pass_sum_over_device = sum.over_device;
+    result.trust.pass_sum_over_work = sum.over_work;
+    result.trust.empty_submission = empty.median;
+    if (!sum.over_wall) return;
+    if (processor && std::abs(*sum.over_wall - 1.0) > kTrustTolerance) {
         result.trust.warnings.push_back(
-            "the passes add up to " + report::shortNumber(ratio) + " of the frame's wall clock");
+            "the passes add up to " + report::shortNumber(*sum.over_wall) +
+            " of the frame's wall clock");
+    } else if (!processor && sum.incomplete) {
+        std::string text = "the passes add up to ";
+        if (sum.over_device)
+            text += report::shortNumber(*sum.over_device) + " of the device's time for the frame";
+        if (sum.over_device && sum.over_work) text += " and to ";
+        if (sum.over_work)
+            text +=
+                report::shortNumber(*sum.over_work) + " of its wall clock less an empty submission";
+        result.trust.warnings.push_back(std::move(text));
     }
 }
 
@@ -239,15 +321,18 @@ void addOverlappedMetrics(std::span<const engine::FrameRecord> frames, report::C
         result.metrics.push_back({std::move(id), collect(frames, get), report::Mode::overlapped});
     };
     addTimes(report::ofFrame(report::Measured::time), [](auto& f) { return f.interval; });
-    addTimes(report::ofFrame(report::Measured::device_time), [](auto& f) { return f.device; });
+    const bool stamped = std::ranges::all_of(frames, [](auto& f) { return f.device.has_value(); });
+    if (stamped)
+        addTimes(report::ofFrame(report::Measured::device_time), [](auto& f) { return *f.device; });
     addTimes(report::ofCpu(report::Measured::record_time), [](auto& f) { return f.record; });
     addTimes(report::ofCpu(report::Measured::submit_time), [](auto& f) { return f.submit; });
     addTimes(report::ofCpu(report::Measured::wait_time), [](auto& f) { return f.wait; });
     // A frame whose work began before the last one's was done takes the device longer than its
     // interval, and then the device waited for nobody.
-    addTimes(report::ofGpu(report::Measured::wait_time), [](auto& f) {
-        return std::max(f.interval - f.device, 0.0);
-    });
+    if (stamped)
+        addTimes(report::ofGpu(report::Measured::wait_time), [](auto& f) {
+            return std::max(f.interval - *f.device, 0.0);
+        });
 }
 
 namespace {

@@ -6,7 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "benchmarks/measure/sampling.h"
+#include "benchmarks/measure/stage.h"
+#include "benchmarks/measure/trust.h"
 #include "benchmarks/report/report.h"
 #include "engine/device.h"
 #include "engine/frame_loop.h"
@@ -14,16 +15,26 @@
 // Metrics, statistics and counts of a case, from its frames.
 namespace benchmarks::measure {
 
+// Something that plays frames in one timing mode.
+struct PlayedFrames {
+    std::function<void()> play;  // one frame
+    std::function<std::vector<engine::FrameRecord>()> finish;  // waits; frames since the last call
+};
+
 // Plays isolated frames and frames whose passes are submitted and waited for one at a time, in
-// turns, and returns what timestampFaults() (trust.h) finds. `play_frame` plays one frame. A fault
-// of the device stays, a disturbance passes: while there are faults more pairs are played, up to
-// 16.
-std::vector<std::string> checkTimestamps(
-    const engine::Device& device, const std::function<void(engine::FrameLoop&)>& play_frame);
+// turns, and returns what timestampFaults() (trust.h) finds. A fault of the device stays, a
+// disturbance passes: while there are faults more pairs are played, up to 16.
+std::vector<std::string> checkTimestamps(const PlayedFrames& stamped, const PlayedFrames& clocked);
+
+// The same for a case, and what is wrong with the timestamps' rate (trust.timestamp_rate). Passes
+// of some microseconds are shorter than what submitting them takes: on a device that is no
+// processor work of 10 ms is planted in one pass after another, and both clocks have to find it
+// there, all of it, and nowhere else.
+std::vector<std::string> checkTimestamps(Stage& stage, report::CaseResult& result);
 
 // Plays a frame, untimed and without busy work, with pipeline statistics of the strands, and holds
 // them against the counts that follow from the settings. Nothing where the device has none.
-void addStatistics(const Play& play, report::CaseResult& result);
+void addStatistics(const engine::Device& device, Case& test_case, report::CaseResult& result);
 
 // Adds the statistics of a frame that was played with Timing::statistics. Nothing where it has no
 // strands.
@@ -51,8 +62,11 @@ void addIsolatedMetrics(std::span<const engine::FrameRecord> frames, report::Cas
 void addPassTimes(
     std::span<const engine::FrameRecord> frames, report::Mode mode, report::CaseResult& result);
 
-// trust.pass_sum_over_wall, and a warning where it is too far from 1.
-void addPassSum(std::span<const engine::FrameRecord> isolated, report::CaseResult& result);
+// trust.pass_sum_over_*, and a warning where passes are not the whole of the frame. On a processor
+// that is where they are not the wall clock.
+void addPassSum(
+    std::span<const engine::FrameRecord> isolated, const EmptySubmission& empty, bool processor,
+    report::CaseResult& result);
 
 // What whole frames used of the CPU, by the isolated frames: frame.cpu.time and, where
 // instructions are counted, frame.instructions.

@@ -15,6 +15,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr std::chrono::seconds kPlainPeriod{10};
+
 std::string clockText(double seconds) {
     char text[48];
     const auto whole = static_cast<long long>(std::llround(seconds));
@@ -53,7 +55,7 @@ std::string progressText(std::size_t number, std::size_t total, std::size_t done
 }
 
 Progress::Progress(std::size_t total, std::size_t done)
-    : total_(total), first_(done), index_(done), start_(Clock::now()),
+    : total_(total), first_(done), index_(done), start_(Clock::now()), written_(start_),
       terminal_(isatty(STDERR_FILENO) != 0) {}
 
 void Progress::begin(const std::string& name) {
@@ -71,10 +73,15 @@ void Progress::clear() const {
     if (terminal_) std::cerr << "\r\033[K" << std::flush;
 }
 
-void Progress::write(const std::string& state) const {
-    if (!terminal_) return;
+void Progress::write(const std::string& state) {
+    if (!terminal_ && Clock::now() - written_ < kPlainPeriod) return;
     std::string line = remaining() + "  " + name_;
     if (!state.empty()) line += "  " + state;
+    if (!terminal_) {
+        written_ = Clock::now();
+        std::cerr << line << std::endl;
+        return;
+    }
     std::cerr << "\r\033[K" << fitting(std::move(line)) << std::flush;
 }
 

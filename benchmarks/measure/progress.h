@@ -10,7 +10,7 @@ namespace benchmarks::measure {
 struct SamplingState;  // measure.h
 
 // "[3/12] 0:41, about 1:50 left  thesis/density:16  overlapped 12.3 ms +-2.1 %" on stderr: one line
-// that is rewritten on a terminal; nothing elsewhere.
+// that is rewritten on a terminal; elsewhere a line of its own every ten seconds.
 class Progress {
 public:
     // `done` of the pieces are there already, from an earlier run.
@@ -23,7 +23,7 @@ public:
     void clear() const;
 
 private:
-    void write(const std::string& state) const;
+    void write(const std::string& state);
     std::string remaining() const;
 
     std::size_t total_;
@@ -32,6 +32,7 @@ private:
     bool begun_ = false;
     std::string name_;
     std::chrono::steady_clock::time_point start_;
+    std::chrono::steady_clock::time_point written_;  // last, where it is no terminal
     bool terminal_;
 };
 

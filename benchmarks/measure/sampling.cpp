@@ -3,65 +3,67 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <future>
 #include <iterator>
-#include <span>
-#include <thread>
 #include <utility>
 
-#include "benchmarks/measure/machine_watch.h"
-#include "benchmarks/measure/steady_state.h"
-#include "benchmarks/report/environment.h"
-#include "engine/error.h"
+#include "benchmarks/report/statistics.h"
 
 namespace benchmarks::measure {
 
 using engine::FrameRecord;
 using engine::Timing;
 
-// ---- Rounds of one mode -------------------------------------------------------------------------
+// ---- Plays of one mode --------------------------------------------------------------------------
 
-void playFrame(engine::FrameLoop& loop, const Play& play) {
-    if (play.hooks.stop()) throw engine::Interrupted();
-    loop.frame([&](engine::Passes& passes) {
-        if (!play.busy) {
-            play.test_case.frame(passes);
-            return;
-        }
-        BusyPasses slowed(passes, *play.busy);
-        play.test_case.frame(slowed);
-    });
-}
+RoundPlayer::RoundPlayer(std::unique_ptr<Player> player, const hair::RunSettings& run)
+    : player_(std::move(player)), warmup_(run.warmup), frames_(run.frames) {}
 
-RoundPlayer::RoundPlayer(const Play& play, engine::Timing timing)
-    : play_(play), loop_(play.device, timing) {}
-
-std::vector<engine::FrameRecord> RoundPlayer::round() {
-    if (rounds_ == 1) firstEnd();
-    play_.test_case.reset();
-    playFrame(loop_, play_);
-    if (rounds_ == 0) first_frame_ = loop_.finish().front().interval;
-    for (std::uint32_t i = 1; i < play_.run.warmup; ++i) playFrame(loop_, play_);
+std::vector<FrameRecord> RoundPlayer::round() {
+    if (plays_ == 1) firstEnd();
+    player_->reset();
+    player_->frame();
+    if (plays_ == 0) first_frame_ = player_->finish().front().interval;
+    for (std::uint32_t i = 1; i < warmup_; ++i) player_->frame();
     // The interval of the last frame contains the wait for it: one more frame is drawn than
     // measured.
-    for (std::uint32_t i = 0; i <= play_.run.frames; ++i) playFrame(loop_, play_);
-    const std::vector<engine::FrameRecord> frames = loop_.finish();
-    ++rounds_;
-    return {frames.end() - 1 - play_.run.frames, frames.end() - 1};
+    for (std::uint32_t i = 0; i <= frames_; ++i) player_->frame();
+    const std::vector<FrameRecord> frames = player_->finish();
+    ++plays_;
+    return {frames.end() - 1 - frames_, frames.end() - 1};
+}
+
+void RoundPlayer::play() {
+    player_->reset();
+    // As many frames as round() plays, so that all plays end with the same one.
+    for (std::uint32_t i = 0; i < warmup_ + frames_ + 1; ++i) player_->frame();
+    std::ranges::move(player_->completed(), std::back_inserter(complete_));
+    ++plays_;
+}
+
+std::vector<FrameRecord> RoundPlayer::stream(std::uint32_t plays) {
+    const std::size_t length = std::size_t{warmup_} + frames_ + 1;
+    while (complete_.size() < plays * length) play();
+    std::vector<FrameRecord> counted;
+    for (std::size_t i = 0; i < plays * length; ++i)
+        if (i % length >= warmup_ && i % length < warmup_ + frames_)
+            counted.push_back(std::move(complete_[i]));
+    complete_.erase(
+        complete_.begin(), complete_.begin() + static_cast<std::ptrdiff_t>(plays * length));
+    return counted;
+}
+
+void RoundPlayer::drain() {
+    player_->finish();
+    complete_.clear();
 }
 
 const RoundEnd& RoundPlayer::firstEnd() {
-    if (!first_end_) first_end_ = readEnd();
+    if (!first_end_) first_end_ = player_->end();
     return *first_end_;
 }
 
-RoundEnd RoundPlayer::lastEnd() { return rounds_ == 1 ? firstEnd() : readEnd(); }
-
-RoundEnd RoundPlayer::readEnd() const {
-    RoundEnd end{.picture = play_.test_case.picture(), .picture_hash = {}, .state_hash = {}};
-    end.picture_hash = report::hashBytes(std::as_bytes(std::span(end.picture)));
-    end.state_hash = play_.test_case.stateHash();
-    return end;
-}
+RoundEnd RoundPlayer::lastEnd() { return plays_ == 1 ? firstEnd() : player_->end(); }
 
 namespace {
 
@@ -72,100 +74,174 @@ constexpr std::size_t kLookShare = 20;
 
 class Series {
 public:
-    explicit Series(const SamplingRule& rule) : rule_(rule) {}
+    explicit Series(const SamplingRule& rule, double held_before)
+        : rule_(rule), held_before_(held_before) {}
 
-    void add(std::vector<engine::FrameRecord> frames) {
+    // Whether the round was throttled by what is known so far.
+    bool add(std::vector<FrameRecord> frames, report::Conditions conditions) {
         std::vector<double> times;
-        for (const engine::FrameRecord& frame : frames) times.push_back(frame.*rule_.time);
+        for (const FrameRecord& frame : frames) times.push_back(frame.*rule_.time);
         times_.push_back(std::move(times));
         frames_.push_back(std::move(frames));
-        if (rounds() >= looked_at_ + std::max<std::size_t>(looked_at_ / kLookShare, 1)) look();
+        held_ = std::max(held_, conditions.clock_mhz.value_or(0.0));
+        conditions_.push_back(std::move(conditions));
+        const std::size_t clean = cleanRounds().size();
+        if (clean >= looked_at_ + std::max<std::size_t>(looked_at_ / kLookShare, 1)) look();
+        return isThrottled(conditions_.back(), held_, held_before_);
     }
 
-    std::size_t rounds() const { return times_.size(); }
-    const Assessment& assessment() const { return assessment_; }
+    std::vector<std::size_t> cleanRounds() const {
+        std::vector<std::size_t> clean;
+        for (std::size_t i = 0; i < conditions_.size(); ++i)
+            if (!isThrottled(conditions_[i], held_, held_before_)) clean.push_back(i);
+        return clean;
+    }
+
+    // Of the rounds that were looked at last; null before the first look has ended.
+    const Assessment* assessment() {
+        if (looking_.valid() &&
+            looking_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+            assessment_ = looking_.get();
+        return assessment_ ? &*assessment_ : nullptr;
+    }
 
     // Looked at as a whole, and its frames moved out.
     SampledRounds take() {
-        if (looked_at_ != rounds()) look();
+        if (looking_.valid()) looking_.wait();
+        std::vector<std::size_t> counted = cleanRounds();
         SampledRounds result;
-        for (std::size_t i = assessment_.settling; i < frames_.size(); ++i)
-            std::ranges::move(frames_[i], std::back_inserter(result.frames));
         result.sampling.mode = rule_.mode;
-        result.sampling.rounds = static_cast<std::uint32_t>(rounds() - assessment_.settling);
-        result.sampling.warmup_rounds = static_cast<std::uint32_t>(assessment_.settling);
-        result.sampling.steady = assessment_.steady;
-        result.sampling.precision = assessment_.relative_half_width;
+        result.sampling.throttled_rounds =
+            static_cast<std::uint32_t>(conditions_.size() - counted.size());
+        result.all_throttled = counted.empty();
+        if (counted.empty())
+            for (std::size_t i = 0; i < conditions_.size(); ++i) counted.push_back(i);
+        const Assessment assessment = assess(timesOf(counted));
+        for (std::size_t i = assessment.settling; i < counted.size(); ++i)
+            std::ranges::move(frames_[counted[i]], std::back_inserter(result.frames));
+        result.sampling.rounds = static_cast<std::uint32_t>(counted.size() - assessment.settling);
+        result.sampling.warmup_rounds = static_cast<std::uint32_t>(assessment.settling);
+        result.sampling.steady = assessment.steady;
+        result.sampling.precision = assessment.relative_half_width;
+        result.conditions = std::move(conditions_);
         return result;
     }
 
+    // MHz; 0: no clock is known.
+    double held() const { return held_; }
+
 private:
+    RoundTimes timesOf(const std::vector<std::size_t>& rounds) const {
+        RoundTimes times;
+        for (const std::size_t i : rounds) times.push_back(times_[i]);
+        return times;
+    }
+
     void look() {
-        assessment_ = assess(times_);
-        looked_at_ = rounds();
+        assessment();
+        if (looking_.valid()) return;  // the last look is not done
+        const std::vector<std::size_t> clean = cleanRounds();
+        looked_at_ = clean.size();
+        if (rule_.looks_beside) {
+            looking_ =
+                std::async(std::launch::async, [times = timesOf(clean)] { return assess(times); });
+        } else {
+            assessment_ = assess(timesOf(clean));
+        }
     }
 
     const SamplingRule& rule_;
+    double held_before_;
+    double held_ = 0.0;
     RoundTimes times_;
-    std::vector<std::vector<engine::FrameRecord>> frames_;  // [round][frame]
-    Assessment assessment_;
-    std::size_t looked_at_ = 0;  // rounds that the assessment is of
+    std::vector<std::vector<FrameRecord>> frames_;  // [round][frame]
+    std::vector<report::Conditions> conditions_;  // [round]
+    std::optional<Assessment> assessment_;
+    std::future<Assessment> looking_;
+    std::size_t looked_at_ = 0;  // clean rounds that were looked at last
 };
 
 }  // namespace
 
-SampledRounds sampleRounds(const SamplingRule& rule, const SamplingTools& tools) {
-    Series series(rule);
-    std::vector<report::Conditions> conditions;
-    std::uint32_t throttled = 0;
+SampledRounds sampleRounds(const SamplingRule& rule, const SamplingTools& tools, double* held_mhz) {
+    Series series(rule, held_mhz ? *held_mhz : 0.0);
     const double begin = tools.seconds();
     double seconds = 0.0;
+    std::uint32_t played = 0;
+    bool rested = true;
     for (bool more = true; more;) {
-        tools.begin_watch();
-        std::vector<engine::FrameRecord> frames = tools.play();
-        conditions.push_back(tools.end_watch());
-        if (isThrottled(conditions.back())) {
-            ++throttled;
+        if (std::exchange(rested, false) && tools.begin) tools.begin();
+        std::vector<FrameRecord> frames = tools.play();
+        ++played;
+        if (series.add(std::move(frames), tools.conditions())) {
             tools.pause(kThrottlePause);
-        } else {
-            series.add(std::move(frames));
+            rested = true;
         }
         seconds = tools.seconds() - begin;
+        const std::size_t clean = series.cleanRounds().size();
         more = seconds < rule.max_time;
-        if (series.rounds() == 0) {
-            more = more || throttled < kThrottledTries;
+        if (clean == 0) {
+            more = more || played < kThrottledTries;
             continue;
         }
-        const Assessment& now = series.assessment();
-        more = more && series.rounds() < rule.most_rounds && !isEnough(now, rule.precision);
-        if (tools.progress) {
+        const Assessment* now = series.assessment();
+        more = more && clean < rule.most_rounds && !(now && isEnough(*now, rule.precision));
+        if (tools.progress && now) {
             tools.progress(
                 {.mode = rule.mode,
-                 .rounds = static_cast<std::uint32_t>(series.rounds()),
-                 .median = now.median,
-                 .relative_half_width = now.relative_half_width,
+                 .rounds = static_cast<std::uint32_t>(clean),
+                 .median = now->median,
+                 .relative_half_width = now->relative_half_width,
                  .seconds = seconds,
                  .max_seconds = rule.max_time});
         }
     }
-    if (series.rounds() == 0) {
-        throw engine::Error(
-            rule.mode, "the device's clock was below " +
-                           std::to_string(std::lround(100.0 * kThrottledShare)) +
-                           " % of its base in all " + std::to_string(throttled) + " rounds");
-    }
     SampledRounds result = series.take();
-    result.sampling.throttled_rounds = throttled;
     result.sampling.seconds = seconds;
-    result.conditions = std::move(conditions);
+    if (held_mhz && isFullyLoaded(medianConditions(result.conditions)))
+        *held_mhz = std::max(*held_mhz, series.held());
+    return result;
+}
+
+// ---- Warm-up ------------------------------------------------------------------------------------
+
+namespace {
+
+constexpr double kWindow = 0.05;  // s
+constexpr double kSteadyShare = 0.01;
+
+}  // namespace
+
+WarmUp
+warmUp(RoundPlayer& player, Stage& stage, double FrameRecord::* time, double least, double most) {
+    const double begin = stage.seconds();
+    WarmUp result;
+    double before = 0.0;  // ms, of the last window
+    while (!result.steady && result.seconds < most) {
+        const double window = stage.seconds();
+        std::vector<double> times;
+        std::uint32_t plays = 0;
+        double counted = 0.0;
+        do {
+            for (const FrameRecord& frame : player.stream(1)) {
+                times.push_back(frame.*time);
+                counted += frame.*time;
+            }
+            ++plays;
+        } while (stage.seconds() - window < kWindow);
+        const double now = report::quantile(times, 0.5);
+        result.seconds = stage.seconds() - begin;
+        result.play = (stage.seconds() - window) / plays;
+        result.counted = counted / plays;
+        result.steady = result.seconds >= least && std::abs(now - before) <= kSteadyShare * now;
+        before = now;
+    }
     return result;
 }
 
 namespace {
 
 // ---- A mode of a case ---------------------------------------------------------------------------
-
-using Seconds = std::chrono::duration<double>;
 
 report::Mode modeOf(engine::Timing timing) {
     switch (timing) {
@@ -181,6 +257,18 @@ report::Mode modeOf(engine::Timing timing) {
     return report::Mode::other;
 }
 
+// Share of max_time that a warm-up may take, and a round.
+constexpr double kMostWarmUp = 0.25;
+constexpr double kMostRound = 0.125;
+
+// Plays that measure for /run/round_time, a little more as the device's clock may still rise.
+std::uint32_t playsOfRound(const WarmUp& found, const hair::RunSettings& run) {
+    const double measured = found.counted * 1e-3;
+    const double wanted = 1.05 * double{run.round_time} / std::max(measured, 1e-9);
+    const double most = kMostRound * double{run.max_time} / std::max(found.play, 1e-9);
+    return static_cast<std::uint32_t>(std::clamp(std::ceil(std::min(wanted, most)), 1.0, 1e6));
+}
+
 }  // namespace
 
 SamplingRule samplingRule(engine::Timing timing, const hair::RunSettings& run) {
@@ -193,23 +281,43 @@ SamplingRule samplingRule(engine::Timing timing, const hair::RunSettings& run) {
 }
 
 SampledMode sampleMode(
-    const Play& play, engine::Timing timing, const SamplingRule& rule, MachineWatch& watch,
-    report::CaseResult& result) {
-    RoundPlayer player(play, timing);
+    Stage& stage, engine::Timing timing, const SamplingRule& rule, const hair::RunSettings& run,
+    const MeasureHooks& hooks, report::CaseResult& result) {
+    RoundPlayer player(stage.player(timing), run);
+    const bool streams = !stage.isProcessor() && rule.max_time > 0.0 && run.round_time > 0.0f;
+    SamplingRule this_rule = rule;
+    this_rule.looks_beside = streams && stage.runsBesideThought();
+    std::optional<std::uint32_t> plays;  // of a round in a stream
+    if (streams) {
+        player.round();
+        player.firstEnd();
+    }
     const SamplingTools tools{
-        .play =
+        .play = [&] { return streams ? player.stream(*plays) : player.round(); },
+        .begin =
             [&] {
-                std::vector<engine::FrameRecord> frames = player.round();
-                if (play.busy) play.busy->checkThatItRan();
-                return frames;
+                if (streams) {
+                    const WarmUp found = warmUp(
+                        player, stage, rule.time, double{run.warmup_time},
+                        std::max(double{run.warmup_time}, kMostWarmUp * rule.max_time));
+                    // Every round has as many frames as the first.
+                    if (!plays) plays = playsOfRound(found, run);
+                }
+                stage.beginWatch();
             },
-        .begin_watch = [&] { watch.begin(); },
-        .end_watch = [&] { return watch.end(); },
-        .seconds =
-            [] { return Seconds(std::chrono::steady_clock::now().time_since_epoch()).count(); },
-        .pause = [](double seconds) { std::this_thread::sleep_for(Seconds(seconds)); },
-        .progress = play.hooks.progress};
-    SampledMode mode{sampleRounds(rule, tools), player.firstFrame(), player.lastEnd()};
+        .conditions = [&] { return stage.conditions(); },
+        .seconds = [&] { return stage.seconds(); },
+        .pause =
+            [&](double seconds) {
+                if (streams) player.drain();
+                stage.pause(seconds);
+            },
+        .progress = hooks.progress};
+    double* const held = hooks.known ? &hooks.known->held_clock_mhz : nullptr;
+    SampledMode mode{sampleRounds(this_rule, tools, held), player.firstFrame(), {}};
+    if (streams) player.drain();
+    mode.end = player.lastEnd();
+    mode.sampling.plays = plays.value_or(1);
     const RoundEnd& first = player.firstEnd();
     if (mode.end.picture_hash != first.picture_hash)
         result.trust.warnings.push_back(rule.mode + " rounds made different pictures");

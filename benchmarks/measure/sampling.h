@@ -3,64 +3,53 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "benchmarks/measure/busy_work.h"
-#include "benchmarks/measure/case.h"
-#include "benchmarks/measure/machine_watch.h"
 #include "benchmarks/measure/measure.h"
+#include "benchmarks/measure/stage.h"
+#include "benchmarks/measure/steady_state.h"
 #include "benchmarks/report/report.h"
 #include "engine/frame_loop.h"
 
 // Rounds of one mode of a case, until its median frame time is known.
 namespace benchmarks::measure {
 
-// What a case's frames are played with.
-struct Play {
-    const engine::Device& device;
-    Case& test_case;
-    const hair::RunSettings& run;
-    const MeasureHooks& hooks;
-    BusyPass* busy = nullptr;  // null: no pass is slowed down
-};
-
-// Plays the next frame. Throws Interrupted where the user asks to stop.
-void playFrame(engine::FrameLoop& loop, const Play& play);
-
-// What a round ends with.
-struct RoundEnd {
-    std::vector<std::uint8_t> picture;  // [row][column] RGBA, top row first
-    std::string picture_hash;
-    std::string state_hash;
-};
-
-// Plays rounds of a case in one mode: each begins with the first frame, warms up for /run/warmup
-// frames and plays /run/frames that count. So all rounds of all modes play the same frames, and
-// must end with the same picture and state.
+// Plays a case in one mode again and again from its first frame on: /run/warmup frames, then
+// /run/frames frames that count. So all plays of all modes show the same frames, and must end with
+// the same picture and state.
 class RoundPlayer {
 public:
-    RoundPlayer(const Play& play, engine::Timing timing);
+    RoundPlayer(std::unique_ptr<Player> player, const hair::RunSettings& run);
 
-    // The frames that count.
+    // One play, waited for: the frames that count.
     std::vector<engine::FrameRecord> round();
+
+    // Plays without a pause, one after the other, and nothing read between them: the frames that
+    // count of the next so many plays. What is in flight when this returns is of the play after.
+    std::vector<engine::FrameRecord> stream(std::uint32_t plays);
+    // Ends a stream: waits for what is in flight and drops it.
+    void drain();
 
     // CPU ms from the start of recording the very first frame until it was complete.
     double firstFrame() const { return first_frame_; }
 
-    // Picture and state of the first round, and of the last one so far. Reading them back takes
-    // time, so it is done between rounds and for these two only.
+    // Picture and state of the first play, and of the last one so far. Reading them back takes
+    // time, so it is done between plays and for these two only. Nothing may be in flight.
     const RoundEnd& firstEnd();
     RoundEnd lastEnd();
 
 private:
-    RoundEnd readEnd() const;
+    void play();
 
-    Play play_;
-    engine::FrameLoop loop_;
-    std::size_t rounds_ = 0;
+    std::unique_ptr<Player> player_;
+    std::uint32_t warmup_;
+    std::uint32_t frames_;
+    std::uint64_t plays_ = 0;
     double first_frame_ = 0.0;
+    std::vector<engine::FrameRecord> complete_;  // of a stream, from the first frame of a play on
     std::optional<RoundEnd> first_end_;
 };
 
@@ -70,13 +59,16 @@ struct SamplingRule {
     double precision = 0.01;  // half the median's interval over it; 0: until max_time
     double max_time = 10.0;  // s, after which no round is begun; 0: one round
     std::uint32_t most_rounds = std::numeric_limits<std::uint32_t>::max();
+    // Whether the samples are looked at while the next round is played, so that the device is never
+    // left without work.
+    bool looks_beside = false;
 };
 
-// What a series of rounds is played with; tests have clocks of their own.
+// What a series of rounds is played with.
 struct SamplingTools {
     std::function<std::vector<engine::FrameRecord>()> play;  // a round; as many frames each time
-    std::function<void()> begin_watch;  // round each round: MachineWatch
-    std::function<report::Conditions()> end_watch;
+    std::function<void()> begin{};  // before the first round and after a pause; may be empty
+    std::function<report::Conditions()> conditions;  // of the round that was just played
     std::function<double()> seconds;  // of a clock
     std::function<void(double)> pause;  // s
     std::function<void(const SamplingState&)> progress{};  // after each round; may be empty
@@ -86,18 +78,23 @@ struct SampledRounds {
     std::vector<engine::FrameRecord> frames;  // of the rounds that count, in order
     report::Sampling sampling;
     std::vector<report::Conditions> conditions;  // of all rounds
+    // Whether all rounds were throttled: the frames are of those then.
+    bool all_throttled = false;
 };
 
 inline constexpr double kThrottlePause = 0.05;  // s (nvbench's)
 
-// Rounds that a device may take to reach its clock before a case is given up.
+// Rounds that are tried at least before a case is given up as throttled.
 inline constexpr std::uint32_t kThrottledTries = 10;
 
 // Plays rounds until the median time is known to the precision and the last times were steady
-// (steady_state.h), until there are most_rounds, or until max_time has passed. Throttled rounds are
-// left out, each followed by a pause; so are the first rounds while times settle. If all were
-// throttled, kThrottledTries and until max_time, that is an engine::Error.
-SampledRounds sampleRounds(const SamplingRule& rule, const SamplingTools& tools);
+// (steady_state.h), until there are most_rounds, or until max_time has passed. `held_mhz` is what
+// the device's clock held before under as much load, and is raised to what it holds here; it may be
+// null. Throttled rounds (isThrottled(); a round is judged again when a later one holds a higher
+// clock) are left out, each followed by a pause; so are the first rounds while times settle. If all
+// were throttled, kThrottledTries and until max_time, those are the result.
+SampledRounds
+sampleRounds(const SamplingRule& rule, const SamplingTools& tools, double* held_mhz = nullptr);
 
 // A mode of a case, sampled.
 struct SampledMode : SampledRounds {
@@ -109,10 +106,25 @@ struct SampledMode : SampledRounds {
 // others by their wall clock.
 SamplingRule samplingRule(engine::Timing timing, const hair::RunSettings& run);
 
-// Plays the mode's rounds; enters its sampling, and warns in `result` if its first and last rounds
-// made different pictures or states. An unknown /run/busy_pass is an engine::Error.
+// Plays the mode's rounds: on a processor each is one play, on other devices as many as take
+// /run/round_time, after the clock was driven up (warmUp()). Enters its sampling, and warns in
+// `result` if its first and last plays made different pictures or states.
 SampledMode sampleMode(
-    const Play& play, engine::Timing timing, const SamplingRule& rule, MachineWatch& watch,
-    report::CaseResult& result);
+    Stage& stage, engine::Timing timing, const SamplingRule& rule, const hair::RunSettings& run,
+    const MeasureHooks& hooks, report::CaseResult& result);
+
+// What a device's warm-up found.
+struct WarmUp {
+    double seconds = 0.0;
+    double play = 0.0;  // s, of a play at its end
+    double counted = 0.0;  // ms of the rule's time in the frames of a play that count
+    bool steady = false;
+};
+
+// Plays for at least /run/warmup_time and until two windows of 50 ms differ by less than a
+// hundredth in their median frame, but no longer than `most` seconds: what a clock needs to rise.
+WarmUp warmUp(
+    RoundPlayer& player, Stage& stage, double engine::FrameRecord::* time, double least,
+    double most);
 
 }  // namespace benchmarks::measure

@@ -1,6 +1,7 @@
 #include "benchmarks/measure/trust.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "benchmarks/report/statistics.h"
@@ -38,6 +39,40 @@ double passSumOverWall(std::span<const engine::FrameRecord> isolated) {
     std::vector<double> ratios;
     for (const engine::FrameRecord& frame : isolated) ratios.push_back(passSum(frame) / frame.wall);
     return report::summarize(ratios).median;
+}
+
+EmptySubmission emptySubmission(std::span<const engine::FrameRecord> empty) {
+    std::vector<double> walls;
+    for (const engine::FrameRecord& frame : empty) walls.push_back(frame.wall);
+    const double median = report::quantile(walls, 0.5);
+    return {median, report::quantile(walls, 0.95) - median};
+}
+
+PassSum passSums(std::span<const engine::FrameRecord> isolated, const EmptySubmission& empty) {
+    std::vector<double> device;
+    std::vector<double> work;
+    std::vector<double> missing;  // ms of the wall clock that no pass has
+    for (const engine::FrameRecord& frame : isolated) {
+        if (!frame.device || frame.passes.empty()) continue;
+        const double sum = passSum(frame);
+        const double at_work = frame.wall - empty.median;
+        if (*frame.device > 0.0) device.push_back(sum / *frame.device);
+        // A frame of nothing but its submission leaves nothing to compare with.
+        if (at_work > empty.spread) work.push_back(sum / at_work);
+        missing.push_back(std::abs(at_work - sum) / frame.wall);
+    }
+    PassSum result;
+    if (missing.empty()) return result;
+    result.over_wall = passSumOverWall(isolated);
+    if (!device.empty()) result.over_device = report::quantile(device, 0.5);
+    if (!work.empty()) result.over_work = report::quantile(work, 0.5);
+    std::vector<double> walls;
+    for (const engine::FrameRecord& frame : isolated) walls.push_back(frame.wall);
+    const double slack = 2.0 * empty.spread / report::quantile(walls, 0.5);
+    result.incomplete =
+        (result.over_device && std::abs(*result.over_device - 1.0) > kTrustTolerance) ||
+        report::quantile(missing, 0.5) > kTrustTolerance + slack;
+    return result;
 }
 
 std::vector<std::string> timestampFaults(

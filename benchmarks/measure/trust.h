@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,8 +23,27 @@ std::vector<double> passTimes(std::span<const engine::FrameRecord> frames, const
 double passSum(const engine::FrameRecord& frame);
 
 // Median over frames of (sum of the passes / wall clock from submission to completion). 1 if the
-// passes are all of the frame and the timestamps are right.
+// passes are all of the frame, the timestamps are right, and submitting takes no time.
 double passSumOverWall(std::span<const engine::FrameRecord> isolated);
+
+// What submitting nothing and waiting for it takes: from empty isolated frames.
+struct EmptySubmission {
+    double median = 0.0;  // ms
+    double spread = 0.0;  // ms, from the median to the 95th percentile
+};
+EmptySubmission emptySubmission(std::span<const engine::FrameRecord> empty);
+
+// The sum of the passes of isolated frames against two clocks that know nothing of each other. Each
+// is a median over frames, and absent where the frames have no timestamps.
+struct PassSum {
+    std::optional<double> over_wall;
+    std::optional<double> over_device;  // over the device's own first-to-last stamp
+    std::optional<double> over_work;  // over the wall clock less an empty submission
+    // Whether the passes are not the whole of the frame: by more than kTrustTolerance of the
+    // device's time, or of the wall clock by more than that and what submissions vary by.
+    bool incomplete = false;
+};
+PassSum passSums(std::span<const engine::FrameRecord> isolated, const EmptySubmission& empty);
 
 // What a submission and the wait for it may add to a pass by itself, ms.
 inline constexpr double kSubmissionCost = 0.5;

@@ -121,6 +121,8 @@ scene::Json changeJson(const Change& change) {
     object["decisive_change"] = comparison.decisive_change;
     object["p"] = comparison.p;
     object["verdict"] = verdictName(comparison.verdict);
+    if (comparison.pairs > 0) object["pairs"] = comparison.pairs;
+    if (!change.decides) object["decides"] = false;
     return object;
 }
 
@@ -139,7 +141,8 @@ std::string changesTable(std::span<const Change> changes, ShowCases show_cases) 
             percentText(comparison.change),
             intervalText(comparison),
             percentText(comparison.decisive_change),
-            std::string(verdictName(comparison.verdict))};
+            verdictName(comparison.verdict) +
+                std::string(each.decides ? "" : ", too small to count")};
         for (std::size_t i = 0; i < all.size(); ++i) all[i].cells.push_back(cells[i]);
     }
     if (show_cases == ShowCases::no) all.erase(all.begin());
@@ -149,8 +152,9 @@ std::string changesTable(std::span<const Change> changes, ShowCases show_cases) 
 }
 
 std::size_t countOf(std::span<const Change> changes, Verdict verdict) {
-    return static_cast<std::size_t>(std::ranges::count(
-        changes, verdict, [](const Change& each) { return each.comparison.verdict; }));
+    return static_cast<std::size_t>(std::ranges::count_if(changes, [&](const Change& each) {
+        return each.decides && each.comparison.verdict == verdict;
+    }));
 }
 
 std::string verdictCounts(std::span<const Change> changes) {

@@ -17,6 +17,8 @@ struct VerdictOptions {
     double threshold = 0.02;  // a change of this share matters to nobody
     bool fail_on_inconclusive = false;
     std::string metrics;  // regex of the metrics that count; empty: all times
+    // A pass that is less of its frame than this is shown and decides nothing (gate).
+    double smallest_share = 0.02;
 };
 
 enum class Verdict { regressed, improved, same, inconclusive, mismatch };
@@ -43,6 +45,7 @@ struct Comparison {
     double upper;
     double decisive_change;  // tau: below it, changes count as none
     double p;  // that the median lies outside +-tau, adjusted over all metrics
+    std::size_t pairs = 0;  // that the verdict was passed at; 0: none was
 };
 
 // Verdicts on several metrics at once, each of which has one difference ln(B/A) a pair and its own
@@ -67,6 +70,7 @@ struct Change {
     double b = 0.0;
     // Of the cost: of times as they are, of rates of 1 / rate. Positive is worse.
     Comparison comparison;
+    bool decides = true;  // whether the whole verdict depends on it
 };
 
 // {"case", "metric", "unit", "a", "b", "change", "lower", "upper", "decisive_change", "p",
@@ -79,12 +83,13 @@ enum class ShowCases { yes, no };
 // Empty where there are none.
 std::string changesTable(std::span<const Change> changes, ShowCases show_cases);
 
-// "1 regressed, 0 improved, 7 same, 2 inconclusive"
+// "1 regressed, 0 improved, 7 same, 2 inconclusive", of those that decide.
 std::string verdictCounts(std::span<const Change> changes);
 
+// Of those that decide.
 std::size_t countOf(std::span<const Change> changes, Verdict verdict);
 
-// "regressed" if any is; then "inconclusive", if any is, then "improved", then "same".
+// "regressed" if any that decides is; then "inconclusive", if any is, then "improved", then "same".
 Verdict overallVerdict(std::span<const Change> changes);
 
 // The exit status that goes with it.

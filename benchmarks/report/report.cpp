@@ -121,6 +121,7 @@ scene::Json toJson(const Sampling& sampling) {
         {"rounds", sampling.rounds},
         {"warmup_rounds", sampling.warmup_rounds},
         {"throttled_rounds", sampling.throttled_rounds}};
+    if (sampling.plays > 1) object["plays"] = sampling.plays;
     put(object, "seconds", sampling.seconds);
     put(object, "steady", sampling.steady);
     put(object, "precision", sampling.precision);
@@ -130,9 +131,11 @@ scene::Json toJson(const Sampling& sampling) {
 scene::Json toJson(const Conditions& conditions) {
     scene::Json object = scene::Json::object();
     put(object, "clock_mhz", conditions.clock_mhz);
+    put(object, "lowest_clock_mhz", conditions.lowest_clock_mhz);
     put(object, "base_clock_mhz", conditions.base_clock_mhz);
     put(object, "memory_clock_mhz", conditions.memory_clock_mhz);
     put(object, "temperature", conditions.temperature);
+    put(object, "load", conditions.load);
     put(object, "steal", conditions.steal);
     put(object, "other_load", conditions.other_load);
     if (!conditions.throttle_reasons.empty())
@@ -150,6 +153,10 @@ scene::Json toJson(const Statistic& statistic) {
 scene::Json toJson(const Trust& trust) {
     scene::Json object = scene::Json::object();
     put(object, "pass_sum_over_wall", trust.pass_sum_over_wall);
+    put(object, "pass_sum_over_device", trust.pass_sum_over_device);
+    put(object, "pass_sum_over_work", trust.pass_sum_over_work);
+    put(object, "empty_submission", trust.empty_submission);
+    put(object, "timestamp_rate", trust.timestamp_rate);
     object["warnings"] = trust.warnings;
     return object;
 }
@@ -181,7 +188,8 @@ scene::Json toJson(const CaseResult& result) {
     put(object, "order", result.order);
     object["status"] = statusName(result.status);
     put(object, "reason", result.reason);
-    if (result.status == Status::ok) putMeasured(object, result);
+    // A case that was throttled throughout has failed, and what was measured says by how much.
+    if (result.status == Status::ok || !result.metrics.empty()) putMeasured(object, result);
     return object;
 }
 

@@ -18,7 +18,7 @@
 // "": empty strings, empty optionals, and numbers that are not finite are left out.
 namespace benchmarks::report {
 
-inline constexpr const char* kReportSchema = "hairbench-report/1.1.0";
+inline constexpr const char* kReportSchema = "hairbench-report/1.2.0";
 
 struct DeviceRecord {
     std::string name;
@@ -80,8 +80,9 @@ struct Statistic {
 struct Sampling {
     std::string mode;  // "overlapped", "isolated", "wall_clock"
     std::uint32_t rounds = 0;  // that samples are from; each plays the same frames
+    std::uint32_t plays = 1;  // of the frames in a round, one after the other without a pause
     std::uint32_t warmup_rounds = 0;  // left out before: times still drifted
-    std::uint32_t throttled_rounds = 0;  // left out: the device's clock was below 75 % of its base
+    std::uint32_t throttled_rounds = 0;  // left out: heat or power held the device's clock back
     double seconds = 0.0;  // that all of it took
     std::optional<bool> steady;  // no trend in the last samples; absent: too few to tell
     // Half the 95 % interval of the median frame time over it, samples being as dependent as they
@@ -92,9 +93,11 @@ struct Sampling {
 // What else went on. Medians over the rounds.
 struct Conditions {
     std::optional<double> clock_mhz;  // of the device's shaders
+    std::optional<double> lowest_clock_mhz;  // of any reading under load
     std::optional<double> base_clock_mhz;
     std::optional<double> memory_clock_mhz;
     std::optional<double> temperature;  // degrees Celsius
+    std::optional<double> load;  // share of the time in which the device had work, as it says
     std::optional<double>
         steal;  // share of all processors' time that the hypervisor gave to others
     std::optional<double> other_load;  // share of it that other processes used
@@ -103,6 +106,12 @@ struct Conditions {
 
 struct Trust {
     std::optional<double> pass_sum_over_wall;
+    // By the device's own clock: over the time from an isolated frame's first stamp to its last.
+    std::optional<double> pass_sum_over_device;
+    // Over the wall clock less what an empty submission and the wait for it take.
+    std::optional<double> pass_sum_over_work;
+    std::optional<double> empty_submission;  // ms, median
+    std::optional<double> timestamp_rate;  // of the device's stamps, over a clock of the host
     std::vector<std::string> warnings;
 };
 

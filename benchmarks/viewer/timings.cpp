@@ -49,7 +49,7 @@ void addIsolated(
     measure::addPassTimes(frames.records, report::Mode::isolated, result);
     // What a software device costs is CPU time; of others it says little.
     if (device_type == "cpu") measure::addFrameUse(frames.records, result);
-    measure::addPassSum(frames.records, result);
+    measure::addPassSum(frames.records, {}, device_type == "cpu", result);
 }
 
 // Share of the frames that are slower than the "1 % low" and "1 % high".
@@ -186,6 +186,18 @@ std::optional<double> FrameSplit::saved() const {
     return pass_sum - *device_overlapped;
 }
 
+namespace {
+
+std::optional<double> medianDevice(const TimedFrames& frames) {
+    std::vector<double> times;
+    for (const engine::FrameRecord& frame : frames.records)
+        if (frame.device) times.push_back(*frame.device);
+    if (times.empty()) return std::nullopt;
+    return report::summarize(times).median;
+}
+
+}  // namespace
+
 std::optional<FrameSplit>
 frameSplit(const TimingHistory& history, const report::CaseResult& metrics) {
     const TimedFrames& frames = history.isolated();
@@ -195,7 +207,7 @@ frameSplit(const TimingHistory& history, const report::CaseResult& metrics) {
         .submit = medianOf(frames, [](auto& frame) { return frame.submit; }),
         .wait = medianOf(frames, [](auto& frame) { return frame.wait; }),
         .cpu = medianOf(metrics, report::ofFrame(report::Measured::cpu_time)),
-        .device = medianOf(frames, [](auto& frame) { return frame.device; }),
+        .device = medianDevice(frames),
         .pass_sum = medianOf(frames, measure::passSum),
         .device_overlapped = medianOf(metrics, report::ofFrame(report::Measured::device_time))};
 }

@@ -79,7 +79,7 @@ struct FrameSplit {
     double submit = 0.0;
     double wait = 0.0;  // until the device is done
     std::optional<double> cpu;  // CPU time of all threads of the process
-    double device = 0.0;  // isolated frames, from first to last timestamp
+    std::optional<double> device;  // isolated frames, from first to last timestamp
     double pass_sum = 0.0;  // isolated frames, the passes alone
     std::optional<double> device_overlapped;  // overlapped frames, from first to last timestamp
 

@@ -173,7 +173,7 @@ void splitFigures(const ShownSide& side, const ShownSide* compared) {
         "software device what a frame costs, however busy the machine is.",
         [](const FrameSplit& split) { return split.cpu; });
     row("Device", "From the first to the last timestamp of an isolated frame.",
-        [](const FrameSplit& split) { return Known(split.device); });
+        [](const FrameSplit& split) { return split.device; });
     row("Passes alone", "The isolated passes added up.",
         [](const FrameSplit& split) { return Known(split.pass_sum); });
     row("Overlapped",

@@ -173,15 +173,17 @@ void Simulation::settle(std::uint32_t steps) {
     }
 }
 
-void Simulation::reset() {
+void Simulation::recordReset(engine::Commands& commands) {
     steps_ = 0;
-    device_->runOnce([&](engine::Commands& commands) {
-        commands.barrier(engine::Access::anything, engine::Access::transfer_write);
-        for (std::size_t i = 0; i < settled_.size(); ++i)
-            commands.copy(settled_[i], *state()[i], settled_[i].size());
-        commands.fill(accelerations_, 0);
-        commands.barrier(engine::Access::transfer_write, engine::Access::anything);
-    });
+    commands.barrier(engine::Access::anything, engine::Access::transfer_write);
+    for (std::size_t i = 0; i < settled_.size(); ++i)
+        commands.copy(settled_[i], *state()[i], settled_[i].size());
+    commands.fill(accelerations_, 0);
+    commands.barrier(engine::Access::transfer_write, engine::Access::anything);
+}
+
+void Simulation::reset() {
+    device_->runOnce([&](engine::Commands& commands) { recordReset(commands); });
 }
 
 void Simulation::setState(

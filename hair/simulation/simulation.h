@@ -77,7 +77,9 @@ public:
     // Simulates steps without wind and hands and waits for them; time stands still.
     void settle(std::uint32_t steps);
 
-    // Back to the state after construction, when the device is done with what was submitted before.
+    // Back to the state after construction, after all that was recorded or submitted before.
+    void recordReset(engine::Commands& commands);
+    // The same at once, when the device is done with what was submitted before.
     void reset();
 
     // Goes on from the present state with the wind, colliders, motion and pulls of `settings`,

@@ -31,6 +31,44 @@ TEST(Trust, TakesTheMedianOfSumOverWall) {
     EXPECT_DOUBLE_EQ(measure::passSumOverWall(frames), 0.75);
 }
 
+// A frame of 0.1 ms, of which submitting takes another 0.06: 0.625 of the wall clock is no reason
+// to doubt the passes.
+TEST(Trust, HoldsPassesAgainstTheDeviceAndTheWorkAlone) {
+    std::vector frames{frame(0.16, 0.03, 0.07), frame(0.16, 0.03, 0.07)};
+    for (engine::FrameRecord& each : frames) each.device = 0.1;
+    const measure::PassSum sum = measure::passSums(frames, {.median = 0.06, .spread = 0.005});
+    EXPECT_DOUBLE_EQ(sum.over_wall.value(), 0.625);
+    EXPECT_DOUBLE_EQ(sum.over_device.value(), 1.0);
+    EXPECT_NEAR(sum.over_work.value(), 1.0, 1e-12);
+    EXPECT_FALSE(sum.incomplete);
+    for (engine::FrameRecord& each : frames) each.device = 0.12;
+    EXPECT_TRUE(measure::passSums(frames, {.median = 0.06, .spread = 0.005}).incomplete);
+}
+
+// 3 ms of 13 that no pass has, though the device's stamps say that passes are all: 23 % of the wall
+// clock, where an empty submission takes 0.06 ms.
+TEST(Trust, FindsWorkThatNoStampHas) {
+    std::vector frames{frame(13, 3, 7)};
+    frames[0].device = 10.0;
+    EXPECT_TRUE(measure::passSums(frames, {.median = 0.06, .spread = 0.005}).incomplete);
+    EXPECT_FALSE(measure::passSums(frames, {.median = 3.0, .spread = 0.005}).incomplete);
+}
+
+TEST(Trust, KnowsNoSumWithoutTimestamps) {
+    std::vector frames{frame(13, 3, 7)};
+    frames[0].passes.clear();
+    const measure::PassSum sum = measure::passSums(frames, {});
+    EXPECT_FALSE(sum.over_wall || sum.over_device || sum.over_work || sum.incomplete);
+}
+
+TEST(Trust, TakesTheMedianOfEmptySubmissionsAndHowTheyVary) {
+    std::vector<engine::FrameRecord> empty;
+    for (int i = 0; i <= 20; ++i) empty.push_back(frame(1.0 + 0.01 * i, 0, 0));
+    const measure::EmptySubmission found = measure::emptySubmission(empty);
+    EXPECT_NEAR(found.median, 1.1, 1e-12);
+    EXPECT_NEAR(found.spread, 0.09, 1e-12);
+}
+
 TEST(Trust, BelievesTimestampsThatAgreeWithTheClock) {
     const std::vector stamped{frame(0, 0.1, 100), frame(0, 0.1, 130)};
     const std::vector clocked{frame(0, 0.2, 105), frame(0, 0.3, 140)};

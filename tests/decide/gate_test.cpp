@@ -84,6 +84,70 @@ TEST(Gate, EndsAt24WhenThatIsEnough) {
     EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::regressed);
 }
 
+// One metric is slower by 50 %, the other can't be told. Nobody needs the other to fail a build.
+TEST(Gate, EndsWithARegressionUnlessAllAreWanted) {
+    const auto pair_of = [](gate::Gate& gate) {
+        const bool b = gate.next() == Step::run_b;
+        const double unsure = 1.02 + 0.01 * wobble(gate.pairs());
+        gate.add({b ? 15.0 + 0.01 * wobble(gate.pairs()) : 10.0, b ? unsure : 1.0});
+    };
+    gate::Gate gate(std::vector<gate::GateMetric>(2));
+    while (gate.next() != Step::decided) pair_of(gate);
+    EXPECT_EQ(gate.pairs(), 12u);
+    EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::regressed);
+    EXPECT_EQ(gate.comparisons()[1].verdict, Verdict::inconclusive);
+    gate::Gate all(std::vector<gate::GateMetric>(2), {}, true);
+    while (all.next() != Step::decided) pair_of(all);
+    EXPECT_EQ(all.pairs(), 48u);
+    EXPECT_EQ(all.comparisons()[0].verdict, Verdict::regressed);
+    EXPECT_EQ(all.comparisons()[0].pairs, 12u);
+    EXPECT_EQ(all.comparisons()[1].pairs, 48u);
+}
+
+// Of two metrics the first is slower at 12 pairs and not any more afterwards: what was said stays.
+// The second keeps the gate going.
+TEST(Gate, TakesNoVerdictBack) {
+    gate::Gate gate(std::vector<gate::GateMetric>(2), {}, true);
+    while (gate.next() != Step::decided) {
+        const bool b = gate.next() == Step::run_b;
+        const double first = gate.pairs() < 12 ? 1.1 + 0.001 * wobble(gate.pairs()) : 1.0;
+        gate.add({b ? first : 1.0, b ? 1.02 + 0.01 * wobble(gate.pairs()) : 1.0});
+        if (gate.decidedAt() > 0) {
+            EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::regressed);
+            EXPECT_NEAR(gate.comparisons()[0].change, 0.1, 0.001);
+        }
+    }
+    EXPECT_EQ(gate.pairs(), 48u);
+}
+
+// Stopped after 20 pairs it still says what it said at 12.
+TEST(Gate, KeepsTheLastVerdictsWhenItIsStopped) {
+    gate::Gate gate(std::vector<gate::GateMetric>(2), {}, true);
+    while (gate.pairs() < 20) {
+        const bool b = gate.next() == Step::run_b;
+        gate.add(
+            {b ? 1.0 + 0.005 * wobble(gate.pairs()) : 1.0,
+             b ? 1.02 + 0.01 * wobble(gate.pairs()) : 1.0});
+    }
+    EXPECT_EQ(gate.decidedAt(), 12u);
+    EXPECT_EQ(gate.comparisons()[0].verdict, Verdict::same);
+    EXPECT_EQ(gate.comparisons()[1].verdict, Verdict::inconclusive);
+}
+
+// What decides nothing neither keeps a gate going nor ends it.
+TEST(Gate, DoesNotWaitForWhatDecidesNothing) {
+    gate::Gate gate(std::vector<gate::GateMetric>{{}, {.decides = false}, {.decides = false}});
+    while (gate.next() != Step::decided) {
+        const bool b = gate.next() == Step::run_b;
+        gate.add(
+            {b ? 1.0 + 0.005 * wobble(gate.pairs()) : 1.0,
+             b ? 1.02 + 0.01 * wobble(gate.pairs()) : 1.0, b ? 3.0 : 1.0});
+    }
+    EXPECT_EQ(gate.pairs(), 12u);
+    EXPECT_EQ(gate.comparisons()[1].verdict, Verdict::inconclusive);
+    EXPECT_EQ(gate.comparisons()[2].verdict, Verdict::regressed);
+}
+
 TEST(Gate, DecidesNothingBetweenDecisions) {
     gate::Gate gate(kOneMetric);
     for (int i = 0; i < 26; ++i)  // 13 pairs, far apart; the 12th had been enough

@@ -42,8 +42,15 @@ const Fault kFaults[] = {
     {"timestamps", Health::bad, [](Facts& f) { f.timestamps.valid_bits = 0; }, "none"},
     {"timestamps", Health::bad, [](Facts& f) { f.timestamps.step_ns.reset(); }, "advance"},
     {"timestamps", Health::warn, [](Facts& f) { f.timestamps.step_ns = 80000; }, "80000 ns"},
-    {"pass sum", Health::bad, [](Facts& f) { f.passes.sum_over_wall = 0.56; }, "56.0 %"},
-    {"pass sum", Health::bad, [](Facts& f) { f.passes.sum_over_wall = 1.2; }, "120.0 %"},
+    {"pass sum", Health::bad, [](Facts& f) { f.passes.sum.over_wall = 0.56; }, "56.0 %", true},
+    {"pass sum", Health::bad, [](Facts& f) { f.passes.sum.over_wall = 1.2; }, "120.0 %", true},
+    {"pass sum", Health::bad,
+     [](Facts& f) {
+         f.passes.sum.over_device = 0.56;
+         f.passes.sum.incomplete = true;
+     },
+     "56.0 %"},
+    {"pass sum", Health::unknown, [](Facts& f) { f.passes.sum.over_wall.reset(); }, "timestamps"},
     {"pass sum", Health::unknown, [](Facts& f) { f.timestamps.valid_bits = 0; }, "timestamps"},
     {"pass times", Health::bad, [](Facts& f) { f.passes.faults = {"pass.wind: off"}; },
      "pass.wind: off"},
@@ -102,7 +109,7 @@ const Fault kFaults[] = {
     {"clocks", Health::bad,
      [](Facts& f) {
          f.clocks->conditions.clock_mhz = 1400;
-         f.clocks->conditions.base_clock_mhz = 2000;
+         f.clocks->conditions.throttle_reasons = {"hardware thermal slowdown"};
      },
      "of 2000 MHz"},
     {"clocks", Health::warn,

@@ -21,7 +21,9 @@ inline Facts goodFacts() {
              .dirty = false},
         .assertions = false};
     facts.timestamps = {.valid_bits = 64, .period_ns = 1.0, .step_ns = 32.0, .gap_ns = 960.0};
-    facts.passes = {.sum_over_wall = 0.99, .faults = {}};
+    facts.passes = {
+        .sum = {.over_wall = 0.4, .over_device = 0.99, .over_work = 0.97, .incomplete = false},
+        .faults = {}};
     facts.repeat = {.same_picture = true, .same_state = true};
     for (int pair = 0; pair < 12; ++pair) {
         facts.repeat.frame.push_back(pair % 2 == 0 ? 0.002 : -0.002);
@@ -42,6 +44,7 @@ inline Facts goodFacts() {
 inline Facts softwareFacts() {
     Facts facts = goodFacts();
     facts.device = {.name = "Soft", .type = "cpu"};
+    facts.passes.sum.over_wall = 0.99;
     facts.clocks.reset();
     return facts;
 }

@@ -112,11 +112,11 @@ TEST_F(FrameLoopTest, SharesOutTheTimeOfTheDevice) {
     };
     for (const FrameRecord& frame : play(Timing::overlapped, 4)) {
         EXPECT_GT(frame.device, 0.0);
-        EXPECT_NEAR(passSum(frame), frame.device, kRounding);
+        EXPECT_NEAR(passSum(frame), frame.device.value(), kRounding);
     }
     for (const FrameRecord& frame : play(Timing::isolated, 4)) {
         EXPECT_GT(frame.device, 0.0);
-        EXPECT_LE(passSum(frame), frame.device + kRounding);
+        EXPECT_LE(passSum(frame), frame.device.value() + kRounding);
     }
     for (const FrameRecord& frame : play(Timing::wall_clock, 2))
         EXPECT_NEAR(passSum(frame), frame.wall, kRounding);

@@ -26,20 +26,21 @@ void waitForReads(const std::atomic<int>& reads, int count) {
     while (reads < count) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-TEST(ClockSampler, ReadsOnceInTheShortestRound) {
+// What a driver is asked for at the end of a round would be an answer of an idle device.
+TEST(ClockSampler, ReadsNothingForWhoTakes) {
     std::atomic<int> reads = 0;
     ClockSampler sampler(std::make_unique<CountingSource>(reads));
     sampler.begin();
-    EXPECT_GE(sampler.end().size(), 1u);
+    EXPECT_THAT(sampler.take(), IsEmpty());
 }
 
 TEST(ClockSampler, ReadsAgainAndAgainWhileARoundRuns) {
     std::atomic<int> reads = 0;
     ClockSampler sampler(std::make_unique<CountingSource>(reads));
     sampler.begin();
-    waitForReads(reads, 2);
-    const std::vector<ClockReading> readings = sampler.end();
-    ASSERT_GE(readings.size(), 3u);
+    waitForReads(reads, 3);
+    const std::vector<ClockReading> readings = sampler.take();
+    ASSERT_GE(readings.size(), 2u);  // the third may still be on its way
     for (std::size_t i = 0; i < readings.size(); ++i)
         EXPECT_EQ(readings[i].clock_mhz, 1001.0 + static_cast<double>(i));
 }
@@ -48,13 +49,29 @@ TEST(ClockSampler, ForgetsTheRoundBefore) {
     std::atomic<int> reads = 0;
     ClockSampler sampler(std::make_unique<CountingSource>(reads));
     sampler.begin();
-    waitForReads(reads, 1);
-    sampler.end();
-    const int before = reads;
-    sampler.begin();
-    const std::vector<ClockReading> readings = sampler.end();
+    waitForReads(reads, 2);
+    const std::size_t before = sampler.take().size();
+    waitForReads(reads, 5);
+    const std::vector<ClockReading> readings = sampler.take();
     ASSERT_FALSE(readings.empty());
-    EXPECT_GT(*readings.front().clock_mhz, 1000.0 + before);
+    EXPECT_EQ(readings.front().clock_mhz, 1001.0 + static_cast<double>(before));
+}
+
+// A driver that keeps what it says for a second tells of the time before the round.
+TEST(ClockSampler, LeavesOutWhatIsOlderThanTheRound) {
+    struct Old : ClockSource {
+        explicit Old(std::atomic<int>& count) : reads(count) {}
+        ClockReading read() override {
+            ++reads;
+            return {.clock_mhz = 1000.0, .age = 60.0};
+        }
+        std::atomic<int>& reads;
+    };
+    std::atomic<int> reads = 0;
+    ClockSampler sampler(std::make_unique<Old>(reads));
+    sampler.begin();
+    waitForReads(reads, 2);
+    EXPECT_THAT(sampler.take(), IsEmpty());
 }
 
 TEST(AddClocks, LeavesOutReadingsOfAnIdleDevice) {
@@ -66,16 +83,21 @@ TEST(AddClocks, LeavesOutReadingsOfAnIdleDevice) {
          {.clock_mhz = 1800, .base_clock_mhz = 1980, .throttle_reasons = {"power brake"}}},
         conditions);
     EXPECT_EQ(conditions.clock_mhz, 1800.0);
+    EXPECT_EQ(conditions.lowest_clock_mhz, 1700.0);
     EXPECT_EQ(conditions.base_clock_mhz, 1980.0);
     EXPECT_EQ(conditions.temperature, 51.0);
     EXPECT_EQ(conditions.memory_clock_mhz, std::nullopt);
     EXPECT_THAT(conditions.throttle_reasons, ElementsAre("power cap", "power brake"));
 }
 
-TEST(AddClocks, TakesAnIdleDeviceIfThereIsNothingElse) {
+TEST(AddClocks, KnowsNothingOfADeviceThatWasIdleThroughout) {
     report::Conditions conditions;
-    addClocks({{.clock_mhz = 300, .idle = true}}, conditions);
-    EXPECT_EQ(conditions.clock_mhz, 300.0);
+    addClocks(
+        {{.clock_mhz = 300, .idle = true}, {.clock_mhz = 400, .load = 0.2, .temperature = 40}},
+        conditions);
+    EXPECT_EQ(conditions.clock_mhz, std::nullopt);
+    EXPECT_EQ(conditions.lowest_clock_mhz, std::nullopt);
+    EXPECT_EQ(conditions.temperature, std::nullopt);
     EXPECT_THAT(conditions.throttle_reasons, IsEmpty());
 }
 

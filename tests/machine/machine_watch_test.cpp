@@ -32,11 +32,25 @@ TEST(MedianConditions, OfNoRoundsAreUnknown) {
     EXPECT_THAT(median.throttle_reasons, IsEmpty());
 }
 
-TEST(IsThrottled, BelowThreeQuartersOfTheBaseClock) {
-    EXPECT_TRUE(isThrottled({.clock_mhz = 1499, .base_clock_mhz = 2000}));
-    EXPECT_FALSE(isThrottled({.clock_mhz = 1500, .base_clock_mhz = 2000}));
-    EXPECT_FALSE(isThrottled({.clock_mhz = 100}));
-    EXPECT_FALSE(isThrottled({.base_clock_mhz = 2000}));
+TEST(IsThrottled, BelowNineTenthsOfTheClockThatOtherRoundsHeld) {
+    const auto at = [](double clock) {
+        return report::Conditions{.clock_mhz = clock, .lowest_clock_mhz = clock};
+    };
+    EXPECT_TRUE(isThrottled(at(1799), 2000, 0));
+    EXPECT_FALSE(isThrottled(at(1800), 2000, 0));
+    EXPECT_FALSE(isThrottled(at(100), 0, 0));
+    EXPECT_FALSE(isThrottled({.base_clock_mhz = 2000}, 2000, 2000));
+}
+
+// A locked clock may be half the base clock.
+TEST(IsThrottled, WhateverTheBaseClockIs) {
+    EXPECT_FALSE(isThrottled(
+        {.clock_mhz = 1000, .lowest_clock_mhz = 1000, .base_clock_mhz = 2000, .load = 1.0}, 1000,
+        1000));
+}
+
+TEST(IsThrottled, ByOneReadingUnderLoad) {
+    EXPECT_TRUE(isThrottled({.clock_mhz = 2000, .lowest_clock_mhz = 1500}, 2000, 0));
 }
 
 TEST(PciAddress, IsWrittenAsTheSystemDoes) {
@@ -55,7 +69,7 @@ TEST_F(MachineWatchTest, TellsSharesOfTheProcessorsTime) {
     const auto start = std::chrono::steady_clock::now();
     while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(100)) {
     }
-    const report::Conditions conditions = watch.end();
+    const report::Conditions conditions = watch.take();
     if (!conditions.other_load) GTEST_SKIP() << "/proc/stat tells nothing here";
     EXPECT_GE(*conditions.other_load, 0.0);
     EXPECT_LE(*conditions.other_load, 1.0);
@@ -68,10 +82,10 @@ TEST_F(MachineWatchTest, KnowsNoClockOfASoftwareDevice) {
     EXPECT_EQ(pciAddress(device().info()), std::nullopt);
     MachineWatch watch(device());
     watch.begin();
-    const report::Conditions conditions = watch.end();
+    const report::Conditions conditions = watch.take();
     EXPECT_EQ(conditions.clock_mhz, std::nullopt);
     EXPECT_EQ(conditions.base_clock_mhz, std::nullopt);
-    EXPECT_FALSE(isThrottled(conditions));
+    EXPECT_FALSE(isThrottled(conditions, 0, 0));
 }
 
 }  // namespace

@@ -258,7 +258,8 @@ TEST_F(RoundPlayerTest, GivesTheFramesAfterTheWarmUpInEveryRound) {
         for (const auto& [warmup, frames] :
              {std::pair{2u, 5u}, std::pair{3u, 4u}, std::pair{6u, 1u}}) {
             const hair::RunSettings run{.warmup = warmup, .frames = frames};
-            RoundPlayer player({device(), test_case, run, hooks}, timing);
+            DeviceStage stage(device(), test_case, run, hooks);
+            RoundPlayer player(stage.player(timing), run);
             std::vector<bool> expected;
             for (std::uint32_t frame = warmup + 1; frame <= warmup + frames; ++frame)
                 expected.push_back(frame % 3 == 0);
@@ -275,7 +276,8 @@ TEST_F(RoundPlayerTest, HashesEveryRowAndEveryGuide) {
     const hair::Settings settings = smallCase();
     Case test_case(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
     const MeasureHooks hooks{.stop = [] { return false; }};
-    RoundPlayer player({device(), test_case, settings.run, hooks}, engine::Timing::isolated);
+    DeviceStage stage(device(), test_case, settings.run, hooks);
+    RoundPlayer player(stage.player(engine::Timing::isolated), settings.run);
     player.round();
     const RoundEnd& end = player.firstEnd();
     ASSERT_EQ(end.picture.size(), 64u * 36u * 4u);

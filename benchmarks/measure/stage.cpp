@@ -1,0 +1,118 @@
+#include "benchmarks/measure/stage.h"
+
+#include <chrono>
+#include <functional>
+#include <span>
+#include <thread>
+#include <utility>
+
+#include "benchmarks/measure/measure.h"
+#include "benchmarks/report/environment.h"
+#include "engine/error.h"
+
+namespace benchmarks::measure {
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+class DevicePlayer : public Player {
+public:
+    DevicePlayer(
+        const engine::Device& device, Case& test_case, const MeasureHooks& hooks,
+        engine::Timing timing, const PlantedWork& planted)
+        : test_case_(test_case), hooks_(hooks), loop_(device, timing) {
+        if (!planted.pass.empty()) busy_.emplace(device, planted.pass, planted.steps);
+    }
+
+    void reset() override { reset_ = true; }
+
+    void frame() override {
+        if (hooks_.stop()) throw engine::Interrupted();
+        loop_.frame([&](engine::Passes& passes) {
+            if (std::exchange(reset_, false)) test_case_.recordReset(passes);
+            if (busy_) {
+                BusyPasses slowed(passes, *busy_);
+                test_case_.frame(slowed);
+            } else {
+                test_case_.frame(passes);
+            }
+        });
+    }
+
+    std::vector<engine::FrameRecord> completed() override { return loop_.completed(); }
+
+    std::vector<engine::FrameRecord> finish() override {
+        std::vector<engine::FrameRecord> frames = loop_.finish();
+        if (busy_ && !frames.empty()) busy_->checkThatItRan();
+        return frames;
+    }
+
+    RoundEnd end() override {
+        RoundEnd end{.picture = test_case_.picture(), .picture_hash = {}, .state_hash = {}};
+        end.picture_hash = report::hashBytes(std::as_bytes(std::span(end.picture)));
+        end.state_hash = test_case_.stateHash();
+        return end;
+    }
+
+private:
+    Case& test_case_;
+    const MeasureHooks& hooks_;
+    engine::FrameLoop loop_;
+    std::optional<BusyPass> busy_;
+    bool reset_ = false;
+};
+
+// Frames without a pass leave no picture.
+class EmptyPlayer : public Player {
+public:
+    EmptyPlayer(const engine::Device& device, const MeasureHooks& hooks, engine::Timing timing)
+        : hooks_(hooks), loop_(device, timing) {}
+
+    void reset() override {}
+    void frame() override {
+        if (hooks_.stop()) throw engine::Interrupted();
+        loop_.frame([](engine::Passes&) {});
+    }
+    std::vector<engine::FrameRecord> completed() override { return loop_.completed(); }
+    std::vector<engine::FrameRecord> finish() override { return loop_.finish(); }
+    RoundEnd end() override { return {}; }
+
+private:
+    const MeasureHooks& hooks_;
+    engine::FrameLoop loop_;
+};
+
+constexpr int kEmptyFrames = 32;
+
+}  // namespace
+
+EmptySubmission measureEmptySubmission(Stage& stage) {
+    const std::unique_ptr<Player> player = stage.emptyPlayer(engine::Timing::isolated);
+    for (int i = 0; i < kEmptyFrames; ++i) player->frame();
+    return emptySubmission(player->finish());
+}
+
+DeviceStage::DeviceStage(
+    const engine::Device& device, Case& test_case, const hair::RunSettings& run,
+    const MeasureHooks& hooks)
+    : device_(device), test_case_(test_case), run_(run), hooks_(hooks), watch_(device) {}
+
+std::unique_ptr<Player> DeviceStage::player(engine::Timing timing) {
+    return player(timing, {run_.busy_pass, run_.busy_work});
+}
+
+std::unique_ptr<Player> DeviceStage::player(engine::Timing timing, const PlantedWork& planted) {
+    return std::make_unique<DevicePlayer>(device_, test_case_, hooks_, timing, planted);
+}
+
+std::unique_ptr<Player> DeviceStage::emptyPlayer(engine::Timing timing) {
+    return std::make_unique<EmptyPlayer>(device_, hooks_, timing);
+}
+
+double DeviceStage::seconds() {
+    return Seconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void DeviceStage::pause(double seconds) { std::this_thread::sleep_for(Seconds(seconds)); }
+
+}  // namespace benchmarks::measure

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "benchmarks/measure/busy_work.h"
+#include "benchmarks/measure/case.h"
+#include "benchmarks/measure/machine_watch.h"
+#include "benchmarks/measure/trust.h"
+#include "benchmarks/report/report.h"
+#include "engine/frame_loop.h"
+
+// What frames are played on and timed by: a device and the machine's clock, or a model of both.
+namespace benchmarks::measure {
+
+struct MeasureHooks;
+
+// What a play of frames ends with.
+struct RoundEnd {
+    std::vector<std::uint8_t> picture;  // [row][column] RGBA, top row first
+    std::string picture_hash;
+    std::string state_hash;
+};
+
+// Frames in one timing mode, one after another.
+class Player {
+public:
+    virtual ~Player() = default;
+
+    // The next frame will be the first one again, after all frames so far and without waiting for
+    // them.
+    virtual void reset() = 0;
+    // Plays the next frame. Throws Interrupted where the user asks to stop.
+    virtual void frame() = 0;
+    // As engine::FrameLoop's: what is known of complete frames without waiting, and all the rest.
+    virtual std::vector<engine::FrameRecord> completed() = 0;
+    virtual std::vector<engine::FrameRecord> finish() = 0;
+    // Picture and state of the last frame. All frames must be finished.
+    virtual RoundEnd end() = 0;
+};
+
+// Steps of BusyWork in the pass of a name.
+struct PlantedWork {
+    std::string pass;
+    std::uint32_t steps = 0;
+};
+
+// What measure() plays a case's frames on.
+class Stage {
+public:
+    virtual ~Stage() = default;
+
+    // The case's frames, with the scene's own planted work.
+    virtual std::unique_ptr<Player> player(engine::Timing timing) = 0;
+    // The case's frames with this work and no other.
+    virtual std::unique_ptr<Player> player(engine::Timing timing, const PlantedWork& planted) = 0;
+    // Frames without a pass.
+    virtual std::unique_ptr<Player> emptyPlayer(engine::Timing timing) = 0;
+
+    // Whether frames are made by the processors that also record them: there no clock has to be
+    // driven up, and a frame takes so long that what is between frames does not matter.
+    virtual bool isProcessor() const = 0;
+
+    // Whether time passes while samples are looked at, as it does outside a model.
+    virtual bool runsBesideThought() const { return true; }
+
+    // The machine's clock, s.
+    virtual double seconds() = 0;
+    virtual void pause(double seconds) = 0;
+
+    // Of the device's timestamps: how much faster they run than they should, by a clock that
+    // device and host can both read. Absent where there is no such clock.
+    virtual std::optional<double> timestampRate() = 0;
+
+    // Begins to watch the machine.
+    virtual void beginWatch() = 0;
+    // What went on since beginWatch() or the last conditions(). Doesn't ask the device.
+    virtual report::Conditions conditions() = 0;
+};
+
+// Plays empty frames.
+EmptySubmission measureEmptySubmission(Stage& stage);
+
+// A case on a device. All must outlive it, and it its players.
+class DeviceStage : public Stage {
+public:
+    DeviceStage(
+        const engine::Device& device, Case& test_case, const hair::RunSettings& run,
+        const MeasureHooks& hooks);
+
+    // Throw engine::Error, at the end of the first frames, where no pass has the planted work's
+    // name.
+    std::unique_ptr<Player> player(engine::Timing timing) override;
+    std::unique_ptr<Player> player(engine::Timing timing, const PlantedWork& planted) override;
+    std::unique_ptr<Player> emptyPlayer(engine::Timing timing) override;
+    bool isProcessor() const override { return device_.info().type == "cpu"; }
+    double seconds() override;
+    void pause(double seconds) override;
+    std::optional<double> timestampRate() override { return std::nullopt; }
+    void beginWatch() override { watch_.begin(); }
+    report::Conditions conditions() override { return watch_.take(); }
+
+private:
+    const engine::Device& device_;
+    Case& test_case_;
+    const hair::RunSettings& run_;
+    const MeasureHooks& hooks_;
+    MachineWatch watch_;
+};
+
+}  // namespace benchmarks::measure

@@ -1,0 +1,256 @@
+#include "tests/measure/simulated_gpu.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "benchmarks/measure/measure.h"
+#include "benchmarks/measure/metrics.h"
+#include "benchmarks/report/statistics.h"
+
+namespace benchmarks::measure {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+report::CaseResult measuredOn(SimulatedGpu& gpu, hair::RunSettings run = {}) {
+    report::CaseResult result;
+    measureFrames(gpu, run, {.stop = [] { return false; }}, result);
+    return result;
+}
+
+const report::Metric* metricIn(const report::CaseResult& result, const std::string& name) {
+    const auto found = std::ranges::find(result.metrics, name, &report::Metric::name);
+    return found == result.metrics.end() ? nullptr : &*found;
+}
+
+double medianIn(const report::CaseResult& result, const std::string& name) {
+    const report::Metric* metric = metricIn(result, name);
+    return metric ? report::quantile(metric->samples, 0.5) : std::nan("");
+}
+
+// Frames of 30 us to 30 ms, and whatever else a machine does to them.
+GpuModel anyModel(std::mt19937_64& random, double throttled_share) {
+    const auto uniform = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    GpuModel model;
+    const double frame = 30e-6 * std::pow(1000.0, uniform(0.0, 1.0));  // s
+    const double wind = uniform(0.02, 0.2), simulate = uniform(0.1, 0.4);
+    model.passes = {
+        {"wind", wind * frame * model.fast},
+        {"simulate", simulate * frame * model.fast},
+        {"strands", (1.0 - wind - simulate) * frame * model.fast}};
+    model.stalls = uniform(0.0, 3.0);
+    model.stall = uniform(1e-3, 4e-3);
+    model.throttled_share = throttled_share;
+    model.throttled_clock = uniform(0.5, 0.85);
+    if (uniform(0.0, 1.0) < 0.5) model.throttle_reason = "hardware thermal slowdown";
+    model.tells_age = uniform(0.0, 1.0) < 0.5;
+    return model;
+}
+
+bool foundThrottling(const report::CaseResult& result) {
+    return std::ranges::any_of(result.sampling, [](const report::Sampling& sampling) {
+        return sampling.throttled_rounds > 0;
+    });
+}
+
+// The bounds are the ones that a reader of reports is promised (docs/measuring.md): the median
+// error within 1 %, 95 % of the cases within 3 %. Frames that the device is busy with for longer
+// than the host needs between two of them also have that as their interval.
+TEST(SimulatedGpu, FrameTimesAreTrueWhateverTheMachineDoes) {
+    std::vector<double> device, intervals, passes;
+    for (std::uint32_t seed = 0; seed < 200; ++seed) {
+        std::mt19937_64 random(seed);
+        const bool throttles = seed % 3 == 0;
+        const double share =
+            throttles ? std::uniform_real_distribution<double>(0.05, 0.4)(random) : 0.0;
+        SimulatedGpu gpu(anyModel(random, share), seed);
+        const report::CaseResult result = measuredOn(gpu, {.max_time = 4.0f});
+        EXPECT_EQ(result.status, report::Status::ok) << seed << ": " << result.reason;
+        const auto error = [&](const std::string& name, double truth) {
+            return std::abs(medianIn(result, name) / truth - 1.0);
+        };
+        device.push_back(error("frame.device.time", gpu.truth()));
+        passes.push_back(error("pass.strands.time", gpu.truth("strands")));
+        if (gpu.truth() > 0.2) intervals.push_back(error("frame.time", gpu.truth()));
+    }
+    ASSERT_GT(intervals.size(), 100u);
+    for (const std::vector<double>* errors : {&device, &intervals, &passes}) {
+        EXPECT_LE(report::quantile(*errors, 0.5), 0.01);
+        EXPECT_LE(report::quantile(*errors, 0.95), 0.03);
+    }
+}
+
+// Bounds as above: 95 % of machines that are throttled a fifth of the time, 1 % of those that are
+// never. A mode is measured until its time is over, so that it meets some throttling.
+TEST(SimulatedGpu, ThrottlingIsFoundWhereThereIsSomeAndNotElsewhere) {
+    const hair::RunSettings run{.precision = 0.0f, .max_time = 4.0f};
+    int found = 0, wrongly = 0;
+    for (std::uint32_t seed = 0; seed < 100; ++seed) {
+        std::mt19937_64 random(1000 + seed);
+        GpuModel model = anyModel(random, 0.2);
+        SimulatedGpu throttled(model, seed);
+        const report::CaseResult result = measuredOn(throttled, run);
+        EXPECT_EQ(result.status, report::Status::ok) << result.reason;
+        found += foundThrottling(result);
+        model.throttled_share = 0.0;
+        SimulatedGpu never(model, seed);
+        wrongly += foundThrottling(measuredOn(never, run));
+    }
+    EXPECT_GE(found, 95);
+    EXPECT_LE(wrongly, 1);
+}
+
+// An hour of heat: the case fails, and what was measured is in the report.
+TEST(SimulatedGpu, ACaseThatIsThrottledThroughoutFailsAndKeepsItsSamples) {
+    GpuModel model;
+    model.throttled_share = 0.9999;
+    model.throttle_reason = "hardware thermal slowdown";
+    SimulatedGpu gpu(model, 1);
+    gpu.pause(10.0);
+    const report::CaseResult result = measuredOn(gpu);
+    EXPECT_EQ(result.status, report::Status::failed);
+    EXPECT_THAT(result.reason, HasSubstr("overlapped: heat or power held the device back in all"));
+    EXPECT_GT(medianIn(result, "frame.device.time"), gpu.truth());
+    EXPECT_THAT(result.conditions.throttle_reasons, Contains("hardware thermal slowdown"));
+}
+
+// Rounds measure for a quarter of a second at least, on whatever frames; and the device never waits
+// for the next one, or its clock would fall (it needs 2 ms to notice).
+TEST(SimulatedGpu, RoundsAreLongAndNothingIsBetweenThem) {
+    for (const double cycles : {60e3, 600e3, 6e6}) {
+        GpuModel model;
+        model.passes = {{"strands", cycles}};
+        SimulatedGpu gpu(model, 7);
+        hair::RunSettings run;
+        run.precision = 0.0f;
+        const report::CaseResult result = measuredOn(gpu, run);
+        for (const report::Sampling& sampling : result.sampling) {
+            EXPECT_GE(sampling.rounds, 8u) << cycles;
+            EXPECT_EQ(sampling.throttled_rounds, 0u);
+        }
+        const report::Metric* times = metricIn(result, "frame.time");
+        ASSERT_TRUE(times);
+        double measured = 0.0;
+        for (const double time : times->samples) measured += time;
+        EXPECT_GE(measured / result.sampling[0].rounds, 250.0) << cycles;
+        EXPECT_EQ(
+            times->samples.size(),
+            std::size_t{result.sampling[0].rounds} * result.sampling[0].plays * run.frames);
+        EXPECT_GE(result.conditions.lowest_clock_mhz.value(), 0.98 * 1980);
+        EXPECT_THAT(result.trust.warnings, IsEmpty());
+    }
+}
+
+// Frames of a play that cost different amounts are the same in every round.
+TEST(SimulatedGpu, PlaysShowTheSameFrames) {
+    GpuModel model;
+    model.least_latency = model.most_latency = 30e-6;
+    model.tail = 0.0;
+    model.profile = [](std::uint32_t frame) { return 1.0 + frame; };
+    SimulatedGpu gpu(model, 3);
+    const report::CaseResult result = measuredOn(gpu, {.warmup = 2, .frames = 3});
+    const report::Metric* times = metricIn(result, "frame.device.time");
+    ASSERT_TRUE(times);
+    ASSERT_EQ(times->samples.size() % 3, 0u);
+    // A thousandth for the end of the clock's rise.
+    for (std::size_t i = 0; i < times->samples.size(); ++i)
+        EXPECT_NEAR(times->samples[i] / gpu.truth(), 3.0 + static_cast<double>(i % 3), 1e-2);
+}
+
+// /run/max_time 0 asks for one play, and gets it.
+TEST(SimulatedGpu, CountsAreCountsWithoutTime) {
+    SimulatedGpu gpu(GpuModel{}, 5);
+    const report::CaseResult result = measuredOn(gpu, {.frames = 7, .max_time = 0.0f});
+    ASSERT_TRUE(metricIn(result, "frame.time"));
+    EXPECT_EQ(metricIn(result, "frame.time")->samples.size(), 7u);
+}
+
+// 400,000 cycles at 1.98 GHz are 0.2 ms; submitting and waiting take two latencies of 20 to 60 us
+// and 2 us more, so a frame's passes are far from its wall clock and nothing is wrong.
+TEST(SimulatedGpu, AShortFrameIsNoReasonToDoubtItsPasses) {
+    SimulatedGpu gpu(GpuModel{}, 9);
+    const report::CaseResult result = measuredOn(gpu);
+    EXPECT_LT(result.trust.pass_sum_over_wall.value(), 0.8);
+    EXPECT_NEAR(result.trust.pass_sum_over_device.value(), 1.0, 1e-3);
+    EXPECT_NEAR(result.trust.pass_sum_over_work.value(), 1.0, 0.1);
+    EXPECT_NEAR(result.trust.empty_submission.value(), 0.082, 0.02);
+    EXPECT_THAT(result.trust.warnings, IsEmpty());
+    EXPECT_NEAR(medianIn(result, "frame.overlap"), 0.0, 0.01 * gpu.truth());
+}
+
+// A third of the passes' time is hidden where frames overlap.
+TEST(SimulatedGpu, OverlapIsFound) {
+    GpuModel model;
+    model.overlap = 1.0 / 3.0;
+    model.passes = {{"simulate", 990e3}, {"strands", 1980e3}};
+    SimulatedGpu gpu(model, 11);
+    EXPECT_NEAR(medianIn(measuredOn(gpu), "frame.overlap"), 0.5, 0.02);
+}
+
+std::vector<std::string> faultsOf(const GpuModel& model) {
+    SimulatedGpu gpu(model, 13);
+    report::CaseResult result;
+    return checkTimestamps(gpu, result);
+}
+
+TEST(SimulatedGpu, RightTimestampsAreBelieved) {
+    EXPECT_THAT(faultsOf({}), IsEmpty());
+    // As coarse as some mobile GPUs'.
+    EXPECT_THAT(faultsOf({.period = 1000.0 / 19.2}), IsEmpty());
+}
+
+TEST(SimulatedGpu, TimestampsOfTwiceTheRateAreFound) {
+    for (const double rate : {0.5, 2.0})
+        for (const bool calibrated : {true, false})
+            EXPECT_THAT(faultsOf({.stamp_rate = rate, .calibrated = calibrated}), Not(IsEmpty()))
+                << rate;
+    EXPECT_THAT(faultsOf({.stamp_rate = 2.0}), Contains(HasSubstr("run at 2.00 of the rate")));
+    EXPECT_THAT(
+        faultsOf({.stamp_rate = 2.0, .calibrated = false}),
+        Contains(AllOf(HasSubstr("pass.strands"), HasSubstr("with planted work in strands"))));
+}
+
+// The passes take 10, 40 and 150 us: what is wrong with them is far below what a submission takes.
+TEST(SimulatedGpu, TimestampsOfTheNextPassAreFound) {
+    const std::vector<std::string> faults = faultsOf({.stamps_shifted = true});
+    EXPECT_THAT(faults, Contains(AllOf(HasSubstr("pass.wind"), HasSubstr("work in wind"))));
+    EXPECT_THAT(faults, Contains(AllOf(HasSubstr("pass.simulate"), HasSubstr("work in wind"))));
+}
+
+// 36 bits of 1 ns wrap every 69 s; the model's counter is 1 ms before that when it starts.
+TEST(SimulatedGpu, ACounterThatWrapsIsNoFault) {
+    GpuModel model;
+    model.valid_bits = 36;
+    EXPECT_THAT(faultsOf(model), IsEmpty());
+    SimulatedGpu gpu(model, 15);
+    EXPECT_NEAR(medianIn(measuredOn(gpu), "frame.device.time") / gpu.truth(), 1.0, 1e-2);
+}
+
+TEST(SimulatedGpu, TimesAreAbsentWithoutTimestamps) {
+    GpuModel model;
+    model.valid_bits = 0;
+    SimulatedGpu gpu(model, 17);
+    const report::CaseResult result = measuredOn(gpu);
+    EXPECT_FALSE(metricIn(result, "frame.device.time"));
+    EXPECT_FALSE(metricIn(result, "gpu.wait.time"));
+    EXPECT_FALSE(metricIn(result, "frame.overlap"));
+    EXPECT_FALSE(result.trust.pass_sum_over_wall);
+    const report::Metric* strands = metricIn(result, "pass.strands.time");
+    ASSERT_TRUE(strands);
+    EXPECT_EQ(strands->mode, report::Mode::wall_clock);
+    EXPECT_THAT(result.trust.warnings, Contains("the device has no timestamps"));
+}
+
+}  // namespace
+}  // namespace benchmarks::measure
