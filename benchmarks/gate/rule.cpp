@@ -41,8 +41,15 @@ Gate::Step Gate::next() const {
         bool regressed = false;
         for (std::size_t i = 0; i < decided_.size(); ++i) {
             if (!metrics_[i].decides) continue;
-            open |= comparable_[i] && decided_[i].verdict == report::Verdict::inconclusive;
-            regressed |= decided_[i].verdict == report::Verdict::regressed;
+            const report::Verdict verdict = decided_[i].verdict;
+            open |= comparable_[i] && verdict == report::Verdict::inconclusive;
+            if (verdict != report::Verdict::regressed || isClockChange(i)) continue;
+            // Whose doing it is may not be known yet.
+            const auto cycles = metrics_[i].cycles;
+            const bool known = !cycles || !comparable_[*cycles] ||
+                               decided_[*cycles].verdict != report::Verdict::inconclusive;
+            regressed |= known;
+            open |= !known;
         }
         if (!open || (regressed && !all_)) return Step::decided;
     }
@@ -75,6 +82,13 @@ void Gate::addPair(const std::vector<double>& a, const std::vector<double>& b) {
     }
     ++pairs_;
     if (isStage(pairs_)) passVerdicts();
+}
+
+bool Gate::isClockChange(std::size_t metric) const {
+    if (decided_.empty() || !metrics_[metric].cycles) return false;
+    const report::Verdict time = decided_[metric].verdict;
+    return (time == report::Verdict::regressed || time == report::Verdict::improved) &&
+           decided_[*metrics_[metric].cycles].verdict == report::Verdict::same;
 }
 
 void Gate::passVerdicts() {

@@ -12,6 +12,9 @@ namespace benchmarks::gate {
 struct GateMetric {
     std::vector<double> calibration{};  // ln(A2/A1) of pairs of one build; may be empty
     bool decides = true;  // false: it is judged, and nothing waits for it
+    // Index of the metric that has this one's time in cycles: where that is the same, a change of
+    // time is the clock's, and decides nothing.
+    std::optional<std::size_t> cycles{};
 };
 
 // Says which build to run next and when enough is known, and judges: whoever has it runs processes.
@@ -39,6 +42,9 @@ public:
 
     // Pairs at which there is something to decide next; the last number of pairs at the end.
     std::size_t nextDecision() const;
+
+    // Whether the metric's time changed and its cycles did not.
+    bool isClockChange(std::size_t metric) const;
 
     // Pairs at which verdicts were passed last; 0: none were.
     std::size_t decidedAt() const { return decided_at_; }

@@ -171,7 +171,8 @@ void GateSession::chooseTimes() {
     const report::MetricChoice judged =
         judged_ ? judged_ : report::timesBy(report::judgedClock(software, metrics));
     for (const CommonMetric& each : common) {
-        const report::Judgement judgement = report::judgementOf(judged, *each.a, *each.b);
+        const report::Judgement judgement = report::judgementOf(
+            judged, *each.a, *each.b, software ? report::kShortestTime : report::kShortestStamped);
         if (judgement == report::Judgement::not_wanted) continue;
         GateTime time{.case_name = each.case_name, .metric = *each.a};
         for (const auto& [block, metric] :
@@ -182,8 +183,25 @@ void GateSession::chooseTimes() {
         (judgement == report::Judgement::judged ? run_.times : run_.too_short)
             .push_back(std::move(time));
     }
+    addCycles(common);
     if (run_.times.empty() && run_.too_short.empty() && !regex_.empty() && !common.empty())
         throw engine::Error("--metrics", "'" + regex_ + "' is in no metric's name");
+}
+
+// Beside each time that is judged the same in cycles, where both sides know it.
+void GateSession::addCycles(const std::vector<CommonMetric>& common) {
+    const std::size_t times = run_.times.size();
+    for (std::size_t i = 0; i < times; ++i) {
+        report::MetricId wanted = run_.times[i].metric.id;
+        if (wanted.what != report::Measured::time) continue;
+        wanted.what = report::Measured::cycles;
+        for (const CommonMetric& each : common) {
+            if (each.case_name != run_.times[i].case_name || each.a->id != wanted) continue;
+            run_.times[i].cycles = run_.times.size();
+            run_.times.push_back(
+                {.case_name = each.case_name, .metric = *each.a, .decides = false});
+        }
+    }
 }
 
 bool GateSession::block(const Side& side, Phase phase, std::size_t pair) {
@@ -216,7 +234,8 @@ bool GateSession::calibrate(std::size_t pairs) {
 bool GateSession::play() {
     std::vector<GateMetric> metrics;
     for (const GateTime& each : run_.times)
-        metrics.push_back({.calibration = each.calibration, .decides = each.decides});
+        metrics.push_back(
+            {.calibration = each.calibration, .decides = each.decides, .cycles = each.cycles});
     Gate gate(std::move(metrics), run_.rule, all_);
     while (gate.next() != Gate::Step::decided) {
         const std::size_t decision = gate.nextDecision();
@@ -246,7 +265,8 @@ void GateSession::judge(const Gate& gate) {
              .a = medianOfBlocks(run_, 'A', i),
              .b = medianOfBlocks(run_, 'B', i),
              .comparison = comparisons[i],
-             .decides = run_.times[i].decides});
+             .decides = run_.times[i].decides && !gate.isClockChange(i),
+             .by_clock = gate.isClockChange(i)});
 }
 
 GateRun runGate(const GateOptions& options) {

@@ -22,7 +22,8 @@ struct GateTime {
     report::MetricReading metric;  // of A's first block
     std::vector<double> calibration{};  // ln(A2/A1) of each pair of A with itself; may be empty
     std::optional<double> share{};  // of a pass: of all passes of its case, in A or B, the larger
-    bool decides = true;  // no pass that is too small a share of its frame
+    bool decides = true;  // no pass that is too small a share of its frame, and no cycles
+    std::optional<std::size_t> cycles{};  // index in `times` of the same in cycles
 };
 
 enum class Phase { warm_up, calibration, gate };
@@ -103,6 +104,7 @@ private:
     // One more process; false where its pictures or states are not those of its side's first block.
     bool block(const Side& side, Phase phase, std::size_t pair);
     void chooseTimes();
+    void addCycles(const std::vector<CommonMetric>& common);
     void judge(const Gate& gate);
 
     const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

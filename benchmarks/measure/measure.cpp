@@ -100,6 +100,10 @@ std::vector<std::uint8_t> measureFrames(
          {overlapped.first_frame},
          report::Mode::overlapped});
     addPassSum(isolated.frames, measureEmptySubmission(stage), stage.isProcessor(), result);
+    // What a processor's passes cost is its CPU time; its clock is not the device's to tell.
+    if (!stage.isProcessor())
+        addCycles(
+            overlapped.frames, overlapped.clock_mhz, isolated.frames, isolated.clock_mhz, result);
     std::vector<report::Conditions> conditions = std::move(overlapped.conditions);
     std::ranges::copy(isolated.conditions, std::back_inserter(conditions));
     std::ranges::move(

@@ -222,6 +222,30 @@ void addPassTimes(
             {report::ofPass(pass, report::Measured::time), passTimes(frames, pass), mode});
 }
 
+void addCycles(
+    std::span<const engine::FrameRecord> overlapped, std::optional<double> overlapped_mhz,
+    std::span<const engine::FrameRecord> isolated, std::optional<double> isolated_mhz,
+    report::CaseResult& result) {
+    const auto cycles = [](std::vector<double> times, double megahertz) {
+        for (double& time : times) time *= megahertz * 1e3;  // ms, MHz
+        return times;
+    };
+    if (overlapped_mhz) {
+        std::vector<double> times;
+        for (const engine::FrameRecord& frame : overlapped)
+            if (frame.device) times.push_back(*frame.device);
+        if (!times.empty())
+            result.metrics.push_back(
+                {report::ofFrame(report::Measured::cycles),
+                 cycles(std::move(times), *overlapped_mhz), report::Mode::overlapped});
+    }
+    if (!isolated_mhz) return;
+    for (const std::string& pass : passNames(isolated))
+        result.metrics.push_back(
+            {report::ofPass(pass, report::Measured::cycles),
+             cycles(passTimes(isolated, pass), *isolated_mhz), report::Mode::isolated});
+}
+
 void addPassSum(
     std::span<const engine::FrameRecord> isolated, const EmptySubmission& empty, bool processor,
     report::CaseResult& result) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -61,6 +62,14 @@ void addIsolatedMetrics(std::span<const engine::FrameRecord> frames, report::Cas
 // pass.*.time, in the mode that they were timed in.
 void addPassTimes(
     std::span<const engine::FrameRecord> frames, report::Mode mode, report::CaseResult& result);
+
+// frame.cycles and pass.*.cycles: the device's times of overlapped frames and of isolated passes,
+// in cycles of its shaders' clock in those rounds. Nothing where the clock is unknown. A change of
+// time without one of cycles is the clock's.
+void addCycles(
+    std::span<const engine::FrameRecord> overlapped, std::optional<double> overlapped_mhz,
+    std::span<const engine::FrameRecord> isolated, std::optional<double> isolated_mhz,
+    report::CaseResult& result);
 
 // trust.pass_sum_over_*, and a warning where passes are not the whole of the frame. On a processor
 // that is where they are not the wall clock.

@@ -117,8 +117,12 @@ public:
         if (counted.empty())
             for (std::size_t i = 0; i < conditions_.size(); ++i) counted.push_back(i);
         const Assessment assessment = assess(timesOf(counted));
-        for (std::size_t i = assessment.settling; i < counted.size(); ++i)
+        std::vector<report::Conditions> of_counted;
+        for (std::size_t i = assessment.settling; i < counted.size(); ++i) {
             std::ranges::move(frames_[counted[i]], std::back_inserter(result.frames));
+            of_counted.push_back(conditions_[counted[i]]);
+        }
+        result.clock_mhz = medianConditions(of_counted).clock_mhz;
         result.sampling.rounds = static_cast<std::uint32_t>(counted.size() - assessment.settling);
         result.sampling.warmup_rounds = static_cast<std::uint32_t>(assessment.settling);
         result.sampling.steady = assessment.steady;

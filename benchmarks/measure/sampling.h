@@ -80,6 +80,7 @@ struct SampledRounds {
     std::vector<report::Conditions> conditions;  // of all rounds
     // Whether all rounds were throttled: the frames are of those then.
     bool all_throttled = false;
+    std::optional<double> clock_mhz;  // of the shaders, median over the rounds that count
 };
 
 inline constexpr double kThrottlePause = 0.05;  // s (nvbench's)

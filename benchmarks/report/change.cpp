@@ -123,6 +123,7 @@ scene::Json changeJson(const Change& change) {
     object["verdict"] = verdictName(comparison.verdict);
     if (comparison.pairs > 0) object["pairs"] = comparison.pairs;
     if (!change.decides) object["decides"] = false;
+    if (change.by_clock) object["by_clock"] = true;
     return object;
 }
 
@@ -141,8 +142,10 @@ std::string changesTable(std::span<const Change> changes, ShowCases show_cases) 
             percentText(comparison.change),
             intervalText(comparison),
             percentText(comparison.decisive_change),
-            verdictName(comparison.verdict) +
-                std::string(each.decides ? "" : ", too small to count")};
+            verdictName(comparison.verdict) + std::string(
+                                                  each.by_clock  ? ", by the clock alone"
+                                                  : each.decides ? ""
+                                                                 : ", decides nothing")};
         for (std::size_t i = 0; i < all.size(); ++i) all[i].cells.push_back(cells[i]);
     }
     if (show_cases == ShowCases::no) all.erase(all.begin());

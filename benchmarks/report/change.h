@@ -71,6 +71,7 @@ struct Change {
     // Of the cost: of times as they are, of rates of 1 / rate. Positive is worse.
     Comparison comparison;
     bool decides = true;  // whether the whole verdict depends on it
+    bool by_clock = false;  // the time changed and its cycles did not: the device's clock did
 };
 
 // {"case", "metric", "unit", "a", "b", "change", "lower", "upper", "decisive_change", "p",

@@ -88,10 +88,11 @@ MetricChoice timesBy(Clock clock) {
     return clock == Clock::processor ? isOfProcessor : isFrameOrPassTime;
 }
 
-Judgement judgementOf(const MetricChoice& chosen, const MetricReading& a, const MetricReading& b) {
+Judgement judgementOf(
+    const MetricChoice& chosen, const MetricReading& a, const MetricReading& b, double shortest) {
     if (!chosen(a.id) || a.better == Better::neither || a.unit != b.unit)
         return Judgement::not_wanted;
-    if (a.unit == "ms" && std::max(a.median, b.median) < kShortestTime) return Judgement::too_short;
+    if (a.unit == "ms" && std::max(a.median, b.median) < shortest) return Judgement::too_short;
     return Judgement::judged;
 }
 
@@ -201,6 +202,9 @@ public:
     Comparer(const scene::Json& a, const scene::Json& b, const VerdictOptions& options)
         : options_(options), judged_(metricsNamed(options.metrics)) {
         if (!judged_) judged_ = timesBy(clockFor(a, b));
+        const bool software =
+            isSoftwareDevice(a.at("environment")) || isSoftwareDevice(b.at("environment"));
+        shortest_ = software ? kShortestTime : kShortestStamped;
     }
 
     void addCase(const scene::Json& a, const scene::Json& b) {
@@ -228,7 +232,7 @@ public:
 
 private:
     void addMetric(const std::string& case_name, const MetricReading& a, const MetricReading& b) {
-        const Judgement judgement = judgementOf(judged_, a, b);
+        const Judgement judgement = judgementOf(judged_, a, b, shortest_);
         if (judgement == Judgement::not_wanted) return;
         Change change{case_name, a.id, a.unit, a.median, b.median, {}};
         if (judgement == Judgement::too_short) {
@@ -249,6 +253,7 @@ private:
 
     const VerdictOptions& options_;
     MetricChoice judged_;
+    double shortest_ = kShortestTime;  // ms
     ReportComparison found_;
 };
 

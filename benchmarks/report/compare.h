@@ -28,6 +28,10 @@ bool isSoftwareDevice(const scene::Json& environment);
 // coarse timestamps and less than it takes to wake a thread.
 inline constexpr double kShortestTime = 0.05;  // ms
 
+// The same of a device that is no processor: its timestamps are finer, and what disturbs a
+// processor's work does not lie between them.
+inline constexpr double kShortestStamped = 0.002;  // ms
+
 enum class Judgement { judged, too_short, not_wanted };
 
 // What times are of.
@@ -53,8 +57,9 @@ MetricChoice metricsNamed(const std::string& regex);
 MetricChoice timesBy(Clock clock);
 
 // Judges a metric that two reports have. A metric of which neither less nor more is better is not
-// judged.
-Judgement judgementOf(const MetricChoice& chosen, const MetricReading& a, const MetricReading& b);
+// judged, nor a time below `shortest`, ms.
+Judgement judgementOf(
+    const MetricChoice& chosen, const MetricReading& a, const MetricReading& b, double shortest);
 
 // Larger is worse: a value in the metric's unit, or 1 / value where higher is better.
 double costOf(const Metric& metric, double value);

@@ -32,6 +32,7 @@ constexpr MetricKind kKinds[] = {
     {Of::frame, What::overlap, "frame.overlap", "ms", neither},
     {Of::frame, What::cpu_time, "frame.cpu.time", "ms", lower},
     {Of::frame, What::instructions, "frame.instructions", "1", lower},
+    {Of::frame, What::cycles, "frame.cycles", "1", lower},
     {Of::cpu, What::record_time, "cpu.record.time", "ms", lower},
     {Of::cpu, What::submit_time, "cpu.submit.time", "ms", lower},
     // One waits longer where others are faster.
@@ -40,6 +41,7 @@ constexpr MetricKind kKinds[] = {
     {Of::pass, What::time, "pass.*.time", "ms", lower},
     {Of::pass, What::cpu_time, "pass.*.cpu.time", "ms", lower},
     {Of::pass, What::instructions, "pass.*.instructions", "1", lower},
+    {Of::pass, What::cycles, "pass.*.cycles", "1", lower},
     {Of::image, What::rmse, "image.rmse", "1", lower},
     {Of::image, What::psnr, "image.psnr", "dB", higher},
     {Of::image, What::ssim, "image.ssim", "1", higher},

@@ -40,6 +40,7 @@ enum class Measured {
     overlap,
     cpu_time,
     instructions,
+    cycles,
     record_time,
     submit_time,
     wait_time,

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/report/methods.h"
 #include "benchmarks/report/statistics.h"
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
@@ -236,6 +237,7 @@ scene::Json caseJson(const CaseResult& result) { return toJson(result); }
 scene::Json assembledReport(scene::Json header, std::vector<scene::Json> cases, bool interrupted) {
     header["interrupted"] = interrupted;
     header["cases"] = std::move(cases);
+    header["methods"] = methodsText(header);
     return header;
 }
 

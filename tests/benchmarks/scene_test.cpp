@@ -136,8 +136,9 @@ const BadScene kBadFields[] = {
     {R"({"sweeep": {}})", ": /sweeep: unknown key (did you mean \"sweep\"?); known: description, "
                           "seed, groom, simulation, strands, "
                           "lod, shading, camera, render, run, $schema, base, sweep"},
-    {R"({"run": {"a/b\n~": 1}})", ": /run/a~1b?~0: unknown key; known: warmup, frames, precision, "
-                                  "max_time, frame_time, busy_pass, busy_work, reference"},
+    {R"({"run": {"a/b\n~": 1}})",
+     ": /run/a~1b?~0: unknown key; known: warmup, frames, precision, "
+     "max_time, warmup_time, round_time, frame_time, busy_pass, busy_work, reference"},
     {R"({"strands": 3})", ": /strands: expected an object, found 3"},
     {R"({"strands": {"density": "64"}})",
      ": /strands/density: expected an integer, found the string \"64\""},

@@ -133,13 +133,19 @@ TEST(ReportComparison, JudgesWhatIsAskedFor) {
 }
 
 TEST(ReportComparison, LeavesOutWhatIsTooShort) {
-    const auto report = [](double a, double b) {
-        return reportOf({madeCase("x", {{"pass.a.time", about(a)}, {"pass.b.time", about(b)}})});
-    };
-    const ReportComparison found = compareReports(report(0.02, 0.02), report(0.04, 0.2), {});
-    ASSERT_EQ(found.too_short.size(), 1u);
-    EXPECT_EQ(found.too_short[0].metric.name(), "pass.a.time");
-    EXPECT_EQ(found.changes[0].comparison.verdict, Verdict::regressed);  // long in B
+    // A GPU's timestamps tell microseconds.
+    for (const auto& [type, scale] : {std::pair("cpu", 1.0), std::pair("discrete", 0.04)}) {
+        const auto report = [&, type = type, scale = scale](double a, double b) {
+            scene::Json made = reportOf({madeCase(
+                "x", {{"pass.a.time", about(a * scale)}, {"pass.b.time", about(b * scale)}})});
+            made["environment"]["device"]["type"] = type;
+            return made;
+        };
+        const ReportComparison found = compareReports(report(0.02, 0.02), report(0.04, 0.2), {});
+        ASSERT_EQ(found.too_short.size(), 1u) << type;
+        EXPECT_EQ(found.too_short[0].metric.name(), "pass.a.time");
+        EXPECT_EQ(found.changes[0].comparison.verdict, Verdict::regressed);  // long in B
+    }
 }
 
 TEST(ReportComparison, NamesWhatAReportLacks) {

@@ -111,7 +111,7 @@ const Fault kFaults[] = {
          f.clocks->conditions.clock_mhz = 1400;
          f.clocks->conditions.throttle_reasons = {"hardware thermal slowdown"};
      },
-     "of 2000 MHz"},
+     "held back by hardware thermal slowdown"},
     {"clocks", Health::warn,
      [](Facts& f) { f.clocks->conditions.throttle_reasons = {"power cap"}; }, "power cap"},
     {"clocks", Health::warn,

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "benchmarks/gate/rule.h"
 #include "benchmarks/measure/measure.h"
 #include "benchmarks/measure/metrics.h"
 #include "benchmarks/report/statistics.h"
@@ -196,6 +197,83 @@ TEST(SimulatedGpu, OverlapIsFound) {
     model.passes = {{"simulate", 990e3}, {"strands", 1980e3}};
     SimulatedGpu gpu(model, 11);
     EXPECT_NEAR(medianIn(measuredOn(gpu), "frame.overlap"), 0.5, 0.02);
+}
+
+// ---- Gates of processes on the simulated GPU ----------------------------------------------------
+
+// Medians of one process: of frame.time, frame.cycles, pass.strands.time, pass.strands.cycles.
+using Block = std::vector<double>;
+
+struct Build {
+    double work = 1.0;  // of the strands' cycles
+    double clock = 1.0;  // of the device's
+};
+
+// Processes of a build, each on a device whose clock is off by 0.4 % as temperature has it.
+std::vector<Block> blocksOf(const Build& build, std::uint32_t first_seed) {
+    std::vector<Block> blocks;
+    for (std::uint32_t seed = first_seed; seed < first_seed + 60; ++seed) {
+        std::mt19937_64 random(seed);
+        GpuModel model;
+        model.stalls = 1.0;
+        model.fast *= build.clock * (1.0 + 0.004 * std::normal_distribution()(random));
+        for (GpuModel::Pass& pass : model.passes) pass.cycles *= build.work;
+        SimulatedGpu gpu(model, seed);
+        report::CaseResult result;
+        DeviceKnowledge known{.trusted_passes = {{"wind", "simulate", "strands"}}};
+        measureFrames(
+            gpu, {.max_time = 0.5f}, {.stop = [] { return false; }, .known = &known}, result);
+        Block& block = blocks.emplace_back();
+        for (const char* name :
+             {"frame.time", "frame.cycles", "pass.strands.time", "pass.strands.cycles"})
+            block.push_back(medianIn(result, name));
+    }
+    return blocks;
+}
+
+gate::Gate
+playGate(const std::vector<Block>& a, const std::vector<Block>& b, std::mt19937_64& random) {
+    gate::Gate gate({{.cycles = 1}, {.decides = false}, {.cycles = 3}, {.decides = false}});
+    const auto any = [&](const std::vector<Block>& blocks) {
+        return blocks[std::uniform_int_distribution<std::size_t>(0, blocks.size() - 1)(random)];
+    };
+    for (auto step = gate.next(); step != gate::Gate::Step::decided; step = gate.next())
+        gate.add(any(step == gate::Gate::Step::run_a ? a : b));
+    return gate;
+}
+
+bool callsRegression(const gate::Gate& gate) {
+    return (gate.comparisons()[0].verdict == report::Verdict::regressed &&
+            !gate.isClockChange(0)) ||
+           (gate.comparisons()[2].verdict == report::Verdict::regressed && !gate.isClockChange(2));
+}
+
+// What a gate promises (docs/comparing.md): 0 of 1,000 identical pairs of builds, nine of ten that
+// are 3 % slower, by 24 pairs; and a clock that is 5 % lower is called a clock.
+TEST(SimulatedGpu, GatesTellBuildsFromClocks) {
+    const std::vector<Block> before = blocksOf({}, 1);
+    const std::vector<Block> same = blocksOf({}, 1001);
+    const std::vector<Block> slower = blocksOf({.work = 1.03}, 2001);
+    const std::vector<Block> clocked_down = blocksOf({.clock = 0.95}, 3001);
+    for (const auto* blocks : {&before, &same, &slower, &clocked_down})
+        for (const Block& block : *blocks)
+            for (const double median : block) ASSERT_TRUE(std::isfinite(median));
+    std::mt19937_64 random(1);
+    int alarms = 0;
+    for (int i = 0; i < 1000; ++i) alarms += callsRegression(playGate(before, same, random));
+    EXPECT_EQ(alarms, 0);
+    int found = 0, clock_changes = 0, blamed = 0;
+    constexpr int kGates = 200;
+    for (int i = 0; i < kGates; ++i) {
+        const gate::Gate gate = playGate(before, slower, random);
+        found += callsRegression(gate) && gate.pairs() <= 24;
+        const gate::Gate clocks = playGate(before, clocked_down, random);
+        clock_changes += clocks.isClockChange(0) && clocks.isClockChange(2);
+        blamed += callsRegression(clocks);
+    }
+    EXPECT_GE(found, kGates * 9 / 10);
+    EXPECT_GE(clock_changes, kGates * 9 / 10);
+    EXPECT_EQ(blamed, 0);
 }
 
 std::vector<std::string> faultsOf(const GpuModel& model) {

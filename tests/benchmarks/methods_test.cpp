@@ -1,0 +1,52 @@
+#include "benchmarks/report/methods.h"
+
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/benchmarks/sample_report.h"
+
+namespace benchmarks::report {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+// What the sample says of itself (sample_report.h), in words.
+TEST(Methods, NamesDeviceClocksSamplesAndWhatWasLeftOut) {
+    const std::string text = methodsText(reportJson(sampleReport()));
+    EXPECT_THAT(text, HasSubstr(" on " + sampleReport().environment.device.name));
+    EXPECT_THAT(text, HasSubstr("1 case of scene"));
+    EXPECT_THAT(text, HasSubstr("1 skipped for what the device lacks, 1 failed"));
+    EXPECT_THAT(text, HasSubstr("Under load the device's shaders ran at 1500 MHz"));
+    EXPECT_THAT(text, HasSubstr("at 61.5 degrees Celsius"));
+    EXPECT_THAT(text, HasSubstr("95 % intervals by order statistics"));
+    EXPECT_THAT(text, HasSubstr("1 round at the start of a mode was left out"));
+    EXPECT_THAT(text, HasSubstr("2 rounds were left out as heat or power held the device back"));
+    EXPECT_THAT(text, HasSubstr("1 case has warnings in the report."));
+    EXPECT_THAT(text, Not(HasSubstr("without a pause")));
+}
+
+TEST(Methods, SaysHowOftenAndHowLongRoundsWerePlayed) {
+    scene::Json report = reportJson(sampleReport());
+    report["scene"]["document"]["run"] = {
+        {"warmup", 3}, {"frames", 10}, {"precision", 0.01}, {"max_time", 10}, {"warmup_time", 0.1}};
+    report["cases"][0]["sampling"][0]["plays"] = 120;
+    const std::string text = methodsText(report);
+    EXPECT_THAT(text, HasSubstr("rounds of 3 frames to warm up and 10 measured frames"));
+    EXPECT_THAT(text, HasSubstr("120 times without a pause"));
+    EXPECT_THAT(text, HasSubstr("at least 0.100 s of load"));
+    EXPECT_THAT(text, HasSubstr("below 1.00 % of it"));
+    EXPECT_THAT(text, HasSubstr("or 10.0 s had passed"));
+}
+
+TEST(Methods, SaysWhereNoClockIsKnown) {
+    Report report = sampleReport();
+    report.cases[0].conditions = {};
+    EXPECT_THAT(methodsText(reportJson(report)), HasSubstr("No clock of the device was known."));
+}
+
+}  // namespace
+}  // namespace benchmarks::report
