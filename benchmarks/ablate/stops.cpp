@@ -13,9 +13,6 @@
 namespace benchmarks::ablate {
 namespace {
 
-using hair::rendering::StrandStage;
-using hair::rendering::StrandStages;
-
 // ---- Stops of the ladder ------------------------------------------------------------------------
 
 constexpr std::array kNames{
@@ -132,6 +129,12 @@ namespace {
 
 // ---- Counts -------------------------------------------------------------------------------------
 
+std::uint64_t countOf(const engine::StatisticCounts& counts, std::string_view name) {
+    const auto found = std::ranges::find(engine::kStatisticNames, name);
+    assert(found != engine::kStatisticNames.end());
+    return counts[static_cast<std::size_t>(found - engine::kStatisticNames.begin())];
+}
+
 class Lines {
 public:
     explicit Lines(const StopCounts& counts) : counts_(counts) {}
@@ -173,12 +176,6 @@ std::optional<std::uint64_t> expectedInvocations(
 }
 
 }  // namespace
-
-std::uint64_t countOf(const engine::StatisticCounts& counts, std::string_view name) {
-    const auto found = std::ranges::find(engine::kStatisticNames, name);
-    assert(found != engine::kStatisticNames.end());
-    return counts[static_cast<std::size_t>(found - engine::kStatisticNames.begin())];
-}
 
 std::vector<report::Statistic> stopStatistics(
     const StopPlan& stop, const hair::rendering::StrandPlan& plan, const StopCounts& counts,

@@ -116,7 +116,4 @@ std::vector<report::Statistic> stopStatistics(
 std::vector<std::string>
 countWarnings(const StopPlan& stop, std::span<const report::Statistic> statistics);
 
-// A statistic of the strands pass.
-std::uint64_t countOf(const engine::StatisticCounts& counts, std::string_view name);
-
 }  // namespace benchmarks::ablate

@@ -67,12 +67,10 @@ hair::Settings doctorSettings() {
     return settings;
 }
 
-std::string doctorSceneText() { return scene::writeSettings(doctorSettings()).dump(2) + '\n'; }
-
 std::filesystem::path writeDoctorScene(const std::filesystem::path& folder) {
     hair::groom::exportStrands(doctorStrands(), folder / kDoctorStrands);
     const std::filesystem::path scene = folder / "doctor.json";
-    engine::writeFileAtomically(scene, doctorSceneText());
+    engine::writeFileAtomically(scene, scene::writeSettings(doctorSettings()).dump(2) + '\n');
     return scene;
 }
 

@@ -22,9 +22,6 @@ inline constexpr const char* kDoctorStrands = "doctor.hair";
 // The guides that kDoctorStrands holds: hanging from a disc, spread like a sunflower's seeds.
 hair::groom::StrandSet doctorStrands();
 
-// doctorSettings() as a scene file.
-std::string doctorSceneText();
-
 // Writes the strands and the scene, "doctor.json", into the folder, which exists. Returns the
 // scene's path. Throws engine::Error.
 std::filesystem::path writeDoctorScene(const std::filesystem::path& folder);

@@ -42,8 +42,7 @@ BlockCase readCase(const scene::Json& result) {
     return read;
 }
 
-}  // namespace
-
+// Throws engine::Error where there is no report, or none of this kind.
 BlockReport readBlock(const std::filesystem::path& path) {
     const scene::Json report = report::readReport(path);
     try {
@@ -59,6 +58,8 @@ BlockReport readBlock(const std::filesystem::path& path) {
         throw engine::Error(path.string(), error.what());
     }
 }
+
+}  // namespace
 
 const BlockCase* findCase(const BlockReport& block, const std::string& name) {
     const auto found = std::ranges::find(

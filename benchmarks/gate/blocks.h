@@ -28,9 +28,6 @@ struct BlockReport {
     std::vector<BlockCase> cases;
 };
 
-// Throws engine::Error where there is no report, or none of this kind.
-BlockReport readBlock(const std::filesystem::path& report);
-
 const BlockCase* findCase(const BlockReport& block, const std::string& name);
 
 // A metric of a case that both blocks have; they have to outlive it.

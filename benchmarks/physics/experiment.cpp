@@ -16,8 +16,6 @@
 namespace benchmarks::physics {
 namespace {
 
-using hair::Solver;
-
 // ---- Strands and their simulation ---------------------------------------------------------------
 
 constexpr std::uint32_t kBatch = 64;  // steps per submission
@@ -156,6 +154,11 @@ constexpr Lack kLacks[] = {
     {hair::Solver::ftl, Need::iterations, "it has no iterations"},
 };
 
+// The Gamma of a hair that is so long: lengthOf() has what that is.
+double gammaOf(const hair::MaterialSettings& material, double length) {
+    return lineDensity(material) * kGravity * std::pow(length, 3.0) / bendingStiffness(material);
+}
+
 }  // namespace
 
 hair::SimulationSettings defaultHair(hair::Solver solver) {
@@ -184,10 +187,6 @@ hair::SimulationSettings chain(hair::Solver solver, double length) {
 
 float frictionOf(double rate) {
     return static_cast<float>(-std::expm1(-rate * hair::simulation::kReferenceStep));
-}
-
-double gammaOf(const hair::MaterialSettings& material, double length) {
-    return lineDensity(material) * kGravity * std::pow(length, 3.0) / bendingStiffness(material);
 }
 
 double lengthOf(const hair::MaterialSettings& material, double gamma) {
@@ -249,7 +248,7 @@ constexpr int kSamples = 60;
 constexpr double kInterval = 1.0 / 30.0;  // s
 constexpr std::uint32_t kPoints = 8;
 
-// As a share of a step: what rounding of the step's length makes of a whole number.
+// Fraction of a step up to which a number of steps counts as whole: the step's length is rounded.
 constexpr double kNoFraction = 1e-3;
 
 std::vector<glm::dvec3> every(const std::vector<glm::dvec3>& points, std::uint32_t stride) {

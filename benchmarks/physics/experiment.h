@@ -94,9 +94,8 @@ hair::SimulationSettings chain(hair::Solver solver, double length);
 // Friction that takes exp(-rate) of the velocity in 1 s. `rate` in 1/s.
 float frictionOf(double rate);
 
-// rho g S L^3 / EI = 4 rho g L^3 / (E R^2): weight over stiffness, "Gamma" of Romero et al. 2021,
-// Physical validation of simulators in computer graphics; and the length that has it, m.
-double gammaOf(const hair::MaterialSettings& material, double length);
+// The length of a hair with this Gamma = rho g S L^3 / EI = 4 rho g L^3 / (E R^2), weight over
+// stiffness: Romero et al. 2021, Physical validation of simulators in computer graphics. m
 double lengthOf(const hair::MaterialSettings& material, double gamma);
 
 double bendingStiffness(const hair::MaterialSettings& material);  // EI, N m^2

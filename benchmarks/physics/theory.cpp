@@ -223,6 +223,19 @@ namespace {
 constexpr double kFirstBesselRoot = 2.404825557695773;  // of J0, Abramowitz and Stegun table 9.5
 constexpr double kFirstBeamRoot = 1.8751040687119611;  // of cos z cosh z = -1
 
+// Laguerre's polynomial L_n (Abramowitz and Stegun 1964, Handbook of mathematical functions,
+// 22.7.12).
+double laguerre(unsigned n, double x) {
+    double before = 0.0;
+    double value = 1.0;
+    for (unsigned k = 0; k < n; ++k) {
+        const double next = ((2.0 * k + 1.0 - x) * value - k * before) / (k + 1.0);
+        before = value;
+        value = next;
+    }
+    return value;
+}
+
 // The root of L_n between two points where it has different signs.
 double bisect(unsigned n, double low, double high) {
     const bool rising = laguerre(n, low) < 0.0;
@@ -234,17 +247,6 @@ double bisect(unsigned n, double low, double high) {
 }
 
 }  // namespace
-
-double laguerre(unsigned n, double x) {
-    double before = 0.0;
-    double value = 1.0;
-    for (unsigned k = 0; k < n; ++k) {
-        const double next = ((2.0 * k + 1.0 - x) * value - k * before) / (k + 1.0);
-        before = value;
-        value = next;
-    }
-    return value;
-}
 
 // The roots of L_(m-1) part those of L_m, which all lie below 4 m.
 std::vector<double> laguerreRoots(unsigned n) {

@@ -70,10 +70,6 @@ std::optional<double> measureFrequency(Experiment& experiment, const Vibration& 
 
 inline constexpr double kPi = 3.14159265358979323846;
 
-// Laguerre's polynomial L_n (Abramowitz and Stegun 1964, Handbook of mathematical functions,
-// 22.7.12).
-double laguerre(unsigned n, double x);
-
 // The n roots of Laguerre's polynomial L_n, ascending.
 std::vector<double> laguerreRoots(unsigned n);
 

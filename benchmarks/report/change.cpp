@@ -95,6 +95,14 @@ void putFinite(scene::Json& object, const char* key, double value) {
     if (std::isfinite(value)) object[key] = value;
 }
 
+// "+1.8 %"
+std::string percentText(double share) {
+    if (!std::isfinite(share)) return "-";
+    char text[48];
+    std::snprintf(text, sizeof text, "%+.*f %%", std::abs(share) < 0.1 ? 2 : 1, share * 100.0);
+    return text;
+}
+
 std::string intervalText(const Comparison& comparison) {
     if (!std::isfinite(comparison.lower) || !std::isfinite(comparison.upper)) return "-";
     return percentText(comparison.lower) + " ... " + percentText(comparison.upper);
@@ -103,6 +111,13 @@ std::string intervalText(const Comparison& comparison) {
 std::string quantityText(double value, const std::string& unit) {
     const bool whole = unit == "B" || unit == "count";
     return (whole ? std::to_string(std::llround(value)) : shortNumber(value)) + ' ' + unit;
+}
+
+// Of those that decide.
+std::size_t countOf(std::span<const Change> changes, Verdict verdict) {
+    return static_cast<std::size_t>(std::ranges::count_if(changes, [&](const Change& each) {
+        return each.decides && each.comparison.verdict == verdict;
+    }));
 }
 
 }  // namespace
@@ -154,12 +169,6 @@ std::string changesTable(std::span<const Change> changes, ShowCases show_cases) 
     return text;
 }
 
-std::size_t countOf(std::span<const Change> changes, Verdict verdict) {
-    return static_cast<std::size_t>(std::ranges::count_if(changes, [&](const Change& each) {
-        return each.decides && each.comparison.verdict == verdict;
-    }));
-}
-
 std::string verdictCounts(std::span<const Change> changes) {
     std::string text;
     for (const Verdict verdict :
@@ -190,13 +199,6 @@ int verdictStatus(Verdict verdict, bool fail_on_inconclusive) {
     return kOk;
 }
 
-std::string percentText(double share) {
-    if (!std::isfinite(share)) return "-";
-    char text[48];
-    std::snprintf(text, sizeof text, "%+.*f %%", std::abs(share) < 0.1 ? 2 : 1, share * 100.0);
-    return text;
-}
-
 namespace {
 
 // ---- Medians of two single processes ------------------------------------------------------------
@@ -212,6 +214,13 @@ struct Sample {
 
 Sample sampleOf(std::span<const double> values) { return {values, effectiveSamples(values)}; }
 
+struct RatioInterval {
+    double lower;  // ln(B/A)
+    double upper;
+};
+
+// Where ln of the ratio of the medians lies, as compareMedians() says; infinite where it may lie
+// anywhere.
 RatioInterval ratioInterval(const Sample& a, const Sample& b, double alpha) {
     const MedianInterval of_a = medianInterval(a.values, alpha / 2.0, a.effective);
     const MedianInterval of_b = medianInterval(b.values, alpha / 2.0, b.effective);
@@ -239,11 +248,6 @@ double smallestLevel(const Sample& a, const Sample& b, double bound) {
 }
 
 }  // namespace
-
-RatioInterval
-medianRatioInterval(std::span<const double> a, std::span<const double> b, double alpha) {
-    return ratioInterval(sampleOf(a), sampleOf(b), alpha);
-}
 
 Comparison compareMedians(
     std::span<const double> a, std::span<const double> b, double decisive_change, double alpha) {

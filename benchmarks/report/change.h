@@ -68,7 +68,7 @@ struct Change {
     std::string unit;
     double a = 0.0;  // medians, in the unit
     double b = 0.0;
-    // Of the cost: of times as they are, of rates of 1 / rate. Positive is worse.
+    // Compares the cost: a time as it is, a rate by 1 / rate. A positive change is worse.
     Comparison comparison;
     bool decides = true;  // whether the whole verdict depends on it
     bool by_clock = false;  // the time changed and its cycles did not: the device's clock did
@@ -87,35 +87,19 @@ std::string changesTable(std::span<const Change> changes, ShowCases show_cases);
 // "1 regressed, 0 improved, 7 same, 2 inconclusive", of those that decide.
 std::string verdictCounts(std::span<const Change> changes);
 
-// Of those that decide.
-std::size_t countOf(std::span<const Change> changes, Verdict verdict);
-
 // "regressed" if any that decides is; then "inconclusive", if any is, then "improved", then "same".
 Verdict overallVerdict(std::span<const Change> changes);
 
 // The exit status that goes with it.
 int verdictStatus(Verdict verdict, bool fail_on_inconclusive);
 
-// "+1.8 %"
-std::string percentText(double share);
-
-// How two medians of independent samples compare, each known from one process alone.
-
-struct RatioInterval {
-    double lower;  // ln(B/A)
-    double upper;
-};
-
-// Where ln of the ratio of the medians lies, with confidence 1 - alpha at least: both medians lie
-// inside their intervals of confidence 1 - alpha / 2 with that probability (Bonferroni), whatever
-// the distributions. Samples are taken to be as dependent as they look. Infinite where either has
-// too few, or where a bound is not positive.
-RatioInterval
-medianRatioInterval(std::span<const double> a, std::span<const double> b, double alpha);
-
-// The comparison before others are taken into account: `p` is the smallest level, in steps of 1 %,
-// at which the interval lies outside +-ln(1 + decisive_change), 1 if none does; the verdict is
-// inconclusive.
+// How two medians of independent samples compare, each known from one process alone, before other
+// metrics are taken into account. With confidence 1 - alpha at least the true change lies between
+// `lower` and `upper`: both medians lie inside their intervals of confidence 1 - alpha / 2 with
+// that probability (Bonferroni), whatever the distributions. The bounds are -1 and infinity where
+// either has too few samples, or where a bound of a median is not positive. `p` is the smallest
+// level, in steps of 1 %, at which the interval of ln(B/A) lies outside +-ln(1 + decisive_change),
+// 1 if none does; the verdict is inconclusive. Samples are taken to be as dependent as they look.
 Comparison compareMedians(
     std::span<const double> a, std::span<const double> b, double decisive_change, double alpha);
 

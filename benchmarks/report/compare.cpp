@@ -36,13 +36,14 @@ bool isTrue(const scene::Json& report, const char* pointer) {
     return scene::textAt(report, pointer) == "true";
 }
 
-}  // namespace
-
+// Whether both reports name the same device and kind of device; its driver may have changed.
 bool isSameDevice(const scene::Json& a, const scene::Json& b) {
     for (const char* const pointer : {"/environment/device/name", "/environment/device/type"})
         if (scene::textAt(a, pointer) != scene::textAt(b, pointer)) return false;
     return true;
 }
+
+}  // namespace
 
 std::vector<std::string> environmentDifferences(const scene::Json& a, const scene::Json& b) {
     std::vector<std::string> differences;

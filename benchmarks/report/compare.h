@@ -13,9 +13,6 @@
 // Comparison of two reports, each of one process.
 namespace benchmarks::report {
 
-// Whether both reports name the same device and kind of device; its driver may have changed.
-bool isSameDevice(const scene::Json& a, const scene::Json& b);
-
 // Why times of two reports may differ though the code does not: "device: X and Y", one line for
 // each of device, driver, processor, the build's type, the scene, validation, and a report that was
 // interrupted. A member that either report lacks is not known to differ.

@@ -247,11 +247,6 @@ scene::Json reportJson(const Report& report) {
     return assembledReport(headerJson(report), std::move(cases), report.interrupted);
 }
 
-std::string reportText(const Report& report) {
-    // What drivers and commands say need not be UTF-8.
-    return reportJson(report).dump(2, ' ', false, scene::Json::error_handler_t::replace) + '\n';
-}
-
 namespace {
 
 // ---- Samples beside a report --------------------------------------------------------------------
@@ -307,8 +302,8 @@ bool fits(const scene::Json& metric, const scene::Json& samples) {
                metric.at("median").get<double>();
 }
 
-}  // namespace
-
+// Moves what is large out of the report, into the file beside `path`, and returns whether anything
+// was. Throws engine::Error "<path>: <reason>".
 bool moveSamplesOut(scene::Json& report, const fs::path& path) {
     const fs::path file = samplesFile(path);
     std::string text;
@@ -328,11 +323,14 @@ bool moveSamplesOut(scene::Json& report, const fs::path& path) {
     return !text.empty();
 }
 
+// Removes the samples file of an older report at `path`.
 void removeSamples(const fs::path& path) {
     std::error_code ignored;
     fs::remove(samplesFile(path), ignored);
 }
 
+// Undoes moveSamplesOut() for a report that was read from `path`. Throws engine::Error where the
+// file is missing, damaged or of another report.
 void moveSamplesIn(scene::Json& report, const fs::path& path) {
     std::map<std::string, std::map<Key, scene::Json>> files;
     forEachMetric(
@@ -353,6 +351,8 @@ void moveSamplesIn(scene::Json& report, const fs::path& path) {
             replaceMember(value, "samples_file", "samples", std::move(samples));
         });
 }
+
+}  // namespace
 
 // ---- Files --------------------------------------------------------------------------------------
 

@@ -29,7 +29,7 @@ struct DeviceRecord {
     std::optional<double> timestamp_period_ns;
     std::string id;  // "10005:0000" vendor and device in hex
     std::optional<std::uint32_t> timestamp_valid_bits;
-    // Of VkPhysicalDeviceLimits, under Vulkan's names, those that decide what runs here.
+    // The members of VkPhysicalDeviceLimits that decide what runs here, under Vulkan's names.
     std::vector<std::pair<std::string, double>> limits;
 };
 
@@ -166,9 +166,6 @@ scene::Json reportJson(const Report& report);
 
 const char* statusName(Status status);
 
-// The report as indented JSON.
-std::string reportText(const Report& report);
-
 // Whether this program reads reports of that schema: "hairbench-report/1.2.0" for one of 1.1.0, as
 // minor versions add members.
 bool isReadable(std::string_view schema);
@@ -187,16 +184,5 @@ void writeReport(const scene::Json& report, const std::filesystem::path& path);
 // its name relative to the report, and "sample_count" instead of "samples".
 
 inline constexpr std::size_t kMostSamplesInReport = 2000;
-
-// Moves what is large out of the report, into the file beside `path`, and returns whether anything
-// was. Throws engine::Error "<path>: <reason>".
-bool moveSamplesOut(scene::Json& report, const std::filesystem::path& path);
-
-// Removes the samples file of an older report at `path`.
-void removeSamples(const std::filesystem::path& path);
-
-// Undoes moveSamplesOut() for a report that was read from `path`. Throws engine::Error where the
-// file is missing, damaged or of another report.
-void moveSamplesIn(scene::Json& report, const std::filesystem::path& path);
 
 }  // namespace benchmarks::report

@@ -293,12 +293,6 @@ double relativeHalfWidth(const MedianInterval& interval) {
     return 0.5 * (interval.upper - interval.lower) / std::abs(interval.estimate);
 }
 
-bool isPrecise(std::span<const double> samples, const PrecisionRule& rule) {
-    if (samples.empty()) return false;
-    return relativeHalfWidth(medianInterval(samples, rule.alpha, effectiveSamples(samples))) <=
-           rule.target;
-}
-
 // ---- False discovery rate -----------------------------------------------------------------------
 
 std::vector<double> falseDiscoveryAdjusted(std::span<const double> p_values) {

@@ -69,16 +69,6 @@ double effectiveSamples(std::span<const double> samples);
 // Half the interval over the median's magnitude; infinite for a median of 0 or no interval.
 double relativeHalfWidth(const MedianInterval& interval);
 
-struct PrecisionRule {
-    double target = 0.01;  // relative half width
-    double alpha = 0.05;
-};
-
-// The stopping rule of a measurement: its median is known well enough, samples being as dependent
-// as they look. Looking after every frame makes the last interval somewhat too narrow on average;
-// it decides how long to measure and nothing else.
-bool isPrecise(std::span<const double> samples, const PrecisionRule& rule = {});
-
 // Each p-value as Benjamini and Hochberg adjust it (1995, Controlling the false discovery rate, J.
 // R. Statist. Soc. B 57): the smallest rate of false discoveries at which its test is among the
 // rejected, in the order given; scipy.stats.false_discovery_control. The rate holds for tests that

@@ -115,6 +115,16 @@ double frameTime(const engine::Device& device, measure::Case& test_case) {
     return frame.record + frame.wall;
 }
 
+// Seconds that measuring a case takes if its median is not known well enough before /run/max_time,
+// its timestamps are tested as long as they ever are and are not trusted in the end. Making the
+// case is not in it. `frame_ms`: of one frame.
+double mostSeconds(const hair::RunSettings& run, double frame_ms) {
+    const double round = (run.warmup + run.frames + 1) * frame_ms / 1e3;
+    // Rounds begin until max_time; the last one is played to its end.
+    const double mode = double{run.max_time} + round;
+    return kModes * mode + kTestFrames * frame_ms / 1e3;
+}
+
 Estimate estimateCase(const engine::Device& device, const PlannedCase& planned) {
     try {
         const hair::Settings& settings = planned.spec.settings;
@@ -163,13 +173,6 @@ int printNames(const RunPlan& plan) {
     for (const PlannedCase& each : plan.cases) std::cout << each.spec.name << '\n';
     std::cout << plan.cases.size() << (plan.cases.size() == 1 ? " case\n" : " cases\n");
     return report::kOk;
-}
-
-double mostSeconds(const hair::RunSettings& run, double frame_ms) {
-    const double round = (run.warmup + run.frames + 1) * frame_ms / 1e3;
-    // Rounds begin until max_time; the last one is played to its end.
-    const double mode = double{run.max_time} + round;
-    return kModes * mode + kTestFrames * frame_ms / 1e3;
 }
 
 int estimateRun(const RunPlan& plan, const engine::DeviceOptions& options) {

@@ -18,8 +18,6 @@
 namespace benchmarks::scene {
 namespace {
 
-using engine::Error;
-
 // ---- Ranges -------------------------------------------------------------------------------------
 
 constexpr std::string_view kPowersOfTwo = "pow2:";
@@ -118,6 +116,20 @@ std::string joinedTail(const std::vector<std::string>& tokens, std::size_t count
     return text;
 }
 
+// checkedAxis() for an axis that may have a value more than once, as tied ones do.
+Axis echoedAxis(const Axis& axis, const Json& resolved) {
+    if (axis.values.empty()) throw engine::Error(axis.pointer, "an axis needs at least one value");
+    Axis echoed{.pointer = axis.pointer, .values = {}, .tied = {}};
+    for (const Document& value : axis.values) {
+        Json document = resolved;
+        patch(document, axis.pointer, value.json());
+        Json echo = writeSettings(readSettings(document));
+        echoed.values.push_back(
+            value.json().is_object() ? value : Document(std::move(valueAt(echo, axis.pointer))));
+    }
+    return echoed;
+}
+
 }  // namespace
 
 Document parseValue(const std::string& text) {
@@ -142,19 +154,6 @@ Axis parseAxis(std::string_view argument) {
         axis.values.push_back(parseValue(text));
     }
     return axis;
-}
-
-Axis echoedAxis(const Axis& axis, const Json& resolved) {
-    if (axis.values.empty()) throw engine::Error(axis.pointer, "an axis needs at least one value");
-    Axis echoed{.pointer = axis.pointer, .values = {}, .tied = {}};
-    for (const Document& value : axis.values) {
-        Json document = resolved;
-        patch(document, axis.pointer, value.json());
-        Json echo = writeSettings(readSettings(document));
-        echoed.values.push_back(
-            value.json().is_object() ? value : Document(std::move(valueAt(echo, axis.pointer))));
-    }
-    return echoed;
 }
 
 Axis checkedAxis(const Axis& axis, const Json& resolved) {

@@ -36,9 +36,6 @@ Axis parseAxis(std::string_view argument);
 // group it is for, so that one axis can vary several fields together.
 Axis checkedAxis(const Axis& axis, const Json& resolved);
 
-// checkedAxis() for an axis that may have a value more than once, as tied ones do.
-Axis echoedAxis(const Axis& axis, const Json& resolved);
-
 // A short, distinct name for each pointer: its last token, with tokens before it as far as it takes
 // to tell two apart, or for an index: "density", "wind.strength", "position.2".
 std::vector<std::string> axisLabels(const std::vector<std::string>& pointers);

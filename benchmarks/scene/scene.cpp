@@ -18,7 +18,6 @@ namespace benchmarks::scene {
 namespace {
 
 namespace fs = std::filesystem;
-using engine::Error;
 
 // ---- Merge patch of a base ----------------------------------------------------------------------
 

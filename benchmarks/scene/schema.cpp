@@ -17,8 +17,6 @@
 namespace benchmarks::scene {
 namespace {
 
-using hair::Settings;
-
 // ---- Rules between fields -----------------------------------------------------------------------
 
 using Broken = std::optional<std::string>;  // the reason, if the rule is broken

@@ -18,8 +18,6 @@
 namespace benchmarks::scene {
 namespace {
 
-using engine::Error;
-
 // ---- Suites -------------------------------------------------------------------------------------
 
 // Null where the file is none: loadScene() says what is wrong with it.

@@ -68,6 +68,29 @@ std::optional<double> medianOf(const report::CaseResult& metrics, const report::
     return report::summarize(metric->samples).median;
 }
 
+// The split by a history and its frameMetrics(); none where there is no isolated frame.
+std::optional<double> medianDevice(const TimedFrames& frames) {
+    std::vector<double> times;
+    for (const engine::FrameRecord& frame : frames.records)
+        if (frame.device) times.push_back(*frame.device);
+    if (times.empty()) return std::nullopt;
+    return report::summarize(times).median;
+}
+
+std::optional<FrameSplit>
+frameSplit(const TimingHistory& history, const report::CaseResult& metrics) {
+    const TimedFrames& frames = history.isolated();
+    if (frames.size() == 0) return std::nullopt;
+    return FrameSplit{
+        .record = medianOf(frames, [](auto& frame) { return frame.record; }),
+        .submit = medianOf(frames, [](auto& frame) { return frame.submit; }),
+        .wait = medianOf(frames, [](auto& frame) { return frame.wait; }),
+        .cpu = medianOf(metrics, report::ofFrame(report::Measured::cpu_time)),
+        .device = medianDevice(frames),
+        .pass_sum = medianOf(frames, measure::passSum),
+        .device_overlapped = medianOf(metrics, report::ofFrame(report::Measured::device_time))};
+}
+
 // Numbers of the frames that ran a pass: passTimes() has one time for each.
 std::vector<std::uint32_t> numbersOf(const TimedFrames& frames, const std::string& pass) {
     std::vector<std::uint32_t> numbers;
@@ -184,32 +207,6 @@ std::optional<FrameRate> frameRate(const report::CaseResult& metrics) {
 std::optional<double> FrameSplit::saved() const {
     if (!device_overlapped) return std::nullopt;
     return pass_sum - *device_overlapped;
-}
-
-namespace {
-
-std::optional<double> medianDevice(const TimedFrames& frames) {
-    std::vector<double> times;
-    for (const engine::FrameRecord& frame : frames.records)
-        if (frame.device) times.push_back(*frame.device);
-    if (times.empty()) return std::nullopt;
-    return report::summarize(times).median;
-}
-
-}  // namespace
-
-std::optional<FrameSplit>
-frameSplit(const TimingHistory& history, const report::CaseResult& metrics) {
-    const TimedFrames& frames = history.isolated();
-    if (frames.size() == 0) return std::nullopt;
-    return FrameSplit{
-        .record = medianOf(frames, [](auto& frame) { return frame.record; }),
-        .submit = medianOf(frames, [](auto& frame) { return frame.submit; }),
-        .wait = medianOf(frames, [](auto& frame) { return frame.wait; }),
-        .cpu = medianOf(metrics, report::ofFrame(report::Measured::cpu_time)),
-        .device = medianDevice(frames),
-        .pass_sum = medianOf(frames, measure::passSum),
-        .device_overlapped = medianOf(metrics, report::ofFrame(report::Measured::device_time))};
 }
 
 // ---- Passes -------------------------------------------------------------------------------------

@@ -87,10 +87,6 @@ struct FrameSplit {
     std::optional<double> saved() const;
 };
 
-// The split by a history and its frameMetrics(); none where there is no isolated frame.
-std::optional<FrameSplit>
-frameSplit(const TimingHistory& history, const report::CaseResult& metrics);
-
 // Times of one thing, frame by frame.
 struct TimeSeries {
     std::string name;

@@ -211,18 +211,6 @@ Groom toGroom(StrandSet strands, std::uint32_t vertices) {
     return groom;
 }
 
-StrandSet toStrandSet(const Groom& groom) {
-    StrandSet strands{
-        .points = groom.points,
-        .widths = {.values = groom.widths},
-        .root_triangles = groom.root_triangles,
-        .metres_per_unit = 1.0};
-    strands.ends.reserve(groom.strand_count);
-    for (std::uint32_t i = 1; i <= groom.strand_count; ++i)
-        strands.ends.push_back(i * groom.vertices_per_strand);
-    return strands;
-}
-
 // ---- The groom of a scene -----------------------------------------------------------------------
 
 Groom buildGroom(

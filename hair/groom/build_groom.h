@@ -7,8 +7,8 @@
 #include "hair/groom/mesh/mesh.h"
 #include "hair/settings.h"
 
-// From files or growth to the guides of a scene, and between the two forms of hair: strands as
-// files hold them, and guides with one number of points.
+// From files or growth to the guides of a scene, and from strands as files hold them to guides with
+// one number of points.
 namespace hair::groom {
 
 // The guides that a scene asks for, styled: from the strands of settings.file or, if that is empty,
@@ -29,8 +29,5 @@ StrandSet resample(StrandSet strands, std::uint32_t vertices);
 // as many as their longest list has, 2 to 256. Takes lengths as metres.
 // Throws engine::Error where there is no strand.
 Groom toGroom(StrandSet strands, std::uint32_t vertices);
-
-// The guides of a groom as strands, without normals and bindings. `metres_per_unit` is 1.
-StrandSet toStrandSet(const Groom& groom);
 
 }  // namespace hair::groom

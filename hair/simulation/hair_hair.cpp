@@ -15,8 +15,6 @@
 namespace hair::simulation {
 namespace {
 
-using engine::Access;
-
 static_assert(sizeof(gpu::VolumeSample) == 32);
 static_assert(sizeof(gpu::VolumeParameters) == 80 && offsetof(gpu::VolumeParameters, origin) == 40);
 static_assert(sizeof(gpu::VolumePush) == 48);

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <limits>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/report/report.h"
+#include "tests/temporary_folder.h"
 
 namespace benchmarks {
 
@@ -103,6 +105,13 @@ inline report::Report manySamples() {
     samples.clear();
     for (int i = 0; i < 2001; ++i) samples.push_back(1.0 + i % 7 * 0.1);
     return report;
+}
+
+// What is in the file that the report is written to.
+inline std::string writtenText(const report::Report& report) {
+    const TemporaryFolder folder;
+    report::writeReport(report::reportJson(report), folder.file("report.json"));
+    return textOf(folder.file("report.json"));
 }
 
 }  // namespace benchmarks

@@ -11,7 +11,7 @@
 namespace benchmarks::report {
 
 // The made-up report as it is read back from its file.
-inline scene::Json writtenReport() { return scene::Json::parse(reportText(sampleReport())); }
+inline scene::Json writtenReport() { return scene::Json::parse(writtenText(sampleReport())); }
 
 inline std::string exported(std::string_view format) {
     return exportReport(writtenReport(), format);

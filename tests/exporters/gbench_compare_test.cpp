@@ -41,8 +41,7 @@ TEST(Gbench, IsReadByGoogleBenchmarksComparePy) {
     Report slower = sampleReport();
     for (double& sample : slower.cases[0].metrics[0].samples) sample *= 1.5;
     const auto a = folder.write("a.json", exported("gbench"));
-    const auto b =
-        folder.write("b.json", exportReport(scene::Json::parse(reportText(slower)), "gbench"));
+    const auto b = folder.write("b.json", exportReport(reportJson(slower), "gbench"));
     const Outcome outcome = runInShell(
         "'" + python + "' -B '" + script + "' --no-color benchmarks '" + a.string() + "' '" +
         b.string() + "' 2>&1");

@@ -42,7 +42,7 @@ TEST(Csv, QuotesWhatWouldBreakARow) {
     Report report = sampleReport();
     report.cases[1].reason = "says \"no\",\nthen stops";
     EXPECT_THAT(
-        exportReport(scene::Json::parse(reportText(report)), "csv"),
+        exportReport(reportJson(report), "csv"),
         HasSubstr(",skipped,\"says \"\"no\"\",\nthen stops\",,"));
 }
 
@@ -61,20 +61,19 @@ TEST(Markdown, HasARowForEachCase) {
 
 TEST(Markdown, HasOneColumnForAPass) {
     Report report = sampleReport();
-    const std::string before = exportReport(scene::Json::parse(reportText(report)), "markdown");
+    const std::string before = exportReport(reportJson(report), "markdown");
     report.cases[0].metrics.push_back(
         {ofPass("strands", Measured::cpu_time), {1.5}, Mode::wall_clock});
     report.cases[0].metrics.push_back(
         {ofPass("strands", Measured::instructions), {1e6}, Mode::wall_clock});
-    EXPECT_EQ(exportReport(scene::Json::parse(reportText(report)), "markdown"), before);
+    EXPECT_EQ(exportReport(reportJson(report), "markdown"), before);
 }
 
 TEST(Markdown, KeepsACellInItsCell) {
     Report report = sampleReport();
     report.cases[1].reason = "a|b\n<script>";
     EXPECT_THAT(
-        exportReport(scene::Json::parse(reportText(report)), "markdown"),
-        HasSubstr("skipped: a\\|b \\<script\\> |"));
+        exportReport(reportJson(report), "markdown"), HasSubstr("skipped: a\\|b \\<script\\> |"));
 }
 
 }  // namespace

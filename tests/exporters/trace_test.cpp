@@ -36,8 +36,8 @@ std::vector<std::string> slices(const scene::Json& trace, int track) {
 }
 
 TEST(Perfetto, LaysFramesOneAfterAnother) {
-    const scene::Json trace = scene::Json::parse(
-        exportReport(scene::Json::parse(reportText(framesAndPasses())), "perfetto"));
+    const scene::Json trace =
+        scene::Json::parse(exportReport(reportJson(framesAndPasses()), "perfetto"));
     EXPECT_THAT(
         slices(trace, 1),
         ElementsAre(
@@ -69,8 +69,7 @@ TEST(Perfetto, NestsSlicesExactly) {
     Report report = framesAndPasses();
     for (Metric& metric : report.cases[0].metrics)
         for (double& sample : metric.samples) sample /= 3.0;
-    const scene::Json trace =
-        scene::Json::parse(exportReport(scene::Json::parse(reportText(report)), "perfetto"));
+    const scene::Json trace = scene::Json::parse(exportReport(reportJson(report), "perfetto"));
     std::map<int, double> frame_ends;
     for (const scene::Json& event : trace["traceEvents"]) {
         if (event["ph"] != "X") continue;

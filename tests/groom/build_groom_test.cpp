@@ -6,6 +6,7 @@
 #include "hair/groom/files.h"
 #include "hair/groom/growth/grow.h"
 #include "tests/error_text.h"
+#include "tests/groom/style/sample_strands.h"
 #include "tests/groom/test_meshes.h"
 #include "tests/temporary_folder.h"
 
@@ -19,7 +20,7 @@ Groom grown(std::uint32_t guides) { return grow(makeCap(), {}, "", guides, 1); }
 
 // A file of guides of which nothing is known but points and widths.
 GroomSettings fileOf(const TemporaryFolder& folder, const Groom& groom) {
-    StrandSet strands = toStrandSet(groom);
+    StrandSet strands = strandsOf(groom);
     strands.root_triangles.clear();
     exportStrands(strands, folder.file("guides.hair"));
     GroomSettings settings;
@@ -30,7 +31,7 @@ GroomSettings fileOf(const TemporaryFolder& folder, const Groom& groom) {
 TEST(BuildGroom, ReadsTheFileBesideTheScene) {
     const TemporaryFolder folder;
     const Groom guides = grown(20);
-    exportStrands(toStrandSet(guides), folder.file("guides.HGL"));
+    exportStrands(strandsOf(guides), folder.file("guides.HGL"));
     GroomSettings settings;
     settings.file = "guides.HGL";
     const Groom groom = buildGroom(settings, nullptr, folder.file(""), 1);

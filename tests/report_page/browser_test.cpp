@@ -130,7 +130,7 @@ TEST_F(PageInBrowser, DrawsOneLineOverTiedAxes) {
                                         {"/groom/grow/vertices", scene::Document(32 / step)},
                                         {"/render/msaa", scene::Document(msaa)}})
                                        .cases[0]);
-    const Json said = open({folder_.write("tied.json", reportText(report))}, R"(
+    const Json said = open({folder_.write("tied.json", reportJson(report).dump())}, R"(
         say("x", figure("scaling-plot").map((each) => [...each.x]));
         say("colour", [...document.getElementById("scaling-color").options].map(
             (each) => each.textContent));
@@ -229,7 +229,7 @@ TEST_F(PageInBrowser, RunsNothingThatIsInAReport) {
         oneCaseReport("other", {{"/a<i>/" + evil, scene::Document("plain")}}).cases[0]);
     report.cases[0].trust.warnings = {evil};
     report.scene.document = scene::Document(Json{{"description", evil}});
-    const auto file = folder_.write("evil.json", reportText(report));
+    const auto file = folder_.write("evil.json", reportJson(report).dump());
     const Json said = open(
         {file}, R"(
         await settle();

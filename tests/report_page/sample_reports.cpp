@@ -1,7 +1,6 @@
 #include "tests/report_page/sample_reports.h"
 
 #include <cmath>
-#include <fstream>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -97,7 +96,7 @@ writeWithPictures(Report report, const std::filesystem::path& file, unsigned cha
         report.cases[i].picture = folder + '/' + std::to_string(i) + ".png";
         engine::writePng(file.parent_path() / report.cases[i].picture, 4, 2, pixels);
     }
-    std::ofstream(file) << reportText(report);
+    writeReport(reportJson(report), file);
     return file;
 }
 

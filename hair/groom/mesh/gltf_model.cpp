@@ -114,6 +114,20 @@ void appendChunk(std::string& file, std::uint32_t type, std::string_view data, c
     file.append(data).append(padded - data.size(), padding);
 }
 
+// A file of these chunks.
+std::string glbFile(const GlbChunks& chunks) {
+    std::string data;
+    data.reserve(chunks.json.size() + chunks.binary.size() + 64);
+    data.append(kMagic);
+    appendWord(data, 2);
+    appendWord(data, 0);
+    appendChunk(data, kJsonChunk, chunks.json, ' ');
+    if (!chunks.binary.empty()) appendChunk(data, kBinaryChunk, chunks.binary, '\0');
+    std::string length;
+    appendWord(length, data.size());
+    return data.replace(8, 4, length);
+}
+
 }  // namespace
 
 bool isGlb(std::string_view file) { return file.starts_with(kMagic); }
@@ -133,19 +147,6 @@ GlbChunks glbChunks(std::string_view file) {
     const std::size_t end = kHeaderSize + kChunkHeaderSize + json.size();
     if (end == file.size()) return {json, {}};
     return {json, chunkAt(file, end, kBinaryChunk)};
-}
-
-std::string glbFile(const GlbChunks& chunks) {
-    std::string data;
-    data.reserve(chunks.json.size() + chunks.binary.size() + 64);
-    data.append(kMagic);
-    appendWord(data, 2);
-    appendWord(data, 0);
-    appendChunk(data, kJsonChunk, chunks.json, ' ');
-    if (!chunks.binary.empty()) appendChunk(data, kBinaryChunk, chunks.binary, '\0');
-    std::string length;
-    appendWord(length, data.size());
-    return data.replace(8, 4, length);
 }
 
 namespace {

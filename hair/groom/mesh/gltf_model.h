@@ -40,9 +40,6 @@ bool isGlb(std::string_view file);
 // Throws engine::Error "byte N: reason" for a header and chunks that the file doesn't bear out.
 GlbChunks glbChunks(std::string_view file);
 
-// A file of these chunks.
-std::string glbFile(const GlbChunks& chunks);
-
 // What of a file's images there is.
 enum class GltfImages {
     skipped,

@@ -93,7 +93,7 @@ TEST(Inspect, TakesNoStrands) {
 // Hair of a head: 0.2 m across, 0.02 m to 0.8 m long.
 TEST(Inspect, GuessesTheUnit) {
     for (const double length : {0.02, 0.25, 0.8}) {
-        StrandSet strands = toStrandSet(sampleGroom(50, 4, [=](std::uint32_t strand, double t) {
+        StrandSet strands = strandsOf(sampleGroom(50, 4, [=](std::uint32_t strand, double t) {
             const double turn = 0.7 * strand;
             return glm::dvec3(0.1 * std::cos(turn), 1.6 - length * t, 0.09 * std::sin(turn));
         }));
@@ -164,7 +164,7 @@ TEST(Inspect, FindsTheDepthsInASphere) {
         const glm::dvec3 out(r * std::cos(2.4 * strand), y, r * std::sin(2.4 * strand));
         return glm::dvec3(0, 1, 0) + (0.05 + 0.11 * t) * out;  // 5 of 12 inside by 10 mm or more
     });
-    const MeshFindings found = *inspect(toStrandSet(groom), &sphere, {}).mesh;
+    const MeshFindings found = *inspect(strandsOf(groom), &sphere, {}).mesh;
     EXPECT_EQ(found.strands_inside, 400u);
     EXPECT_EQ(found.points_inside, 5u * 400u);
     EXPECT_NEAR(found.deepest.value(), 0.05, 1e-4);

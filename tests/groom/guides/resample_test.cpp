@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/error_text.h"
+#include "tests/groom/style/sample_strands.h"
 
 namespace hair::groom {
 namespace {
@@ -170,15 +171,12 @@ TEST(Resample, RefusesMorePointsThanThereAreNumbersFor) {
         "2 strands of 2147483648 points: more than 2^32 - 1 points in all");
 }
 
-TEST(ToStrandSet, GoesBackAndForth) {
+TEST(ToGroom, KeepsStrandsOfAsManyVerticesAsTheyAre) {
     Groom groom{.strand_count = 2, .vertices_per_strand = 2};
     groom.points = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}};
     groom.widths = {1, 2, 3, 4};
     groom.root_triangles = {{0, 1, 1}};
-    const StrandSet strands = toStrandSet(groom);
-    EXPECT_THAT(strands.ends, ElementsAre(2, 4));
-    EXPECT_EQ(strands.metres_per_unit, 1.0);
-    const Groom again = toGroom(strands, 2);
+    const Groom again = toGroom(strandsOf(groom), 2);
     EXPECT_EQ(again.strand_count, 2u);
     EXPECT_EQ(again.points, groom.points);
     EXPECT_EQ(again.widths, groom.widths);

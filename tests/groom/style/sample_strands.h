@@ -47,6 +47,18 @@ inline Groom awkwardStrands() {
     return groom;
 }
 
+// The guides of a groom as a file would hold them, in metres.
+inline StrandSet strandsOf(const Groom& groom) {
+    StrandSet strands{
+        .points = groom.points,
+        .widths = {.values = groom.widths},
+        .root_triangles = groom.root_triangles,
+        .metres_per_unit = 1.0};
+    for (std::uint32_t i = 1; i <= groom.strand_count; ++i)
+        strands.ends.push_back(i * groom.vertices_per_strand);
+    return strands;
+}
+
 inline bool allFinite(const Groom& groom) {
     for (const glm::vec3& p : groom.points)
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
