@@ -1,6 +1,7 @@
 #include "hair/groom_settings.h"
 
 #include "hair/field_rows.h"
+#include "hair/groom/files.h"
 
 namespace hair {
 
@@ -185,11 +186,10 @@ const Table& tableOf(const FilePlacementSettings*) {
 
 const Table& tableOf(const GroomSettings*) {
     using S = GroomSettings;
+    static const std::string file_help = "file of strands (" + groom::readExtensions() +
+                                         "), relative to the scene file; empty: guides are grown";
     static const Table table = tableWith<S>(
-        {fileName(
-             "file", &S::file,
-             "strands (.hair, .tfx, .hgl, .ply, .obj, .gltf, .glb, .usd), relative to the scene "
-             "file; empty: guides are grown"),
+        {fileName("file", &S::file, file_help.c_str()),
          fileName(
              "mesh", &S::mesh,
              "mesh that the strands of the file grow on; empty: none, they float. Grown guides "

@@ -41,10 +41,10 @@ constexpr StrandImporter kImporters[] = {
     {"thesis guides", kHgl, "", importHgl},
     {"PLY", kPly, "ply", importPly},
     {"OBJ", kObj, "", importObj},
-    {"binary glTF", kGlb, "glTF", importGltfStrands},
     {"glTF", kGltf, "", importGltfStrands},
+    {"binary glTF", kGlb, "glTF", importGltfStrands},
     // Has three magics, but its library goes by the extension.
-    {"USD", kUsd, "", importUsd},
+    {"USD", kUsd, "", importUsd, false},
 };
 
 const StrandImporter& importerOf(const fs::path& path, engine::OpenFile& file) {
@@ -54,15 +54,12 @@ const StrandImporter& importerOf(const fs::path& path, engine::OpenFile& file) {
     const std::string extension = lowerCaseExtension(path);
     for (const StrandImporter& importer : kImporters)
         if (!importer.magic.empty() && head.starts_with(importer.magic)) return importer;
-    std::string known;
-    for (const StrandImporter& importer : kImporters) {
+    for (const StrandImporter& importer : kImporters)
         if (std::ranges::find(importer.extensions, extension) != importer.extensions.end())
             return importer;
-        for (const std::string_view name : importer.extensions)
-            known.append(known.empty() ? "" : ", ").append(name);
-    }
     throw engine::Error(
-        path.string(), "unknown format of strands \"" + extension + "\"; known are " + known);
+        path.string(),
+        "unknown format of strands \"" + extension + "\"; known are " + readExtensions());
 }
 
 }  // namespace
@@ -71,15 +68,20 @@ const StrandImporter& importerOf(const fs::path& path, engine::OpenFile& file) {
 
 std::span<const StrandExporter> strandExporters() { return kExporters; }
 
+std::string writtenExtensions() {
+    std::string all;
+    for (const StrandExporter& exporter : kExporters)
+        all.append(all.empty() ? "" : ", ").append(exporter.extension);
+    return all;
+}
+
 const StrandExporter& strandExporterOf(const std::filesystem::path& path) {
     const std::string extension = lowerCaseExtension(path);
-    std::string known;
-    for (const StrandExporter& exporter : kExporters) {
+    for (const StrandExporter& exporter : kExporters)
         if (exporter.extension == extension) return exporter;
-        known.append(known.empty() ? "" : ", ").append(exporter.extension);
-    }
     throw engine::Error(
-        path.string(), "strands can't be written as \"" + extension + "\"; known are " + known);
+        path.string(),
+        "strands can't be written as \"" + extension + "\"; known are " + writtenExtensions());
 }
 
 std::vector<std::string> exportStrands(
@@ -101,6 +103,14 @@ std::vector<std::string> exportStrands(
 
 std::span<const StrandImporter> strandImporters() { return kImporters; }
 
+std::string readExtensions() {
+    std::string all;
+    for (const StrandImporter& importer : kImporters)
+        for (const std::string_view extension : importer.extensions)
+            all.append(all.empty() ? "" : ", ").append(extension);
+    return all;
+}
+
 const StrandImporter& strandImporterOf(const fs::path& path) {
     engine::OpenFile file(path);
     return importerOf(path, file);
@@ -110,8 +120,9 @@ StrandSet importStrands(const fs::path& path) {
     engine::OpenFile file(path);
     const StrandImporter& importer = importerOf(path, file);
     // The bytes are not filled with zeros first: grooms have hundreds of megabytes.
-    const auto storage = std::make_unique_for_overwrite<char[]>(file.size());
-    const std::span bytes(storage.get(), file.size());
+    const std::size_t size = importer.from_memory ? file.size() : 0;
+    const auto storage = std::make_unique_for_overwrite<char[]>(size);
+    const std::span bytes(storage.get(), size);
     file.read(bytes);
     try {
         return importer.read({.bytes = std::as_bytes(bytes), .path = path});

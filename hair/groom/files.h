@@ -26,6 +26,9 @@ struct StrandExporter {
 // A new format is a row here.
 std::span<const StrandExporter> strandExporters();
 
+// ".hair, .hgl, ...": what strands can be written as.
+std::string writtenExtensions();
+
 // The row of the path's extension. Throws engine::Error "path: reason" with the known ones if there
 // is none.
 const StrandExporter& strandExporterOf(const std::filesystem::path& path);
@@ -61,10 +64,14 @@ struct StrandImporter {
     std::span<const std::string_view> extensions;  // lower case, with the dot
     std::string_view magic;  // how every such file begins; empty: it can't be told
     StrandSet (*read)(const StrandFile& file);
+    bool from_memory = true;  // reads `bytes`; false: another program reads the file at `path`
 };
 
 // A new format is a row here.
 std::span<const StrandImporter> strandImporters();
+
+// ".hair, .tfx, ...": what strands can be read from.
+std::string readExtensions();
 
 // The row that reads a file: that of its first bytes where they are a format's, otherwise that of
 // its extension, in any case. Throws engine::Error "path: reason".

@@ -67,7 +67,7 @@ TEST(ImportStrands, ListsWhatItKnows) {
     EXPECT_EQ(
         fileError(path), path.string() +
                              ": unknown format of strands \".abc\"; known are .hair, .tfx, .hgl, "
-                             ".ply, .obj, .glb, .gltf, .usd, .usda, .usdc, .usdz");
+                             ".ply, .obj, .gltf, .glb, .usd, .usda, .usdc, .usdz");
 }
 
 TEST(ExportStrands, WritesWholeFilesOrNone) {
