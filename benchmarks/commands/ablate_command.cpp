@@ -54,8 +54,7 @@ int ablateScene(const AblateOptions& options) {
 
     engine::catchInterrupts();
     const engine::Device device(options.scene.device);
-    std::cerr << report::versionText() << " on " << device.info().name << " ("
-              << device.info().driver << ' ' << device.info().driver_version << ")\n";
+    std::cerr << report::versionOnDevice(device) << '\n';
     ablate::AblationReport report{
         .environment = report::describeEnvironment(
             device, options.command, plan.seed, options.scene.device.validation),

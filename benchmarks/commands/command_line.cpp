@@ -15,6 +15,7 @@
 #include "benchmarks/report/environment.h"
 #include "benchmarks/report/exporters.h"
 #include "benchmarks/viewer/viewer.h"
+#include "hair/groom/files.h"
 
 namespace benchmarks::commands {
 namespace {
@@ -121,21 +122,23 @@ void addSceneOptions(CLI::App& command, scene::SceneOptions& options) {
 
 void addSamplingOptions(CLI::App& command, scene::SceneOptions& options) {
     command.add_option("--frames", options.frames, "frames of a round (/run/frames)");
-    command.add_option("--warmup", options.warmup, "frames before each round (/run/warmup)");
+    command.add_option(
+        "--warmup", options.warmup, "warm-up frames before each round (/run/warmup)");
     command
         .add_option(
             "--precision", options.precision,
-            "rounds are played until the median is known this well (default 1%)")
+            "half width of the median's confidence interval, relative to it, at which rounds end "
+            "(default 1%)")
         ->transform(CLI::Validator(asShare, "SHARE"));
     command.add_option(
-        "--max-time", options.max_time, "s, for the rounds of a mode (default 10); 0: one round");
+        "--max-time", options.max_time,
+        "seconds for the rounds of each mode (default 10); 0: one round");
 }
 
 void addVerdictOptions(CLI::App& command, report::VerdictOptions& options) {
     command
         .add_option(
-            "--threshold", options.threshold,
-            "a change of this share matters to nobody (default 2%)")
+            "--threshold", options.threshold, "largest change that counts as none (default 2%)")
         ->transform(CLI::Validator(asShare, "SHARE"))
         ->check(CLI::Range(0.0, 10.0));
     command
@@ -183,7 +186,8 @@ void addCheckCommands(const CommandLine& line) {
 
 // ---- groom --------------------------------------------------------------------------------------
 
-constexpr const char* kConvertNotes = R"(Done in this order: scale, followers, vertices, guides.
+constexpr const char* kConvertNotes =
+    R"(Strands are edited in this order: scale, followers, vertices, guides.
 Without --scale lengths stay as they are, but that .hgl is always in metres: what IN states of its
 unit is applied. .hgl gets root triangles if IN has none. What a format can't hold is said on
 stderr. OUT may be IN; it is replaced when all is written, and an interrupt leaves it alone.)";
@@ -196,19 +200,21 @@ void addGroomCommands(const CommandLine& line) {
         inspectGroom, [](CLI::App& command, GroomInfoOptions& options) {
             command.add_option("file", options.file, "file of hair")->required()->type_name("FILE");
             command
-                .add_option("--mesh", options.mesh, "what the hair grows on: are the roots on it?")
+                .add_option(
+                    "--mesh", options.mesh,
+                    "mesh that the hair grows on, to find roots that are off it")
                 ->type_name("FILE");
             command
                 .add_option(
                     "--scale", options.scale,
-                    "metres in the file's unit (default stated or guessed)")
+                    "metres in the file's unit (default what the file states, or a guess)")
                 ->check(CLI::PositiveNumber);
-            command.add_flag("--json", options.json, "as JSON");
+            command.add_flag("--json", options.json, "print JSON");
         });
-    addCommand<GroomConvertOptions>(
+    addCommand<groom::ConvertOptions>(
         line, *groom, "convert",
-        "rewrites a file of hair: .hair .hgl .tfx .obj .ply .gltf .glb .usda", convertGroom,
-        [](CLI::App& command, GroomConvertOptions& options) {
+        "writes a file of hair as another: " + hair::groom::writtenExtensions(), convertGroom,
+        [](CLI::App& command, groom::ConvertOptions& options) {
             command.add_option("in", options.in, "file of hair")->required()->type_name("IN");
             command.add_option("out", options.out, "file to write")->required()->type_name("OUT");
             command
@@ -218,16 +224,16 @@ void addGroomCommands(const CommandLine& line) {
                 ->check(CLI::PositiveNumber);
             command.add_option(
                 "--followers", options.followers,
-                "so many copies round each strand, as TressFX makes them");
+                "number of copies round each strand, as TressFX makes them");
             command
                 .add_option(
                     "--follower-radius", options.follower_radius,
-                    "radius of the disc that they are in, in IN's unit")
+                    "radius of the disc round a strand that its followers are in, in IN's unit")
                 ->check(CLI::NonNegativeNumber);
             command
                 .add_option(
                     "--tip-separation", options.tip_separation,
-                    "factor of their displacement at the tip (default 1)")
+                    "factor of the followers' displacement at the tip (default 1)")
                 ->check(CLI::NonNegativeNumber);
             command.add_option(
                 "--vertices", options.vertices,
@@ -235,15 +241,16 @@ void addGroomCommands(const CommandLine& line) {
             command
                 .add_option(
                     "--guides", options.guides,
-                    "keep so many strands, spread over roots and shapes")
+                    "number of strands to keep, spread over roots and shapes")
                 ->check(CLI::PositiveNumber);
             command
                 .add_option(
                     "--mesh", options.mesh,
-                    "what the hair grows on, in metres: for the root triangles of OUT.hgl")
+                    "mesh that the hair grows on, in metres: root triangles of OUT.hgl lie on it")
                 ->type_name("FILE");
             command.add_option(
-                "--seed", options.seed, "of followers and of the choice of guides (default 1)");
+                "--seed", options.seed,
+                "seed of the followers and of the choice of guides (default 1)");
             command.footer(kConvertNotes);
         });
 }
@@ -268,7 +275,8 @@ void addRunOptions(CLI::App& command, run::RunOptions& options) {
     command.add_flag("--list", options.list, "print the cases' names and stop");
     command.add_flag("--dry-run", options.dry_run, "say what would run, estimate memory and time");
     command.add_option(
-        "--order-seed", options.order_seed, "of the order of the cases (default: a random one)");
+        "--order-seed", options.order_seed,
+        "seed of the order in which cases run (default: random)");
     command.add_flag("--resume", options.resume, "go on where an interrupted or killed run ended");
     command
         .add_option("--shard", options.shard, "run one part of the cases: 2/8 is the second of 8")
@@ -280,7 +288,8 @@ void addRunOptions(CLI::App& command, run::RunOptions& options) {
         ->type_name("NAME");
     command
         .add_option(
-            "--baseline", options.baseline, "compare with the report of that name; see compare")
+            "--baseline", options.baseline,
+            "compare with the report that --save-baseline kept under this name")
         ->type_name("NAME");
     addVerdictOptions(command, options.verdict);
 }
@@ -294,15 +303,19 @@ void addGateOptions(CLI::App& command, gate::GateOptions& options) {
         ->type_name("CMD_OR_BUILD");
     command.add_option("--scene", options.scene.scene, "scene file")->required()->type_name("FILE");
     // No -a beside --a: newer CLI11 takes them for one name.
-    addRepeated(command, "--axis", options.scene.axes, "as for run")->type_name("POINTER=V1,V2");
-    addRepeated(command, "--set", options.scene.sets, "as for run")->type_name("POINTER=VALUE");
-    addRepeated(command, "--set-a", options.a_sets, "the same for A alone")
+    addRepeated(command, "--axis", options.scene.axes, "replaces or adds an axis of the sweep")
+        ->type_name("POINTER=V1,V2");
+    addRepeated(command, "--set", options.scene.sets, "sets a field of every case of A and B")
         ->type_name("POINTER=VALUE");
-    addRepeated(command, "--set-b", options.b_sets, "the same for B alone")
+    addRepeated(command, "--set-a", options.a_sets, "sets a field of every case of A alone")
+        ->type_name("POINTER=VALUE");
+    addRepeated(command, "--set-b", options.b_sets, "sets a field of every case of B alone")
         ->type_name("POINTER=VALUE");
     addSamplingOptions(command, options.scene);
-    command.add_option("--device", options.scene.device.wanted, "as for run");
-    command.add_option("--filter", options.filter, "the cases whose name matches")
+    command.add_option(
+        "--device", options.scene.device.wanted,
+        "index or part of the name of the device (see 'hairbench devices')");
+    command.add_option("--filter", options.filter, "run the cases whose name matches")
         ->type_name("REGEX");
     command.add_option("--pairs", options.pairs, "pairs before the first verdict (default 12)")
         ->check(CLI::IsMember({12, 24, 48}));
@@ -332,7 +345,7 @@ void addGateOptions(CLI::App& command, gate::GateOptions& options) {
 void addAblateOptions(CLI::App& command, AblateOptions& options) {
     addSceneOptions(command, options.scene);
     addSamplingOptions(command, options.scene);
-    command.add_option("--filter", options.filter, "the cases whose name matches")
+    command.add_option("--filter", options.filter, "run the cases whose name matches")
         ->type_name("REGEX");
     command.add_option("--passes", options.passes, "times up and down the ladder (default 8)")
         ->check(CLI::Range(2, 1000));
@@ -346,12 +359,14 @@ void addDoctorOptions(CLI::App& command, DoctorOptions& options) {
     command
         .add_option(
             "--pairs", options.pairs,
-            "pairs of processes to find the smallest slowdown that a gate can find here with "
-            "(48 for a firm answer; default 0: don't)")
+            "pairs of equal processes from which the smallest slowdown that a gate can find here "
+            "is "
+            "estimated (48 for a firm answer; default 0: no estimate)")
         ->check(CLI::Range(0, 256));
     command.add_flag(
         "--planted", options.planted,
-        "and whether slowdowns of 1.5 times that, planted in one pass, are found; takes long");
+        "plant slowdowns of 1.5 times the smallest in one pass and say whether a gate finds them; "
+        "takes long");
     command.add_option("-o,--out", options.out, "findings as JSON")->type_name("FILE");
 }
 
@@ -363,8 +378,9 @@ void addMeasuringCommands(const CommandLine& line) {
         line, line.app, "gate", "decides whether build B is slower than build A", gateBuilds,
         addGateOptions);
     addCommand<AblateOptions>(
-        line, line.app, "ablate", "what each stage of the strands costs: the frame without it",
-        ablateScene, addAblateOptions);
+        line, line.app, "ablate",
+        "measures what each stage of the strands costs, by frames without it", ablateScene,
+        addAblateOptions);
     addCommand<DoctorOptions>(
         line, line.app, "doctor", "says whether timings of this machine can be trusted, and why",
         examineMachine, addDoctorOptions);
@@ -375,7 +391,7 @@ void addMeasuringCommands(const CommandLine& line) {
 constexpr const char* kLodNotes =
     R"(The hair of one frame stands still; the camera keeps its direction. Error: root mean square of
 the picture with /lod's levels less that of level 0, display values counting from 0 to 1. Popping:
-the same of what changes from one place to the next, less what changes at level 0. Coverage: share
+root mean square of what changes from one place to the next, less what changes at level 0. Coverage: share
 of a square round the hair that it hides, without the head. Times: medians of isolated frames.)";
 
 void addPictureCommands(const CommandLine& line) {
@@ -383,14 +399,16 @@ void addPictureCommands(const CommandLine& line) {
         line, line.app, "view", "opens a scene in a window", viewScene,
         [](CLI::App& command, viewer::ViewOptions& options) {
             addSceneOptions(command, options.scene);
-            command.add_option("--width", options.width, "of the window (default 1600)");
-            command.add_option("--height", options.height, "of the window (default 900)");
+            command.add_option("--width", options.width, "width of the window (default 1600)");
+            command.add_option("--height", options.height, "height of the window (default 900)");
             command.add_option(
-                "--scale", options.scale, "of letters and widgets (default the screen's)");
+                "--scale", options.scale, "scale of letters and widgets (default the screen's)");
             command.add_option(
                 "--frames", options.frames,
-                "pictures of the window before it closes (default: never)");
-            command.add_option("--screenshot", options.screenshot, "of the last one (.png)")
+                "frames that the window draws before it closes (default: until it is closed)");
+            command
+                .add_option(
+                    "--screenshot", options.screenshot, "picture of the window's last frame (.png)")
                 ->type_name("FILE");
             command
                 .add_option(
@@ -435,15 +453,16 @@ void addPictureCommands(const CommandLine& line) {
         line, line.app, "simulate", "plays a scene and writes its strands, without a picture",
         simulateScene, [](CLI::App& command, SimulateOptions& options) {
             addSceneOptions(command, options.scene);
-            command.add_option("--frames", options.frames, "frames to play (default 60)")
+            command.add_option("--frames", options.recording.frames, "frames to play (default 60)")
                 ->check(CLI::PositiveNumber);
             command
                 .add_option(
-                    "--export", options.out,
+                    "--export", options.recording.out,
                     "file; .usda holds every frame, other formats (see 'groom convert') the last")
                 ->required()
                 ->type_name("FILE");
-            command.add_flag("--guides", options.guides, "the guides instead of the drawn strands");
+            command.add_flag(
+                "--guides", options.recording.guides, "the guides instead of the drawn strands");
         });
     addCommand<ExportOptions>(
         line, line.app, "export", "writes one frame as a scene of another renderer", exportScene,
@@ -480,7 +499,7 @@ void addPictureCommands(const CommandLine& line) {
                 ->type_name("B");
             command.add_option("-o,--out", options.out, "FLIP's error map (.png)")
                 ->type_name("FILE");
-            command.add_flag("--json", options.json, "as JSON");
+            command.add_flag("--json", options.json, "print JSON");
         });
     addCommand<LodOptions>(
         line, line.app, "lod",
@@ -490,9 +509,12 @@ void addPictureCommands(const CommandLine& line) {
             command
                 .add_option("--from", options.from, "first distance from /camera/target, m (0.5)")
                 ->check(CLI::PositiveNumber);
-            command.add_option("--to", options.to, "last distance, m (20)")
+            command.add_option("--to", options.to, "last distance from /camera/target, m (20)")
                 ->check(CLI::PositiveNumber);
-            command.add_option("--steps", options.steps, "places, each as many times farther (40)")
+            command
+                .add_option(
+                    "--steps", options.steps,
+                    "number of distances, each by the same factor farther (40)")
                 ->check(CLI::Range(2u, 10000u));
             command
                 .add_option("-o,--out", options.out, "report file (default results/local/lod.json)")
@@ -523,10 +545,11 @@ void addCompareOptions(CLI::App& command, report::CompareOptions& options) {
     command.add_option("b", options.b, "report that may be slower")->type_name("B");
     command
         .add_option(
-            "--baseline", options.baseline, "the report that run --save-baseline kept, for A")
+            "--baseline", options.baseline,
+            "report A is the one that run --save-baseline kept under this name")
         ->type_name("NAME");
-    command.add_flag("--all", options.all, "also what stayed the same");
-    command.add_flag("--json", options.json, "as JSON");
+    command.add_flag("--all", options.all, "list metrics that stayed the same too");
+    command.add_flag("--json", options.json, "print JSON");
     addVerdictOptions(command, options.verdict);
 }
 
@@ -547,7 +570,8 @@ void addReportCommands(const CommandLine& line) {
         line, line.app, "convert", "writes a report in the format of another tool", convertReport,
         [](CLI::App& command, ConvertReportOptions& options) {
             command.add_option("report", options.report, "report")->required()->type_name("FILE");
-            command.add_option("-f,--format", options.format, "see below")
+            command
+                .add_option("-f,--format", options.format, "format to write, one of the list below")
                 ->required()
                 ->check(CLI::IsMember(formatNames()));
             command.add_option("-o,--out", options.out, "file to write (default stdout)")

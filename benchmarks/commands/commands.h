@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "benchmarks/gate/blocks.h"
+#include "benchmarks/groom/convert.h"
+#include "benchmarks/groom/recording.h"
 #include "benchmarks/report/compare.h"
 #include "benchmarks/run/plan.h"
 #include "benchmarks/scene/sweep.h"
@@ -58,7 +60,7 @@ int writeReportPage(const ReportPageOptions& options);
 struct DoctorOptions {
     engine::DeviceOptions device;
     std::uint32_t pairs = 0;  // of the A/A calibration; 0: none
-    bool planted = false;  // and whether a planted slowdown is found
+    bool planted = false;  // look for planted slowdowns too
     std::filesystem::path out;  // findings as JSON; empty: none
     std::vector<std::string> command;
 };
@@ -89,25 +91,11 @@ struct GroomInfoOptions {
 };
 int inspectGroom(const GroomInfoOptions& options);
 
-struct GroomConvertOptions {
-    std::filesystem::path in;
-    std::filesystem::path out;
-    std::filesystem::path mesh;  // for root triangles; empty: from the roots alone
-    std::optional<double> scale;  // metres in IN's unit; OUT is then in metres
-    std::uint32_t followers = 0;  // for each strand
-    double follower_radius = 0.0;  // of the disc that they are in, in IN's unit
-    double tip_separation = 1.0;  // factor of their displacement at the tip
-    std::optional<std::uint32_t> vertices;  // of a strand
-    std::optional<std::uint32_t> guides;  // to keep; all strands
-    std::uint32_t seed = 1;
-};
-int convertGroom(const GroomConvertOptions& options);
+int convertGroom(const groom::ConvertOptions& options);
 
 struct SimulateOptions {
     scene::SceneOptions scene;
-    std::filesystem::path out;
-    std::uint32_t frames = 60;
-    bool guides = false;  // the simulated guides instead of the strands that are drawn
+    groom::RecordingOptions recording;
 };
 int simulateScene(const SimulateOptions& options);
 

@@ -19,8 +19,7 @@ constexpr std::uint32_t kPlantedGates = 10;
 void examineDevice(const DoctorOptions& options, doctor::DoctorReport& report) {
     engine::processUse();  // counts threads that start from here on
     const engine::Device device(options.device);
-    std::cerr << report::versionText() << " on " << device.info().name << " ("
-              << device.info().driver << ' ' << device.info().driver_version << ")\n";
+    std::cerr << report::versionOnDevice(device) << '\n';
     report.environment = report::describeEnvironment(
         device, options.command, doctor::doctorSettings().seed, options.device.validation);
     const measure::MeasureHooks hooks{.stop = engine::interrupted};

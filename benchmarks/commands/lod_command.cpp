@@ -42,8 +42,7 @@ int walkLod(const LodOptions& options) {
 
     engine::catchInterrupts();
     const engine::Device device(options.scene.device);
-    std::cerr << report::versionText() << " on " << device.info().name << " ("
-              << device.info().driver << ' ' << device.info().driver_version << ")\n";
+    std::cerr << report::versionOnDevice(device) << '\n';
     lod::LodReport report{
         .environment = report::describeEnvironment(
             device, options.command, scene.settings.seed, options.scene.device.validation),

@@ -1,19 +1,23 @@
 #include "benchmarks/physics/checks.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
+#include <regex>
 
+#include "benchmarks/measure/progress.h"
 #include "benchmarks/physics/experiment.h"
 #include "benchmarks/physics/theory.h"
 #include "benchmarks/report/environment.h"
+#include "benchmarks/scene/json.h"
+#include "engine/error.h"
+#include "engine/process.h"
 #include "hair/simulation/solvers.h"
 
 namespace benchmarks::physics {
 namespace {
-
-using engine::Device;
-using hair::Solver;
 
 // ---- All checks ---------------------------------------------------------------------------------
 
@@ -43,9 +47,67 @@ constexpr Check kChecks[] = {
     {"state_hash", checkStateHash},
 };
 
+void runCheck(
+    const engine::Device& device, const Check& check, hair::Solver solver, PhysicsReport& report) {
+    Findings findings(check.name, solver);
+    try {
+        check.run(device, solver, findings);
+    } catch (const engine::Unsupported& error) {
+        findings.skip(error.what());
+    } catch (const engine::Error& error) {
+        findings.fail(error.what());
+    } catch (const engine::Interrupted&) {
+        report.interrupted = true;
+    }
+    for (const std::string& message : device.messages().take())
+        findings.fail("validation: " + message);
+    std::ranges::copy(findings.outcomes(), std::back_inserter(report.outcomes));
+    std::ranges::copy(findings.curves(), std::back_inserter(report.curves));
+}
+
 }  // namespace
 
 std::span<const Check> allChecks() { return kChecks; }
+
+std::vector<hair::Solver> chosenSolvers(const std::vector<std::string>& names) {
+    std::vector<hair::Solver> solvers;
+    std::vector<std::string> known;
+    for (const auto& each : checkedSolvers()) {
+        known.emplace_back(each.name);
+        if (names.empty() || std::ranges::find(names, each.name) != names.end())
+            solvers.push_back(each.value);
+    }
+    for (const std::string& name : names)
+        if (std::ranges::find(known, name) == known.end())
+            throw engine::Error(
+                "--solver " + name, scene::unknownName("unknown solver", name, known));
+    return solvers;
+}
+
+std::vector<Check> chosenChecks(const std::string& regex) {
+    std::vector<Check> chosen;
+    try {
+        const std::regex pattern(regex, std::regex::ECMAScript);
+        for (const Check& check : allChecks())
+            if (std::regex_search(check.name, pattern)) chosen.push_back(check);
+    } catch (const std::regex_error& error) {
+        throw engine::Error("--check " + regex, error.what());
+    }
+    return chosen;
+}
+
+void runChecks(
+    const engine::Device& device, std::span<const Check> checks,
+    std::span<const hair::Solver> solvers, PhysicsReport& report) {
+    measure::Progress progress(checks.size() * solvers.size());
+    for (const Check& check : checks)
+        for (const hair::Solver solver : solvers) {
+            if (report.interrupted) break;
+            progress.begin(std::string(check.name) + ", " + nameOf(solver));
+            runCheck(device, check, solver, report);
+        }
+    progress.clear();
+}
 
 namespace {
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <span>
+#include <string>
+#include <vector>
 
 #include "benchmarks/physics/report.h"
 #include "engine/device.h"
@@ -17,6 +19,21 @@ struct Check {
 };
 
 std::span<const Check> allChecks();
+
+// The solvers of these names; all that can be checked where there are none. Throws engine::Error
+// "--solver <name>: ..." for one that is unknown.
+std::vector<hair::Solver> chosenSolvers(const std::vector<std::string>& names);
+
+// The checks whose names match. Throws engine::Error "--check <regex>: ..." for what is no regular
+// expression.
+std::vector<Check> chosenChecks(const std::string& regex);
+
+// Adds what each check finds out about each solver to the report, with progress on stderr. A check
+// that can't be carried out is part of the result, and the others follow. Where the user stops it,
+// what was found until then is kept and `report.interrupted` set.
+void runChecks(
+    const engine::Device& device, std::span<const Check> checks,
+    std::span<const hair::Solver> solvers, PhysicsReport& report);
 
 // ---- Against theory -----------------------------------------------------------------------------
 
@@ -51,7 +68,7 @@ void checkStepInvariance(const engine::Device&, hair::Solver, Findings&);
 void checkSubstepInvariance(const engine::Device&, hair::Solver, Findings&);
 void checkSegmentInvariance(const engine::Device&, hair::Solver, Findings&);
 void checkIterationInvariance(const engine::Device&, hair::Solver, Findings&);
-// The same run twice ends in the same bits.
+// Two equal runs end in the same bits.
 void checkStateHash(const engine::Device&, hair::Solver, Findings&);
 
 }  // namespace benchmarks::physics

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/report/change.h"
 #include "benchmarks/report/text.h"
 
 namespace benchmarks::physics {
@@ -230,6 +231,16 @@ std::string physicsTable(const PhysicsReport& report) {
         text += report::columnsLine(all, i + 1);
     }
     return text + '\n' + counts(report.outcomes);
+}
+
+int exitStatus(const PhysicsReport& report) {
+    if (report.interrupted) return report::kInterrupted;
+    const auto has = [&](Verdict verdict) {
+        return std::ranges::find(report.outcomes, verdict, &Outcome::verdict) !=
+               report.outcomes.end();
+    };
+    if (has(Verdict::fail)) return report::kCheckFailed;
+    return has(Verdict::pass) || has(Verdict::reported) ? report::kOk : report::kNothingRan;
 }
 
 }  // namespace benchmarks::physics

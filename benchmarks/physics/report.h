@@ -117,4 +117,7 @@ std::string physicsReportText(const PhysicsReport& report);
 // For a terminal: a line on the device, then the outcomes by check, and how many passed.
 std::string physicsTable(const PhysicsReport& report);
 
+// kCheckFailed where a check failed, kNothingRan where none could be carried out, kInterrupted.
+int exitStatus(const PhysicsReport& report);
+
 }  // namespace benchmarks::physics

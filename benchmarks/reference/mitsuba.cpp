@@ -6,8 +6,11 @@
 #include <filesystem>
 #include <iterator>
 #include <numbers>
+#include <optional>
 #include <ostream>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <type_traits>
 #include <vector>
@@ -16,6 +19,7 @@
 
 #include "benchmarks/measure/case.h"
 #include "benchmarks/measure/progress.h"
+#include "benchmarks/reference/picture_errors.h"
 #include "benchmarks/scene/assets.h"
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
@@ -460,6 +464,46 @@ MitsubaExport exportMitsuba(
     parts.environment_file = copyEnvironment(folder, scene, settings);
     write("scene.xml", [&](std::ostream& out) { writeMitsubaScene(out, settings, parts); });
     return result;
+}
+
+namespace {
+
+// ---- Path tracing -------------------------------------------------------------------------------
+
+// The tool's lines are "passes <how many>", then "pass <samples before it>" as each begins.
+class PassProgress {
+public:
+    explicit PassProgress(std::uint32_t samples) : samples_(samples) {}
+    ~PassProgress() {
+        if (progress_) progress_->clear();
+    }
+
+    void line(std::string_view text) {
+        std::istringstream words{std::string(text)};
+        std::string what;
+        std::size_t number = 0;
+        words >> what >> number;
+        if (what == "passes") progress_.emplace(number);
+        if (what == "pass" && progress_)
+            progress_->begin(
+                std::to_string(number) + " of " + std::to_string(samples_) + " samples a pixel");
+    }
+
+private:
+    std::uint32_t samples_;
+    std::optional<measure::Progress> progress_;
+};
+
+}  // namespace
+
+void traceMitsuba(
+    const std::filesystem::path& folder, std::uint32_t samples, const std::filesystem::path& out) {
+    PassProgress progress(samples);
+    runReferenceTool(
+        "render.py",
+        {(folder / "scene.xml").string(), std::filesystem::absolute(out).string(),
+         std::to_string(samples)},
+        [&](std::string_view line) { progress.line(line); });
 }
 
 }  // namespace benchmarks::reference

@@ -40,6 +40,11 @@ MitsubaExport exportMitsuba(
     const engine::Device& device, const scene::Scene& scene, const hair::Settings& settings,
     std::uint32_t frame, const std::filesystem::path& folder);
 
+// Path-traces the scene.xml that exportMitsuba() wrote into `folder`, with progress, and writes the
+// picture, .exr in linear light or .png. Throws engine::Error, Interrupted.
+void traceMitsuba(
+    const std::filesystem::path& folder, std::uint32_t samples, const std::filesystem::path& out);
+
 // What lies beside a Mitsuba scene.
 struct MitsubaParts {
     struct Mesh {

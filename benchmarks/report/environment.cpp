@@ -142,6 +142,12 @@ std::string versionText() {
     return "hairbench " + std::string(kBuildVersion) + (commit.empty() ? "" : " (" + commit + ")");
 }
 
+std::string versionOnDevice(const engine::Device& device) {
+    const engine::DeviceInfo& info = device.info();
+    return versionText() + " on " + info.name + " (" + info.driver + ' ' + info.driver_version +
+           ')';
+}
+
 Environment describeEnvironment(
     const engine::Device& device, std::vector<std::string> command, std::uint64_t seed,
     engine::Validation validation) {

@@ -19,6 +19,9 @@ DeviceRecord describeDevice(const engine::Device& device);
 // The program's version and commit, e.g. "hairbench 0.1.0 (1a2b3c4)".
 std::string versionText();
 
+// What runs where: "hairbench 0.1.0 (abc) on llvmpipe (llvmpipe 22.3.6)".
+std::string versionOnDevice(const engine::Device& device);
+
 // What this program was built from and how.
 BuildRecord describeBuild();
 

@@ -100,8 +100,7 @@ public:
     void beginWatch() override {
         since_ = now_;
         next_reading_ = now_ + kReadingPeriod;
-        history_.clear();
-        note();
+        if (history_.empty()) note();
     }
 
     report::Conditions conditions() override {

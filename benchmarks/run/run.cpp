@@ -1,0 +1,112 @@
+#include "benchmarks/run/run.h"
+
+#include <iostream>
+#include <optional>
+#include <random>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/measure/progress.h"
+#include "benchmarks/reference/picture_errors.h"
+#include "benchmarks/report/environment.h"
+#include "benchmarks/report/report.h"
+#include "benchmarks/run/case.h"
+#include "benchmarks/run/record.h"
+#include "engine/error.h"
+#include "engine/process.h"
+
+namespace benchmarks::run {
+namespace {
+
+report::ReportHeader
+headerOf(const RunOptions& options, const RunPlan& plan, const engine::Device& device) {
+    report::ReportHeader header;
+    header.environment = report::describeEnvironment(
+        device, options.command, plan.seed, options.scene.device.validation);
+    header.scene = plan.scene;
+    header.case_count = plan.case_count;
+    header.order_seed = options.order_seed ? *options.order_seed : std::random_device()();
+    if (!options.shard.empty()) header.shard = parseShard(options.shard);
+    return header;
+}
+
+// Whether the user stopped it before the last case.
+bool playCases(
+    const engine::Device& device, const RunPlan& plan, RunRecord& record,
+    const std::filesystem::path& pictures_of) {
+    measure::Progress progress(plan.cases.size(), record.done());
+    measure::DeviceKnowledge known;
+    const measure::MeasureHooks hooks{
+        .stop = engine::interrupted,
+        .progress = [&](const measure::SamplingState& state) { progress.update(state); },
+        .known = &known};
+    reference::ReferenceComparison references;
+    bool interrupted = false;
+    try {
+        for (const auto& [place, order] : record.remaining()) {
+            const PlannedCase& each = plan.cases[place];
+            progress.begin(each.spec.name);
+            report::CaseResult result = runCase(device, each, hooks, pictures_of, references);
+            result.order = order;
+            record.add(result);
+        }
+    } catch (const engine::Interrupted&) {
+        interrupted = true;
+    } catch (...) {
+        progress.clear();
+        throw;
+    }
+    progress.clear();
+    return interrupted;
+}
+
+}  // namespace
+
+std::filesystem::path reportFile(const RunOptions& options, const RunPlan& plan) {
+    if (!options.out.empty()) return options.out;
+    std::string name = plan.name;
+    if (!options.shard.empty()) {
+        const report::Shard shard = parseShard(options.shard);
+        name += '.' + std::to_string(shard.index) + "of" + std::to_string(shard.count);
+    }
+    return std::filesystem::path("results/local") / (name + ".json");
+}
+
+void checkReferences(const RunPlan& plan) {
+    for (const PlannedCase& each : plan.cases) {
+        const std::string& file = each.spec.settings.run.reference;
+        if (!file.empty() && !std::filesystem::is_regular_file(each.directory / file))
+            throw engine::Error(
+                plan.scene.path,
+                "/run/reference: " + (each.directory / file).string() + ": is no file");
+    }
+}
+
+FinishedRun playRun(
+    const engine::Device& device, const RunOptions& options, const RunPlan& plan,
+    const std::filesystem::path& out) {
+    const report::ReportHeader header = headerOf(options, plan, device);
+    if (options.resume)
+        if (auto report = completeReport(plan, header, out))
+            return {
+                .report = scene::Document(std::move(*report)),
+                .done = plan.cases.size(),
+                .was_complete = true};
+    RunRecord record(
+        plan, header, {.out = out, .filter = options.filter, .resume = options.resume});
+    if (record.done() > 0)
+        std::cerr << "going on after " << record.done() << " of " << plan.cases.size()
+                  << " cases\n";
+    const bool keeps_pictures = options.pictures && record.hasJournal();
+    const bool interrupted =
+        playCases(device, plan, record, keeps_pictures ? out : std::filesystem::path());
+    scene::Json report = record.report(interrupted);
+    record.write(report);
+    if (!interrupted && record.hasJournal()) removeOtherPictures(report, out);
+    return {
+        .report = scene::Document(std::move(report)),
+        .done = record.done(),
+        .interrupted = interrupted};
+}
+
+}  // namespace benchmarks::run

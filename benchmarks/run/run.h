@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+#include "benchmarks/run/plan.h"
+#include "benchmarks/scene/json.h"
+#include "engine/device.h"
+
+// A run: its plan's cases played one after another, recorded, and made into a report.
+namespace benchmarks::run {
+
+// The file that --out names; or results/local/<scene>.json, and <scene>.2of8.json of a shard, so
+// that shards in one folder do not take each other's place.
+std::filesystem::path reportFile(const RunOptions& options, const RunPlan& plan);
+
+// Throws engine::Error where a picture that a case is to be compared with is not there.
+void checkReferences(const RunPlan& plan);
+
+struct FinishedRun {
+    scene::Document report;  // as it was written
+    std::size_t done = 0;  // cases
+    bool interrupted = false;  // by the user: cases are missing
+    bool was_complete = false;  // --resume found a report with nothing left to do
+};
+
+// Plays what a plan has left to do, with progress on stderr, and writes the report to `out`.
+// Throws engine::Error, and WriteFailed (record.h).
+FinishedRun playRun(
+    const engine::Device& device, const RunOptions& options, const RunPlan& plan,
+    const std::filesystem::path& out);
+
+}  // namespace benchmarks::run
