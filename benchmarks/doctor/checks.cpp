@@ -20,6 +20,8 @@ std::string shareText(double share) {
     return text;
 }
 
+namespace {
+
 std::string joined(const std::vector<std::string>& parts, std::string_view between) {
     std::string text;
     for (const std::string& part : parts) {
@@ -28,8 +30,6 @@ std::string joined(const std::vector<std::string>& parts, std::string_view betwe
     }
     return text;
 }
-
-namespace {
 
 // ---- The machine --------------------------------------------------------------------------------
 
@@ -194,7 +194,7 @@ Judgement judgeLayers(const Facts& facts) {
 
 // A pass is known to 1 % only if it takes a hundred steps: a tenth of a millisecond of these.
 constexpr double kCoarseStep = 1000.0;  // ns
-// Of the test whether two equal runs differ: one doctor in a hundred may wrongly say so.
+// Level of the test whether two equal runs differ: one doctor in a hundred may wrongly say so.
 constexpr double kRepeatAlpha = 0.01;
 // What gates and comparisons call a change if nobody says otherwise.
 constexpr double kThreshold = 0.02;
@@ -311,7 +311,7 @@ const char* healthName(Health health) {
     case Health::ok:
         return "ok";
     case Health::unknown:
-        return "not told";
+        return "unknown";
     case Health::warn:
         return "warn";
     case Health::bad:

@@ -17,7 +17,7 @@ enum class Health {
     bad,      // they can't be trusted
 };
 
-// "ok", "not told", "warn", "bad".
+// "ok", "unknown", "warn", "bad".
 const char* healthName(Health health);
 
 struct Finding {
@@ -47,7 +47,5 @@ std::vector<Finding> judgeAll(const Facts& facts);
 
 // "12.3 %" of a share of 0.123.
 std::string shareText(double share);
-
-std::string joined(const std::vector<std::string>& parts, std::string_view between);
 
 }  // namespace benchmarks::doctor

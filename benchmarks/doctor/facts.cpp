@@ -152,7 +152,7 @@ namespace {
 
 // ---- All facts ----------------------------------------------------------------------------------
 
-// Of a second in which this process does nothing.
+// The load that others make, measured for a second in which this process does nothing.
 LoadFacts loadNow() {
     const auto before = measure::readProcessorTicks();
     const double own = engine::processUse().cpu;

@@ -29,7 +29,7 @@ struct PassFacts {
     std::vector<std::string> faults;  // of timestamps against submit-and-wait
 };
 
-// The same case twice, in turns.
+// Two cases of equal settings, played in turns.
 struct RepeatFacts {
     bool same_picture = false;
     bool same_state = false;

@@ -16,8 +16,8 @@ namespace {
 constexpr std::uint32_t kCatenarySegments = 32;
 constexpr double kCatenaryLength = 0.2;  // m
 constexpr double kCatenarySpan = 0.1;  // m
-// Of 32 links instead of a chain: l^2 / (8 a L) at the lowest point, 0.04 %; the rest is for the
-// solver's stretch, and a rod's stiffness at its clamp.
+// 32 links instead of a chain differ by l^2 / (8 a L) at the lowest point, 0.04 %; the rest is for
+// the solver's stretch, and a rod's stiffness at its clamp.
 constexpr double kCatenaryTolerance = 0.01;
 
 // Two straight halves from pin to pin.

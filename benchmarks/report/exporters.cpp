@@ -32,7 +32,7 @@ struct Reading {
     const scene::Json* statistics;
 };
 
-// Of all cases that ran, in the report's order.
+// Every metric of every case that ran, in the report's order.
 std::vector<Reading> readings(const scene::Json& report) {
     std::vector<Reading> found;
     for (const scene::Json& result : report.at("cases")) {
@@ -74,8 +74,8 @@ std::string documentText(const scene::Json& document) {
 
 // ---- Bencher Metric Format ----------------------------------------------------------------------
 
-// Of bencher's own measures, `latency` is in ns and smaller is better, `throughput` in operations
-// per second and larger is better. Others are made when they first come.
+// A measure of bencher. It knows `latency`, in ns, smaller is better, and `throughput`, in
+// operations per second, larger is better; others are made when they first come.
 struct Measure {
     std::string name;
     double scale;

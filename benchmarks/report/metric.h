@@ -142,7 +142,7 @@ struct Metric {
     // negative, nor a wait, which grows when others get faster.
     bool isTime() const { return unit == "ms" && better == Better::lower; }
 
-    // Of a mode that is not known here it can't be told.
+    // Whether both were timed in the same mode; false where a mode is not known here.
     bool isTimedAs(const Metric& metric) const {
         return mode == metric.mode && mode != Mode::other;
     }

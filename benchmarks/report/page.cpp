@@ -28,7 +28,7 @@ std::string readPart(const std::string& name) {
     return engine::readFile(HAIRBENCH_SOURCE_DIR "/benchmarks/report/page/" + name);
 }
 
-// Of a Python environment: lib/python3.N/site-packages, whichever N.
+// plotly.min.js of a Python environment: lib/python3.N/site-packages/plotly, whichever N.
 std::optional<std::filesystem::path> plotlyIn(const std::filesystem::path& environment) {
     std::error_code error;
     for (const auto& each : std::filesystem::directory_iterator(environment / "lib", error)) {

@@ -236,7 +236,7 @@ Json changedFields(hair::SettingsView settings, hair::SettingsView original) {
     Json object = Json::object();
     for (const hair::Field& field : settings.fields()) {
         Json value = fieldJson(field, settings);
-        // As texts: numbers that are equal can differ in the sign of zero.
+        // Texts are compared: numbers that are equal can differ in the sign of zero.
         if (value.dump() == fieldJson(field, original).dump()) continue;
         if (const auto* const group = std::get_if<hair::Group>(&field.kind))
             value = changedFields(group->in(settings), group->in(original));

@@ -259,8 +259,8 @@ void Side::rebuild() {
 
 Moment momentAfter(std::uint32_t frame, double frame_time, double time_step) {
     const double step = frame_time > 0.0 ? frame_time : time_step;
-    // The same product for the same frame whichever frame it is asked in: a key that was written
-    // for a frame is at that frame's time, to the last bit.
+    // A frame's time is one product, whichever frame it is asked in: a key that was written for a
+    // frame is at that frame's time, to the last bit.
     const auto after = [&](double frames) {
         if (frame_time > 0.0)
             return static_cast<float>((static_cast<double>(frame) + 1.0 + frames) * step);

@@ -40,7 +40,7 @@ double logBessel0(double x) {
 double inclination(const glm::dvec3& w) { return std::asin(std::clamp(w.x, -1.0, 1.0)); }
 double azimuth(const glm::dvec3& w) { return std::atan2(w.z, w.y); }
 
-// The same angle in [-pi, pi].
+// The equal angle in [-pi, pi].
 double wrapped(double angle) { return std::remainder(angle, 2 * kPi); }
 
 PerLobe<double> lobeProbabilities(const FiberPath& path) {

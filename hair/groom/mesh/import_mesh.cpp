@@ -42,7 +42,7 @@ Material toMaterial(const aiMaterial& source) {
     return material;
 }
 
-// Of the diffuse texture, where it is a file beside the mesh's.
+// Reads the diffuse texture, where it is a file beside the mesh's.
 void readTexture(const aiMaterial& source, const std::filesystem::path& folder, Mesh& mesh) {
     aiString name;
     unsigned coordinates = 0;
