@@ -133,8 +133,7 @@ TEST(SimulatedGpu, RoundsAreLongAndNothingIsBetweenThem) {
         GpuModel model;
         model.passes = {{"strands", cycles}};
         SimulatedGpu gpu(model, 7);
-        hair::RunSettings run;
-        run.precision = 0.0f;
+        const hair::RunSettings run{.precision = 0.0f, .max_time = 4.0f};
         const report::CaseResult result = measuredOn(gpu, run);
         for (const report::Sampling& sampling : result.sampling) {
             EXPECT_GE(sampling.rounds, 8u) << cycles;
