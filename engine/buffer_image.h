@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/device.h"
+#include "engine/hazards.h"
 
 struct VmaAllocation_T;
 
@@ -47,10 +48,15 @@ public:
     // The mapped bytes of an upload or readback buffer.
     std::span<std::byte> mapped() const { return {static_cast<std::byte*>(mapped_), size_}; }
 
+    // Write to the mapped bytes from their start. No frame in flight may still read them.
     template <class Value>
     void write(const Value& value) const {
         static_assert(std::is_trivially_copyable_v<Value>);
-        std::memcpy(mapped_, &value, sizeof value);
+        write(std::as_bytes(std::span(&value, 1)));
+    }
+    void write(std::span<const std::byte> bytes) const {
+        known_.hostWrites();
+        std::memcpy(mapped_, bytes.data(), bytes.size());
     }
 
 private:
@@ -63,6 +69,7 @@ private:
     std::size_t size_ = 0;
     void* mapped_ = nullptr;
     MemoryLedger::Line line_;
+    HazardLog::Entry known_;
 };
 
 struct ImageDescription {
@@ -98,6 +105,7 @@ private:
     VkImage image_{};
     Handle<VkImageView, &vkDestroyImageView> view_;
     MemoryLedger::Line line_;
+    HazardLog::Entry known_;
 };
 
 struct SamplerDescription {

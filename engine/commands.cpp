@@ -1,6 +1,10 @@
 #include "engine/commands.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/pipeline.h"
@@ -8,18 +12,13 @@
 namespace engine {
 namespace {
 
-struct Scope {
-    VkPipelineStageFlags2 stages;
-    VkAccessFlags2 access;
-};
+constexpr Scope kColorAttachment{
+    VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+    VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
 
-constexpr VkPipelineStageFlags2 kAttachmentStages =
-    VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT |
-    VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
-
-constexpr VkAccessFlags2 kAttachmentAccess =
-    VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
-    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+constexpr Scope kDepthAttachment{
+    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
 
 Scope scope(Access access) {
     switch (access) {
@@ -33,12 +32,18 @@ Scope scope(Access access) {
         return {
             VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT,
             VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT};
+    case Access::vertex_read:
+        return {VK_PIPELINE_STAGE_2_PRE_RASTERIZATION_SHADERS_BIT, VK_ACCESS_2_SHADER_READ_BIT};
+    case Access::fragment_read:
+        return {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT};
     case Access::fragment_write:
         return {
             VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
             VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT};
     case Access::attachment:
-        return {kAttachmentStages, kAttachmentAccess};
+        return {
+            kColorAttachment.stages | kDepthAttachment.stages,
+            kColorAttachment.access | kDepthAttachment.access};
     case Access::transfer_read:
         return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
     case Access::transfer_write:
@@ -53,6 +58,17 @@ Scope scope(Access access) {
         VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
 }
 
+// What a command touches of an image or buffer: of an attachment, by its own stages alone.
+Scope scopeOf(const Use& use) {
+    if (use.access != Access::attachment) return scope(use.access);
+    return use.image->aspect() == VK_IMAGE_ASPECT_DEPTH_BIT ? kDepthAttachment : kColorAttachment;
+}
+
+std::string textOf(const std::source_location& place) {
+    const std::string_view path = place.file_name();
+    return std::string(path.substr(path.rfind('/') + 1)) + ":" + std::to_string(place.line());
+}
+
 }  // namespace
 
 void Commands::begin() {
@@ -64,29 +80,64 @@ void Commands::begin() {
     check(vkBeginCommandBuffer(buffer_, &info), "begin a command buffer");
 }
 
-void Commands::end() { check(vkEndCommandBuffer(buffer_), "end a command buffer"); }
+void Commands::end() {
+    check(vkEndCommandBuffer(buffer_), "end a command buffer");
+    if (hazards_) hazards_->submit(std::exchange(recording_, {}));
+}
 
-void Commands::barrier(Access before, Access after) {
-    const Scope from = scope(before);
-    const Scope to = scope(after);
-    const VkMemoryBarrier2 memory{
-        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-        .pNext = nullptr,
-        .srcStageMask = from.stages,
-        .srcAccessMask = from.access,
-        .dstStageMask = to.stages,
-        .dstAccessMask = to.access};
-    VkDependencyInfo dependency{};
-    dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &memory;
-    vkCmdPipelineBarrier2(buffer_, &dependency);
+// ---- Barriers -----------------------------------------------------------------------------------
+
+void Commands::barrier(
+    std::initializer_list<Dependency> dependencies, const std::source_location& place) {
+    std::array<VkMemoryBarrier2, 4> memory;
+    std::uint32_t count = 0;
+    assert(dependencies.size() <= memory.size());
+    for (const Dependency& dependency : dependencies) {
+        const Scope from = scope(dependency.before);
+        const Scope to = scope(dependency.after);
+        if (hazards_) {
+            std::string name = textOf(place);
+            if (dependencies.size() > 1)
+                name += " #" + std::to_string(&dependency - dependencies.begin() + 1);
+            if (hazards_->isDropped(pass_, name)) continue;
+            recording_.push_back(
+                {.pass = pass_,
+                 .uses = {},
+                 .barrier = RecordedBarrier{.before = from, .after = to, .place = name}});
+        }
+        memory[count++] = {
+            .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+            .pNext = nullptr,
+            .srcStageMask = from.stages,
+            .srcAccessMask = from.access,
+            .dstStageMask = to.stages,
+            .dstAccessMask = to.access};
+    }
+    VkDependencyInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    info.memoryBarrierCount = count;
+    info.pMemoryBarriers = memory.data();
+    if (count > 0) vkCmdPipelineBarrier2(buffer_, &info);
 }
 
 void Commands::transition(
-    const Image& image, VkImageLayout from, VkImageLayout to, Access before, Access after) {
-    const Scope source = scope(before);
-    const Scope target = scope(after);
+    const Image& image, VkImageLayout from, VkImageLayout to, Access before, Access after,
+    const std::source_location& place) {
+    Scope source = scope(before);
+    Scope target = scope(after);
+    if (hazards_) {
+        // Without a dependency the layout changes all the same.
+        if (hazards_->isDropped(pass_, textOf(place))) source = target = {};
+        recording_.push_back(
+            {.pass = pass_,
+             .uses = {},
+             .barrier = RecordedBarrier{
+                 .before = source,
+                 .after = target,
+                 .image = hazards_->image(image.get()),
+                 .changes_layout = true,
+                 .place = textOf(place)}});
+    }
     const VkImageMemoryBarrier2 barrier{
         .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
         .pNext = nullptr,
@@ -107,12 +158,67 @@ void Commands::transition(
     vkCmdPipelineBarrier2(buffer_, &dependency);
 }
 
+// ---- What commands touch ------------------------------------------------------------------------
+
+void Commands::touch(std::initializer_list<Use> uses) {
+    Recorded& recorded = recording_.emplace_back();
+    recorded.pass = pass_;
+    for (const Use& use : uses) {
+        std::optional<ResourceId> id;
+        if (use.image)
+            id = hazards_->image(use.image->get());
+        else
+            id = hazards_->bufferAt(use.address);
+        if (!id) {
+            if (use.address != 0) hazards_->complain(pass_, "declares an address of no buffer");
+            continue;
+        }
+        const Scope touched = scopeOf(use);
+        const auto same = std::ranges::find(recorded.uses, *id, &RecordedUse::resource);
+        if (same == recorded.uses.end()) {
+            recorded.uses.push_back({*id, touched});
+        } else {
+            same->scope.stages |= touched.stages;
+            same->scope.access |= touched.access;
+        }
+    }
+}
+
+void Commands::declare(std::initializer_list<Use> uses) {
+    touch(uses);
+    for (const RecordedUse& use : recording_.back().uses) declared_.push_back(use.resource);
+}
+
+// What push constants lead to and the host alone writes.
+void Commands::declareHanded(const std::vector<ResourceId>& handed, Access access) {
+    if (handed.empty()) return;
+    Recorded& recorded = recording_.emplace_back();
+    recorded.pass = pass_;
+    for (const ResourceId id : handed) recorded.uses.push_back({id, scope(access)});
+}
+
+void Commands::checkDeclared() {
+    if (!pass_.empty()) {
+        if (declared_.empty()) hazards_->complain(pass_, "a dispatch doesn't say what it touches");
+        for (const ResourceId id : handed_)
+            if (std::ranges::find(declared_, id) == declared_.end())
+                hazards_->complain(
+                    pass_, "a dispatch is handed '" + hazards_->name(id) +
+                               "' and doesn't say that it touches it");
+    }
+    declared_.clear();
+}
+
+// ---- Copies and fills ---------------------------------------------------------------------------
+
 void Commands::copy(const Buffer& source, const Buffer& destination, std::size_t bytes) {
+    if (hazards_) touch({{source, Access::transfer_read}, {destination, Access::transfer_write}});
     const VkBufferCopy region{.srcOffset = 0, .dstOffset = 0, .size = bytes};
     vkCmdCopyBuffer(buffer_, source.get(), destination.get(), 1, &region);
 }
 
 void Commands::copy(const Image& source, const Buffer& destination) {
+    if (hazards_) touch({{source, Access::transfer_read}, {destination, Access::transfer_write}});
     const VkExtent2D extent = source.extent();
     const VkBufferImageCopy region{
         .bufferOffset = 0,
@@ -126,6 +232,7 @@ void Commands::copy(const Image& source, const Buffer& destination) {
 }
 
 void Commands::copy(const Image& source, const Image& destination) {
+    if (hazards_) touch({{source, Access::transfer_read}, {destination, Access::transfer_write}});
     const VkExtent2D extent = source.extent();
     const VkImageCopy region{
         .srcSubresource = {source.aspect(), 0, 0, 1},
@@ -140,6 +247,9 @@ void Commands::copy(const Image& source, const Image& destination) {
 
 void Commands::copy(
     const Buffer& source, std::size_t offset, const Image& destination, std::uint32_t level) {
+    // Levels are written one after the other, and each once.
+    if (hazards_ && level == 0)
+        touch({{source, Access::transfer_read}, {destination, Access::transfer_write}});
     const VkExtent2D extent = destination.extent();
     const VkBufferImageCopy region{
         .bufferOffset = offset,
@@ -154,12 +264,17 @@ void Commands::copy(
 }
 
 void Commands::fill(const Buffer& buffer, std::uint32_t value) {
+    if (hazards_) touch({{buffer, Access::transfer_write}});
     vkCmdFillBuffer(buffer_, buffer.get(), 0, VK_WHOLE_SIZE, value);
 }
+
+// ---- Dispatches and draws -----------------------------------------------------------------------
 
 void Commands::images(
     const ComputePipeline& pipeline, std::span<const Image* const> sampled,
     std::span<const Image* const> storage) {
+    for (const Image* image : sampled) uses({{*image, Access::compute_read}});
+    for (const Image* image : storage) uses({{*image, Access::compute_write}});
     std::vector<VkDescriptorImageInfo> infos;
     for (const Image* image : sampled) {
         infos.push_back({VK_NULL_HANDLE, image->view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
@@ -183,6 +298,7 @@ void Commands::images(
 
 void Commands::images(const GraphicsPipeline& pipeline, std::span<const SampledImage> sampled) {
     if (sampled.empty()) return;
+    for (const SampledImage& entry : sampled) uses({{*entry.image, Access::fragment_read}});
     std::vector<VkDescriptorImageInfo> infos;
     for (const SampledImage& entry : sampled) {
         infos.push_back(
@@ -202,6 +318,7 @@ void Commands::images(const GraphicsPipeline& pipeline, std::span<const SampledI
 }
 
 void Commands::dispatch(std::uint32_t groups_x, std::uint32_t groups_y) {
+    if (hazards_) checkDeclared();
     vkCmdDispatch(buffer_, groups_x, groups_y, 1);
 }
 
@@ -215,6 +332,10 @@ void Commands::drawIndexed(const Buffer& indices, std::uint32_t first, std::uint
 }
 
 void Commands::beginLabel(const char* name) {
+    if (hazards_) {
+        pass_ = name;
+        declared_.clear();
+    }
     if (!vkCmdBeginDebugUtilsLabelEXT) return;
     VkDebugUtilsLabelEXT label{};
     label.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT;
@@ -223,21 +344,28 @@ void Commands::beginLabel(const char* name) {
 }
 
 void Commands::endLabel() {
+    if (hazards_) pass_.clear();
     if (vkCmdEndDebugUtilsLabelEXT) vkCmdEndDebugUtilsLabelEXT(buffer_);
 }
 
 void Commands::bind(const ComputePipeline& pipeline) {
+    if (hazards_) handed_.clear();
     vkCmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
 }
 
 void Commands::bindCompute(const ComputePipeline& pipeline, std::span<const std::byte> push) {
     bind(pipeline);
+    if (hazards_) {
+        declareHanded(hazards_->hostBuffersIn(push), Access::compute_read);
+        handed_ = hazards_->writtenBuffersIn(push);
+    }
     vkCmdPushConstants(
         buffer_, pipeline.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
         static_cast<std::uint32_t>(push.size()), push.data());
 }
 
 void Commands::bindGraphics(const GraphicsPipeline& pipeline, std::span<const std::byte> push) {
+    if (hazards_) declareHanded(hazards_->hostBuffersIn(push), Access::graphics_read);
     vkCmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
     vkCmdPushConstants(
         buffer_, pipeline.layout(), VK_SHADER_STAGE_ALL_GRAPHICS, 0,

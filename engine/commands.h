@@ -1,27 +1,53 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <source_location>
 #include <span>
+#include <string>
 #include <type_traits>
+#include <vector>
 
 #include "engine/buffer_image.h"
+#include "engine/hazards.h"
 
 namespace engine {
 
 class ComputePipeline;
 class GraphicsPipeline;
 
-// Who touched memory before a barrier and who will after it.
+// Who touches memory: a command, or what comes before a barrier and after it.
 enum class Access {
     compute_read,
-    compute_write,
+    compute_write,  // read, too
     graphics_read,  // buffers and images read by any graphics stage
+    vertex_read,  // buffers read by the stages before the rasteriser: vertex to geometry
+    fragment_read,  // buffers and images read by the fragment stage
     fragment_write,  // buffers read and written by the fragment stage
     attachment,     // color and depth attachments, read and written
     transfer_read,
     transfer_write,
     host_read,
     anything,
+};
+
+// What happened `before` is made visible to what comes `after`.
+struct Dependency {
+    Access before;
+    Access after;
+};
+
+// A buffer, by any address in it, or an image, and how a command touches it.
+struct Use {
+    Use(std::uint64_t buffer, Access touched) : address(buffer), access(touched) {}
+    Use(const Buffer& buffer, Access touched) : Use(buffer.address(), touched) {}
+    Use(const Image& touched_image, Access touched) : image(&touched_image), access(touched) {}
+
+    std::uint64_t address = 0;
+    const Image* image = nullptr;
+    Access access;
 };
 
 struct Draw {
@@ -40,19 +66,39 @@ struct SampledImage {
 // A command buffer being recorded. Borrows the buffer; adds no barrier by itself.
 class Commands {
 public:
-    explicit Commands(VkCommandBuffer buffer) : buffer_(buffer) {}
+    // `hazards`: who is told of all that is recorded; null: nobody.
+    explicit Commands(VkCommandBuffer buffer, HazardLog* hazards = nullptr)
+        : buffer_(buffer), hazards_(hazards) {}
 
     VkCommandBuffer get() const { return buffer_; }
     void begin();
+    // What was recorded is submitted next.
     void end();
 
     // Makes what happened `before` visible to what comes `after`, for all memory.
-    void barrier(Access before, Access after);
+    void barrier(
+        Access before, Access after,
+        const std::source_location& place = std::source_location::current()) {
+        barrier({{before, after}}, place);
+    }
+    void barrier(
+        std::initializer_list<Dependency> dependencies,
+        const std::source_location& place = std::source_location::current());
 
     // A barrier that moves an image from one layout to another. UNDEFINED as `from` discards what
     // the image holds.
     void transition(
-        const Image& image, VkImageLayout from, VkImageLayout to, Access before, Access after);
+        const Image& image, VkImageLayout from, VkImageLayout to, Access before, Access after,
+        const std::source_location& place = std::source_location::current());
+
+    // Says what the dispatch or the draws that are recorded next touch, for those who look for
+    // missing barriers (engine/hazards.h): all buffers that a frame's commands write and that these
+    // read or write. Buffers that only the host writes need no mention. Images that are bound by
+    // images() or rendered to, and what copies and fills touch, are known. Every dispatch of a pass
+    // needs it; its uses don't depend on one another.
+    void uses(std::initializer_list<Use> uses) {
+        if (hazards_) declare(uses);
+    }
 
     void copy(const Buffer& source, const Buffer& destination, std::size_t bytes);
     // Between images of one size, from TRANSFER_SRC_OPTIMAL to TRANSFER_DST_OPTIMAL.
@@ -94,10 +140,20 @@ public:
     void endLabel();
 
 private:
+    void touch(std::initializer_list<Use> uses);
+    void declare(std::initializer_list<Use> uses);
+    void declareHanded(const std::vector<ResourceId>& handed, Access access);
+    void checkDeclared();
     void bindCompute(const ComputePipeline& pipeline, std::span<const std::byte> push);
     void bindGraphics(const GraphicsPipeline& pipeline, std::span<const std::byte> push);
 
     VkCommandBuffer buffer_;
+    HazardLog* hazards_;
+    // Where hazards are looked for:
+    Recording recording_;
+    std::string pass_;
+    std::vector<ResourceId> declared_;  // since the last dispatch
+    std::vector<ResourceId> handed_;  // buffers that frames write, in the last push constants
 };
 
 }  // namespace engine

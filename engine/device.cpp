@@ -155,6 +155,8 @@ Device::Device(const DeviceOptions& options)
     volkLoadDevice(device_);
     vkGetDeviceQueue(device_, info_.queue_family, 0, &queue_);
     allocator_ = createAllocator(instance_.get(), info_, device_);
+    if (options.validation == Validation::on)
+        hazards_ = std::make_unique<HazardLog>(instance_.messages());
     memory_ = std::make_unique<MemoryLedger>();
     shaders_ = std::make_unique<ShaderLibrary>();
     cache_ = std::make_unique<PipelineCache>(device_, info_);
@@ -241,7 +243,7 @@ void Device::runOnce(const std::function<void(Commands&)>& record) const {
         .commandBufferCount = 1};
     VkCommandBuffer buffer{};
     check(vkAllocateCommandBuffers(device_, &allocate, &buffer), "allocate a command buffer");
-    Commands commands(buffer);
+    Commands commands(buffer, hazards());
     commands.begin();
     record(commands);
     commands.end();
@@ -260,6 +262,7 @@ void Device::runOnce(const std::function<void(Commands&)>& record) const {
     check(
         vkWaitForFences(device_, 1, &fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max()),
         "wait for the device");
+    if (hazards_) hazards_->finish(hazards_->submissions());
     check(vkResetFences(device_, 1, &fence), "reset a fence");
     vkFreeCommandBuffers(device_, pool_.get(), 1, &buffer);
 }

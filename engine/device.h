@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/error.h"
+#include "engine/hazards.h"
 #include "engine/instance.h"
 
 struct VmaAllocation_T;
@@ -120,6 +121,8 @@ public:
     VkPipelineCache pipelineCache() const { return cache_->get(); }
     const DeviceInfo& info() const { return info_; }
     MessageLog& messages() const { return instance_.messages(); }
+    // Who looks for missing barriers; null where validation is off.
+    HazardLog* hazards() const { return hazards_.get(); }
 
     // Largest number of vertices that one tessellated draw (one instance of it) can make and still
     // be right. lavapipe's tessellator has 16-bit indices and fails silently above.
@@ -159,6 +162,7 @@ private:
     VkDevice device_{};
     VkQueue queue_{};
     VmaAllocator_T* allocator_{};
+    std::unique_ptr<HazardLog> hazards_;
     std::unique_ptr<MemoryLedger> memory_;
     std::unique_ptr<ShaderLibrary> shaders_;
     std::unique_ptr<PipelineCache> cache_;

@@ -74,8 +74,9 @@ void submit(
 template <class Slot>
 class OneBufferPasses : public Passes {
 public:
-    OneBufferPasses(const Device& device, Timing timing, Slot& slot, std::uint32_t index)
-        : device_(device), timing_(timing), slot_data_(slot), commands_(slot.buffer) {
+    OneBufferPasses(
+        const Device& device, Timing timing, Slot& slot, std::uint32_t index, Commands& commands)
+        : device_(device), timing_(timing), slot_data_(slot), commands_(commands) {
         slot_ = index;
         if (timing_ == Timing::overlapped && slot_data_.timestamps)
             slot_data_.timestamps->write(commands_);
@@ -121,7 +122,7 @@ private:
     const Device& device_;
     Timing timing_;
     Slot& slot_data_;
-    Commands commands_;
+    Commands& commands_;
 };
 
 // Wall-clock frames: a submission per pass.
@@ -135,16 +136,19 @@ public:
           record_(record) {}
 
     void pass(const char* name, PassKind, const std::function<void(Commands&)>& record) override {
-        Commands commands(slot_data_.buffer);
+        Commands commands(slot_data_.buffer, device_.hazards());
         commands.begin();
+        commands.beginLabel(name);
         commands.barrier(Access::anything, Access::anything);
         record(commands);
         commands.barrier(Access::anything, Access::anything);
+        commands.endLabel();
         commands.end();
         const ProcessUse used = processUse();
         const Clock::time_point start = Clock::now();
         submit(device_, slot_data_.buffer, timeline_, ++submitted_);
         waitFor(device_.get(), timeline_, submitted_);
+        if (device_.hazards()) device_.hazards()->finish(device_.hazards()->submissions());
         const double time = millisecondsBetween(start, Clock::now());
         record_.wall += time;
         addTime(record_.passes, {name, time, processUse() - used});
@@ -203,6 +207,7 @@ struct FrameLoop::Slot {
     std::vector<Span> spans;
     std::vector<Query> queries;
     std::uint64_t value = 0;         // of the timeline when the slot's frame is done
+    std::uint64_t submission = 0;    // as HazardLog counts
     std::optional<std::size_t> record;  // index of the frame whose results are still to be read
 };
 
@@ -214,7 +219,10 @@ FrameLoop::FrameLoop(const Device& device, Timing timing)
     }
 }
 
-FrameLoop::~FrameLoop() { vkQueueWaitIdle(device_.queue()); }
+FrameLoop::~FrameLoop() {
+    vkQueueWaitIdle(device_.queue());
+    if (device_.hazards()) device_.hazards()->finish(device_.hazards()->submissions());
+}
 
 void FrameLoop::frame(const std::function<void(Passes&)>& record) {
     const auto index = static_cast<std::uint32_t>(frames_++ % slots_.size());
@@ -238,13 +246,14 @@ void FrameLoop::frame(const std::function<void(Passes&)>& record) {
     if (slot.timestamps) slot.timestamps->reset();
     slot.spans.clear();
     slot.queries.clear();
-    Commands commands(slot.buffer);
+    Commands commands(slot.buffer, device_.hazards());
     commands.begin();
     {
-        OneBufferPasses<Slot> passes(device_, timing_, slot, index);
+        OneBufferPasses<Slot> passes(device_, timing_, slot, index, commands);
         record(passes);
     }
     commands.end();
+    if (device_.hazards()) slot.submission = device_.hazards()->submissions();
     const Clock::time_point recorded = Clock::now();
     slot.value = ++submitted_;
     slot.record = records_.size() - 1;
@@ -286,6 +295,7 @@ std::vector<FrameRecord> FrameLoop::completed() {
 void FrameLoop::collect(Slot& slot) {
     if (!slot.record) return;
     waitFor(device_.get(), timeline_.get(), slot.value);
+    if (device_.hazards()) device_.hazards()->finish(slot.submission);
     FrameRecord& record = records_[*slot.record];
     slot.record.reset();
     if (slot.timestamps) {

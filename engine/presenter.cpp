@@ -187,6 +187,7 @@ std::optional<std::uint32_t> Swapchain::acquire(VkSemaphore acquired) const {
 
 void Swapchain::copy(Commands& commands, const Image& picture, std::uint32_t index) const {
     const VkImage image = images_[index];
+    commands.uses({{picture, Access::transfer_read}});
     imageBarrier(
         commands.get(), image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
         VK_ACCESS_2_NONE, VK_ACCESS_2_TRANSFER_WRITE_BIT);
@@ -286,6 +287,7 @@ void Presenter::wait() {
         vkWaitForFences(
             device_.get(), 1, &done, VK_TRUE, std::numeric_limits<std::uint64_t>::max()),
         "wait for the window's picture");
+    if (device_.hazards()) device_.hazards()->finish(submission_);
     check(vkResetFences(device_.get(), 1, &done), "reset a fence");
     milliseconds_ = timestamps_->read().back();
 }
@@ -351,7 +353,7 @@ void Presenter::record(
     std::uint32_t index, const std::function<void(Commands&)>& before,
     const std::function<void(Commands&)>& draw) {
     timestamps_->reset();
-    Commands commands(buffer_);
+    Commands commands(buffer_, device_.hazards());
     commands.begin();
     commands.beginLabel("ui");
     timestamps_->write(commands);
@@ -372,6 +374,7 @@ void Presenter::record(
     timestamps_->write(commands);
     commands.endLabel();
     commands.end();
+    if (device_.hazards()) submission_ = device_.hazards()->submissions();
 }
 
 void Presenter::submit(std::uint32_t index) {

@@ -119,6 +119,7 @@ private:
     std::optional<Image> canvas_;
     std::optional<Timestamps> timestamps_;
     bool pending_ = false;
+    std::uint64_t submission_ = 0;  // the pending one, as HazardLog counts
     double milliseconds_ = 0.0;
 };
 

@@ -80,17 +80,23 @@ void beginRendering(
     info.colorAttachmentCount = static_cast<std::uint32_t>(color_infos.size());
     info.pColorAttachments = color_infos.data();
     info.pDepthAttachment = depth ? &depth_info : nullptr;
+    for (const Attachment& color : colors) commands.uses({{*color.image, Access::attachment}});
+    if (depth) commands.uses({{*depth->image, Access::attachment}});
     vkCmdBeginRendering(commands.get(), &info);
 
+    setArea(commands, rendered);
+}
+
+void setArea(Commands& commands, const VkRect2D& area) {
     const VkViewport viewport{
-        static_cast<float>(rendered.offset.x),
-        static_cast<float>(rendered.offset.y),
-        static_cast<float>(rendered.extent.width),
-        static_cast<float>(rendered.extent.height),
+        static_cast<float>(area.offset.x),
+        static_cast<float>(area.offset.y),
+        static_cast<float>(area.extent.width),
+        static_cast<float>(area.extent.height),
         0.0f,
         1.0f};
     vkCmdSetViewport(commands.get(), 0, 1, &viewport);
-    vkCmdSetScissor(commands.get(), 0, 1, &rendered);
+    vkCmdSetScissor(commands.get(), 0, 1, &area);
 }
 
 void endRendering(Commands& commands) { vkCmdEndRendering(commands.get()); }
@@ -133,7 +139,8 @@ void Target::beginRendering(
     constexpr VkImageLayout kDepth = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
     if (load == Load::clear) {
         commands.transition(
-            color_, VK_IMAGE_LAYOUT_UNDEFINED, kColor, Access::anything,
+            color_, VK_IMAGE_LAYOUT_UNDEFINED, kColor,
+            resolvesByCopy() ? Access::transfer_read : Access::compute_read,
             Access::attachment);  // after the last frame's resolve
         commands.transition(
             depth_, VK_IMAGE_LAYOUT_UNDEFINED, kDepth, Access::attachment, Access::attachment);
@@ -150,6 +157,10 @@ void Target::beginRendering(
 }
 
 void Target::endRendering(Commands& commands) const { engine::endRendering(commands); }
+
+bool Target::resolvesByCopy() const {
+    return !radiance_ && description_.msaa == 1 && description_.ssaa == 1;
+}
 
 void Target::beginResolve(Commands& commands) const {
     commands.transition(
@@ -175,6 +186,7 @@ void Target::endResolve(Commands& commands) const {
 }
 
 void Target::copyToOutput(Commands& commands) const {
+    assert(resolvesByCopy());
     commands.transition(
         color_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
         Access::attachment, Access::transfer_read);

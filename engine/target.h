@@ -25,6 +25,8 @@ struct Attachment {
 void beginRendering(
     Commands& commands, std::span<const Attachment> colors, const std::optional<Attachment>& depth,
     const std::optional<VkRect2D>& area = std::nullopt);
+// Moves the viewport of what is being rendered to a part of the attachments.
+void setArea(Commands& commands, const VkRect2D& area);
 void endRendering(Commands& commands);
 
 struct TargetDescription {
@@ -57,7 +59,9 @@ public:
     void beginResolve(Commands& commands) const;
     void endResolve(Commands& commands) const;
 
-    // Copies color() to output(): the resolve of a target with one sample a pixel.
+    // Whether a copy resolves the target: display colors with one sample a pixel.
+    bool resolvesByCopy() const;
+    // Copies color() to output(), where resolvesByCopy().
     void copyToOutput(Commands& commands) const;
 
     const TargetDescription& description() const { return description_; }

@@ -105,7 +105,7 @@ void addDeviceOptions(CLI::App& command, engine::DeviceOptions& options) {
         "index or part of the name of the device (see 'hairbench devices')");
     command.add_flag_callback(
         "--validate", [&options] { options.validation = engine::Validation::on; },
-        "run under the Vulkan validation layer; slow");
+        "run under the Vulkan validation layer and look for missing barriers; slow");
 }
 
 void addSceneOptions(CLI::App& command, scene::SceneOptions& options) {

@@ -40,6 +40,7 @@ void BusyWork::record(engine::Commands& commands) const {
     if (steps_ == 0) return;
     commands.barrier(engine::Access::anything, engine::Access::compute_write);
     commands.bind(pipeline_, gpu::BusyPush{.results = results_.address(), .steps = steps_});
+    commands.uses({{results_, Access::compute_write}});
     commands.dispatch(std::min(steps_, groups_));
     commands.barrier(engine::Access::compute_write, engine::Access::anything);
 }

@@ -40,6 +40,7 @@ void DifferencePass::record(
     commands.fill(counts_, 0);
     commands.barrier(engine::Access::transfer_write, engine::Access::compute_write);
     commands.bind(pipeline_, gpu::DifferencePush{.counts = counts_.address(), .gain = gain});
+    commands.uses({{counts_, engine::Access::compute_write}});
     commands.images(pipeline_, std::array{&a, &b}, std::array{&difference});
     commands.dispatch(
         (width + gpu::kDifferenceGroupSide - 1) / gpu::kDifferenceGroupSide,

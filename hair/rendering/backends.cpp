@@ -190,6 +190,14 @@ std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext
     return row->make(context);
 }
 
+void declareStrands(engine::Commands& commands, const gpu::PictureParameters& picture) {
+    using engine::Access;
+    commands.uses(
+        {{picture.guides, Access::vertex_read},
+         {picture.contacts, Access::vertex_read},
+         {picture.guide_normals, Access::vertex_read}});
+}
+
 engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan) {
     return {
         {gpu::kCurveConstant, shaderCode(strands.curve)},

@@ -12,6 +12,7 @@
 #include "engine/device.h"
 #include "engine/pipeline.h"
 #include "engine/target.h"
+#include "hair/gpu_structs.h"
 #include "hair/rendering/strand_plan.h"
 #include "hair/settings.h"
 
@@ -78,11 +79,15 @@ struct BackendContext {
 // Throws engine::Unsupported for stages that the back end doesn't have.
 std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext& context);
 
+// Says that what is drawn next evaluates the picture's strands (Commands::uses).
+void declareStrands(engine::Commands& commands, const gpu::PictureParameters& picture);
+
 // The specialization constants of every shader that includes strands/strand.glsl.
 engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan);
 
 // Where watched stages leave a trace: a condition on what an invocation made decides whether it is
-// added up. Drivers can't know it, so that they must do the work of all.
+// added up. Drivers can't know it, so that they must do the work of all. Sums are atomic, so they
+// need no order and are no use that Commands::uses() would have to know of.
 class StageWatch {
 public:
     // Starts as seeNone() leaves it. Throws engine::Unsupported where stages before the rasteriser

@@ -125,6 +125,7 @@ OverlayPass::OverlayPass(
 
 void OverlayPass::draw(
     engine::Commands& commands, std::uint64_t picture, const StrandView& view) const {
+    commands.uses({{view.guides, engine::Access::vertex_read}});
     if (bodies_ && bodies_->line_count > 0) {
         commands.bind(
             bodies_->pipeline,

@@ -142,7 +142,8 @@ void Renderer::record(engine::Passes& passes, const StrandView& view) {
         environment_.draw(commands, picture);
         target_.endRendering(commands);
     });
-    if (settings_.render.hair) strands_.record(passes, target_, picture, strand_images_);
+    if (settings_.render.hair)
+        strands_.record(passes, target_, picture, picture_parameters, strand_images_);
     if (!overlay_.empty()) {
         passes.pass("overlay", engine::PassKind::graphics, [&](engine::Commands& commands) {
             target_.beginRendering(commands, engine::Load::keep, {});

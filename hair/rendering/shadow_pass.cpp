@@ -168,13 +168,13 @@ void toRead(engine::Commands& commands, const engine::Image& image, VkImageLayou
     const bool was_drawn = from != VK_IMAGE_LAYOUT_UNDEFINED;
     commands.transition(
         image, from, kRead, was_drawn ? engine::Access::attachment : engine::Access::anything,
-        engine::Access::graphics_read);
+        engine::Access::fragment_read);
 }
 
 // For what is drawn next, after the last frame's pictures have read the image.
 void toDraw(engine::Commands& commands, const engine::Image& image, VkImageLayout to) {
     commands.transition(
-        image, VK_IMAGE_LAYOUT_UNDEFINED, to, engine::Access::graphics_read,
+        image, VK_IMAGE_LAYOUT_UNDEFINED, to, engine::Access::fragment_read,
         engine::Access::attachment);
 }
 
@@ -350,7 +350,7 @@ std::vector<std::uint64_t> ShadowPass::writeParameters(
         addresses.push_back(pictures_[slot].address() + i * sizeof picture);
     }
     parameters_[slot].write(parameters);
-    std::ranges::copy(std::as_bytes(std::span(pictures)), pictures_[slot].mapped().begin());
+    pictures_[slot].write(std::as_bytes(std::span(pictures)));
     return addresses;
 }
 
@@ -358,35 +358,39 @@ void ShadowPass::drawMeshes(
     engine::Commands& commands, const SceneMeshes& meshes,
     std::span<const std::uint64_t> pictures) const {
     toDraw(commands, mesh_depths_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+    engine::beginRendering(
+        commands, {}, engine::Attachment{&mesh_depths_, engine::Load::clear, {1.0f}});
     for (std::uint32_t i = 0; i < pictures.size(); ++i) {
-        engine::beginRendering(
-            commands, {}, engine::Attachment{&mesh_depths_, engine::Load::clear, {1.0f}},
-            atlas_.part(i));
+        engine::setArea(commands, atlas_.part(i));
         meshes.drawDepth(commands, pictures[i]);
-        engine::endRendering(commands);
     }
+    engine::endRendering(commands);
     toRead(commands, mesh_depths_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
 }
 
 void ShadowPass::drawHair(
-    engine::Commands& commands, std::span<const std::uint64_t> pictures) const {
+    engine::Commands& commands, const gpu::PictureParameters& picture,
+    std::span<const std::uint64_t> pictures) const {
     toDraw(commands, hair_depths_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+    engine::beginRendering(
+        commands, {}, engine::Attachment{&hair_depths_, engine::Load::clear, {1.0f}});
+    declareStrands(commands, picture);
     for (std::uint32_t i = 0; i < pictures.size(); ++i) {
-        engine::beginRendering(
-            commands, {}, engine::Attachment{&hair_depths_, engine::Load::clear, {1.0f}},
-            atlas_.part(i));
+        engine::setArea(commands, atlas_.part(i));
         depth_->draw(commands, pictures[i], {});
-        engine::endRendering(commands);
     }
+    engine::endRendering(commands);
     toRead(commands, hair_depths_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
 
     toDraw(commands, hair_layers_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
     const engine::Attachment layers{&hair_layers_, engine::Load::clear, {}};
+    engine::beginRendering(commands, std::span(&layers, 1), std::nullopt);
+    declareStrands(commands, picture);
     for (std::uint32_t i = 0; i < pictures.size(); ++i) {
-        engine::beginRendering(commands, std::span(&layers, 1), std::nullopt, atlas_.part(i));
+        engine::setArea(commands, atlas_.part(i));
         opacity_->draw(commands, pictures[i], std::span(images_).subspan(1, 1));
-        engine::endRendering(commands);
     }
+    engine::endRendering(commands);
     toRead(commands, hair_layers_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
 }
 
@@ -402,7 +406,7 @@ void ShadowPass::record(
     }
     if (hair_maps_) {
         passes.pass("hair_shadow", engine::PassKind::graphics, [&](engine::Commands& commands) {
-            drawHair(commands, pictures);
+            drawHair(commands, picture, pictures);
         });
     }
 }

@@ -96,7 +96,9 @@ private:
     void drawMeshes(
         engine::Commands& commands, const SceneMeshes& meshes,
         std::span<const std::uint64_t> pictures) const;
-    void drawHair(engine::Commands& commands, std::span<const std::uint64_t> pictures) const;
+    void drawHair(
+        engine::Commands& commands, const gpu::PictureParameters& picture,
+        std::span<const std::uint64_t> pictures) const;
 
     Settings settings_;
     ShadowScene scene_;

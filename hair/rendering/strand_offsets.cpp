@@ -219,9 +219,9 @@ FramesPass::FramesPass(const engine::Device& device, const StrandView& view)
 
 void FramesPass::record(engine::Commands& commands, const StrandView& view) const {
     using engine::Access;
-    // The pass waits for the simulation, and for whoever still draws with the frames that are
-    // overwritten.
-    commands.barrier(engine::Access::anything, engine::Access::compute_write);
+    // The pass waits for whoever still draws with the frames that are overwritten.
+    commands.barrier(Access::vertex_read, Access::compute_write);
+    commands.uses({{view.guides, Access::compute_read}, {normals_, Access::compute_write}});
     commands.bind(
         pipeline_, gpu::FramesPush{
                        .head = view.head,
@@ -231,7 +231,7 @@ void FramesPass::record(engine::Commands& commands, const StrandView& view) cons
                        .guide_count = view.guide_count,
                        .vertices_per_guide = view.vertices_per_guide});
     commands.dispatch((view.guide_count + gpu::kFramesGroupSize - 1) / gpu::kFramesGroupSize);
-    commands.barrier(engine::Access::compute_write, engine::Access::anything);
+    commands.barrier(Access::compute_write, Access::vertex_read);
 }
 
 bool hasOffsets(const StrandSettings& settings) {

@@ -24,7 +24,8 @@ public:
     // `view` gives the counts.
     FramesPass(const engine::Device& device, const StrandView& view);
 
-    // Belongs after what moves the guides and before what draws.
+    // Belongs after what moves the guides, which compute sees, and before what draws. The frames
+    // are then visible to the stages before the rasteriser.
     void record(engine::Commands& commands, const StrandView& view) const;
 
     // vec3 [guide][vertex], unit length, across the guide.

@@ -13,6 +13,8 @@
 namespace hair::rendering {
 namespace {
 
+using engine::Access;
+
 struct BlendContext {
     const engine::Device& device;
     const Settings& settings;
@@ -158,8 +160,9 @@ public:
             list(commands, target, draw);
         });
         passes.pass("composite", engine::PassKind::graphics, [&](engine::Commands& commands) {
-            commands.barrier(engine::Access::fragment_write, engine::Access::graphics_read);
+            commands.barrier(Access::fragment_write, Access::fragment_read);
             target.beginRendering(commands, engine::Load::keep, {});
+            commands.uses({{heads_, Access::fragment_read}, {nodes_, Access::fragment_read}});
             commands.bind(
                 composite_, gpu::CompositePush{.fragments = fragments(), .sample_index = 0});
             commands.draw({.vertices = 3});
@@ -184,12 +187,16 @@ private:
         engine::Commands& commands, const engine::Target& target,
         const std::function<void(engine::Commands&)>& draw) const {
         // The lists may still be in use by the last picture's passes.
-        commands.barrier(engine::Access::fragment_write, engine::Access::transfer_write);
+        commands.barrier(Access::fragment_write, Access::transfer_write);
         commands.fill(heads_, gpu::kNoFragment);
         commands.fill(counter_, 0);
-        commands.barrier(engine::Access::transfer_write, engine::Access::fragment_write);
-        commands.barrier(engine::Access::attachment, engine::Access::attachment);
+        commands.barrier(Access::transfer_write, Access::fragment_write);
+        commands.barrier(Access::attachment, Access::attachment);
         engine::beginRendering(commands, {}, engine::Attachment{.image = &target.depth()});
+        commands.uses(
+            {{heads_, Access::fragment_write},
+             {nodes_, Access::fragment_write},
+             {counter_, Access::fragment_write}});
         draw(commands);
         engine::endRendering(commands);
     }
@@ -289,9 +296,9 @@ private:
         for (const engine::Image* image : {&sum_, &revealed_}) {
             commands.transition(
                 *image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                engine::Access::graphics_read, engine::Access::attachment);
+                Access::fragment_read, Access::attachment);
         }
-        commands.barrier(engine::Access::attachment, engine::Access::attachment);
+        commands.barrier(Access::attachment, Access::attachment);
         const std::array sums{
             engine::Attachment{.image = &sum_, .load = engine::Load::clear, .clear = {}},
             engine::Attachment{.image = &revealed_, .load = engine::Load::clear, .clear = {1}}};
@@ -304,8 +311,8 @@ private:
         for (const engine::Image* image : {&sum_, &revealed_}) {
             commands.transition(
                 *image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, engine::Access::attachment,
-                engine::Access::graphics_read);
+                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, Access::attachment,
+                Access::fragment_read);
         }
         target.beginRendering(commands, engine::Load::keep, {});
         // One draw for each sample: shading by sample is a feature that not every device has.
@@ -414,8 +421,9 @@ StrandPass::StrandPass(
 
 void StrandPass::record(
     engine::Passes& passes, const engine::Target& target, std::uint64_t picture,
-    std::span<const engine::SampledImage> images) const {
+    const gpu::PictureParameters& parameters, std::span<const engine::SampledImage> images) const {
     blend_->record(passes, target, [&](engine::Commands& commands) {
+        declareStrands(commands, parameters);
         backend_->draw(commands, picture, images);
     });
 }

@@ -82,9 +82,11 @@ public:
         const engine::Device& device, const Settings& settings, const StrandPlan& plan,
         const engine::Target& target, const StrandView& view, const StrandStages& stages = {});
 
-    // `images` are the kStrandImages that strands/fragment.glsl samples.
+    // `picture` is the address of `parameters`; `images` are the kStrandImages that
+    // strands/fragment.glsl samples.
     void record(
         engine::Passes& passes, const engine::Target& target, std::uint64_t picture,
+        const gpu::PictureParameters& parameters,
         std::span<const engine::SampledImage> images) const;
 
     // The value of PictureParameters::fragments.

@@ -80,7 +80,15 @@ StrandPoints evaluateStrandPoints(
     for (std::uint32_t first = 0; first < count; first += std::min(size, count - first)) {
         const std::uint32_t part = std::min(size, count - first);
         device.runOnce([&](engine::Commands& commands) {
-            if (frames && first == 0) frames->record(commands, view);
+            if (frames && first == 0) {
+                frames->record(commands, view);
+                commands.barrier(engine::Access::compute_write, engine::Access::compute_read);
+            }
+            commands.uses(
+                {{view.guides, engine::Access::compute_read},
+                 {view.contacts, engine::Access::compute_read},
+                 {frames ? frames->normals().address() : 0, engine::Access::compute_read},
+                 {records, engine::Access::compute_write}});
             commands.bind(
                 pipeline, gpu::StrandPointsPush{
                               .picture = parameters.address(),

@@ -4,6 +4,14 @@
 
 namespace hair::simulation {
 
+// Device addresses of the guides, for the passes that move them.
+struct GuideAddresses {
+    std::uint64_t parameters = 0;  // gpu::GuideParameters, with the next two
+    std::uint64_t positions = 0;
+    std::uint64_t previous = 0;
+    std::uint64_t accelerations = 0;  // vec4 [strand][vertex], m/s^2, beside gravity; 0: none
+};
+
 // Where the guides are on the device, for who draws them. Valid as long as the simulation that gave
 // it.
 struct GuideView {

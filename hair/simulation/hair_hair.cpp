@@ -16,8 +16,8 @@ namespace hair::simulation {
 namespace {
 
 static_assert(sizeof(gpu::VolumeSample) == 32);
-static_assert(sizeof(gpu::VolumeParameters) == 80 && offsetof(gpu::VolumeParameters, origin) == 40);
-static_assert(sizeof(gpu::VolumePush) == 48);
+static_assert(sizeof(gpu::VolumeParameters) == 72 && offsetof(gpu::VolumeParameters, origin) == 32);
+static_assert(sizeof(gpu::VolumePush) == 56);
 
 // How far from the roots the grids reach, over the longest strand's length: the thesis's length
 // constraint lets strands stretch.
@@ -77,7 +77,6 @@ parametersOf(const groom::Groom& groom, const SimulationSettings& settings, cons
     const double repulsion =
         std::min(double{contact.repulsion}, kGreatestRepulsion * fastest * fastest);
     return {
-        .guides = 0,
         .shares = 0,
         .samples = 0,
         .sums = 0,
@@ -155,7 +154,7 @@ double meanRestDensity(const groom::Groom& groom, const VolumeGrid& grid) {
 
 HairHair::HairHair(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
-    const gpu::Step& step, std::uint64_t guides)
+    const gpu::Step& step)
     : vertex_count_(static_cast<std::uint32_t>(groom.points.size())),
       shares_(engine::makeBuffer(
           device, std::span<const float>(toFloat(lengthShares(groom))), "volume shares")),
@@ -169,7 +168,6 @@ HairHair::HairHair(
       splat_(pipeline(device, "simulation/volume_splat.comp")),
       force_(pipeline(device, "simulation/volume_force.comp")) {
     gpu::VolumeParameters parameters = parametersOf(groom, settings, step);
-    parameters.guides = guides;
     parameters.shares = shares_.address();
     parameters.samples = samples_.address();
     parameters.sums = sums_.address();
@@ -178,20 +176,43 @@ HairHair::HairHair(
 }
 
 void HairHair::record(
-    engine::Commands& commands, std::uint64_t accelerations, const RigidMotion& later) const {
-    const gpu::VolumePush push{
-        .volume = parameters_.address(), .accelerations = accelerations, .frame = toGpu(later)};
+    engine::Commands& commands, const GuideAddresses& guides, const RigidMotion& later) const {
+    gpu::VolumePush push{
+        .guides = guides.parameters,
+        .volume = parameters_.address(),
+        .accelerations = 0,
+        .frame = toGpu(later)};
     // The grids may still be read by the step before.
-    commands.barrier(engine::Access::compute_write, engine::Access::transfer_write);
+    commands.barrier(Access::compute_write, Access::transfer_write);
     commands.fill(sums_, 0);
     commands.fill(fastest_, 0);
-    commands.barrier(engine::Access::transfer_write, engine::Access::compute_write);
-    for (const engine::ComputePipeline* pass : {&sample_, &splat_, &force_}) {
-        if (pass != &sample_)
-            commands.barrier(engine::Access::compute_write, engine::Access::compute_write);
-        commands.bind(*pass, push);
-        dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
-    }
+    commands.barrier(Access::transfer_write, Access::compute_write);
+
+    commands.bind(sample_, push);
+    commands.uses(
+        {{guides.positions, Access::compute_read},
+         {guides.previous, Access::compute_read},
+         {samples_, Access::compute_write},
+         {fastest_, Access::compute_write}});
+    dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
+
+    commands.barrier(Access::compute_write, Access::compute_write);
+    commands.bind(splat_, push);
+    commands.uses(
+        {{samples_, Access::compute_read},
+         {fastest_, Access::compute_read},
+         {sums_, Access::compute_write}});
+    dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
+
+    commands.barrier(Access::compute_write, Access::compute_write);
+    push.accelerations = guides.accelerations;
+    commands.bind(force_, push);
+    commands.uses(
+        {{samples_, Access::compute_read},
+         {fastest_, Access::compute_read},
+         {sums_, Access::compute_read},
+         {guides.accelerations, Access::compute_write}});
+    dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
 }
 
 }  // namespace hair::simulation

@@ -11,6 +11,7 @@
 #include "hair/gpu_structs.h"
 #include "hair/groom/groom.h"
 #include "hair/settings.h"
+#include "hair/simulation/guide_view.h"
 #include "hair/simulation/head_motion.h"
 
 namespace hair::simulation {
@@ -64,15 +65,15 @@ double meanRestDensity(const groom::Groom& groom, const VolumeGrid& grid);
 // cell is rounded to 2^-30 of the groom.
 class HairHair {
 public:
-    // `guides` is the address of gpu::GuideParameters.
     HairHair(
         const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
-        const gpu::Step& step, std::uint64_t guides);
+        const gpu::Step& step);
 
-    // Adds to the accelerations, vec4 [strand][vertex], m/s^2, what acts over the next step;
-    // `later` is the head's place at its end. The caller orders the work before and after.
-    void
-    record(engine::Commands& commands, std::uint64_t accelerations, const RigidMotion& later) const;
+    // Adds to the accelerations what acts over the next step; `later` is the head's place at its
+    // end. Orders its work after earlier compute work, but for what wrote the guides' positions;
+    // the caller orders what comes after.
+    void record(
+        engine::Commands& commands, const GuideAddresses& guides, const RigidMotion& later) const;
 
     // int [grid][z][y][x][4]: momentum over fastest() and share, times kVolumeOne.
     const engine::Buffer& sums() const { return sums_; }

@@ -78,9 +78,7 @@ PullPass::PullPass(
       hold_(pipeline(device, "simulation/pull_hold.comp")),
       spread_(pipeline(device, "simulation/pull.comp")) {}
 
-void PullPass::record(
-    engine::Commands& commands, std::uint64_t guides, std::uint64_t accelerations,
-    double time) const {
+void PullPass::record(engine::Commands& commands, const GuideAddresses& guides, double time) const {
     const double dt = step_.whole;
     for (const PullSettings& pull : pulls_) {
         const std::optional<Hand> hand = handIn(pull, time, time + dt);
@@ -88,8 +86,8 @@ void PullPass::record(
         const double stiffness = pull.stiffness;
         const double damping = 2.0 * std::sqrt(stiffness);
         const gpu::PullPush push{
-            .guides = guides,
-            .accelerations = accelerations,
+            .guides = guides.parameters,
+            .accelerations = guides.accelerations,
             .held = held_.address(),
             .hand = hand->position,
             .hand_velocity = hand->velocity,
@@ -100,9 +98,16 @@ void PullPass::record(
             .implicit = static_cast<float>(1.0 / (1.0 + damping * dt + stiffness * dt * dt))};
         commands.barrier(engine::Access::compute_write, engine::Access::compute_write);
         commands.bind(hold_, push);
+        commands.uses(
+            {{guides.positions, Access::compute_read},
+             {guides.previous, Access::compute_read},
+             {guides.accelerations, Access::compute_read},
+             {held_, Access::compute_write}});
         commands.dispatch(1);
         commands.barrier(engine::Access::compute_write, engine::Access::compute_write);
         commands.bind(spread_, push);
+        commands.uses(
+            {{held_, Access::compute_read}, {guides.accelerations, Access::compute_write}});
         dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
     }
 }

@@ -13,6 +13,7 @@
 #include "engine/pipeline.h"
 #include "hair/gpu_structs.h"
 #include "hair/settings.h"
+#include "hair/simulation/guide_view.h"
 
 namespace hair::simulation {
 
@@ -37,8 +38,8 @@ std::optional<Hand> handIn(const PullSettings& pull, double from, double to);
 void checkPulls(
     std::span<const PullSettings> pulls, std::uint32_t guides, std::uint32_t vertices_per_guide);
 
-// The acceleration that hands give every guide vertex, added to a buffer of vec4 [strand][vertex],
-// m/s^2, for a whole time step.
+// The acceleration that hands give every guide vertex, added to GuideAddresses::accelerations, for
+// a whole time step.
 //
 // A critically damped spring with the stiffness k, c = 2 sqrt(k), holds vertex x at the hand h. The
 // acceleration a that it gives x is that of implicit Euler, which is stable for every k and time
@@ -63,11 +64,9 @@ public:
     // `pulls` are others that checkPulls has passed.
     void setPulls(std::vector<PullSettings> pulls) noexcept { pulls_ = std::move(pulls); }
 
-    // Records the time step that begins at `time`. `guides` is the address of gpu::GuideParameters.
-    // Orders its work after earlier compute work; the caller orders what comes after.
-    void record(
-        engine::Commands& commands, std::uint64_t guides, std::uint64_t accelerations,
-        double time) const;
+    // Records the time step that begins at `time`. Orders its work after earlier compute work; the
+    // caller orders what comes after.
+    void record(engine::Commands& commands, const GuideAddresses& guides, double time) const;
 
 private:
     std::uint32_t vertex_count_;

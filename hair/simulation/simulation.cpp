@@ -70,8 +70,7 @@ Simulation::Simulation(
     assert(groom.points.size() == std::size_t{strand_count_} * vertices_per_strand_);
     checkPulls(settings.pulls, strand_count_, vertices_per_strand_);
     if (hasPulls()) pulls_.emplace(pullPassOf(settings));
-    if (hairActsOnHair(settings))
-        hair_hair_.emplace(device, groom, settings, step_, parameters_.address());
+    if (hairActsOnHair(settings)) hair_hair_.emplace(device, groom, settings, step_);
     std::vector<glm::vec3> start;
     for (const glm::vec3& point : groom.points) start.emplace_back(pose()(point));
     setState(start, start);
@@ -89,21 +88,16 @@ Simulation::Simulation(
 }
 
 void Simulation::recordWind(engine::Commands& commands) const {
-    if (!solver_) return;
-    commands.barrier(engine::Access::compute_write, engine::Access::compute_write);
-    wind_.record(commands, parameters_.address(), accelerations_.address(), time());
+    if (solver_) wind_.record(commands, addresses(), time());
 }
 
 void Simulation::recordVolume(engine::Commands& commands) const {
-    if (!hair_hair_) return;
-    commands.barrier(engine::Access::compute_write, engine::Access::compute_write);
-    hair_hair_->record(
-        commands, accelerations_.address(), motion_.at(time() + double{step_.whole}));
+    if (hair_hair_)
+        hair_hair_->record(commands, addresses(), motion_.at(time() + double{step_.whole}));
 }
 
 void Simulation::recordPulls(engine::Commands& commands) const {
-    if (!solver_ || !pulls_) return;
-    pulls_->record(commands, parameters_.address(), accelerations_.address(), time());
+    if (solver_ && pulls_) pulls_->record(commands, addresses(), time());
 }
 
 // All that may throw comes first. The parameters stay where they are: others know their address.
@@ -159,10 +153,8 @@ void Simulation::settle(std::uint32_t steps) {
         const std::uint32_t batch = std::min(steps, most);
         device_->runOnce([&](engine::Commands& commands) {
             for (std::uint32_t i = 0; i < batch; ++i) {
-                commands.barrier(engine::Access::anything, engine::Access::compute_write);
-                wind_.recordCalm(commands, parameters_.address(), accelerations_.address());
-                commands.barrier(engine::Access::compute_write, engine::Access::compute_write);
-                if (hair_hair_) hair_hair_->record(commands, accelerations_.address(), pose());
+                wind_.recordCalm(commands, addresses());
+                if (hair_hair_) hair_hair_->record(commands, addresses(), pose());
                 recordSubsteps(commands, time(), time());
             }
         });
@@ -195,6 +187,9 @@ void Simulation::setState(
     device_->runOnce([&](engine::Commands& commands) {
         const gpu::RigidFrame frame = toGpu(pose());
         commands.barrier(engine::Access::anything, engine::Access::compute_write);
+        commands.uses(
+            {{positions_, engine::Access::compute_read},
+             {previous_, engine::Access::compute_read}});
         solver_->recordAdopt(
             commands, {.guides = parameters_.address(), .frame = frame, .frame_before = frame});
         commands.barrier(engine::Access::compute_write, engine::Access::anything);
@@ -237,17 +232,34 @@ void Simulation::recordSubsteps(engine::Commands& commands, double from, double 
         const double part = static_cast<double>(substep) / step_.count;
         return toGpu(motion_.at(from + part * (to - from)));
     };
-    // The step waits for the forces, an earlier step, and whoever still draws what is overwritten.
-    commands.barrier(engine::Access::anything, engine::Access::compute_write);
+    // The step waits for the forces, and for whoever still draws what is overwritten.
+    commands.barrier(
+        {{Access::compute_write, Access::compute_write},
+         {Access::vertex_read, Access::compute_write}});
     for (std::uint32_t i = 0; i < step_.count; ++i) {
-        if (i > 0) commands.barrier(engine::Access::compute_write, engine::Access::compute_write);
+        if (i > 0) commands.barrier(Access::compute_write, Access::compute_write);
+        commands.uses(
+            {{positions_, Access::compute_write},
+             {previous_, Access::compute_write},
+             {accelerations_, Access::compute_read}});
         solver_->record(
             commands, {.guides = parameters_.address(),
                        .accelerations = accelerations_.address(),
                        .frame = frameAfter(i + 1),
                        .frame_before = frameAfter(i)});
     }
-    commands.barrier(engine::Access::compute_write, engine::Access::graphics_read);
+    // Who draws waits for the step, and so do the passes of the next one.
+    commands.barrier(
+        {{Access::compute_write, Access::vertex_read},
+         {Access::compute_write, Access::compute_write}});
+}
+
+GuideAddresses Simulation::addresses() const {
+    return {
+        .parameters = parameters_.address(),
+        .positions = positions_.address(),
+        .previous = previous_.address(),
+        .accelerations = accelerations_.address()};
 }
 
 PullPass Simulation::pullPassOf(const SimulationSettings& settings) const {

@@ -71,7 +71,7 @@ public:
     void recordPulls(engine::Commands& commands) const;
 
     // One time step under gravity and the accelerations recorded last. Positions are then visible
-    // to compute and to every graphics stage.
+    // to compute and to the stages before the rasteriser.
     void recordStep(engine::Commands& commands);
 
     // Simulates steps without wind and hands and waits for them; time stands still.
@@ -111,6 +111,7 @@ public:
 
 private:
     void recordSubsteps(engine::Commands& commands, double from, double to) const;
+    GuideAddresses addresses() const;
     PullPass pullPassOf(const SimulationSettings& settings) const;
     gpu::GuideParameters parametersWith(const gpu::Bodies& bodies) const;
     std::vector<glm::vec4> withMasses(std::span<const glm::vec3> positions) const;

@@ -22,6 +22,8 @@ struct RodRest {
 
 namespace {
 
+using engine::Access;
+
 constexpr double kShortest = 1e-9;  // m
 constexpr double kShortestUnit = 1e-6;  // m, for strands without length
 constexpr double kLeastMass = 0.01;  // of a vertex, over the mean
@@ -154,10 +156,10 @@ void RodSolver::record(engine::Commands& commands, gpu::SubstepPush push) const 
     push.solver = parameters_.address();
     for (std::uint32_t first = 0; first < strand_count_; first += most_strands_) {
         // The strands before may still use the scratch memory.
-        if (first > 0)
-            commands.barrier(engine::Access::compute_write, engine::Access::compute_write);
+        if (first > 0) commands.barrier(Access::compute_write, Access::compute_write);
         push.first_strand = first;
         commands.bind(step_, push);
+        commands.uses({{motion_, Access::compute_write}, {scratch_, Access::compute_write}});
         dispatchInvocations(
             commands, std::min(most_strands_, strand_count_ - first), gpu::kRodGroupSize);
     }
@@ -166,6 +168,7 @@ void RodSolver::record(engine::Commands& commands, gpu::SubstepPush push) const 
 void RodSolver::recordAdopt(engine::Commands& commands, gpu::SubstepPush push) const {
     push.solver = parameters_.address();
     commands.bind(adopt_, push);
+    commands.uses({{motion_, Access::compute_write}});
     dispatchInvocations(commands, strand_count_, gpu::kRodGroupSize);
 }
 

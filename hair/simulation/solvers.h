@@ -19,8 +19,9 @@ public:
     virtual ~GuideSolver() = default;
 
     // Records one substep: integrate, hold the strands together, push them out of bodies. The
-    // caller fills in the push constants but `solver` and `first_strand`, and orders the work
-    // before and after by barriers.
+    // caller fills in the push constants but `solver` and `first_strand`, says what is touched of
+    // the guides (Commands::uses), and orders the work before and after by barriers; the solver
+    // says what it touches of its own.
     virtual void record(engine::Commands& commands, gpu::SubstepPush push) const = 0;
 
     // Derives the state of its own from positions and previous positions that someone else wrote.

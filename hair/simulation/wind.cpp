@@ -15,6 +15,8 @@
 namespace hair::simulation {
 namespace {
 
+using engine::Access;
+
 static_assert(sizeof(gpu::WindPush) == 72 && offsetof(gpu::WindPush, directions) == 16);
 static_assert(sizeof(gpu::DragPush) == 72 && offsetof(gpu::DragPush, cell) == 32);
 
@@ -86,29 +88,25 @@ WindPass::WindPass(
     checkWind(settings_);
 }
 
-void WindPass::record(
-    engine::Commands& commands, std::uint64_t guides, std::uint64_t accelerations,
-    double time) const {
+void WindPass::record(engine::Commands& commands, const GuideAddresses& guides, double time) const {
     if (settings_.mode == WindMode::drag)
-        recordDrag(commands, guides, accelerations, settings_.speed, time);
+        recordDrag(commands, guides, settings_.speed, time);
     else
-        recordThesis(commands, guides, accelerations, windMagnitude(settings_, time));
+        recordThesis(commands, guides, windMagnitude(settings_, time));
 }
 
-void WindPass::recordCalm(
-    engine::Commands& commands, std::uint64_t guides, std::uint64_t accelerations) const {
+void WindPass::recordCalm(engine::Commands& commands, const GuideAddresses& guides) const {
     if (settings_.mode == WindMode::drag)
-        recordDrag(commands, guides, accelerations, 0.0, 0.0);
+        recordDrag(commands, guides, 0.0, 0.0);
     else
-        recordThesis(commands, guides, accelerations, 0.0);
+        recordThesis(commands, guides, 0.0);
 }
 
 void WindPass::recordThesis(
-    engine::Commands& commands, std::uint64_t guides, std::uint64_t accelerations,
-    double magnitude) const {
+    engine::Commands& commands, const GuideAddresses& guides, double magnitude) const {
     gpu::WindPush push{
-        .guides = guides,
-        .accelerations = accelerations,
+        .guides = guides.parameters,
+        .accelerations = guides.accelerations,
         .directions = {},
         .magnitude = static_cast<float>(magnitude)};
     if (settings_.strength > 0.0f) {
@@ -117,14 +115,15 @@ void WindPass::recordThesis(
             push.directions[i] = glm::vec3(double{settings_.strength} * cone[i]);
     }
     commands.bind(pipeline_, push);
+    commands.uses(
+        {{guides.positions, Access::compute_read}, {guides.accelerations, Access::compute_write}});
     dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
 }
 
 // The mean wind has carried the lattice from its start at the world's origin by speed times time:
 // far, so the distance is divided into cells in double.
 void WindPass::recordDrag(
-    engine::Commands& commands, std::uint64_t guides, std::uint64_t accelerations, double speed,
-    double time) const {
+    engine::Commands& commands, const GuideAddresses& guides, double speed, double time) const {
     const glm::dvec3 wind = speed > 0.0 ? speed * windDirection(settings_) : glm::dvec3(0.0);
     const double cell = settings_.turbulence_scale;
     const glm::dvec3 origin = -time / cell * wind;
@@ -132,8 +131,8 @@ void WindPass::recordDrag(
     const DragFactors factors = dragFactors(settings_, material_);
     commands.bind(
         pipeline_, gpu::DragPush{
-                       .guides = guides,
-                       .accelerations = accelerations,
+                       .guides = guides.parameters,
+                       .accelerations = guides.accelerations,
                        .mean_wind = wind,
                        .fluctuation = static_cast<float>(double{settings_.turbulence} * speed),
                        .cell = cellOf(whole),
@@ -142,6 +141,10 @@ void WindPass::recordDrag(
                        .octaves = settings_.turbulence_octaves,
                        .inertial_drag = static_cast<float>(factors.inertial),
                        .viscous_drag = static_cast<float>(factors.viscous)});
+    commands.uses(
+        {{guides.positions, Access::compute_read},
+         {guides.previous, Access::compute_read},
+         {guides.accelerations, Access::compute_write}});
     dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
 }
 

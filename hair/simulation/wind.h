@@ -8,6 +8,7 @@
 #include "engine/commands.h"
 #include "engine/pipeline.h"
 #include "hair/settings.h"
+#include "hair/simulation/guide_view.h"
 
 // The wind: by the settings, and as the acceleration of every guide vertex.
 namespace hair::simulation {
@@ -33,8 +34,8 @@ DragFactors dragFactors(const WindSettings& settings, const MaterialSettings& ma
 // Throws Error for wind in a direction without length.
 void checkWind(const WindSettings& settings);
 
-// The acceleration that air gives every guide vertex, into a buffer of vec4 [strand][vertex],
-// m/s^2. It is for a whole time step.
+// The acceleration that air gives every guide vertex, into GuideAddresses::accelerations. It is for
+// a whole time step. The caller orders the work before and after.
 class WindPass {
 public:
     // Throws what checkWind does.
@@ -45,22 +46,16 @@ public:
     // `settings` are of the same mode, and checkWind has passed them.
     void setWind(const WindSettings& settings) noexcept { settings_ = settings; }
 
-    // `guides` is the address of gpu::GuideParameters.
-    void record(
-        engine::Commands& commands, std::uint64_t guides, std::uint64_t accelerations,
-        double time) const;
+    void record(engine::Commands& commands, const GuideAddresses& guides, double time) const;
 
     // The acceleration in air that stands still: none in thesis mode; in drag mode air brakes hair.
-    void
-    recordCalm(engine::Commands& commands, std::uint64_t guides, std::uint64_t accelerations) const;
+    void recordCalm(engine::Commands& commands, const GuideAddresses& guides) const;
 
 private:
-    void recordThesis(
-        engine::Commands& commands, std::uint64_t guides, std::uint64_t accelerations,
-        double magnitude) const;
+    void
+    recordThesis(engine::Commands& commands, const GuideAddresses& guides, double magnitude) const;
     void recordDrag(
-        engine::Commands& commands, std::uint64_t guides, std::uint64_t accelerations, double speed,
-        double time) const;
+        engine::Commands& commands, const GuideAddresses& guides, double speed, double time) const;
 
     WindSettings settings_;
     MaterialSettings material_;

@@ -25,7 +25,6 @@ struct VolumeSample {
 
 // What the grids of a simulation have for its whole life.
 struct VolumeParameters {
-    uint64_t guides;   // GuideParameters
     uint64_t shares;   // float [strand][vertex]
     uint64_t samples;  // VolumeSample [strand][vertex]
     uint64_t sums;     // int [grid][z][y][x][4], fixed point: momentum over the fastest, share
@@ -41,8 +40,9 @@ struct VolumeParameters {
 
 // Push constants of every pass of the grid.
 struct VolumePush {
+    uint64_t guides;         // GuideParameters
     uint64_t volume;         // VolumeParameters
-    uint64_t accelerations;  // m/s^2, added to
+    uint64_t accelerations;  // m/s^2, added to by simulation/volume_force.comp
     RigidFrame frame;        // of the head at the end of the step
 };
 

@@ -24,7 +24,7 @@ ivec4 sumAt(VolumeParameters volume, uint grid, ivec3 cell) {
 
 void main() {
     VolumeParameters volume = VolumeReference(push.volume).parameters;
-    GuideParameters guides = GuideReference(volume.guides).parameters;
+    GuideParameters guides = GuideReference(push.guides).parameters;
     uint index = workgroupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (index >= guides.strand_count * guides.vertices_per_strand) return;  // no barrier follows
 

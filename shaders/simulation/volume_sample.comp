@@ -13,7 +13,7 @@ shared uint fastest_of_group;
 
 void main() {
     VolumeParameters volume = VolumeReference(push.volume).parameters;
-    GuideParameters guides = GuideReference(volume.guides).parameters;
+    GuideParameters guides = GuideReference(push.guides).parameters;
     uint index = workgroupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (gl_LocalInvocationID.x == 0) fastest_of_group = 0;
     barrier();

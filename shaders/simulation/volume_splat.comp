@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform Push { VolumePush push; };
 
 void main() {
     VolumeParameters volume = VolumeReference(push.volume).parameters;
-    GuideParameters guides = GuideReference(volume.guides).parameters;
+    GuideParameters guides = GuideReference(push.guides).parameters;
     uint index = workgroupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (index >= guides.strand_count * guides.vertices_per_strand) return;  // no barrier follows
 

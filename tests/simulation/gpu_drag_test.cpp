@@ -57,7 +57,13 @@ protected:
         const WindPass pass(device(), groom.strand_count * groom.vertices_per_strand, settings);
         device().runOnce([&](engine::Commands& commands) {
             commands.barrier(engine::Access::anything, engine::Access::compute_write);
-            pass.record(commands, parameters.address(), result.address(), time);
+            pass.record(
+                commands,
+                {.parameters = parameters.address(),
+                 .positions = now.address(),
+                 .previous = before.address(),
+                 .accelerations = result.address()},
+                time);
             commands.barrier(engine::Access::compute_write, engine::Access::anything);
         });
         return engine::downloadAs<glm::vec4>(device(), result);

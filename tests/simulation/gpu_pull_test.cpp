@@ -52,7 +52,13 @@ protected:
             device(), groom.strand_count, groom.vertices_per_strand, step, settings.pulls);
         device().runOnce([&](engine::Commands& commands) {
             commands.barrier(engine::Access::anything, engine::Access::compute_write);
-            pass.record(commands, parameters.address(), result.address(), time);
+            pass.record(
+                commands,
+                {.parameters = parameters.address(),
+                 .positions = now.address(),
+                 .previous = earlier.address(),
+                 .accelerations = result.address()},
+                time);
             commands.barrier(engine::Access::compute_write, engine::Access::anything);
         });
         return engine::downloadAs<glm::vec4>(device(), result);

@@ -41,7 +41,7 @@ public:
                   .vertices_per_strand = groom.vertices_per_strand,
                   .seed = 0}}),
               "guide parameters")),
-          hair_hair_(device, groom, settings, stepOf(settings), parameters_.address()) {}
+          hair_hair_(device, groom, settings, stepOf(settings)) {}
 
     // m/s^2. `previous` is a substep earlier; every vertex has `others` from elsewhere, which
     // hair on hair is added to.
@@ -53,7 +53,13 @@ public:
         upload(std::vector(groom_.points.size(), others), accelerations_);
         device_.runOnce([&](engine::Commands& commands) {
             commands.barrier(engine::Access::anything, engine::Access::compute_write);
-            hair_hair_.record(commands, accelerations_.address(), frame);
+            hair_hair_.record(
+                commands,
+                {.parameters = parameters_.address(),
+                 .positions = positions_.address(),
+                 .previous = previous_.address(),
+                 .accelerations = accelerations_.address()},
+                frame);
         });
         const auto result = engine::downloadAs<glm::vec4>(device_, accelerations_);
         return {result.begin(), result.end()};

@@ -1,0 +1,390 @@
+#include "engine/hazards.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "engine/instance.h"
+
+namespace engine {
+namespace {
+
+// ---- Stages and accesses ------------------------------------------------------------------------
+
+// The stages of a draw, each after those before it.
+constexpr std::array<VkPipelineStageFlags2, 10> kGraphicsStages{
+    VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+    VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT,
+    VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT,
+    VK_PIPELINE_STAGE_2_TESSELLATION_CONTROL_SHADER_BIT,
+    VK_PIPELINE_STAGE_2_TESSELLATION_EVALUATION_SHADER_BIT,
+    VK_PIPELINE_STAGE_2_GEOMETRY_SHADER_BIT,
+    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT,
+    VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+    VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+    VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT};
+
+constexpr VkPipelineStageFlags2 allGraphics() {
+    VkPipelineStageFlags2 stages = 0;
+    for (const VkPipelineStageFlags2 stage : kGraphicsStages) stages |= stage;
+    return stages;
+}
+
+constexpr VkPipelineStageFlags2 kTransfer =
+    VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_RESOLVE_BIT | VK_PIPELINE_STAGE_2_BLIT_BIT |
+    VK_PIPELINE_STAGE_2_CLEAR_BIT;
+
+// A stage that no barrier names, of changes of layout: they happen between two stages.
+constexpr VkPipelineStageFlags2 kBetweenStages = VkPipelineStageFlags2{1} << 63;
+
+constexpr VkAccessFlags2 kReads =
+    VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT |
+    VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_SHADER_READ_BIT |
+    VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
+    VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_HOST_READ_BIT;
+constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_WRITE_BIT |
+                                   VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
+                                   VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
+                                   VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_HOST_WRITE_BIT;
+
+// Groups of stages and accesses as their members.
+Scope expanded(Scope scope) {
+    const auto expand = [](auto& flags, auto group, auto members) {
+        if ((flags & group) == group) flags = (flags & ~group) | members;
+    };
+    constexpr VkPipelineStageFlags2 kBeforeRaster =
+        VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT |
+        VK_PIPELINE_STAGE_2_TESSELLATION_CONTROL_SHADER_BIT |
+        VK_PIPELINE_STAGE_2_TESSELLATION_EVALUATION_SHADER_BIT |
+        VK_PIPELINE_STAGE_2_GEOMETRY_SHADER_BIT;
+    expand(
+        scope.stages, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+        allGraphics() | kTransfer | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
+            VK_PIPELINE_STAGE_2_HOST_BIT);
+    expand(scope.stages, VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT, allGraphics());
+    expand(scope.stages, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, kTransfer);
+    expand(scope.stages, VK_PIPELINE_STAGE_2_PRE_RASTERIZATION_SHADERS_BIT, kBeforeRaster);
+    expand(scope.access, VK_ACCESS_2_MEMORY_READ_BIT, kReads);
+    expand(scope.access, VK_ACCESS_2_MEMORY_WRITE_BIT, kWrites);
+    return scope;
+}
+
+// With the stages that a draw goes through before, which a barrier waits for too.
+VkPipelineStageFlags2 withEarlier(VkPipelineStageFlags2 stages) {
+    VkPipelineStageFlags2 earlier = 0;
+    VkPipelineStageFlags2 result = stages;
+    for (const VkPipelineStageFlags2 stage : kGraphicsStages) {
+        if (stages & stage) result |= earlier;
+        earlier |= stage;
+    }
+    return result;
+}
+
+// With the stages that a draw goes through after, which wait too.
+VkPipelineStageFlags2 withLater(VkPipelineStageFlags2 stages) {
+    VkPipelineStageFlags2 result = stages;
+    bool reached = false;
+    for (const VkPipelineStageFlags2 stage : kGraphicsStages) {
+        if (reached) result |= stage;
+        reached = reached || (stages & stage);
+    }
+    return result;
+}
+
+bool isWithin(VkFlags64 part, VkFlags64 whole) { return (part & ~whole) == 0; }
+
+// Whether a write that was made visible to `visible` is so to all that `scope` means.
+bool isVisibleTo(const std::vector<Scope>& visible, const Scope& scope) {
+    for (VkPipelineStageFlags2 left = scope.stages; left; left &= left - 1) {
+        const VkPipelineStageFlags2 stage = left & ~(left - 1);
+        VkAccessFlags2 seen = 0;
+        for (const Scope& each : visible)
+            if (each.stages & stage) seen |= each.access;
+        if (!isWithin(scope.access, seen)) return false;
+    }
+    return true;
+}
+
+const char* textOf(Hazard::Kind kind) {
+    switch (kind) {
+    case Hazard::Kind::read_after_write:
+        return "read after write";
+    case Hazard::Kind::write_after_read:
+        return "write after read";
+    case Hazard::Kind::write_after_write:
+        break;
+    }
+    return "write after write";
+}
+
+}  // namespace
+
+// ---- The rules ----------------------------------------------------------------------------------
+
+std::vector<Hazard> HazardChecker::submit(const Recording& recording) {
+    ++submissions_;
+    std::vector<Hazard> found;
+    for (const Recorded& each : recording) {
+        if (each.barrier)
+            apply(*each.barrier, each.pass, found);
+        else
+            apply(each.uses, each.pass, found);
+    }
+    return found;
+}
+
+void HazardChecker::finish(std::uint64_t submission) {
+    const auto is_over = [&](const Done& done) { return done.submission <= submission; };
+    for (auto& [resource, state] : states_) {
+        if (state.write && is_over(*state.write)) state.write.reset();
+        std::erase_if(state.reads, is_over);
+    }
+    std::erase_if(states_, [](const auto& entry) {
+        return !entry.second.write && entry.second.reads.empty();
+    });
+}
+
+void HazardChecker::apply(
+    const RecordedBarrier& barrier, const std::string& pass, std::vector<Hazard>& found) {
+    const Scope before = expanded(barrier.before);
+    const Scope after = expanded(barrier.after);
+    const VkPipelineStageFlags2 waited_for = withEarlier(before.stages);
+    const VkPipelineStageFlags2 waiting = withLater(after.stages);
+    const auto comesBefore = [&](const Done& done) {
+        return isWithin(done.scope.stages, waited_for) || (done.ordered & waited_for);
+    };
+    for (auto& [resource, state] : states_) {
+        const bool is_meant = !barrier.image || barrier.image == resource;
+        if (state.write && comesBefore(*state.write)) {
+            Done& write = *state.write;
+            if (is_meant && isWithin(write.scope.stages, before.stages) &&
+                isWithin(write.scope.access & kWrites, before.access))
+                write.available = true;
+            if (is_meant && write.available) write.visible.push_back(after);
+            write.ordered |= waiting;
+        }
+        for (Done& read : state.reads)
+            if (comesBefore(read)) read.ordered |= waiting;
+    }
+    if (!barrier.changes_layout) return;
+
+    // The change comes after what the barrier waits for, and before what waits for it.
+    State& state = states_[*barrier.image];
+    if (state.write && !(comesBefore(*state.write) && state.write->available))
+        found.push_back({Hazard::Kind::write_after_write, *barrier.image, state.write->pass, pass});
+    for (const Done& read : state.reads)
+        if (!comesBefore(read))
+            found.push_back({Hazard::Kind::write_after_read, *barrier.image, read.pass, pass});
+    state.reads.clear();
+    state.write = Done{
+        .scope = {kBetweenStages, 0},
+        .pass = pass,
+        .submission = submissions_,
+        .ordered = waiting,
+        .available = true,
+        .visible = {after}};
+}
+
+void HazardChecker::apply(
+    const std::vector<RecordedUse>& uses, const std::string& pass, std::vector<Hazard>& found) {
+    for (const RecordedUse& use : uses) {
+        const Scope scope = expanded(use.scope);
+        const Scope reads{scope.stages, scope.access & kReads};
+        const Scope writes{scope.stages, scope.access & kWrites};
+        State& state = states_[use.resource];
+        if (state.write && reads.access && !isVisibleTo(state.write->visible, reads))
+            found.push_back(
+                {Hazard::Kind::read_after_write, use.resource, state.write->pass, pass});
+        else if (state.write && writes.access && !isVisibleTo(state.write->visible, writes))
+            found.push_back(
+                {Hazard::Kind::write_after_write, use.resource, state.write->pass, pass});
+        if (writes.access)
+            for (const Done& read : state.reads)
+                if (!isWithin(scope.stages, read.ordered))
+                    found.push_back(
+                        {Hazard::Kind::write_after_read, use.resource, read.pass, pass});
+
+        const Done done{.scope = scope, .pass = pass, .submission = submissions_};
+        if (writes.access) {
+            state.reads.clear();
+            state.write = done;
+            continue;
+        }
+        // Whatever comes after the later of two reads by the same stages comes after both.
+        const auto same = std::ranges::find_if(
+            state.reads, [&](const Done& read) { return read.scope.stages == scope.stages; });
+        if (same != state.reads.end())
+            *same = done;
+        else
+            state.reads.push_back(done);
+    }
+}
+
+std::set<std::string> barrierPlaces(std::span<const Recording> recordings) {
+    std::set<std::string> places;
+    for (const Recording& recording : recordings)
+        for (const Recorded& each : recording)
+            if (each.barrier && !each.barrier->changes_layout) places.insert(each.barrier->place);
+    return places;
+}
+
+std::vector<std::string> superfluousBarriers(std::span<const Recording> recordings) {
+    // Hazards without the barriers of one place.
+    const auto hazardsWithout = [&](const std::string& place) {
+        HazardChecker checker;
+        std::size_t count = 0;
+        for (const Recording& recording : recordings) {
+            Recording left;
+            for (const Recorded& each : recording)
+                if (!each.barrier || each.barrier->changes_layout || each.barrier->place != place)
+                    left.push_back(each);
+            count += checker.submit(left).size();
+        }
+        return count;
+    };
+    const std::size_t anyway = hazardsWithout("");
+    std::vector<std::string> superfluous;
+    for (const std::string& place : barrierPlaces(recordings))
+        if (hazardsWithout(place) <= anyway) superfluous.push_back(place);
+    return superfluous;
+}
+
+// ---- Buffers and images -------------------------------------------------------------------------
+
+HazardLog::Entry HazardLog::addBuffer(
+    std::uint64_t address, std::size_t size, std::span<const std::byte> mapped,
+    const std::string& name) {
+    const ResourceId id = next_++;
+    resources_.emplace(
+        id, Resource{.name = name, .address = address, .size = size, .mapped = mapped});
+    buffers_[address] = id;
+    return {*this, id};
+}
+
+HazardLog::Entry HazardLog::addImage(VkImage image, const std::string& name) {
+    const ResourceId id = next_++;
+    resources_.emplace(id, Resource{.name = name, .image = image});
+    images_[image] = id;
+    return {*this, id};
+}
+
+void HazardLog::remove(ResourceId id) {
+    const Resource& resource = resources_.at(id);
+    if (resource.address != 0)
+        buffers_.erase(resource.address);
+    else
+        images_.erase(resource.image);
+    checker_.forget(id);
+    resources_.erase(id);
+}
+
+std::optional<ResourceId> HazardLog::bufferAt(std::uint64_t address) const {
+    auto after = buffers_.upper_bound(address);
+    if (after == buffers_.begin()) return std::nullopt;
+    const auto& [first, id] = *--after;
+    if (address - first >= resources_.at(id).size) return std::nullopt;
+    return id;
+}
+
+namespace {
+
+// Calls `use` with every number in the bytes that may be an address: shared structs align them
+// to 8.
+template <class Use>
+void forEachAddress(std::span<const std::byte> bytes, Use&& use) {
+    for (std::size_t at = 0; at + sizeof(std::uint64_t) <= bytes.size();
+         at += sizeof(std::uint64_t)) {
+        std::uint64_t address = 0;
+        std::memcpy(&address, bytes.data() + at, sizeof address);
+        if (address != 0) use(address);
+    }
+}
+
+}  // namespace
+
+std::vector<ResourceId> HazardLog::hostBuffersIn(std::span<const std::byte> bytes) const {
+    std::vector<ResourceId> found;
+    const auto add = [&](std::uint64_t address) {
+        const std::optional<ResourceId> id = bufferAt(address);
+        if (!id || resources_.at(*id).mapped.empty()) return;
+        if (std::ranges::find(found, *id) == found.end()) found.push_back(*id);
+    };
+    forEachAddress(bytes, add);
+    for (std::size_t i = 0; i < found.size(); ++i)
+        forEachAddress(resources_.at(found[i]).mapped, add);
+    return found;
+}
+
+std::vector<ResourceId> HazardLog::writtenBuffersIn(std::span<const std::byte> bytes) const {
+    std::vector<ResourceId> found;
+    forEachAddress(bytes, [&](std::uint64_t address) {
+        const std::optional<ResourceId> id = bufferAt(address);
+        if (id && resources_.at(*id).written) found.push_back(*id);
+    });
+    return found;
+}
+
+// ---- Submissions --------------------------------------------------------------------------------
+
+void HazardLog::submit(Recording recording) {
+    ++submissions_;
+    for (const Recorded& each : recording)
+        for (const RecordedUse& use : each.uses) {
+            const auto found = resources_.find(use.resource);
+            if (found == resources_.end()) continue;  // gone since it was recorded
+            Resource& resource = found->second;
+            resource.last_submission = submissions_;
+            if (!each.pass.empty() && (expanded(use.scope).access & kWrites))
+                resource.written = true;
+        }
+    const auto passText = [](const std::string& pass) {
+        return pass.empty() ? std::string("set-up") : "pass '" + pass + "'";
+    };
+    for (const Hazard& hazard : checker_.submit(recording))
+        report(
+            std::string(textOf(hazard.kind)) + " of '" + name(hazard.resource) +
+            "': " + passText(hazard.later) + " is not ordered after " + passText(hazard.earlier));
+    if (keeps_recordings_) recordings_.push_back(std::move(recording));
+}
+
+std::string HazardLog::name(ResourceId id) const {
+    const auto found = resources_.find(id);
+    return found == resources_.end() ? "something that is gone" : found->second.name;
+}
+
+void HazardLog::finish(std::uint64_t submission) {
+    finished_ = std::max(finished_, submission);
+    checker_.finish(submission);
+}
+
+void HazardLog::hostWrites(ResourceId id) {
+    if (resources_.at(id).last_submission > finished_)
+        report(
+            "write after read of '" + name(id) +
+            "': the host writes what a frame in flight may still read");
+}
+
+void HazardLog::complain(const std::string& pass, const std::string& what) {
+    report("pass '" + pass + "': " + what);
+}
+
+void HazardLog::report(const std::string& message) {
+    if (reported_.insert(message).second) messages_.add("hazard: " + message);
+}
+
+// ---- Barriers left out --------------------------------------------------------------------------
+
+void HazardLog::drop(std::optional<std::uint32_t> index) {
+    drop_ = index;
+    dropped_.reset();
+    barriers_ = 0;
+    reported_.clear();
+}
+
+bool HazardLog::isDropped(const std::string& pass, const std::string& place) {
+    const bool is_it = drop_ == barriers_++;
+    if (is_it) dropped_ = pass + " " + place;
+    return is_it;
+}
+
+}  // namespace engine

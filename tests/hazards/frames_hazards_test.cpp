@@ -1,0 +1,252 @@
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "benchmarks/measure/case.h"
+#include "benchmarks/scene/sweep.h"
+#include "engine/frame_loop.h"
+#include "engine/hazards.h"
+#include "tests/golden/features.h"
+#include "tests/gpu_fixture.h"
+
+// Whether the passes order what they do: no barrier is missing, each that is taken out is missed,
+// and none is there for nothing.
+namespace benchmarks::measure {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr std::uint32_t kFrames = 4;  // more than are in flight
+
+// As the settings are, but small: what is recorded doesn't depend on sizes.
+hair::Settings made(hair::Settings settings) {
+    settings.render.width = 32;
+    settings.render.height = 24;
+    settings.strands.density = 1;
+    settings.strands.tessellation = 1;
+    settings.shading.shadows.resolution = std::min(settings.shading.shadows.resolution, 64u);
+    settings.simulation.settle_steps = 0;
+    return settings;
+}
+
+// Everything that moves hair at once, and most of what draws it.
+hair::Settings everything() {
+    hair::Settings settings = made(hair::plainSettings());
+    hair::lit(settings);
+    settings.shading.shadows.resolution = 64;
+    settings.simulation.solver = hair::Solver::shape;
+    settings.simulation.substeps = 2;
+    settings.simulation.hair_hair.friction = 0.2f;
+    settings.simulation.pulls = {
+        {.guide = 3, .vertex = 2, .path = {{.time = 0.0f}, {.time = 100.0f}}}};
+    settings.strands.curl.radius = 0.004f;
+    settings.render.transparency = hair::Transparency::fragment_list;
+    settings.render.overlays.guides = true;
+    return settings;
+}
+
+class FramesHazards : public GpuTest {
+protected:
+    void SetUp() override {
+        GpuTest::SetUp();
+        if (!isOver()) log().drop(std::nullopt);
+    }
+    void TearDown() override {
+        if (GpuEnvironment::device()) log().drop(std::nullopt);
+        GpuTest::TearDown();
+    }
+
+    static engine::HazardLog& log() { return *device().hazards(); }
+
+    // What was said of hazards; the layer's own messages are left out.
+    static std::string hazards() {
+        std::string text;
+        for (const std::string& message : device().messages().take())
+            if (message.starts_with("hazard: ")) text += message + '\n';
+        return text;
+    }
+
+    // Adds the places of barriers in some frames to `places`, and those that the frames need to
+    // `needed`.
+    static void play(
+        const hair::Settings& settings, std::set<std::string>& places,
+        std::set<std::string>& needed) {
+        Case played(device(), settings, HAIRBENCH_SCENES_DIR);
+        engine::FrameLoop loop(device(), engine::Timing::overlapped);
+        log().keepRecordings();
+        log().takeRecordings();
+        for (std::uint32_t i = 0; i < kFrames; ++i)
+            loop.frame([&](engine::Passes& passes) { played.frame(passes); });
+        loop.finish();
+        const std::vector<engine::Recording> recordings = log().takeRecordings();
+        ASSERT_EQ(recordings.size(), kFrames);
+        const std::set<std::string> all = engine::barrierPlaces(recordings);
+        places.insert(all.begin(), all.end());
+        const std::vector<std::string> superfluous = engine::superfluousBarriers(recordings);
+        std::ranges::set_difference(all, superfluous, std::inserter(needed, needed.end()));
+    }
+};
+
+// A message would fail the test. Guides move, so that frames depend on one another by them.
+TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
+    std::set<std::string> places;
+    std::set<std::string> needed;
+    const auto silent = [&](const std::string& name, const hair::Settings& settings) {
+        SCOPED_TRACE(name);
+        play(settings, places, needed);
+        for (const std::string& message : device().messages().take())
+            ADD_FAILURE() << name << ": " << message;
+    };
+    for (const hair::Feature& feature : hair::features()) {
+        hair::Settings settings = hair::plainSettings();
+        feature.show(settings);
+        settings.simulation.solver = hair::Solver::ftl;
+        silent(feature.name, made(settings));
+    }
+    hair::Settings at_rest = hair::plainSettings();
+    at_rest.strands.curl.radius = 0.004f;
+    silent("at rest", made(at_rest));
+    silent("everything", everything());
+    hair::Settings rods = everything();
+    rods.simulation.solver = hair::Solver::rod;
+    silent("rods", rods);
+    for (const auto& entry : fs::directory_iterator(HAIRBENCH_SCENES_DIR)) {
+        if (entry.path().extension() != ".json" || entry.path().stem() == "scene.schema" ||
+            scene::isSuite(entry.path()))
+            continue;
+        for (const scene::Scene& each : scene::loadScenes(entry.path()))
+            silent(entry.path().filename().string() + " " + each.name, made(each.settings));
+    }
+    std::set<std::string> superfluous;
+    std::ranges::set_difference(places, needed, std::inserter(superfluous, superfluous.end()));
+    EXPECT_THAT(superfluous, testing::IsEmpty());
+}
+
+struct Missed {
+    const char* pass;
+    std::uint32_t index;  // of the barriers and changes of layout in the pass
+    const char* resource;  // that is touched out of order without it
+};
+
+// The barriers that frames need, by what the passes do: "resource" is what one wrote or read before
+// and the next one reads or writes. What is left out here is also ordered by another barrier.
+void missEach(
+    engine::Device& device, const hair::Settings& settings, const std::vector<Missed>& expected) {
+    engine::HazardLog& log = *device.hazards();
+    Case played(device, settings, HAIRBENCH_SCENES_DIR);
+    engine::FrameLoop loop(device, engine::Timing::overlapped);
+    const auto play = [&](std::uint32_t frames) {
+        for (std::uint32_t i = 0; i < frames; ++i)
+            loop.frame([&](engine::Passes& passes) { played.frame(passes); });
+    };
+    play(kFrames);
+    log.drop(std::nullopt);
+    play(1);
+    const std::uint32_t barriers = log.barriers();
+    std::map<std::string, std::uint32_t> seen;  // barriers of each pass
+    std::size_t found = 0;
+    for (std::uint32_t i = 0; i < barriers; ++i) {
+        device.messages().take();
+        log.drop(i);
+        play(kFrames);
+        const std::string dropped = log.dropped().value_or("");
+        const std::string pass = dropped.substr(0, dropped.find(' '));
+        const std::uint32_t index = seen[pass]++;
+        std::string hazards;
+        for (const std::string& message : device.messages().take())
+            if (message.starts_with("hazard: ")) hazards += message + '\n';
+        const auto row = std::ranges::find_if(
+            expected, [&](const Missed& each) { return each.pass == pass && each.index == index; });
+        const std::string what = pass + " " + std::to_string(index) + " (" + dropped + ")";
+        if (row == expected.end()) {
+            EXPECT_EQ(hazards, "") << what;
+        } else {
+            EXPECT_THAT(hazards, HasSubstr("'" + std::string(row->resource) + "'")) << what;
+            ++found;
+        }
+    }
+    EXPECT_EQ(found, expected.size());
+    log.drop(std::nullopt);
+    loop.finish();
+    device.messages().take();
+}
+
+TEST_F(FramesHazards, EachBarrierThatIsTakenOutIsMissed) {
+    const std::vector<Missed> missed{
+        {"volume", 1, "volume fastest"},  // cleared
+        {"volume", 2, "volume samples"},
+        {"volume", 3, "volume sums"},
+        {"pull", 0, "guide accelerations"},  // by hair on hair
+        {"pull", 1, "guide pull"},
+        {"simulate", 0, "guide accelerations"},  // by the hand
+        {"simulate", 2, "guide positions"},  // by the substep before
+        {"frames", 1, "guide normals"},
+        {"mesh_shadow", 0, "depth of meshes"},
+        {"mesh_shadow", 1, "depth of meshes"},
+        {"hair_shadow", 0, "depth of hair"},
+        {"hair_shadow", 1, "depth of hair"},
+        {"hair_shadow", 2, "opacity of hair"},
+        {"hair_shadow", 3, "opacity of hair"},
+        {"scene", 0, "color"},  // still resolved by the frame before
+        {"scene", 1, "depth"},
+        {"strands", 1, "fragment heads"},  // cleared
+        {"strands", 2, "depth"},
+        {"composite", 0, "fragment heads"},
+        {"composite", 1, "depth"},
+        {"overlay", 0, "color"},
+        {"resolve", 0, "color"},
+        {"resolve", 1, "output"},
+        {"resolve", 2, "radiance"},
+        {"resolve", 3, "output"},
+        {"resolve", 4, "radiance"}};
+    ASSERT_GE(missed.size(), 20u);
+    missEach(device(), everything(), missed);
+}
+
+// Hair that is drawn as it is simulated, blended by weights, and copied to the output.
+TEST_F(FramesHazards, EachBarrierOfWeightedBlendingIsMissed) {
+    hair::Settings settings = made(hair::plainSettings());
+    settings.simulation.solver = hair::Solver::ftl;
+    settings.render.transparency = hair::Transparency::weighted_blended;
+    missEach(
+        device(), settings,
+        {{"simulate", 0, "guide accelerations"},
+         {"simulate", 1, "guide positions"},
+         {"simulate", 2, "guide positions"},  // drawn
+         {"simulate", 3, "guide positions"},  // blown at and moved by the next frame
+         {"scene", 0, "color"},
+         {"scene", 1, "depth"},
+         {"strands", 0, "weighted sum"},
+         {"strands", 1, "revealed part"},
+         {"strands", 2, "depth"},
+         {"composite", 0, "weighted sum"},
+         {"composite", 1, "revealed part"},
+         {"composite", 2, "depth"},
+         {"resolve", 0, "color"},
+         {"resolve", 1, "output"},
+         {"resolve", 2, "output"}});
+}
+
+// Nothing but the frames of guides at rest.
+TEST_F(FramesHazards, FramesOfGuidesWaitForThoseWhoDraw) {
+    hair::Settings settings = made(hair::plainSettings());
+    settings.strands.curl.radius = 0.004f;
+    missEach(
+        device(), settings,
+        {{"frames", 0, "guide normals"},
+         {"frames", 1, "guide normals"},
+         {"scene", 0, "color"},
+         {"scene", 1, "depth"},
+         {"strands", 0, "color"},
+         {"resolve", 0, "color"},
+         {"resolve", 1, "output"},
+         {"resolve", 2, "output"}});
+}
+
+}  // namespace
+}  // namespace benchmarks::measure
