@@ -8,6 +8,7 @@
 
 #include "benchmarks/report/compare.h"
 #include "benchmarks/report/statistics.h"
+#include "benchmarks/report/text.h"
 
 namespace benchmarks::gate {
 namespace {
@@ -189,7 +190,11 @@ report::ShowCases showCases(const GateRun& run) {
 
 std::string tooShortText(const GateRun& run) {
     if (run.too_short.empty()) return {};
-    std::string text = "shorter than 0.05 ms, not judged:";
+    const bool software = run.first_a->software_device && run.first_b->software_device;
+    std::string text =
+        "shorter than " +
+        report::plainNumber(software ? report::kShortestTime : report::kShortestStamped) +
+        " ms, not judged:";
     std::set<std::string> names;
     for (const GateTime& each : run.too_short) names.insert(each.metric.name());
     for (const std::string& name : names) text += ' ' + name;

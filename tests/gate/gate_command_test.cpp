@@ -73,6 +73,52 @@ TEST(GateCommand, HandsOptionsToTheRuns) {
     EXPECT_THAT(calls.at(1), HasSubstr(both + "--set /seed=5 --filter x"));
 }
 
+// What is seen of a GPU whose strands take 8 ms and 50 % more in B. Of wind and resolve nothing can
+// be said: a hundredth of the frame, and a pass that is off by 10 % from process to process.
+FakeBuilds slowStrands() {
+    return FakeBuilds([noise = Noise(5)](char side, int) mutable {
+        const auto off = [&](double share) { return 1.0 + share * noise.normal(); };
+        const double strands = 8.0 * (side == 'B' ? 1.5 : 1.0) * off(0.004);
+        scene::Json made = report::madeReport();
+        made["cases"].push_back(report::madeCase(
+            "made", {{"frame.time", {strands + 1.0}, "ms", "lower", "overlapped"},
+                     {"pass.strands.time", {strands}},
+                     {"pass.resolve.time", {0.9 * off(0.1)}},
+                     {"pass.wind.time", {0.09 * off(0.1)}}}));
+        return made;
+    });
+}
+
+TEST(GateCommand, EndsWhenItsAnswerIsKnown) {
+    const FakeBuilds builds = slowStrands();
+    const Outcome gate = builds.gate();
+    EXPECT_EQ(gate.status, 10) << gate.output;
+    EXPECT_EQ(builds.report()["pairs"], 12);
+    EXPECT_EQ(builds.report()["decided_at"], 12);
+    EXPECT_THAT(gate.output, HasSubstr("decides nothing"));
+    EXPECT_THAT(gate.output, HasSubstr("2 regressed, 0 improved, 0 same, 1 inconclusive"));
+    for (const scene::Json& time : builds.report()["times"])
+        EXPECT_EQ(time.value("decides", true), time["metric"] != "pass.wind.time");
+    const FakeBuilds all = slowStrands();
+    EXPECT_EQ(all.gate("--all").status, 10);
+    EXPECT_GT(all.report()["pairs"], 12);
+    // Of passes that are a hundredth each nothing would be left to wait for.
+    const FakeBuilds large_only = slowStrands();
+    EXPECT_EQ(large_only.gate("--all --smallest-share 0.5").status, 10);
+    EXPECT_EQ(large_only.report()["pairs"], 12);
+}
+
+// No time at all: nothing is known, and said so.
+TEST(GateCommand, SaysWhatItKnowsWhenTimeIsOver) {
+    FakeBuilds builds(FakeMachine(0.05));
+    const Outcome none = builds.gate("--max-minutes 0.000001 --fail-on inconclusive");
+    EXPECT_EQ(none.status, 11) << none.output;
+    EXPECT_THAT(none.output, HasSubstr("out of time after 0 pairs"));
+    EXPECT_EQ(builds.report()["end"], "out_of_time");
+    EXPECT_EQ(builds.report()["verdict"], "inconclusive");
+    EXPECT_FALSE(builds.report().contains("decided_at"));
+}
+
 TEST(GateCommand, GoesOnWhileItCannotTell) {
     // Of a slowdown at the threshold nothing can be said.
     const FakeBuilds builds(FakeMachine(0.02, 0.02));
@@ -122,7 +168,7 @@ TEST(GateCommand, JudgesCpuTimeOnSoftwareDevices) {
                          {"fps", {100.0}, "1/s", "higher"},
                          {"memory.device", {1000.0}, "B"},
                          {"pass.strands.time", {8.0}},
-                         {"pass.wind.time", {0.04}},
+                         {"pass.wind.time", {0.0015}},
                          {"frame.cpu.time", {15.0}},
                          {"pass.strands.cpu.time", {12.0}},
                          {"pass.strands.instructions", {1e6}, "1"}}));
@@ -144,7 +190,7 @@ TEST(GateCommand, JudgesCpuTimeOnSoftwareDevices) {
     const FakeBuilds hardware(report("discrete"));
     const Outcome gate = hardware.gate();
     EXPECT_THAT(judged(hardware), testing::ElementsAre("frame.time", "pass.strands.time"));
-    EXPECT_THAT(gate.output, HasSubstr("shorter than 0.05 ms, not judged: pass.wind.time"));
+    EXPECT_THAT(gate.output, HasSubstr("shorter than 0.002 ms, not judged: pass.wind.time"));
     const FakeBuilds chosen(report("cpu"));
     chosen.gate("--metrics '^fps|strands.time|memory'");
     EXPECT_THAT(judged(chosen), testing::ElementsAre("fps", "memory.device", "pass.strands.time"));

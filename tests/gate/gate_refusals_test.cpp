@@ -141,5 +141,42 @@ TEST(GateRefusals, SaveWhatIsDoneWhenInterrupted) {
     EXPECT_EQ(report["blocks"].size(), 2u + 4u + 1u);  // warm-up, two pairs, A of the third
 }
 
+// The 13th pair of a gate that goes on for the sake of another pass: B's block waits for the
+// signal.
+TEST(GateRefusals, GiveTheLastVerdictsWhenInterruptedLater) {
+    FakeBuilds builds([noise = Noise(6)](char side, int) mutable {
+        scene::Json made = report::madeReport();
+        const double strands = side == 'B' ? 12.0 : 8.0;
+        made["cases"].push_back(report::madeCase(
+            "made", {{"frame.time", {strands * (1.0 + 0.001 * noise.normal())}},
+                     {"pass.resolve.time", {4.0 * (1.0 + 0.2 * noise.normal())}}}));
+        return made;
+    });
+    const std::string waiting = builds.folder().file("waiting").string();
+    builds.writeProgram(
+        'B', "test $n -lt 26 || { trap 'exit 130' INT; echo $$ > " + waiting +
+                 "; while :; do sleep 0.05; done; }");
+    Outcome gate{};
+    std::atomic<bool> over = false;
+    const std::string id_file = builds.folder().file("id").string();
+    std::thread user([&] {
+        gate = runInShell(
+            "echo $$ > " + id_file + "; exec '" HAIRBENCH_PROGRAM "' " + builds.arguments() +
+            " --all 2>&1");
+        over = true;
+    });
+    while (textOf(waiting).empty() && !over)
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    if (!over) kill(std::stoi(textOf(id_file)), SIGINT);
+    user.join();
+    EXPECT_EQ(gate.status, 10) << gate.output;
+    EXPECT_THAT(gate.output, HasSubstr("the verdicts are those passed at 12 pairs"));
+    const scene::Json report = builds.report();
+    EXPECT_EQ(report["end"], "interrupted");
+    EXPECT_EQ(report["decided_at"], 12);
+    EXPECT_EQ(report["verdict"], "regressed");
+    EXPECT_EQ(report["exit_status"], 10);
+}
+
 }  // namespace
 }  // namespace benchmarks::gate
