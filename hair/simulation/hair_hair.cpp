@@ -15,6 +15,8 @@
 namespace hair::simulation {
 namespace {
 
+using engine::Access;
+
 static_assert(sizeof(gpu::VolumeSample) == 32);
 static_assert(sizeof(gpu::VolumeParameters) == 72 && offsetof(gpu::VolumeParameters, origin) == 32);
 static_assert(sizeof(gpu::VolumePush) == 56);

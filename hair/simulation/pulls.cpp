@@ -14,6 +14,8 @@
 namespace hair::simulation {
 namespace {
 
+using engine::Access;
+
 glm::dvec3 positionAt(const std::vector<PullKey>& path, double time) {
     const auto after = std::ranges::upper_bound(
         path, time, {}, [](const PullKey& key) { return double{key.time}; });

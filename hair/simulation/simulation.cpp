@@ -14,6 +14,9 @@
 namespace hair::simulation {
 namespace {
 
+using engine::Access;
+using engine::Commands;
+
 constexpr std::int64_t kPartsPerStep = 720720;  // the least common multiple of 1 .. 16
 
 static_assert(sizeof(gpu::Bodies) == 32);
