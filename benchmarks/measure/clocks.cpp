@@ -82,6 +82,27 @@ std::optional<double> readNumber(const std::filesystem::path& path) {
     return number;
 }
 
+// Why the clock is held back, by the metrics table that firmware writes (Linux, amdgpu's
+// gpu_metrics; struct gpu_metrics_v1_3 of kgd_pp_interface.h, discrete boards): 64 bits from byte
+// 112 on, of which 0 to 15 are power limits, 16 to 31 current limits and 32 to 55 temperatures.
+// Nothing of a table of another version.
+std::vector<std::string> readThrottling(const std::filesystem::path& path) {
+    constexpr std::size_t kSize = 120, kStatus = 112;
+    std::ifstream file(path, std::ios::binary);
+    char table[kSize];
+    if (!file.read(table, sizeof table)) return {};
+    std::uint16_t size = 0;
+    std::memcpy(&size, table, sizeof size);
+    if (size != kSize || table[2] != 1 || table[3] != 3) return {};
+    std::uint64_t status = 0;
+    std::memcpy(&status, table + kStatus, sizeof status);
+    std::vector<std::string> reasons;
+    if (status & 0xffffull) reasons.emplace_back(kPowerCap);
+    if (status & 0xffff0000ull) reasons.emplace_back("current limit");
+    if (status & 0xffffff00000000ull) reasons.emplace_back("thermal limit");
+    return reasons;
+}
+
 class Amdgpu : public ClockSource {
 public:
     explicit Amdgpu(std::filesystem::path device) : device_(std::move(device)) {
@@ -101,6 +122,12 @@ public:
             reading.clock_mhz = *hertz / 1e6;
         if (const auto millidegrees = readNumber(monitor_ / "temp1_input"))
             reading.temperature = *millidegrees / 1e3;
+        auto microwatts = readNumber(monitor_ / "power1_average");
+        if (!microwatts) microwatts = readNumber(monitor_ / "power1_input");
+        if (microwatts) reading.power_w = *microwatts / 1e6;
+        if (const auto percent = readNumber(device_ / "gpu_busy_percent"))
+            reading.load = *percent / 100.0;
+        reading.throttle_reasons = readThrottling(device_ / "gpu_metrics");
         std::string level;
         std::ifstream(device_ / "power_dpm_force_performance_level") >> level;
         if (!level.empty() && level != "auto") {
@@ -141,6 +168,12 @@ using HandleByAddress = int (*)(const char* address, Device* device);
 using Clock = int (*)(Device device, int clock, unsigned int* megahertz);
 using Temperature = int (*)(Device device, int sensor, unsigned int* degrees);
 using Reasons = int (*)(Device device, unsigned long long* bits);
+using Power = int (*)(Device device, unsigned int* milliwatts);
+struct Utilization {
+    unsigned int shaders;  // percent of the last period, which is between 1/6 and 1 s
+    unsigned int memory;
+};
+using Load = int (*)(Device device, Utilization* utilization);
 
 struct Reason {
     unsigned long long bit;
@@ -197,6 +230,8 @@ public:
         applications_clock_ = library_.find<Clock>("nvmlDeviceGetApplicationsClock");
         greatest_clock_ = library_.find<Clock>("nvmlDeviceGetMaxClockInfo");
         temperature_ = library_.find<Temperature>("nvmlDeviceGetTemperature");
+        power_ = library_.find<Power>("nvmlDeviceGetPowerUsage");
+        load_ = library_.find<Load>("nvmlDeviceGetUtilizationRates");
         reasons_ = library_.find<Reasons>(
             "nvmlDeviceGetCurrentClocksEventReasons", "nvmlDeviceGetCurrentClocksThrottleReasons");
     }
@@ -220,6 +255,10 @@ public:
         reading.clock_mhz = value(clock_, kShaderClock);
         reading.memory_clock_mhz = value(clock_, kMemoryClock);
         reading.temperature = value(temperature_, kChipTemperature);
+        if (unsigned int milliwatts = 0; power_ && power_(device_, &milliwatts) == kSuccess)
+            reading.power_w = milliwatts * 1e-3;
+        if (Utilization use{}; load_ && load_(device_, &use) == kSuccess)
+            reading.load = use.shaders * 1e-2;
         if (!reading.held) {
             reading.base_clock_mhz = value(applications_clock_, kShaderClock);
             if (!reading.base_clock_mhz)
@@ -248,6 +287,8 @@ private:
     Clock greatest_clock_ = nullptr;
     Temperature temperature_ = nullptr;
     Reasons reasons_ = nullptr;
+    Power power_ = nullptr;
+    Load load_ = nullptr;
 };
 
 }  // namespace

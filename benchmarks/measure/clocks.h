@@ -20,6 +20,7 @@ struct ClockReading {
     std::optional<double> base_clock_mhz;
     std::optional<double> memory_clock_mhz;
     std::optional<double> temperature;  // degrees Celsius
+    std::optional<double> power_w;  // that the board draws
     std::optional<double> load;  // share of the time in which the device had work, 0 to 1
     std::optional<double> age;  // s since it was so; absent: now
     bool idle = false;  // nothing ran just then: its clocks say nothing of a measurement

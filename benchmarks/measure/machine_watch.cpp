@@ -109,6 +109,7 @@ void addClocks(const std::vector<ClockReading>& readings, report::Conditions& co
     conditions.base_clock_mhz = medianOf(busy, &ClockReading::base_clock_mhz);
     conditions.memory_clock_mhz = medianOf(busy, &ClockReading::memory_clock_mhz);
     conditions.temperature = medianOf(busy, &ClockReading::temperature);
+    conditions.power_w = medianOf(busy, &ClockReading::power_w);
     conditions.load = medianOf(busy, &ClockReading::load);
     conditions.throttle_reasons = everyReason(busy);
 }
@@ -190,6 +191,7 @@ report::Conditions medianConditions(const std::vector<report::Conditions>& round
         .base_clock_mhz = medianOf(rounds, &report::Conditions::base_clock_mhz),
         .memory_clock_mhz = medianOf(rounds, &report::Conditions::memory_clock_mhz),
         .temperature = medianOf(rounds, &report::Conditions::temperature),
+        .power_w = medianOf(rounds, &report::Conditions::power_w),
         .load = medianOf(rounds, &report::Conditions::load),
         .steal = medianOf(rounds, &report::Conditions::steal),
         .other_load = medianOf(rounds, &report::Conditions::other_load),
@@ -207,9 +209,13 @@ struct MachineWatch::Sources {
     std::optional<ClockSampler> clocks;
     std::optional<ProcessorTicks> ticks;  // at begin()
     double own = 0.0;  // ms of this process, at begin()
+    bool is_processor = false;
+    std::vector<EnergyCounter> energy;  // at begin(); of processors that are the device
+    std::chrono::steady_clock::time_point energy_time;
 };
 
 MachineWatch::MachineWatch(const engine::Device& device) : sources_(std::make_unique<Sources>()) {
+    sources_->is_processor = device.info().type == "cpu";
     if (auto source = openClockSource(device.info())) sources_->clocks.emplace(std::move(source));
 }
 
@@ -218,12 +224,56 @@ MachineWatch::~MachineWatch() = default;
 void MachineWatch::begin() {
     sources_->ticks = readProcessorTicks();
     sources_->own = engine::processUse().cpu;
+    if (sources_->is_processor) {
+        sources_->energy = readEnergyCounters();
+        sources_->energy_time = std::chrono::steady_clock::now();
+    }
     if (sources_->clocks) sources_->clocks->begin();
+}
+
+std::vector<EnergyCounter> readEnergyCounters(const std::filesystem::path& folder) {
+    const auto read = [](const std::filesystem::path& path) {
+        std::ifstream file(path);
+        std::uint64_t number = 0;
+        return file >> number ? std::optional(number) : std::nullopt;
+    };
+    std::vector<EnergyCounter> counters;
+    // Packages alone: a second number, as in intel-rapl:0:1, is a part of one.
+    for (int package = 0;; ++package) {
+        const std::filesystem::path place = folder / ("intel-rapl:" + std::to_string(package));
+        const auto now = read(place / "energy_uj");
+        const auto range = read(place / "max_energy_range_uj");
+        if (!now || !range) return counters;
+        counters.push_back({*now, *range});
+    }
+}
+
+std::optional<double>
+joulesBetween(const std::vector<EnergyCounter>& before, const std::vector<EnergyCounter>& after) {
+    if (after.empty() || before.size() != after.size()) return std::nullopt;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        const std::uint64_t used =
+            after[i].microjoules >= before[i].microjoules
+                ? after[i].microjoules - before[i].microjoules
+                : after[i].microjoules + after[i].range + 1 - before[i].microjoules;
+        sum += static_cast<double>(used) * 1e-6;
+    }
+    return sum;
 }
 
 report::Conditions MachineWatch::take() {
     report::Conditions conditions;
     if (sources_->clocks) addClocks(sources_->clocks->take(), conditions);
+    if (sources_->is_processor) {
+        const auto time = std::chrono::steady_clock::now();
+        std::vector<EnergyCounter> energy = readEnergyCounters();
+        const std::chrono::duration<double> passed = time - sources_->energy_time;
+        const auto joules = joulesBetween(sources_->energy, energy);
+        if (joules && passed.count() > 0.0) conditions.power_w = *joules / passed.count();
+        sources_->energy = std::move(energy);
+        sources_->energy_time = time;
+    }
     const std::optional<ProcessorTicks> now = readProcessorTicks();
     const double used = engine::processUse().cpu;
     if (now && sources_->ticks) {

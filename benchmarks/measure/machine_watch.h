@@ -115,6 +115,21 @@ struct ProcessorTicks {
 // Absent where there is no such file or it is not understood.
 std::optional<ProcessorTicks> readProcessorTicks(const std::filesystem::path& path = "/proc/stat");
 
+// What a package of processors has used since some moment (Linux, powercap's intel-rapl; often for
+// the administrator alone to read).
+struct EnergyCounter {
+    std::uint64_t microjoules = 0;
+    std::uint64_t range = 0;  // at which it begins anew
+};
+
+// Of every package; none where they can't be read.
+std::vector<EnergyCounter>
+readEnergyCounters(const std::filesystem::path& folder = "/sys/class/powercap");
+
+// J; absent where one of them is unknown. Counters may have begun anew once.
+std::optional<double>
+joulesBetween(const std::vector<EnergyCounter>& before, const std::vector<EnergyCounter>& after);
+
 // Shares of all processors' time.
 struct ProcessorLoad {
     double steal = 0.0;

@@ -100,6 +100,12 @@ std::vector<std::uint8_t> measureFrames(
          {overlapped.first_frame},
          report::Mode::overlapped});
     addPassSum(isolated.frames, measureEmptySubmission(stage), stage.isProcessor(), result);
+    // Of whatever else the device does meanwhile too, which is nothing on a machine of one's own.
+    if (const auto watts = medianConditions(overlapped.conditions).power_w)
+        result.metrics.push_back(
+            {report::ofFrame(report::Measured::energy),
+             {*watts * 1e-3 * medianOf(overlapped.frames, [](auto& f) { return f.interval; })},
+             report::Mode::overlapped});
     // What a processor's passes cost is its CPU time; its clock is not the device's to tell.
     if (!stage.isProcessor())
         addCycles(

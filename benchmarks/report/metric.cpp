@@ -33,6 +33,7 @@ constexpr MetricKind kKinds[] = {
     {Of::frame, What::cpu_time, "frame.cpu.time", "ms", lower},
     {Of::frame, What::instructions, "frame.instructions", "1", lower},
     {Of::frame, What::cycles, "frame.cycles", "1", lower},
+    {Of::frame, What::energy, "frame.energy", "J", lower},
     {Of::cpu, What::record_time, "cpu.record.time", "ms", lower},
     {Of::cpu, What::submit_time, "cpu.submit.time", "ms", lower},
     // One waits longer where others are faster.

@@ -41,6 +41,7 @@ enum class Measured {
     cpu_time,
     instructions,
     cycles,
+    energy,
     record_time,
     submit_time,
     wait_time,

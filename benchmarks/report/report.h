@@ -97,6 +97,7 @@ struct Conditions {
     std::optional<double> base_clock_mhz;
     std::optional<double> memory_clock_mhz;
     std::optional<double> temperature;  // degrees Celsius
+    std::optional<double> power_w;  // that the device draws
     std::optional<double> load;  // share of the time in which the device had work, as it says
     std::optional<double>
         steal;  // share of all processors' time that the hypervisor gave to others

@@ -49,6 +49,43 @@ TEST_F(AmdgpuTest, PrefersTheMeasuredClock) {
     EXPECT_EQ(reading.temperature, 53.5);
 }
 
+TEST_F(AmdgpuTest, ReadsPowerAndLoad) {
+    write("pp_dpm_sclk", "0: 500Mhz\n1: 2100Mhz *\n");
+    EXPECT_EQ(open()->read().power_w, std::nullopt);
+    write("hwmon/hwmon4/power1_input", "180000000\n");
+    EXPECT_EQ(open()->read().power_w, 180.0);
+    write("hwmon/hwmon4/power1_average", "212500000\n");
+    write("gpu_busy_percent", "97\n");
+    const ClockReading reading = open()->read();
+    EXPECT_EQ(reading.power_w, 212.5);
+    EXPECT_EQ(reading.load, 0.97);
+}
+
+// The table as the kernel's headers lay it out: 120 bytes, version 1.3, the status from byte 112.
+TEST_F(AmdgpuTest, NamesWhatHoldsTheClockBack) {
+    write("pp_dpm_sclk", "0: 500Mhz\n1: 2100Mhz *\n");
+    const auto reasons = [&](int bit, char minor = 3) {
+        std::string table(120, '\0');
+        table[0] = 120;
+        table[2] = 1;
+        table[3] = minor;
+        if (bit >= 0)
+            table[static_cast<std::size_t>(112 + bit / 8)] = static_cast<char>(1 << bit % 8);
+        write("gpu_metrics", table);
+        return open()->read().throttle_reasons;
+    };
+    using Reasons = std::vector<std::string>;
+    EXPECT_EQ(reasons(-1), Reasons());
+    EXPECT_EQ(reasons(0), Reasons{kPowerCap});
+    EXPECT_EQ(reasons(15), Reasons{kPowerCap});
+    EXPECT_EQ(reasons(16), Reasons{"current limit"});
+    EXPECT_EQ(reasons(31), Reasons{"current limit"});
+    EXPECT_EQ(reasons(32), Reasons{"thermal limit"});
+    EXPECT_EQ(reasons(55), Reasons{"thermal limit"});
+    EXPECT_EQ(reasons(56), Reasons());
+    EXPECT_EQ(reasons(32, 4), Reasons());  // laid out otherwise
+}
+
 TEST_F(AmdgpuTest, ReadsAgainEveryTime) {
     write("pp_dpm_sclk", "0: 500Mhz *\n1: 2100Mhz\n");
     const auto source = open();

@@ -55,6 +55,22 @@ int nvmlDeviceGetTemperature(void* handle, int sensor, unsigned int* degrees) {
     return answer(handle, sensor == 0, 0, fakeNvml.temperature, degrees);
 }
 
+struct Utilization {
+    unsigned int shaders;
+    unsigned int memory;
+};
+int nvmlDeviceGetPowerUsage(void* handle, unsigned int* milliwatts);
+int nvmlDeviceGetUtilizationRates(void* handle, struct Utilization* utilization);
+
+int nvmlDeviceGetPowerUsage(void* handle, unsigned int* milliwatts) {
+    return answer(handle, 1, fakeNvml.clock_result, fakeNvml.milliwatts, milliwatts);
+}
+
+int nvmlDeviceGetUtilizationRates(void* handle, struct Utilization* utilization) {
+    if (utilization) utilization->memory = 7;
+    return answer(handle, 1, fakeNvml.clock_result, fakeNvml.load, &utilization->shaders);
+}
+
 #ifdef FAKE_NVML_OLD
 #define GET_REASONS nvmlDeviceGetCurrentClocksThrottleReasons
 #else

@@ -13,6 +13,8 @@ struct FakeNvml {
     unsigned int applications_clock;
     unsigned int greatest_clock;
     unsigned int temperature;
+    unsigned int milliwatts;
+    unsigned int load; /* percent */
     unsigned long long reasons;
     char address[64]; /* that was asked for */
     int users;        /* initialised less shut down */

@@ -6,6 +6,7 @@
 
 #include "benchmarks/measure/clocks.h"
 #include "tests/gpu_fixture.h"
+#include "tests/temporary_folder.h"
 
 namespace benchmarks::measure {
 namespace {
@@ -58,6 +59,27 @@ TEST(PciAddress, IsWrittenAsTheSystemDoes) {
         addressText({.domain = 0, .bus = 0xc1, .device = 0x1f, .function = 7}), "0000:c1:1f.7");
     EXPECT_EQ(
         addressText({.domain = 0x10000, .bus = 2, .device = 0, .function = 0}), "10000:02:00.0");
+}
+
+// Two packages of which one has begun anew: 3 J and 1.000001 J, by hand.
+TEST(EnergyCounters, AddPackagesUp) {
+    const TemporaryFolder folder;
+    const auto write = [&](const char* package, const char* microjoules) {
+        folder.write(std::string(package) + "/energy_uj", microjoules);
+        folder.write(std::string(package) + "/max_energy_range_uj", "262143328850\n");
+    };
+    EXPECT_TRUE(readEnergyCounters(folder.path()).empty());
+    write("intel-rapl:0", "5000000\n");
+    write("intel-rapl:0:0", "77\n");
+    write("intel-rapl:1", "262143328850\n");
+    const std::vector<EnergyCounter> before = readEnergyCounters(folder.path());
+    ASSERT_EQ(before.size(), 2u);
+    write("intel-rapl:0", "8000000\n");
+    write("intel-rapl:1", "1000000\n");
+    const std::vector<EnergyCounter> after = readEnergyCounters(folder.path());
+    EXPECT_DOUBLE_EQ(joulesBetween(before, after).value(), 4.000001);
+    EXPECT_EQ(joulesBetween(before, {}), std::nullopt);
+    EXPECT_EQ(joulesBetween({}, {}), std::nullopt);
 }
 
 using MachineWatchTest = GpuTest;

@@ -91,6 +91,17 @@ TEST(Nvml, ReadsClocksAndTemperature) {
     EXPECT_THAT(reading.throttle_reasons, IsEmpty());
 }
 
+TEST(Nvml, ReadsPowerAndLoad) {
+    const Fake fake(FAKE_NVML);
+    fake->milliwatts = 431500;
+    fake->load = 93;
+    EXPECT_DOUBLE_EQ(fake.read().power_w.value(), 431.5);
+    EXPECT_DOUBLE_EQ(fake.read().load.value(), 0.93);
+    fake->clock_result = kNotSupported;
+    EXPECT_EQ(fake.read().power_w, std::nullopt);
+    EXPECT_EQ(fake.read().load, std::nullopt);
+}
+
 TEST(Nvml, TakesTheGreatestClockAsBaseOfABoardWithoutApplicationsClock) {
     const Fake fake(FAKE_NVML);
     fake->applications_clock_result = kNotSupported;
