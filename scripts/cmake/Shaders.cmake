@@ -40,6 +40,8 @@ function(hairbench_shaders target)
     set_source_files_properties("${output_dir}/shader_code.cpp"
         PROPERTIES OBJECT_DEPENDS "${embedded}")
     add_library(${target} STATIC "${output_dir}/shader_code.cpp")
+    # What its source depends on would not hold of a file that includes it.
+    set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
     target_compile_features(${target} PUBLIC cxx_std_20)
     target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}")
 endfunction()
