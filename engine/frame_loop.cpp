@@ -1,6 +1,7 @@
 #include "engine/frame_loop.h"
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -75,8 +76,9 @@ template <class Slot>
 class OneBufferPasses : public Passes {
 public:
     OneBufferPasses(
-        const Device& device, Timing timing, Slot& slot, std::uint32_t index, Commands& commands)
-        : device_(device), timing_(timing), slot_data_(slot), commands_(commands) {
+        const Device& device, Timing timing, Stamps stamps, Slot& slot, std::uint32_t index,
+        Commands& commands)
+        : device_(device), timing_(timing), stamps_(stamps), slot_data_(slot), commands_(commands) {
         slot_ = index;
         if (timing_ == Timing::overlapped && slot_data_.timestamps)
             slot_data_.timestamps->write(commands_);
@@ -88,7 +90,7 @@ public:
         switch (timing_) {
         case Timing::overlapped: {
             record(commands_);
-            if (!slot_data_.timestamps) break;
+            if (!slot_data_.timestamps || stamps_ == Stamps::frame) break;
             const std::uint32_t stamp = slot_data_.timestamps->write(commands_);
             slot_data_.spans.push_back({name, stamp - 1, stamp});
             break;
@@ -118,9 +120,15 @@ public:
         commands_.endLabel();
     }
 
+    void end() {
+        if (timing_ == Timing::overlapped && stamps_ == Stamps::frame && slot_data_.timestamps)
+            slot_data_.timestamps->write(commands_);
+    }
+
 private:
     const Device& device_;
     Timing timing_;
+    Stamps stamps_;
     Slot& slot_data_;
     Commands& commands_;
 };
@@ -211,9 +219,11 @@ struct FrameLoop::Slot {
     std::optional<std::size_t> record;  // index of the frame whose results are still to be read
 };
 
-FrameLoop::FrameLoop(const Device& device, Timing timing)
-    : device_(device), timing_(timing), timeline_(makeTimeline(device.get())) {
-    const std::uint32_t count = timing == Timing::overlapped ? kMaxSlots : 1;
+FrameLoop::FrameLoop(const Device& device, Timing timing, const Overlap& overlap)
+    : device_(device), timing_(timing), stamps_(overlap.stamps),
+      timeline_(makeTimeline(device.get())) {
+    assert(overlap.frames > 0 && overlap.frames <= kMaxSlots);
+    const std::uint32_t count = timing == Timing::overlapped ? overlap.frames : 1;
     for (std::uint32_t i = 0; i < count; ++i) {
         slots_.push_back(std::make_unique<Slot>(device, timing));
     }
@@ -249,8 +259,9 @@ void FrameLoop::frame(const std::function<void(Passes&)>& record) {
     Commands commands(slot.buffer, device_.hazards());
     commands.begin();
     {
-        OneBufferPasses<Slot> passes(device_, timing_, slot, index, commands);
+        OneBufferPasses<Slot> passes(device_, timing_, stamps_, slot, index, commands);
         record(passes);
+        passes.end();
     }
     commands.end();
     if (device_.hazards()) slot.submission = device_.hazards()->submissions();
@@ -310,6 +321,20 @@ void FrameLoop::collect(Slot& slot) {
     for (Slot::Query& query : slot.queries) {
         record.statistics.push_back({query.name, query.statistics.read()});
     }
+}
+
+std::optional<double> emptyPassTime(const Device& device) {
+    constexpr std::size_t kFrames = 33;
+    if (device.info().timestamp_valid_bits == 0) return std::nullopt;
+    FrameLoop loop(device, Timing::isolated);
+    for (std::size_t i = 0; i < kFrames; ++i)
+        loop.frame(
+            [](Passes& passes) { passes.pass("empty", PassKind::compute, [](Commands&) {}); });
+    std::vector<double> times;
+    for (const FrameRecord& frame : loop.finish())
+        times.push_back(frame.passes.front().milliseconds);
+    std::ranges::nth_element(times, times.begin() + kFrames / 2);
+    return times[kFrames / 2];
 }
 
 }  // namespace engine

@@ -16,10 +16,23 @@ namespace engine {
 
 // How the passes of a frame are timed. Figures of different modes are never compared.
 enum class Timing {
-    overlapped,  // a stamp at each pass boundary, two frames in flight: the frame as it is used
+    overlapped,  // as the Overlap says, several frames in flight: the frame as it is used
     isolated,    // stamp, full barrier, pass, full barrier, stamp; one frame at a time
     wall_clock,  // every pass submitted and waited for by itself, timed by the CPU
     statistics,  // untimed, with pipeline statistics of the graphics passes
+};
+
+// Where overlapped frames are stamped. A stamp after a pass is one more thing that the device does,
+// and its driver may end there what would go on beside the next pass.
+enum class Stamps {
+    frame,  // at both ends of a frame: what its passes took is not known
+    passes,  // after each pass too
+};
+
+// How overlapped frames are played.
+struct Overlap {
+    std::uint32_t frames = 2;  // in flight at most; from 1 to FrameLoop::kMaxSlots
+    Stamps stamps = Stamps::frame;
 };
 
 enum class PassKind { compute, graphics };
@@ -46,7 +59,8 @@ struct FrameRecord {
     // GPU: first to last stamp (overlapped, isolated). Absent, and `passes` empty but in
     // wall_clock, where the device's queue has no timestamps.
     std::optional<double> device;
-    std::vector<PassTime> passes;  // passes of one name are summed
+    // Passes of one name are summed. Empty in overlapped frames that are stamped at both ends only.
+    std::vector<PassTime> passes;
     std::vector<PassStatistics> statistics;
 };
 
@@ -70,9 +84,9 @@ protected:
 // Records, submits and times frames. Every frame is one command buffer, but in the wall_clock mode.
 class FrameLoop {
 public:
-    static constexpr std::uint32_t kMaxSlots = 2;
+    static constexpr std::uint32_t kMaxSlots = 4;
 
-    FrameLoop(const Device& device, Timing timing);
+    FrameLoop(const Device& device, Timing timing, const Overlap& overlap = {});
     ~FrameLoop();
     FrameLoop(const FrameLoop&) = delete;
     FrameLoop& operator=(const FrameLoop&) = delete;
@@ -94,6 +108,7 @@ private:
 
     const Device& device_;
     Timing timing_;
+    Stamps stamps_;
     Handle<VkSemaphore, &vkDestroySemaphore> timeline_;
     std::uint64_t submitted_ = 0;
     std::vector<std::unique_ptr<Slot>> slots_;
@@ -101,5 +116,10 @@ private:
     std::vector<FrameRecord> records_;  // of frames that were not returned yet
     std::chrono::steady_clock::time_point start_{};  // of the newest frame
 };
+
+// ms on the device that a pass of isolated frames takes which records nothing: two barriers and two
+// stamps, the median of some frames. What a pass takes is not known better than this. Absent where
+// the device has no timestamps. Waits for the device.
+std::optional<double> emptyPassTime(const Device& device);
 
 }  // namespace engine

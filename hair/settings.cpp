@@ -150,6 +150,13 @@ const Table& tableOf(const RunSettings*) {
          number(
              "frame_time", &S::frame_time, 0, 1, "s",
              "simulated time that a frame advances; 0 draws the same instant again"),
+         number(
+             "frames_in_flight", &S::frames_in_flight, 1, 4, "count",
+             "overlapped frames that the device is given before the first of them is waited for"),
+         toggle(
+             "overlapped_stamps", &S::overlapped_stamps,
+             "stamp overlapped frames after each pass too, not at both ends alone: passes may then "
+             "overlap less"),
          text(
              "busy_pass", &S::busy_pass,
              "pass to slow down, to see whether a comparison finds it; empty: none"),

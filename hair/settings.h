@@ -103,6 +103,8 @@ struct RunSettings {
     float warmup_time = 0.1f;
     float round_time = 0.25f;
     float frame_time = 1.0f / 60.0f;
+    std::uint32_t frames_in_flight = 2;
+    bool overlapped_stamps = false;
     std::string busy_pass;
     std::uint32_t busy_work = 0;
     std::string reference;

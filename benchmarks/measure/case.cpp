@@ -88,7 +88,8 @@ void Case::simulate(engine::Passes& passes) {
             });
         }
         passes.pass("simulate", engine::PassKind::compute, [&](engine::Commands& commands) {
-            simulation_.recordStep(commands);
+            simulation_.recordStep(
+                commands, i == 0 ? hair::simulation::Copy::other : hair::simulation::Copy::same);
         });
     }
 }

@@ -19,8 +19,8 @@ class DevicePlayer : public Player {
 public:
     DevicePlayer(
         const engine::Device& device, Case& test_case, const MeasureHooks& hooks,
-        engine::Timing timing, const PlantedWork& planted)
-        : test_case_(test_case), hooks_(hooks), loop_(device, timing) {
+        engine::Timing timing, const engine::Overlap& overlap, const PlantedWork& planted)
+        : test_case_(test_case), hooks_(hooks), loop_(device, timing, overlap) {
         if (!planted.pass.empty()) busy_.emplace(device, planted.pass, planted.steps);
     }
 
@@ -102,7 +102,10 @@ std::unique_ptr<Player> DeviceStage::player(engine::Timing timing) {
 }
 
 std::unique_ptr<Player> DeviceStage::player(engine::Timing timing, const PlantedWork& planted) {
-    return std::make_unique<DevicePlayer>(device_, test_case_, hooks_, timing, planted);
+    const engine::Overlap overlap{
+        .frames = run_.frames_in_flight,
+        .stamps = run_.overlapped_stamps ? engine::Stamps::passes : engine::Stamps::frame};
+    return std::make_unique<DevicePlayer>(device_, test_case_, hooks_, timing, overlap, planted);
 }
 
 std::unique_ptr<Player> DeviceStage::emptyPlayer(engine::Timing timing) {

@@ -103,7 +103,6 @@ Renderer::Renderer(
     : settings_(settings),
       plan_(planStrands(view, settings, device.info().limits.maxTessellationGenerationLevel)),
       target_(device, targetDescription(settings.render)),
-      parameters_{parameterBuffer(device), parameterBuffer(device)},
       lights_(
           engine::makeBuffer(device, std::span<const gpu::Light>(makeLights(settings)), "lights")),
       optics_(device, settings), shadows_(device, settings, plan_, assets),
@@ -112,6 +111,7 @@ Renderer::Renderer(
       strand_images_(strandImages(texture_, shadows_)),
       strands_(device, settings, plan_, target_, view, stages), overlay_(device, settings, assets),
       resolve_(device, settings.render, target_.description()) {
+    for (engine::Buffer& parameters : parameters_) parameters = parameterBuffer(device);
     if (settings.render.hair && hasOffsets(settings.strands)) frames_.emplace(device, view);
 }
 

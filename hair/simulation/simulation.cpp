@@ -22,7 +22,7 @@ constexpr std::int64_t kPartsPerStep = 720720;  // the least common multiple of 
 static_assert(sizeof(gpu::Bodies) == 32);
 static_assert(sizeof(gpu::GuideParameters) == 96 && offsetof(gpu::GuideParameters, gravity) == 56);
 static_assert(offsetof(gpu::GuideParameters, step) == 68);
-static_assert(sizeof(gpu::SubstepPush) == 88 && offsetof(gpu::SubstepPush, frame_before) == 52);
+static_assert(sizeof(gpu::SubstepPush) == 96 && offsetof(gpu::SubstepPush, frame_before) == 60);
 
 constexpr std::uint32_t kSettleBatch = 64;  // substeps per submission
 
@@ -60,12 +60,15 @@ Simulation::Simulation(
       bodies_(device, settings, field_meshes),
       rest_positions_(engine::makeBuffer(
           device, std::span<const glm::vec4>(withMasses(groom.points)), "guide rest positions")),
-      positions_(device, stateOf(rest_positions_, "guide positions")),
-      previous_(device, stateOf(rest_positions_, "guide previous positions")),
+      positions_{
+          engine::Buffer(device, stateOf(rest_positions_, "guide positions")),
+          engine::Buffer(device, stateOf(rest_positions_, "guide positions"))},
+      previous_{
+          engine::Buffer(device, stateOf(rest_positions_, "guide previous positions")),
+          engine::Buffer(device, stateOf(rest_positions_, "guide previous positions"))},
       accelerations_(device, stateOf(rest_positions_, "guide accelerations")),
       parameters_(engine::makeBuffer(
-          device,
-          std::span<const gpu::GuideParameters>(std::array{parametersWith(bodies_.parameters())}),
+          device, std::span<const gpu::GuideParameters>(parametersWith(bodies_.parameters())),
           "guide parameters")),
       wind_(device, strand_count_ * vertices_per_strand_, settings),
       solver_(makeSolver(device, groom, settings_, step_)) {
@@ -125,8 +128,8 @@ void Simulation::carryOn(const SimulationSettings& settings) {
             *device_, {.strand_count = strand_count_, .vertices_per_strand = vertices_per_strand_},
             settings, step_);
     }
-    const gpu::GuideParameters parameters = parametersWith(bodies_.parametersWith(capsules));
-    engine::upload(*device_, std::as_bytes(std::span(&parameters, 1)), parameters_);
+    const auto parameters = parametersWith(bodies_.parametersWith(capsules));
+    engine::upload(*device_, std::as_bytes(std::span(parameters)), parameters_);
 
     settings_ = std::move(whole);
     motion_ = std::move(motion);
@@ -142,11 +145,13 @@ void Simulation::carryOn(const SimulationSettings& settings) {
     if (solver) solver_ = std::move(solver);
 }
 
-void Simulation::recordStep(engine::Commands& commands) {
+void Simulation::recordStep(engine::Commands& commands, Copy into) {
     if (!solver_) return;
     const double start = time();
+    const std::uint32_t from = current_;
     ++steps_;
-    recordSubsteps(commands, start, time());
+    if (into == Copy::other) current_ = 1 - current_;
+    recordSubsteps(commands, from, start, time());
 }
 
 void Simulation::settle(std::uint32_t steps) {
@@ -158,7 +163,7 @@ void Simulation::settle(std::uint32_t steps) {
             for (std::uint32_t i = 0; i < batch; ++i) {
                 wind_.recordCalm(commands, addresses());
                 if (hair_hair_) hair_hair_->record(commands, addresses(), pose());
-                recordSubsteps(commands, time(), time());
+                recordSubsteps(commands, current_, time(), time());
             }
         });
         steps -= batch;
@@ -184,17 +189,17 @@ void Simulation::setState(
     const auto now = withMasses(positions);
     std::vector<glm::vec4> before;
     for (const glm::vec3& point : previous) before.emplace_back(point, 0.0f);
-    engine::upload(*device_, std::as_bytes(std::span(now)), positions_);
-    engine::upload(*device_, std::as_bytes(std::span(before)), previous_);
+    engine::upload(*device_, std::as_bytes(std::span(now)), positions_[current_]);
+    engine::upload(*device_, std::as_bytes(std::span(before)), previous_[current_]);
     if (!solver_) return;
     device_->runOnce([&](engine::Commands& commands) {
         const gpu::RigidFrame frame = toGpu(pose());
         commands.barrier(engine::Access::anything, engine::Access::compute_write);
         commands.uses(
-            {{positions_, engine::Access::compute_read},
-             {previous_, engine::Access::compute_read}});
+            {{positions_[current_], engine::Access::compute_read},
+             {previous_[current_], engine::Access::compute_read}});
         solver_->recordAdopt(
-            commands, {.guides = parameters_.address(), .frame = frame, .frame_before = frame});
+            commands, {.guides = addresses().parameters, .frame = frame, .frame_before = frame});
         commands.barrier(engine::Access::compute_write, engine::Access::anything);
     });
 }
@@ -205,63 +210,72 @@ void Simulation::pin(std::span<const std::uint32_t> vertices) {
 }
 
 std::vector<glm::vec3> Simulation::readPositions() const {
-    const auto points = engine::downloadAs<glm::vec4>(*device_, positions_);
+    const auto points = engine::downloadAs<glm::vec4>(*device_, positions_[current_]);
     return {points.begin(), points.end()};
 }
 
 std::vector<glm::vec3> Simulation::readPrevious() const {
-    const auto points = engine::downloadAs<glm::vec4>(*device_, previous_);
+    const auto points = engine::downloadAs<glm::vec4>(*device_, previous_[current_]);
     return {points.begin(), points.end()};
 }
 
 std::vector<bool> Simulation::readContacts() const {
     std::vector<bool> contacts;
-    for (const glm::vec4& point : engine::downloadAs<glm::vec4>(*device_, previous_))
+    for (const glm::vec4& point : engine::downloadAs<glm::vec4>(*device_, previous_[current_]))
         contacts.push_back(point.w > 0.0f);
     return contacts;
 }
 
 GuideView Simulation::guides() const {
     return {
-        .positions = positions_.address(),
-        .contacts = previous_.address(),
+        .positions = positions_[current_].address(),
+        .contacts = previous_[current_].address(),
         .strand_count = strand_count_,
         .vertices_per_strand = vertices_per_strand_};
 }
 
-// The frames of the head divide the time evenly.
-void Simulation::recordSubsteps(engine::Commands& commands, double from, double to) const {
+// The frames of the head divide the time evenly. The first substep takes the guides from one copy
+// to the current one, the others stay there.
+//
+// The barriers at the end are there for the next step. They stand here, before anything is drawn of
+// this one, so that the next waits neither for that nor for what comes between: only for pictures
+// of the frame before, which were drawn of the copy that it overwrites.
+void Simulation::recordSubsteps(
+    engine::Commands& commands, std::uint32_t from_copy, double from, double to) const {
     const auto frameAfter = [&](std::uint32_t substep) {
         const double part = static_cast<double>(substep) / step_.count;
         return toGpu(motion_.at(from + part * (to - from)));
     };
-    // The step waits for the forces, and for whoever still draws what is overwritten.
-    commands.barrier(
-        {{Access::compute_write, Access::compute_write},
-         {Access::vertex_read, Access::compute_write}});
+    const GuideAddresses guides = addresses();
+    GuideAddresses before = addresses(from_copy);
     for (std::uint32_t i = 0; i < step_.count; ++i) {
-        if (i > 0) commands.barrier(Access::compute_write, Access::compute_write);
+        // After the forces, or the substep before.
+        commands.barrier(Access::compute_write, Access::compute_write);
         commands.uses(
-            {{positions_, Access::compute_write},
-             {previous_, Access::compute_write},
-             {accelerations_, Access::compute_read}});
+            {{before.positions, Access::compute_read},
+             {before.previous, Access::compute_read},
+             {guides.accelerations, Access::compute_read},
+             {guides.positions, Access::compute_write},
+             {guides.previous, Access::compute_write}});
         solver_->record(
-            commands, {.guides = parameters_.address(),
-                       .accelerations = accelerations_.address(),
+            commands, {.guides = guides.parameters,
+                       .from = before.parameters,
+                       .accelerations = guides.accelerations,
                        .frame = frameAfter(i + 1),
                        .frame_before = frameAfter(i)});
+        before = guides;
     }
-    // Who draws waits for the step, and so do the passes of the next one.
     commands.barrier(
         {{Access::compute_write, Access::vertex_read},
-         {Access::compute_write, Access::compute_write}});
+         {Access::compute_write, Access::compute_write},
+         {Access::vertex_read, Access::compute_write}});
 }
 
-GuideAddresses Simulation::addresses() const {
+GuideAddresses Simulation::addresses(std::uint32_t copy) const {
     return {
-        .parameters = parameters_.address(),
-        .positions = positions_.address(),
-        .previous = previous_.address(),
+        .parameters = parameters_.address() + copy * sizeof(gpu::GuideParameters),
+        .positions = positions_[copy].address(),
+        .previous = previous_[copy].address(),
         .accelerations = accelerations_.address()};
 }
 
@@ -269,18 +283,21 @@ PullPass Simulation::pullPassOf(const SimulationSettings& settings) const {
     return {*device_, strand_count_, vertices_per_strand_, step_, settings.pulls};
 }
 
-gpu::GuideParameters Simulation::parametersWith(const gpu::Bodies& bodies) const {
-    return {
-        .positions = positions_.address(),
-        .previous = previous_.address(),
-        .rest_positions = rest_positions_.address(),
-        .bodies = bodies,
-        .gravity = settings_.gravity,
-        .step = step_,
-        .velocity_kept = static_cast<float>(velocityKept(settings_, step_)),
-        .strand_count = strand_count_,
-        .vertices_per_strand = vertices_per_strand_,
-        .seed = seed_};
+std::array<gpu::GuideParameters, 2> Simulation::parametersWith(const gpu::Bodies& bodies) const {
+    const auto of = [&](std::size_t copy) {
+        return gpu::GuideParameters{
+            .positions = positions_[copy].address(),
+            .previous = previous_[copy].address(),
+            .rest_positions = rest_positions_.address(),
+            .bodies = bodies,
+            .gravity = settings_.gravity,
+            .step = step_,
+            .velocity_kept = static_cast<float>(velocityKept(settings_, step_)),
+            .strand_count = strand_count_,
+            .vertices_per_strand = vertices_per_strand_,
+            .seed = seed_};
+    };
+    return {of(0), of(1)};
 }
 
 // w: inverse mass over that of a free vertex.
@@ -296,7 +313,7 @@ std::vector<glm::vec4> Simulation::withMasses(std::span<const glm::vec3> positio
 }
 
 std::vector<const engine::Buffer*> Simulation::state() const {
-    std::vector<const engine::Buffer*> buffers{&positions_, &previous_};
+    std::vector<const engine::Buffer*> buffers{&positions_[current_], &previous_[current_]};
     if (solver_) std::ranges::copy(solver_->state(), std::back_inserter(buffers));
     return buffers;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -41,6 +42,10 @@ private:
     std::int64_t parts_ = 0;  // time that waits for the next step
 };
 
+// Which of its two copies of the guides a step leaves them in. Pictures of earlier frames may still
+// be drawn of the one that was drawn last: steps into the other one need not wait for them.
+enum class Copy { other, same };
+
 // The guides on the device and the compute passes that move them. A time step is recordWind,
 // recordVolume where hasVolume, recordPulls where hasPulls, then recordStep. Simulated time is the
 // number of recorded steps times the time step: nothing depends on frames or clocks. Solver `none`
@@ -71,8 +76,9 @@ public:
     void recordPulls(engine::Commands& commands) const;
 
     // One time step under gravity and the accelerations recorded last. Positions are then visible
-    // to compute and to the stages before the rasteriser.
-    void recordStep(engine::Commands& commands);
+    // to compute and to the stages before the rasteriser. A frame's first step goes into the other
+    // copy of the guides, those after it into the same.
+    void recordStep(engine::Commands& commands, Copy into = Copy::other);
 
     // Simulates steps without wind and hands and waits for them; time stands still.
     void settle(std::uint32_t steps);
@@ -110,10 +116,12 @@ public:
     GuideView guides() const;
 
 private:
-    void recordSubsteps(engine::Commands& commands, double from, double to) const;
-    GuideAddresses addresses() const;
+    void recordSubsteps(
+        engine::Commands& commands, std::uint32_t from_copy, double from, double to) const;
+    GuideAddresses addresses(std::uint32_t copy) const;
+    GuideAddresses addresses() const { return addresses(current_); }
     PullPass pullPassOf(const SimulationSettings& settings) const;
-    gpu::GuideParameters parametersWith(const gpu::Bodies& bodies) const;
+    std::array<gpu::GuideParameters, 2> parametersWith(const gpu::Bodies& bodies) const;
     std::vector<glm::vec4> withMasses(std::span<const glm::vec3> positions) const;
     std::vector<const engine::Buffer*> state() const;
 
@@ -127,10 +135,11 @@ private:
     HeadMotion motion_;
     Bodies bodies_;
     engine::Buffer rest_positions_;
-    engine::Buffer positions_;
-    engine::Buffer previous_;
+    std::array<engine::Buffer, 2> positions_;  // [copy]
+    std::array<engine::Buffer, 2> previous_;  // [copy]
+    std::uint32_t current_ = 0;  // copy
     engine::Buffer accelerations_;
-    engine::Buffer parameters_;  // gpu::GuideParameters
+    engine::Buffer parameters_;  // gpu::GuideParameters [copy]
     WindPass wind_;
     std::optional<PullPass> pulls_;  // from the first pull on
     std::optional<HairHair> hair_hair_;

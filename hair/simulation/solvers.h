@@ -12,8 +12,9 @@
 // The solvers: what moves guides, and the table of them.
 namespace hair::simulation {
 
-// What moves guides. It reads and writes the positions and previous positions that are behind
-// SubstepPush::guides, and may keep more state of its own.
+// What moves guides. It reads the positions and previous positions that are behind
+// SubstepPush::from and writes all of those behind SubstepPush::guides, which may be the same, and
+// may keep more state of its own.
 class GuideSolver {
 public:
     virtual ~GuideSolver() = default;

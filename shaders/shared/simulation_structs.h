@@ -76,7 +76,8 @@ struct GuideParameters {
 
 // Push constants of a solver's substep.
 struct SubstepPush {
-    uint64_t guides;  // GuideParameters
+    uint64_t guides;  // GuideParameters: positions and previous positions are written
+    uint64_t from;  // GuideParameters of what the substep starts from; may be `guides`
     uint64_t solver;  // the solver's own parameters
     uint64_t accelerations;  // m/s^2, beside gravity; address 0: none
     RigidFrame frame;  // of the head at the end of the substep

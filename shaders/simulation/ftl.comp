@@ -18,27 +18,32 @@ layout(buffer_reference, scalar) readonly buffer FtlReference { FtlParameters pa
 
 void main() {
     GuideParameters guides = GuideReference(push.guides).parameters;
+    GuideParameters from = GuideReference(push.from).parameters;
     FtlParameters params = FtlReference(push.solver).parameters;
     uint strand = workgroupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (strand >= guides.strand_count) return;  // no barrier follows
 
     State positions = State(guides.positions);
     State previous = State(guides.previous);
+    State positions_before = State(from.positions);
+    State previous_before = State(from.previous);
     Vectors rest = Vectors(guides.rest_positions);
     uint root = strand * guides.vertices_per_strand;
     float contact = 0.0;  // 1 from the first vertex that touches a body
-    vec3 leader_before = positions.at[root].xyz;  // at the start of the substep
+    vec4 follicle = positions_before.at[root];
+    vec3 leader_before = follicle.xyz;  // at the start of the substep
     vec3 leader = toWorld(push.frame, rest.at[root].xyz);
-    positions.at[root].xyz = leader;
+    positions.at[root] = vec4(leader, follicle.w);
+    previous.at[root] = vec4(leader_before, 0.0);
     for (uint i = root + 1; i < root + guides.vertices_per_strand; ++i) {
-        vec4 point = positions.at[i];
+        vec4 point = positions_before.at[i];
         vec3 before = point.xyz;
         vec3 correction = vec3(0.0);
         if (point.w > 0.0) {
             vec3 acceleration = guides.gravity;
             if (push.accelerations != 0) acceleration += Vectors(push.accelerations).at[i].xyz;
             vec3 predicted = integrate(
-                before, previous.at[i].xyz, acceleration, guides.velocity_kept,
+                before, previous_before.at[i].xyz, acceleration, guides.velocity_kept,
                 guides.step.sub * guides.step.sub);
             predicted = pullToRest(
                 predicted, toWorld(push.frame, rest.at[i].xyz), params.global_stiffness);
@@ -49,8 +54,8 @@ void main() {
             point.xyz = pushOutOfBodies(
                 point.xyz, before, guides.bodies, push.frame, push.frame_before, touched);
             if (touched) contact = 1.0;
-            positions.at[i] = point;
         }
+        positions.at[i] = point;
         // The leader's velocity is what it moved, less a part of how its follower was corrected
         // (eq. 9); the position before the substep is moved by as much, since velocities are
         // differences of positions.

@@ -15,10 +15,10 @@ void main() {
     uint index = workgroupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (index >= guides.strand_count * guides.vertices_per_strand) return;  // no barrier follows
 
-    vec4 point = State(guides.positions).at[index];
+    vec4 point = State(GuideReference(push.from).parameters.positions).at[index];
     State(guides.previous).at[index] = vec4(point.xyz, 0.0);
     bool pinned = index % guides.vertices_per_strand != 0u && point.w == 0.0;
-    if (pinned) return;
     vec3 rest = Vectors(guides.rest_positions).at[index].xyz;
-    State(guides.positions).at[index] = vec4(toWorld(push.frame, rest), point.w);
+    if (!pinned) point.xyz = toWorld(push.frame, rest);
+    State(guides.positions).at[index] = point;
 }

@@ -21,6 +21,7 @@ const float kPinMass = 100.0;  // of a pinned vertex, over the strand's: a stiff
 const float kLeastLength = 0.1;  // that a segment turns as if it had
 
 GuideParameters guides;
+GuideParameters from;
 RodParameters rod;
 uint strand;
 uint root;    // of the strand's vertices
@@ -38,7 +39,7 @@ uint scratchIndex(uint i, uint row) {
 
 // Mesa 22's llvmpipe reads x where the last component alone is read: hence the whole vector.
 bool isPinned(uint i) {
-    vec4 point = State(guides.positions).at[root + i];
+    vec4 point = State(from.positions).at[root + i];
     return point.w == 0.0;
 }
 
@@ -52,10 +53,12 @@ vec4 orientationAt(uint i) {
 void predict() {
     RodMotions motions = RodMotions(rod.motion);
     State scratch = State(rod.scratch);
-    State positions = State(guides.positions);
+    State positions = State(from.positions);
     root_now = toWorld(push.frame, Vectors(guides.rest_positions).at[root].xyz);
-    vec3 root_moved = (root_now - positions.at[root].xyz) / unit;
-    positions.at[root].xyz = root_now;
+    vec4 follicle = positions.at[root];
+    vec3 root_moved = (root_now - follicle.xyz) / unit;
+    State(guides.previous).at[root] = vec4(follicle.xyz, 0.0);
+    State(guides.positions).at[root] = vec4(root_now, follicle.w);
     float scale = guides.step.sub * guides.step.sub / unit;
     vec3 edges = vec3(0.0);    // from the root to here
     vec3 misfits = vec3(0.0);  // from the root to here
@@ -191,7 +194,8 @@ void finish() {
         RodMotion motion = motions.at[segmentIndex(i)];
         float len = RodSegments(rod.segments).at[segmentIndex(i)].rest_length;
         vec3 axis = axisOf(motion.orientation);
-        vec3 before = positions.at[root + i].xyz;
+        vec4 point = State(from.positions).at[root + i];
+        vec3 before = point.xyz;
         edges += len * axis;
         motion.angular_velocity += scratch.at[scratchIndex(i, 7)].xyz;
         vec3 pushed = vec3(0.0);
@@ -205,8 +209,9 @@ void finish() {
                 pushed = (held - free) / unit;
             }
             motion.velocity += scratch.at[scratchIndex(i, 6)].xyz + pushed;
-            positions.at[root + i].xyz = held;
+            point.xyz = held;
         }
+        positions.at[root + i] = point;
         motion.misfit = vec3(0.0);
         if (pushed != pushed_above) {
             vec3 edge = len * axis + pushed - pushed_above;
@@ -225,6 +230,7 @@ void finish() {
 
 void main() {
     guides = GuideReference(push.guides).parameters;
+    from = GuideReference(push.from).parameters;
     rod = RodReference(push.solver).parameters;
     uint lane = workgroupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     strand = push.first_strand + lane;
@@ -232,7 +238,6 @@ void main() {
 
     root = strand * guides.vertices_per_strand;
     unit = Factors(rod.units).at[strand];
-    State(guides.previous).at[root] = vec4(State(guides.positions).at[root].xyz, 0.0);
     predict();
     for (uint i = 0; i < rod.iterations; ++i) {
         eliminate();

@@ -132,11 +132,11 @@ void project(uint j) {
 }
 
 // What this invocation's vertices start the substep from.
-void load(GuideParameters guides, ShapeParameters params, uint first) {
+void load(GuideParameters guides, GuideParameters from, ShapeParameters params, uint first) {
     [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j) {
         if (!vertexExists(j)) continue;
-        vec4 point = loadVector(guides.positions, first + j);
-        vec3 previous = loadVector(guides.previous, first + j).xyz;
+        vec4 point = loadVector(from.positions, first + j);
+        vec3 previous = loadVector(from.previous, first + j).xyz;
         storeVector(guides.previous, first + j, vec4(point.xyz, 0.0));
         vec3 rest = toWorld(push.frame, loadVector(guides.rest_positions, first + j).xyz);
         vec3 acceleration = guides.gravity;
@@ -181,7 +181,7 @@ void main() {
     float stiffness = 0.0;
     vec3 first_rest_tangent = vec3(0.0);
     if (present) {
-        load(guides, params, first);
+        load(guides, GuideReference(push.from).parameters, params, first);
         stiffness = Factors(params.local_stiffness).at[strand];
         first_rest_tangent = firstTangent(push.frame, Vectors(params.rest_edges).at[root + 1]);
     }

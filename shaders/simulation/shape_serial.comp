@@ -24,6 +24,7 @@ layout(buffer_reference, scalar) readonly buffer ShapeReference { ShapeParameter
 
 void main() {
     GuideParameters guides = GuideReference(push.guides).parameters;
+    GuideParameters from = GuideReference(push.from).parameters;
     ShapeParameters params = ShapeReference(push.solver).parameters;
     uint strand = workgroupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (strand >= guides.strand_count) return;  // no barrier follows
@@ -33,7 +34,7 @@ void main() {
     Vectors rest_edges = Vectors(params.rest_edges);
 
     for (uint v = 0; v < kVerticesPerStrand; ++v) {
-        vec4 point = positions.at[root + v];
+        vec4 point = State(from.positions).at[root + v];
         vec3 before = point.xyz;
         vec3 rest = toWorld(push.frame, Vectors(guides.rest_positions).at[root + v].xyz);
         if (v == 0) {
@@ -43,7 +44,7 @@ void main() {
             if (push.accelerations != 0)
                 acceleration += Vectors(push.accelerations).at[root + v].xyz;
             point.xyz = integrate(
-                before, previous.at[root + v].xyz, acceleration, guides.velocity_kept,
+                before, State(from.previous).at[root + v].xyz, acceleration, guides.velocity_kept,
                 guides.step.sub * guides.step.sub);
             point.xyz = pullToRest(point.xyz, rest, params.global_stiffness);
         }

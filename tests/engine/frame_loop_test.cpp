@@ -41,8 +41,9 @@ protected:
         slots_.push_back(passes.slot());
     }
 
-    std::vector<FrameRecord> play(Timing timing, int frames) {
-        FrameLoop loop(device(), timing);
+    // Overlapped frames are stamped after each pass.
+    std::vector<FrameRecord> play(Timing timing, int frames, std::uint32_t in_flight = 2) {
+        FrameLoop loop(device(), timing, {.frames = in_flight, .stamps = Stamps::passes});
         slots_.clear();
         for (int i = 0; i < frames; ++i) loop.frame([&](Passes& passes) { record(passes); });
         return loop.finish();
@@ -81,11 +82,37 @@ TEST_F(FrameLoopTest, ChargesWorkToThePassThatDidIt) {
     }
 }
 
-TEST_F(FrameLoopTest, KeepsTwoFramesInFlightWhenOverlapped) {
+TEST_F(FrameLoopTest, KeepsAsManyFramesInFlightAsAskedForWhenOverlapped) {
     play(Timing::overlapped, 4);
     EXPECT_EQ(slots_, (std::vector<std::uint32_t>{0, 1, 0, 1}));
-    play(Timing::isolated, 3);
+    play(Timing::overlapped, 3, 1);
     EXPECT_EQ(slots_, (std::vector<std::uint32_t>{0, 0, 0}));
+    play(Timing::overlapped, 5, 4);
+    EXPECT_EQ(slots_, (std::vector<std::uint32_t>{0, 1, 2, 3, 0}));
+    play(Timing::isolated, 3, 4);
+    EXPECT_EQ(slots_, (std::vector<std::uint32_t>{0, 0, 0}));
+}
+
+// What passes took is then not known, and not 0.
+TEST_F(FrameLoopTest, StampsOverlappedFramesAtTheirEndsOnlyWhereNotAskedForMore) {
+    FrameLoop loop(device(), Timing::overlapped);
+    for (int i = 0; i < 3; ++i) loop.frame([&](Passes& passes) { record(passes); });
+    for (const FrameRecord& frame : loop.finish()) {
+        EXPECT_GT(frame.device, 0.0);
+        EXPECT_TRUE(frame.passes.empty());
+    }
+}
+
+// Two barriers and two stamps: less than filling 64 MiB, however that is disturbed.
+TEST_F(FrameLoopTest, TellsWhatAnEmptyPassTakes) {
+    const std::optional<double> empty = emptyPassTime(device());
+    ASSERT_EQ(empty.has_value(), device().info().timestamp_valid_bits > 0);
+    if (!empty) return;
+    Extremes big;
+    for (const FrameRecord& frame : play(Timing::isolated, 5))
+        big.add(frame.passes[0].milliseconds);
+    EXPECT_GE(*empty, 0.0);
+    EXPECT_LT(*empty, big.least());
 }
 
 // An interval is waiting, recording and submitting one after the other, by one clock.

@@ -184,7 +184,7 @@ TEST_F(FramesHazards, EachBarrierThatIsTakenOutIsMissed) {
         {"pull", 0, "guide accelerations"},  // by hair on hair
         {"pull", 1, "guide pull"},
         {"simulate", 0, "guide accelerations"},  // by the hand
-        {"simulate", 2, "guide positions"},  // by the substep before
+        {"simulate", 1, "guide positions"},  // by the substep before
         {"frames", 1, "guide normals"},
         {"mesh_shadow", 0, "depth of meshes"},
         {"mesh_shadow", 1, "depth of meshes"},
@@ -216,9 +216,9 @@ TEST_F(FramesHazards, EachBarrierOfWeightedBlendingIsMissed) {
     missEach(
         device(), settings,
         {{"simulate", 0, "guide accelerations"},
-         {"simulate", 1, "guide positions"},
-         {"simulate", 2, "guide positions"},  // drawn
-         {"simulate", 3, "guide positions"},  // blown at and moved by the next frame
+         {"simulate", 1, "guide positions"},  // drawn
+         {"simulate", 2, "guide positions"},  // blown at and moved by the next frame
+         {"simulate", 3, "guide positions"},  // of the next frame, still drawn by the frame before
          {"scene", 0, "color"},
          {"scene", 1, "depth"},
          {"strands", 0, "weighted sum"},
@@ -243,6 +243,52 @@ TEST_F(FramesHazards, FramesOfGuidesWaitForThoseWhoDraw) {
          {"scene", 0, "color"},
          {"scene", 1, "depth"},
          {"strands", 0, "color"},
+         {"resolve", 0, "color"},
+         {"resolve", 1, "output"},
+         {"resolve", 2, "output"}});
+}
+
+// The second step of a frame writes to the copy of the guides that the first one has left.
+TEST_F(FramesHazards, EachBarrierOfSeveralStepsIsMissed) {
+    hair::Settings settings = made(hair::plainSettings());
+    settings.simulation.solver = hair::Solver::ftl;
+    settings.simulation.hair_hair.friction = 0.2f;
+    settings.run.frame_time = 2.0f * settings.simulation.time_step;
+    missEach(
+        device(), settings,
+        {{"volume", 0, "volume sums"},  // still read by the frame before
+         {"volume", 1, "volume fastest"},  // cleared
+         {"volume", 2, "volume samples"},
+         {"volume", 3, "volume sums"},
+         {"simulate", 0, "guide accelerations"},
+         {"simulate", 2, "guide positions"},
+         {"volume", 4, "volume sums"},  // still read by the step before
+         {"volume", 5, "volume fastest"},
+         {"volume", 6, "volume samples"},
+         {"volume", 7, "volume sums"},
+         {"simulate", 4, "guide accelerations"},
+         {"simulate", 5, "guide positions"},  // drawn
+         {"simulate", 6, "guide positions"},
+         {"scene", 0, "color"},
+         {"scene", 1, "depth"},
+         {"strands", 0, "color"},
+         {"resolve", 0, "color"},
+         {"resolve", 1, "output"},
+         {"resolve", 2, "output"}});
+}
+
+TEST_F(FramesHazards, EachBarrierOfListsOfFragmentsIsMissed) {
+    hair::Settings settings = made(hair::plainSettings());
+    settings.render.transparency = hair::Transparency::fragment_list;
+    missEach(
+        device(), settings,
+        {{"scene", 0, "color"},
+         {"scene", 1, "depth"},
+         {"strands", 0, "fragment heads"},  // still read by the frame before
+         {"strands", 1, "fragment heads"},  // cleared
+         {"strands", 2, "depth"},
+         {"composite", 0, "fragment heads"},
+         {"composite", 1, "depth"},
          {"resolve", 0, "color"},
          {"resolve", 1, "output"},
          {"resolve", 2, "output"}});

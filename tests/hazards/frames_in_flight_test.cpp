@@ -1,0 +1,126 @@
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "benchmarks/measure/case.h"
+#include "engine/frame_loop.h"
+#include "engine/hazards.h"
+#include "tests/golden/features.h"
+#include "tests/gpu_fixture.h"
+
+// Frames of which several are on their way at once, and what of one may run beside the next.
+namespace benchmarks::measure {
+namespace {
+
+hair::Settings movingHair(hair::Solver solver) {
+    hair::Settings settings = hair::plainSettings();
+    settings.render.width = 32;
+    settings.render.height = 24;
+    settings.strands.density = 2;
+    settings.simulation.solver = solver;
+    return settings;
+}
+
+struct Ends {
+    std::string picture;
+    std::string state;
+    bool operator==(const Ends&) const = default;
+};
+
+// What the first frames end with.
+Ends ends(
+    const engine::Device& device, Case& played, engine::Timing timing, std::uint32_t in_flight) {
+    played.reset();
+    engine::FrameLoop loop(device, timing, {.frames = in_flight});
+    for (int i = 0; i < 9; ++i) loop.frame([&](engine::Passes& passes) { played.frame(passes); });
+    loop.finish();
+    return {played.pictureHash(), played.stateHash()};
+}
+
+using FramesInFlight = GpuTest;
+
+// With offsets, shadows and substeps.
+void expectEqualEnds(const engine::Device& device, hair::Solver solver, float steps) {
+    hair::Settings settings = movingHair(solver);
+    hair::lit(settings);
+    settings.shading.shadows.resolution = 64;
+    settings.strands.curl.radius = 0.004f;
+    settings.simulation.substeps = 2;
+    settings.simulation.motion.keyframes = {
+        {.time = 0.0f}, {.time = 1.0f, .translation = {0.1f, 0.0f, 0.0f}}};
+    settings.run.frame_time = steps * settings.simulation.time_step;
+    Case played(device, settings, HAIRBENCH_SCENES_DIR);
+    const Ends alone = ends(device, played, engine::Timing::isolated, 1);
+    for (std::uint32_t in_flight = 1; in_flight <= 4; ++in_flight)
+        EXPECT_EQ(ends(device, played, engine::Timing::overlapped, in_flight), alone)
+            << in_flight << " frames in flight, " << steps << " steps a frame";
+}
+
+TEST_F(FramesInFlight, EndAlikeHoweverManyThereAre) {
+    for (const hair::Solver solver :
+         {hair::Solver::shape, hair::Solver::ftl, hair::Solver::rod, hair::Solver::none})
+        expectEqualEnds(device(), solver, 1.0f);
+}
+
+// The copies of the guides then change places in some frames only, and in frames of two steps once.
+TEST_F(FramesInFlight, EndAlikeWhereFramesAreShorterOrLongerThanSteps) {
+    expectEqualEnds(device(), hair::Solver::shape, 0.4f);
+    expectEqualEnds(device(), hair::Solver::shape, 2.5f);
+}
+
+// Whether nothing orders what the strands' draws of a frame read, in the vertex and in the fragment
+// stage, before what the next frame's `simulate` writes: a use of a buffer of their own, planted in
+// both, is then a hazard.
+bool mayRunBeside(const engine::Device& device, const hair::Settings& settings) {
+    Case played(device, settings, HAIRBENCH_SCENES_DIR);
+    engine::HazardLog& log = *device.hazards();
+    engine::FrameLoop loop(device, engine::Timing::overlapped);
+    log.keepRecordings();
+    log.takeRecordings();
+    for (int i = 0; i < 4; ++i) loop.frame([&](engine::Passes& passes) { played.frame(passes); });
+    loop.finish();
+    std::vector<engine::Recording> recordings = log.takeRecordings();
+    constexpr engine::ResourceId kPlanted = 0xffffffff;
+    const auto plant = [&](std::size_t frame, const std::string& pass, engine::Scope scope) {
+        engine::Recording& recording = recordings.at(frame);
+        for (std::size_t i = recording.size(); i-- > 0;) {
+            if (recording[i].pass != pass || recording[i].uses.empty()) continue;
+            recording[i].uses.push_back({kPlanted, scope});
+            return;
+        }
+        FAIL() << "no pass " << pass;
+    };
+    plant(
+        2, "strands",
+        {VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+         VK_ACCESS_2_SHADER_READ_BIT});
+    plant(3, "simulate", {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_WRITE_BIT});
+    engine::HazardChecker checker;
+    std::size_t hazards = 0;
+    for (const engine::Recording& recording : recordings)
+        hazards += checker.submit(recording).size();
+    return hazards == 1;
+}
+
+TEST_F(FramesInFlight, TheNextSimulationMayRunBesideTheDrawing) {
+    for (const hair::Solver solver : {hair::Solver::shape, hair::Solver::ftl, hair::Solver::rod}) {
+        hair::Settings settings = movingHair(solver);
+        EXPECT_TRUE(mayRunBeside(device(), settings));
+        settings.strands.curl.radius = 0.004f;
+        settings.run.frame_time = 2.0f * settings.simulation.time_step;
+        EXPECT_TRUE(mayRunBeside(device(), settings));
+    }
+}
+
+// As docs/design.md says: a resolve by compute is between them.
+TEST_F(FramesInFlight, AResolveByComputeIsWaitedFor) {
+    hair::Settings settings = movingHair(hair::Solver::shape);
+    settings.render.ssaa = 2;
+    EXPECT_FALSE(mayRunBeside(device(), settings));
+}
+
+}  // namespace
+}  // namespace benchmarks::measure
