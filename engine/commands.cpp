@@ -69,9 +69,56 @@ std::string textOf(const std::source_location& place) {
     return std::string(path.substr(path.rfind('/') + 1)) + ":" + std::to_string(place.line());
 }
 
+// Sets of a pool, and images of each kind in it: more than a set has bindings.
+constexpr std::uint32_t kSetsPerPool = 64;
+constexpr std::uint32_t kImagesPerSet = 8;
+
 }  // namespace
 
+// ---- Descriptor sets ----------------------------------------------------------------------------
+
+VkDescriptorSet DescriptorSets::allocate(VkDescriptorSetLayout layout) {
+    if (allocated_ == pools_.size() * kSetsPerPool) {
+        constexpr std::uint32_t kImages = kSetsPerPool * kImagesPerSet;
+        constexpr std::array sizes{
+            VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, kImages},
+            VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kImages},
+            VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kImages}};
+        const VkDescriptorPoolCreateInfo create{
+            .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+            .pNext = nullptr,
+            .flags = 0,
+            .maxSets = kSetsPerPool,
+            .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
+            .pPoolSizes = sizes.data()};
+        VkDescriptorPool pool{};
+        check(
+            vkCreateDescriptorPool(device_.get(), &create, nullptr, &pool),
+            "create a descriptor pool");
+        pools_.emplace_back(device_.get(), pool);
+    }
+    const VkDescriptorSetAllocateInfo allocate{
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+        .pNext = nullptr,
+        .descriptorPool = pools_[allocated_ / kSetsPerPool].get(),
+        .descriptorSetCount = 1,
+        .pSetLayouts = &layout};
+    VkDescriptorSet set{};
+    check(vkAllocateDescriptorSets(device_.get(), &allocate, &set), "allocate a descriptor set");
+    ++allocated_;
+    return set;
+}
+
+void DescriptorSets::reset() {
+    for (const Pool& pool : pools_)
+        check(vkResetDescriptorPool(device_.get(), pool.get(), 0), "reset a descriptor pool");
+    allocated_ = 0;
+}
+
+// ---- Commands -----------------------------------------------------------------------------------
+
 void Commands::begin() {
+    sets_.reset();
     const VkCommandBufferBeginInfo info{
         .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
         .pNext = nullptr,
@@ -291,9 +338,7 @@ void Commands::images(
                                                       : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
         writes[i].pImageInfo = &infos[i];
     }
-    vkCmdPushDescriptorSetKHR(
-        buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout(), 0,
-        static_cast<std::uint32_t>(writes.size()), writes.data());
+    bindImages(VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout(), pipeline.imagesLayout(), writes);
 }
 
 void Commands::images(const GraphicsPipeline& pipeline, std::span<const SampledImage> sampled) {
@@ -312,9 +357,23 @@ void Commands::images(const GraphicsPipeline& pipeline, std::span<const SampledI
         writes[i].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
         writes[i].pImageInfo = &infos[i];
     }
-    vkCmdPushDescriptorSetKHR(
-        buffer_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout(), 0,
-        static_cast<std::uint32_t>(writes.size()), writes.data());
+    bindImages(VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout(), pipeline.imagesLayout(), writes);
+}
+
+void Commands::bindImages(
+    VkPipelineBindPoint point, VkPipelineLayout layout, VkDescriptorSetLayout set_layout,
+    std::span<VkWriteDescriptorSet> writes) {
+    assert(writes.size() <= kImagesPerSet);
+    const Device& device = sets_.device();
+    const auto count = static_cast<std::uint32_t>(writes.size());
+    if (device.has(Feature::push_descriptors)) {
+        vkCmdPushDescriptorSetKHR(buffer_, point, layout, 0, count, writes.data());
+        return;
+    }
+    const VkDescriptorSet set = sets_.allocate(set_layout);
+    for (VkWriteDescriptorSet& write : writes) write.dstSet = set;
+    vkUpdateDescriptorSets(device.get(), count, writes.data(), 0, nullptr);
+    vkCmdBindDescriptorSets(buffer_, point, layout, 0, 1, &set, 0, nullptr);
 }
 
 void Commands::dispatch(std::uint32_t groups_x, std::uint32_t groups_y) {

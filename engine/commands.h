@@ -63,14 +63,35 @@ struct SampledImage {
     const Sampler* sampler;
 };
 
-// A command buffer being recorded. Borrows the buffer; adds no barrier by itself.
+// The descriptor sets that a command buffer uses on devices without push descriptors; elsewhere it
+// stays empty.
+class DescriptorSets {
+public:
+    explicit DescriptorSets(const Device& device) : device_(device) {}
+
+    // A new set, valid until reset().
+    VkDescriptorSet allocate(VkDescriptorSetLayout layout);
+    // The device must be done with the command buffer.
+    void reset();
+    const Device& device() const { return device_; }
+
+private:
+    using Pool = Handle<VkDescriptorPool, &vkDestroyDescriptorPool>;
+
+    const Device& device_;
+    std::vector<Pool> pools_;
+    std::size_t allocated_ = 0;  // sets since reset()
+};
+
+// A command buffer being recorded. Borrows the buffer and its sets; adds no barrier by itself.
 class Commands {
 public:
     // `hazards`: who is told of all that is recorded; null: nobody.
-    explicit Commands(VkCommandBuffer buffer, HazardLog* hazards = nullptr)
-        : buffer_(buffer), hazards_(hazards) {}
+    Commands(VkCommandBuffer buffer, DescriptorSets& sets, HazardLog* hazards = nullptr)
+        : buffer_(buffer), sets_(sets), hazards_(hazards) {}
 
     VkCommandBuffer get() const { return buffer_; }
+    // The device must be done with what was recorded before.
     void begin();
     // What was recorded is submitted next.
     void end();
@@ -146,8 +167,12 @@ private:
     void checkDeclared();
     void bindCompute(const ComputePipeline& pipeline, std::span<const std::byte> push);
     void bindGraphics(const GraphicsPipeline& pipeline, std::span<const std::byte> push);
+    void bindImages(
+        VkPipelineBindPoint point, VkPipelineLayout layout, VkDescriptorSetLayout set_layout,
+        std::span<VkWriteDescriptorSet> writes);
 
     VkCommandBuffer buffer_;
+    DescriptorSets& sets_;
     HazardLog* hazards_;
     // Where hazards are looked for:
     Recording recording_;

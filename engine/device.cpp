@@ -126,32 +126,10 @@ PipelineCache::~PipelineCache() {
 Device::Device(const DeviceOptions& options)
     : instance_(options.validation, options.window_extensions),
       info_(chooseDevice(instance_, options.wanted)) {
-    RequiredFeatures features;
-    enableOptionalFeatures(info_.handle, features.core.features);
-    features_ = features.core.features;
-
-    const float priority = 1.0f;
-    const VkDeviceQueueCreateInfo queue{
-        .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
-        .pNext = nullptr,
-        .flags = 0,
-        .queueFamilyIndex = info_.queue_family,
-        .queueCount = 1,
-        .pQueuePriorities = &priority};
-    std::vector<const char*> extensions = requiredExtensions();
+    if (options.mask) options.mask(info_);
+    std::vector<const char*> extensions;
     if (!options.window_extensions.empty()) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
-    const VkDeviceCreateInfo create{
-        .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
-        .pNext = &features.core,
-        .flags = 0,
-        .queueCreateInfoCount = 1,
-        .pQueueCreateInfos = &queue,
-        .enabledLayerCount = 0,
-        .ppEnabledLayerNames = nullptr,
-        .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
-        .ppEnabledExtensionNames = extensions.data(),
-        .pEnabledFeatures = nullptr};
-    check(vkCreateDevice(info_.handle, &create, nullptr, &device_), "create the Vulkan device");
+    device_ = createDevice(info_, extensions);
     volkLoadDevice(device_);
     vkGetDeviceQueue(device_, info_.queue_family, 0, &queue_);
     allocator_ = createAllocator(instance_.get(), info_, device_);
@@ -185,6 +163,11 @@ Device::~Device() {
     vkDestroyDevice(device_, nullptr);
 }
 
+void Device::require(Feature feature, const std::string& context) const {
+    if (!has(feature))
+        throw Unsupported(context, "the device has no " + std::string(featureName(feature)));
+}
+
 std::uint32_t Device::maxTessellatedVertices() const {
     return info_.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE
                ? 65536
@@ -194,12 +177,6 @@ std::uint32_t Device::maxTessellatedVertices() const {
 bool Device::supportsSamples(std::uint32_t samples) const {
     return (info_.limits.framebufferColorSampleCounts & info_.limits.framebufferDepthSampleCounts &
             samples) != 0;
-}
-
-bool Device::supportsBlending(VkFormat format) const {
-    VkFormatProperties properties{};
-    vkGetPhysicalDeviceFormatProperties(info_.handle, format, &properties);
-    return (properties.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) != 0;
 }
 
 bool Device::fragmentCountsAreApproximate() const {
@@ -243,7 +220,8 @@ void Device::runOnce(const std::function<void(Commands&)>& record) const {
         .commandBufferCount = 1};
     VkCommandBuffer buffer{};
     check(vkAllocateCommandBuffers(device_, &allocate, &buffer), "allocate a command buffer");
-    Commands commands(buffer, hazards());
+    DescriptorSets sets(*this);
+    Commands commands(buffer, sets, hazards());
     commands.begin();
     record(commands);
     commands.end();

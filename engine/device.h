@@ -103,6 +103,9 @@ struct DeviceOptions {
     Validation validation = Validation::off;
     // Window::instanceExtensions() where pictures are shown in one; empty: none are.
     std::vector<std::string> window_extensions{};
+    // Takes away from what the device says of itself before it is made: what is left is all that
+    // is switched on and known. Tests make lesser devices by it.
+    std::function<void(DeviceInfo&)> mask{};
 };
 
 // One logical device with one queue, its memory allocator and pipeline cache. Everything else
@@ -129,15 +132,12 @@ public:
     std::uint32_t maxTessellatedVertices() const;
 
     bool supportsSamples(std::uint32_t samples) const;
-    // Whether color attachments of this format can be blended into.
-    bool supportsBlending(VkFormat format) const;
     // lavapipe before Mesa 23 counts about twenty times too many fragments.
     bool fragmentCountsAreApproximate() const;
-    bool hasPipelineStatistics() const { return features_.pipelineStatisticsQuery == VK_TRUE; }
-    // Whether attachments of one pipeline can be blended in different ways.
-    bool hasIndependentBlend() const { return features_.independentBlend == VK_TRUE; }
-    // Whether fragment shaders can write to buffers.
-    bool hasFragmentStores() const { return features_.fragmentStoresAndAtomics == VK_TRUE; }
+    bool has(Feature feature) const { return info_.features.contains(feature); }
+    bool hasPipelineStatistics() const { return has(Feature::pipeline_statistics); }
+    // Throws Unsupported "<context>: the device has no <feature>" where it has not.
+    void require(Feature feature, const std::string& context) const;
 
     // Bytes of memory that live allocations hold.
     std::uint64_t allocatedBytes() const;
@@ -158,7 +158,6 @@ public:
 private:
     Instance instance_;
     DeviceInfo info_;
-    VkPhysicalDeviceFeatures features_{};  // that are switched on
     VkDevice device_{};
     VkQueue queue_{};
     VmaAllocator_T* allocator_{};

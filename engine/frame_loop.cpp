@@ -144,7 +144,7 @@ public:
           record_(record) {}
 
     void pass(const char* name, PassKind, const std::function<void(Commands&)>& record) override {
-        Commands commands(slot_data_.buffer, device_.hazards());
+        Commands commands(slot_data_.buffer, slot_data_.sets, device_.hazards());
         commands.begin();
         commands.beginLabel(name);
         commands.barrier(Access::anything, Access::anything);
@@ -174,7 +174,7 @@ private:
 
 // What one frame in flight owns.
 struct FrameLoop::Slot {
-    Slot(const Device& device, Timing timing) {
+    Slot(const Device& device, Timing timing) : sets(device) {
         const VkCommandPoolCreateInfo create{
             .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
             .pNext = nullptr,
@@ -211,6 +211,7 @@ struct FrameLoop::Slot {
 
     Handle<VkCommandPool, &vkDestroyCommandPool> pool;
     VkCommandBuffer buffer{};
+    DescriptorSets sets;
     std::optional<Timestamps> timestamps;
     std::vector<Span> spans;
     std::vector<Query> queries;
@@ -256,7 +257,7 @@ void FrameLoop::frame(const std::function<void(Passes&)>& record) {
     if (slot.timestamps) slot.timestamps->reset();
     slot.spans.clear();
     slot.queries.clear();
-    Commands commands(slot.buffer, device_.hazards());
+    Commands commands(slot.buffer, slot.sets, device_.hazards());
     commands.begin();
     {
         OneBufferPasses<Slot> passes(device_, timing_, stamps_, slot, index, commands);

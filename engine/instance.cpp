@@ -5,6 +5,9 @@
 #include <cctype>
 #include <cstring>
 #include <iterator>
+#include <ranges>
+
+#include <vulkan/vulkan_beta.h>
 
 #include "engine/device.h"
 
@@ -70,47 +73,75 @@ bool hasExtension(const char* name) {
     });
 }
 
+// ---- Features -----------------------------------------------------------------------------------
+
 template <class Struct>
-struct Feature {
+struct RequiredFeature {
     const char* name;
     VkBool32 Struct::* member;
 };
 
-constexpr std::array kCoreFeatures{
-    Feature{"tessellationShader", &VkPhysicalDeviceFeatures::tessellationShader},
-    Feature{"geometryShader", &VkPhysicalDeviceFeatures::geometryShader},
-    Feature{"shaderInt64", &VkPhysicalDeviceFeatures::shaderInt64},
-};
-
-// Features that are switched on where the device has them.
-constexpr std::array kOptionalCoreFeatures{
-    Feature{"pipelineStatisticsQuery", &VkPhysicalDeviceFeatures::pipelineStatisticsQuery},
-    Feature{"independentBlend", &VkPhysicalDeviceFeatures::independentBlend},
-    Feature{"fragmentStoresAndAtomics", &VkPhysicalDeviceFeatures::fragmentStoresAndAtomics},
-    Feature{
-        "vertexPipelineStoresAndAtomics",
-        &VkPhysicalDeviceFeatures::vertexPipelineStoresAndAtomics},
-    Feature{"occlusionQueryPrecise", &VkPhysicalDeviceFeatures::occlusionQueryPrecise},
-};
-
 constexpr std::array kVulkan12Features{
-    Feature{"bufferDeviceAddress", &VkPhysicalDeviceVulkan12Features::bufferDeviceAddress},
-    Feature{"scalarBlockLayout", &VkPhysicalDeviceVulkan12Features::scalarBlockLayout},
-    Feature{"timelineSemaphore", &VkPhysicalDeviceVulkan12Features::timelineSemaphore},
-    Feature{"hostQueryReset", &VkPhysicalDeviceVulkan12Features::hostQueryReset},
+    RequiredFeature{"bufferDeviceAddress", &VkPhysicalDeviceVulkan12Features::bufferDeviceAddress},
+    RequiredFeature{"scalarBlockLayout", &VkPhysicalDeviceVulkan12Features::scalarBlockLayout},
+    RequiredFeature{"timelineSemaphore", &VkPhysicalDeviceVulkan12Features::timelineSemaphore},
+    RequiredFeature{"hostQueryReset", &VkPhysicalDeviceVulkan12Features::hostQueryReset},
 };
 
 constexpr std::array kVulkan13Features{
-    Feature{"dynamicRendering", &VkPhysicalDeviceVulkan13Features::dynamicRendering},
-    Feature{"synchronization2", &VkPhysicalDeviceVulkan13Features::synchronization2},
-    Feature{"maintenance4", &VkPhysicalDeviceVulkan13Features::maintenance4},
+    RequiredFeature{"dynamicRendering", &VkPhysicalDeviceVulkan13Features::dynamicRendering},
+    RequiredFeature{"synchronization2", &VkPhysicalDeviceVulkan13Features::synchronization2},
+    RequiredFeature{"maintenance4", &VkPhysicalDeviceVulkan13Features::maintenance4},
 };
 
-constexpr std::array kExtensions{VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+// What stands for a feature: a member of VkPhysicalDeviceFeatures, an extension, or a format of
+// colour attachments that can be blended into.
+struct FeatureRow {
+    Feature feature;
+    std::string_view name;
+    VkBool32 VkPhysicalDeviceFeatures::* member;
+    const char* extension;
+    VkFormat blended = VK_FORMAT_UNDEFINED;
+};
+
+constexpr std::array kFeatures{
+    FeatureRow{
+        Feature::tessellation, "tessellation stages with isolines",
+        &VkPhysicalDeviceFeatures::tessellationShader, nullptr},
+    FeatureRow{
+        Feature::geometry, "geometry stages", &VkPhysicalDeviceFeatures::geometryShader, nullptr},
+    FeatureRow{
+        Feature::vertex_stores, "stores in vertex, tessellation and geometry stages",
+        &VkPhysicalDeviceFeatures::vertexPipelineStoresAndAtomics, nullptr},
+    FeatureRow{
+        Feature::fragment_stores, "stores in fragment stages",
+        &VkPhysicalDeviceFeatures::fragmentStoresAndAtomics, nullptr},
+    FeatureRow{
+        Feature::independent_blend, "independent blending",
+        &VkPhysicalDeviceFeatures::independentBlend, nullptr},
+    FeatureRow{
+        Feature::float_blend, "blending of 32-bit floats", nullptr, nullptr,
+        VK_FORMAT_R32G32B32A32_SFLOAT},
+    FeatureRow{
+        Feature::long_integers, "64-bit integers in shaders",
+        &VkPhysicalDeviceFeatures::shaderInt64, nullptr},
+    FeatureRow{
+        Feature::pipeline_statistics, "pipeline statistics",
+        &VkPhysicalDeviceFeatures::pipelineStatisticsQuery, nullptr},
+    FeatureRow{
+        Feature::sample_counts, "occlusion queries that count",
+        &VkPhysicalDeviceFeatures::occlusionQueryPrecise, nullptr},
+    FeatureRow{
+        Feature::push_descriptors, "push descriptors", nullptr,
+        VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME},
+};
+
+// Of headers that are asked for provisional extensions; the number never changes.
+constexpr auto kPortabilityFeaturesType = static_cast<VkStructureType>(1000163000);
 
 template <class Struct, std::size_t Count>
 void appendMissing(
-    const Struct& available, const std::array<Feature<Struct>, Count>& wanted,
+    const Struct& available, const std::array<RequiredFeature<Struct>, Count>& wanted,
     std::vector<std::string>& missing) {
     for (const auto& feature : wanted) {
         if (!(available.*feature.member)) missing.push_back("feature " + std::string(feature.name));
@@ -118,11 +149,31 @@ void appendMissing(
 }
 
 template <class Struct, std::size_t Count>
-void enable(Struct& features, const std::array<Feature<Struct>, Count>& wanted) {
+void enable(Struct& features, const std::array<RequiredFeature<Struct>, Count>& wanted) {
     for (const auto& feature : wanted) features.*feature.member = VK_TRUE;
 }
 
-void appendMissingExtensions(VkPhysicalDevice device, std::vector<std::string>& missing) {
+// The structs of features that are asked for and switched on, chained.
+struct FeatureChain {
+    VkPhysicalDeviceFeatures2 core{};
+    VkPhysicalDeviceVulkan12Features vulkan12{};
+    VkPhysicalDeviceVulkan13Features vulkan13{};
+    VkPhysicalDevicePortabilitySubsetFeaturesKHR portability{};
+
+    explicit FeatureChain(bool is_portability) {
+        core.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+        core.pNext = &vulkan12;
+        vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+        vulkan12.pNext = &vulkan13;
+        vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+        if (is_portability) vulkan13.pNext = &portability;
+        portability.sType = kPortabilityFeaturesType;
+    }
+    FeatureChain(const FeatureChain&) = delete;
+    FeatureChain& operator=(const FeatureChain&) = delete;
+};
+
+std::set<std::string> extensionsOf(VkPhysicalDevice device) {
     std::uint32_t count = 0;
     check(
         vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr),
@@ -131,13 +182,35 @@ void appendMissingExtensions(VkPhysicalDevice device, std::vector<std::string>& 
     check(
         vkEnumerateDeviceExtensionProperties(device, nullptr, &count, available.data()),
         "list the device's extensions");
-    for (const char* wanted : kExtensions) {
-        const bool found = std::ranges::any_of(available, [&](const auto& extension) {
-            return std::strcmp(extension.extensionName, wanted) == 0;
-        });
-        if (!found) missing.push_back("extension " + std::string(wanted));
-    }
+    std::set<std::string> names;
+    for (const VkExtensionProperties& extension : available) names.insert(extension.extensionName);
+    return names;
 }
+
+bool canBlend(VkPhysicalDevice device, VkFormat format) {
+    VkFormatProperties properties{};
+    vkGetPhysicalDeviceFormatProperties(device, format, &properties);
+    return (properties.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) != 0;
+}
+
+void findFeatures(DeviceInfo& info) {
+    const std::set<std::string> extensions = extensionsOf(info.handle);
+    info.is_portability = extensions.contains(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME);
+    FeatureChain available(info.is_portability);
+    vkGetPhysicalDeviceFeatures2(info.handle, &available.core);
+    appendMissing(available.vulkan12, kVulkan12Features, info.missing);
+    appendMissing(available.vulkan13, kVulkan13Features, info.missing);
+    for (const FeatureRow& row : kFeatures) {
+        const bool there = row.member      ? available.core.features.*row.member == VK_TRUE
+                           : row.extension ? extensions.contains(row.extension)
+                                           : canBlend(info.handle, row.blended);
+        if (there) info.features.insert(row.feature);
+    }
+    if (info.is_portability && !available.portability.tessellationIsolines)
+        info.features.erase(Feature::tessellation);
+}
+
+// ---- Devices ------------------------------------------------------------------------------------
 
 std::string typeName(VkPhysicalDeviceType type) {
     switch (type) {
@@ -199,19 +272,7 @@ DeviceInfo inspect(VkPhysicalDevice device) {
         return info;
     }
 
-    VkPhysicalDeviceVulkan13Features vulkan13{};
-    vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
-    VkPhysicalDeviceVulkan12Features vulkan12{};
-    vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
-    vulkan12.pNext = &vulkan13;
-    VkPhysicalDeviceFeatures2 available{};
-    available.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-    available.pNext = &vulkan12;
-    vkGetPhysicalDeviceFeatures2(device, &available);
-    appendMissing(available.features, kCoreFeatures, info.missing);
-    appendMissing(vulkan12, kVulkan12Features, info.missing);
-    appendMissing(vulkan13, kVulkan13Features, info.missing);
-    appendMissingExtensions(device, info.missing);
+    findFeatures(info);
     findQueueFamily(info);
     return info;
 }
@@ -284,6 +345,9 @@ Instance::Instance(Validation validation, const std::vector<std::string>& window
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     }
 
+    const bool portability = hasExtension(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
+    if (portability) extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
+
     constexpr std::array enabled{VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
     const VkDebugUtilsMessengerCreateInfoEXT messenger = messengerInfo(*messages_);
     const VkValidationFeaturesEXT features{
@@ -305,7 +369,9 @@ Instance::Instance(Validation validation, const std::vector<std::string>& window
     const VkInstanceCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
         .pNext = validation == Validation::on ? &features : nullptr,
-        .flags = 0,
+        .flags = portability
+                     ? VkInstanceCreateFlags{VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR}
+                     : VkInstanceCreateFlags{0},
         .pApplicationInfo = &application,
         .enabledLayerCount = static_cast<std::uint32_t>(layers.size()),
         .ppEnabledLayerNames = layers.data(),
@@ -338,26 +404,55 @@ std::vector<VkPhysicalDevice> Instance::physicalDevices() const {
 
 // ---- Devices and their features -----------------------------------------------------------------
 
-RequiredFeatures::RequiredFeatures() {
-    core.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-    core.pNext = &vulkan12;
-    vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
-    vulkan12.pNext = &vulkan13;
-    vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
-    enable(core.features, kCoreFeatures);
-    enable(vulkan12, kVulkan12Features);
-    enable(vulkan13, kVulkan13Features);
+std::string_view featureName(Feature feature) {
+    return std::ranges::find(kFeatures, feature, &FeatureRow::feature)->name;
 }
 
-void enableOptionalFeatures(VkPhysicalDevice device, VkPhysicalDeviceFeatures& features) {
-    VkPhysicalDeviceFeatures available{};
-    vkGetPhysicalDeviceFeatures(device, &available);
-    for (const auto& feature : kOptionalCoreFeatures) {
-        features.*feature.member = available.*feature.member;
+std::vector<Feature> allFeatures() {
+    const auto features = kFeatures | std::views::transform(&FeatureRow::feature);
+    return {features.begin(), features.end()};
+}
+
+VkDevice createDevice(const DeviceInfo& info, std::vector<const char*> extensions) {
+    FeatureChain features(info.is_portability);
+    enable(features.vulkan12, kVulkan12Features);
+    enable(features.vulkan13, kVulkan13Features);
+    for (const FeatureRow& row : kFeatures) {
+        if (!info.features.contains(row.feature)) continue;
+        if (row.member)
+            features.core.features.*row.member = VK_TRUE;
+        else if (row.extension)
+            extensions.push_back(row.extension);
     }
-}
+    if (info.is_portability) {
+        extensions.push_back(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME);
+        features.portability.tessellationIsolines =
+            info.features.contains(Feature::tessellation) ? VK_TRUE : VK_FALSE;
+    }
 
-std::vector<const char*> requiredExtensions() { return {kExtensions.begin(), kExtensions.end()}; }
+    const float priority = 1.0f;
+    const VkDeviceQueueCreateInfo queue{
+        .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+        .pNext = nullptr,
+        .flags = 0,
+        .queueFamilyIndex = info.queue_family,
+        .queueCount = 1,
+        .pQueuePriorities = &priority};
+    const VkDeviceCreateInfo create{
+        .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+        .pNext = &features.core,
+        .flags = 0,
+        .queueCreateInfoCount = 1,
+        .pQueueCreateInfos = &queue,
+        .enabledLayerCount = 0,
+        .ppEnabledLayerNames = nullptr,
+        .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
+        .ppEnabledExtensionNames = extensions.data(),
+        .pEnabledFeatures = nullptr};
+    VkDevice device{};
+    check(vkCreateDevice(info.handle, &create, nullptr, &device), "create the Vulkan device");
+    return device;
+}
 
 std::vector<DeviceInfo> listDevices(const Instance& instance) {
     std::vector<DeviceInfo> devices;

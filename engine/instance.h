@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -88,6 +90,27 @@ public:
     using Error::Error;
 };
 
+// What a device may lack. Features are switched on where they are there; a case that needs one that
+// is not is skipped.
+enum class Feature {
+    tessellation,  // control and evaluation stages, with isolines
+    geometry,
+    vertex_stores,  // of vertex, tessellation and geometry stages
+    fragment_stores,
+    independent_blend,  // attachments of one pipeline that are blended in different ways
+    float_blend,  // of 32-bit floats
+    long_integers,  // of 64 bits, in shaders
+    pipeline_statistics,
+    sample_counts,  // occlusion queries that count
+    push_descriptors,  // Commands does with descriptor sets where they are missing
+};
+
+// In the plural, for "the device has no ...".
+std::string_view featureName(Feature feature);
+
+// All of them, in the order above.
+std::vector<Feature> allFeatures();
+
 // What a Vulkan device is and whether hairbench can run on it.
 struct DeviceInfo {
     VkPhysicalDevice handle{};
@@ -101,6 +124,8 @@ struct DeviceInfo {
     std::uint32_t queue_family = 0;  // graphics, compute and transfer
     std::uint32_t timestamp_valid_bits = 0;  // of the queue family
     std::vector<std::string> missing;  // required features it lacks; empty: suitable
+    std::set<Feature> features;
+    bool is_portability = false;  // it has a subset of Vulkan (VK_KHR_portability_subset)
 };
 
 // All devices of the instance, as the driver orders them.
@@ -111,20 +136,8 @@ std::vector<DeviceInfo> listDevices(const Instance& instance);
 // the reasons when there is none.
 DeviceInfo chooseDevice(const Instance& instance, const std::string& wanted);
 
-// The features every device must have, chained for vkCreateDevice.
-struct RequiredFeatures {
-    VkPhysicalDeviceFeatures2 core{};
-    VkPhysicalDeviceVulkan12Features vulkan12{};
-    VkPhysicalDeviceVulkan13Features vulkan13{};
-
-    RequiredFeatures();
-    RequiredFeatures(const RequiredFeatures&) = delete;
-    RequiredFeatures& operator=(const RequiredFeatures&) = delete;
-};
-
-// Switches on the optional features that the device has.
-void enableOptionalFeatures(VkPhysicalDevice device, VkPhysicalDeviceFeatures& features);
-
-std::vector<const char*> requiredExtensions();
+// Creates the logical device with one queue, the features that every device must have and those of
+// `info`, and these extensions beside those that the features need.
+VkDevice createDevice(const DeviceInfo& info, std::vector<const char*> extensions);
 
 }  // namespace engine

@@ -97,6 +97,19 @@ PipelineLayout makeLayout(
     return {device.get(), layout};
 }
 
+// Throws Unsupported where the device has no such stage.
+void requireStage(const Device& device, const std::string& path) {
+    switch (stageOf(path)) {
+    case VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT:
+    case VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT:
+        return device.require(Feature::tessellation, path);
+    case VK_SHADER_STAGE_GEOMETRY_BIT:
+        return device.require(Feature::geometry, path);
+    default:
+        return;
+    }
+}
+
 // One image at each binding, of these types.
 VkDescriptorSetLayout makeImageLayout(
     const Device& device, std::span<const VkDescriptorType> types, VkShaderStageFlags stages) {
@@ -107,10 +120,12 @@ VkDescriptorSetLayout makeImageLayout(
         bindings[i].descriptorCount = 1;
         bindings[i].stageFlags = stages;
     }
+    constexpr VkDescriptorSetLayoutCreateFlags kPushed =
+        VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
     const VkDescriptorSetLayoutCreateInfo create{
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
         .pNext = nullptr,
-        .flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR,
+        .flags = device.has(Feature::push_descriptors) ? kPushed : 0,
         .bindingCount = static_cast<std::uint32_t>(bindings.size()),
         .pBindings = bindings.data()};
     VkDescriptorSetLayout layout{};
@@ -176,6 +191,7 @@ ComputePipeline::ComputePipeline(const Device& device, const ComputeDescription&
 }
 
 GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsDescription& description) {
+    for (const std::string& path : description.shaders) requireStage(device, path);
     if (description.sampled_images > 0) {
         const std::vector<VkDescriptorType> types(
             description.sampled_images, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);

@@ -43,6 +43,7 @@ public:
 
     VkPipeline get() const { return pipeline_.get(); }
     VkPipelineLayout layout() const { return layout_.get(); }
+    VkDescriptorSetLayout imagesLayout() const { return images_.get(); }  // null: no images
 
 private:
     Handle<VkDescriptorSetLayout, &vkDestroyDescriptorSetLayout> images_;
@@ -85,10 +86,12 @@ struct GraphicsDescription {
 // description.
 class GraphicsPipeline {
 public:
+    // Throws Unsupported for stages that the device hasn't.
     GraphicsPipeline(const Device& device, const GraphicsDescription& description);
 
     VkPipeline get() const { return pipeline_.get(); }
     VkPipelineLayout layout() const { return layout_.get(); }
+    VkDescriptorSetLayout imagesLayout() const { return images_.get(); }  // null: no images
 
 private:
     Handle<VkDescriptorSetLayout, &vkDestroyDescriptorSetLayout> images_;

@@ -227,7 +227,7 @@ bool Swapchain::present(std::uint32_t index, VkSemaphore drawn) const {
 
 Presenter::Presenter(const Device& device, const Window& window, PresentMode mode)
     : device_(device), window_(window), mode_(mode),
-      surface_(window.createSurface(device.instance())) {
+      surface_(window.createSurface(device.instance())), sets_(device) {
     VkBool32 presents = VK_FALSE;
     check(
         vkGetPhysicalDeviceSurfaceSupportKHR(
@@ -353,7 +353,7 @@ void Presenter::record(
     std::uint32_t index, const std::function<void(Commands&)>& before,
     const std::function<void(Commands&)>& draw) {
     timestamps_->reset();
-    Commands commands(buffer_, device_.hazards());
+    Commands commands(buffer_, sets_, device_.hazards());
     commands.begin();
     commands.beginLabel("ui");
     timestamps_->write(commands);

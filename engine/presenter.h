@@ -112,6 +112,7 @@ private:
     VkSurfaceKHR surface_;
     Handle<VkCommandPool, &vkDestroyCommandPool> pool_;
     VkCommandBuffer buffer_{};
+    DescriptorSets sets_;
     Handle<VkFence, &vkDestroyFence> done_;
     Handle<VkSemaphore, &vkDestroySemaphore> acquired_;
     std::vector<Handle<VkSemaphore, &vkDestroySemaphore>> drawn_;  // one for each image

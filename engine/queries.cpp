@@ -42,10 +42,7 @@ StatisticCounts PipelineStatistics::read() const {
 // ---- Samples that pass the depth test -----------------------------------------------------------
 
 SamplesQuery::SamplesQuery(const Device& device) : device_(device.get()) {
-    VkPhysicalDeviceFeatures features{};
-    vkGetPhysicalDeviceFeatures(device.info().handle, &features);
-    if (!features.occlusionQueryPrecise)
-        throw Unsupported("samples query", "the device does not count samples");
+    device.require(Feature::sample_counts, "samples query");
     VkQueryPoolCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
     create.queryType = VK_QUERY_TYPE_OCCLUSION;

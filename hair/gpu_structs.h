@@ -7,10 +7,13 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "engine/device_address.h"
+
 // The structs and constants that C++ and GLSL share. Scalar layout on both sides: no padding but
 // what is written.
 namespace hair::gpu {
 
+using Address = engine::DeviceAddress;
 using glm::mat4;
 using glm::uvec3;
 using glm::vec2;

@@ -11,11 +11,11 @@
 #include <gtest/gtest.h>
 
 // What some tests need and a machine may lack.
-enum class Need { device, validation, gbench, python, report, browser, display };
+enum class Need { device, validation, gbench, python, report, browser, display, swiftshader };
 
-inline constexpr std::array<std::string_view, 7> kNeedNames{
-    "device", "validation", "gbench", "python", "report", "browser", "display"};
-static_assert(kNeedNames.size() == static_cast<std::size_t>(Need::display) + 1);
+inline constexpr std::array<std::string_view, 8> kNeedNames{
+    "device", "validation", "gbench", "python", "report", "browser", "display", "swiftshader"};
+static_assert(kNeedNames.size() == static_cast<std::size_t>(Need::swiftshader) + 1);
 
 // Whether HAIRBENCH_REQUIRE, names that are separated by commas, has it: scripts/test puts there
 // what it has set up. Throws for names that there are none of.

@@ -31,6 +31,20 @@ int printSchema() {
     return report::kOk;
 }
 
+namespace {
+
+// What the device lacks of what only some cases need.
+void printLacking(const engine::DeviceInfo& device) {
+    std::string lacking;
+    for (const engine::Feature feature : engine::allFeatures())
+        if (!device.features.contains(feature))
+            lacking += "\n     " + std::string(engine::featureName(feature));
+    if (!lacking.empty())
+        std::cout << "   but for cases that need what it has not:" << lacking << '\n';
+}
+
+}  // namespace
+
 int printDevices() {
     const engine::Instance instance(engine::Validation::off);
     const std::vector<engine::DeviceInfo> devices = engine::listDevices(instance);
@@ -42,6 +56,7 @@ int printDevices() {
                   << device.limits.timestampPeriod << " ns\n";
         if (device.missing.empty()) {
             std::cout << "   runs hairbench\n";
+            printLacking(device);
         } else {
             std::cout << "   can't run hairbench; it lacks";
             for (const std::string& missing : device.missing) std::cout << "\n     " << missing;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/buffer_image.h"
+#include "engine/device_address.h"
 #include "engine/error.h"
 
 namespace benchmarks::measure {
@@ -13,6 +14,7 @@ namespace benchmarks::measure {
 // ---- Busy work ----------------------------------------------------------------------------------
 
 namespace gpu {
+using Address = engine::DeviceAddress;
 using uint = std::uint32_t;
 #include "shaders/shared/busy_structs.h"
 static_assert(offsetof(BusyPush, steps) == 8);

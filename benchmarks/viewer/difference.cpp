@@ -7,12 +7,14 @@
 
 #include "benchmarks/report/text.h"
 #include "engine/commands.h"
+#include "engine/device_address.h"
 
 namespace benchmarks::viewer {
 
 // ---- The pass -----------------------------------------------------------------------------------
 
 namespace gpu {
+using Address = engine::DeviceAddress;
 using uint = std::uint32_t;
 #include "shaders/shared/difference_structs.h"
 static_assert(sizeof(DifferenceCounts) == 16);

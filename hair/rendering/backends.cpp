@@ -77,6 +77,7 @@ private:
     }
 
     static engine::GraphicsDescription describe(const BackendContext& context) {
+        context.device.require(engine::Feature::geometry, "/strands/backend: pulling_geometry");
         engine::GraphicsDescription description = strandPipeline(context);
         description.shaders = {
             "strands/pulling.vert", context.output.geometry, context.output.fragment};
@@ -88,7 +89,8 @@ private:
     engine::GraphicsPipeline pipeline_;
 };
 
-// The shaders of the stages up to the last one.
+// The shaders of the stages up to the last one. Throws engine::Unsupported for stages that the
+// device hasn't.
 std::vector<std::string> stageShaders(const BackendContext& context) {
     const StrandStages& stages = context.stages;
     const auto path = [&](StrandStage stage, const std::string& file) {
@@ -96,10 +98,12 @@ std::vector<std::string> stageShaders(const BackendContext& context) {
     };
     std::vector<std::string> shaders{path(StrandStage::vertex, "tessellation.vert")};
     if (stages.last >= StrandStage::evaluation) {
+        context.device.require(engine::Feature::tessellation, "/strands/backend: tessellation");
         shaders.emplace_back("strands/tessellation.tesc");
         shaders.push_back(path(StrandStage::evaluation, "tessellation.tese"));
     }
     if (stages.last >= StrandStage::geometry) {
+        context.device.require(engine::Feature::geometry, "/strands/backend: tessellation");
         shaders.push_back(
             stages.watched == StrandStage::geometry ? "strands/watched/strand.geom"
                                                     : context.output.geometry);
@@ -169,11 +173,7 @@ constexpr std::array kBackends{
 };
 
 engine::Buffer watchBuffer(const engine::Device& device) {
-    VkPhysicalDeviceFeatures features{};
-    vkGetPhysicalDeviceFeatures(device.info().handle, &features);
-    if (!features.vertexPipelineStoresAndAtomics)
-        throw engine::Unsupported(
-            "ablation", "the device's vertex, tessellation and geometry stages can't store");
+    device.require(engine::Feature::vertex_stores, "ablation");
     return {
         device,
         {.size = sizeof(gpu::StageWatch), .usage = engine::Usage::storage, .name = "stage watch"}};

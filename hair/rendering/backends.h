@@ -76,7 +76,7 @@ struct BackendContext {
     StrandStages stages{};
 };
 
-// Throws engine::Unsupported for stages that the back end doesn't have.
+// Throws engine::Unsupported for stages that the back end or the device doesn't have.
 std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext& context);
 
 // Says that what is drawn next evaluates the picture's strands (Commands::uses).

@@ -37,11 +37,12 @@ constexpr glm::vec3 kGuideColor{0.05f, 0.2f, 0.9f};
 constexpr glm::vec3 kTriangleColor{0.85f, 0.1f, 0.1f};
 constexpr glm::vec3 kBodyColor{0.1f, 0.75f, 0.35f};
 
+constexpr std::uint32_t kVerticesPerLine = 6;  // shaders/overlay/overlay.glsl
+
 engine::GraphicsDescription lines(const char* vertex_shader, const RenderSettings& render) {
     return {
-        .shaders = {vertex_shader, "strands/strand.geom", "overlay/color.frag"},
+        .shaders = {vertex_shader, "overlay/color.frag"},
         .push_size = sizeof(gpu::OverlayPush),
-        .topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST,
         .colors = {{colorFormat(render)}},
         .depth_format = engine::Target::kDepthFormat,
         .samples = render.msaa};
@@ -131,16 +132,17 @@ void OverlayPass::draw(
             bodies_->pipeline,
             gpu::OverlayPush{
                 .picture = picture, .lines = bodies_->lines.address(), .color = kBodyColor});
-        commands.draw({.vertices = 2 * bodies_->line_count});
+        commands.draw({.vertices = kVerticesPerLine * bodies_->line_count});
     }
     if (root_triangles_) {
         commands.bind(
             *root_triangles_, gpu::OverlayPush{.picture = picture, .color = kTriangleColor});
-        commands.draw({.vertices = 2 * 3 * view.triangle_count});
+        commands.draw({.vertices = kVerticesPerLine * 3 * view.triangle_count});
     }
     if (guides_) {
         commands.bind(*guides_, gpu::OverlayPush{.picture = picture, .color = kGuideColor});
-        commands.draw({.vertices = 2 * view.guide_count * (view.vertices_per_guide - 1)});
+        commands.draw(
+            {.vertices = kVerticesPerLine * view.guide_count * (view.vertices_per_guide - 1)});
     }
 }
 

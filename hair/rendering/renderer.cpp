@@ -35,9 +35,8 @@ strandImages(const StrandTexture& texture, const ShadowPass& shadows) {
 
 }  // namespace
 
-// Scalar layout aligns 64-bit members to 8, as C++ does.
-static_assert(offsetof(gpu::PictureParameters, lights) == 224);
-static_assert(sizeof(gpu::PictureParameters) == 392);
+static_assert(offsetof(gpu::PictureParameters, lights) == 220);
+static_assert(sizeof(gpu::PictureParameters) == 388);
 
 gpu::PictureParameters pictureParameters(
     const Settings& settings, const StrandPlan& plan, const StrandView& view,

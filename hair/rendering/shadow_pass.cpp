@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 #include <string>
 
@@ -123,6 +124,9 @@ LightView lightView(
 }
 
 // ---- Images and buffers -------------------------------------------------------------------------
+
+// GLSL takes it that what an address points to is aligned to 16 bytes, where nothing else is said.
+constexpr std::size_t kPictureStride = (sizeof(gpu::PictureParameters) + 15) / 16 * 16;
 
 static_assert(offsetof(gpu::ShadowMap, corner) == 80 && sizeof(gpu::ShadowMap) == 104);
 static_assert(offsetof(gpu::ShadowParameters, softness) == 1672);
@@ -289,16 +293,14 @@ ShadowPass::ShadowPass(
             uploadBuffer(device, sizeof(gpu::ShadowParameters), "shadow parameters");
         parameters_[slot].write(gpu::ShadowParameters{});
         pictures_[slot] = uploadBuffer(
-            device, std::max<std::size_t>(lights_.size(), 1) * sizeof(gpu::PictureParameters),
-            "lights' pictures");
+            device, std::max<std::size_t>(lights_.size(), 1) * kPictureStride, "lights' pictures");
     }
     device.runOnce([&](engine::Commands& commands) {
         for (const engine::SampledImage& sampled : images_)
             toRead(commands, *sampled.image, VK_IMAGE_LAYOUT_UNDEFINED);
     });
     if (!hair_maps_) return;
-    if (!device.supportsBlending(kLayerFormat))
-        throw engine::Unsupported("/shading/shadows/hair", "the device can't add 32-bit floats");
+    device.require(engine::Feature::float_blend, "/shading/shadows/hair");
     const BackendContext context{.device = device, .plan = plan, .strands = settings.strands};
     const auto backend = [&](const StrandOutput& output) {
         BackendContext with_output = context;
@@ -324,7 +326,7 @@ std::vector<std::uint64_t> ShadowPass::writeParameters(
     // What is sampled round a point lies in the map: the filter, and strands a texel wide.
     const float margin = std::max(shadows.softness, 0.5f) + 1.0f;
     const ShadowBounds bounds = scene_.bounds(view);
-    std::vector<gpu::PictureParameters> pictures;
+    std::vector<std::byte> pictures(lights_.size() * kPictureStride);
     std::vector<std::uint64_t> addresses;
     for (std::uint32_t i = 0; i < lights_.size(); ++i) {
         const std::uint32_t light = lights_[i];
@@ -339,7 +341,7 @@ std::vector<std::uint64_t> ShadowPass::writeParameters(
             .texel_slope = seen.texel_slope,
             .layer_depth = shadows.layer_depth,
             .casters = (mesh_maps_ ? gpu::kMeshesCast : 0u) | (hair_maps_ ? gpu::kHairCasts : 0u)};
-        gpu::PictureParameters& picture = pictures.emplace_back(of);
+        gpu::PictureParameters picture = of;
         picture.view_projection = seen.view_projection;
         picture.eye = seen.eye;
         picture.pixel_near = seen.texel_near;
@@ -347,10 +349,12 @@ std::vector<std::uint64_t> ShadowPass::writeParameters(
         if (settings_.render.transparency == Transparency::none) picture.opacity = 1.0f;
         picture.shadows = parameters_[slot].address() + offsetof(gpu::ShadowParameters, maps) +
                           light * sizeof(gpu::ShadowMap);
-        addresses.push_back(pictures_[slot].address() + i * sizeof picture);
+        const std::size_t place = i * kPictureStride;
+        std::memcpy(&pictures[place], &picture, sizeof picture);
+        addresses.push_back(pictures_[slot].address() + place);
     }
     parameters_[slot].write(parameters);
-    pictures_[slot].write(std::as_bytes(std::span(pictures)));
+    pictures_[slot].write(std::span<const std::byte>(pictures));
     return addresses;
 }
 

@@ -114,8 +114,7 @@ std::uint32_t pixelCount(const engine::Target& target) {
 }
 
 std::uint32_t capacity(const BlendContext& context) {
-    if (!context.device.hasFragmentStores())
-        throw engine::Unsupported("fragment_list", "the device's fragments can't store");
+    context.device.require(engine::Feature::fragment_stores, "/render/transparency: fragment_list");
     const std::uint64_t nodes =
         std::uint64_t{context.settings.render.list_length} * pixelCount(context.target);
     if (nodes > kMostNodes) {
@@ -244,8 +243,7 @@ engine::GraphicsDescription composite(const RenderSettings& render) {
 }
 
 const engine::Device& checked(const engine::Device& device) {
-    if (!device.hasIndependentBlend())
-        throw engine::Unsupported("weighted_blended", "the device has no independent blending");
+    device.require(engine::Feature::independent_blend, "/render/transparency: weighted_blended");
     return device;
 }
 
@@ -372,7 +370,13 @@ StrandOutput shaded(StrandOutput output, const Settings& settings) {
     return output;
 }
 
+// A picture without hair asks nothing of the device.
+StrandStages drawnStages(const Settings& settings, const StrandStages& stages) {
+    return settings.render.hair ? stages : StrandStages{.last = std::nullopt};
+}
+
 std::unique_ptr<StrandBlend> blendOf(const BlendContext& context, const StrandStages& stages) {
+    if (!context.settings.render.hair) return makeOpaqueBlend(context);
     return stages.last && discards(stages) ? makeDiscardedBlend() : makeBlend(context);
 }
 
@@ -417,7 +421,7 @@ StrandPass::StrandPass(
                                      .plan = plan,
                                      .strands = settings.strands,
                                      .output = shaded(blend_->output(), settings),
-                                     .stages = stages})) {}
+                                     .stages = drawnStages(settings, stages)})) {}
 
 void StrandPass::record(
     engine::Passes& passes, const engine::Target& target, std::uint64_t picture,

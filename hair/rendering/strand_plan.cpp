@@ -109,7 +109,8 @@ StrandPlan planStrands(
     plan.forced_density = drawnStrands(strands.density, plan.forced_scale);
     plan.forced_tessellation = pieces.count;
     plan.morphs = lod.mode == LodMode::distance || pieces.morphs;
-    plan.patches_per_triangle = divideUp(plan.forced_density, isoline_limit);
+    plan.patches_per_triangle =
+        isoline_limit == 0 ? 1 : divideUp(plan.forced_density, isoline_limit);
     plan.strands_per_patch = divideUp(plan.forced_density, plan.patches_per_triangle);
     return plan;
 }

@@ -55,7 +55,7 @@ struct DrawnPieces {
 DrawnPieces drawnPieces(std::uint32_t tessellation, float scale);
 
 // `isoline_limit` is the device's maxTessellationGenerationLevel: a denser triangle takes several
-// patches.
+// patches. 0, of a device without tessellation: one patch takes them all.
 StrandPlan planStrands(
     std::uint32_t triangles, std::uint32_t segments, const StrandSettings& strands,
     const LodSettings& lod, std::uint32_t isoline_limit);

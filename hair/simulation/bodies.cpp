@@ -23,7 +23,7 @@ static_assert(sizeof(gpu::DistanceField) == 40 && offsetof(gpu::DistanceField, p
 static_assert(sizeof(gpu::TreeNode) == 32 && offsetof(gpu::TreeNode, upper) == 16);
 static_assert(sizeof(gpu::TreeTriangle) == 48 && offsetof(gpu::TreeTriangle, normal) == 36);
 static_assert(sizeof(gpu::TriangleNormals) == 84 && offsetof(gpu::TriangleNormals, corners) == 48);
-static_assert(sizeof(gpu::BakeDistancePush) == 88 && offsetof(gpu::BakeDistancePush, nodes) == 40);
+static_assert(sizeof(gpu::BakeDistancePush) == 84 && offsetof(gpu::BakeDistancePush, nodes) == 40);
 static_assert(offsetof(gpu::BakeDistancePush, first_block) == 76);
 
 // On lavapipe 12 bake 1.4 times as fast as 4: going through a leaf costs less than finding it.

@@ -18,8 +18,8 @@ namespace {
 using engine::Access;
 
 static_assert(sizeof(gpu::VolumeSample) == 32);
-static_assert(sizeof(gpu::VolumeParameters) == 72 && offsetof(gpu::VolumeParameters, origin) == 32);
-static_assert(sizeof(gpu::VolumePush) == 56);
+static_assert(sizeof(gpu::VolumeParameters) == 68 && offsetof(gpu::VolumeParameters, origin) == 32);
+static_assert(sizeof(gpu::VolumePush) == 52);
 
 // How far from the roots the grids reach, over the longest strand's length: the thesis's length
 // constraint lets strands stretch.

@@ -35,7 +35,7 @@ void checkVertex(
                                      std::to_string(count) + " " + things);
 }
 
-static_assert(sizeof(gpu::PullPush) == 72 && offsetof(gpu::PullPush, held_vertex) == 48);
+static_assert(sizeof(gpu::PullPush) == 68 && offsetof(gpu::PullPush, held_vertex) == 48);
 
 engine::ComputePipeline pipeline(const engine::Device& device, const char* shader) {
     return {device, {.shader = shader, .push_size = sizeof(gpu::PullPush)}};

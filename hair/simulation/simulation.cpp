@@ -22,7 +22,7 @@ constexpr std::int64_t kPartsPerStep = 720720;  // the least common multiple of 
 static_assert(sizeof(gpu::Bodies) == 32);
 static_assert(sizeof(gpu::GuideParameters) == 96 && offsetof(gpu::GuideParameters, gravity) == 56);
 static_assert(offsetof(gpu::GuideParameters, step) == 68);
-static_assert(sizeof(gpu::SubstepPush) == 96 && offsetof(gpu::SubstepPush, frame_before) == 60);
+static_assert(sizeof(gpu::SubstepPush) == 92 && offsetof(gpu::SubstepPush, frame_before) == 60);
 
 constexpr std::uint32_t kSettleBatch = 64;  // substeps per submission
 

@@ -74,6 +74,9 @@ constexpr std::uint32_t kFewest = 2;
 constexpr std::uint32_t kMost = 32;
 constexpr std::uint32_t kOnGpu = 8;  // some 100 registers by count of values; not measured
 
+// Of shared memory, for each invocation of simulation/shape.glsl: seven vec4 and a float.
+constexpr std::uint32_t kSharedBytes = 7 * 16 + 4;
+
 // Invocations that keep a GPU busy: a guess.
 constexpr std::uint32_t kInvocationsToFillGpu = 32768;
 
@@ -89,14 +92,14 @@ std::uint32_t wantedPerChunk(
     return invocations >= kInvocationsToFillGpu ? kOnGpu : kFewest;
 }
 
-// Chunks of about the same size, which is even where there are several: simulation/shape.comp.
+// Chunks of about the same size, which is even where there are several: simulation/shape.glsl.
 std::uint32_t verticesPerChunk(std::uint32_t vertices, std::uint32_t wanted) {
     const std::uint32_t chunks = divideUp(vertices, wanted);
     return chunks == 1 ? vertices : divideUp(divideUp(vertices, chunks), 2) * 2;
 }
 
-// Throws Unsupported for strands with more vertices than the device has invocations in a workgroup
-// for, at 32 vertices each.
+// Throws Unsupported for strands with more vertices than the device has invocations in a workgroup,
+// and shared memory for them, at 32 vertices each.
 ShapePlan planShape(
     const engine::DeviceInfo& device, const SimulationSettings& settings,
     std::uint32_t strand_count, std::uint32_t vertices_per_strand) {
@@ -110,20 +113,24 @@ ShapePlan planShape(
             .collides = collides,
             .strands_per_group = kGroup};
 
-    const std::uint32_t most_chunks = device.limits.maxComputeWorkGroupInvocations;
-    const std::uint32_t fewest = divideUp(vertices_per_strand, most_chunks);
-    if (fewest > kMost)
+    const std::uint32_t most_chunks = std::min(
+        device.limits.maxComputeWorkGroupInvocations,
+        device.limits.maxComputeSharedMemorySize / kSharedBytes);
+    if (vertices_per_strand > most_chunks * kMost)
         throw engine::Unsupported(
             "simulation", std::to_string(vertices_per_strand) +
                               " vertices per strand; this device runs at most " +
                               std::to_string(most_chunks * kMost));
+    const std::uint32_t fewest = divideUp(vertices_per_strand, most_chunks);
     const std::uint32_t wanted =
         wantedPerChunk(device, settings.parallelism, strand_count, vertices_per_strand);
     const std::uint32_t per_chunk = verticesPerChunk(vertices_per_strand, std::max(wanted, fewest));
     const std::uint32_t chunks = divideUp(vertices_per_strand, per_chunk);
-    const std::uint32_t strands = std::max(1u, kGroup / chunks);
+    const std::uint32_t strands = std::max(1u, std::min(kGroup, most_chunks) / chunks);
     return {
-        .shader = "simulation/shape.comp",
+        .shader = device.features.contains(engine::Feature::long_integers)
+                      ? "simulation/shape_packed.comp"
+                      : "simulation/shape.comp",
         .constants =
             {{gpu::kShapeGroupSizeConstant, strands * chunks},
              {gpu::kShapeVerticesPerStrandConstant, vertices_per_strand},

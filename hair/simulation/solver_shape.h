@@ -23,7 +23,7 @@ struct ShapePlan {
 class ShapeSolver : public GuideSolver {
 public:
     // Throws Unsupported for strands with more vertices than the device has invocations in a
-    // workgroup for, at 32 vertices each.
+    // workgroup, and shared memory for them, at 32 vertices each.
     ShapeSolver(
         const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
         const gpu::Step& step);

@@ -17,7 +17,7 @@ namespace {
 
 using engine::Access;
 
-static_assert(sizeof(gpu::WindPush) == 72 && offsetof(gpu::WindPush, directions) == 16);
+static_assert(sizeof(gpu::WindPush) == 68 && offsetof(gpu::WindPush, directions) == 16);
 static_assert(sizeof(gpu::DragPush) == 72 && offsetof(gpu::DragPush, cell) == 32);
 
 engine::ComputeDescription pipelineOf(WindMode mode) {

@@ -120,4 +120,19 @@ hairbench_header_only(stb stb_image_write.h stb)
 if(BUILD_TESTING OR NOT DEFINED BUILD_TESTING)
     find_package(GTest CONFIG REQUIRED)
     hairbench_header_only(valijson valijson/validator.hpp)
+    # SwiftShader comes with Chromium, whose description of it has a path that only Chromium
+    # understands: tests have the loader read this one (VK_DRIVER_FILES).
+    find_library(HAIRBENCH_SWIFTSHADER vk_swiftshader NO_DEFAULT_PATH
+        PATHS /usr/lib/chromium /usr/lib/chromium-browser /usr/lib64/chromium-browser
+            /opt/google/chrome)
+    mark_as_advanced(HAIRBENCH_SWIFTSHADER)
+    set(HAIRBENCH_SWIFTSHADER_ICD "${PROJECT_BINARY_DIR}/swiftshader_icd.json")
+    if(HAIRBENCH_SWIFTSHADER)
+        file(CONFIGURE OUTPUT "${HAIRBENCH_SWIFTSHADER_ICD}" CONTENT [[
+{"file_format_version": "1.0.0",
+ "ICD": {"library_path": "@HAIRBENCH_SWIFTSHADER@", "api_version": "1.3.0"}}
+]] @ONLY)
+    else()
+        file(REMOVE "${HAIRBENCH_SWIFTSHADER_ICD}")
+    endif()
 endif()

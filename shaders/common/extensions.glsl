@@ -3,8 +3,11 @@
 #define HAIRBENCH_COMMON_EXTENSIONS_GLSL
 
 #extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_buffer_reference_uvec2 : require
 #extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+
+// A device address in two halves, low first: not every device has 64-bit integers.
+#define Address uvec2
+const Address kNoAddress = Address(0u);
 
 #endif

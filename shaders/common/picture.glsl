@@ -2,12 +2,9 @@
 #ifndef HAIRBENCH_PICTURE_GLSL
 #define HAIRBENCH_PICTURE_GLSL
 
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_buffer_reference2 : require
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_GOOGLE_include_directive : require
 
+#include "common/extensions.glsl"
 #include "shared/environment_structs.h"
 #include "shared/fragment_structs.h"
 #include "shared/light_structs.h"

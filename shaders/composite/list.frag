@@ -2,10 +2,8 @@
 // A pixel's list of fragments -> one fragment over the picture. However long the list is, all of it
 // is blended in order: the nearest kChunk fragments are picked out and sorted, then those behind
 // them, until the list ends or nothing behind can be seen.
-#extension GL_EXT_buffer_reference : require
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
 #include "shared/fragment_structs.h"
 
 layout(push_constant, scalar) uniform Push { CompositePush push; };

@@ -1,8 +1,7 @@
 #version 460
 // One sample of every pixel.
-#extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/extensions.glsl"
 #include "composite/weighted.glsl"
 #include "shared/fragment_structs.h"
 

@@ -12,7 +12,7 @@ const float kTurn = 6.28318531;  // rad
 
 // `direction` has unit length. Bilinear between texel centres, round the horizon and clamped at the
 // poles.
-vec3 environmentRadiance(uint64_t environment, vec3 direction) {
+vec3 environmentRadiance(Address environment, vec3 direction) {
     EnvironmentParameters map = EnvironmentReference(environment).parameters;
     EnvironmentTexels data = EnvironmentTexels(map.texels);
     float azimuth = atan(direction.x, direction.z) - map.turn;  // from +z towards +x

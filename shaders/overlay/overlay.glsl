@@ -1,4 +1,5 @@
-// What the overlays' vertex stages share: lines that strands/strand.geom makes into quads.
+// What the overlays' vertex stages share: lines as quads that face the camera, six vertices each.
+// Not every device has the geometry stage that makes the quads of strands.
 #ifndef HAIRBENCH_OVERLAY_GLSL
 #define HAIRBENCH_OVERLAY_GLSL
 
@@ -6,20 +7,26 @@
 
 layout(push_constant, scalar) uniform Push { OverlayPush push; };
 
-layout(location = 0) out vec4 position_and_width;
-layout(location = 1) out vec4 tangent_and_along;
-
 const float kOverlayLift = 0.015;   // m
 const float kOverlayWidth = 0.0015;  // m
 const float kBodyWidth = 0.0008;
 
+// Corners of a quad's two triangles: end of the line and side of it.
+const uint kCorners[6] = uint[](0u, 1u, 2u, 1u, 3u, 2u);
+
+uint lineIndex() { return uint(gl_VertexIndex) / 6u; }
+
 // Overlays are drawn a little nearer to the eye, so that hair does not hide its own guides but the
 // head hides those behind it.
-void emitLineEnd(PictureParameters picture, vec3 position, vec3 tangent, float width) {
+void emitCorner(PictureParameters picture, vec3 from, vec3 to, float width) {
+    uint corner = kCorners[uint(gl_VertexIndex) % 6u];
+    vec3 position = corner < 2u ? from : to;
     vec3 to_eye = picture.eye - position;
     vec3 lifted = position + to_eye * min(kOverlayLift / length(to_eye), 0.5);
-    position_and_width = vec4(lifted, width);
-    tangent_and_along = vec4(tangent, 0.0);
+    vec3 side = cross(picture.eye - lifted, to - from);
+    side *= 0.5 * width * inversesqrt(max(dot(side, side), 1e-30));
+    float across = corner % 2u == 0u ? -1.0 : 1.0;
+    gl_Position = picture.view_projection * vec4(lifted + across * side, 1.0);
 }
 
 #endif

@@ -1,5 +1,5 @@
 #version 460
-// The edges of the root triangles as a line list: [triangle][edge][end].
+// The edges of the root triangles as quads: [triangle][edge][corner].
 #extension GL_GOOGLE_include_directive : require
 #include "overlay/overlay.glsl"
 
@@ -10,8 +10,8 @@ vec3 corner(PictureParameters picture, uint triangle, uint index) {
 
 void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;
-    uint line = uint(gl_VertexIndex) / 2u;
+    uint line = lineIndex();
     vec3 from = corner(picture, line / 3u, line % 3u);
     vec3 to = corner(picture, line / 3u, line % 3u + 1u);
-    emitLineEnd(picture, gl_VertexIndex % 2 == 0 ? from : to, to - from, kOverlayWidth);
+    emitCorner(picture, from, to, kOverlayWidth);
 }

@@ -4,7 +4,7 @@
 #include "common/picture.glsl"
 #include "shadows/layers.glsl"
 
-layout(buffer_reference, scalar) readonly buffer ShadowMapReference { ShadowMap map; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer ShadowMapReference { ShadowMap map; };
 layout(push_constant, scalar) uniform Push { StrandPush push; };
 layout(binding = 0) uniform sampler2D hair_depths;
 

@@ -5,7 +5,7 @@ const uint kBusyRounds = 16;  // numbers that each invocation makes in a step
 
 // Push constants of busy/busy.comp.
 struct BusyPush {
-    uint64_t results;  // uint: the number of steps, then one for each group
+    Address results;  // uint: the number of steps, then one for each group
     uint steps;
 };
 

@@ -14,7 +14,7 @@ struct DifferenceCounts {
 
 // Push constants of post/difference.comp.
 struct DifferencePush {
-    uint64_t counts;  // DifferenceCounts
+    Address counts;  // DifferenceCounts
     uint gain;  // of the picture of the difference
 };
 

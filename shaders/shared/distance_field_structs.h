@@ -12,7 +12,7 @@ const uint kBakeBlock = 4u;
 
 // Signed distances to a closed surface at the points of a grid with cubic cells.
 struct DistanceField {
-    uint64_t distances;  // float [z][y][x], m; negative inside
+    Address distances;  // float [z][y][x], m; negative inside
     vec3 origin;  // where point (0, 0, 0) is, m
     float cell;  // m
     uvec3 points;  // along each axis, at least 2
@@ -42,9 +42,9 @@ struct TriangleNormals {
 // Push constants of simulation/bake_distance.comp.
 struct BakeDistancePush {
     DistanceField field;  // its distances are written
-    uint64_t nodes;  // TreeNode
-    uint64_t triangles;  // TreeTriangle, in the order of the leaves
-    uint64_t normals;  // TriangleNormals, in the same order
+    Address nodes;  // TreeNode
+    Address triangles;  // TreeTriangle, in the order of the leaves
+    Address normals;  // TriangleNormals, in the same order
     uvec3 blocks;  // along each axis
     uint first_block;
     uint block_count;  // of this dispatch

@@ -3,7 +3,7 @@
 
 // Light from all around.
 struct EnvironmentParameters {
-    uint64_t texels;  // vec3 [row][column], radiance, linear RGB with the strength, top row first
+    Address texels;  // vec3 [row][column], radiance, linear RGB with the strength, top row first
     uint width;  // px
     uint height;  // px
     float turn;  // rad, about +y
@@ -13,8 +13,8 @@ struct EnvironmentParameters {
 
 // Push constants of environment/*.
 struct EnvironmentPush {
-    uint64_t picture;  // PictureParameters
-    uint64_t environment;  // EnvironmentParameters
+    Address picture;  // PictureParameters
+    Address environment;  // EnvironmentParameters
 };
 
 #endif

@@ -17,9 +17,9 @@ struct BlendRange {
 
 // What fragment_list needs: a linked list of fragments for each rendered pixel.
 struct FragmentLists {
-    uint64_t heads;  // uint [pixel], index of the newest fragment or kNoFragment
-    uint64_t nodes;  // FragmentNode
-    uint64_t counters;  // uint: fragments asked for; may be over the capacity
+    Address heads;  // uint [pixel], index of the newest fragment or kNoFragment
+    Address nodes;  // FragmentNode
+    Address counters;  // uint: fragments asked for; may be over the capacity
     uint capacity;  // nodes
     uint width;  // rendered pixels in a row
 };
@@ -33,7 +33,7 @@ struct FragmentNode {
 
 // Push constants of composite/*.
 struct CompositePush {
-    uint64_t fragments;
+    Address fragments;
     uint sample_index;  // of a multisampled target: which sample is blended
 };
 

@@ -3,10 +3,10 @@
 
 // Push constants of scene/mesh*.
 struct MeshPush {
-    uint64_t picture;  // PictureParameters
-    uint64_t positions;  // vec3, m
-    uint64_t normals;  // vec3, unit length
-    uint64_t texture_coordinates;  // vec2, v down; read where there are textures
+    Address picture;  // PictureParameters
+    Address positions;  // vec3, m
+    Address normals;  // vec3, unit length
+    Address texture_coordinates;  // vec2, v down; read where there are textures
     vec3 base_color;  // in working colours
     float opacity;
     float metallic;

@@ -12,7 +12,7 @@ struct HairOptics {
     float trimmed;  // 1 over the logistic distribution's integral over [-pi, pi]
     float density_factor;  // d_f = d_b of dual scattering
     float unused;
-    uint64_t averages;  // FiberAverage [kFiberAverages]; read by dual_scattering
+    Address averages;  // FiberAverage [kFiberAverages]; read by dual_scattering
 };
 
 // Entries of the table of averages; cos theta_i goes from 0 to 1.

@@ -12,8 +12,8 @@ struct BodyLine {
 
 // Push constants of overlay/*.
 struct OverlayPush {
-    uint64_t picture;  // PictureParameters
-    uint64_t lines;  // BodyLine [line]; read by overlay/bodies.vert
+    Address picture;  // PictureParameters
+    Address lines;  // BodyLine [line]; read by overlay/bodies.vert
     vec3 color;
 };
 

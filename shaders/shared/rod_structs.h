@@ -33,10 +33,10 @@ const uint kRodScratchRows = 8u;
 
 // Parameters of simulation/rod.comp and simulation/rod_adopt.comp.
 struct RodParameters {
-    uint64_t segments;  // RodSegment [vertex][strand]
-    uint64_t units;     // float [strand], m
-    uint64_t motion;    // RodMotion [vertex][strand]
-    uint64_t scratch;
+    Address segments;  // RodSegment [vertex][strand]
+    Address units;     // float [strand], m
+    Address motion;    // RodMotion [vertex][strand]
+    Address scratch;
     uint most_strands;  // of a dispatch
     uint iterations;
 };

@@ -42,8 +42,8 @@ struct BodyField {
 
 // The bodies that hair collides with.
 struct Bodies {
-    uint64_t capsules;  // Capsule [capsule_count]
-    uint64_t fields;  // BodyField [field_count]
+    Address capsules;  // Capsule [capsule_count]
+    Address fields;  // BodyField [field_count]
     uint capsule_count;
     uint field_count;
     float margin;  // m
@@ -61,10 +61,10 @@ struct Step {
 
 // What a simulation knows of its guides for its whole life.
 struct GuideParameters {
-    uint64_t positions;  // m; w = inverse mass over a vertex's: 0 where pinned (the root), else 1
-    uint64_t previous;  // m, one substep earlier; w = 1 at vertices in contact with a body and all
-                        // vertices below them on the strand, else 0
-    uint64_t rest_positions;  // m
+    Address positions;  // m; w = inverse mass over a vertex's: 0 where pinned (the root), else 1
+    Address previous;  // m, one substep earlier; w = 1 at vertices in contact with a body and all
+                       // vertices below them on the strand, else 0
+    Address rest_positions;  // m
     Bodies bodies;
     vec3 gravity;  // m/s^2
     Step step;
@@ -76,10 +76,10 @@ struct GuideParameters {
 
 // Push constants of a solver's substep.
 struct SubstepPush {
-    uint64_t guides;  // GuideParameters: positions and previous positions are written
-    uint64_t from;  // GuideParameters of what the substep starts from; may be `guides`
-    uint64_t solver;  // the solver's own parameters
-    uint64_t accelerations;  // m/s^2, beside gravity; address 0: none
+    Address guides;  // GuideParameters: positions and previous positions are written
+    Address from;  // GuideParameters of what the substep starts from; may be `guides`
+    Address solver;  // the solver's own parameters
+    Address accelerations;  // m/s^2, beside gravity; address 0: none
     RigidFrame frame;  // of the head at the end of the substep
     RigidFrame frame_before;  // of the head at the start of the substep
     uint first_strand;  // of those that this dispatch moves
@@ -87,8 +87,8 @@ struct SubstepPush {
 
 // Push constants of simulation/wind.comp.
 struct WindPush {
-    uint64_t guides;  // GuideParameters
-    uint64_t accelerations;  // m/s^2, written
+    Address guides;  // GuideParameters
+    Address accelerations;  // m/s^2, written
     vec3 directions[4];  // unit vectors round the wind's direction times its strength, m/s^2
     float magnitude;  // thesis eq. 13
 };
@@ -98,8 +98,8 @@ const uint kTurbulencePurpose = 0x54555242u;
 
 // Push constants of simulation/wind_drag.comp.
 struct DragPush {
-    uint64_t guides;  // GuideParameters
-    uint64_t accelerations;  // m/s^2, written
+    Address guides;  // GuideParameters
+    Address accelerations;  // m/s^2, written
     vec3 mean_wind;  // m/s
     float fluctuation;  // r.m.s. of each component, m/s
     // Where the world's origin is now in the lattice of the largest eddies, which moves with the
@@ -114,9 +114,9 @@ struct DragPush {
 
 // Push constants of simulation/pull_hold.comp and simulation/pull.comp.
 struct PullPush {
-    uint64_t guides;  // GuideParameters
-    uint64_t accelerations;  // m/s^2, added to
-    uint64_t held;  // vec4: the acceleration of the vertex that is held, m/s^2
+    Address guides;  // GuideParameters
+    Address accelerations;  // m/s^2, added to
+    Address held;  // vec4: the acceleration of the vertex that is held, m/s^2
     vec3 hand;  // at the end of the time step, m
     vec3 hand_velocity;  // m/s
     uint held_vertex;  // of [strand][vertex]
@@ -126,10 +126,10 @@ struct PullPush {
     float implicit;  // 1 / (1 + damping step.whole + stiffness step.whole^2)
 };
 
-// Parameters of simulation/shape.comp.
+// Parameters of simulation/shape.glsl.
 struct ShapeParameters {
-    uint64_t rest_edges;  // hair/simulation/solver_shape.h
-    uint64_t local_stiffness;  // float [strand]: factor per iteration
+    Address rest_edges;  // hair/simulation/solver_shape.h
+    Address local_stiffness;  // float [strand]: factor per iteration
     float global_stiffness;  // factor per substep
     uint local_iterations;
     uint length_iterations;

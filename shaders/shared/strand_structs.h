@@ -35,22 +35,22 @@ struct PictureParameters {
     float opacity;  // of strands, 0 to 1
     uint light_count;
 
-    uint64_t lights;  // Light [light]
-    uint64_t optics;  // HairOptics; read by marschner and dual_scattering
-    uint64_t shadows;  // ShadowParameters; read where there are shadows
-    uint64_t environment;  // EnvironmentParameters; read where there is an environment
-    uint64_t fragments;  // FragmentLists; read where fragments are listed
-    uint64_t guides;          // vec4 [guide][vertex], m, root first; w is not read
-    uint64_t root_triangles;  // uint [triangle][3], guide indices
-    uint64_t root_normals;  // vec3 [guide], unit length, before the head moved; 0: not known, root
-                            // triangles are flat
-    uint64_t guide_widths;  // float [guide][vertex], m; read where the groom's widths are drawn
-    uint64_t bound_strands;  // BoundStrand [strand]; read where the groom's strands are drawn
-    uint64_t guide_normals;  // vec3 [guide][vertex], across the guide; read where offsets are drawn
-    uint64_t contacts;  // vec4 [guide][vertex]: w > 0 where a guide touches a body and below; read
-                        // where the collision rule holds
-    uint64_t root_pattern;  // vec2 [strand], in [0, 1): read where it is that of every triangle
-    uint64_t offsets;  // vec3 [profile][1 + sample + 1], m: see hair/rendering/strand_offsets.h
+    Address lights;  // Light [light]
+    Address optics;  // HairOptics; read by marschner and dual_scattering
+    Address shadows;  // ShadowParameters; read where there are shadows
+    Address environment;  // EnvironmentParameters; read where there is an environment
+    Address fragments;  // FragmentLists; read where fragments are listed
+    Address guides;          // vec4 [guide][vertex], m, root first; w is not read
+    Address root_triangles;  // uint [triangle][3], guide indices
+    Address root_normals;  // vec3 [guide], unit length, before the head moved; 0: not known, root
+                           // triangles are flat
+    Address guide_widths;  // float [guide][vertex], m; read where the groom's widths are drawn
+    Address bound_strands;  // BoundStrand [strand]; read where the groom's strands are drawn
+    Address guide_normals;  // vec3 [guide][vertex], across the guide; read where offsets are drawn
+    Address contacts;  // vec4 [guide][vertex]: w > 0 where a guide touches a body and below; read
+                       // where the collision rule holds
+    Address root_pattern;  // vec2 [strand], in [0, 1): read where it is that of every triangle
+    Address offsets;  // vec3 [profile][1 + sample + 1], m: see hair/rendering/strand_offsets.h
     uint offset_profiles;
     uint offset_samples;  // along a strand, from root to tip
     uint vertices_per_guide;
@@ -83,16 +83,16 @@ struct RootFrame {
 // Push constants of strands/frames.comp.
 struct FramesPush {
     mat4 head;  // PictureParameters::head
-    uint64_t guides;  // vec4 [guide][vertex], m, root first
-    uint64_t root_frames;  // RootFrame [guide]
-    uint64_t normals;  // vec3 [guide][vertex], unit length, across the guide; written
+    Address guides;  // vec4 [guide][vertex], m, root first
+    Address root_frames;  // RootFrame [guide]
+    Address normals;  // vec3 [guide][vertex], unit length, across the guide; written
     uint guide_count;
     uint vertices_per_guide;
 };
 
 // Push constants of everything that draws strands.
 struct StrandPush {
-    uint64_t picture;  // PictureParameters
+    Address picture;  // PictureParameters
 };
 
 // A point of a strand, as strands/evaluate.comp writes it.
@@ -105,8 +105,8 @@ struct StrandPointRecord {
 
 // Push constants of strands/evaluate.comp.
 struct StrandPointsPush {
-    uint64_t picture;  // PictureParameters
-    uint64_t records;  // StrandPointRecord [count], written
+    Address picture;  // PictureParameters
+    Address records;  // StrandPointRecord [count], written
     uint count;
     uint first;  // of all points, [triangle][strand][guide segment][0 .. tessellation]
 };

@@ -25,10 +25,10 @@ struct VolumeSample {
 
 // What the grids of a simulation have for its whole life.
 struct VolumeParameters {
-    uint64_t shares;   // float [strand][vertex]
-    uint64_t samples;  // VolumeSample [strand][vertex]
-    uint64_t sums;     // int [grid][z][y][x][4], fixed point: momentum over the fastest, share
-    uint64_t fastest;  // uint: bits of the greatest component of a velocity, m/s
+    Address shares;   // float [strand][vertex]
+    Address samples;  // VolumeSample [strand][vertex]
+    Address sums;     // int [grid][z][y][x][4], fixed point: momentum over the fastest, share
+    Address fastest;  // uint: bits of the greatest component of a velocity, m/s
     vec3 origin;       // corner of the first grid on the head, m
     float cell;        // m
     uint resolution;   // cells a side
@@ -40,9 +40,9 @@ struct VolumeParameters {
 
 // Push constants of every pass of the grid.
 struct VolumePush {
-    uint64_t guides;         // GuideParameters
-    uint64_t volume;         // VolumeParameters
-    uint64_t accelerations;  // m/s^2, added to by simulation/volume_force.comp
+    Address guides;         // GuideParameters
+    Address volume;         // VolumeParameters
+    Address accelerations;  // m/s^2, added to by simulation/volume_force.comp
     RigidFrame frame;        // of the head at the end of the step
 };
 

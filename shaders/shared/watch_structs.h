@@ -11,8 +11,8 @@ struct StageWatch {
 
 // Push constants of strands whose stages are watched; begins as StrandPush.
 struct WatchedPush {
-    uint64_t picture;  // PictureParameters
-    uint64_t watch;  // StageWatch
+    Address picture;  // PictureParameters
+    Address watch;  // StageWatch
 };
 
 #endif

@@ -41,7 +41,7 @@ void main() {
         vec3 correction = vec3(0.0);
         if (point.w > 0.0) {
             vec3 acceleration = guides.gravity;
-            if (push.accelerations != 0) acceleration += Vectors(push.accelerations).at[i].xyz;
+            if (push.accelerations != kNoAddress) acceleration += Vectors(push.accelerations).at[i].xyz;
             vec3 predicted = integrate(
                 before, previous_before.at[i].xyz, acceleration, guides.velocity_kept,
                 guides.step.sub * guides.step.sub);

@@ -1,16 +1,20 @@
 #ifndef HAIRBENCH_SIMULATION_PACKED_VECTORS_GLSL
 #define HAIRBENCH_SIMULATION_PACKED_VECTORS_GLSL
 
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+
+#include "common/extensions.glsl"
+
 // A vec4 in memory, read and written as two halves: a device that takes one element of one
 // invocation at a time, as Mesa 22's lavapipe does, then has half as many to take.
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer PackedVectors { u64vec2 at[]; };
+layout(buffer_reference, scalar) buffer PackedVectors { u64vec2 at[]; };
 
-vec4 loadVector(uint64_t address, uint index) {
+vec4 loadVector(Address address, uint index) {
     u64vec2 halves = PackedVectors(address).at[index];
     return uintBitsToFloat(uvec4(unpackUint2x32(halves.x), unpackUint2x32(halves.y)));
 }
 
-void storeVector(uint64_t address, uint index, vec4 value) {
+void storeVector(Address address, uint index, vec4 value) {
     uvec4 bits = floatBitsToUint(value);
     PackedVectors(address).at[index] = u64vec2(packUint2x32(bits.xy), packUint2x32(bits.zw));
 }

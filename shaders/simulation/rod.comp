@@ -67,7 +67,7 @@ void predict() {
         RodMotion motion = motions.at[segmentIndex(i)];
         float len = RodSegments(rod.segments).at[segmentIndex(i)].rest_length;
         vec3 acceleration = guides.gravity;
-        if (push.accelerations != 0) acceleration += Vectors(push.accelerations).at[root + i].xyz;
+        if (push.accelerations != kNoAddress) acceleration += Vectors(push.accelerations).at[root + i].xyz;
         motion.velocity = guides.velocity_kept * motion.velocity + scale * acceleration;
         motion.angular_velocity *= guides.velocity_kept;
         moved += gainOf(len * axisOf(motion.orientation), motion.angular_velocity);

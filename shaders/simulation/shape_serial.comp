@@ -1,5 +1,5 @@
 #version 460
-// A substep of the `shape` solver as shape.comp has it, for comparison: one invocation per strand,
+// A substep of the `shape` solver as shape.glsl has it, for comparison: one invocation per strand,
 // as there is one busy lane per strand in the thesis's local constraint, with the strands packed.
 // It walks along the strand with the state in the device's buffers.
 #extension GL_GOOGLE_include_directive : require
@@ -41,7 +41,7 @@ void main() {
             point.xyz = rest;
         } else if (point.w > 0.0) {
             vec3 acceleration = guides.gravity;
-            if (push.accelerations != 0)
+            if (push.accelerations != kNoAddress)
                 acceleration += Vectors(push.accelerations).at[root + v].xyz;
             point.xyz = integrate(
                 before, State(from.previous).at[root + v].xyz, acceleration, guides.velocity_kept,

@@ -63,7 +63,7 @@ RootLift rootLift(PictureParameters picture, StrandPatch strand_patch, uvec3 gui
             mat3(picture.head) * boundStrand(picture, strand_patch.first_strand).offset;
         return lift;
     }
-    if (picture.root_normals == 0) return lift;
+    if (picture.root_normals == kNoAddress) return lift;
     RootNormals root_normals = RootNormals(picture.root_normals);
     vec3 normals[3];
     for (int i = 0; i < 3; ++i) normals[i] = mat3(picture.head) * root_normals.normals[guides[i]];

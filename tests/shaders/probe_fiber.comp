@@ -21,7 +21,7 @@ void main() {
     float cos_i = sqrt(max(1.0 - probe.to_light.x * probe.to_light.x, 0.0));
     probe.bsdf = fiberBsdf(optics, probe.to_eye, probe.to_light, probe.h) * cos_i;
     PictureParameters none;
-    if (optics.averages != 0)
+    if (optics.averages != kNoAddress)
         probe.dual_scattering = dualScattering(
             none, optics, probe.to_eye, probe.to_light, probe.h, probe.strands);
     Probes(push.probes).at[index] = probe;

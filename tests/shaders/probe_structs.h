@@ -15,7 +15,7 @@ struct DistanceProbe {
 // Push constants of probe_distance.comp.
 struct ProbeDistancePush {
     DistanceField field;
-    uint64_t probes;  // DistanceProbe
+    Address probes;  // DistanceProbe
     uint count;
     float margin;  // m
     float friction;  // Coulomb's coefficient
@@ -23,10 +23,10 @@ struct ProbeDistancePush {
 
 // Push constants of probe_environment.comp.
 struct EnvironmentProbePush {
-    uint64_t environment;  // EnvironmentParameters
-    uint64_t directions;  // vec3 [direction], unit length
-    uint64_t radiance;  // vec3 [direction], written: what comes from there
-    uint64_t light;  // vec3 [direction], written: what surfaces that face there get
+    Address environment;  // EnvironmentParameters
+    Address directions;  // vec3 [direction], unit length
+    Address radiance;  // vec3 [direction], written: what comes from there
+    Address light;  // vec3 [direction], written: what surfaces that face there get
     uint count;
 };
 
@@ -42,8 +42,8 @@ struct FiberProbe {
 
 // Push constants of probe_fiber.comp.
 struct ProbeFiberPush {
-    uint64_t optics;  // HairOptics
-    uint64_t probes;  // FiberProbe
+    Address optics;  // HairOptics
+    Address probes;  // FiberProbe
     uint count;
 };
 
@@ -69,8 +69,8 @@ struct ModelProbe {
 
 // Push constants of probe_models.comp.
 struct ProbeModelsPush {
-    uint64_t lights;  // Light
-    uint64_t probes;  // ModelProbe
+    Address lights;  // Light
+    Address probes;  // ModelProbe
     uint count;
 };
 
@@ -83,8 +83,8 @@ struct ShadowProbe {
 
 // Push constants of probe_shadows.frag.
 struct ShadowProbePush {
-    uint64_t picture;  // PictureParameters
-    uint64_t probes;  // ShadowProbe [column]
+    Address picture;  // PictureParameters
+    Address probes;  // ShadowProbe [column]
     uint count;
 };
 
@@ -101,7 +101,7 @@ struct SurfaceProbe {
 
 // Push constants of probe_surface.comp.
 struct SurfaceProbePush {
-    uint64_t probes;  // SurfaceProbe [probe]
+    Address probes;  // SurfaceProbe [probe]
     uint count;
 };
 

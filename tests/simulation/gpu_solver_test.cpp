@@ -1,12 +1,11 @@
-#include <cmath>
 #include <cstring>
-#include <random>
 
 #include <gtest/gtest.h>
 
 #include "hair/reference/solvers.h"
 #include "tests/gpu_fixture.h"
 #include "tests/simulation/gpu_simulation.h"
+#include "tests/simulation/near_reference.h"
 #include "tests/simulation/parallelisms.h"
 #include "tests/simulation/strands.h"
 
@@ -16,14 +15,6 @@ namespace {
 
 bool sameBits(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
-}
-
-SimulationSettings windy() {
-    SimulationSettings settings;
-    settings.wind.strength = 10.0f;
-    settings.collision = {.margin = 0.002f, .friction = 0.3f};
-    settings.colliders = {{.a = {0, 0, 0}, .b = {0, 0.05f, 0}, .radius = 0.06f}};
-    return settings;
 }
 
 using GpuSolver = GpuTest;
@@ -58,39 +49,12 @@ TEST_F(GpuSolver, FollowsVerletsDiscreteParabola) {
     }
 }
 
-// A hundred steps of everything together. The bound comes from the problem, not from the device: a
-// second reference is disturbed by the rounding of a float in every vertex after every step, and
-// the distance between the two says how far the solver spreads one rounding a step. The device
-// rounds once per pull and sweep, independently, so its error is larger by the root of their
-// number; twice that, because it may divide and take roots to less than a float's precision.
 TEST_P(GpuShapeSolver, StaysNearTheReferenceForAHundredSteps) {
     for (const StiffnessScaling scaling : {StiffnessScaling::thesis, StiffnessScaling::invariant})
         for (const std::uint32_t vertices : {2u, 3u, 8u, 9u, 16u, 33u, 64u}) {
-            const groom::Groom groom = wavyGroom(5, vertices);
             SimulationSettings settings = windy();
             settings.stiffness_scaling = scaling;
-            Simulation simulation(device(), groom, settings, 3);
-            reference::Reference solver(groom, settings, 3);
-            reference::Reference rounded(groom, settings, 3);
-            std::mt19937 random(1);
-            for (int i = 0; i < 100; ++i) {
-                solver.step();
-                rounded.step();
-                auto positions =
-                    std::vector(rounded.positions().begin(), rounded.positions().end());
-                for (std::size_t v = 0; v < positions.size(); ++v)
-                    if (v % vertices != 0)
-                        positions[v] *= glm::dvec3(1.0) + 0x1p-24 * randomVector(random);
-                rounded.setState(
-                    positions, std::vector(rounded.previous().begin(), rounded.previous().end()));
-            }
-            advance(device(), simulation, 100);
-            const double spread = largestDifference(rounded.positions(), solver.positions());
-            const double roundings =
-                2.0 + 2.0 * (settings.local.iterations + settings.length.iterations);
-            const double error = largestDifference(simulation.readPositions(), solver.positions());
-            EXPECT_LT(error, 2.0 * std::sqrt(roundings) * spread) << vertices << " vertices";
-            EXPECT_LT(spread, 1e-4 * longestStrand(groom)) << vertices << " vertices";
+            expectNearReference(device(), wavyGroom(5, vertices), settings);
         }
 }
 

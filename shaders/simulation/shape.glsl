@@ -1,0 +1,214 @@
+// One substep of the `shape` solver: integrate, then the constraints in the thesis's order (3.2),
+// then collisions. A strand is cut into chunks of kVerticesPerChunk vertices, and an invocation
+// keeps one chunk in registers: every loop over its vertices must unroll, so that all indices are
+// constants. Neighbouring invocations have the same chunk of neighbouring strands, so that what
+// differs between chunks is the same in most of a subgroup. A workgroup holds whole strands.
+// Invocations past the last strand work on zeros and store nothing, so that all of them reach every
+// barrier; where a strand is one chunk there is none.
+// loadVector() and storeVector() come before it.
+#ifndef HAIRBENCH_SIMULATION_SHAPE_GLSL
+#define HAIRBENCH_SIMULATION_SHAPE_GLSL
+
+#extension GL_EXT_control_flow_attributes : require
+
+#include "common/rigid_frame.glsl"
+#include "shared/options.h"
+#include "simulation/constraints/global.glsl"
+#include "simulation/constraints/length.glsl"
+#include "simulation/constraints/local.glsl"
+#include "simulation/constraints/transport.glsl"
+#include "simulation/contacts.glsl"
+#include "simulation/guides.glsl"
+#include "simulation/integrate.glsl"
+
+// The workgroup is a multiple of kChunks.
+layout(local_size_x_id = kShapeGroupSizeConstant) in;
+layout(constant_id = kShapeVerticesPerStrandConstant) const uint kVerticesPerStrand = 8;
+// Whether there are bodies.
+layout(constant_id = kShapeCollidesConstant) const bool kCollides = true;
+// The number is even where a strand has more than one chunk, so that all segments between chunks
+// are black.
+layout(constant_id = kShapeVerticesPerChunkConstant) const uint kVerticesPerChunk = 8;
+
+layout(push_constant, scalar) uniform Push { SubstepPush push; };
+
+layout(buffer_reference, scalar) readonly buffer ShapeReference { ShapeParameters parameters; };
+
+const uint kChunks = (kVerticesPerStrand + kVerticesPerChunk - 1) / kVerticesPerChunk;
+const uint kLastChunk = kChunks - 1;
+const uint kStrandsPerGroup = gl_WorkGroupSize.x / kChunks;
+// Vertices of the last chunk; the rest of it is padding.
+const uint kVerticesInLast = kVerticesPerStrand - kLastChunk * kVerticesPerChunk;
+
+uint lane;
+uint chunk;
+// Vertex j of the chunk is points[j + 1]; around them lie the last vertex of the chunk before and
+// the first of the chunk after. Segment j joins points[j] and points[j + 1].
+vec4 points[kVerticesPerChunk + 2];  // w: inverse mass
+vec4 rest_edges[kVerticesPerChunk + 1];
+vec3 goal_edges[kVerticesPerChunk + 1];
+
+// What chunks exchange. Halves are used in turn, so that one barrier is enough.
+shared vec4 firsts[2][gl_WorkGroupSize.x];
+shared vec4 lasts[2][gl_WorkGroupSize.x];
+shared vec4 rotations[2][gl_WorkGroupSize.x];
+shared float contacts[gl_WorkGroupSize.x];
+shared vec4 tangents[gl_WorkGroupSize.x];  // w: 0 where the chunk has no direction
+uint turn = 0;
+
+bool vertexExists(uint j) { return j < kVerticesInLast || chunk < kLastChunk; }
+bool segmentExists(uint j) { return j == 0 ? chunk > 0 : vertexExists(j); }
+vec3 edge(uint j) { return points[j + 1].xyz - points[j].xyz; }
+
+// Fetches the neighbouring vertices of the chunks before and after.
+void meetNeighbours() {
+    if (kChunks == 1) return;
+    firsts[turn][lane] = points[1];
+    lasts[turn][lane] = points[kVerticesPerChunk];
+    barrier();
+    if (chunk > 0) points[0] = lasts[turn][lane - kStrandsPerGroup];
+    if (chunk < kLastChunk) points[kVerticesPerChunk + 1] = firsts[turn][lane + kStrandsPerGroup];
+    turn = 1 - turn;
+}
+
+// The tangent of the last segment with a direction before segment 0.
+vec3 tangentBefore(vec3 first_rest_tangent) {
+    if (kChunks == 1) return first_rest_tangent;
+    vec4 last = vec4(0.0);
+    [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j) {
+        if (segmentExists(j) && hasDirection(edge(j), rest_edges[j].w)) last = vec4(edge(j), 1.0);
+    }
+    tangents[lane] = last;
+    barrier();
+    for (uint back = 1; back <= chunk; ++back) {
+        vec4 tangent = tangents[lane - back * kStrandsPerGroup];
+        if (tangent.w != 0.0) return normalize(tangent.xyz);
+    }
+    return first_rest_tangent;
+}
+
+// The rotation that the chunk begins with, by the head and all chunks before: an exclusive scan by
+// recursive doubling.
+vec4 rotationBefore(vec4 own) {
+    rotations[0][lane] = own;
+    barrier();
+    vec4 before = kNoRotation;
+    if (chunk > 0) before = rotations[0][lane - kStrandsPerGroup];
+    uint latest = 0;
+    for (uint reach = 1; reach < kLastChunk; reach *= 2) {
+        latest = 1 - latest;
+        rotations[latest][lane] = before;
+        barrier();
+        if (chunk >= reach)
+            before = multiply(before, rotations[latest][lane - reach * kStrandsPerGroup]);
+    }
+    return renormalize(multiply(before, push.frame.rotation));
+}
+
+// The rest edges in the frames of the segments before them.
+void findGoalEdges(vec3 first_rest_tangent) {
+    vec4 rotations_in_chunk[kVerticesPerChunk + 1];
+    Transport frame = Transport(
+        tangentBefore(first_rest_tangent), kChunks == 1 ? push.frame.rotation : kNoRotation);
+    [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j) {
+        rotations_in_chunk[j] = frame.rotation;
+        if (segmentExists(j)) frame = transport(frame, edge(j), rest_edges[j].w);
+    }
+    rotations_in_chunk[kVerticesPerChunk] = frame.rotation;
+    vec4 before = kNoRotation;
+    if (kChunks > 1) before = rotationBefore(frame.rotation);
+    [[unroll]] for (uint j = 0; j <= kVerticesPerChunk; ++j) {
+        vec4 rotation = rotations_in_chunk[j];
+        if (kChunks > 1) rotation = multiply(rotation, before);
+        goal_edges[j] = rotate(rotation, rest_edges[j].xyz);
+    }
+}
+
+void pull(uint j, float stiffness) {
+    if (segmentExists(j)) pullToShape(points[j], points[j + 1], goal_edges[j], stiffness);
+}
+
+void project(uint j) {
+    if (segmentExists(j)) projectLength(points[j], points[j + 1], rest_edges[j].w);
+}
+
+// What this invocation's vertices start the substep from.
+void load(GuideParameters guides, GuideParameters from, ShapeParameters params, uint first) {
+    [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j) {
+        if (!vertexExists(j)) continue;
+        vec4 point = loadVector(from.positions, first + j);
+        vec3 previous = loadVector(from.previous, first + j).xyz;
+        storeVector(guides.previous, first + j, vec4(point.xyz, 0.0));
+        vec3 rest = toWorld(push.frame, loadVector(guides.rest_positions, first + j).xyz);
+        vec3 acceleration = guides.gravity;
+        if (push.accelerations != kNoAddress)
+            acceleration += loadVector(push.accelerations, first + j).xyz;
+        vec3 moved = integrate(
+            point.xyz, previous, acceleration, guides.velocity_kept,
+            guides.step.sub * guides.step.sub);
+        if (point.w > 0.0) point.xyz = pullToRest(moved, rest, params.global_stiffness);
+        if (j == 0 && chunk == 0) point.xyz = rest;
+        points[j + 1] = point;
+        rest_edges[j] = loadVector(params.rest_edges, first + j);
+    }
+    if (chunk < kLastChunk)
+        rest_edges[kVerticesPerChunk] = loadVector(params.rest_edges, first + kVerticesPerChunk);
+}
+
+// Vertices below one in contact are marked too, also where that is in a chunk before.
+void markBelow(GuideParameters guides, float contact, uint first, uint end) {
+    contacts[lane] = contact;
+    barrier();
+    float above = 0.0;
+    for (uint back = 1; back <= chunk; ++back)
+        above = max(above, contacts[lane - back * kStrandsPerGroup]);
+    if (above > 0.0)
+        for (uint i = first; i < end; ++i) State(guides.previous).at[i].w = above;
+}
+
+void main() {
+    GuideParameters guides = GuideReference(push.guides).parameters;
+    ShapeParameters params = ShapeReference(push.solver).parameters;
+    lane = gl_LocalInvocationID.x;
+    chunk = lane / kStrandsPerGroup;
+    uint strand = workgroupIndex() * kStrandsPerGroup + lane % kStrandsPerGroup;
+    bool present = strand < guides.strand_count;
+    uint root = strand * kVerticesPerStrand;
+    uint first = root + chunk * kVerticesPerChunk;
+    uint end = first + (chunk < kLastChunk ? kVerticesPerChunk : kVerticesInLast);
+
+    [[unroll]] for (uint j = 0; j < kVerticesPerChunk + 2; ++j) points[j] = vec4(0.0);
+    [[unroll]] for (uint j = 0; j <= kVerticesPerChunk; ++j) rest_edges[j] = vec4(0.0);
+    float stiffness = 0.0;
+    vec3 first_rest_tangent = vec3(0.0);
+    if (present) {
+        load(guides, GuideReference(push.from).parameters, params, first);
+        stiffness = Factors(params.local_stiffness).at[strand];
+        first_rest_tangent = firstTangent(push.frame, Vectors(params.rest_edges).at[root + 1]);
+    }
+
+    // Red-black: segments that share no vertex move at the same time, those that end in odd
+    // vertices (the root's own among them) first. Both chunks move the segment between them.
+    meetNeighbours();
+    for (uint iteration = 0; iteration < params.local_iterations; ++iteration) {
+        findGoalEdges(first_rest_tangent);
+        [[unroll]] for (uint j = 1; j < kVerticesPerChunk; j += 2) pull(j, stiffness);
+        meetNeighbours();
+        [[unroll]] for (uint j = 0; j <= kVerticesPerChunk; j += 2) pull(j, stiffness);
+    }
+    for (uint iteration = 0; iteration < params.length_iterations; ++iteration) {
+        [[unroll]] for (uint j = 1; j < kVerticesPerChunk; j += 2) project(j);
+        meetNeighbours();
+        [[unroll]] for (uint j = 0; j <= kVerticesPerChunk; j += 2) project(j);
+    }
+
+    [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j)
+        if (present && vertexExists(j)) storeVector(guides.positions, first + j, points[j + 1]);
+    if (kCollides) {
+        if (!present) end = first;
+        float contact = collide(guides, push.frame, push.frame_before, first, end);
+        if (kChunks > 1) markBelow(guides, contact, first, end);
+    }
+}
+
+#endif

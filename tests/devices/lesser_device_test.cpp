@@ -1,0 +1,336 @@
+// Devices that lack something: what needs it is skipped with one line, and what doesn't is as it is
+// elsewhere. They are made of the device that is here, by taking away what it has; the validation
+// layer says what is used all the same.
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "benchmarks/measure/case.h"
+#include "engine/device.h"
+#include "engine/frame_loop.h"
+#include "engine/pipeline.h"
+#include "engine/queries.h"
+#include "engine/shaders.h"
+#include "engine/target.h"
+#include "hair/rendering/backends.h"
+#include "tests/required.h"
+#include "tests/simulation/near_reference.h"
+
+namespace benchmarks {
+namespace {
+
+using engine::DeviceInfo;
+using engine::Feature;
+using testing::IsEmpty;
+
+using Mask = std::function<void(DeviceInfo&)>;
+
+Mask without(std::vector<Feature> features) {
+    return [features](DeviceInfo& info) {
+        for (const Feature feature : features) info.features.erase(feature);
+    };
+}
+
+// The least that runs.
+void bare(DeviceInfo& info) {
+    info.features.clear();
+    info.limits.maxTessellationGenerationLevel = 0;
+}
+
+// Devices are made one after the other: volk's functions are those of the last one.
+class LesserDevice : public testing::Test {
+protected:
+    void SetUp() override {
+        try {
+            make({});
+        } catch (const engine::NoDevice& error) {
+            skipWithout(Need::device, error.what());
+        }
+    }
+
+    void TearDown() override { expectNoMessage(); }
+
+    engine::Device& make(const Mask& mask) {
+        expectNoMessage();
+        device_.reset();
+        device_.emplace(engine::DeviceOptions{
+            .wanted = "", .validation = engine::Validation::on, .mask = mask});
+        return *device_;
+    }
+
+    engine::Device& device() { return *device_; }
+
+    using Pixels = std::vector<std::uint8_t>;
+
+    // The third frame.
+    Pixels pictureOf(const hair::Settings& settings) {
+        measure::Case played(device(), settings, HAIRBENCH_SCENES_DIR);
+        engine::FrameLoop loop(device(), engine::Timing::isolated);
+        for (int i = 0; i < 3; ++i)
+            loop.frame([&](engine::Passes& passes) { played.frame(passes); });
+        loop.finish();
+        return played.picture();
+    }
+
+    // Why the case is skipped.
+    std::string skipped(const hair::Settings& settings) {
+        try {
+            const measure::Case made(device(), settings, HAIRBENCH_SCENES_DIR);
+        } catch (const engine::Unsupported& error) {
+            return error.what();
+        }
+        return "not skipped";
+    }
+
+private:
+    void expectNoMessage() {
+        if (!device_) return;
+        EXPECT_THAT(device_->messages().take(), IsEmpty());
+    }
+
+    std::optional<engine::Device> device_;
+};
+
+hair::Settings smallCase() {
+    hair::Settings settings;
+    settings.groom.guides = 20;
+    settings.simulation.settle_steps = 0;
+    settings.simulation.wind.strength = 10.0f;
+    settings.strands.density = 4;
+    settings.strands.tessellation = 2;
+    settings.render.width = 160;
+    settings.render.height = 96;
+    return settings;
+}
+
+hair::Settings onlyGuides() {
+    hair::Settings settings = smallCase();
+    settings.simulation.colliders = {
+        {.a = {0, 0.014f, 0.012f}, .b = {0, 0.014f, 0.012f}, .radius = 0.0661f}};
+    settings.render.hair = false;
+    settings.render.overlays = {.guides = true, .root_triangles = true, .bodies = true};
+    return settings;
+}
+
+// ---- What is skipped ----------------------------------------------------------------------------
+
+TEST_F(LesserDevice, StrandsNeedTheStagesOfTheirBackEnd) {
+    hair::Settings pulled = smallCase();
+    pulled.strands.backend = hair::Backend::pulling_geometry;
+    make(without({Feature::tessellation}));
+    EXPECT_EQ(
+        skipped(smallCase()),
+        "/strands/backend: tessellation: the device has no tessellation stages with isolines");
+    EXPECT_EQ(skipped(pulled), "not skipped");
+    make(without({Feature::geometry}));
+    EXPECT_EQ(
+        skipped(smallCase()), "/strands/backend: tessellation: the device has no geometry stages");
+    EXPECT_EQ(
+        skipped(pulled), "/strands/backend: pulling_geometry: the device has no geometry stages");
+}
+
+TEST_F(LesserDevice, ShadowsOfHairNeedThemToo) {
+    hair::Settings settings = smallCase();
+    settings.shading.shadows.hair = hair::HairShadows::deep_opacity;
+    make(without({Feature::geometry}));
+    EXPECT_EQ(
+        skipped(settings), "/strands/backend: tessellation: the device has no geometry stages");
+    settings.render.hair = false;
+    EXPECT_EQ(skipped(settings), "not skipped");
+}
+
+TEST_F(LesserDevice, MapsOfTheirOpacityNeedBlendingOfFloats) {
+    hair::Settings settings = smallCase();
+    settings.shading.shadows.hair = hair::HairShadows::deep_opacity;
+    make(without({Feature::float_blend}));
+    EXPECT_EQ(
+        skipped(settings), "/shading/shadows/hair: the device has no blending of 32-bit floats");
+    EXPECT_EQ(skipped(smallCase()), "not skipped");
+}
+
+TEST_F(LesserDevice, TransparencyNeedsItsFeatures) {
+    hair::Settings lists = smallCase();
+    lists.render.transparency = hair::Transparency::fragment_list;
+    hair::Settings weighted = smallCase();
+    weighted.render.transparency = hair::Transparency::weighted_blended;
+    make(without({Feature::fragment_stores, Feature::independent_blend}));
+    EXPECT_EQ(
+        skipped(lists),
+        "/render/transparency: fragment_list: the device has no stores in fragment stages");
+    EXPECT_EQ(
+        skipped(weighted),
+        "/render/transparency: weighted_blended: the device has no independent blending");
+    EXPECT_EQ(skipped(smallCase()), "not skipped");
+    lists.render.hair = weighted.render.hair = false;
+    EXPECT_EQ(skipped(lists), "not skipped");
+    EXPECT_EQ(skipped(weighted), "not skipped");
+}
+
+template <class Call>
+std::string reasonOf(Call&& call) {
+    try {
+        call();
+    } catch (const engine::Unsupported& error) {
+        return error.what();
+    }
+    return "not skipped";
+}
+
+TEST_F(LesserDevice, WatchedStagesNeedStores) {
+    make(without({Feature::vertex_stores}));
+    EXPECT_EQ(
+        reasonOf([&] { hair::rendering::StageWatch{device()}; }),
+        "ablation: the device has no stores in vertex, tessellation and geometry stages");
+}
+
+TEST_F(LesserDevice, SamplesAreCountedOnlyWhereQueriesCount) {
+    make(without({Feature::sample_counts}));
+    EXPECT_EQ(
+        reasonOf([&] { engine::SamplesQuery{device()}; }),
+        "samples query: the device has no occlusion queries that count");
+}
+
+TEST_F(LesserDevice, PipelinesNameTheStageThatIsMissing) {
+    make(bare);
+    const engine::GraphicsDescription description{
+        .shaders = {"strands/pulling.vert", "strands/strand.geom", "strands/strand.frag"}};
+    EXPECT_EQ(
+        reasonOf([&] { engine::GraphicsPipeline(device(), description); }),
+        "strands/strand.geom: the device has no geometry stages");
+}
+
+// A strand's vertices are exchanged in shared memory: 116 bytes for each invocation, which has at
+// most 32 vertices.
+TEST_F(LesserDevice, ShapeNeedsSharedMemoryForItsStrands) {
+    const auto withShared = [](std::uint32_t bytes) {
+        return [bytes](DeviceInfo& info) { info.limits.maxComputeSharedMemorySize = bytes; };
+    };
+    make(withShared(3 * 116 - 1));
+    hair::Settings settings = onlyGuides();
+    settings.groom.grow.vertices = 65;
+    EXPECT_EQ(skipped(settings), "simulation: 65 vertices per strand; this device runs at most 64");
+    settings.groom.grow.vertices = 64;
+    EXPECT_EQ(skipped(settings), "not skipped");
+    make(withShared(0));
+    EXPECT_EQ(skipped(settings), "simulation: 64 vertices per strand; this device runs at most 0");
+    settings.simulation.parallelism = hair::Parallelism::serial;
+    EXPECT_EQ(skipped(settings), "not skipped");
+}
+
+// ---- What is not --------------------------------------------------------------------------------
+
+// Four invocations of four vertices, where there is memory for more of fewer.
+TEST_F(LesserDevice, ShapeMovesStrandsTheSameInLittleSharedMemory) {
+    make([](DeviceInfo& info) { info.limits.maxComputeSharedMemorySize = 4 * 116; });
+    hair::SimulationSettings settings = hair::simulation::windy();
+    settings.parallelism = hair::Parallelism::vertex;
+    hair::simulation::expectNearReference(device(), hair::simulation::wavyGroom(5, 16), settings);
+}
+
+TEST_F(LesserDevice, DrawsEverythingButStrandsWithoutAnyFeature) {
+    hair::Settings settings = onlyGuides();
+    settings.shading.shadows.meshes = true;
+    settings.render.tone_map = hair::ToneMap::agx;
+    const Pixels there = pictureOf(settings);
+    hair::Settings empty = settings;
+    empty.render.overlays = {};
+    EXPECT_NE(there, pictureOf(empty));
+    make(bare);
+    EXPECT_EQ(pictureOf(settings), there);
+}
+
+// Where a device has no isolines, its limit of them is 0.
+TEST_F(LesserDevice, PullsTheSameStrandsWithoutTessellation) {
+    hair::Settings settings = smallCase();
+    settings.strands.backend = hair::Backend::pulling_geometry;
+    settings.strands.density = 80;  // two patches of a device's 64 isolines
+    const Pixels there = pictureOf(settings);
+    make([](DeviceInfo& info) {
+        info.features = {Feature::geometry};
+        info.limits.maxTessellationGenerationLevel = 0;
+    });
+    EXPECT_EQ(pictureOf(settings), there);
+}
+
+TEST_F(LesserDevice, HasNoStatisticsWhereTheyAreMissing) {
+    make(without({Feature::pipeline_statistics}));
+    measure::Case played(device(), smallCase(), HAIRBENCH_SCENES_DIR);
+    engine::FrameLoop loop(device(), engine::Timing::statistics);
+    loop.frame([&](engine::Passes& passes) { played.frame(passes); });
+    EXPECT_THAT(loop.finish().front().statistics, IsEmpty());
+}
+
+// More sets than a pool holds, of pipelines of both kinds, in frames that follow one another.
+TEST_F(LesserDevice, BindsAnyNumberOfImagesWithoutPushDescriptors) {
+    make(without({Feature::push_descriptors}));
+    const engine::Target target(device(), {.width = 8, .height = 8, .msaa = 1, .ssaa = 2});
+    const engine::ComputePipeline resolve(
+        device(), {.shader = "post/resolve.comp",
+                   .constants = {{0, 1u}, {1, 2u}},
+                   .sampled_images = 1,
+                   .storage_images = 1});
+    engine::FrameLoop loop(device(), engine::Timing::isolated);
+    for (int frame = 0; frame < 3; ++frame) {
+        loop.frame([&](engine::Passes& passes) {
+            passes.pass("resolve", engine::PassKind::compute, [&](engine::Commands& commands) {
+                target.beginRendering(commands, engine::Load::clear, {0.25f, 0.5f, 0.75f});
+                target.endRendering(commands);
+                target.beginResolve(commands);
+                for (int i = 0; i < 150; ++i) {
+                    if (i > 0)
+                        commands.barrier(
+                            engine::Access::compute_write, engine::Access::compute_write);
+                    commands.bind(resolve);
+                    const engine::Image* const from = &target.color();
+                    const engine::Image* const to = &target.output();
+                    commands.images(resolve, std::span(&from, 1), std::span(&to, 1));
+                    commands.dispatch(1, 1);
+                }
+                target.endResolve(commands);
+            });
+        });
+    }
+    loop.finish();
+    const Pixels pixels = engine::readOutput(device(), target);
+    ASSERT_EQ(pixels.size(), 8u * 8u * 4u);
+    for (std::size_t i = 0; i < pixels.size(); i += 4) {
+        // Stored to the nearest of 255 steps: 63.75, 127.5 and 191.25.
+        EXPECT_EQ(pixels[i], 64);
+        EXPECT_THAT(pixels[i + 1], testing::AnyOf(127, 128));
+        EXPECT_EQ(pixels[i + 2], 191);
+    }
+}
+
+// ---- Shaders ------------------------------------------------------------------------------------
+
+// What a shader asks of devices is in its capabilities: SPIR-V specification, 3.31.
+TEST(ShaderCapabilities, AreThoseThatFeaturesStandFor) {
+    constexpr std::uint32_t kCapability = 17;  // the operation
+    constexpr std::uint32_t kShader = 1, kGeometry = 2, kTessellation = 3, kLongIntegers = 11,
+                            kImageQuery = 50, kPhysicalAddresses = 5347;
+    for (const std::string_view path : engine::shaderPaths())
+        engine::forEachDeclaration(
+            engine::shaderCode(path), [&](engine::SpirvInstruction instruction) {
+                if (instruction.operation != kCapability) return;
+                const std::uint32_t capability = instruction.operands[0];
+                if (capability == kShader || capability == kImageQuery ||
+                    capability == kPhysicalAddresses)
+                    return;
+                if (path == "simulation/shape_packed.comp")
+                    EXPECT_EQ(capability, kLongIntegers) << path;
+                else if (path.ends_with(".geom"))
+                    EXPECT_EQ(capability, kGeometry) << path;
+                else if (path.ends_with(".tesc") || path.ends_with(".tese"))
+                    EXPECT_EQ(capability, kTessellation) << path;
+                else
+                    ADD_FAILURE() << path << " has capability " << capability;
+            });
+}
+
+}  // namespace
+}  // namespace benchmarks
