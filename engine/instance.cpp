@@ -132,6 +132,9 @@ constexpr std::array kFeatures{
         Feature::sample_counts, "occlusion queries that count",
         &VkPhysicalDeviceFeatures::occlusionQueryPrecise, nullptr},
     FeatureRow{
+        Feature::calibrated_timestamps, "calibrated timestamps", nullptr,
+        VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME},
+    FeatureRow{
         Feature::push_descriptors, "push descriptors", nullptr,
         VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME},
 };

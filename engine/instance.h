@@ -102,6 +102,7 @@ enum class Feature {
     long_integers,  // of 64 bits, in shaders
     pipeline_statistics,
     sample_counts,  // occlusion queries that count
+    calibrated_timestamps,  // a moment by the clocks of device and host at once
     push_descriptors,  // Commands does with descriptor sets where they are missing
 };
 

@@ -1,6 +1,9 @@
 #include "engine/queries.h"
 
+#include <algorithm>
+#include <chrono>
 #include <string>
+#include <thread>
 
 #include "engine/error.h"
 
@@ -70,6 +73,58 @@ std::uint64_t SamplesQuery::read() const {
 }
 
 // ---- Timestamps ---------------------------------------------------------------------------------
+
+namespace {
+
+// Ticks of the device and ns of the host's monotonic clock, at one moment.
+struct Moment {
+    std::uint64_t device;
+    std::uint64_t host;
+};
+
+Moment readMoment(VkDevice device) {
+    VkCalibratedTimestampInfoEXT wanted[2]{};
+    for (VkCalibratedTimestampInfoEXT& each : wanted)
+        each.sType = VK_STRUCTURE_TYPE_CALIBRATED_TIMESTAMP_INFO_EXT;
+    wanted[0].timeDomain = VK_TIME_DOMAIN_DEVICE_EXT;
+    wanted[1].timeDomain = VK_TIME_DOMAIN_CLOCK_MONOTONIC_EXT;
+    std::uint64_t times[2]{};
+    std::uint64_t deviation = 0;
+    check(
+        vkGetCalibratedTimestampsEXT(device, 2, wanted, times, &deviation),
+        "read the clocks of device and host");
+    return {times[0], times[1]};
+}
+
+bool knowsBothClocks(VkPhysicalDevice device) {
+    std::uint32_t count = 0;
+    if (vkGetPhysicalDeviceCalibrateableTimeDomainsEXT(device, &count, nullptr) != VK_SUCCESS)
+        return false;
+    std::vector<VkTimeDomainEXT> domains(count);
+    if (vkGetPhysicalDeviceCalibrateableTimeDomainsEXT(device, &count, domains.data()) !=
+        VK_SUCCESS)
+        return false;
+    const auto has = [&](VkTimeDomainEXT domain) {
+        return std::ranges::find(domains, domain) != domains.end();
+    };
+    return has(VK_TIME_DOMAIN_DEVICE_EXT) && has(VK_TIME_DOMAIN_CLOCK_MONOTONIC_EXT);
+}
+
+}  // namespace
+
+std::optional<double> timestampRate(const Device& device) {
+    const DeviceInfo& info = device.info();
+    if (!device.has(Feature::calibrated_timestamps) || info.timestamp_valid_bits == 0 ||
+        !knowsBothClocks(info.handle))
+        return std::nullopt;
+    const Moment before = readMoment(device.get());
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    const Moment after = readMoment(device.get());
+    const std::uint64_t ticks =
+        ticksBetween(before.device, after.device, validMask(info.timestamp_valid_bits));
+    const double host = static_cast<double>(after.host - before.host);
+    return static_cast<double>(ticks) * static_cast<double>(info.limits.timestampPeriod) / host;
+}
 
 Timestamps::Timestamps(const Device& device, std::uint32_t capacity)
     : device_(device.get()),

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -79,6 +80,11 @@ private:
     std::uint32_t count_ = 0;
     Handle<VkQueryPool, &vkDestroyQueryPool> pool_;
 };
+
+// How much faster the device's timestamps run than their period says, by the host's clock over a
+// tenth of a second (VK_EXT_calibrated_timestamps): 1 if they are right. Absent where the device
+// and the host have no clock in common.
+std::optional<double> timestampRate(const Device& device);
 
 // `now - before` of a counter that wraps at `mask` + 1 (a power of two).
 constexpr std::uint64_t ticksBetween(std::uint64_t before, std::uint64_t now, std::uint64_t mask) {

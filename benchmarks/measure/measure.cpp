@@ -110,6 +110,7 @@ std::vector<std::uint8_t> measureFrames(
     if (!stage.isProcessor())
         addCycles(
             overlapped.frames, overlapped.clock_mhz, isolated.frames, isolated.clock_mhz, result);
+    result.trust.empty_pass = stage.emptyPass();
     std::vector<report::Conditions> conditions = std::move(overlapped.conditions);
     std::ranges::copy(isolated.conditions, std::back_inserter(conditions));
     std::ranges::move(

@@ -9,6 +9,7 @@
 #include "benchmarks/measure/measure.h"
 #include "benchmarks/report/environment.h"
 #include "engine/error.h"
+#include "engine/queries.h"
 
 namespace benchmarks::measure {
 namespace {
@@ -115,6 +116,10 @@ std::unique_ptr<Player> DeviceStage::emptyPlayer(engine::Timing timing) {
 double DeviceStage::seconds() {
     return Seconds(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
+
+std::optional<double> DeviceStage::timestampRate() { return engine::timestampRate(device_); }
+
+std::optional<double> DeviceStage::emptyPass() { return engine::emptyPassTime(device_); }
 
 void DeviceStage::pause(double seconds) { std::this_thread::sleep_for(Seconds(seconds)); }
 

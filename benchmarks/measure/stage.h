@@ -76,6 +76,10 @@ public:
     // device and host can both read. Absent where there is no such clock.
     virtual std::optional<double> timestampRate() = 0;
 
+    // ms by timestamps of a pass that records nothing: two barriers and two stamps. Absent where
+    // there are none.
+    virtual std::optional<double> emptyPass() = 0;
+
     // Begins to watch the machine.
     virtual void beginWatch() = 0;
     // What went on since beginWatch() or the last conditions(). Doesn't ask the device.
@@ -100,7 +104,8 @@ public:
     bool isProcessor() const override { return device_.info().type == "cpu"; }
     double seconds() override;
     void pause(double seconds) override;
-    std::optional<double> timestampRate() override { return std::nullopt; }
+    std::optional<double> timestampRate() override;
+    std::optional<double> emptyPass() override;
     void beginWatch() override { watch_.begin(); }
     report::Conditions conditions() override { return watch_.take(); }
 

@@ -112,6 +112,7 @@ struct Trust {
     // Over the wall clock less what an empty submission and the wait for it take.
     std::optional<double> pass_sum_over_work;
     std::optional<double> empty_submission;  // ms, median
+    std::optional<double> empty_pass;  // ms by timestamps of an isolated pass that does nothing
     std::optional<double> timestamp_rate;  // of the device's stamps, over a clock of the host
     std::vector<std::string> warnings;
 };

@@ -51,5 +51,12 @@ TEST_F(TimestampsTest, AreGoneAfterReset) {
     EXPECT_TRUE(stamps.read().empty());
 }
 
+// The clocks of two crystals differ by less than 1e-3; ticks of the wrong length by much.
+TEST_F(TimestampsTest, RunAtTheRateThatTheirPeriodSays) {
+    const std::optional<double> rate = timestampRate(device());
+    if (!rate) GTEST_SKIP() << "device and host have no clock in common";
+    EXPECT_NEAR(*rate, 1.0, 1e-3);
+}
+
 }  // namespace
 }  // namespace engine

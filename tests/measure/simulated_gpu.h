@@ -97,6 +97,10 @@ public:
         return model_.stamp_rate;
     }
 
+    std::optional<double> emptyPass() override {
+        return model_.valid_bits == 0 ? std::nullopt : std::optional(1e-3);
+    }
+
     void beginWatch() override {
         since_ = now_;
         next_reading_ = now_ + kReadingPeriod;
