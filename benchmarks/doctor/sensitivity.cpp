@@ -71,7 +71,7 @@ constexpr std::uint32_t kFirstWork = 64;
 constexpr std::uint32_t kMostWork = 1u << 28;
 constexpr std::uint32_t kGrowth = 8;
 constexpr std::size_t kRoughPairs = 3;
-constexpr std::size_t kPairs = 12;
+constexpr std::size_t kMeasuredPairs = 12;
 // What is measured to find the scale: well above the noise of any machine.
 constexpr double kPlain = 1.0;
 
@@ -122,11 +122,11 @@ PlantedWork findBusyWork(const OwnGate& own, const report::MetricId& metric, dou
     // It is proportional but for what starting it costs, so near the end a second estimate is
     // needed.
     PlantedWork busy{.pass = metric.pass(), .work = clampedWork(work * share / found)};
-    const double near = measureShare(own, metric, busy.work, kPairs);
+    const double near = measureShare(own, metric, busy.work, kMeasuredPairs);
     const double slope =
         (found - near) / (static_cast<double>(work) - static_cast<double>(busy.work));
     if (slope > 0.0) busy.work = clampedWork(busy.work + (share - near) / slope);
-    busy.planted = measureShare(own, metric, busy.work, kPairs);
+    busy.planted = measureShare(own, metric, busy.work, kMeasuredPairs);
     return busy;
 }
 

@@ -68,7 +68,7 @@ constexpr double kThickest = 1.81e-3;  // m
 constexpr double kShortest = 0.5e-3;  // m
 constexpr double kLongest = 3.0;  // m
 
-constexpr std::uint32_t kMostGuideVertices = 256;
+constexpr std::uint32_t kLongestGuide = 256;
 
 class Oddities {
 public:
@@ -111,7 +111,7 @@ void findInStrands(const hair::groom::StrandFindings& found, Oddities& odd) {
     }
     const auto most = static_cast<std::uint64_t>(found.points_per_strand.maximum);
     odd.add(
-        "long_strands", most > kMostGuideVertices ? most : 0,
+        "long_strands", most > kLongestGuide ? most : 0,
         "strands of up to " + report::countText(most, "point"),
         "guides have at most 256 and are resampled; do it once: hairbench groom convert IN OUT "
         "--vertices 256");

@@ -18,7 +18,7 @@ namespace {
 
 // ---- The path of a hand -------------------------------------------------------------------------
 
-constexpr std::size_t kKeysOfAMove = 3;  // the present, the next frame, and where it stays
+constexpr std::size_t kKeysOfAPull = 3;  // the present, the next frame, and where it stays
 
 // Cuts a path to what was played, with a key at the present; to nothing where it begins later.
 void cut(std::vector<hair::PullKey>& path, float now) {
@@ -128,7 +128,7 @@ void letGo(std::vector<hair::PullKey>& path, const Moment& moment) {
 }
 
 bool hasRoom(std::span<const hair::PullKey> path) {
-    return path.size() + kKeysOfAMove <= mostOf(&hair::PullSettings::path);
+    return path.size() + kKeysOfAPull <= mostOf(&hair::PullSettings::path);
 }
 
 // ---- The tool that grabs ------------------------------------------------------------------------

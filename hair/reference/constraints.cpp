@@ -9,8 +9,6 @@
 namespace hair::reference {
 namespace {
 
-constexpr double kShortest = 1e-9;  // m
-
 // An axis to turn half round from the unit vector `v`, or to leave a capsule's axis by.
 glm::dvec3 sideways(const glm::dvec3& v) {
     int least = 0;

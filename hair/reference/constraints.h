@@ -19,11 +19,13 @@
 // Every span is the vertices of one strand, root first, in m. The root is pinned: it has infinite
 // mass, every other vertex mass 1. Segment i ends in vertex i, so segment 1 holds the root.
 // Iterations are red-black: segments that end in odd vertices move first, then those that end in
-// even ones. A segment shorter than 1e-9 m has no direction of its own.
+// even ones. A segment shorter than kShortest has no direction of its own.
 namespace hair::reference {
 
 using Points = std::span<glm::dvec3>;
 using ConstPoints = std::span<const glm::dvec3>;
+
+constexpr double kShortest = 1e-9;  // m, of a segment that has a direction
 
 // Thesis eq. 9 with friction; leaves the root alone. `previous` becomes the positions before the
 // call.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include <glm/geometric.hpp>
@@ -13,8 +14,8 @@
 namespace hair::reference {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kSteepest = 2.0 * kPi / 3.0;  // rad, of a whole joint: where tangents turn lines
+// rad, of a whole joint: where tangents turn lines.
+constexpr double kSteepest = 2.0 * std::numbers::pi / 3.0;
 
 // Energy of bending over stiffness with its first two derivatives by the angle.
 struct Bend {
@@ -39,7 +40,6 @@ Bend bendBy(double angle, double copies) {
 
 // ---- A step -------------------------------------------------------------------------------------
 
-constexpr double kShortest = 1e-9;  // m
 // Lower bounds, over the strand's mean segment, of the length that a segment's inertia is worked
 // out with and of a vertex's mass. Only coincident points fall below; the bounds keep divisors from
 // 0.
@@ -287,7 +287,7 @@ std::vector<glm::dvec3> RodState::positions() const {
 
 RodRest makeRodRest(std::span<const glm::dvec3> points, const RodMaterial& material) {
     const std::size_t size = points.size();
-    const double area = kPi * material.radius * material.radius;
+    const double area = std::numbers::pi * material.radius * material.radius;
     const double line_density = material.density * area;
     const double second_moment = area * material.radius * material.radius / 4.0;
 

@@ -61,7 +61,7 @@ struct RodRoot {
 };
 
 // The points at rest, m. Orientations at rest are parallel transport from the first one. A segment
-// shorter than 1e-9 m has the direction of the one before it, the first one +y.
+// shorter than kShortest has the direction of the one before it, the first one +y.
 RodRest makeRodRest(std::span<const glm::dvec3> points, const RodMaterial& material);
 
 RodState rodAtRest(const RodRest& rest, const RodRoot& root = {});

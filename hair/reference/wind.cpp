@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "hair/random.h"
+#include "hair/reference/constraints.h"
 
 namespace hair::reference {
 namespace {
@@ -51,7 +52,6 @@ glm::dvec3 latticeGradient(const glm::dvec3& node, std::uint32_t seed, std::uint
     return gradient;
 }
 
-constexpr double kShortest = 1e-9;  // m
 constexpr double kFolded = 1e-3;
 
 glm::dvec3 unit(const glm::dvec3& edge) {

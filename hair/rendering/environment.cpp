@@ -13,8 +13,6 @@
 namespace hair::rendering {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 std::array<double, 9> harmonics(const glm::dvec3& n) {
     return {
         0.282095,
@@ -64,15 +62,16 @@ parametersOf(const engine::FloatPixels& light, float turn, std::uint64_t texels)
 // ---- Irradiance ---------------------------------------------------------------------------------
 
 std::array<glm::dvec3, 9> irradianceHarmonics(const engine::FloatPixels& picture, double turn) {
+    using std::numbers::pi;
     std::array<glm::dvec3, 9> sums{};
     const float* texel = picture.rgb.data();
     for (std::uint32_t row = 0; row < picture.height; ++row) {
-        const double top = kPi * row / picture.height;
-        const double bottom = kPi * (row + 1) / picture.height;
-        const double solid_angle = 2 * kPi / picture.width * (std::cos(top) - std::cos(bottom));
+        const double top = pi * row / picture.height;
+        const double bottom = pi * (row + 1) / picture.height;
+        const double solid_angle = 2 * pi / picture.width * (std::cos(top) - std::cos(bottom));
         const double polar = (top + bottom) / 2;
         for (std::uint32_t column = 0; column < picture.width; ++column, texel += 3) {
-            const double azimuth = turn + 2 * kPi * (0.5 - (column + 0.5) / picture.width);
+            const double azimuth = turn + 2 * pi * (0.5 - (column + 0.5) / picture.width);
             const std::array basis = harmonics(
                 {std::sin(polar) * std::sin(azimuth), std::cos(polar),
                  std::sin(polar) * std::cos(azimuth)});

@@ -37,7 +37,7 @@ void checkVertex(
 
 static_assert(sizeof(gpu::PullPush) == 68 && offsetof(gpu::PullPush, held_vertex) == 48);
 
-engine::ComputePipeline pipeline(const engine::Device& device, const char* shader) {
+engine::ComputePipeline pullPipeline(const engine::Device& device, const char* shader) {
     return {device, {.shader = shader, .push_size = sizeof(gpu::PullPush)}};
 }
 
@@ -77,8 +77,8 @@ PullPass::PullPass(
     : vertex_count_(strand_count * vertices_per_strand), vertices_per_strand_(vertices_per_strand),
       step_(step), pulls_(std::move(pulls)),
       held_(device, {.size = sizeof(glm::vec4), .name = "guide pull"}),
-      hold_(pipeline(device, "simulation/pull_hold.comp")),
-      spread_(pipeline(device, "simulation/pull.comp")) {}
+      hold_(pullPipeline(device, "simulation/pull_hold.comp")),
+      spread_(pullPipeline(device, "simulation/pull.comp")) {}
 
 void PullPass::record(engine::Commands& commands, const GuideAddresses& guides, double time) const {
     const double dt = step_.whole;

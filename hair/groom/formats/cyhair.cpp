@@ -87,7 +87,7 @@ void setInfo(HairHeader& header, std::string comment, std::vector<std::string>& 
 
 // ---- Reading ------------------------------------------------------------------------------------
 
-HairHeader readHeader(std::span<const std::byte> bytes) {
+HairHeader readHairHeader(std::span<const std::byte> bytes) {
     if (bytes.size() < sizeof(HairHeader)) {
         failAt(
             bytes.size(),
@@ -250,7 +250,7 @@ std::vector<std::string> exportHair(const StrandSet& strands, std::ostream& out)
 }
 
 StrandSet importHair(const StrandFile& file) {
-    const HairHeader header = readHeader(file.bytes);
+    const HairHeader header = readHairHeader(file.bytes);
     const Layout layout(header);
     checkSize(header, layout, file.bytes.size());
     StrandSet strands{

@@ -32,7 +32,7 @@ static_assert(
     sizeof(Header) == 12 && sizeof(glm::vec3) == kTripleSize && sizeof(Triangle) == kTripleSize);
 constexpr std::int32_t kMaximumSegments = 255;
 
-Header readHeader(std::span<const std::byte> bytes) {
+Header readHglHeader(std::span<const std::byte> bytes) {
     if (bytes.size() < sizeof(Header)) {
         failAt(
             bytes.size(),
@@ -112,7 +112,7 @@ std::vector<std::string> exportHgl(const StrandSet& strands, std::ostream& out) 
 }
 
 StrandSet importHgl(const StrandFile& file) {
-    const Header header = readHeader(file.bytes);
+    const Header header = readHglHeader(file.bytes);
     checkSize(header, file.bytes.size());
     const auto count = static_cast<std::uint32_t>(header.strands);
     const auto vertices = static_cast<std::uint32_t>(header.segments) + 1;

@@ -407,7 +407,7 @@ void PlyBytes<order>::finish() const {
 
 enum Slot : std::size_t { x, y, z, width, transparency, red, green, blue, slot_count };
 
-struct Row {
+struct VertexRow {
     std::string_view property;
     Slot slot;
     double unit = 1.0;  // what is a width, or a transparency, of 1
@@ -415,17 +415,17 @@ struct Row {
     std::string_view better = "";  // a property that is read instead
 };
 
-constexpr std::array kRows{
-    Row{"x", x},
-    Row{"y", y},
-    Row{"z", z},
-    Row{"width", width},
-    Row{"radius", width, 0.5, false, "width"},
-    Row{"transparency", transparency, 1.0, true},
-    Row{"alpha", transparency, 1.0, true, "transparency"},
-    Row{"red", red, 1.0, true},
-    Row{"green", green, 1.0, true},
-    Row{"blue", blue, 1.0, true},
+constexpr std::array kVertexRows{
+    VertexRow{"x", x},
+    VertexRow{"y", y},
+    VertexRow{"z", z},
+    VertexRow{"width", width},
+    VertexRow{"radius", width, 0.5, false, "width"},
+    VertexRow{"transparency", transparency, 1.0, true},
+    VertexRow{"alpha", transparency, 1.0, true, "transparency"},
+    VertexRow{"red", red, 1.0, true},
+    VertexRow{"green", green, 1.0, true},
+    VertexRow{"blue", blue, 1.0, true},
 };
 
 // What is done with a property's values: divided, and for opacity taken from 1.
@@ -443,7 +443,7 @@ double greatestValue(PlyType type) {
 }
 
 Column columnOf(const PlyElement& element, const PlyProperty& property) {
-    for (const Row& row : kRows) {
+    for (const VertexRow& row : kVertexRows) {
         if (row.property != property.name || property.count_type || element.find(row.better))
             continue;
         const double divisor = row.is_share ? greatestValue(property.type) : row.unit;

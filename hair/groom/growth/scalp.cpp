@@ -98,19 +98,19 @@ std::vector<std::uint32_t> scalpTriangles(const Mesh& mesh, const std::string& n
 
 namespace {
 
-constexpr std::uint32_t kNone = ~0u;
+constexpr std::uint32_t kNoVertex = ~0u;
 
 // Fills positions, normals, triangles and texture_coordinates.
 void weld(Scalp& scalp, const Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
     std::map<std::tuple<float, float, float>, std::uint32_t> welded;
     std::vector<glm::dvec3> sums;
-    std::vector<std::uint32_t> scalp_vertex(mesh.positions.size(), kNone);
+    std::vector<std::uint32_t> scalp_vertex(mesh.positions.size(), kNoVertex);
     for (const std::uint32_t i : triangles) {
         std::array<std::uint32_t, 3> triangle{};
         std::array<glm::vec2, 3> coordinates{};
         for (std::size_t corner = 0; corner < 3; ++corner) {
             const std::uint32_t vertex = mesh.triangles[i][corner];
-            if (scalp_vertex[vertex] == kNone) {
+            if (scalp_vertex[vertex] == kNoVertex) {
                 const glm::vec3& p = mesh.positions[vertex];
                 const auto next = static_cast<std::uint32_t>(scalp.positions.size());
                 const auto [entry, is_new] = welded.try_emplace({p.x, p.y, p.z}, next);

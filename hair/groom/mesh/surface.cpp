@@ -336,7 +336,7 @@ namespace {
 constexpr std::size_t kMostInLeaf = 4;
 constexpr std::size_t kMostLevels = 64;  // every split halves, and counts have 32 bits
 
-using Corners = std::array<glm::vec3, 3>;
+using CornerPoints = std::array<glm::vec3, 3>;
 
 double square(const glm::dvec3& v) { return glm::dot(v, v); }
 
@@ -354,7 +354,7 @@ struct Candidate {
 // planes through the edges, else the nearest of the edges' (the regions of Ericson 2005, Real-time
 // collision detection, 5.1.5). A triangle without area has only edges, one without length only
 // corners.
-void compare(const glm::dvec3& p, const Corners& corners, std::size_t slot, Candidate& best) {
+void compare(const glm::dvec3& p, const CornerPoints& corners, std::size_t slot, Candidate& best) {
     const std::array from{
         p - glm::dvec3(corners[0]), p - glm::dvec3(corners[1]), p - glm::dvec3(corners[2])};
     const std::array edges{from[0] - from[1], from[1] - from[2], from[2] - from[0]};
@@ -424,7 +424,7 @@ MeshPoint NearestSurface::operator()(const glm::dvec3& point) const {
             std::swap(waiting[count - 2], waiting[count - 1]);
     }
 
-    const Corners& corners = corners_[best.slot];
+    const CornerPoints& corners = corners_[best.slot];
     MeshPoint found{.triangle = tree_.order[best.slot], .weights = best.weights};
     for (int i = 0; i < 3; ++i)
         found.position += best.weights[i] * glm::dvec3(corners[static_cast<std::size_t>(i)]);
