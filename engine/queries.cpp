@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <string>
 #include <thread>
 
@@ -88,12 +89,19 @@ Moment readMoment(VkDevice device) {
         each.sType = VK_STRUCTURE_TYPE_CALIBRATED_TIMESTAMP_INFO_EXT;
     wanted[0].timeDomain = VK_TIME_DOMAIN_DEVICE_EXT;
     wanted[1].timeDomain = VK_TIME_DOMAIN_CLOCK_MONOTONIC_EXT;
-    std::uint64_t times[2]{};
-    std::uint64_t deviation = 0;
-    check(
-        vkGetCalibratedTimestampsEXT(device, 2, wanted, times, &deviation),
-        "read the clocks of device and host");
-    return {times[0], times[1]};
+    // Between the two a process may be put to sleep; a driver says how far apart they may be.
+    Moment best{};
+    std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
+    for (int i = 0; i < 8; ++i) {
+        std::uint64_t times[2]{};
+        std::uint64_t deviation = 0;
+        check(
+            vkGetCalibratedTimestampsEXT(device, 2, wanted, times, &deviation),
+            "read the clocks of device and host");
+        if (deviation < least) best = {times[0], times[1]};
+        least = std::min(least, deviation);
+    }
+    return best;
 }
 
 bool knowsBothClocks(VkPhysicalDevice device) {
