@@ -31,11 +31,11 @@ void leaveRoomFor(const char* button) {
     ImGui::SetNextItemWidth(-widthOf(button) - ImGui::GetStyle().ItemSpacing.x);
 }
 
-char lowerCase(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+char lowered(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 bool contains(const std::string& text, const char* part) {
     const std::string wanted = part;
-    return std::ranges::search(text, wanted, {}, lowerCase, lowerCase).begin() != text.end() ||
+    return std::ranges::search(text, wanted, {}, lowered, lowered).begin() != text.end() ||
            wanted.empty();
 }
 

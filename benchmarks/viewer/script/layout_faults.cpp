@@ -121,9 +121,9 @@ bool neverScrolls(const ImGuiWindow& window) {
 }
 
 bool isPanel(const ImGuiWindow& window) {
-    constexpr ImGuiWindowFlags kOthers =
+    constexpr ImGuiWindowFlags kSpecialWindows =
         ImGuiWindowFlags_ChildWindow | ImGuiWindowFlags_Tooltip | ImGuiWindowFlags_Popup;
-    return isShown(window) && (window.Flags & kOthers) == 0 && window.Size.x > kTolerance &&
+    return isShown(window) && (window.Flags & kSpecialWindows) == 0 && window.Size.x > kTolerance &&
            window.Size.y > kTolerance && !window.IsFallbackWindow;
 }
 
