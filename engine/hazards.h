@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include <volk.h>
+#include "engine/instance.h"
 
 // Whether what is recorded is ordered. The validation layer doesn't see memory that shaders reach
 // by its address, and a device that runs its commands one after the other works without any

@@ -62,7 +62,7 @@ constexpr Rule kRules[] = {
     {"", "stb", "engine/"},
     {"", "OpenEXR/", "engine/float_pictures.cpp"},
     {"", "volk", "engine/instance.h"},
-    {"", "vulkan/", "engine/instance.h"},
+    {"", "vulkan/", "engine/instance."},
     {"", "vk_mem_alloc", "engine/memory.h"},
     {"", "GLFW/", "engine/window.cpp"},
     {"", "backends/imgui", "engine/ui.cpp"},

@@ -30,7 +30,7 @@ struct FoundPath {
 inline std::vector<FoundPath> findPaths(
     const engine::Device& device, const Settings& settings, const StrandView& view,
     const RenderAssets& assets, std::span<const gpu::ShadowProbe> probes) {
-    static_assert(sizeof(gpu::ShadowProbe) == 28 && sizeof(gpu::ShadowProbePush) == 24);
+    static_assert(sizeof(gpu::ShadowProbe) == 28 && sizeof(gpu::ShadowProbePush) == 20);
     constexpr VkFormat kFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
     probe_shaders::addTo(device);
     const engine::GraphicsPipeline pipeline(
