@@ -139,6 +139,7 @@ void Commands::barrier(
     std::array<VkMemoryBarrier2, 4> memory;
     std::uint32_t count = 0;
     assert(dependencies.size() <= memory.size());
+    Recorded recorded{.pass = pass_, .uses = {}, .barriers = {}};
     for (const Dependency& dependency : dependencies) {
         const Scope from = scope(dependency.before);
         const Scope to = scope(dependency.after);
@@ -147,10 +148,7 @@ void Commands::barrier(
             if (dependencies.size() > 1)
                 name += " #" + std::to_string(&dependency - dependencies.begin() + 1);
             if (hazards_->isDropped(pass_, name)) continue;
-            recording_.push_back(
-                {.pass = pass_,
-                 .uses = {},
-                 .barrier = RecordedBarrier{.before = from, .after = to, .place = name}});
+            recorded.barriers.push_back({.before = from, .after = to, .image = {}, .place = name});
         }
         memory[count++] = {
             .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
@@ -160,6 +158,7 @@ void Commands::barrier(
             .dstStageMask = to.stages,
             .dstAccessMask = to.access};
     }
+    if (hazards_) recording_.push_back(std::move(recorded));
     VkDependencyInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
     info.memoryBarrierCount = count;
@@ -178,12 +177,12 @@ void Commands::transition(
         recording_.push_back(
             {.pass = pass_,
              .uses = {},
-             .barrier = RecordedBarrier{
-                 .before = source,
-                 .after = target,
-                 .image = hazards_->image(image.get()),
-                 .changes_layout = true,
-                 .place = textOf(place)}});
+             .barriers = {
+                 {.before = source,
+                  .after = target,
+                  .image = hazards_->image(image.get()),
+                  .changes_layout = true,
+                  .place = textOf(place)}}});
     }
     const VkImageMemoryBarrier2 barrier{
         .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,

@@ -125,10 +125,8 @@ std::vector<Hazard> HazardChecker::submit(const Recording& recording) {
     ++submissions_;
     std::vector<Hazard> found;
     for (const Recorded& each : recording) {
-        if (each.barrier)
-            apply(*each.barrier, each.pass, found);
-        else
-            apply(each.uses, each.pass, found);
+        apply(each.barriers, each.pass, found);
+        apply(each.uses, each.pass, found);
     }
     return found;
 }
@@ -145,30 +143,49 @@ void HazardChecker::finish(std::uint64_t submission) {
 }
 
 void HazardChecker::apply(
+    const std::vector<RecordedBarrier>& barriers, const std::string& pass,
+    std::vector<Hazard>& found) {
+    const auto comesBefore = [](const RecordedBarrier& barrier, const Done& done) {
+        const VkPipelineStageFlags2 waited_for = withEarlier(expanded(barrier.before).stages);
+        return isWithin(done.scope.stages, waited_for) || (done.ordered & waited_for);
+    };
+    for (auto& [resource, state] : states_) {
+        if (state.write) {
+            const Done before = *state.write;
+            for (const RecordedBarrier& barrier : barriers) {
+                if (!comesBefore(barrier, before)) continue;
+                const Scope from = expanded(barrier.before);
+                const Scope to = expanded(barrier.after);
+                const bool is_meant = !barrier.image || barrier.image == resource;
+                const bool flushes = isWithin(before.scope.stages, from.stages) &&
+                                     isWithin(before.scope.access & kWrites, from.access);
+                if (is_meant && (before.available || flushes)) {
+                    state.write->available = true;
+                    state.write->visible.push_back(to);
+                }
+                state.write->ordered |= withLater(to.stages);
+            }
+        }
+        for (Done& read : state.reads) {
+            const Done before = read;
+            for (const RecordedBarrier& barrier : barriers)
+                if (comesBefore(barrier, before))
+                    read.ordered |= withLater(expanded(barrier.after).stages);
+        }
+    }
+    for (const RecordedBarrier& barrier : barriers)
+        if (barrier.changes_layout) changeLayout(barrier, pass, found);
+}
+
+// The change comes after what its barrier waits for, and before what waits for it.
+void HazardChecker::changeLayout(
     const RecordedBarrier& barrier, const std::string& pass, std::vector<Hazard>& found) {
     const Scope before = expanded(barrier.before);
     const Scope after = expanded(barrier.after);
     const VkPipelineStageFlags2 waited_for = withEarlier(before.stages);
-    const VkPipelineStageFlags2 waiting = withLater(after.stages);
     const auto comesBefore = [&](const Done& done) {
         return isWithin(done.scope.stages, waited_for) || (done.ordered & waited_for);
     };
-    for (auto& [resource, state] : states_) {
-        const bool is_meant = !barrier.image || barrier.image == resource;
-        if (state.write && comesBefore(*state.write)) {
-            Done& write = *state.write;
-            if (is_meant && isWithin(write.scope.stages, before.stages) &&
-                isWithin(write.scope.access & kWrites, before.access))
-                write.available = true;
-            if (is_meant && write.available) write.visible.push_back(after);
-            write.ordered |= waiting;
-        }
-        for (Done& read : state.reads)
-            if (comesBefore(read)) read.ordered |= waiting;
-    }
-    if (!barrier.changes_layout) return;
-
-    // The change comes after what the barrier waits for, and before what waits for it.
     State& state = states_[*barrier.image];
     if (state.write && !(comesBefore(*state.write) && state.write->available))
         found.push_back({Hazard::Kind::write_after_write, *barrier.image, state.write->pass, pass});
@@ -180,7 +197,7 @@ void HazardChecker::apply(
         .scope = {kBetweenStages, 0},
         .pass = pass,
         .submission = submissions_,
-        .ordered = waiting,
+        .ordered = withLater(after.stages),
         .available = true,
         .visible = {after}};
 }
@@ -224,7 +241,8 @@ std::set<std::string> barrierPlaces(std::span<const Recording> recordings) {
     std::set<std::string> places;
     for (const Recording& recording : recordings)
         for (const Recorded& each : recording)
-            if (each.barrier && !each.barrier->changes_layout) places.insert(each.barrier->place);
+            for (const RecordedBarrier& barrier : each.barriers)
+                if (!barrier.changes_layout) places.insert(barrier.place);
     return places;
 }
 
@@ -234,10 +252,11 @@ std::vector<std::string> superfluousBarriers(std::span<const Recording> recordin
         HazardChecker checker;
         std::size_t count = 0;
         for (const Recording& recording : recordings) {
-            Recording left;
-            for (const Recorded& each : recording)
-                if (!each.barrier || each.barrier->changes_layout || each.barrier->place != place)
-                    left.push_back(each);
+            Recording left = recording;
+            for (Recorded& each : left)
+                std::erase_if(each.barriers, [&](const RecordedBarrier& barrier) {
+                    return !barrier.changes_layout && barrier.place == place;
+                });
             count += checker.submit(left).size();
         }
         return count;

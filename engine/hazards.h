@@ -49,7 +49,7 @@ struct RecordedBarrier {
 struct Recorded {
     std::string pass;  // empty: outside of passes
     std::vector<RecordedUse> uses;  // of one command, which don't depend on one another
-    std::optional<RecordedBarrier> barrier;  // instead of uses
+    std::vector<RecordedBarrier> barriers;  // of one command, which don't chain; instead of uses
 };
 
 // A command buffer, in the order of recording.
@@ -92,7 +92,11 @@ private:
         std::vector<Done> reads;  // since then
     };
 
-    void apply(const RecordedBarrier& barrier, const std::string& pass, std::vector<Hazard>& found);
+    void changeLayout(
+        const RecordedBarrier& barrier, const std::string& pass, std::vector<Hazard>& found);
+    void apply(
+        const std::vector<RecordedBarrier>& barriers, const std::string& pass,
+        std::vector<Hazard>& found);
     void apply(
         const std::vector<RecordedUse>& uses, const std::string& pass, std::vector<Hazard>& found);
 

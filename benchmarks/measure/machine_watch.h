@@ -48,7 +48,7 @@ private:
 };
 
 // A device that had work for less of the time than this was idle.
-inline constexpr double kIdleLoad = 0.5;
+inline constexpr double kIdleLoad = 0.2;
 
 // Medians of what the readings know that were taken under load, the lowest clock among them, and
 // every throttle reason of theirs, each once. Readings of an idle device tell nothing.

@@ -220,15 +220,20 @@ WarmUp
 warmUp(RoundPlayer& player, Stage& stage, double FrameRecord::* time, double least, double most) {
     const double begin = stage.seconds();
     WarmUp result;
-    double before = 0.0;  // ms, of the last window
+    // ms, of the last window: the time that is judged, and the device's. Where the host is slower,
+    // the first is steady long before the clock is.
+    double before = 0.0;
+    double device_before = 0.0;
     while (!result.steady && result.seconds < most) {
         const double window = stage.seconds();
         std::vector<double> times;
+        std::vector<double> device_times;
         std::uint32_t plays = 0;
         double counted = 0.0;
         do {
             for (const FrameRecord& frame : player.stream(1)) {
                 times.push_back(frame.*time);
+                device_times.push_back(frame.device.value_or(0.0));
                 counted += frame.*time;
             }
             ++plays;
@@ -237,8 +242,11 @@ warmUp(RoundPlayer& player, Stage& stage, double FrameRecord::* time, double lea
         result.seconds = stage.seconds() - begin;
         result.play = (stage.seconds() - window) / plays;
         result.counted = counted / plays;
-        result.steady = result.seconds >= least && std::abs(now - before) <= kSteadyShare * now;
+        const double device_now = report::quantile(device_times, 0.5);
+        result.steady = result.seconds >= least && std::abs(now - before) <= kSteadyShare * now &&
+                        std::abs(device_now - device_before) <= kSteadyShare * device_now;
         before = now;
+        device_before = device_now;
     }
     return result;
 }

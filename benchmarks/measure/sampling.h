@@ -123,7 +123,8 @@ struct WarmUp {
 };
 
 // Plays for at least /run/warmup_time and until two windows of 50 ms differ by less than a
-// hundredth in their median frame, but no longer than `most` seconds: what a clock needs to rise.
+// hundredth in their median frame, by `time` and by the device's own, but no longer than `most`
+// seconds: what a clock needs to rise.
 WarmUp warmUp(
     RoundPlayer& player, Stage& stage, double engine::FrameRecord::* time, double least,
     double most);

@@ -31,20 +31,18 @@ constexpr Scope kColorWrite{
 Scope executionOnly(Scope scope) { return {scope.stages, 0}; }
 
 Recorded use(ResourceId resource, Scope scope, const char* pass = "") {
-    return {.pass = pass, .uses = {{resource, scope}}, .barrier = {}};
+    return {.pass = pass, .uses = {{resource, scope}}, .barriers = {}};
 }
 
 Recorded barrier(Scope before, Scope after, const char* place = "") {
     return {
-        .pass = {},
-        .uses = {},
-        .barrier = RecordedBarrier{.before = before, .after = after, .place = place}};
+        .pass = {}, .uses = {}, .barriers = {{.before = before, .after = after, .place = place}}};
 }
 
 Recorded imageBarrier(ResourceId image, Scope before, Scope after, bool changes_layout) {
     Recorded recorded = barrier(before, after);
-    recorded.barrier->image = image;
-    recorded.barrier->changes_layout = changes_layout;
+    recorded.barriers[0].image = image;
+    recorded.barriers[0].changes_layout = changes_layout;
     return recorded;
 }
 
@@ -140,6 +138,16 @@ TEST(HazardChecker, FollowsChainsOfBarriers) {
     };
     EXPECT_THAT(chained(kFill, executionOnly(kFill)), IsEmpty());
     EXPECT_THAT(chained(kFragmentRead, executionOnly(kFill)), ElementsAre(Kind::read_after_write));
+}
+
+// The dependencies of one command all begin with what is recorded before it.
+TEST(HazardChecker, ChainsNoBarriersOfOneCommand) {
+    Recorded both = barrier(kComputeWrite, kVertexRead);
+    both.barriers.push_back(barrier(executionOnly(kVertexRead), kFragmentRead).barriers[0]);
+    EXPECT_THAT(hazards({use(1, kComputeWrite), both, use(1, kVertexRead)}), IsEmpty());
+    EXPECT_THAT(
+        hazards({use(1, kComputeWrite), both, use(1, kFragmentRead)}),
+        ElementsAre(Kind::read_after_write));
 }
 
 // A barrier waits for the stages that a draw goes through before the one it names, and holds up

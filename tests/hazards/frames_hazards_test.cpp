@@ -21,7 +21,9 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-constexpr std::uint32_t kFrames = 4;  // more than are in flight
+// As many as can be, for what the host has waited for is no hazard.
+constexpr engine::Overlap kOverlap{.frames = engine::FrameLoop::kMaxSlots};
+constexpr std::uint32_t kFrames = kOverlap.frames;
 
 // As the settings are, but small: what is recorded doesn't depend on sizes.
 hair::Settings made(hair::Settings settings) {
@@ -77,7 +79,7 @@ protected:
         const hair::Settings& settings, std::set<std::string>& places,
         std::set<std::string>& needed) {
         Case played(device(), settings, HAIRBENCH_SCENES_DIR);
-        engine::FrameLoop loop(device(), engine::Timing::overlapped);
+        engine::FrameLoop loop(device(), engine::Timing::overlapped, kOverlap);
         log().keepRecordings();
         log().takeRecordings();
         for (std::uint32_t i = 0; i < kFrames; ++i)
@@ -139,7 +141,7 @@ void missEach(
     engine::Device& device, const hair::Settings& settings, const std::vector<Missed>& expected) {
     engine::HazardLog& log = *device.hazards();
     Case played(device, settings, HAIRBENCH_SCENES_DIR);
-    engine::FrameLoop loop(device, engine::Timing::overlapped);
+    engine::FrameLoop loop(device, engine::Timing::overlapped, kOverlap);
     const auto play = [&](std::uint32_t frames) {
         for (std::uint32_t i = 0; i < frames; ++i)
             loop.frame([&](engine::Passes& passes) { played.frame(passes); });

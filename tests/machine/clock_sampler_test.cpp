@@ -93,7 +93,7 @@ TEST(AddClocks, LeavesOutReadingsOfAnIdleDevice) {
 TEST(AddClocks, KnowsNothingOfADeviceThatWasIdleThroughout) {
     report::Conditions conditions;
     addClocks(
-        {{.clock_mhz = 300, .idle = true}, {.clock_mhz = 400, .temperature = 40, .load = 0.2}},
+        {{.clock_mhz = 300, .idle = true}, {.clock_mhz = 400, .temperature = 40, .load = 0.1}},
         conditions);
     EXPECT_EQ(conditions.clock_mhz, std::nullopt);
     EXPECT_EQ(conditions.lowest_clock_mhz, std::nullopt);

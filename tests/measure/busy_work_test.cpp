@@ -70,7 +70,7 @@ protected:
     }
 
     void play(BusyPass& busy, engine::Timing timing) {
-        engine::FrameLoop loop(device(), timing);
+        engine::FrameLoop loop(device(), timing, {.stamps = engine::Stamps::passes});
         for (int i = 0; i < 3; ++i)
             loop.frame([&](engine::Passes& passes) {
                 BusyPasses slowed(passes, busy);

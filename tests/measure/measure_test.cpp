@@ -257,7 +257,8 @@ TEST_F(RoundPlayerTest, GivesTheFramesAfterTheWarmUpInEveryRound) {
          {engine::Timing::overlapped, engine::Timing::isolated, engine::Timing::wall_clock})
         for (const auto& [warmup, frames] :
              {std::pair{2u, 5u}, std::pair{3u, 4u}, std::pair{6u, 1u}}) {
-            const hair::RunSettings run{.warmup = warmup, .frames = frames};
+            const hair::RunSettings run{
+                .warmup = warmup, .frames = frames, .overlapped_stamps = true};
             DeviceStage stage(device(), test_case, run, hooks);
             RoundPlayer player(stage.player(timing), run);
             std::vector<bool> expected;

@@ -138,6 +138,7 @@ public:
 private:
     static constexpr double kNever = std::numeric_limits<double>::infinity();
     static constexpr double kReadingPeriod = 0.05;  // s
+    static constexpr double kLoadWindow = 0.1;  // s
     static constexpr double kNotes = 1e-3;  // s between two states that are kept
     static constexpr std::size_t kSlots = 2;
 
@@ -295,8 +296,11 @@ private:
 
     void note() {
         const double window = busy_until_ - noted_;
-        const double load = window > 0.0 ? std::clamp(busy_ / window, 0.0, 1.0) : 0.0;
-        history_.push_back({busy_until_, clock_, load, isThrottledAt(busy_until_)});
+        // Drivers tell the mean of a while.
+        if (window > 0.0)
+            load_ += (std::clamp(busy_ / window, 0.0, 1.0) - load_) *
+                     (1.0 - std::exp(-window / kLoadWindow));
+        history_.push_back({busy_until_, clock_, load_, isThrottledAt(busy_until_)});
         noted_ = busy_until_;
         busy_ = 0.0;
     }
@@ -335,6 +339,7 @@ private:
     double busy_until_ = 0.0;
     double busy_ = 0.0;  // s since the last note
     double noted_ = 0.0;
+    double load_ = 0.0;
     double next_stall_;
     double throttle_from_;
     double throttle_to_ = 0.0;
