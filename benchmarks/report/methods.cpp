@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -79,7 +80,8 @@ std::string casesText(const Json& report) {
         const std::string status = result.value("status", "");
         ++(status == "ok" ? measured : status == "skipped" ? skipped : failed);
     }
-    std::string text = countText(measured, "case") + " of scene " + textAt(report, "/scene/path");
+    std::string text = countText(measured, "case") + " of scene " +
+                       std::filesystem::path(textAt(report, "/scene/path")).filename().string();
     text += measured == 1 ? " was measured" : " were measured";
     if (report.contains("order_seed")) text += " in random order";
     if (skipped > 0) text += ", " + std::to_string(skipped) + " skipped for what the device lacks";
