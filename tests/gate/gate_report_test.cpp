@@ -155,6 +155,7 @@ TEST(GateReport, IsOfItsSchemaForARealGate) {
     const Outcome gate = hairbench(
         "gate --a '" HAIRBENCH_PROGRAM "' --b '" HAIRBENCH_PROGRAM
         "' --scene '" HAIRBENCH_SCENES_DIR "/smoke.json' --filter msaa:1 --frames 2 --warmup 2 "
+        "--set /render/width=32 --set /render/height=32 --set /groom/guides=4 "
         "--max-time 0 --threshold 1000% -o " +
         out.string());
     if (gate.status == 77) return skipWithout(Need::device, "no Vulkan device");
