@@ -58,6 +58,14 @@ Scope scope(Access access) {
         VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
 }
 
+bool isGraphics(const Scope& scope) {
+    constexpr VkPipelineStageFlags2 kGraphics =
+        VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT | VK_PIPELINE_STAGE_2_PRE_RASTERIZATION_SHADERS_BIT |
+        VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT |
+        VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
+    return (scope.stages & kGraphics) != 0;
+}
+
 // What a command touches of an image or buffer: of an attachment, by its own stages alone.
 Scope scopeOf(const Use& use) {
     if (use.access != Access::attachment) return scope(use.access);
@@ -143,6 +151,7 @@ void Commands::barrier(
     for (const Dependency& dependency : dependencies) {
         const Scope from = scope(dependency.before);
         const Scope to = scope(dependency.after);
+        if (queue_ == QueueKind::compute && (isGraphics(from) || isGraphics(to))) continue;
         if (hazards_) {
             std::string name = textOf(place);
             if (dependencies.size() > 1)

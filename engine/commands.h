@@ -83,12 +83,20 @@ private:
     std::size_t allocated_ = 0;  // sets since reset()
 };
 
+// Which commands a queue takes.
+enum class QueueKind {
+    all,
+    compute,  // no graphics: barriers leave out its stages, whose commands others order
+};
+
 // A command buffer being recorded. Borrows the buffer and its sets; adds no barrier by itself.
 class Commands {
 public:
     // `hazards`: who is told of all that is recorded; null: nobody.
-    Commands(VkCommandBuffer buffer, DescriptorSets& sets, HazardLog* hazards = nullptr)
-        : buffer_(buffer), sets_(sets), hazards_(hazards) {}
+    Commands(
+        VkCommandBuffer buffer, DescriptorSets& sets, HazardLog* hazards = nullptr,
+        QueueKind queue = QueueKind::all)
+        : buffer_(buffer), sets_(sets), hazards_(hazards), queue_(queue) {}
 
     VkCommandBuffer get() const { return buffer_; }
     // The device must be done with what was recorded before.
@@ -174,6 +182,7 @@ private:
     VkCommandBuffer buffer_;
     DescriptorSets& sets_;
     HazardLog* hazards_;
+    QueueKind queue_;
     // Where hazards are looked for:
     Recording recording_;
     std::string pass_;

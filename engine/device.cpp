@@ -10,6 +10,7 @@
 
 #include "engine/commands.h"
 #include "engine/memory.h"
+#include "engine/pipeline.h"
 #include "engine/shaders.h"
 
 namespace engine {
@@ -132,12 +133,18 @@ Device::Device(const DeviceOptions& options)
     device_ = createDevice(info_, extensions);
     volkLoadDevice(device_);
     vkGetDeviceQueue(device_, info_.queue_family, 0, &queue_);
+    compute_queue_ = queue_;
+    if (has(Feature::second_queue))
+        vkGetDeviceQueue(
+            device_, info_.compute_family, info_.compute_family == info_.queue_family ? 1 : 0,
+            &compute_queue_);
     allocator_ = createAllocator(instance_.get(), info_, device_);
     if (options.validation == Validation::on)
         hazards_ = std::make_unique<HazardLog>(instance_.messages());
     memory_ = std::make_unique<MemoryLedger>();
     shaders_ = std::make_unique<ShaderLibrary>();
     cache_ = std::make_unique<PipelineCache>(device_, info_);
+    pipelines_ = std::make_unique<PipelineStore>();
 
     const VkCommandPoolCreateInfo pool{
         .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
@@ -158,9 +165,16 @@ Device::~Device() {
     vkDeviceWaitIdle(device_);
     pool_ = {};
     fence_ = {};
+    pipelines_.reset();
     cache_.reset();
     vmaDestroyAllocator(allocator_);
     vkDestroyDevice(device_, nullptr);
+}
+
+std::vector<std::uint32_t> Device::queueFamilies() const {
+    if (!has(Feature::second_queue) || info_.compute_family == info_.queue_family)
+        return {info_.queue_family};
+    return {info_.queue_family, info_.compute_family};
 }
 
 void Device::require(Feature feature, const std::string& context) const {

@@ -16,11 +16,12 @@
 struct VmaAllocation_T;
 struct VmaAllocator_T;
 
-// The device: a logical device with its queue and allocator, the ledger of who holds its memory,
+// The device: a logical device with its queues and allocator, the ledger of who holds its memory,
 // and its pipeline cache.
 namespace engine {
 
 class Commands;
+class PipelineStore;
 class ShaderLibrary;
 
 // The device stopped working (VK_ERROR_DEVICE_LOST), and so did everything made from it.
@@ -108,7 +109,7 @@ struct DeviceOptions {
     std::function<void(DeviceInfo&)> mask{};
 };
 
-// One logical device with one queue, its memory allocator and pipeline cache. Everything else
+// One logical device with its queues, its memory allocator and pipeline cache. Everything else
 // borrows it.
 class Device {
 public:
@@ -120,6 +121,10 @@ public:
     VkInstance instance() const { return instance_.get(); }
     VkDevice get() const { return device_; }
     VkQueue queue() const { return queue_; }
+    // The second queue, or the first where there is no other (Feature::second_queue).
+    VkQueue computeQueue() const { return compute_queue_; }
+    // The families of both queues: what both may touch is shared among them.
+    std::vector<std::uint32_t> queueFamilies() const;
     VmaAllocator_T* allocator() const { return allocator_; }
     VkPipelineCache pipelineCache() const { return cache_->get(); }
     const DeviceInfo& info() const { return info_; }
@@ -146,6 +151,8 @@ public:
     const MemoryLedger& memory() const { return *memory_; }
     // The code that pipelines are made of from now on.
     ShaderLibrary& shaders() const { return *shaders_; }
+    // The pipelines that were made of it.
+    PipelineStore& pipelines() const { return *pipelines_; }
     // What an allocation's owner keeps for as long as it lives.
     MemoryLedger::Line memoryLine(VmaAllocation_T* allocation, const std::string& name) const;
 
@@ -160,11 +167,13 @@ private:
     DeviceInfo info_;
     VkDevice device_{};
     VkQueue queue_{};
+    VkQueue compute_queue_{};
     VmaAllocator_T* allocator_{};
     std::unique_ptr<HazardLog> hazards_;
     std::unique_ptr<MemoryLedger> memory_;
     std::unique_ptr<ShaderLibrary> shaders_;
     std::unique_ptr<PipelineCache> cache_;
+    std::unique_ptr<PipelineStore> pipelines_;
     Handle<VkCommandPool, &vkDestroyCommandPool> pool_;
     Handle<VkFence, &vkDestroyFence> fence_;
 };

@@ -50,79 +50,111 @@ void waitFor(VkDevice device, VkSemaphore timeline, std::uint64_t value) {
         "wait for a frame");
 }
 
+// A value of a timeline semaphore.
+struct TimelinePoint {
+    VkSemaphore timeline{};
+    std::uint64_t value = 0;  // 0: from the start
+};
+
+VkSemaphoreSubmitInfo submitInfo(const TimelinePoint& point) {
+    VkSemaphoreSubmitInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO;
+    info.semaphore = point.timeline;
+    info.value = point.value;
+    info.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    return info;
+}
+
+// `after`: what has to be reached before; its value 0: nothing.
 void submit(
-    const Device& device, VkCommandBuffer commands, VkSemaphore timeline, std::uint64_t value) {
+    VkQueue queue, VkCommandBuffer commands, const TimelinePoint& reached,
+    const TimelinePoint& after = {}) {
     const VkCommandBufferSubmitInfo buffer{
         .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
         .pNext = nullptr,
         .commandBuffer = commands,
         .deviceMask = 0};
-    VkSemaphoreSubmitInfo signal{};
-    signal.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO;
-    signal.semaphore = timeline;
-    signal.value = value;
-    signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    const VkSemaphoreSubmitInfo signal = submitInfo(reached);
+    const VkSemaphoreSubmitInfo wait = submitInfo(after);
     VkSubmitInfo2 info{};
     info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
+    info.waitSemaphoreInfoCount = after.value > 0 ? 1 : 0;
+    info.pWaitSemaphoreInfos = &wait;
     info.commandBufferInfoCount = 1;
     info.pCommandBufferInfos = &buffer;
     info.signalSemaphoreInfoCount = 1;
     info.pSignalSemaphoreInfos = &signal;
-    check(vkQueueSubmit2(device.queue(), 1, &info, VK_NULL_HANDLE), "submit a frame");
+    check(vkQueueSubmit2(queue, 1, &info, VK_NULL_HANDLE), "submit a frame");
 }
 
-// Overlapped, isolated and statistics frames: all passes in one command buffer.
+// Overlapped, isolated and statistics frames: all passes in one command buffer, but for those that
+// have a queue of their own.
 template <class Slot>
 class OneBufferPasses : public Passes {
 public:
+    // `beside`: records on the second queue; null where all goes to the first.
     OneBufferPasses(
         const Device& device, Timing timing, Stamps stamps, Slot& slot, std::uint32_t index,
-        Commands& commands)
-        : device_(device), timing_(timing), stamps_(stamps), slot_data_(slot), commands_(commands) {
+        Commands& commands, Commands* beside)
+        : device_(device), timing_(timing), stamps_(stamps), slot_data_(slot), commands_(&commands),
+          beside_(beside) {
         slot_ = index;
         if (timing_ == Timing::overlapped && slot_data_.timestamps)
-            slot_data_.timestamps->write(commands_);
+            slot_data_.timestamps->write(*commands_);
     }
 
     void
     pass(const char* name, PassKind kind, const std::function<void(Commands&)>& record) override {
-        commands_.beginLabel(name);
+        commands_->beginLabel(name);
         switch (timing_) {
         case Timing::overlapped: {
-            record(commands_);
+            record(*commands_);
             if (!slot_data_.timestamps || stamps_ == Stamps::frame) break;
-            const std::uint32_t stamp = slot_data_.timestamps->write(commands_);
+            const std::uint32_t stamp = slot_data_.timestamps->write(*commands_);
             slot_data_.spans.push_back({name, stamp - 1, stamp});
             break;
         }
         case Timing::isolated: {
             auto& stamps = slot_data_.timestamps;
-            const std::uint32_t first = stamps ? stamps->write(commands_) : 0;
-            commands_.barrier(Access::anything, Access::anything);
-            record(commands_);
-            commands_.barrier(Access::anything, Access::anything);
-            if (stamps) slot_data_.spans.push_back({name, first, stamps->write(commands_)});
+            const std::uint32_t first = stamps ? stamps->write(*commands_) : 0;
+            commands_->barrier(Access::anything, Access::anything);
+            record(*commands_);
+            commands_->barrier(Access::anything, Access::anything);
+            if (stamps) slot_data_.spans.push_back({name, first, stamps->write(*commands_)});
             break;
         }
         case Timing::statistics:
             if (kind == PassKind::graphics && device_.hasPipelineStatistics()) {
                 auto& query = slot_data_.queries.emplace_back(name, PipelineStatistics(device_));
-                query.statistics.begin(commands_);
-                record(commands_);
-                query.statistics.end(commands_);
+                query.statistics.begin(*commands_);
+                record(*commands_);
+                query.statistics.end(*commands_);
                 break;
             }
             [[fallthrough]];
         case Timing::wall_clock:
-            record(commands_);
+            record(*commands_);
             break;
         }
-        commands_.endLabel();
+        commands_->endLabel();
+        if (commands_ != beside_) drawing_ = true;
     }
+
+    void beside(std::uint32_t frames, const std::function<void()>& record) override {
+        if (!beside_) return record();
+        assert(!drawing_);
+        least_ = std::min(least_.value_or(frames), frames);
+        Commands* const others = std::exchange(commands_, beside_);
+        record();
+        commands_ = others;
+    }
+
+    // Frames beside whose drawing all may run that was recorded by beside(); absent: nothing was.
+    std::optional<std::uint32_t> leastBeside() const { return least_; }
 
     void end() {
         if (timing_ == Timing::overlapped && stamps_ == Stamps::frame && slot_data_.timestamps)
-            slot_data_.timestamps->write(commands_);
+            slot_data_.timestamps->write(*commands_);
     }
 
 private:
@@ -130,7 +162,10 @@ private:
     Timing timing_;
     Stamps stamps_;
     Slot& slot_data_;
-    Commands& commands_;
+    Commands* commands_;
+    Commands* beside_;
+    bool drawing_ = false;
+    std::optional<std::uint32_t> least_;
 };
 
 // Wall-clock frames: a submission per pass.
@@ -154,7 +189,7 @@ public:
         commands.end();
         const ProcessUse used = processUse();
         const Clock::time_point start = Clock::now();
-        submit(device_, slot_data_.buffer, timeline_, ++submitted_);
+        submit(device_.queue(), slot_data_.buffer, {timeline_, ++submitted_});
         waitFor(device_.get(), timeline_, submitted_);
         if (device_.hazards()) device_.hazards()->finish(device_.hazards()->submissions());
         const double time = millisecondsBetween(start, Clock::now());
@@ -172,14 +207,16 @@ private:
 
 }  // namespace
 
-// What one frame in flight owns.
-struct FrameLoop::Slot {
-    Slot(const Device& device, Timing timing) : sets(device) {
+void Passes::beside(std::uint32_t, const std::function<void()>& record) { record(); }
+
+// A command buffer of a queue family, with its pool and its sets.
+struct FrameLoop::OwnBuffer {
+    OwnBuffer(const Device& device, std::uint32_t family) : sets(device) {
         const VkCommandPoolCreateInfo create{
             .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
             .pNext = nullptr,
             .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
-            .queueFamilyIndex = device.info().queue_family};
+            .queueFamilyIndex = family};
         VkCommandPool handle{};
         check(
             vkCreateCommandPool(device.get(), &create, nullptr, &handle), "create a command pool");
@@ -193,6 +230,18 @@ struct FrameLoop::Slot {
         check(
             vkAllocateCommandBuffers(device.get(), &allocate, &buffer),
             "allocate a command buffer");
+    }
+
+    Handle<VkCommandPool, &vkDestroyCommandPool> pool;
+    VkCommandBuffer buffer{};
+    DescriptorSets sets;
+};
+
+// What one frame in flight owns.
+struct FrameLoop::Slot : OwnBuffer {
+    Slot(const Device& device, Timing timing, bool async)
+        : OwnBuffer(device, device.info().queue_family) {
+        if (async) beside.emplace(device, device.info().compute_family);
         const bool stamped = timing == Timing::overlapped || timing == Timing::isolated;
         if (stamped && device.info().timestamp_valid_bits > 0) {
             timestamps.emplace(device, kMaxStamps);
@@ -209,14 +258,12 @@ struct FrameLoop::Slot {
         PipelineStatistics statistics;
     };
 
-    Handle<VkCommandPool, &vkDestroyCommandPool> pool;
-    VkCommandBuffer buffer{};
-    DescriptorSets sets;
+    std::optional<OwnBuffer> beside;  // of the second queue
     std::optional<Timestamps> timestamps;
     std::vector<Span> spans;
     std::vector<Query> queries;
-    std::uint64_t value = 0;         // of the timeline when the slot's frame is done
-    std::uint64_t submission = 0;    // as HazardLog counts
+    std::uint64_t value = 0;  // of the timeline when the slot's frame is done
+    std::uint64_t submission = 0;  // as HazardLog counts
     std::optional<std::size_t> record;  // index of the frame whose results are still to be read
 };
 
@@ -225,13 +272,17 @@ FrameLoop::FrameLoop(const Device& device, Timing timing, const Overlap& overlap
       timeline_(makeTimeline(device.get())) {
     assert(overlap.frames > 0 && overlap.frames <= kMaxSlots);
     const std::uint32_t count = timing == Timing::overlapped ? overlap.frames : 1;
+    const bool async = timing == Timing::overlapped && overlap.async;
+    assert(!async || overlap.stamps == Stamps::frame);
     for (std::uint32_t i = 0; i < count; ++i) {
-        slots_.push_back(std::make_unique<Slot>(device, timing));
+        slots_.push_back(std::make_unique<Slot>(device, timing, async));
     }
+    if (async) beside_ = makeTimeline(device.get());
 }
 
 FrameLoop::~FrameLoop() {
     vkQueueWaitIdle(device_.queue());
+    vkQueueWaitIdle(device_.computeQueue());
     if (device_.hazards()) device_.hazards()->finish(device_.hazards()->submissions());
 }
 
@@ -258,18 +309,32 @@ void FrameLoop::frame(const std::function<void(Passes&)>& record) {
     slot.spans.clear();
     slot.queries.clear();
     Commands commands(slot.buffer, slot.sets, device_.hazards());
+    std::optional<Commands> beside;
+    if (slot.beside)
+        beside.emplace(
+            slot.beside->buffer, slot.beside->sets, device_.hazards(), QueueKind::compute);
     commands.begin();
-    {
-        OneBufferPasses<Slot> passes(device_, timing_, stamps_, slot, index, commands);
-        record(passes);
-        passes.end();
-    }
+    if (beside) beside->begin();
+    OneBufferPasses<Slot> passes(
+        device_, timing_, stamps_, slot, index, commands, beside ? &*beside : nullptr);
+    record(passes);
+    passes.end();
+    const std::uint64_t drawn =
+        submitted_ - std::min<std::uint64_t>(submitted_, passes.leastBeside().value_or(0));
+    if (beside) endBeside(*beside, drawn);
     commands.end();
     if (device_.hazards()) slot.submission = device_.hazards()->submissions();
     const Clock::time_point recorded = Clock::now();
     slot.value = ++submitted_;
     slot.record = records_.size() - 1;
-    submit(device_, slot.buffer, timeline_.get(), slot.value);
+    if (beside && device_.hazards()) drawn_[slot.value] = slot.submission;
+    if (passes.leastBeside())
+        submit(
+            device_.computeQueue(), slot.beside->buffer, {beside_.get(), ++submitted_beside_},
+            {timeline_.get(), drawn});
+    submit(
+        device_.queue(), slot.buffer, {timeline_.get(), slot.value},
+        {beside_.get(), submitted_beside_});
     const Clock::time_point submitted = Clock::now();
     result.wait = millisecondsBetween(start, free);
     result.record = millisecondsBetween(free, recorded);
@@ -282,6 +347,19 @@ void FrameLoop::frame(const std::function<void(Passes&)>& record) {
         result.use = processUse() - used;
         collect(slot);
     }
+}
+
+// Ends what goes to the second queue and waits there until the timeline is at `drawn`; what goes to
+// the first one waits for it.
+void FrameLoop::endBeside(Commands& beside, std::uint64_t drawn) {
+    HazardLog* const hazards = device_.hazards();
+    if (hazards) {
+        const auto end = drawn_.upper_bound(drawn);
+        for (auto each = drawn_.begin(); each != end; ++each) hazards->waitFor(each->second);
+        drawn_.erase(drawn_.begin(), end);
+    }
+    beside.end();
+    if (hazards) hazards->waitFor(hazards->submissions());
 }
 
 std::vector<FrameRecord> FrameLoop::finish() {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,6 +34,10 @@ enum class Stamps {
 struct Overlap {
     std::uint32_t frames = 2;  // in flight at most; from 1 to FrameLoop::kMaxSlots
     Stamps stamps = Stamps::frame;
+    // What is recorded by Passes::beside() goes to the device's second queue (to the first, in a
+    // submission of its own, where there is none). With Stamps::frame alone: the stamps are those
+    // of the rest.
+    bool async = false;
 };
 
 enum class PassKind { compute, graphics };
@@ -73,6 +78,11 @@ public:
     virtual void
     pass(const char* name, PassKind kind, const std::function<void(Commands&)>& record) = 0;
 
+    // Calls `record`, whose passes may run beside the drawing of the last `frames` frames, but only
+    // after all that was submitted before those. What is recorded later comes after them. They are
+    // compute passes, and the first of their frame.
+    virtual void beside(std::uint32_t frames, const std::function<void()>& record);
+
     // Index of the frame in flight, below FrameLoop::kMaxSlots: for buffers that the CPU writes
     // each frame.
     std::uint32_t slot() const { return slot_; }
@@ -103,14 +113,22 @@ public:
     std::vector<FrameRecord> finish();
 
 private:
+    struct OwnBuffer;
     struct Slot;
     void collect(Slot& slot);
+    void endBeside(Commands& beside, std::uint64_t drawn);
 
     const Device& device_;
     Timing timing_;
     Stamps stamps_;
     Handle<VkSemaphore, &vkDestroySemaphore> timeline_;
     std::uint64_t submitted_ = 0;
+    // Of submissions to the second queue; null where there are none.
+    Handle<VkSemaphore, &vkDestroySemaphore> beside_;
+    std::uint64_t submitted_beside_ = 0;
+    // As HazardLog counts, by values of the timeline that nothing on the second queue waits for
+    // yet.
+    std::map<std::uint64_t, std::uint64_t> drawn_;
     std::vector<std::unique_ptr<Slot>> slots_;
     std::uint64_t frames_ = 0;
     std::vector<FrameRecord> records_;  // of frames that were not returned yet

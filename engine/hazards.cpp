@@ -132,7 +132,14 @@ std::vector<Hazard> HazardChecker::submit(const Recording& recording) {
 }
 
 void HazardChecker::finish(std::uint64_t submission) {
-    const auto is_over = [&](const Done& done) { return done.submission <= submission; };
+    forgetIf([&](const Done& done) { return done.submission <= submission; });
+}
+
+void HazardChecker::waitFor(std::uint64_t submission) {
+    forgetIf([&](const Done& done) { return done.submission == submission; });
+}
+
+void HazardChecker::forgetIf(const std::function<bool(const Done&)>& is_over) {
     for (auto& [resource, state] : states_) {
         if (state.write && is_over(*state.write)) state.write.reset();
         std::erase_if(state.reads, is_over);

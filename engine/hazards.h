@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -75,6 +76,10 @@ public:
     // later depends on nothing that they did.
     void finish(std::uint64_t submission);
 
+    // What is submitted from now on waits on the device, by a semaphore, for this submission,
+    // counted from 1.
+    void waitFor(std::uint64_t submission);
+
     void forget(ResourceId resource) { states_.erase(resource); }
 
 private:
@@ -92,6 +97,7 @@ private:
         std::vector<Done> reads;  // since then
     };
 
+    void forgetIf(const std::function<bool(const Done&)>& is_over);
     void changeLayout(
         const RecordedBarrier& barrier, const std::string& pass, std::vector<Hazard>& found);
     void apply(
@@ -171,6 +177,8 @@ public:
     std::uint64_t submissions() const { return submissions_; }
     // The host has waited for this submission and all before it.
     void finish(std::uint64_t submission);
+    // The device waits for this submission before what is submitted from now on.
+    void waitFor(std::uint64_t submission) { checker_.waitFor(submission); }
 
     // A dispatch of a pass that doesn't say what it touches, or not all that it is handed.
     void complain(const std::string& pass, const std::string& what);

@@ -95,7 +95,7 @@ constexpr std::array kVulkan13Features{
 };
 
 // What stands for a feature: a member of VkPhysicalDeviceFeatures, an extension, or a format of
-// colour attachments that can be blended into.
+// colour attachments that can be blended into. Of a queue, nothing: its family does.
 struct FeatureRow {
     Feature feature;
     std::string_view name;
@@ -137,6 +137,7 @@ constexpr std::array kFeatures{
     FeatureRow{
         Feature::push_descriptors, "push descriptors", nullptr,
         VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME},
+    FeatureRow{Feature::second_queue, "second queue that computes", nullptr, nullptr},
 };
 
 // Of headers that are asked for provisional extensions; the number never changes.
@@ -206,7 +207,8 @@ void findFeatures(DeviceInfo& info) {
     for (const FeatureRow& row : kFeatures) {
         const bool there = row.member      ? available.core.features.*row.member == VK_TRUE
                            : row.extension ? extensions.contains(row.extension)
-                                           : canBlend(info.handle, row.blended);
+                           : row.blended   ? canBlend(info.handle, row.blended)
+                                           : false;
         if (there) info.features.insert(row.feature);
     }
     if (info.is_portability && !available.portability.tessellationIsolines)
@@ -250,6 +252,20 @@ void findQueueFamily(DeviceInfo& info) {
     }
     info.queue_family = static_cast<std::uint32_t>(family - families.begin());
     info.timestamp_valid_bits = family->timestampValidBits;
+
+    const auto other = [&](VkQueueFlags without) {
+        return std::ranges::find_if(families, [&](const VkQueueFamilyProperties& each) {
+            const bool same = &each == &*family;
+            return (each.queueFlags & VK_QUEUE_COMPUTE_BIT) && !(each.queueFlags & without) &&
+                   each.queueCount > (same ? 1u : 0u);
+        });
+    };
+    auto second = other(VK_QUEUE_GRAPHICS_BIT);
+    if (second == families.end()) second = other(0);
+    info.compute_family = second == families.end()
+                              ? info.queue_family
+                              : static_cast<std::uint32_t>(second - families.begin());
+    if (second != families.end()) info.features.insert(Feature::second_queue);
 }
 
 DeviceInfo inspect(VkPhysicalDevice device) {
@@ -433,20 +449,29 @@ VkDevice createDevice(const DeviceInfo& info, std::vector<const char*> extension
             info.features.contains(Feature::tessellation) ? VK_TRUE : VK_FALSE;
     }
 
-    const float priority = 1.0f;
-    const VkDeviceQueueCreateInfo queue{
-        .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
-        .pNext = nullptr,
-        .flags = 0,
-        .queueFamilyIndex = info.queue_family,
-        .queueCount = 1,
-        .pQueuePriorities = &priority};
+    constexpr std::array priorities{1.0f, 1.0f};
+    const auto queues = [&](std::uint32_t family, std::uint32_t count) {
+        return VkDeviceQueueCreateInfo{
+            .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+            .pNext = nullptr,
+            .flags = 0,
+            .queueFamilyIndex = family,
+            .queueCount = count,
+            .pQueuePriorities = priorities.data()};
+    };
+    std::vector<VkDeviceQueueCreateInfo> families{queues(info.queue_family, 1)};
+    if (info.features.contains(Feature::second_queue)) {
+        if (info.compute_family == info.queue_family)
+            families.front().queueCount = 2;
+        else
+            families.push_back(queues(info.compute_family, 1));
+    }
     const VkDeviceCreateInfo create{
         .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
         .pNext = &features.core,
         .flags = 0,
-        .queueCreateInfoCount = 1,
-        .pQueueCreateInfos = &queue,
+        .queueCreateInfoCount = static_cast<std::uint32_t>(families.size()),
+        .pQueueCreateInfos = families.data(),
         .enabledLayerCount = 0,
         .ppEnabledLayerNames = nullptr,
         .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),

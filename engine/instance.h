@@ -104,6 +104,7 @@ enum class Feature {
     sample_counts,  // occlusion queries that count
     calibrated_timestamps,  // a moment by the clocks of device and host at once
     push_descriptors,  // Commands does with descriptor sets where they are missing
+    second_queue,  // that computes beside the first one
 };
 
 // In the plural, for "the device has no ...".
@@ -123,6 +124,9 @@ struct DeviceInfo {
     VkDriverId driver_id{};
     VkPhysicalDeviceLimits limits{};
     std::uint32_t queue_family = 0;  // graphics, compute and transfer
+    // Of the second queue: another family with compute, best one without graphics, or the same one
+    // where that has several queues. That of the first where there is no second.
+    std::uint32_t compute_family = 0;
     std::uint32_t timestamp_valid_bits = 0;  // of the queue family
     std::vector<std::string> missing;  // required features it lacks; empty: suitable
     std::set<Feature> features;
@@ -137,7 +141,8 @@ std::vector<DeviceInfo> listDevices(const Instance& instance);
 // the reasons when there is none.
 DeviceInfo chooseDevice(const Instance& instance, const std::string& wanted);
 
-// Creates the logical device with one queue, the features that every device must have and those of
+// Creates the logical device with its first queue, the second one where the features have it, the
+// features that every device must have and those of
 // `info`, and these extensions beside those that the features need.
 VkDevice createDevice(const DeviceInfo& info, std::vector<const char*> extensions);
 

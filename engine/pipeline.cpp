@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cstddef>
 #include <map>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "engine/shaders.h"
@@ -164,41 +166,44 @@ VkPipelineColorBlendAttachmentState blendState(Blend blend) {
     return state;
 }
 
-}  // namespace
-
-ComputePipeline::ComputePipeline(const Device& device, const ComputeDescription& description) {
+PipelineObjects makePipeline(const Device& device, const ComputeDescription& description) {
+    PipelineObjects objects;
     std::vector<VkDescriptorType> types(
         description.sampled_images, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE);
     types.resize(types.size() + description.storage_images, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
     if (!types.empty())
-        images_ = {device.get(), makeImageLayout(device, types, VK_SHADER_STAGE_COMPUTE_BIT)};
-    layout_ = makeLayout(device, VK_SHADER_STAGE_COMPUTE_BIT, description.push_size, images_.get());
+        objects.images = {
+            device.get(), makeImageLayout(device, types, VK_SHADER_STAGE_COMPUTE_BIT)};
+    objects.layout = makeLayout(
+        device, VK_SHADER_STAGE_COMPUTE_BIT, description.push_size, objects.images.get());
 
     const ShaderModule module = loadModule(device, description.shader);
     const Specialization specialization(description.constants);
     VkComputePipelineCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     create.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module, specialization);
-    create.layout = layout_.get();
+    create.layout = objects.layout.get();
     VkPipeline pipeline{};
     check(
         vkCreateComputePipelines(
             device.get(), device.pipelineCache(), 1, &create, nullptr, &pipeline),
         description.shader.c_str());
-    pipeline_ = {device.get(), pipeline};
+    objects.pipeline = {device.get(), pipeline};
     device.setName(
         VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), description.shader);
+    return objects;
 }
 
-GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsDescription& description) {
-    for (const std::string& path : description.shaders) requireStage(device, path);
+PipelineObjects makePipeline(const Device& device, const GraphicsDescription& description) {
+    PipelineObjects objects;
     if (description.sampled_images > 0) {
         const std::vector<VkDescriptorType> types(
             description.sampled_images, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
-        images_ = {device.get(), makeImageLayout(device, types, VK_SHADER_STAGE_FRAGMENT_BIT)};
+        objects.images = {
+            device.get(), makeImageLayout(device, types, VK_SHADER_STAGE_FRAGMENT_BIT)};
     }
-    layout_ =
-        makeLayout(device, VK_SHADER_STAGE_ALL_GRAPHICS, description.push_size, images_.get());
+    objects.layout = makeLayout(
+        device, VK_SHADER_STAGE_ALL_GRAPHICS, description.push_size, objects.images.get());
     const Specialization specialization(description.constants);
     std::vector<ShaderModule> modules;
     std::vector<VkPipelineShaderStageCreateInfo> stages;
@@ -270,16 +275,103 @@ GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsDescripti
     create.pDepthStencilState = &depth;
     create.pColorBlendState = &blend;
     create.pDynamicState = &dynamic;
-    create.layout = layout_.get();
+    create.layout = objects.layout.get();
     VkPipeline pipeline{};
     check(
         vkCreateGraphicsPipelines(
             device.get(), device.pipelineCache(), 1, &create, nullptr, &pipeline),
         description.shaders.front().c_str());
-    pipeline_ = {device.get(), pipeline};
+    objects.pipeline = {device.get(), pipeline};
     device.setName(
         VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline),
         description.shaders.front());
+    return objects;
+}
+
+// All that a pipeline is made of, as bytes.
+class PipelineKey {
+public:
+    template <class Value>
+        requires std::is_arithmetic_v<Value> || std::is_enum_v<Value>
+    void add(Value value) {
+        bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+    void add(const Device& device, const std::string& shader) {
+        const std::span<const std::uint32_t> code = device.shaders().code(shader);
+        const std::string_view text(reinterpret_cast<const char*>(code.data()), code.size_bytes());
+        bytes_.append(shader).push_back('\0');
+        add(text.size());
+        add(std::hash<std::string_view>()(text));
+    }
+    void add(Constants constants) {
+        std::ranges::sort(constants, {}, &Constant::id);
+        add(constants.size());
+        for (const Constant& constant : constants) {
+            add(constant.id);
+            add(constant.bits);
+        }
+    }
+    const std::string& bytes() const { return bytes_; }
+
+private:
+    std::string bytes_;
+};
+
+std::string keyOf(const Device& device, const ComputeDescription& description) {
+    PipelineKey key;
+    key.add(device, description.shader);
+    key.add(description.constants);
+    key.add(description.push_size);
+    key.add(description.sampled_images);
+    key.add(description.storage_images);
+    return key.bytes();
+}
+
+std::string keyOf(const Device& device, const GraphicsDescription& description) {
+    PipelineKey key;
+    for (const std::string& shader : description.shaders) key.add(device, shader);
+    key.add(description.constants);
+    key.add(description.push_size);
+    key.add(description.topology);
+    key.add(description.patch_control_points);
+    key.add(description.colors.size());
+    for (const ColorTarget& color : description.colors) {
+        key.add(color.format);
+        key.add(color.blend);
+    }
+    key.add(description.depth_format);
+    key.add(description.samples);
+    key.add(description.cull);
+    key.add(description.depth_compare);
+    key.add(description.depth_write);
+    key.add(description.discard);
+    key.add(description.sampled_images);
+    return key.bytes();
+}
+
+}  // namespace
+
+PipelineStore::Objects
+PipelineStore::get(const std::string& key, const std::function<PipelineObjects()>& make) {
+    const std::lock_guard lock(mutex_);
+    const auto found =
+        std::ranges::find(newest_first_, key, &decltype(newest_first_)::value_type::first);
+    if (found != newest_first_.end())
+        newest_first_.splice(newest_first_.begin(), newest_first_, found);
+    else
+        newest_first_.emplace_front(key, std::make_shared<const PipelineObjects>(make()));
+    if (newest_first_.size() > kMost) newest_first_.pop_back();
+    return newest_first_.front().second;
+}
+
+ComputePipeline::ComputePipeline(const Device& device, const ComputeDescription& description)
+    : objects_(device.pipelines().get(
+          keyOf(device, description), [&] { return makePipeline(device, description); })) {}
+
+GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsDescription& description) {
+    for (const std::string& path : description.shaders) requireStage(device, path);
+    objects_ = device.pipelines().get(
+        keyOf(device, description), [&] { return makePipeline(device, description); });
 }
 
 std::set<ShaderBinding> shaderBindings(std::span<const std::uint32_t> code) {

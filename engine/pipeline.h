@@ -2,10 +2,16 @@
 
 #include <bit>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <list>
+#include <memory>
+#include <mutex>
 #include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/device.h"
@@ -37,18 +43,38 @@ struct ComputeDescription {
     std::uint32_t storage_images = 0;
 };
 
+struct PipelineObjects {
+    Handle<VkDescriptorSetLayout, &vkDestroyDescriptorSetLayout> images;
+    Handle<VkPipelineLayout, &vkDestroyPipelineLayout> layout;
+    Handle<VkPipeline, &vkDestroyPipeline> pipeline;
+};
+
+// The pipelines that a device made last, by all that they were made of: the code of their stages,
+// constants and state. Equal ones are made once, as a driver would compile each of them anew, some
+// at its first draw only. Thread-safe.
+class PipelineStore {
+public:
+    using Objects = std::shared_ptr<const PipelineObjects>;
+
+    Objects get(const std::string& key, const std::function<PipelineObjects()>& make);
+
+private:
+    static constexpr std::size_t kMost = 256;
+
+    std::mutex mutex_;
+    std::list<std::pair<std::string, Objects>> newest_first_;
+};
+
 class ComputePipeline {
 public:
     ComputePipeline(const Device& device, const ComputeDescription& description);
 
-    VkPipeline get() const { return pipeline_.get(); }
-    VkPipelineLayout layout() const { return layout_.get(); }
-    VkDescriptorSetLayout imagesLayout() const { return images_.get(); }  // null: no images
+    VkPipeline get() const { return objects_->pipeline.get(); }
+    VkPipelineLayout layout() const { return objects_->layout.get(); }
+    VkDescriptorSetLayout imagesLayout() const { return objects_->images.get(); }  // null: none
 
 private:
-    Handle<VkDescriptorSetLayout, &vkDestroyDescriptorSetLayout> images_;
-    Handle<VkPipelineLayout, &vkDestroyPipelineLayout> layout_;
-    Handle<VkPipeline, &vkDestroyPipeline> pipeline_;
+    PipelineStore::Objects objects_;
 };
 
 // What becomes of a fragment's color and that of the attachment.
@@ -89,14 +115,12 @@ public:
     // Throws Unsupported for stages that the device hasn't.
     GraphicsPipeline(const Device& device, const GraphicsDescription& description);
 
-    VkPipeline get() const { return pipeline_.get(); }
-    VkPipelineLayout layout() const { return layout_.get(); }
-    VkDescriptorSetLayout imagesLayout() const { return images_.get(); }  // null: no images
+    VkPipeline get() const { return objects_->pipeline.get(); }
+    VkPipelineLayout layout() const { return objects_->layout.get(); }
+    VkDescriptorSetLayout imagesLayout() const { return objects_->images.get(); }  // null: none
 
 private:
-    Handle<VkDescriptorSetLayout, &vkDestroyDescriptorSetLayout> images_;
-    Handle<VkPipelineLayout, &vkDestroyPipelineLayout> layout_;
-    Handle<VkPipeline, &vkDestroyPipeline> pipeline_;
+    PipelineStore::Objects objects_;
 };
 
 // A place at which SPIR-V expects a descriptor.

@@ -157,6 +157,18 @@ const Table& tableOf(const RunSettings*) {
              "overlapped_stamps", &S::overlapped_stamps,
              "stamp overlapped frames after each pass too, not at both ends alone: passes may then "
              "overlap less"),
+         toggle(
+             "async_compute", &S::async_compute,
+             "simulate overlapped frames on a second queue of the device, beside the drawing of "
+             "the "
+             "frame before"),
+         choice(
+             "clocks", &S::clocks,
+             {{Clocks::as_found, "as_found"}, {Clocks::locked, "locked"}, {Clocks::free, "free"}},
+             "clocks of a GPU while a case is measured: as they are; locked by the program at what "
+             "the board sustains, where the user may; or free to change, a case of which is "
+             "skipped "
+             "where an administrator holds them"),
          text(
              "busy_pass", &S::busy_pass,
              "pass to slow down, to see whether a comparison finds it; empty: none"),

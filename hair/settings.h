@@ -95,6 +95,8 @@ const Table& tableOf(const RenderSettings*);
 
 // ---- Run ----------------------------------------------------------------------------------------
 
+enum class Clocks { as_found, locked, free };
+
 struct RunSettings {
     std::uint32_t warmup = 3;
     std::uint32_t frames = 10;
@@ -105,6 +107,8 @@ struct RunSettings {
     float frame_time = 1.0f / 60.0f;
     std::uint32_t frames_in_flight = 2;
     bool overlapped_stamps = false;
+    bool async_compute = false;
+    Clocks clocks = Clocks::as_found;
     std::string busy_pass;
     std::uint32_t busy_work = 0;
     std::string reference;

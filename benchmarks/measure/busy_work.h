@@ -68,6 +68,9 @@ public:
     void pass(
         const char* name, engine::PassKind kind,
         const std::function<void(engine::Commands&)>& record) override;
+    void beside(std::uint32_t frames, const std::function<void()>& record) override {
+        passes_.beside(frames, record);
+    }
 
 private:
     engine::Passes& passes_;

@@ -94,16 +94,19 @@ void Case::simulate(engine::Passes& passes) {
     }
 }
 
+// Drawing reads one of two copies of the guides: the next step may write the other meanwhile.
 void Case::frame(engine::Passes& passes) {
-    simulate(passes);
+    passes.beside(1, [&] { simulate(passes); });
     draw(passes);
 }
 
 void Case::draw(engine::Passes& passes) { renderer_->record(passes, view()); }
 
 void Case::recordReset(engine::Passes& passes) {
-    passes.pass("reset", engine::PassKind::compute, [&](engine::Commands& commands) {
-        simulation_.recordReset(commands);
+    passes.beside(0, [&] {
+        passes.pass("reset", engine::PassKind::compute, [&](engine::Commands& commands) {
+            simulation_.recordReset(commands);
+        });
     });
     fixed_step_.reset();
 }

@@ -96,7 +96,9 @@ EmptySubmission measureEmptySubmission(Stage& stage) {
 DeviceStage::DeviceStage(
     const engine::Device& device, Case& test_case, const hair::RunSettings& run,
     const MeasureHooks& hooks)
-    : device_(device), test_case_(test_case), run_(run), hooks_(hooks), watch_(device) {}
+    : device_(device), test_case_(test_case), run_(run), hooks_(hooks), watch_(device) {
+    if (run.async_compute) device.require(engine::Feature::second_queue, "/run/async_compute");
+}
 
 std::unique_ptr<Player> DeviceStage::player(engine::Timing timing) {
     return player(timing, {run_.busy_pass, run_.busy_work});
@@ -105,7 +107,8 @@ std::unique_ptr<Player> DeviceStage::player(engine::Timing timing) {
 std::unique_ptr<Player> DeviceStage::player(engine::Timing timing, const PlantedWork& planted) {
     const engine::Overlap overlap{
         .frames = run_.frames_in_flight,
-        .stamps = run_.overlapped_stamps ? engine::Stamps::passes : engine::Stamps::frame};
+        .stamps = run_.overlapped_stamps ? engine::Stamps::passes : engine::Stamps::frame,
+        .async = run_.async_compute};
     return std::make_unique<DevicePlayer>(device_, test_case_, hooks_, timing, overlap, planted);
 }
 

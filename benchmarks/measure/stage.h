@@ -92,6 +92,7 @@ EmptySubmission measureEmptySubmission(Stage& stage);
 // A case on a device. All must outlive it, and it its players.
 class DeviceStage : public Stage {
 public:
+    // Throws engine::Unsupported for /run/async_compute on a device with one queue.
     DeviceStage(
         const engine::Device& device, Case& test_case, const hair::RunSettings& run,
         const MeasureHooks& hooks);

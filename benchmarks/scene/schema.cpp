@@ -135,6 +135,11 @@ Broken busyWorkHasAPass(const hair::Settings& s) {
     return "is above 0, but /run/busy_pass is empty";
 }
 
+Broken stampsAreOfOneQueue(const hair::Settings& s) {
+    if (!s.run.async_compute || !s.run.overlapped_stamps) return {};
+    return "is on, but passes on two queues have no common order: /run/async_compute is on, too";
+}
+
 // A frame's passes are stamped one by one, and its stamps have room for so many steps.
 constexpr float kMostStepsPerFrame = 200.0f;
 
@@ -175,6 +180,7 @@ constexpr Rule kRules[] = {
     {"/render/transparency", alphaHasSamplesToCover},
     {"/shading/lights", lightsHaveDirections},
     {"/run/busy_work", busyWorkHasAPass},
+    {"/run/overlapped_stamps", stampsAreOfOneQueue},
     {"/run/frame_time", frameHasRoomForItsSteps}};
 
 }  // namespace

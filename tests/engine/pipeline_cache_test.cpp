@@ -1,10 +1,14 @@
-#include "engine/device.h"
+#include "engine/pipeline.h"
 
 #include <cstdlib>
+#include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
+#include "engine/shaders.h"
 #include "tests/gpu_fixture.h"
 #include "tests/temporary_folder.h"
 
@@ -75,6 +79,50 @@ TEST_F(PipelineCacheTest, DoesWithoutAFolderToWriteTo) {
     setenv("XDG_CACHE_HOME", file.c_str(), 1);
     makeCache();
     EXPECT_EQ(files().size(), 1u);
+}
+
+using PipelineStoreTest = GpuTest;
+
+ComputeDescription resolveOf(std::uint32_t samples) {
+    return {
+        .shader = "post/resolve.comp",
+        .constants = {{0, 1u}, {1, samples}},
+        .sampled_images = 1,
+        .storage_images = 1};
+}
+
+TEST_F(PipelineStoreTest, GivesOnePipelineForEqualDescriptions) {
+    const ComputePipeline one(device(), resolveOf(2));
+    ComputeDescription turned = resolveOf(2);
+    std::swap(turned.constants[0], turned.constants[1]);
+    EXPECT_EQ(ComputePipeline(device(), turned).get(), one.get());
+    EXPECT_NE(ComputePipeline(device(), resolveOf(3)).get(), one.get());
+}
+
+// As a shader that is saved while the viewer runs.
+TEST_F(PipelineStoreTest, GivesAnotherForOtherCode) {
+    const ComputePipeline before(device(), resolveOf(2));
+    const std::span<const std::uint32_t> other = shaderCode("busy/busy.comp");
+    device().shaders().replace({{"post/resolve.comp", ShaderCode(other.begin(), other.end())}});
+    const ComputePipeline replaced(
+        device(), {.shader = "post/resolve.comp", .push_size = sizeof(std::uint64_t) * 2});
+    device().shaders().replace({});
+    EXPECT_NE(replaced.get(), before.get());
+    EXPECT_EQ(ComputePipeline(device(), resolveOf(2)).get(), before.get());
+}
+
+// What is in use stays, whatever else was made since.
+TEST_F(PipelineStoreTest, LetsGoOfWhatWasAskedForLongAgo) {
+    PipelineStore store;
+    const auto made = [&](int i) {
+        return store.get(std::to_string(i), [] { return PipelineObjects{}; });
+    };
+    const PipelineStore::Objects kept = made(0);
+    const std::weak_ptr<const PipelineObjects> dropped = made(1);
+    for (int i = 2; i < 2000; ++i) made(i);
+    EXPECT_TRUE(dropped.expired());
+    EXPECT_EQ(kept.use_count(), 1);
+    EXPECT_NE(made(0), kept);
 }
 
 }  // namespace

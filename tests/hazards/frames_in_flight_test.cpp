@@ -30,12 +30,17 @@ struct Ends {
     bool operator==(const Ends&) const = default;
 };
 
-// What the first frames end with.
+// What the first frames end with, played twice in one stream.
 Ends ends(
-    const engine::Device& device, Case& played, engine::Timing timing, std::uint32_t in_flight) {
+    const engine::Device& device, Case& played, engine::Timing timing,
+    const engine::Overlap& overlap) {
     played.reset();
-    engine::FrameLoop loop(device, timing, {.frames = in_flight});
-    for (int i = 0; i < 9; ++i) loop.frame([&](engine::Passes& passes) { played.frame(passes); });
+    engine::FrameLoop loop(device, timing, overlap);
+    for (int i = 0; i < 18; ++i)
+        loop.frame([&](engine::Passes& passes) {
+            if (i == 9) played.recordReset(passes);
+            played.frame(passes);
+        });
     loop.finish();
     return {played.pictureHash(), played.stateHash()};
 }
@@ -53,10 +58,16 @@ void expectEqualEnds(const engine::Device& device, hair::Solver solver, float st
         {.time = 0.0f}, {.time = 1.0f, .translation = {0.1f, 0.0f, 0.0f}}};
     settings.run.frame_time = steps * settings.simulation.time_step;
     Case played(device, settings, HAIRBENCH_SCENES_DIR);
-    const Ends alone = ends(device, played, engine::Timing::isolated, 1);
+    const Ends alone = ends(device, played, engine::Timing::isolated, {.frames = 1});
     for (std::uint32_t in_flight = 1; in_flight <= 4; ++in_flight)
-        EXPECT_EQ(ends(device, played, engine::Timing::overlapped, in_flight), alone)
-            << in_flight << " frames in flight, " << steps << " steps a frame";
+        for (const bool async : {false, true})
+            EXPECT_EQ(
+                ends(
+                    device, played, engine::Timing::overlapped,
+                    {.frames = in_flight, .async = async}),
+                alone)
+                << in_flight << " frames in flight, " << steps << " steps a frame"
+                << (async ? ", two submissions" : "");
 }
 
 TEST_F(FramesInFlight, EndAlikeHoweverManyThereAre) {
@@ -120,6 +131,42 @@ TEST_F(FramesInFlight, AResolveByComputeIsWaitedFor) {
     hair::Settings settings = movingHair(hair::Solver::shape);
     settings.render.ssaa = 2;
     EXPECT_FALSE(mayRunBeside(device(), settings));
+}
+
+// Lets what runs beside drawing wait for one picture less than it should.
+class EagerPasses : public engine::Passes {
+public:
+    explicit EagerPasses(engine::Passes& passes) : passes_(passes) { slot_ = passes.slot(); }
+
+    void pass(
+        const char* name, engine::PassKind kind,
+        const std::function<void(engine::Commands&)>& record) override {
+        passes_.pass(name, kind, record);
+    }
+    void beside(std::uint32_t frames, const std::function<void()>& record) override {
+        passes_.beside(frames + 1, record);
+    }
+
+private:
+    engine::Passes& passes_;
+};
+
+// Nothing but semaphores is between the queues, so what is missing there is a hazard.
+TEST_F(FramesInFlight, TheSecondQueueWaitsForThePicturesOfTheCopyThatItOverwrites) {
+    Case played(device(), movingHair(hair::Solver::shape), HAIRBENCH_SCENES_DIR);
+    const auto messages = [&](bool eager) {
+        engine::FrameLoop loop(device(), engine::Timing::overlapped, {.frames = 4, .async = true});
+        for (int i = 0; i < 8; ++i)
+            loop.frame([&](engine::Passes& passes) {
+                EagerPasses less(passes);
+                played.frame(eager ? less : passes);
+            });
+        loop.finish();
+        return device().messages().take();
+    };
+    EXPECT_THAT(messages(false), testing::IsEmpty());
+    EXPECT_THAT(
+        messages(true), testing::Contains(testing::HasSubstr("write after read of 'guide")));
 }
 
 }  // namespace
