@@ -272,6 +272,18 @@ void addRunOptions(CLI::App& command, run::RunOptions& options) {
         ->type_name("REGEX");
     command.add_option("-o,--out", options.out, "report file (default results/local/<scene>.json)")
         ->type_name("FILE");
+    command
+        .add_option_function<std::string>(
+            "--clocks",
+            [&options](const std::string& clocks) {
+                if (clocks == "both")
+                    options.scene.axes.emplace_back("/run/clocks=locked,free");
+                else
+                    options.scene.sets.push_back("/run/clocks=" + clocks);
+            },
+            "locked: lock the GPU's clocks at what it sustains, where the user may; free: only "
+            "where nobody holds them; both: each case with either (/run/clocks)")
+        ->check(CLI::IsMember({"locked", "free", "both"}));
     command.add_flag("--list", options.list, "print the cases' names and stop");
     command.add_flag("--dry-run", options.dry_run, "say what would run, estimate memory and time");
     command.add_option(
@@ -368,6 +380,15 @@ void addDoctorOptions(CLI::App& command, DoctorOptions& options) {
         "plant slowdowns of 1.5 times the smallest in one pass and say whether a gate finds them; "
         "takes long");
     command.add_option("-o,--out", options.out, "findings as JSON")->type_name("FILE");
+    command
+        .add_option(
+            "--rules", options.rules,
+            "holds a report against the twelve rules of Hoefler and Belli (SC 2015) instead of "
+            "looking at the machine")
+        ->type_name("REPORT")
+        ->excludes("--pairs")
+        ->excludes("--planted")
+        ->excludes("--out");
 }
 
 void addMeasuringCommands(const CommandLine& line) {

@@ -62,6 +62,7 @@ struct DoctorOptions {
     std::uint32_t pairs = 0;  // of the A/A calibration; 0: none
     bool planted = false;  // look for planted slowdowns too
     std::filesystem::path out;  // findings as JSON; empty: none
+    std::filesystem::path rules;  // a report that is held against rules instead; empty: none
     std::vector<std::string> command;
 };
 int examineMachine(const DoctorOptions& options);

@@ -5,8 +5,10 @@
 #include "benchmarks/doctor/facts.h"
 #include "benchmarks/doctor/play_pairs.h"
 #include "benchmarks/doctor/report.h"
+#include "benchmarks/doctor/rules.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/environment.h"
+#include "benchmarks/report/report.h"
 #include "engine/files.h"
 #include "engine/process.h"
 
@@ -40,6 +42,12 @@ void examineGates(const DoctorOptions& options, doctor::DoctorReport& report) {
 }  // namespace
 
 int examineMachine(const DoctorOptions& options) {
+    if (!options.rules.empty()) {
+        const std::vector<doctor::RuleFinding> findings =
+            doctor::judgeRules(report::readReport(options.rules));
+        std::cout << doctor::rulesText(findings);
+        return doctor::meetsRules(findings) ? report::kOk : report::kCheckFailed;
+    }
     if (options.planted && options.pairs == 0)
         throw engine::Error("--planted", "needs --pairs: how large a slowdown to plant");
     if (!options.out.empty()) engine::checkWritable(options.out);

@@ -112,6 +112,25 @@ public:
             monitor_ = entry.path();
     }
 
+    ~Amdgpu() override { unlock(); }
+
+    bool lock() override {
+        std::string before;
+        std::ifstream(level_) >> before;
+        if (before.empty() || !write(kLocked)) return false;
+        if (!found_) found_ = before;
+        return true;
+    }
+
+    void unlock() override {
+        if (found_) write(*found_);
+        found_.reset();
+    }
+
+    std::string lockCommand() const override {
+        return std::string("echo ") + kLocked + " > " + level_.string();
+    }
+
     ClockReading read() override {
         ClockReading reading;
         const Levels shaders = readLevels(device_ / "pp_dpm_sclk");
@@ -129,7 +148,7 @@ public:
             reading.load = *percent / 100.0;
         reading.throttle_reasons = readThrottling(device_ / "gpu_metrics");
         std::string level;
-        std::ifstream(device_ / "power_dpm_force_performance_level") >> level;
+        std::ifstream(level_) >> level;
         if (!level.empty() && level != "auto") {
             reading.held = true;
             reading.base_clock_mhz.reset();
@@ -138,8 +157,19 @@ public:
     }
 
 private:
+    static constexpr const char* kLocked = "profile_standard";
+
+    // Drivers refuse what they can't do as the text is handed over.
+    bool write(const std::string& level) const {
+        std::ofstream file(level_);
+        file << level << std::flush;
+        return file.good();
+    }
+
     std::filesystem::path device_;
+    std::filesystem::path level_ = device_ / "power_dpm_force_performance_level";
     std::filesystem::path monitor_;
+    std::optional<std::string> found_;  // the level before lock()
 };
 
 }  // namespace
@@ -174,6 +204,9 @@ struct Utilization {
     unsigned int memory;
 };
 using Load = int (*)(Device device, Utilization* utilization);
+using Lock = int (*)(Device device, unsigned int least_megahertz, unsigned int most_megahertz);
+using Unlock = int (*)(Device device);
+constexpr unsigned int kDesignPowerClock = 0xffffff01;  // NVML_CLOCK_LIMIT_ID_TDP
 
 struct Reason {
     unsigned long long bit;
@@ -218,13 +251,14 @@ private:
 
 class Nvml : public ClockSource {
 public:
-    Nvml(const PciAddress& address, const std::string& library) : library_(library) {
+    Nvml(const PciAddress& address, const std::string& library)
+        : library_(library), address_(addressText(address)) {
         const auto init = library_.find<Init>("nvmlInit_v2");
         shutdown_ = library_.find<Shutdown>("nvmlShutdown");
         if (!init || !shutdown_ || init() != kSuccess) return;
         started_ = true;
         const auto handle = library_.find<HandleByAddress>("nvmlDeviceGetHandleByPciBusId_v2");
-        if (!handle || handle(addressText(address).c_str(), &device_) != kSuccess) return;
+        if (!handle || handle(address_.c_str(), &device_) != kSuccess) return;
         found_ = true;
         clock_ = library_.find<Clock>("nvmlDeviceGetClockInfo");
         applications_clock_ = library_.find<Clock>("nvmlDeviceGetApplicationsClock");
@@ -232,13 +266,32 @@ public:
         temperature_ = library_.find<Temperature>("nvmlDeviceGetTemperature");
         power_ = library_.find<Power>("nvmlDeviceGetPowerUsage");
         load_ = library_.find<Load>("nvmlDeviceGetUtilizationRates");
+        lock_ = library_.find<Lock>("nvmlDeviceSetGpuLockedClocks");
+        unlock_ = library_.find<Unlock>("nvmlDeviceResetGpuLockedClocks");
         reasons_ = library_.find<Reasons>(
             "nvmlDeviceGetCurrentClocksEventReasons", "nvmlDeviceGetCurrentClocksThrottleReasons");
     }
     Nvml(const Nvml&) = delete;
     Nvml& operator=(const Nvml&) = delete;
     ~Nvml() override {
+        unlock();
         if (started_) shutdown_();
+    }
+
+    bool lock() override {
+        if (!lock_ || !unlock_ || lock_(device_, kDesignPowerClock, kDesignPowerClock) != kSuccess)
+            return false;
+        locked_ = true;
+        return true;
+    }
+
+    void unlock() override {
+        if (locked_) unlock_(device_);
+        locked_ = false;
+    }
+
+    std::string lockCommand() const override {
+        return "nvidia-smi --id=" + address_ + " --lock-gpu-clocks=MHZ";
     }
 
     bool found() const { return found_; }
@@ -278,6 +331,7 @@ private:
     }
 
     Library library_;
+    std::string address_;
     Shutdown shutdown_ = nullptr;
     bool started_ = false;
     bool found_ = false;
@@ -289,6 +343,9 @@ private:
     Reasons reasons_ = nullptr;
     Power power_ = nullptr;
     Load load_ = nullptr;
+    Lock lock_ = nullptr;
+    Unlock unlock_ = nullptr;
+    bool locked_ = false;
 };
 
 }  // namespace

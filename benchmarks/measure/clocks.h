@@ -9,7 +9,7 @@
 
 #include "engine/instance.h"
 
-// Clocks and temperature of a device, as its driver tells them.
+// Clocks and temperature of a device, as its driver tells them, and how they are locked.
 namespace benchmarks::measure {
 
 // What a device says of its clocks at one moment; what it does not say is absent.
@@ -31,11 +31,20 @@ struct ClockReading {
 // The throttle reason of a board that draws as much power as it may.
 inline constexpr const char* kPowerCap = "power cap";
 
-// A driver's way of telling clocks. Only reads: no setting is ever changed.
+// A driver's way of telling clocks, and of locking them.
 class ClockSource {
 public:
     virtual ~ClockSource() = default;
+    // Changes no setting.
     virtual ClockReading read() = 0;
+
+    // Locks the shaders' clock at what the board sustains under load, until unlock() or the
+    // source's end. Whether the driver did; where not, nothing has changed.
+    virtual bool lock() { return false; }
+    // Takes its own lock off; without one nothing happens.
+    virtual void unlock() {}
+    // The command by which an administrator does what lock() does.
+    virtual std::string lockCommand() const { return {}; }
 };
 
 // Where a device is on the PCI bus.
@@ -56,7 +65,8 @@ std::optional<PciAddress> pciAddress(const engine::DeviceInfo& device);
 // Monitoring"): pp_dpm_sclk and pp_dpm_mclk list the levels of a clock, a '*' behind the present
 // one; hwmon has the temperature and, on newer kernels, the shaders' measured clock. Null where the
 // device has no pp_dpm_sclk. No file says what clock the board is rated for, so the base clock is
-// the highest level's.
+// the highest level's. It is locked as power_dpm_force_performance_level "profile_standard", and
+// unlocked as what was there.
 std::unique_ptr<ClockSource> openAmdgpu(
     const PciAddress& address, const std::filesystem::path& devices = "/sys/bus/pci/devices");
 
@@ -65,6 +75,8 @@ std::unique_ptr<ClockSource> openAmdgpu(
 // The base clock is the applications clock: what the board is rated to run at under load, or what
 // an administrator chose instead. Boards without one (GeForce) have their greatest clock there,
 // as nvbench takes it. It is absent while the driver says that clocks are as they were set.
+// Locked is at the clock of the board's design power (NVML_CLOCK_LIMIT_ID_TDP), as nvbench locks
+// it; unlocking is a reset, which takes off an administrator's lock too.
 std::unique_ptr<ClockSource>
 openNvml(const PciAddress& address, const std::string& library = "libnvidia-ml.so.1");
 

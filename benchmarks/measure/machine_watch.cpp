@@ -205,6 +205,29 @@ std::unique_ptr<ClockSource> openClockSource(const engine::DeviceInfo& device) {
     return openAmdgpu(*address);
 }
 
+ClockHold::ClockHold(const engine::DeviceInfo& device, hair::Clocks clocks)
+    : ClockHold(
+          device, clocks, clocks == hair::Clocks::as_found ? nullptr : openClockSource(device)) {}
+
+ClockHold::ClockHold(
+    const engine::DeviceInfo& device, hair::Clocks clocks, std::unique_ptr<ClockSource> source)
+    : source_(std::move(source)) {
+    if (clocks == hair::Clocks::as_found) return;
+    const std::string context =
+        std::string("/run/clocks ") + (clocks == hair::Clocks::locked ? "locked" : "free");
+    if (device.type == "cpu")
+        throw engine::Unsupported(
+            context, "a software device has the processors' clocks, which an administrator sets: "
+                     "cpupower frequency-set --governor performance");
+    if (!source_) throw engine::Unsupported(context, "nothing tells the clocks of " + device.name);
+    if (clocks == hair::Clocks::locked && !source_->lock())
+        throw engine::Unsupported(
+            context, "the driver lets this user lock no clocks; as administrator: " +
+                         source_->lockCommand() + ", and then without /run/clocks");
+    if (clocks == hair::Clocks::free && source_->read().held)
+        throw engine::Unsupported(context, "an administrator holds the clocks of " + device.name);
+}
+
 struct MachineWatch::Sources {
     std::optional<ClockSampler> clocks;
     std::optional<ProcessorTicks> ticks;  // at begin()

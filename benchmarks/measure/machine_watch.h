@@ -14,6 +14,7 @@
 #include "benchmarks/measure/clocks.h"
 #include "benchmarks/report/report.h"
 #include "engine/device.h"
+#include "hair/settings.h"
 
 // Conditions of a measurement: clocks, throttling, steal time, load by other processes.
 namespace benchmarks::measure {
@@ -85,9 +86,23 @@ report::Conditions medianConditions(const std::vector<report::Conditions>& round
 // where nothing tells them.
 std::unique_ptr<ClockSource> openClockSource(const engine::DeviceInfo& device);
 
+// Clocks as /run/clocks asks for, until it goes. Throws engine::Unsupported, with what to do about
+// it, where they can't be had: on a software device, where nothing tells the device's clocks, where
+// the user may not lock them, and for free ones where an administrator holds them.
+class ClockHold {
+public:
+    ClockHold(const engine::DeviceInfo& device, hair::Clocks clocks);
+    // `source` null: nothing tells the device's clocks.
+    ClockHold(
+        const engine::DeviceInfo& device, hair::Clocks clocks, std::unique_ptr<ClockSource> source);
+
+private:
+    std::unique_ptr<ClockSource> source_;  // unlocks at its end
+};
+
 // Watches the machine while rounds are played: the device's clocks where something tells them, and
 // steal time and what other processes use of the processors (/proc/stat), which on a software
-// device is what the frames are made with and on others what records them. Never changes a setting.
+// device is what the frames are made with and on others what records them. Changes no setting.
 class MachineWatch {
 public:
     explicit MachineWatch(const engine::Device& device);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,7 +26,8 @@ struct SamplingState {
 
 // What a run has learnt of its device, from case to case.
 struct DeviceKnowledge {
-    double held_clock_mhz = 0.0;  // the highest shader clock under full load; 0: none is known
+    // MHz, the highest shader clock under full load, by /run/clocks.
+    std::map<hair::Clocks, double> held_clock;
     // Names of the passes of frames whose timestamps were checked and are right.
     std::vector<std::vector<std::string>> trusted_passes;
 };

@@ -325,7 +325,7 @@ SampledMode sampleMode(
                 stage.pause(seconds);
             },
         .progress = hooks.progress};
-    double* const held = hooks.known ? &hooks.known->held_clock_mhz : nullptr;
+    double* const held = hooks.known ? &hooks.known->held_clock[run.clocks] : nullptr;
     SampledMode mode{sampleRounds(this_rule, tools, held), player.firstFrame(), {}};
     if (streams) player.drain();
     mode.end = player.lastEnd();

@@ -134,6 +134,25 @@ std::string statisticText(const Json& report) {
     return text;
 }
 
+// What /run/clocks asked for in the cases that were measured.
+std::string clocksChoiceText(const Json& report) {
+    const std::string of_scene = textAt(report, "/scene/document/run/clocks");
+    std::uint64_t locked = 0, free = 0;
+    for (const Json& result : report.at("cases")) {
+        if (result.value("status", "") != "ok") continue;
+        const std::string clocks = result.at("axes").value("/run/clocks", of_scene);
+        locked += clocks == "locked";
+        free += clocks == "free";
+    }
+    std::string text;
+    if (locked > 0)
+        text += "The device's clocks were locked at what its board sustains in " +
+                countText(locked, "case") + ". ";
+    if (free > 0)
+        text += "The device's clocks were free to change in " + countText(free, "case") + ". ";
+    return text;
+}
+
 std::string clocksText(const Json& report) {
     const auto condition = [&](const char* member) {
         return valuesOf(report, [&](const Json& result) {
@@ -168,8 +187,8 @@ std::string trustText(const Json& report) {
 }  // namespace
 
 std::string methodsText(const scene::Json& report) {
-    return machineText(report) + casesText(report) + roundsText(report) + clocksText(report) +
-           statisticText(report) + trustText(report);
+    return machineText(report) + casesText(report) + roundsText(report) + clocksChoiceText(report) +
+           clocksText(report) + statisticText(report) + trustText(report);
 }
 
 }  // namespace benchmarks::report

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/measure/case.h"
+#include "benchmarks/measure/machine_watch.h"
 #include "engine/error.h"
 #include "engine/pictures.h"
 
@@ -123,6 +124,7 @@ report::CaseResult runCase(
     report::CaseResult result = emptyResult(planned);
     try {
         measure::Case test_case(device, planned.spec.settings, planned.directory);
+        const measure::ClockHold clocks(device.info(), run.clocks);
         const auto picture = measure::measure(device, test_case, run, hooks, result);
         if (!run.reference.empty())
             references.add(

@@ -18,6 +18,8 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
+constexpr int kNothingRan = 14;  // exit status
+
 nlohmann::json reportOf(const fs::path& path) { return nlohmann::json::parse(textOf(path)); }
 
 bool hasDevice() {
@@ -176,11 +178,11 @@ protected:
         if (!hasDevice()) return skipWithout(Need::device, "no Vulkan device");
     }
 
-    nlohmann::json run(const std::string& name, const std::string& options) {
+    nlohmann::json run(const std::string& name, const std::string& options, int status = 0) {
         const fs::path out = folder_.path() / (name + ".json");
         const Outcome outcome = hairbench(
             "run " + shippedScene("smoke.json") + " " + options + " --out '" + out.string() + "'");
-        EXPECT_EQ(outcome.status, 0) << outcome.output;
+        EXPECT_EQ(outcome.status, status) << outcome.output;
         EXPECT_THAT(outcome.output, HasSubstr("report: " + out.string()));
         return reportOf(out);
     }
@@ -236,6 +238,33 @@ TEST_F(CliRun, SaysWhyACaseIsSkippedAndGoesOn) {
         EXPECT_THAT(each["reason"].get<std::string>(), HasSubstr("-sample images"));
         EXPECT_FALSE(each.contains("metrics"));
     }
+}
+
+TEST_F(CliRun, SkipsOnASoftwareDeviceWhatNeedsAGpusClocksOrQueues) {
+    if (hairbench("devices").output.find("cpu") == std::string::npos)
+        GTEST_SKIP() << "of a software device alone";
+    const nlohmann::json report =
+        run("clocks",
+            "--clocks both -a /run/async_compute=false,true -a /render/msaa=1 --frames 1 "
+            "--warmup 2 --max-time 0",
+            kNothingRan);
+    ASSERT_EQ(report["cases"].size(), 4u);
+    for (const nlohmann::json& each : report["cases"]) {
+        EXPECT_EQ(each["status"], "skipped");
+        EXPECT_THAT(
+            each["reason"].get<std::string>(),
+            HasSubstr(
+                "/run/clocks " + each["axes"]["/run/clocks"].get<std::string>() +
+                ": a software device has the processors' clocks"));
+    }
+    const nlohmann::json async =
+        run("async",
+            "--set /run/async_compute=true -a /render/msaa=1 --frames 1 --warmup 2 "
+            "--max-time 0",
+            kNothingRan);
+    EXPECT_EQ(
+        async["cases"][0]["reason"],
+        "/run/async_compute: the device has no second queue that computes");
 }
 
 TEST_F(CliRun, SavesWhatWasDoneWhenItIsInterrupted) {

@@ -1,5 +1,7 @@
 #include "benchmarks/measure/clocks.h"
 
+#include <fstream>
+
 #include <gtest/gtest.h>
 
 #include "tests/temporary_folder.h"
@@ -112,6 +114,36 @@ TEST_F(AmdgpuTest, HoldsNoClockAgainstAnAdministratorsChoice) {
     EXPECT_EQ(reading.base_clock_mhz, std::nullopt);
     write("power_dpm_force_performance_level", "auto\n");
     EXPECT_EQ(open()->read().base_clock_mhz, 2100.0);
+}
+
+// Linux, "GPU Power/Thermal Controls and Monitoring": profile_standard is a fixed clock for
+// profiling.
+TEST_F(AmdgpuTest, LocksByThePerformanceLevelAndPutsBackWhatWasThere) {
+    const std::string level = "power_dpm_force_performance_level";
+    write("pp_dpm_sclk", "0: 500Mhz\n1: 2100Mhz *\n");
+    write(level, "high\n");
+    const auto now = [&] {
+        std::string text;
+        std::ifstream(folder_.path() / "0000:03:00.0" / level) >> text;
+        return text;
+    };
+    {
+        const auto source = open();
+        ASSERT_TRUE(source->lock());
+        EXPECT_EQ(now(), "profile_standard");
+        ASSERT_TRUE(source->lock());
+    }
+    EXPECT_EQ(now(), "high");
+}
+
+TEST_F(AmdgpuTest, LocksNothingWithoutALevel) {
+    write("pp_dpm_sclk", "0: 500Mhz\n1: 2100Mhz *\n");
+    const auto source = open();
+    EXPECT_FALSE(source->lock());
+    EXPECT_EQ(
+        source->lockCommand(),
+        "echo profile_standard > " +
+            (folder_.path() / "0000:03:00.0" / "power_dpm_force_performance_level").string());
 }
 
 }  // namespace

@@ -84,6 +84,23 @@ int nvmlDeviceGetApplicationsClock(void* handle, int clock, unsigned int* megahe
 }
 #endif
 
+int nvmlDeviceSetGpuLockedClocks(void* handle, unsigned int least, unsigned int most);
+int nvmlDeviceResetGpuLockedClocks(void* handle);
+
+int nvmlDeviceSetGpuLockedClocks(void* handle, unsigned int least, unsigned int most) {
+    if (handle != &device) return 2;
+    if (fakeNvml.lock_result != 0) return fakeNvml.lock_result;
+    fakeNvml.locked_least = least;
+    fakeNvml.locked_most = most;
+    return 0;
+}
+
+int nvmlDeviceResetGpuLockedClocks(void* handle) {
+    if (handle != &device) return 2;
+    fakeNvml.locked_least = fakeNvml.locked_most = 0;
+    return 0;
+}
+
 int GET_REASONS(void* handle, unsigned long long* reasons);
 
 int GET_REASONS(void* handle, unsigned long long* reasons) {

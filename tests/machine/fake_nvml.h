@@ -18,6 +18,9 @@ struct FakeNvml {
     unsigned long long reasons;
     char address[64]; /* that was asked for */
     int users;        /* initialised less shut down */
+    int lock_result;
+    unsigned int locked_least; /* MHz or a code; 0: not locked */
+    unsigned int locked_most;
 };
 
 #endif

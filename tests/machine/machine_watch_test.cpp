@@ -110,5 +110,68 @@ TEST_F(MachineWatchTest, KnowsNoClockOfASoftwareDevice) {
     EXPECT_FALSE(isThrottled(conditions, 0, 0));
 }
 
+// Clocks that may be locked or not, and whether they are.
+struct MadeUpClocks {
+    bool may_lock = true;
+    bool held = false;
+    bool locked = false;
+};
+
+class MadeUpSource : public ClockSource {
+public:
+    explicit MadeUpSource(MadeUpClocks& clocks) : clocks_(clocks) {}
+    ~MadeUpSource() override { unlock(); }
+    ClockReading read() override { return {.held = clocks_.held}; }
+    bool lock() override { return clocks_.locked = clocks_.may_lock; }
+    void unlock() override { clocks_.locked = false; }
+    std::string lockCommand() const override { return "lock 1410"; }
+
+private:
+    MadeUpClocks& clocks_;
+};
+
+// Why the clocks can't be had so; empty: they can.
+std::string refusal(hair::Clocks asked, std::unique_ptr<ClockSource> source, const char* type) {
+    engine::DeviceInfo device;
+    device.name = "Card 7";
+    device.type = type;
+    try {
+        const ClockHold hold(device, asked, std::move(source));
+    } catch (const engine::Unsupported& error) {
+        return error.what();
+    }
+    return {};
+}
+
+TEST(ClockHold, LocksClocksForAsLongAsItLives) {
+    MadeUpClocks clocks;
+    engine::DeviceInfo device;
+    device.type = "discrete";
+    {
+        const ClockHold hold(device, hair::Clocks::locked, std::make_unique<MadeUpSource>(clocks));
+        EXPECT_TRUE(clocks.locked);
+    }
+    EXPECT_FALSE(clocks.locked);
+    const ClockHold free(device, hair::Clocks::free, std::make_unique<MadeUpSource>(clocks));
+    EXPECT_FALSE(clocks.locked);
+}
+
+TEST(ClockHold, SaysWhatToDoWhereItCannot) {
+    MadeUpClocks clocks{.may_lock = false, .held = true};
+    const auto source = [&] { return std::make_unique<MadeUpSource>(clocks); };
+    EXPECT_EQ(
+        refusal(hair::Clocks::locked, source(), "discrete"),
+        "/run/clocks locked: the driver lets this user lock no clocks; as administrator: lock "
+        "1410, and then without /run/clocks");
+    EXPECT_EQ(
+        refusal(hair::Clocks::free, source(), "discrete"),
+        "/run/clocks free: an administrator holds the clocks of Card 7");
+    EXPECT_EQ(
+        refusal(hair::Clocks::free, nullptr, "discrete"),
+        "/run/clocks free: nothing tells the clocks of Card 7");
+    EXPECT_THAT(refusal(hair::Clocks::locked, source(), "cpu"), testing::HasSubstr("cpupower"));
+    EXPECT_EQ(refusal(hair::Clocks::as_found, source(), "cpu"), "");
+}
+
 }  // namespace
 }  // namespace benchmarks::measure

@@ -170,5 +170,30 @@ TEST(Nvml, SaysNothingWhereEveryFunctionIsMissing) {
     EXPECT_FALSE(reading.idle);
 }
 
+// nvml.h: NVML_CLOCK_LIMIT_ID_RANGE_START is 0xffffff00, and NVML_CLOCK_LIMIT_ID_TDP the next one.
+TEST(Nvml, LocksAtTheDesignPowersClockUntilItGoes) {
+    const Fake fake(FAKE_NVML);
+    {
+        const auto source = fake.open();
+        ASSERT_TRUE(source->lock());
+        EXPECT_EQ(fake->locked_least, 0xffffff01u);
+        EXPECT_EQ(fake->locked_most, 0xffffff01u);
+    }
+    EXPECT_EQ(fake->locked_most, 0u);
+}
+
+TEST(Nvml, LocksNothingForAUserWhoMayNot) {
+    const Fake fake(FAKE_NVML);
+    fake->locked_least = fake->locked_most = 1410;  // an administrator's
+    fake->lock_result = 4;  // NVML_ERROR_NO_PERMISSION
+    {
+        const auto source = fake.open();
+        EXPECT_FALSE(source->lock());
+        EXPECT_EQ(source->lockCommand(), "nvidia-smi --id=0000:65:00.0 --lock-gpu-clocks=MHZ");
+    }
+    EXPECT_EQ(fake->locked_most, 1410u);
+    EXPECT_FALSE(Fake(FAKE_NVML_BARE).open()->lock());
+}
+
 }  // namespace
 }  // namespace benchmarks::measure
