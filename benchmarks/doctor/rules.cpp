@@ -126,7 +126,7 @@ RuleFinding intervals(const Judged& judged) {
     if (all == 0) return notMet("no time was sampled more than once");
     if (lacking > 0)
         return notMet(
-            std::to_string(lacking) + " of " + countText(all, "time") +
+            countText(lacking) + " of " + countText(all, "time") +
             " have too few samples for an interval: a longer --max-time");
     std::size_t hashed = 0;
     for (const Json* result : judged.measured())

@@ -33,6 +33,8 @@ hair::Settings made(hair::Settings settings) {
     settings.strands.tessellation = 1;
     settings.shading.shadows.resolution = std::min(settings.shading.shadows.resolution, 64u);
     settings.simulation.settle_steps = 0;
+    for (hair::DistanceFieldSettings& field : settings.simulation.distance_fields)
+        field.resolution = std::min(field.resolution, 8u);
     return settings;
 }
 
