@@ -66,7 +66,7 @@ void spaceEvenly(std::span<const glm::vec3> points, std::size_t first, std::span
 }
 
 template <class Value>
-Value valueAt(const std::vector<Value>& values, const Place& place) {
+Value interpolateAt(const std::vector<Value>& values, const Place& place) {
     if (place.fraction == 0.0) return values[place.point];
     const auto mix = [&](float a, float b) {
         return static_cast<float>(a + place.fraction * (double{b} - double{a}));
@@ -83,7 +83,7 @@ Value valueAt(const std::vector<Value>& values, const Place& place) {
 template <class Value>
 void append(std::vector<Value>& to, const std::vector<Value>& from, std::span<const Place> places) {
     if (from.empty()) return;
-    for (const Place& place : places) to.push_back(valueAt(from, place));
+    for (const Place& place : places) to.push_back(interpolateAt(from, place));
 }
 
 // The places of all strands, in order, a strand at a time.

@@ -47,7 +47,7 @@ Settings meshShadows(const LightSettings& light) {
 }
 
 // The light's map shows the square's circle, side sqrt(2) kHalf to each side; parallel light.
-constexpr float kTexel = 2.0f * 1.4143f * kHalf / 256.0f;
+constexpr float kMeshTexel = 2.0f * 1.4143f * kHalf / 256.0f;
 
 // No hair.
 StrandView bald() {
@@ -80,7 +80,7 @@ void expectGeometry(
         const float outside = std::max(std::abs(at.x), std::abs(at.y)) - kHalf;
         // Softness and half a texel of rasterisation; a light's map is up to twice as coarse in
         // perspective from the distances here.
-        const float filter = 2.0f * (settings.shading.shadows.softness + 0.5f) * kTexel;
+        const float filter = 2.0f * (settings.shading.shadows.softness + 0.5f) * kMeshTexel;
         if (std::abs(outside) < filter) continue;
         ASSERT_NEAR(paths[i].meshes, outside > 0.0f ? 1.0f : 0.0f, kMapRounding) << i;
         ASSERT_EQ(paths[i].strands, 0.0f);
@@ -144,7 +144,7 @@ TEST_F(MeshShadowTest, SurfacesShadeNotThemselvesButWhatIsCloseBehind) {
                 if (cosine < 0.1f) continue;
                 // 0.1 texels for rounding; 5 % for texels that are larger behind.
                 const float turned = 0.0873f * 1.5f / (cosine * cosine);
-                behind.push_back({place + 1.05f * (0.6f + turned) * kTexel * away, 0, normal});
+                behind.push_back({place + 1.05f * (0.6f + turned) * kMeshTexel * away, 0, normal});
             }
             for (const FoundPath& path : findPaths(device(), settings, bald(), {.head = &mesh}, on))
                 ASSERT_NEAR(path.meshes, 1.0f, kMapRounding) << degrees;
@@ -169,7 +169,7 @@ TEST_F(MeshShadowTest, StrandsOnASurfaceAreLit) {
     for (const glm::vec3& point : grid(0.9f, 0.0f)) {
         on.push_back(point.x * a + point.y * b);
         // The bias of 3 texels, and 1.5 for how the surface falls within the filter.
-        behind.push_back(on.back() + (3.0f + 1.5f + 0.1f) * kTexel * down);
+        behind.push_back(on.back() + (3.0f + 1.5f + 0.1f) * kMeshTexel * down);
     }
     for (const FoundPath& path : findPaths(device(), settings, bald(), {.head = &mesh}, on))
         ASSERT_NEAR(path.meshes, 1.0f, kMapRounding);

@@ -15,7 +15,7 @@ namespace hair::rendering {
 namespace {
 
 // Three parallel guides of this length, m.
-groom::Groom straight(double length) {
+groom::Groom straightGuides(double length) {
     std::vector<glm::vec3> guide;
     for (int v = 0; v < 16; ++v) guide.emplace_back(0.0, length * v / 15.0, 0.0);
     return oneTriangle(guide);
@@ -23,7 +23,7 @@ groom::Groom straight(double length) {
 
 StrandOffsets
 make(const StrandSettings& settings, double length, const groom::StrandSet* model = nullptr) {
-    return makeStrandOffsets(settings, straight(length), model, 7);
+    return makeStrandOffsets(settings, straightGuides(length), model, 7);
 }
 
 double fractionOf(const StrandOffsets& offsets, std::size_t sample) {

@@ -128,17 +128,17 @@ TEST(HeadMotion, RestsBeforeTheFirstAndAfterTheLastKeyframe) {
 // degrees in 0.25 s, at most 6 * 405 / 0.25^2 degrees/s^2 = 680 rad/s^2 (a Hermite cubic's with
 // slopes of at most three times the secant's has 12 for the 6), and its centripetal one is of that
 // order: 2000 m/s^2 * 1e-5 s at points 2 m from the pivot, to be safe twice.
-constexpr double kStep = 1e-5;
-constexpr double kVelocityStep = 2.0 * 2.0 * 2000.0 * kStep;
+constexpr double kDifference = 1e-5;
+constexpr double kVelocityStep = 2.0 * 2.0 * 2000.0 * kDifference;
 
 double velocityJump(const HeadMotion& motion, double time) {
     Extremes jumps;
-    const auto before = marks(motion.at(time - kStep));
+    const auto before = marks(motion.at(time - kDifference));
     const auto now = marks(motion.at(time));
-    const auto after = marks(motion.at(time + kStep));
+    const auto after = marks(motion.at(time + kDifference));
     for (std::size_t i = 0; i < 3; ++i)
         jumps.add(glm::length((after[i] - now[i]) - (now[i] - before[i])));
-    return jumps.greatest() / kStep;
+    return jumps.greatest() / kDifference;
 }
 
 TEST(HeadMotion, VelocityNeverJumps) {
@@ -147,7 +147,7 @@ TEST(HeadMotion, VelocityNeverJumps) {
         EXPECT_LT(velocityJump(motion, key.time), kVelocityStep) << key.time;
     // The test can tell: at top speed the same head would stop with a jump of 30 m/s and more.
     const double speed =
-        glm::distance(motion.at(2.125 + kStep)({0, 0, 1}), motion.at(2.125)({0, 0, 1})) / kStep;
+        glm::distance(motion.at(2.125 + kDifference)({0, 0, 1}), motion.at(2.125)({0, 0, 1})) / kDifference;
     EXPECT_GT(speed, 10.0 * kVelocityStep);
 }
 

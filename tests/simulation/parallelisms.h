@@ -8,7 +8,7 @@
 
 namespace hair::simulation {
 
-inline std::string nameOf(const testing::TestParamInfo<Parallelism>& info) {
+inline std::string nameOfParallelism(const testing::TestParamInfo<Parallelism>& info) {
     switch (info.param) {
     case Parallelism::vertex:
         return "Vertex";
@@ -26,6 +26,6 @@ inline std::string nameOf(const testing::TestParamInfo<Parallelism>& info) {
 #define FOR_EVERY_PARALLELISM(SUITE)                                                               \
     INSTANTIATE_TEST_SUITE_P(                                                                      \
         , SUITE, testing::Values(Parallelism::vertex, Parallelism::strand, Parallelism::serial),   \
-        nameOf)
+        nameOfParallelism)
 
 }  // namespace hair::simulation

@@ -13,7 +13,7 @@ namespace hair::simulation {
 namespace {
 
 constexpr double kPullRounding = 1e-12;  // rounding of double
-constexpr double kStep = 0.0625;  // s, without rounding
+constexpr double kPullStep = 0.0625;  // s, without rounding
 
 void expectHand(
     const std::optional<Hand>& hand, const glm::dvec3& position, const glm::dvec3& velocity) {
@@ -91,7 +91,7 @@ TEST(CheckPulls, NamesWhatIsNotThere) {
 TEST(ReferencePull, ApproachesTheHandAsCriticallyDamped) {
     const groom::Groom groom = straightGroom(1, 2);
     for (const float stiffness : {25.0f, 400.0f, 1e5f})
-        for (const float step : {0.0005f, static_cast<float>(kStep), 0.1f}) {
+        for (const float step : {0.0005f, static_cast<float>(kPullStep), 0.1f}) {
             const double dt = step;
             const glm::dvec3 away(0.3, -0.2, 0.1);
             const glm::dvec3 velocity(0.5, 0.25, -1.0);

@@ -19,7 +19,7 @@ std::int32_t checkedCount(std::size_t count, const std::string& what) {
 
 // ---- Reading ------------------------------------------------------------------------------------
 
-struct Header {
+struct HglHeader {
     std::int32_t strands;
     std::int32_t segments;
     std::int32_t triangles;
@@ -29,16 +29,16 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 constexpr std::uint64_t kTripleSize = 12;  // a point or a triangle
 static_assert(
-    sizeof(Header) == 12 && sizeof(glm::vec3) == kTripleSize && sizeof(Triangle) == kTripleSize);
+    sizeof(HglHeader) == 12 && sizeof(glm::vec3) == kTripleSize && sizeof(Triangle) == kTripleSize);
 constexpr std::int32_t kMaximumSegments = 255;
 
-Header readHglHeader(std::span<const std::byte> bytes) {
-    if (bytes.size() < sizeof(Header)) {
+HglHeader readHglHeader(std::span<const std::byte> bytes) {
+    if (bytes.size() < sizeof(HglHeader)) {
         failAt(
             bytes.size(),
-            "truncated: the header alone is " + std::to_string(sizeof(Header)) + " bytes");
+            "truncated: the header alone is " + std::to_string(sizeof(HglHeader)) + " bytes");
     }
-    const auto header = valueAt<Header>(bytes, 0);
+    const auto header = valueAt<HglHeader>(bytes, 0);
     if (header.strands < 1) {
         failAt(0, std::to_string(header.strands) + " strands, at least 1 is needed");
     }
@@ -54,11 +54,12 @@ Header readHglHeader(std::span<const std::byte> bytes) {
 }
 
 // The counts are at most 2^31 and 2^8, so the size fits in 64 bits.
-void checkSize(const Header& header, std::uint64_t size) {
+void checkSize(const HglHeader& header, std::uint64_t size) {
     const auto strands = static_cast<std::uint64_t>(header.strands);
     const auto vertices = static_cast<std::uint64_t>(header.segments) + 1;
     const auto triangles = static_cast<std::uint64_t>(header.triangles);
-    const std::uint64_t expected = sizeof(Header) + kTripleSize * (strands * vertices + triangles);
+    const std::uint64_t expected =
+        sizeof(HglHeader) + kTripleSize * (strands * vertices + triangles);
     if (size < expected) {
         failAt(
             size, "truncated: " + std::to_string(strands) + " strands of " +
@@ -75,7 +76,7 @@ void checkSize(const Header& header, std::uint64_t size) {
 }
 
 void checkTriangles(const StrandSet& strands) {
-    const std::uint64_t start = sizeof(Header) + kTripleSize * strands.points.size();
+    const std::uint64_t start = sizeof(HglHeader) + kTripleSize * strands.points.size();
     for (std::size_t i = 0; i < strands.root_triangles.size(); ++i) {
         for (std::size_t corner = 0; corner < 3; ++corner) {
             const std::uint32_t guide = strands.root_triangles[i][corner];
@@ -112,19 +113,19 @@ std::vector<std::string> exportHgl(const StrandSet& strands, std::ostream& out) 
 }
 
 StrandSet importHgl(const StrandFile& file) {
-    const Header header = readHglHeader(file.bytes);
+    const HglHeader header = readHglHeader(file.bytes);
     checkSize(header, file.bytes.size());
     const auto count = static_cast<std::uint32_t>(header.strands);
     const auto vertices = static_cast<std::uint32_t>(header.segments) + 1;
     const std::uint64_t points = std::uint64_t{count} * vertices;
     StrandSet strands{
         .ends = uniformEnds(count, vertices),
-        .points = arrayAt<glm::vec3>(file.bytes, sizeof(Header), points),
+        .points = arrayAt<glm::vec3>(file.bytes, sizeof(HglHeader), points),
         .root_triangles = arrayAt<Triangle>(
-            file.bytes, sizeof(Header) + kTripleSize * points,
+            file.bytes, sizeof(HglHeader) + kTripleSize * points,
             static_cast<std::uint64_t>(header.triangles)),
         .metres_per_unit = 1.0};
-    requireFinite(strands.points, sizeof(Header), "point");
+    requireFinite(strands.points, sizeof(HglHeader), "point");
     checkTriangles(strands);
     return strands;
 }

@@ -37,8 +37,8 @@ constexpr UsdStreamHeader kHeader{
 
 // Where the arrays begin.
 constexpr std::size_t kSizes = 88;
-constexpr std::size_t kPoints = kSizes + 8;
-constexpr std::size_t kWidths = kPoints + 36;
+constexpr std::size_t kPointStream = kSizes + 8;
+constexpr std::size_t kWidths = kPointStream + 36;
 constexpr std::size_t kTriangles = kWidths + 12 + 4 + 36 + 16;
 
 std::vector<std::byte> stream() {
@@ -116,7 +116,7 @@ TEST(UsdStream, RefusesNumbersThatMakeNoSense) {
     EXPECT_THAT(refusal(with(kSizes, std::array{1u, 3u})), StartsWith("byte 92: "));
     EXPECT_THAT(refusal(with(kSizes, std::array{2u, ~0u})), StartsWith("byte 92: "));
     EXPECT_THAT(refusal(with(kSizes, std::array{1u, 1u})), StartsWith("byte 24: "));
-    EXPECT_THAT(refusal(with(kPoints + 16, kNan)), StartsWith("byte 112: point 1 is not finite"));
+    EXPECT_THAT(refusal(with(kPointStream + 16, kNan)), StartsWith("byte 112: point 1 is not finite"));
     EXPECT_THAT(refusal(with(kWidths + 8, kInfinity)), StartsWith("byte 140: width 2"));
     EXPECT_THAT(refusal(with(kWidths, -1.0f)), StartsWith("byte 132: width 0 is negative"));
     EXPECT_THAT(refusal(with(kTriangles + 4, 2u)), StartsWith("byte 200: strand 2"));
