@@ -222,10 +222,10 @@ TEST(ImportGltf, ReadsStripsAndFans) {
     const std::string four = R"("componentType":5123,"count":4,"type":"SCALAR")";
     Document document{.primitive = R"("mode":5,"indices":2)", .indices = four};
     document.view_size = 8;
-    using Triangles = std::vector<std::array<std::uint32_t, 3>>;
-    EXPECT_EQ(import(document).triangles, (Triangles{{0, 1, 2}, {1, 0, 2}}));
+    using Corners = std::vector<std::array<std::uint32_t, 3>>;
+    EXPECT_EQ(import(document).triangles, (Corners{{0, 1, 2}, {1, 0, 2}}));
     document.primitive = R"("mode":6,"indices":2)";
-    EXPECT_EQ(import(document).triangles, (Triangles{{1, 2, 0}, {2, 0, 0}}));
+    EXPECT_EQ(import(document).triangles, (Corners{{1, 2, 0}, {2, 0, 0}}));
 }
 
 TEST(ImportGltf, SkipsHairBesideTheHead) {

@@ -42,7 +42,7 @@ TEST_F(PictureTest, SampleCountsTheDeviceLacksAreUnsupported) {
 }
 
 // A square of 0.4 m in the plane z = 0 that faces the camera.
-groom::Mesh wall() {
+groom::Mesh screen() {
     return {
         .positions =
             {{-0.2f, -0.2f, 0.0f}, {0.2f, -0.2f, 0.0f}, {0.2f, 0.2f, 0.0f}, {-0.2f, 0.2f, 0.0f}},
@@ -62,7 +62,7 @@ groom::Groom tuft(float z) {
 
 TEST_F(PictureTest, HairIsHiddenBehindAMeshAndSeenBeforeIt) {
     Settings settings = square(200);
-    const groom::Mesh mesh = wall();
+    const groom::Mesh mesh = screen();
     Settings bald = settings;
     bald.strands.root_width = 0.0f;
     bald.strands.tip_width = 0.0f;
@@ -95,7 +95,7 @@ TEST_F(PictureTest, HairThroughAMeshIsCutByIt) {
     Settings bald = settings;
     bald.strands.root_width = 0.0f;
     bald.strands.tip_width = 0.0f;
-    const groom::Mesh mesh = wall();
+    const groom::Mesh mesh = screen();
     const Pixels both = drawGroom(device(), settings, groom, &mesh);
     const Pixels wall_alone = drawGroom(device(), bald, groom, &mesh);
     std::size_t left = 0;

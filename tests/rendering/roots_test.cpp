@@ -114,10 +114,10 @@ groom::Groom onSphere(double edge) {
 TEST_F(RootsTest, LiftPutsThemOnASphereToFourthOrder) {
     for (const double edge : {0.2, 0.4, 0.8}) {
         const double fourth = edge * edge * edge * edge;
-        constexpr double kRounding = 40 * kUlp;  // of numbers of size 1, squared
+        constexpr double kSquaredRounding = 40 * kUlp;  // of numbers of size 1, squared
         for (const glm::dvec3 root : roots(onSphere(edge), 1000)) {
-            EXPECT_GE(glm::dot(root, root) - 1.0, -fourth / 6.0 - kRounding) << edge;
-            EXPECT_LE(glm::dot(root, root) - 1.0, fourth / 36.0 + kRounding) << edge;
+            EXPECT_GE(glm::dot(root, root) - 1.0, -fourth / 6.0 - kSquaredRounding) << edge;
+            EXPECT_LE(glm::dot(root, root) - 1.0, fourth / 36.0 + kSquaredRounding) << edge;
         }
         groom::Groom flat = onSphere(edge);
         flat.root_normals.clear();

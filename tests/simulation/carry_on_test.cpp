@@ -13,9 +13,6 @@
 namespace hair::simulation {
 namespace {
 
-// Those whose whole state is positions and previous positions.
-constexpr Solver kSolversOfPositions[] = {Solver::shape, Solver::ftl};
-
 SimulationSettings plain(Solver solver) {
     SimulationSettings settings;
     settings.solver = solver;

@@ -31,10 +31,6 @@ SimulationSettings withBodies(Solver solver) {
     return settings;
 }
 
-constexpr Solver kSolvers[] = {Solver::shape, Solver::ftl, Solver::rod};
-// Those whose whole state is positions and previous positions; gpu_rod_test.cpp has the rest.
-constexpr Solver kSolversOfPositions[] = {Solver::shape, Solver::ftl};
-
 using GpuMotion = GpuTest;
 
 // One step from a disturbed state, head and bodies at 2 m/s and 600 degrees/s. The tolerance is

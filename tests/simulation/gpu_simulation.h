@@ -9,6 +9,8 @@
 namespace hair::simulation {
 
 inline constexpr Solver kSolvers[] = {Solver::shape, Solver::ftl, Solver::rod};
+// Those whose whole state is positions and previous positions; gpu_rod_test.cpp has the rest.
+inline constexpr Solver kSolversOfPositions[] = {Solver::shape, Solver::ftl};
 
 // Runs wind, hair against hair, hands and step `steps` times and waits.
 inline void advance(const engine::Device& device, Simulation& simulation, int steps) {

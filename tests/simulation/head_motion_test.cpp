@@ -147,7 +147,8 @@ TEST(HeadMotion, VelocityNeverJumps) {
         EXPECT_LT(velocityJump(motion, key.time), kVelocityStep) << key.time;
     // The test can tell: at top speed the same head would stop with a jump of 30 m/s and more.
     const double speed =
-        glm::distance(motion.at(2.125 + kDifference)({0, 0, 1}), motion.at(2.125)({0, 0, 1})) / kDifference;
+        glm::distance(motion.at(2.125 + kDifference)({0, 0, 1}), motion.at(2.125)({0, 0, 1})) /
+        kDifference;
     EXPECT_GT(speed, 10.0 * kVelocityStep);
 }
 

@@ -34,7 +34,7 @@ hair::RenderSettings render() {
     return render;
 }
 
-PictureView view() { return {lookingDown(), render(), kRect}; }
+PictureView viewDown() { return {lookingDown(), render(), kRect}; }
 
 // From straight ahead, so that what is where can be said without matrices: 90 degrees show 1 m
 // above and below at a distance of 1 m.
@@ -59,29 +59,29 @@ TEST(PictureView, ShowsPointsWhereTheyAre) {
 TEST(PictureView, SendsARayThroughWhatAPixelShows) {
     for (const glm::vec3 point :
          {glm::vec3{0.1f, -0.2f, 0.05f}, glm::vec3{-0.3f, 0.3f, -2.0f}, glm::vec3{0, 0.1f, 0}}) {
-        const auto pixel = view().pixel(point);
+        const auto pixel = viewDown().pixel(point);
         ASSERT_TRUE(pixel);
-        const Ray ray = view().ray(*pixel);
+        const Ray ray = viewDown().ray(*pixel);
         const glm::dvec3 arm = glm::dvec3(point) - ray.from;
         const double distance = glm::length(glm::cross(arm, ray.direction));
         // A ten-thousandth of a pixel, which is what it was rounded to.
-        EXPECT_LT(distance * double{view().pixelsPerMetre(point)}, double{kPixels});
+        EXPECT_LT(distance * double{viewDown().pixelsPerMetre(point)}, double{kPixels});
         EXPECT_GT(glm::dot(arm, ray.direction), 0.0);
     }
 }
 
 TEST(PictureView, DragsPointsToWhereTheMouseIs) {
     const glm::vec3 point{0.05f, 0.15f, 0.1f};
-    const auto from = view().pixel(point);
+    const auto from = viewDown().pixel(point);
     ASSERT_TRUE(from);
     const glm::vec2 by{37.0f, -91.0f};
-    const glm::vec3 moved = view().dragged(point, *from, *from + by);
-    const auto to = view().pixel(point + moved);
+    const glm::vec3 moved = viewDown().dragged(point, *from, *from + by);
+    const auto to = viewDown().pixel(point + moved);
     ASSERT_TRUE(to);
     EXPECT_NEAR(to->x - from->x, by.x, kPixels);
     EXPECT_NEAR(to->y - from->y, by.y, kPixels);
     // As far from the camera as before.
-    EXPECT_NEAR(view().depth(point + moved), view().depth(point), 1e-6f);
+    EXPECT_NEAR(viewDown().depth(point + moved), viewDown().depth(point), 1e-6f);
 }
 
 TEST(Sphere, IsRoundAllPoints) {

@@ -22,7 +22,7 @@ StrandSet through(const TemporaryFolder& folder, StrandSet strands, std::string_
     return strands;
 }
 
-void expectSame(const StrandSet& read, const StrandSet& expected) {
+void expectCameBack(const StrandSet& read, const StrandSet& expected) {
     EXPECT_EQ(read.ends, expected.ends);
     expectBitEqual(read.points, expected.points);
     EXPECT_EQ(read.widths.everywhere, expected.widths.everywhere);
@@ -44,15 +44,15 @@ StrandSet uniformStrands() {
 TEST(RoundTrip, KeepsUniformStrandsThroughEveryBinaryFormat) {
     const TemporaryFolder folder;
     const StrandSet strands = uniformStrands();
-    expectSame(through(folder, strands, ".hair .tfx .hair"), strands);
-    expectSame(through(folder, strands, ".tfx .hair .tfx"), strands);
+    expectCameBack(through(folder, strands, ".hair .tfx .hair"), strands);
+    expectCameBack(through(folder, strands, ".tfx .hair .tfx"), strands);
     StrandSet without_widths = strands;
     without_widths.widths = {};
-    expectSame(through(folder, strands, ".hair .hgl .hair"), without_widths);
-    expectSame(through(folder, strands, ".hgl .tfx .hgl .hair .hgl"), without_widths);
+    expectCameBack(through(folder, strands, ".hair .hgl .hair"), without_widths);
+    expectCameBack(through(folder, strands, ".hgl .tfx .hgl .hair .hgl"), without_widths);
     StrandSet one_width = strands;
     one_width.widths = {.everywhere = 0.3f};
-    expectSame(through(folder, one_width, ".hair .tfx .hair"), one_width);
+    expectCameBack(through(folder, one_width, ".hair .tfx .hair"), one_width);
 }
 
 TEST(RoundTrip, GivesTheSameBytes) {
@@ -73,12 +73,12 @@ TEST(RoundTrip, KeepsRaggedStrandsWhereTheFormatDoes) {
          {".hair", ".hair .ply .hair", ".hair .glb .hair", ".ply .gltf .hair"}) {
         SCOPED_TRACE(formats);
         const StrandSet back = through(folder, strands, formats);
-        expectSame(back, strands);
+        expectCameBack(back, strands);
         expectBitEqual(back.colors.values, strands.colors.values);
     }
     StrandSet points_only = strands;
     points_only.widths = {};
-    expectSame(through(folder, strands, ".obj .hair .obj"), points_only);
+    expectCameBack(through(folder, strands, ".obj .hair .obj"), points_only);
 }
 
 TEST(RoundTrip, KeepsRootTrianglesInHgl) {

@@ -17,14 +17,19 @@ using testing::StartsWith;
 constexpr std::uint32_t kPositions = 160;
 constexpr std::uint32_t kStrandUvs = kPositions + 12 * 16;
 constexpr std::uint32_t kVertexUvs = kStrandUvs + 3 * 8;
-constexpr std::uint32_t kThickness = kVertexUvs + 12 * 8;
-constexpr std::uint32_t kColors = kThickness + 3 * 4;
-constexpr std::uint32_t kEnd = kColors + 12 * 16;
+constexpr std::uint32_t kTfxThickness = kVertexUvs + 12 * 8;
+constexpr std::uint32_t kTfxColors = kTfxThickness + 3 * 4;
+constexpr std::uint32_t kEnd = kTfxColors + 12 * 16;
 
 std::string fullFile() {
     Bytes bytes;
     bytes.f32(4.0).u32(3).u32(4);
-    bytes.u32(kPositions).u32(kStrandUvs).u32(kVertexUvs).u32(kThickness).u32(kColors).zeros(128);
+    bytes.u32(kPositions)
+        .u32(kStrandUvs)
+        .u32(kVertexUvs)
+        .u32(kTfxThickness)
+        .u32(kTfxColors)
+        .zeros(128);
     for (int i = 0; i < 12; ++i) bytes.f32(i, 0.1 * i, -i, i % 4 < 2 ? 0 : 1);
     for (int i = 0; i < 3; ++i) bytes.f32(0.3 * i, 1 - 0.3 * i);
     for (int i = 0; i < 12; ++i) bytes.f32(0.05 * i, 0.5);
@@ -142,7 +147,7 @@ TEST(ImportTfx, RefusesArraysThatDoNotFit) {
         errorOfTfx(patched(bytes, 16, kPositions)),
         "byte 16: strand UVs at byte 160 lie on the positions, which end at byte 352");
     EXPECT_EQ(
-        errorOfTfx(patched(bytes, 28, kColors + 2)),
+        errorOfTfx(patched(bytes, 28, kTfxColors + 2)),
         "byte 28: vertex colours at byte 486: not a multiple of 4");
 }
 
@@ -150,7 +155,7 @@ TEST(ImportTfx, RefusesNumbersThatAreNotFinite) {
     const std::string bytes = fullFile();
     for (const float wrong : kNotFinite) {
         for (std::size_t at = kPositions; at < bytes.size(); at += 4) {
-            const bool unread = at >= kVertexUvs && at < kThickness;
+            const bool unread = at >= kVertexUvs && at < kTfxThickness;
             EXPECT_THAT(
                 errorOfTfx(patched(bytes, at, wrong)),
                 StartsWith(unread ? "no error" : "byte " + std::to_string(at) + ": "));
@@ -160,7 +165,7 @@ TEST(ImportTfx, RefusesNumbersThatAreNotFinite) {
         errorOfTfx(patched(bytes, kPositions + 2 * 16 + 8, kNotFinite[0])),
         "byte 200: position 2 is not finite");
     EXPECT_THAT(
-        errorOfTfx(patched(bytes, kThickness + 8, -1.0f)),
+        errorOfTfx(patched(bytes, kTfxThickness + 8, -1.0f)),
         StartsWith("byte 480: thickness 2 is negative"));
 }
 
@@ -174,7 +179,7 @@ TEST(ExportTfx, WritesTheDescribedBytes) {
     Bytes expected;
     expected.text(full.substr(0, 20)).u32(0).u32(376).u32(392).zeros(128);
     expected.text(full.substr(kPositions, kVertexUvs - kPositions));
-    expected.text(full.substr(kThickness, 12)).zeros(4).text(full.substr(kColors));
+    expected.text(full.substr(kTfxThickness, 12)).zeros(4).text(full.substr(kTfxColors));
     EXPECT_EQ(bytes, expected.str());
 }
 

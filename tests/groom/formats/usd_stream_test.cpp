@@ -116,7 +116,8 @@ TEST(UsdStream, RefusesNumbersThatMakeNoSense) {
     EXPECT_THAT(refusal(with(kSizes, std::array{1u, 3u})), StartsWith("byte 92: "));
     EXPECT_THAT(refusal(with(kSizes, std::array{2u, ~0u})), StartsWith("byte 92: "));
     EXPECT_THAT(refusal(with(kSizes, std::array{1u, 1u})), StartsWith("byte 24: "));
-    EXPECT_THAT(refusal(with(kPointStream + 16, kNan)), StartsWith("byte 112: point 1 is not finite"));
+    EXPECT_THAT(
+        refusal(with(kPointStream + 16, kNan)), StartsWith("byte 112: point 1 is not finite"));
     EXPECT_THAT(refusal(with(kWidths + 8, kInfinity)), StartsWith("byte 140: width 2"));
     EXPECT_THAT(refusal(with(kWidths, -1.0f)), StartsWith("byte 132: width 0 is negative"));
     EXPECT_THAT(refusal(with(kTriangles + 4, 2u)), StartsWith("byte 200: strand 2"));
