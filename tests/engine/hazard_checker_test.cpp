@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/commands.h"
+#include "engine/frame_loop.h"
 #include "tests/gpu_fixture.h"
 
 // Expected: the synchronization chapter of the Vulkan specification, 7.1 to 7.6.
