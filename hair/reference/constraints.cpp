@@ -7,9 +7,7 @@
 #include <glm/matrix.hpp>
 
 namespace hair::reference {
-namespace {
 
-// An axis to turn half round from the unit vector `v`, or to leave a capsule's axis by.
 glm::dvec3 sideways(const glm::dvec3& v) {
     int least = 0;
     for (int i = 1; i < 3; ++i)
@@ -20,6 +18,8 @@ glm::dvec3 sideways(const glm::dvec3& v) {
     if (glm::length(normal) == 0.0) return {0.0, 1.0, 0.0};
     return glm::normalize(normal);
 }
+
+namespace {
 
 // Rodrigues' formula.
 glm::dmat3 turn(const glm::dvec3& axis, double sine, double cosine) {

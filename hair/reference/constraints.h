@@ -27,6 +27,10 @@ using ConstPoints = std::span<const glm::dvec3>;
 
 constexpr double kShortest = 1e-9;  // m, of a segment that has a direction
 
+// A unit vector at right angles to `v` and to the axis that it has least of; the second axis where
+// `v` is 0.
+glm::dvec3 sideways(const glm::dvec3& v);
+
 // Thesis eq. 9 with friction; leaves the root alone. `previous` becomes the positions before the
 // call.
 void integrate(

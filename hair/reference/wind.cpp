@@ -58,16 +58,6 @@ glm::dvec3 unit(const glm::dvec3& edge) {
     return glm::length(edge) < kShortest ? glm::dvec3(0.0) : glm::normalize(edge);
 }
 
-// A unit vector at right angles to `direction` and to the axis that it has least of.
-glm::dvec3 acrossWind(const glm::dvec3& direction) {
-    int least = 0;
-    for (int i = 1; i < 3; ++i)
-        if (std::abs(direction[i]) < std::abs(direction[least])) least = i;
-    glm::dvec3 axis{0.0};
-    axis[least] = 1.0;
-    return glm::normalize(glm::cross(direction, axis));
-}
-
 glm::dvec3 tangentAt(ConstPoints positions, std::size_t i) {
     const glm::dvec3 above = unit(positions[i] - positions[i - 1]);
     glm::dvec3 below{0.0};
@@ -137,7 +127,7 @@ std::array<double, 4> windWeights(std::uint32_t seed, std::uint32_t strand) {
 glm::dvec3 strandWind(const WindSettings& settings, const std::array<double, 4>& weights) {
     if (settings.strength == 0.0f) return glm::dvec3(0.0);
     const glm::dvec3 direction = glm::normalize(glm::dvec3(settings.direction));
-    const glm::dvec3 u = acrossWind(direction);
+    const glm::dvec3 u = sideways(direction);
     const glm::dvec3 v = glm::cross(direction, u);
     const double angle = double{settings.cone_angle} * std::numbers::pi / 180.0;
     glm::dvec3 wind{0.0};

@@ -20,7 +20,7 @@ namespace hair::simulation {
 namespace {
 
 constexpr int kWindow = 5 * 60;   // steps
-constexpr int kSteps = 40 * 60;   // steps
+constexpr int kSteps = 60 * 60;   // steps
 constexpr int kLast = 10 * 60;    // steps in which nothing may move any more
 
 struct RestCase {
