@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "engine/buffer_image.h"
+#include "engine/pipeline.h"
 
 namespace engine {
 namespace {
@@ -153,7 +154,8 @@ void Target::beginRendering(
         .load = load,
         .clear = {background[0], background[1], background[2], 1.0f}};
     engine::beginRendering(
-        commands, std::span(&color, 1), Attachment{.image = &depth_, .load = load, .clear = {1}});
+        commands, std::span(&color, 1),
+        Attachment{.image = &depth_, .load = load, .clear = {kFarDepth}});
 }
 
 void Target::endRendering(Commands& commands) const { engine::endRendering(commands); }

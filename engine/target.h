@@ -17,7 +17,7 @@ enum class Load { clear, keep };
 struct Attachment {
     const Image* image;
     Load load = Load::keep;
-    std::array<float, 4> clear{};  // of a color; of depth the first number
+    std::array<float, 4> clear{};  // of a color; of depth the first number, see kFarDepth
 };
 
 // Begins rendering to attachments of one size. The viewport is `area`, by default all of the

@@ -102,7 +102,7 @@ EnvironmentPass::EnvironmentPass(
                     .colors = {{colorFormat(render)}},
                     .depth_format = engine::Target::kDepthFormat,
                     .samples = render.msaa,
-                    .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
+                    .depth_compare = engine::kIsNearerOrEqual,
                     .depth_write = false});
 }
 

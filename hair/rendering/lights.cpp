@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/pipeline.h"
 #include "hair/rendering/render_assets.h"
 
 namespace hair::rendering {
@@ -34,9 +35,13 @@ gpu::Light makeLight(const RenderSettings& render, const LightSettings& light) {
 
 }  // namespace
 
+static_assert(gpu::kNearDepth == engine::kNearDepth && gpu::kFarDepth == engine::kFarDepth);
+
 glm::mat4 viewProjection(const CameraSettings& camera, float aspect) {
+    // glm's depth is 0 at the first plane and 1 at the second.
+    static_assert(engine::kFarDepth == 0.0f && engine::kNearDepth == 1.0f);
     glm::mat4 projection = glm::perspectiveRH_ZO(
-        glm::radians(camera.field_of_view), aspect, camera.near_plane, camera.far_plane);
+        glm::radians(camera.field_of_view), aspect, camera.far_plane, camera.near_plane);
     projection[1][1] = -projection[1][1];
     return projection * glm::lookAtRH(camera.position, camera.target, camera.up);
 }

@@ -11,7 +11,7 @@
 // The camera and the lights of a picture as shaders read them.
 namespace hair::rendering {
 
-// World -> Vulkan clip space: y down, depth 0 at the near plane and 1 at the far plane.
+// World -> Vulkan clip space: y down, depth from engine::kNearDepth to engine::kFarDepth.
 glm::mat4 viewProjection(const CameraSettings& camera, float aspect);
 
 // The lights as shaders read them, in the settings' order.

@@ -15,6 +15,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "engine/error.h"
+#include "engine/pipeline.h"
 #include "engine/target.h"
 
 namespace hair::rendering {
@@ -51,7 +52,7 @@ Sphere moved(const glm::mat4& rigid, const Sphere& sphere) {
 // How a light looks at what it lights: a perspective view of all that it is to see, or a parallel
 // one of directional lights.
 struct LightView {
-    glm::mat4 view_projection;  // world -> clip, depth 0 near to 1 far
+    glm::mat4 view_projection;  // world -> clip; planes exchanged as in viewProjection()
     glm::vec3 eye;  // m; of a directional light far away
     glm::vec4 depth_terms;  // as in gpu::ShadowMap
     float texel_near;  // m, as in gpu::ShadowMap
@@ -81,7 +82,7 @@ parallelView(const glm::vec3& axis, const ShadowBounds& bounds, float radius, fl
     const Sphere& range = bounds.range;
     const float start = glm::dot(range.centre - bounds.seen.centre, axis) - range.radius;
     const glm::mat4 projection = glm::orthoRH_ZO(
-        -radius, radius, -radius, radius, 0.0f, 2.0f * std::max(range.radius, kLeastRadius));
+        -radius, radius, -radius, radius, 2.0f * std::max(range.radius, kLeastRadius), 0.0f);
     return {
         .view_projection = projection * looking(bounds.seen.centre + start * axis, axis),
         .eye = bounds.seen.centre - kFarAway * radius * axis,
@@ -95,8 +96,8 @@ LightView perspectiveView(
     const float middle = glm::dot(range.centre - eye, axis);
     const float far = std::max(middle + range.radius, kLeastRadius);
     const float near = std::max(middle - range.radius, kNearest * far);
-    const float side = slope * near;
-    const glm::mat4 projection = glm::frustumRH_ZO(-side, side, -side, side, near, far);
+    const float side = slope * far;
+    const glm::mat4 projection = glm::frustumRH_ZO(-side, side, -side, side, far, near);
     return {
         .view_projection = projection * looking(eye, axis),
         .eye = eye,
@@ -363,7 +364,7 @@ void ShadowPass::drawMeshes(
     std::span<const std::uint64_t> pictures) const {
     toDraw(commands, mesh_depths_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
     engine::beginRendering(
-        commands, {}, engine::Attachment{&mesh_depths_, engine::Load::clear, {1.0f}});
+        commands, {}, engine::Attachment{&mesh_depths_, engine::Load::clear, {engine::kFarDepth}});
     for (std::uint32_t i = 0; i < pictures.size(); ++i) {
         engine::setArea(commands, atlas_.part(i));
         meshes.drawDepth(commands, pictures[i]);
@@ -377,7 +378,7 @@ void ShadowPass::drawHair(
     std::span<const std::uint64_t> pictures) const {
     toDraw(commands, hair_depths_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
     engine::beginRendering(
-        commands, {}, engine::Attachment{&hair_depths_, engine::Load::clear, {1.0f}});
+        commands, {}, engine::Attachment{&hair_depths_, engine::Load::clear, {engine::kFarDepth}});
     declareStrands(commands, picture);
     for (std::uint32_t i = 0; i < pictures.size(); ++i) {
         engine::setArea(commands, atlas_.part(i));

@@ -3,6 +3,7 @@
 // is blended in order: the nearest kChunk fragments are picked out and sorted, then those behind
 // them, until the list ends or nothing behind can be seen.
 #extension GL_GOOGLE_include_directive : require
+#include "common/depth.glsl"
 #include "common/extensions.glsl"
 #include "shared/fragment_structs.h"
 
@@ -19,7 +20,7 @@ const float kUnseen = 1.0 / 4096.0;  // of what is behind: a sixteenth of a step
 // The order in which fragments are blended: by depth, then by colour, which are the same however
 // the list came about, and at last by index, which tells apart what looks the same.
 bool isBefore(Nodes list, float depth_a, uint a, float depth_b, uint b) {
-    if (depth_a != depth_b) return depth_a < depth_b;
+    if (depth_a != depth_b) return isNearer(depth_a, depth_b);
     FragmentNode node_a = list.nodes[a];
     FragmentNode node_b = list.nodes[b];
     if (node_a.blue_alpha != node_b.blue_alpha) return node_a.blue_alpha < node_b.blue_alpha;

@@ -1,6 +1,7 @@
 #version 460
 // A triangle over the whole picture at the far plane, with the direction that each pixel looks in.
 #extension GL_GOOGLE_include_directive : require
+#include "common/depth.glsl"
 #include "common/picture.glsl"
 
 layout(push_constant, scalar) uniform Push { EnvironmentPush push; };
@@ -9,7 +10,7 @@ layout(location = 0) out vec3 direction;  // world, not of unit length
 
 void main() {
     vec2 place = 4.0 * vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) - 1.0;
-    gl_Position = vec4(place, 1.0, 1.0);
+    gl_Position = vec4(place, float(kFarDepth), 1.0);
     // A direction d is seen at (r0 d / r3 d, r1 d / r3 d), r the matrix's rows: the eye is at 0 in
     // all three.
     mat4 rows = transpose(PictureReference(push.picture).parameters.view_projection);

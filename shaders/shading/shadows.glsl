@@ -2,6 +2,7 @@
 #ifndef HAIRBENCH_SHADOWS_GLSL
 #define HAIRBENCH_SHADOWS_GLSL
 
+#include "common/depth.glsl"
 #include "common/picture.glsl"
 #include "shading/options.glsl"
 #include "shadows/layers.glsl"
@@ -69,11 +70,11 @@ LightPath filteredPath(ShadowMap map, ShadowPoint point, float half_width) {
             vec2 rise = point.slope * (low + 0.5 - centre);
             vec2 most = point.most_slope * abs(low + 0.5 - centre);
             vec2 limited = clamp(rise, -most, most);
-            // Nothing is drawn beyond the far end: what is there is behind all that is.
-            float depth = min(point.depth + limited.x + limited.y, 1.0);
+            float depth = notBeyondFar(point.depth + limited.x + limited.y);
             ivec2 at = ivec2(map.corner) + ivec2(whole) + ivec2(x, y);
             if (kMeshShadows != 0 && (map.casters & kMeshesCast) != 0u) {
-                bool lit = depth - point.bias <= texelFetch(mesh_depths, at, 0).r;
+                float drawn = texelFetch(mesh_depths, at, 0).r;
+                bool lit = isNearerOrEqual(nearer(depth, point.bias), drawn);
                 path.meshes += lit ? weight : 0.0;
             }
             if (kHairShadows != 0 && (map.casters & kHairCasts) != 0u) {
@@ -104,8 +105,8 @@ LightPath lightPath(PictureParameters picture, uint light, vec3 position, vec3 n
     float side = shadows.parameters.side;
     float half_width = max(shadows.parameters.softness, 0.5);
     // All of the filter lies in the map.
-    if (any(greaterThan(abs(clip.xy), vec2(1.0 - 2.0 * half_width / side))) || clip.z < 0.0)
-        return free;
+    if (any(greaterThan(abs(clip.xy), vec2(1.0 - 2.0 * half_width / side)))) return free;
+    if (isNearer(clip.z, float(kNearDepth))) return free;
     float z = viewDepth(map.depth_terms, clip.z);
     float depth_per_texel =
         depthPerMetre(map.depth_terms, z) * (map.texel_near + map.texel_slope * z);

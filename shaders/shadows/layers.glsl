@@ -12,10 +12,10 @@ float viewDepth(vec4 depth_terms, float depth) {
     return (depth_terms.y - depth * depth_terms.w) / (depth * depth_terms.z - depth_terms.x);
 }
 
-// What depth grows by per metre at `z` metres along the light's view.
+// How much nearer depth is a metre before `z` metres along the light's view.
 float depthPerMetre(vec4 depth_terms, float z) {
     float w = depth_terms.z * z + depth_terms.w;
-    return (depth_terms.x * depth_terms.w - depth_terms.y * depth_terms.z) / (w * w);
+    return abs(depth_terms.x * depth_terms.w - depth_terms.y * depth_terms.z) / (w * w);
 }
 
 // The layers that a strand `behind` metres behind z0 adds to: its own and all behind it.

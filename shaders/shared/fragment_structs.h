@@ -27,7 +27,7 @@ struct FragmentLists {
 struct FragmentNode {
     uint red_green;  // half floats of the colour, low half first
     uint blue_alpha;
-    float depth;  // 0 near to 1 far
+    float depth;  // common/depth.glsl
     uint next;
 };
 

@@ -5,6 +5,10 @@
 // numbers by which shaders know the settings' choices. hair/shader_codes.h holds the numbers
 // against the settings.
 
+// Depth at the near and at the far plane: engine::kNearDepth, engine::kFarDepth.
+const uint kNearDepth = 1u;
+const uint kFarDepth = 0u;
+
 // Curves of strands (Curve).
 const uint kCurveBspline = 0u;
 const uint kCurveBsplineUnpinned = 1u;

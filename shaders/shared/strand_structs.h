@@ -15,7 +15,7 @@ const uint kStrandPointsGroupSize = 64u;
 
 // Everything that a picture's draws read; one per frame in flight.
 struct PictureParameters {
-    mat4 view_projection;  // world -> clip, y down, depth 0 near to 1 far
+    mat4 view_projection;  // world -> clip, y down; common/depth.glsl
     mat4 head;             // rigid motion: where mesh and root normals were made -> world
     vec3 eye;              // m
     vec3 lod_eye;  // m: where levels of detail are seen from; of a light's picture the camera

@@ -45,16 +45,28 @@ TEST(Camera, AspectWidensThePictureAndXPointsRight) {
     EXPECT_NEAR(onScreen(matrix, {-right, 0.0f, 0.0f}).x, -1.0f, kRounding);
 }
 
-// depth = far / (far - near) * (1 - near / distance)
+// depth = near / (far - near) * (far / distance - 1)
 TEST(Camera, DepthRunsFromNearToFar) {
     const CameraSettings camera{.near_plane = 0.25f, .far_plane = 4.0f};
     const glm::mat4 matrix = viewProjection(camera, 1.0f);
     const auto depth = [&](float distance) {
         return onScreen(matrix, {0.0f, 0.0f, 0.5f - distance}).z;
     };
-    EXPECT_NEAR(depth(0.25f), 0.0f, kRounding);
-    EXPECT_NEAR(depth(4.0f), 1.0f, kRounding);
-    EXPECT_NEAR(depth(1.0f), 0.8f, kRounding);  // 4 / 3.75 * 3 / 4
+    EXPECT_NEAR(depth(0.25f), 1.0f, kRounding);
+    EXPECT_NEAR(depth(4.0f), 0.0f, kRounding);
+    EXPECT_NEAR(depth(1.0f), 0.2f, kRounding);  // 0.25 / 3.75 * 3
+}
+
+// A strand's width and less, from right before the camera to beyond what `hairbench lod` looks
+// from: 32-bit depth resolves it at the default planes of 0.01 and 100 m.
+TEST(Camera, DepthTellsTenthsOfAMillimetreApartUpTo40M) {
+    const CameraSettings camera{.position = glm::vec3(0.0f), .target = {0.0f, 0.0f, -1.0f}};
+    const glm::mat4 matrix = viewProjection(camera, 1.0f);
+    for (float distance = 0.02f; distance < 40.0f; distance *= 1.01f) {
+        const glm::vec3 point(0.1f * distance, 0.2f * distance, -distance);
+        EXPECT_GT(onScreen(matrix, point).z, onScreen(matrix, point - glm::vec3(0, 0, 1e-4f)).z)
+            << distance;
+    }
 }
 
 TEST(Camera, LooksFromAnywhereWithItsUpUpward) {

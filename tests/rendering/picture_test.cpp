@@ -109,6 +109,57 @@ TEST_F(PictureTest, HairThroughAMeshIsCutByIt) {
     EXPECT_GT(right, 50u);
 }
 
+// Crosses of strands that face a camera 20 m away, [cross][pixel]: one upright and one level, one
+// of them 1 mm nearer than the other. Strands have the colours of their tangents, (0, 1, 0) and (1,
+// 0, 0): all of green or all of red. A step of depth that grows from the near plane would be 2.4 mm
+// there, and of two strands at one depth the first drawn would be seen.
+TEST_F(PictureTest, StrandsAMillimetreApartAt20MAreInOrder) {
+    constexpr int kCrosses = 16;
+    constexpr std::uint32_t kPitch = 16;  // px
+    Settings settings = square(4 * kPitch);
+    settings.render.width = kCrosses * kPitch;
+    settings.render.show = Show::tangents;
+    settings.render.head = false;
+    settings.camera.position = {0.0f, 0.0f, 20.0f};
+    settings.camera.field_of_view = 1.0f;
+    settings.strands.density = 1;
+    settings.strands.tessellation = 2;
+    const float pixel = 2.0f * 20.0f * std::tan(0.5f * 0.0174533f) / (4 * kPitch);  // 5.5 mm
+    settings.strands.root_width = settings.strands.tip_width = 4.0f * pixel;
+
+    groom::Groom groom{.strand_count = 0, .vertices_per_strand = 3};
+    const auto add = [&](const glm::vec3& middle, const glm::vec3& direction) {
+        const std::uint32_t first = groom.strand_count;
+        groom.root_triangles.push_back({first, first + 1, first + 2});
+        groom.strand_count += 3;
+        for (int guide = 0; guide < 3; ++guide)
+            for (const float along : {-6.0f, 0.0f, 6.0f})
+                groom.points.push_back(middle + along * pixel * direction);
+    };
+    const auto upright_is_nearer = [](int cross) { return cross / 2 % 2 == 0; };
+    for (int i = 0; i < kCrosses; ++i) {
+        // Distances that are all parts of a coarse step from one of its multiples.
+        const glm::vec3 nearer(
+            (static_cast<float>(i) + 0.5f - 0.5f * kCrosses) * kPitch * pixel, 0.0f,
+            -0.0004f * static_cast<float>(i));
+        const glm::vec3 farther = nearer - glm::vec3(0.0f, 0.0f, 0.001f);
+        const glm::vec3 x(1, 0, 0), y(0, 1, 0);
+        const bool first_is_nearer = i % 2 == 0;
+        for (const bool is_nearer : {first_is_nearer, !first_is_nearer})
+            add(is_nearer ? nearer : farther, is_nearer == upright_is_nearer(i) ? y : x);
+    }
+    const Pixels pixels = drawGroom(device(), settings, groom, nullptr);
+    for (int i = 0; i < kCrosses; ++i)
+        for (const std::uint32_t row : {2 * kPitch - 1, 2 * kPitch})
+            for (const std::uint32_t side : {kPitch / 2 - 1, kPitch / 2}) {
+                const std::size_t column = static_cast<std::uint32_t>(i) * kPitch + side;
+                const std::uint8_t* pixel_at =
+                    &pixels.at(4 * (row * settings.render.width + column));
+                EXPECT_NEAR(pixel_at[0], upright_is_nearer(i) ? 127.5 : 255.0, 1.0) << i;
+                EXPECT_NEAR(pixel_at[1], upright_is_nearer(i) ? 255.0 : 127.5, 1.0) << i;
+            }
+}
+
 // A straight strand of this width that faces the camera and is longer than the picture is high, on
 // black. It has the colour of its tangent, (0, 1, 0): all of green. 64 px are 0.1 m there.
 Pixels drawStraightStrand(const engine::Device& device, double pixels, Settings settings = {}) {

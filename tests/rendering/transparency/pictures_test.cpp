@@ -49,12 +49,10 @@ TEST_F(TransparentPictureTest, OpacityIsNothingWithoutTransparency) {
 }
 
 // Of opaque fragments the nearest is seen, as without a list; colours in half floats are right to a
-// step of 8-bit ones. Of two at the same depth one is seen or the other: the near plane is so far
-// that a step of 32-bit depth is 0.05 um there (1.5 um at the default near plane, where a few
-// pixels have such pairs).
+// step of 8-bit ones. Of two at the same depth one is seen or the other: a step of 32-bit depth is
+// 0.05 um there.
 TEST_F(TransparentPictureTest, OpaqueListsAreTheOpaquePicture) {
     Settings settings = small();
-    settings.camera.near_plane = 0.3f;
     const Pixels opaque = drawCase(device(), settings);
     settings.render.transparency = Transparency::fragment_list;
     const Pixels listed = drawCase(device(), settings);

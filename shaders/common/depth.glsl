@@ -1,0 +1,19 @@
+// Which way depth goes: engine/pipeline.h says it, and why. Shaders compare depths by these alone.
+#ifndef HAIRBENCH_DEPTH_GLSL
+#define HAIRBENCH_DEPTH_GLSL
+
+#extension GL_GOOGLE_include_directive : require
+
+#include "shared/options.h"
+
+bool isNearer(float depth, float than) { return depth > than; }
+
+bool isNearerOrEqual(float depth, float than) { return depth >= than; }
+
+// A depth moved towards the near plane, by a positive amount.
+float nearer(float depth, float by) { return depth + by; }
+
+// A depth moved into what images of depth can hold: nothing is drawn beyond the far plane.
+float notBeyondFar(float depth) { return max(depth, float(kFarDepth)); }
+
+#endif
