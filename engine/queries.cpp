@@ -145,11 +145,11 @@ Timestamps::Timestamps(const Device& device, std::uint32_t capacity)
     VkQueryPool pool{};
     check(vkCreateQueryPool(device_, &create, nullptr, &pool), "create a timestamp pool");
     pool_ = {device_, pool};
-    reset();
+    vkResetQueryPool(device_, pool, 0, capacity);  // new ones are neither available nor not
 }
 
 void Timestamps::reset() {
-    vkResetQueryPool(device_, pool_.get(), 0, capacity_);
+    if (count_ > 0) vkResetQueryPool(device_, pool_.get(), 0, count_);
     count_ = 0;
 }
 

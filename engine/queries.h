@@ -58,8 +58,8 @@ class Timestamps {
 public:
     Timestamps(const Device& device, std::uint32_t capacity);
 
-    // Makes all stamps unavailable again. The device must be done with the last frame that wrote
-    // them.
+    // Makes the stamps written since the last reset unavailable again; others are so already. The
+    // device must be done with the frame that wrote them.
     void reset();
 
     // Records a stamp that is taken when all earlier commands are done; returns its index. Throws

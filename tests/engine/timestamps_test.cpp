@@ -1,5 +1,9 @@
 #include "engine/queries.h"
 
+#include <cstdint>
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "tests/gpu_fixture.h"
@@ -49,6 +53,35 @@ TEST_F(TimestampsTest, AreGoneAfterReset) {
     stamps.reset();
     EXPECT_EQ(stamps.count(), 0u);
     EXPECT_TRUE(stamps.read().empty());
+}
+
+// Frames of other numbers of stamps follow one another: each finds those that it writes reset,
+// which the validation layer checks, and reads no stamp of a frame before. Some drivers reset a
+// query by a command of its own: only those that were written are.
+TEST_F(TimestampsTest, AreResetByTheNumberWritten) {
+    static std::vector<std::pair<std::uint32_t, std::uint32_t>> resets;  // first, count
+    static PFN_vkResetQueryPool reset_pool = nullptr;
+    resets.clear();
+    Timestamps stamps(device(), 1024);
+    reset_pool = std::exchange(
+        vkResetQueryPool,
+        [](VkDevice device, VkQueryPool pool, std::uint32_t first, std::uint32_t count) {
+            resets.emplace_back(first, count);
+            reset_pool(device, pool, first, count);
+        });
+    for (const std::size_t count : {5u, 2u, 0u, 1024u, 3u, 5u}) {
+        stamps.reset();
+        device().runOnce([&](Commands& commands) {
+            for (std::size_t i = 0; i < count; ++i) stamps.write(commands);
+        });
+        const std::vector<double> times = stamps.read();
+        EXPECT_EQ(times.size(), count);
+        for (const double time : times) EXPECT_GE(time, 0.0);
+    }
+    vkResetQueryPool = reset_pool;
+    using Reset = std::pair<std::uint32_t, std::uint32_t>;
+    const std::vector<Reset> written{{0, 5}, {0, 2}, {0, 1024}, {0, 3}};
+    EXPECT_EQ(resets, written);
 }
 
 // The clocks of two crystals differ by less than 1e-3; ticks of the wrong length by much.
