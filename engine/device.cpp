@@ -127,6 +127,7 @@ PipelineCache::~PipelineCache() {
 Device::Device(const DeviceOptions& options)
     : instance_(options.validation, options.window_extensions),
       info_(chooseDevice(instance_, options.wanted)) {
+    if (!instance_.allowsPresentFences()) info_.features.erase(Feature::present_fences);
     if (options.mask) options.mask(info_);
     std::vector<const char*> extensions;
     if (!options.window_extensions.empty()) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);

@@ -138,7 +138,14 @@ constexpr std::array kFeatures{
         Feature::push_descriptors, "push descriptors", nullptr,
         VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME},
     FeatureRow{Feature::second_queue, "second queue that computes", nullptr, nullptr},
+    FeatureRow{
+        Feature::present_fences, "fences of presents", nullptr,
+        VK_EXT_SWAPCHAIN_MAINTENANCE_1_EXTENSION_NAME},
 };
+
+// What Feature::present_fences needs of the instance.
+constexpr std::array kPresentFenceExtensions{
+    VK_KHR_GET_SURFACE_CAPABILITIES_2_EXTENSION_NAME, VK_EXT_SURFACE_MAINTENANCE_1_EXTENSION_NAME};
 
 // Of headers that are asked for provisional extensions; the number never changes.
 constexpr auto kPortabilityFeaturesType = static_cast<VkStructureType>(1000163000);
@@ -162,16 +169,24 @@ struct FeatureChain {
     VkPhysicalDeviceFeatures2 core{};
     VkPhysicalDeviceVulkan12Features vulkan12{};
     VkPhysicalDeviceVulkan13Features vulkan13{};
+    VkPhysicalDeviceSwapchainMaintenance1FeaturesEXT presents{};
     VkPhysicalDevicePortabilitySubsetFeaturesKHR portability{};
 
-    explicit FeatureChain(bool is_portability) {
+    // Structs of extensions only where the device has these.
+    FeatureChain(bool is_portability, bool has_present_fences) {
         core.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
         core.pNext = &vulkan12;
         vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
         vulkan12.pNext = &vulkan13;
         vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
-        if (is_portability) vulkan13.pNext = &portability;
+        presents.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SWAPCHAIN_MAINTENANCE_1_FEATURES_EXT;
         portability.sType = kPortabilityFeaturesType;
+        void** next = &vulkan13.pNext;
+        if (has_present_fences) {
+            *next = &presents;
+            next = &presents.pNext;
+        }
+        if (is_portability) *next = &portability;
     }
     FeatureChain(const FeatureChain&) = delete;
     FeatureChain& operator=(const FeatureChain&) = delete;
@@ -200,7 +215,8 @@ bool canBlend(VkPhysicalDevice device, VkFormat format) {
 void findFeatures(DeviceInfo& info) {
     const std::set<std::string> extensions = extensionsOf(info.handle);
     info.is_portability = extensions.contains(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME);
-    FeatureChain available(info.is_portability);
+    FeatureChain available(
+        info.is_portability, extensions.contains(VK_EXT_SWAPCHAIN_MAINTENANCE_1_EXTENSION_NAME));
     vkGetPhysicalDeviceFeatures2(info.handle, &available.core);
     appendMissing(available.vulkan12, kVulkan12Features, info.missing);
     appendMissing(available.vulkan13, kVulkan13Features, info.missing);
@@ -213,6 +229,7 @@ void findFeatures(DeviceInfo& info) {
     }
     if (info.is_portability && !available.portability.tessellationIsolines)
         info.features.erase(Feature::tessellation);
+    if (!available.presents.swapchainMaintenance1) info.features.erase(Feature::present_fences);
 }
 
 // ---- Devices ------------------------------------------------------------------------------------
@@ -360,6 +377,10 @@ Instance::Instance(Validation validation, const std::vector<std::string>& window
     std::vector<const char*> layers;
     std::vector<const char*> extensions;
     for (const std::string& extension : window_extensions) extensions.push_back(extension.c_str());
+    allows_present_fences_ =
+        !window_extensions.empty() && std::ranges::all_of(kPresentFenceExtensions, hasExtension);
+    if (allows_present_fences_)
+        std::ranges::copy(kPresentFenceExtensions, std::back_inserter(extensions));
     if (hasExtension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME)) {
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     }
@@ -433,7 +454,9 @@ std::vector<Feature> allFeatures() {
 }
 
 VkDevice createDevice(const DeviceInfo& info, std::vector<const char*> extensions) {
-    FeatureChain features(info.is_portability);
+    const bool has_present_fences = info.features.contains(Feature::present_fences);
+    FeatureChain features(info.is_portability, has_present_fences);
+    features.presents.swapchainMaintenance1 = has_present_fences ? VK_TRUE : VK_FALSE;
     enable(features.vulkan12, kVulkan12Features);
     enable(features.vulkan13, kVulkan13Features);
     for (const FeatureRow& row : kFeatures) {

@@ -75,11 +75,15 @@ public:
     Instance& operator=(const Instance&) = delete;
 
     VkInstance get() const { return instance_; }
+    // Whether it has what Feature::present_fences needs of instances. Only where windows are
+    // opened.
+    bool allowsPresentFences() const { return allows_present_fences_; }
     MessageLog& messages() const { return *messages_; }
     std::vector<VkPhysicalDevice> physicalDevices() const;
 
 private:
     std::unique_ptr<MessageLog> messages_;
+    bool allows_present_fences_ = false;
     VkInstance instance_{};
     VkDebugUtilsMessengerEXT messenger_{};
 };
@@ -105,6 +109,9 @@ enum class Feature {
     calibrated_timestamps,  // a moment by the clocks of device and host at once
     push_descriptors,  // Commands does with descriptor sets where they are missing
     second_queue,  // that computes beside the first one
+    // Fences that say when a picture in a window is done with; of devices that were made with
+    // extensions of windows. Swapchain does with images that come back where they are missing.
+    present_fences,
 };
 
 // In the plural, for "the device has no ...".

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 #include "engine/buffer_image.h"
 #include "engine/target.h"
@@ -96,6 +97,14 @@ Handle<VkSemaphore, &vkDestroySemaphore> makeSemaphore(VkDevice device) {
     return {device, semaphore};
 }
 
+Handle<VkFence, &vkDestroyFence> makeFence(VkDevice device) {
+    const VkFenceCreateInfo create{
+        .sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, .pNext = nullptr, .flags = 0};
+    VkFence fence{};
+    check(vkCreateFence(device, &create, nullptr, &fence), "create a fence");
+    return {device, fence};
+}
+
 VkSemaphoreSubmitInfo semaphoreInfo(VkSemaphore semaphore, VkPipelineStageFlags2 stages) {
     VkSemaphoreSubmitInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO;
@@ -169,24 +178,63 @@ Swapchain::Swapchain(
     check(
         vkGetSwapchainImagesKHR(device.get(), swapchain, &count, nullptr),
         "list the swapchain's images");
-    images_.resize(count);
+    std::vector<VkImage> images(count);
     check(
-        vkGetSwapchainImagesKHR(device.get(), swapchain, &count, images_.data()),
+        vkGetSwapchainImagesKHR(device.get(), swapchain, &count, images.data()),
         "list the swapchain's images");
+    for (const VkImage image : images) {
+        Slot& slot = slots_.emplace_back();
+        slot.image = image;
+        slot.drawn = makeSemaphore(device.get());
+        if (device.has(Feature::present_fences)) slot.shown = makeFence(device.get());
+    }
 }
 
-std::optional<std::uint32_t> Swapchain::acquire(VkSemaphore acquired) const {
+std::optional<std::uint32_t> Swapchain::acquire(VkSemaphore acquired) {
     std::uint32_t index = 0;
     const VkResult result = vkAcquireNextImageKHR(
         device_.get(), swapchain_.get(), std::numeric_limits<std::uint64_t>::max(), acquired,
         VK_NULL_HANDLE, &index);
     if (result == VK_ERROR_OUT_OF_DATE_KHR) return std::nullopt;
     if (result != VK_SUBOPTIMAL_KHR) check(result, "get the window's next picture");
+    Slot& slot = slots_[index];
+    if (std::exchange(slot.is_presented, false)) {
+        came_back_ = true;
+        if (const VkFence shown = slot.shown.get()) {
+            check(
+                vkWaitForFences(
+                    device_.get(), 1, &shown, VK_TRUE, std::numeric_limits<std::uint64_t>::max()),
+                "wait for a picture to be shown");
+            check(vkResetFences(device_.get(), 1, &shown), "reset a fence");
+        }
+    }
     return index;
 }
 
+std::vector<VkFence> Swapchain::pending() const {
+    std::vector<VkFence> fences;
+    for (const Slot& slot : slots_)
+        if (slot.is_presented && slot.shown.get()) fences.push_back(slot.shown.get());
+    return fences;
+}
+
+bool Swapchain::isDone() const {
+    return std::ranges::all_of(pending(), [this](VkFence shown) {
+        return vkGetFenceStatus(device_.get(), shown) == VK_SUCCESS;
+    });
+}
+
+void Swapchain::finish() const {
+    constexpr std::uint64_t kSecond = 1'000'000'000;  // ns
+    const std::vector<VkFence> fences = pending();
+    if (!fences.empty())
+        vkWaitForFences(
+            device_.get(), static_cast<std::uint32_t>(fences.size()), fences.data(), VK_TRUE,
+            kSecond);
+}
+
 void Swapchain::copy(Commands& commands, const Image& picture, std::uint32_t index) const {
-    const VkImage image = images_[index];
+    const VkImage image = slots_[index].image;
     commands.uses({{picture, Access::transfer_read}});
     imageBarrier(
         commands.get(), image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
@@ -208,15 +256,23 @@ void Swapchain::copy(Commands& commands, const Image& picture, std::uint32_t ind
         VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_ACCESS_2_NONE);
 }
 
-bool Swapchain::present(std::uint32_t index, VkSemaphore drawn) const {
+bool Swapchain::present(std::uint32_t index) {
     const VkSwapchainKHR swapchain = swapchain_.get();
+    const VkSemaphore drawn = slots_[index].drawn.get();
+    const VkFence shown = slots_[index].shown.get();
+    VkSwapchainPresentFenceInfoEXT fences{};
+    fences.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_PRESENT_FENCE_INFO_EXT;
+    fences.swapchainCount = 1;
+    fences.pFences = &shown;
     VkPresentInfoKHR info{};
     info.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR;
+    if (shown) info.pNext = &fences;
     info.waitSemaphoreCount = 1;
     info.pWaitSemaphores = &drawn;
     info.swapchainCount = 1;
     info.pSwapchains = &swapchain;
     info.pImageIndices = &index;
+    slots_[index].is_presented = true;
     const VkResult result = vkQueuePresentKHR(device_.queue(), &info);
     if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR) return false;
     check(result, "show a picture");
@@ -252,18 +308,16 @@ Presenter::Presenter(const Device& device, const Window& window, PresentMode mod
         .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
         .commandBufferCount = 1};
     check(vkAllocateCommandBuffers(device.get(), &allocate, &buffer_), "allocate a command buffer");
-    const VkFenceCreateInfo fence{
-        .sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, .pNext = nullptr, .flags = 0};
-    VkFence fence_handle{};
-    check(vkCreateFence(device.get(), &fence, nullptr, &fence_handle), "create a fence");
-    done_ = {device.get(), fence_handle};
+    done_ = makeFence(device.get());
     acquired_ = makeSemaphore(device.get());
     timestamps_.emplace(device, 2);
 }
 
 Presenter::~Presenter() {
     vkQueueWaitIdle(device_.queue());
-    swapchain_.reset();
+    retire();
+    for (const auto& old : old_) old->finish();
+    old_.clear();
     vkDestroySurfaceKHR(device_.instance(), surface_, nullptr);
 }
 
@@ -274,7 +328,7 @@ std::uint32_t Presenter::imageCount() const {
 void Presenter::setMode(PresentMode mode) {
     if (mode == mode_) return;
     mode_ = mode;
-    dropSwapchain();
+    retire();
 }
 
 std::vector<PresentMode> Presenter::modes() const { return Swapchain::modes(device_, surface_); }
@@ -292,10 +346,25 @@ void Presenter::wait() {
     milliseconds_ = timestamps_->read().back();
 }
 
-void Presenter::dropSwapchain() {
-    wait();
+// Another swapchain is made for the next picture.
+void Presenter::retire() {
+    if (!swapchain_) return;
+    old_.push_back(std::move(swapchain_));
+    // A window that is being resized gets other images before any come back.
+    constexpr std::size_t kMostOld = 4;
+    if (old_.size() <= kMostOld) return;
     check(vkQueueWaitIdle(device_.queue()), "wait for the device");
-    swapchain_.reset();
+    old_.front()->finish();
+    old_.erase(old_.begin());
+}
+
+// Of what a present waits for and shows nothing may go before it is over. A fence says when; where
+// there are none, an image that comes back was shown, and with it all that was to be shown earlier.
+void Presenter::dropRetired() {
+    if (device_.has(Feature::present_fences))
+        std::erase_if(old_, [](const auto& old) { return old->isDone(); });
+    else if (swapchain_->cameBack())
+        old_.clear();
 }
 
 // Makes the images that the window's size asks for.
@@ -307,13 +376,9 @@ bool Presenter::prepare() {
     // The surface may know that it was put away before the window does.
     if (!fits && Swapchain::isEmpty(device_, surface_)) return false;
     if (!fits) {
-        check(vkQueueWaitIdle(device_.queue()), "wait for the device");
-        std::optional<Swapchain> old = std::exchange(swapchain_, std::nullopt);
-        swapchain_.emplace(device_, surface_, extent, mode_, old ? &*old : nullptr);
-        old.reset();
-        drawn_.clear();
-        for (std::size_t i = 0; i < swapchain_->imageCount(); ++i)
-            drawn_.push_back(makeSemaphore(device_.get()));
+        retire();
+        swapchain_ = std::make_unique<Swapchain>(
+            device_, surface_, extent, mode_, old_.empty() ? nullptr : old_.back().get());
     }
     const VkExtent2D canvas = canvas_ ? canvas_->extent() : VkExtent2D{};
     if (canvas.width != swapchain_->extent().width ||
@@ -338,12 +403,13 @@ bool Presenter::frame(
         if (!prepare()) return false;
         const std::optional<std::uint32_t> index = swapchain_->acquire(acquired_.get());
         if (!index) {
-            dropSwapchain();
+            retire();
             continue;
         }
+        dropRetired();
         record(*index, before, draw);
         submit(*index);
-        if (!swapchain_->present(*index, drawn_[*index].get())) dropSwapchain();
+        if (!swapchain_->present(*index)) retire();
         return true;
     }
     return false;
@@ -386,7 +452,7 @@ void Presenter::submit(std::uint32_t index) {
     const VkSemaphoreSubmitInfo acquired =
         semaphoreInfo(acquired_.get(), VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT);
     const VkSemaphoreSubmitInfo drawn =
-        semaphoreInfo(drawn_[index].get(), VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
+        semaphoreInfo(swapchain_->drawn(index), VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
     VkSubmitInfo2 info{};
     info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
     info.waitSemaphoreInfoCount = 1;

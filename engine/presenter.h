@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -21,42 +22,64 @@ enum class PresentMode {
 
 const char* presentModeName(PresentMode mode);
 
-// The images that a window shows, one after another. They have one size: where the window's changes
-// another swapchain is made.
+// The images that a window shows, one after another, and what their presents use. They have one
+// size: where the window's changes another swapchain is made, and this one must live until its
+// presents are done with.
 class Swapchain {
 public:
     // Fifo where the surface has no such mode. `extent` is what the window says, for surfaces that
-    // take any. `old` is retired. Throws Error where the device can't show pictures there.
+    // take any. `old` shows nothing new from then on. Throws Error where the device can't show
+    // pictures there.
     Swapchain(
         const Device& device, VkSurfaceKHR surface, VkExtent2D extent, PresentMode mode,
         const Swapchain* old = nullptr);
 
     // The index of the next image, which `acquired` is signalled for; none where the swapchain no
-    // longer fits the window.
-    std::optional<std::uint32_t> acquire(VkSemaphore acquired) const;
+    // longer fits the window. An image that comes back is no longer used by its last present.
+    std::optional<std::uint32_t> acquire(VkSemaphore acquired);
 
     // Copies a picture in TRANSFER_SRC_OPTIMAL into an acquired image, scaled to its size, and
     // makes it ready to be shown.
     void copy(Commands& commands, const Image& picture, std::uint32_t index) const;
 
-    // Shows an acquired image once `drawn` is signalled. False where the swapchain no longer fits
-    // the window.
-    bool present(std::uint32_t index, VkSemaphore drawn) const;
+    // What whoever draws an acquired image signals, and its present waits for.
+    VkSemaphore drawn(std::uint32_t index) const { return slots_[index].drawn.get(); }
+    // Shows an acquired image once it is drawn. False where the swapchain no longer fits the
+    // window.
+    bool present(std::uint32_t index);
+
+    // Whether an image was presented and came back: presents of swapchains before this are over.
+    bool cameBack() const { return came_back_; }
+    // With Feature::present_fences: whether no present uses anything of it.
+    bool isDone() const;
+    // Waits for that, a second at most; without the feature not at all.
+    void finish() const;
 
     VkExtent2D extent() const { return extent_; }
     PresentMode mode() const { return mode_; }
-    std::size_t imageCount() const { return images_.size(); }
+    std::size_t imageCount() const { return slots_.size(); }
 
     static std::vector<PresentMode> modes(const Device& device, VkSurfaceKHR surface);
     // Whether the surface has no size now, as where its window is minimised.
     static bool isEmpty(const Device& device, VkSurfaceKHR surface);
 
 private:
+    struct Slot {
+        VkImage image{};
+        Handle<VkSemaphore, &vkDestroySemaphore> drawn;
+        Handle<VkFence, &vkDestroyFence> shown;  // null without Feature::present_fences
+        bool is_presented = false;  // since it was acquired last
+    };
+
+    // Fences of presents that were not seen to be over.
+    std::vector<VkFence> pending() const;
+
     const Device& device_;
     VkExtent2D extent_{};
     PresentMode mode_ = PresentMode::fifo;
+    std::vector<Slot> slots_;  // [image]; goes after the swapchain
+    bool came_back_ = false;
     Handle<VkSwapchainKHR, &vkDestroySwapchainKHR> swapchain_;
-    std::vector<VkImage> images_;
 };
 
 // Draws what a window shows. Pictures are drawn into an image of their own, whose format is always
@@ -81,6 +104,8 @@ public:
     // Size of the next picture, px; 0 x 0 while the window is minimised.
     VkExtent2D extent() const { return window_.pixels(); }
     std::uint32_t imageCount() const;
+    // Those that the window had before and whose presents may not be over.
+    std::size_t oldSwapchains() const { return old_.size(); }
 
     PresentMode mode() const { return mode_; }
     void setMode(PresentMode mode);
@@ -99,7 +124,8 @@ public:
 
 private:
     void wait();
-    void dropSwapchain();
+    void retire();
+    void dropRetired();
     bool prepare();
     void record(
         std::uint32_t index, const std::function<void(Commands&)>& before,
@@ -115,8 +141,8 @@ private:
     DescriptorSets sets_;
     Handle<VkFence, &vkDestroyFence> done_;
     Handle<VkSemaphore, &vkDestroySemaphore> acquired_;
-    std::vector<Handle<VkSemaphore, &vkDestroySemaphore>> drawn_;  // one for each image
-    std::optional<Swapchain> swapchain_;
+    std::vector<std::unique_ptr<Swapchain>> old_;
+    std::unique_ptr<Swapchain> swapchain_;
     std::optional<Image> canvas_;
     std::optional<Timestamps> timestamps_;
     bool pending_ = false;

@@ -224,6 +224,12 @@ TEST_F(LesserDevice, ShapeNeedsSharedMemoryForItsStrands) {
 
 // ---- What is not --------------------------------------------------------------------------------
 
+// The extension builds on one of windows; devices that show nothing have neither.
+TEST_F(LesserDevice, HasNoFencesOfPresentsWithoutAWindow) {
+    EXPECT_FALSE(device().has(Feature::present_fences));
+    make([](DeviceInfo& info) { EXPECT_FALSE(info.features.contains(Feature::present_fences)); });
+}
+
 // Four invocations of four vertices, where there is memory for more of fewer.
 TEST_F(LesserDevice, ShapeMovesStrandsTheSameInLittleSharedMemory) {
     make([](DeviceInfo& info) { info.limits.maxComputeSharedMemorySize = 4 * 116; });

@@ -1,4 +1,5 @@
 #include <cstdlib>
+#include <iostream>
 #include <optional>
 #include <string>
 
@@ -13,40 +14,104 @@
 namespace engine {
 namespace {
 
-TEST(Window, ShowsWidgets) {
-    const VirtualDisplay display;
-    if (!display.name().empty()) {
-        setenv("DISPLAY", display.name().c_str(), 1);
-        unsetenv("WAYLAND_DISPLAY");
-    }
-    std::optional<Window> window;
-    try {
-        window.emplace(WindowDescription{.title = "test", .width = 640, .height = 360});
-    } catch (const NoDisplay& error) {
-        return skipWithout(Need::display, error.what());
-    }
-    const Device device(
-        {.validation = Validation::on, .window_extensions = Window::instanceExtensions()});
-    {
-        Presenter presenter(device, *window);
-        Ui ui(device, *window, 1.0f);
-        for (int i = 0; i < 6; ++i) {
-            window->poll();
-            if (i == 3) window->resize(800, 450);
-            ui.begin();
-            ImGui::SetNextWindowPos({10, 10});
-            ImGui::Begin("hair");
-            ImGui::Text("Strands: 8,704  \xc2\xb5m \xe2\x89\xa4");
-            ImGui::End();
-            ui.end();
-            EXPECT_TRUE(presenter.frame([](Commands&) {}, [&](Commands& c) { ui.draw(c); }));
+// A window on a display of its own, and a device that shows pictures there.
+class WindowTest : public testing::Test {
+protected:
+    void SetUp() override {
+        if (!display_.name().empty()) {
+            setenv("DISPLAY", display_.name().c_str(), 1);
+            unsetenv("WAYLAND_DISPLAY");
         }
-        const Presenter::Picture picture = presenter.picture();
-        EXPECT_EQ(picture.width, 800u);
-        EXPECT_EQ(picture.height, 450u);
-        EXPECT_GT(presenter.milliseconds(), 0.0);
+        try {
+            window_.emplace(WindowDescription{.title = "test", .width = 640, .height = 360});
+        } catch (const NoDisplay& error) {
+            skipWithout(Need::display, error.what());
+        }
     }
-    for (const std::string& message : device.messages().take()) ADD_FAILURE() << message;
+
+    void TearDown() override { expectNoMessage(); }
+
+    Device& make(const std::function<void(DeviceInfo&)>& mask = {}) {
+        expectNoMessage();
+        device_.reset();
+        return device_.emplace(DeviceOptions{
+            .wanted = "",
+            .validation = Validation::on,
+            .window_extensions = Window::instanceExtensions(),
+            .mask = mask});
+    }
+
+    Window& window() { return *window_; }
+
+private:
+    void expectNoMessage() {
+        if (!device_) return;
+        for (const std::string& message : device_->messages().take()) ADD_FAILURE() << message;
+    }
+
+    VirtualDisplay display_;
+    std::optional<Window> window_;
+    std::optional<Device> device_;
+};
+
+TEST_F(WindowTest, ShowsWidgets) {
+    const Device& device = make();
+    Presenter presenter(device, window());
+    Ui ui(device, window(), 1.0f);
+    for (int i = 0; i < 6; ++i) {
+        window().poll();
+        if (i == 3) window().resize(800, 450);
+        ui.begin();
+        ImGui::SetNextWindowPos({10, 10});
+        ImGui::Begin("hair");
+        ImGui::Text("Strands: 8,704  \xc2\xb5m \xe2\x89\xa4");
+        ImGui::End();
+        ui.end();
+        EXPECT_TRUE(presenter.frame([](Commands&) {}, [&](Commands& c) { ui.draw(c); }));
+    }
+    const Presenter::Picture picture = presenter.picture();
+    EXPECT_EQ(picture.width, 800u);
+    EXPECT_EQ(picture.height, 450u);
+    EXPECT_GT(presenter.milliseconds(), 0.0);
+}
+
+// What a present uses lives until it is over, and no longer: with fences, and without them where
+// the device has some. The validation layer says what is destroyed or used too early.
+TEST_F(WindowTest, DropsSwapchainsOnceTheirPresentsAreOver) {
+    for (const bool fences : {true, false}) {
+        const Device& device = make([&](DeviceInfo& info) {
+            if (!fences) info.features.erase(Feature::present_fences);
+        });
+        if (fences)
+            std::cout << (device.has(Feature::present_fences) ? "with" : "without")
+                      << " fences of presents\n";
+        Presenter presenter(device, window());
+        const auto frame = [&] {
+            window().poll();
+            EXPECT_TRUE(presenter.frame([](Commands&) {}, [](Commands&) {}));
+        };
+        // Images come back in some order, each after the others at the latest.
+        const auto settle = [&] {
+            for (int i = 0; i < 60 && (i < 2 || presenter.oldSwapchains() > 0); ++i) frame();
+            EXPECT_EQ(presenter.oldSwapchains(), 0u);
+        };
+        settle();
+        for (const std::uint32_t width : {800u, 320u, 640u}) {
+            window().resize(width, 360);
+            settle();
+        }
+        for (const PresentMode mode : presenter.modes()) {
+            presenter.setMode(mode);
+            EXPECT_LE(presenter.oldSwapchains(), 1u);
+            settle();
+        }
+        // Resized again and again; the last ones are left for the end.
+        for (std::uint32_t i = 0; i < 12; ++i) {
+            window().resize(400 + 10 * i, 360);
+            frame();
+            EXPECT_LE(presenter.oldSwapchains(), 4u);
+        }
+    }
 }
 
 }  // namespace
