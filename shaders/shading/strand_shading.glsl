@@ -2,6 +2,7 @@
 #ifndef HAIRBENCH_STRAND_SHADING_GLSL
 #define HAIRBENCH_STRAND_SHADING_GLSL
 
+#include "common/across.glsl"
 #include "common/picture.glsl"
 #include "shading/dual_scattering.glsl"
 #include "shading/environment.glsl"
@@ -24,14 +25,14 @@ struct StrandFragment {
 // Unit vectors: x along the strand, y across it towards the eye, z across both. On a round fibre
 // the quad's point has the normal sqrt(1 - across^2) y - across z.
 mat3 fiberFrame(StrandFragment fragment) {
-    vec3 side = normalize(cross(fragment.to_eye, fragment.tangent));
+    vec3 side = unitSide(fragment.to_eye, fragment.tangent);
     return mat3(fragment.tangent, cross(fragment.tangent, side), -side);
 }
 
 // The normal turns with the place across the strand, as that of the half of a cylinder that faces
 // the camera (the published program takes the side vector, the same for the whole width).
 vec3 cylinderNormal(StrandFragment fragment) {
-    vec3 side = normalize(cross(fragment.to_eye, fragment.tangent));
+    vec3 side = unitSide(fragment.to_eye, fragment.tangent);
     vec3 facing = cross(fragment.tangent, side);
     float x = clamp(fragment.across, -1.0, 1.0);
     return x * side + sqrt(1.0 - x * x) * facing;

@@ -3,6 +3,7 @@
 // strand thinner than a texel of the map is as wide as one and as much less opaque, so that what it
 // covers of the map has the right mean, however thin it is.
 #extension GL_GOOGLE_include_directive : require
+#include "common/across.glsl"
 #include "common/picture.glsl"
 
 layout(lines) in;
@@ -23,8 +24,8 @@ void main() {
         float depth = (picture.view_projection * vec4(position, 1.0)).w;
         float texel = picture.pixel_near + picture.pixel_slope * max(depth, 0.0);
         float width = max(widths[end], texel);
-        vec3 side = cross(picture.eye - position, tangent_and_along[end].xyz);
-        side *= 0.5 * width * inversesqrt(max(dot(side, side), 1e-30));
+        vec3 side =
+            sideOfLength(picture.eye - position, tangent_and_along[end].xyz, 0.5 * width);
         for (float across = -1.0; across <= 1.0; across += 2.0) {
             gl_Position = picture.view_projection * vec4(position + across * side, 1.0);
             coverage = picture.opacity * max(widths[end], 0.0) / max(width, 1e-30);

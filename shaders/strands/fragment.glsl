@@ -23,7 +23,8 @@ struct SeenStrand {
 SeenStrand seenStrand(PictureParameters picture) {
     SeenStrand seen;
     seen.fragment.position = position_and_across.xyz;
-    seen.fragment.tangent = normalize(tangent_and_along.xyz);
+    // Tangents of a quad's two ends may cancel out between them.
+    seen.fragment.tangent = unitOr(tangent_and_along.xyz, vec3(0.0, 1.0, 0.0));
     seen.fragment.to_eye = normalize(picture.eye - seen.fragment.position);
     seen.fragment.across = position_and_across.w;
     seen.fragment.along = tangent_and_along.w;

@@ -3,6 +3,7 @@
 // Wang, Juettler, Zheng and Liu 2008, Computation of rotation minimizing frames, table I. One
 // invocation per guide.
 #extension GL_GOOGLE_include_directive : require
+#include "common/across.glsl"
 #include "common/picture.glsl"
 
 layout(local_size_x = kFramesGroupSize) in;
@@ -23,14 +24,6 @@ vec3 vertexTangent(uint first, uint vertex, vec3 before) {
     vec3 chord = to - from;
     float squared = dot(chord, chord);
     return squared > 0.0 ? chord * inversesqrt(squared) : before;
-}
-
-vec3 anyAcross(vec3 unit) {
-    vec3 size = abs(unit);
-    vec3 axis = size.x <= size.y && size.x <= size.z ? vec3(1.0, 0.0, 0.0)
-                : size.y <= size.z                   ? vec3(0.0, 1.0, 0.0)
-                                                     : vec3(0.0, 0.0, 1.0);
-    return normalize(cross(unit, axis));
 }
 
 // Takes out of a normal what rounding put along the tangent.

@@ -2,6 +2,7 @@
 #ifndef HAIRBENCH_QUAD_GLSL
 #define HAIRBENCH_QUAD_GLSL
 
+#include "common/across.glsl"
 #include "common/picture.glsl"
 #include "shading/options.glsl"
 #include "strands/pixel_margin.glsl"
@@ -28,10 +29,10 @@ struct QuadEnd {
 QuadEnd quadEnd(PictureParameters picture, int end) {
     vec3 position = position_and_width[end].xyz;
     QuadEnd quad;
-    quad.side = cross(picture.eye - position, tangent_and_along[end].xyz);
     quad.half_quad = 0.5 * position_and_width[end].w;
     if (kAnalyticCoverage != 0) quad.half_quad += pixelMargin(picture, position);
-    quad.side *= quad.half_quad * inversesqrt(max(dot(quad.side, quad.side), 1e-30));
+    quad.side =
+        sideOfLength(picture.eye - position, tangent_and_along[end].xyz, quad.half_quad);
     return quad;
 }
 

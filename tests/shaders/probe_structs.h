@@ -88,6 +88,22 @@ struct ShadowProbePush {
     uint count;
 };
 
+// A point of a strand to be shaded, and what it shows.
+struct StrandProbe {
+    vec3 tangent;  // unit length
+    vec3 to_eye;  // unit length
+    float across;
+    vec3 normal;  // cylinderNormal(); written
+    vec3 color;  // working colours; written
+};
+
+// Push constants of probe_strand.comp.
+struct ProbeStrandPush {
+    Address picture;  // PictureParameters
+    Address probes;  // StrandProbe
+    uint count;
+};
+
 // What probe_surface.comp is asked and what it answers.
 struct SurfaceProbe {
     vec3 base_color;

@@ -1,0 +1,198 @@
+// Strands seen end-on: E x T, across which quads and fibres' frames lie, is 0 there.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "engine/buffer_image.h"
+#include "engine/frame_loop.h"
+#include "engine/pipeline.h"
+#include "hair/rendering/fiber.h"
+#include "hair/rendering/lights.h"
+#include "hair/rendering/renderer.h"
+#include "hair/shader_codes.h"
+#include "tests/gpu_fixture.h"
+#include "tests/probe_shaders.h"
+#include "tests/rendering/linear_picture.h"
+
+namespace hair::rendering {
+namespace {
+
+constexpr ShadingModel kModels[]{
+    ShadingModel::phong, ShadingModel::kajiya_kay, ShadingModel::marschner,
+    ShadingModel::dual_scattering};
+
+// Light from the eye, from beside the strands and from all along them.
+Settings litSettings(ShadingModel model) {
+    Settings settings = linearPicture(33, 33);
+    settings.shading.model = model;
+    settings.shading.ambient = 0.1f;
+    settings.shading.longitudinal_roughness = 1.0f;  // light goes from across to along
+    settings.shading.lights = {
+        {.type = LightType::directional, .direction = {0, 0, -1}},
+        {.type = LightType::directional, .direction = {0, -1, 0}},
+        {.type = LightType::directional, .direction = {-0.6f, 0, -0.8f}}};
+    return settings;
+}
+
+class EndOn : public GpuTest {
+protected:
+    static std::vector<gpu::StrandProbe>
+    shade(ShadingModel model, const std::vector<gpu::StrandProbe>& probes) {
+        static_assert(sizeof(gpu::StrandProbe) == 52 && sizeof(gpu::ProbeStrandPush) == 20);
+        const Settings settings = litSettings(model);
+        const HairOpticsBuffers optics(device(), settings);
+        const engine::Buffer lights = engine::makeBuffer(
+            device(), std::span<const gpu::Light>(makeLights(settings)), "lights");
+        gpu::PictureParameters picture{};
+        picture.hair_color = settings.shading.color;
+        picture.ambient = settings.shading.ambient;
+        picture.diffuse = settings.shading.diffuse;
+        picture.specular = settings.shading.specular;
+        picture.exponent = settings.shading.exponent;
+        picture.light_count = static_cast<std::uint32_t>(settings.shading.lights.size());
+        picture.lights = lights.address();
+        picture.optics = optics.address();
+        const engine::Buffer parameters = engine::makeBuffer(
+            device(), std::span<const gpu::PictureParameters>(&picture, 1), "picture");
+        const engine::Buffer buffer = engine::makeBuffer(
+            device(), std::span<const gpu::StrandProbe>(probes), "strand probes");
+        probe_shaders::addTo(device());
+        const engine::ComputePipeline pipeline(
+            device(), {.shader = "probe_strand.comp",
+                       .constants =
+                           {{gpu::kModelConstant, shaderCode(model)},
+                            {gpu::kLightCountConstant, picture.light_count},
+                            {gpu::kLightKindsConstant, lightKinds(settings)}},
+                       .push_size = sizeof(gpu::ProbeStrandPush)});
+        const auto count = static_cast<std::uint32_t>(probes.size());
+        device().runOnce([&](engine::Commands& commands) {
+            commands.bind(
+                pipeline,
+                gpu::ProbeStrandPush{
+                    .picture = parameters.address(), .probes = buffer.address(), .count = count});
+            commands.dispatch((count + 63) / 64, 1);
+            commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);
+        });
+        return engine::downloadAs<gpu::StrandProbe>(device(), buffer);
+    }
+};
+
+// Points whose tangent is the way to the eye or away from it, and others that are off it by an
+// angle that floats hardly hold.
+TEST_F(EndOn, EveryModelShadesPointsWithFiniteLight) {
+    std::vector<gpu::StrandProbe> probes;
+    const glm::vec3 directions[]{{1, 0, 0},       {0, 1, 0},        {0, 0, -1},
+                                 {0.6f, 0, 0.8f}, {0, -0.6f, 0.8f}, {0.48f, 0.6f, 0.64f}};
+    for (const glm::vec3& tangent : directions)
+        for (const float sign : {1.0f, -1.0f})
+            for (const glm::vec3& off : {glm::vec3(0.0f), glm::vec3(1e-8f, 2e-8f, -1e-8f)})
+                for (const float across : {-1.0f, -0.3f, 0.0f, 0.8f, 1.0f})
+                    probes.push_back(
+                        {.tangent = tangent,
+                         .to_eye = sign * tangent + off,
+                         .across = across,
+                         .normal = {},
+                         .color = {}});
+    for (const ShadingModel model : kModels)
+        for (const gpu::StrandProbe& probe : shade(model, probes)) {
+            // A normal of a cylinder, to some ten roundings.
+            EXPECT_NEAR(glm::length(probe.normal), 1.0f, 1e-6f);
+            EXPECT_NEAR(glm::dot(probe.normal, probe.tangent), 0.0f, 1e-6f);
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_TRUE(std::isfinite(probe.color[c])) << static_cast<int>(model);
+                EXPECT_GE(probe.color[c], 0.0f) << static_cast<int>(model);
+            }
+        }
+}
+
+// ---- Pictures -----------------------------------------------------------------------------------
+
+// A strand that comes towards the eye's axis, touches it along the axis, and leaves it to the same
+// side again: at its middle vertex, in the middle of the picture, it is seen end-on. At z = 0 the
+// picture is 0.66 m wide, 2 cm a pixel.
+groom::Groom bentStrand() {
+    return oneTriangle(
+        {{0.3f, 0, -0.2f}, {0.1f, 0, -0.1f}, {0, 0, 0}, {0.1f, 0, 0.1f}, {0.3f, 0, 0.2f}});
+}
+
+Settings bentSettings(ShadingModel model) {
+    Settings settings = litSettings(model);
+    settings.strands.density = 1;
+    settings.strands.tessellation = 4;
+    settings.strands.curve = Curve::catmull_rom;  // goes through its points, to the last bit
+    settings.strands.root_width = settings.strands.tip_width = 0.2f;
+    settings.camera.position = {0, 0, 1};
+    settings.camera.target = {0, 0, 0};
+    settings.camera.field_of_view =
+        static_cast<float>(2.0 * std::atan(0.33) * 180.0 / 3.14159265358979);
+    return settings;
+}
+
+// What is drawn, before it is resolved: half floats, [row][column] RGBA.
+std::vector<std::uint16_t> drawRendered(const engine::Device& device, const Settings& settings) {
+    const DeviceHair hair(device, bentStrand(), settings);
+    Renderer renderer(device, settings, hair.view(), {});
+    engine::FrameLoop loop(device, engine::Timing::overlapped);
+    loop.frame([&](engine::Passes& passes) { renderer.record(passes, hair.view()); });
+    loop.finish();
+    const engine::Image& color = renderer.target().color();
+    EXPECT_EQ(color.format(), VK_FORMAT_R16G16B16A16_SFLOAT);
+    device.runOnce([&](engine::Commands& commands) {
+        commands.transition(
+            color, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+            engine::Access::anything, engine::Access::transfer_read);
+    });
+    const engine::Buffer bytes = engine::readImage(device, color, 8);
+    std::vector<std::uint16_t> halves(bytes.size() / 2);
+    std::memcpy(halves.data(), bytes.mapped().data(), bytes.size());
+    return halves;
+}
+
+bool isFiniteHalf(std::uint16_t half) { return (half & 0x7c00u) != 0x7c00u; }
+bool isAboveZero(std::uint16_t half) { return half != 0 && half < 0x8000u; }
+
+// Every sample is finite, and the strand is as wide where it is seen end-on as elsewhere: 0.2 m at
+// the middle vertex are 10 px, whose column is the edge of two quads and is theirs.
+void expectSound(const std::vector<std::uint16_t>& halves, const std::string& what) {
+    ASSERT_EQ(halves.size(), 4u * 33 * 33);
+    EXPECT_TRUE(std::ranges::all_of(halves, isFiniteHalf)) << what;
+    for (std::size_t row = 12; row <= 20; ++row)
+        EXPECT_TRUE(isAboveZero(halves[4 * (33 * row + 16)])) << what << ", row " << row;
+}
+
+TEST_F(EndOn, EveryModelAndTransparencyDrawsFiniteLight) {
+    for (const ShadingModel model : kModels)
+        for (const Transparency transparency :
+             {Transparency::none, Transparency::alpha_to_coverage, Transparency::weighted_blended,
+              Transparency::fragment_list}) {
+            Settings settings = bentSettings(model);
+            settings.render.transparency = transparency;
+            expectSound(
+                drawRendered(device(), settings),
+                std::to_string(static_cast<int>(model)) + ", transparency " +
+                    std::to_string(static_cast<int>(transparency)));
+        }
+}
+
+TEST_F(EndOn, SoDoBackEndsCoverageAndShadows) {
+    for (const Backend backend : {Backend::tessellation, Backend::pulling_geometry})
+        for (const bool is_analytic : {false, true}) {
+            Settings settings = bentSettings(ShadingModel::dual_scattering);
+            settings.strands.backend = backend;
+            settings.shading.shadows.hair = HairShadows::deep_opacity;  // the first light is end-on
+            if (is_analytic) {
+                settings.render.coverage = Coverage::analytic;
+                settings.render.transparency = Transparency::fragment_list;
+            }
+            expectSound(
+                drawRendered(device(), settings),
+                std::to_string(static_cast<int>(backend)) + (is_analytic ? ", analytic" : ""));
+        }
+}
+
+}  // namespace
+}  // namespace hair::rendering

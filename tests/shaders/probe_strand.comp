@@ -1,0 +1,39 @@
+#version 460
+// What points of strands show, by the model that the pipeline is specialized for and without
+// shadows; one invocation per point.
+#extension GL_GOOGLE_include_directive : require
+
+#include "probes.glsl"
+#include "common/picture.glsl"
+
+// In the place of shading/shadows.glsl, whose images a probe has not.
+#define HAIRBENCH_SHADOWS_GLSL
+struct LightPath {
+    float meshes;
+    float strands;
+};
+LightPath lightPath(PictureParameters picture, uint light, vec3 position) {
+    return LightPath(1.0, 0.0);
+}
+float visibility(PictureParameters picture, LightPath path) { return path.meshes; }
+
+#include "shading/strand_shading.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(push_constant, scalar) uniform Push { ProbeStrandPush push; };
+
+layout(buffer_reference, scalar) buffer Probes { StrandProbe at[]; };
+
+void main() {
+    uint index = gl_WorkGroupID.x * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (index >= push.count) return;  // no barrier follows
+
+    PictureParameters picture = PictureReference(push.picture).parameters;
+    StrandProbe probe = Probes(push.probes).at[index];
+    StrandFragment fragment =
+        StrandFragment(vec3(0.0), probe.tangent, probe.to_eye, probe.across, 0.5);
+    probe.normal = cylinderNormal(fragment);
+    probe.color = shadeStrand(picture, fragment, picture.hair_color);
+    Probes(push.probes).at[index] = probe;
+}
