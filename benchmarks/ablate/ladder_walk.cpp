@@ -208,7 +208,8 @@ void LadderWalk::addStop(StopPlan plan, const StillHair& hair) {
     record.statistics = stopStatistics(
         view.stop(), view.plan(), view.count(watch_), device_.fragmentCountsAreApproximate());
     std::ranges::move(
-        countWarnings(view.stop(), record.statistics), std::back_inserter(result_.warnings));
+        countWarnings(view.stop(), record.statistics, device_.info()),
+        std::back_inserter(result_.warnings));
 }
 
 StopView& LadderWalk::pass() const {

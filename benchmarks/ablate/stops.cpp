@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "benchmarks/measure/metrics.h"
 #include "benchmarks/report/statistics.h"
 #include "hair/rendering/strand_plan.h"
 
@@ -175,6 +176,18 @@ std::optional<std::uint64_t> expectedInvocations(
     }
 }
 
+// The statistic that counts what a watched stage counts itself.
+std::string_view countOf(hair::rendering::StrandStage stage) {
+    switch (stage) {
+    case hair::rendering::StrandStage::vertex:
+        return "vertex_invocations";
+    case hair::rendering::StrandStage::evaluation:
+        return "tessellation_evaluation_invocations";
+    default:
+        return "geometry_invocations";
+    }
+}
+
 }  // namespace
 
 std::vector<report::Statistic> stopStatistics(
@@ -213,18 +226,22 @@ std::vector<report::Statistic> stopStatistics(
     return lines.take();
 }
 
-std::vector<std::string>
-countWarnings(const StopPlan& stop, std::span<const report::Statistic> statistics) {
+std::vector<std::string> countWarnings(
+    const StopPlan& stop, std::span<const report::Statistic> statistics,
+    const engine::DeviceInfo& device) {
     const bool rasterises =
         stop.stages.last >= hair::rendering::StrandStage::raster && stop.stop != Stop::clipped;
     std::vector<std::string> warnings;
     for (const report::Statistic& each : statistics) {
         const std::string start = std::string(stopName(stop.stop)) + ": " + each.name + ": " +
-                                  std::to_string(each.measured) + ", expected ";
-        if (each.expected && *each.expected != each.measured)
-            warnings.push_back(start + std::to_string(*each.expected));
+                                  std::to_string(each.measured) + ", ";
+        const bool is_own = each.name == "seen" && stop.stages.watched;
+        const std::string_view counted = is_own ? countOf(*stop.stages.watched) : each.name;
+        if (auto missed = measure::missedCount(counted, each.measured, each.expected, device))
+            warnings.push_back(start + *missed);
         const bool covered = each.name == "samples_passed" || each.name == "fragment_invocations";
-        if (rasterises && covered && each.measured == 0) warnings.push_back(start + "some");
+        if (rasterises && covered && each.measured == 0)
+            warnings.push_back(start + "expected some");
     }
     return warnings;
 }

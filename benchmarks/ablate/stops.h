@@ -111,9 +111,11 @@ std::vector<report::Statistic> stopStatistics(
     const StopPlan& stop, const hair::rendering::StrandPlan& plan, const StopCounts& counts,
     bool approximate_fragments);
 
-// Counts that differ from what is expected: a driver that left out a stage that it should have run,
-// or ran one that it shouldn't. "geometry: geometry_invocations: 0, expected 243712".
-std::vector<std::string>
-countWarnings(const StopPlan& stop, std::span<const report::Statistic> statistics);
+// Counts that are not what is expected (measure::missedCount()): a driver that left out a stage
+// that it should have run, or ran one that it shouldn't. "geometry: geometry_invocations: 0,
+// expected 243712".
+std::vector<std::string> countWarnings(
+    const StopPlan& stop, std::span<const report::Statistic> statistics,
+    const engine::DeviceInfo& device);
 
 }  // namespace benchmarks::ablate

@@ -33,6 +33,15 @@ std::vector<std::string> checkTimestamps(const PlayedFrames& stamped, const Play
 // there, all of it, and nowhere else.
 std::vector<std::string> checkTimestamps(Stage& stage, report::CaseResult& result);
 
+// What a count should have been, "expected 120" or "expected at least 120"; absent where it is, or
+// where nothing is expected. A GPU may run the stages that make vertices more than once for one of
+// them, as where batches of a patch's vertices share some, but never less often; a processor runs
+// them once. What follows of primitives is exact everywhere. `statistic` is one of
+// engine::kStatisticNames.
+std::optional<std::string> missedCount(
+    std::string_view statistic, std::uint64_t measured, std::optional<std::uint64_t> expected,
+    const engine::DeviceInfo& device);
+
 // Plays a frame, untimed and without busy work, with pipeline statistics of the strands, and holds
 // them against the counts that follow from the settings. Nothing where the device has none.
 void addStatistics(const engine::Device& device, Case& test_case, report::CaseResult& result);

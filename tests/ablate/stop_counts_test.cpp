@@ -51,9 +51,12 @@ StopCounts allRan() {
         .seen = 120};
 }
 
-std::vector<std::string> warningsOf(Stop stop, const StopCounts& counts) {
+std::vector<std::string>
+warningsOf(Stop stop, const StopCounts& counts, const char* device_type = "cpu") {
     const StopPlan plan = stopOf(stop);
-    return countWarnings(plan, stopStatistics(plan, smallPlan(), counts, false));
+    engine::DeviceInfo device;
+    device.type = device_type;
+    return countWarnings(plan, stopStatistics(plan, smallPlan(), counts, false), device);
 }
 
 TEST(StopCounts, AreRightWhereAllRan) {
@@ -93,6 +96,50 @@ TEST(StopCounts, FindAStageThatRanTooMuch) {
     counts.samples_passed = 0;
     EXPECT_THAT(
         warningsOf(Stop::raster, counts), ElementsAre("raster: samples_passed: 0, expected some"));
+}
+
+// A GPU may evaluate a vertex more than once, never less often; a processor does so once, and lines
+// are counted once everywhere.
+TEST(StopCounts, MayBeMoreOnGpusInStagesThatMakeVertices) {
+    StopCounts counts = allRan();
+    counts.samples_passed = 0;
+    counts.seen = 190;
+    counts.statistics = countsWith(
+        {{"vertex_invocations", 8},
+         {"tessellation_control_patches", 6},
+         {"tessellation_evaluation_invocations", 190}});
+    EXPECT_THAT(warningsOf(Stop::tessellation, counts, "discrete"), IsEmpty());
+    EXPECT_THAT(
+        warningsOf(Stop::tessellation, counts, "cpu"),
+        ElementsAre(
+            "tessellation: vertex_invocations: 8, expected 6",
+            "tessellation: tessellation_evaluation_invocations: 190, expected 150",
+            "tessellation: seen: 190, expected 150"));
+
+    counts.seen = 149;
+    counts.statistics = countsWith(
+        {{"vertex_invocations", 6},
+         {"tessellation_control_patches", 5},
+         {"tessellation_evaluation_invocations", 149}});
+    EXPECT_THAT(
+        warningsOf(Stop::tessellation, counts, "integrated"),
+        ElementsAre(
+            "tessellation: tessellation_control_patches: 5, expected at least 6",
+            "tessellation: tessellation_evaluation_invocations: 149, expected at least 150",
+            "tessellation: seen: 149, expected at least 150"));
+
+    StopCounts lines = allRan();
+    lines.samples_passed = 0;
+    lines.seen = 121;
+    EXPECT_THAT(
+        warningsOf(Stop::geometry, lines, "discrete"),
+        ElementsAre("geometry: seen: 121, expected 120"));
+    StopCounts empty = allRan();
+    EXPECT_THAT(
+        warningsOf(Stop::empty, empty, "discrete"),
+        ElementsAre(
+            "empty: input_assembly_vertices: 6, expected 0",
+            "empty: samples_passed: 70, expected 0"));
 }
 
 // Counters of absent stages are undefined: what they say is no matter.

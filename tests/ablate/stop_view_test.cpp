@@ -64,6 +64,14 @@ protected:
         return view.picture();
     }
 
+    // Invocations of a stage that makes vertices: on a GPU there may be more.
+    static void expectRun(std::uint64_t count, std::uint64_t expected) {
+        if (device().info().type == "cpu")
+            EXPECT_EQ(count, expected);
+        else
+            EXPECT_GE(count, expected);
+    }
+
     hair::Settings settings_;
     std::optional<hair::rendering::StageWatch> watch_;
     std::optional<StillHair> hair_;
@@ -75,23 +83,23 @@ TEST_F(StopViewTest, DoesTheWorkOfItsStages) {
         const std::vector<report::Statistic> lines =
             stopStatistics(view->stop(), view->plan(), view->count(*watch_), false);
         for (const report::Statistic& each : lines) counts[stop][each.name] = each.measured;
-        for (const std::string& warning : countWarnings(view->stop(), lines))
+        for (const std::string& warning : countWarnings(view->stop(), lines, device().info()))
             ADD_FAILURE() << warning;
     }
     if (device().hasPipelineStatistics()) {
         EXPECT_EQ(counts[Stop::empty]["input_assembly_vertices"], 0u);
-        EXPECT_EQ(counts[Stop::vertex]["vertex_invocations"], kPatches);
+        expectRun(counts[Stop::vertex]["vertex_invocations"], kPatches);
         const char* const evaluations = "tessellation_evaluation_invocations";
-        EXPECT_EQ(counts[Stop::tessellation_1][evaluations], kPatches * 16 * 2);
-        EXPECT_EQ(counts[Stop::tessellation][evaluations], kPatches * 16 * 5);
+        expectRun(counts[Stop::tessellation_1][evaluations], kPatches * 16 * 2);
+        expectRun(counts[Stop::tessellation][evaluations], kPatches * 16 * 5);
         EXPECT_EQ(counts[Stop::geometry]["geometry_invocations"], kLines);
         EXPECT_EQ(counts[Stop::geometry]["geometry_primitives"], 2 * kLines);
         EXPECT_EQ(counts[Stop::clipped]["fragment_invocations"], 0u);
         EXPECT_GT(counts[Stop::fragment]["fragment_invocations"], 0u);
     }
-    EXPECT_EQ(counts[Stop::vertex]["seen"], kPatches);
-    EXPECT_EQ(counts[Stop::tessellation_1]["seen"], kPatches * 16 * 2);
-    EXPECT_EQ(counts[Stop::tessellation]["seen"], kPatches * 16 * 5);
+    expectRun(counts[Stop::vertex]["seen"], kPatches);
+    expectRun(counts[Stop::tessellation_1]["seen"], kPatches * 16 * 2);
+    expectRun(counts[Stop::tessellation]["seen"], kPatches * 16 * 5);
     EXPECT_EQ(counts[Stop::geometry]["seen"], kLines);
     EXPECT_EQ(counts[Stop::watched_geometry]["seen"], kLines);
     if (!counts[Stop::raster].contains("samples_passed")) return;

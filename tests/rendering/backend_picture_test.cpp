@@ -104,8 +104,15 @@ TEST_F(BackendPictureTest, CountsAreThoseOfThePlan) {
         const auto at = std::ranges::find(engine::kStatisticNames, name);
         return strands->counts[static_cast<std::size_t>(at - engine::kStatisticNames.begin())];
     };
-    EXPECT_EQ(count("tessellation_control_patches"), 1904u);                   // 136 * 7 * 2
-    EXPECT_EQ(count("tessellation_evaluation_invocations"), 136u * 7 * 100 * 4);
+    // GPUs may run these stages more than once for a patch or a vertex.
+    const std::uint64_t patches = count("tessellation_control_patches");
+    const std::uint64_t evaluations = count("tessellation_evaluation_invocations");
+    EXPECT_GE(patches, 136u * 7 * 2);
+    EXPECT_GE(evaluations, 136u * 7 * 100 * 4);
+    if (device().info().type == "cpu") {
+        EXPECT_EQ(patches, 136u * 7 * 2);
+        EXPECT_EQ(evaluations, 136u * 7 * 100 * 4);
+    }
     EXPECT_EQ(count("geometry_invocations"), 136u * 7 * 100 * 3);
     EXPECT_EQ(count("geometry_primitives"), 136u * 7 * 100 * 3 * 2);
 }

@@ -136,8 +136,13 @@ TEST_F(StrandFeaturePictureTest, CountsAreThoseOfThePlan) {
             return pass->counts[static_cast<std::size_t>(at - engine::kStatisticNames.begin())];
         };
         const std::uint64_t patches = strands * 7u;
-        EXPECT_EQ(count("tessellation_control_patches"), patches);
-        EXPECT_EQ(count("tessellation_evaluation_invocations"), patches * (pieces + 1));
+        // GPUs may run these stages more than once for a patch or a vertex.
+        EXPECT_GE(count("tessellation_control_patches"), patches);
+        EXPECT_GE(count("tessellation_evaluation_invocations"), patches * (pieces + 1));
+        if (device().info().type == "cpu") {
+            EXPECT_EQ(count("tessellation_control_patches"), patches);
+            EXPECT_EQ(count("tessellation_evaluation_invocations"), patches * (pieces + 1));
+        }
         EXPECT_EQ(count("geometry_invocations"), patches * pieces);
         EXPECT_EQ(expected->tessellation_control_patches, patches);
         EXPECT_EQ(expected->tessellation_evaluation_invocations, patches * (pieces + 1));
