@@ -12,6 +12,7 @@ layout(push_constant, scalar) uniform Push { MeshPush push; };
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec2 coordinates;
+invariant gl_Position;  // the same whatever is drawn with it
 
 void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;

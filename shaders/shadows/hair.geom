@@ -13,6 +13,7 @@ layout(push_constant, scalar) uniform Push { StrandPush push; };
 layout(location = 0) in vec4 position_and_width[];
 layout(location = 1) in vec4 tangent_and_along[];
 layout(location = 0) out float coverage;
+invariant gl_Position;  // the same in the pass of depths and in that of opacity
 
 void main() {
     vec2 widths = vec2(position_and_width[0].w, position_and_width[1].w);

@@ -17,8 +17,9 @@ layout(location = 19) patch in uvec2 patch_pieces;
 
 StrandPoint evaluatedPoint(PictureParameters picture) {
     // Whole numbers again, so that no rounding of the tessellator moves a strand or opens a joint.
-    uint isoline = uint(gl_TessCoord.y * float(patch_ids.w) + 0.5);
-    uint piece_end = uint(gl_TessCoord.x * float(patch_pieces.x) + 0.5);
+    precise vec2 place = gl_TessCoord.yx * vec2(patch_ids.w, patch_pieces.x) + 0.5;
+    uint isoline = uint(place.x);
+    uint piece_end = uint(place.y);
 
     StrandPatch strand_patch;
     strand_patch.key = patch_ids.x;

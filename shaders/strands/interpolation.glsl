@@ -17,7 +17,8 @@ vec3 guideControlPoint(PictureParameters picture, uint guide, int index) {
     vec3 point = guideVertex(picture, guide, uint(inside));
     if (kCurve == kCurveBsplineUnpinned || inside == index) return point;
     int neighbour = index < 0 ? 1 : last - 1;
-    return 2.0 * point - guideVertex(picture, guide, uint(neighbour));
+    precise vec3 reflected = 2.0 * point - guideVertex(picture, guide, uint(neighbour));
+    return reflected;
 }
 
 // Whether one of the guides touches a body at a vertex or above it: all that is below a contact is
@@ -42,7 +43,8 @@ vec4 singleShares(PictureParameters picture, uvec3 guides, uint segment) {
 }
 
 vec3 mixGuides(vec3 weights, vec3 a, vec3 b, vec3 c) {
-    return weights.x * a + weights.y * b + weights.z * c;
+    precise vec3 sum = weights.x * a + weights.y * b + weights.z * c;  // strands/curve.glsl
+    return sum;
 }
 
 // r(i-1) to r(i+2) of a strand in a segment. points: [guide of the triangle][r(i-1) .. r(i+2)]
@@ -61,8 +63,10 @@ void strandControlPoints(PictureParameters picture, uvec3 guides, uint segment, 
 
     // Where shares change at an end, the mean of reflected points is no reflection.
     if (kCollisionRule == 0 || kCurve == kCurveBsplineUnpinned) return;
-    if (segment == 0u) r[0] = 2.0 * r[1] - r[2];
-    if (segment + 2u == picture.vertices_per_guide) r[3] = 2.0 * r[2] - r[1];
+    precise vec3 before = 2.0 * r[1] - r[2];
+    precise vec3 behind = 2.0 * r[2] - r[1];
+    if (segment == 0u) r[0] = before;
+    if (segment + 2u == picture.vertices_per_guide) r[3] = behind;
 }
 
 #endif

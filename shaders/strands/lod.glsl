@@ -86,7 +86,10 @@ float strandShare(StrandLod lod, uint strand) {
     return clamp(lod.density - float(strand), 0.0, 1.0);
 }
 
-// Where an end of a piece lies along the guide segment, 0 to 1.
-float pieceEnd(StrandLod lod, uint index) { return float(index) / float(lod.pieces); }
+// Where an end of a piece lies along the guide segment: 0 and 1 themselves at its ends, which a
+// division is not sure to give (Vulkan: to 2.5 roundings).
+float pieceEnd(StrandLod lod, uint index) {
+    return index == lod.pieces ? 1.0 : float(index) / float(lod.pieces);
+}
 
 #endif

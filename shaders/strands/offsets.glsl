@@ -22,8 +22,9 @@ StrandOffset strandOffset(PictureParameters picture, uint profile, float along) 
     float intervals = float(picture.offset_samples - 1u);
     float place = along * intervals;
     uint interval = min(uint(place), picture.offset_samples - 2u);
-    vec4 weights = interpolationWeights(place - float(interval));
-    vec4 slopes = interpolationSlopes(place - float(interval));
+    precise float part = place - float(interval);
+    vec4 weights = interpolationWeights(part);
+    vec4 slopes = interpolationSlopes(part);
     // The sample before an interval's start is at its index: the table begins with one outside.
     uint first = profile * (picture.offset_samples + 2u) + interval;
     vec3 a = table.offsets[first];
@@ -50,7 +51,8 @@ mat3 strandFrame(PictureParameters picture, uint guide, uint segment, float t, v
                          guideNormal(picture, guide, first + 2),
                          guideNormal(picture, guide, first + 3));
     vec3 along = unitOrZero(tangent);
-    vec3 normal = unitOrZero(blended - dot(blended, along) * along);
+    precise vec3 across = blended - dot(blended, along) * along;
+    vec3 normal = unitOrZero(across);
     return mat3(normal, cross(along, normal), along);
 }
 

@@ -55,8 +55,9 @@ vec3 lodCentre(PictureParameters picture, StrandPatch strand_patch, uvec3 guides
     vec3 c = guideVertex(picture, guides.z, 0);
     if (kSource == kSourceGroom) {
         BoundStrand strand = boundStrand(picture, strand_patch.first_strand);
-        return strand.weights.x * a + strand.weights.y * b + strand.weights.z * c +
-               mat3(picture.head) * strand.offset;
+        precise vec3 root = strand.weights.x * a + strand.weights.y * b + strand.weights.z * c +
+                            mat3(picture.head) * strand.offset;
+        return root;
     }
     return (a + b + c) / 3.0;
 }

@@ -16,6 +16,8 @@ layout(location = 0) out vec4 position_and_across;  // m; across: -1 at one edge
                                                     // with analytic coverage m from the middle
 layout(location = 1) out vec4 tangent_and_along_out;
 layout(location = 2) out float half_width;  // m; with analytic coverage
+// What one back end or pass covers the others cover too, sample by sample.
+invariant gl_Position;
 
 // Whether the line is one of a strand.
 bool isDrawn() { return position_and_width[0].w >= 0.0; }
@@ -38,7 +40,7 @@ QuadEnd quadEnd(PictureParameters picture, int end) {
 
 // The outputs of a corner of the quad; across: -1 or 1.
 void makeCorner(PictureParameters picture, int end, QuadEnd quad, float across) {
-    vec3 corner = position_and_width[end].xyz + across * quad.side;
+    precise vec3 corner = position_and_width[end].xyz + across * quad.side;
     gl_Position = picture.view_projection * vec4(corner, 1.0);
     position_and_across =
         vec4(corner, kAnalyticCoverage != 0 ? across * quad.half_quad : across);

@@ -52,20 +52,23 @@ struct RootLift {
 
 vec3 edgeLift(vec3 from, vec3 to, vec3 normal_from, vec3 normal_to) {
     vec3 edge = from - to;
-    return 0.5 * (dot(edge, normal_from) * normal_from - dot(edge, normal_to) * normal_to);
+    precise vec3 lift =
+        0.5 * (dot(edge, normal_from) * normal_from - dot(edge, normal_to) * normal_to);
+    return lift;
 }
 
 RootLift rootLift(PictureParameters picture, StrandPatch strand_patch, uvec3 guides) {
     RootLift lift;
     for (int i = 0; i < 3; ++i) lift.edges[i] = vec3(0.0);
     if (kSource == kSourceGroom) {
-        lift.edges[0] =
+        precise vec3 offset =
             mat3(picture.head) * boundStrand(picture, strand_patch.first_strand).offset;
+        lift.edges[0] = offset;
         return lift;
     }
     if (picture.root_normals == kNoAddress) return lift;
     RootNormals root_normals = RootNormals(picture.root_normals);
-    vec3 normals[3];
+    precise vec3 normals[3];
     for (int i = 0; i < 3; ++i) normals[i] = mat3(picture.head) * root_normals.normals[guides[i]];
     for (int i = 0; i < 3; ++i) {
         int next = (i + 1) % 3;
@@ -78,8 +81,10 @@ RootLift rootLift(PictureParameters picture, StrandPatch strand_patch, uvec3 gui
 // What a whole strand is moved by, so that its root is on the scalp.
 vec3 strandLift(RootLift lift, vec3 weights) {
     if (kSource == kSourceGroom) return lift.edges[0];
-    return weights.x * weights.y * lift.edges[0] + weights.y * weights.z * lift.edges[1] +
-           weights.z * weights.x * lift.edges[2];
+    precise vec3 sum = weights.x * weights.y * lift.edges[0] +
+                       weights.y * weights.z * lift.edges[1] +
+                       weights.z * weights.x * lift.edges[2];  // strands/curve.glsl
+    return sum;
 }
 
 #endif

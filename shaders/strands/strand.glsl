@@ -40,8 +40,9 @@ float guideWidth(PictureParameters picture, PatchStrand strand, uint vertex) {
 float strandWidth(PictureParameters picture, PatchStrand strand, uint segment, float t,
                   float along) {
     if (kWidth == kWidthGroom) {
-        return (1.0 - t) * guideWidth(picture, strand, segment) +
-               t * guideWidth(picture, strand, segment + 1u);
+        precise float width = (1.0 - t) * guideWidth(picture, strand, segment) +
+                              t * guideWidth(picture, strand, segment + 1u);
+        return width;
     }
     float taper = kTaper == kTaperSegment ? t : along;
     taper = max(taper - picture.taper_start, 0.0) / max(1.0 - picture.taper_start, 1e-6);
@@ -57,8 +58,11 @@ void offsetPoint(PictureParameters picture, StrandPatch strand_patch, PatchStran
     StrandOffset offset = strandOffset(picture, profile, point.along);
     uint guide = strand.guides[heaviestCorner(strand.weights)];
     mat3 frame = strandFrame(picture, guide, strand_patch.segment, t, point.tangent);
-    point.position += frame * offset.value;
-    point.tangent += frame * (offset.slope / float(picture.vertices_per_guide - 1));
+    precise vec3 position = point.position + frame * offset.value;  // strands/curve.glsl
+    precise vec3 tangent =
+        point.tangent + frame * (offset.slope / float(picture.vertices_per_guide - 1));
+    point.position = position;
+    point.tangent = tangent;
 }
 
 vec4 curveWeights(float t) {

@@ -1,10 +1,21 @@
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <span>
+#include <string_view>
+
 #include <gtest/gtest.h>
 
+#include "engine/shaders.h"
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/pictures.h"
 
-// Every back end and every way to split its draws gives the same picture, bit for bit: they draw
-// the same lines in the same order with the same functions.
+// Every back end and every way to split its draws gives the same picture: they draw the same lines
+// in the same order with the same functions. On processors it is so bit for bit. What `precise`
+// doesn't reach (dot products, roots, the logarithm of levels by distance) a GPU's compiler may
+// round otherwise in another stage, which moves an edge over a sample here and there: of a thousand
+// pixels one may differ.
 namespace hair::rendering {
 namespace {
 
@@ -21,6 +32,11 @@ constexpr Way kOtherWays[] = {
 
 class BackendPictureTest : public GpuTest {
 protected:
+    static std::size_t mostDiffering(const Settings& settings) {
+        if (device().info().type == "cpu") return 0;
+        return std::size_t{settings.render.width} * settings.render.height / 1000;
+    }
+
     // The pictures show at least `hair` pixels of hair.
     static void expectEqualPictures(Settings settings, std::size_t hair) {
         settings.strands.backend = Backend::tessellation;
@@ -30,7 +46,9 @@ protected:
         for (const Way& way : kOtherWays) {
             settings.strands.backend = way.backend;
             settings.strands.submission = way.submission;
-            EXPECT_EQ(differingPixels(instanced, drawCase(device(), settings)), 0u) << way.name;
+            EXPECT_LE(
+                differingPixels(instanced, drawCase(device(), settings)), mostDiffering(settings))
+                << way.name;
         }
     }
 
@@ -85,6 +103,100 @@ TEST_F(BackendPictureTest, AreEqualForThePublishedProgramsCurveAndTaper) {
 TEST_F(BackendPictureTest, TwoRunsAreEqual) {
     Settings settings = small();
     EXPECT_EQ(differingPixels(drawCase(device(), settings), drawCase(device(), settings)), 0u);
+}
+
+// ---- What their equality rests on ---------------------------------------------------------------
+
+// Sums of a product that a compiler may fuse into one operation with one rounding: those that are
+// not decorated with NoContraction. SPIR-V 1.6, 3.49.13 and 3.20.
+std::size_t fusibleSums(std::span<const std::uint32_t> code) {
+    constexpr std::uint32_t kDecorate = 71, kNoContraction = 42, kFunction = 54, kCall = 57,
+                            kLoad = 61, kStore = 62, kNegate = 127, kAdd = 129, kSubtract = 131,
+                            kMultiply = 133, kVectorTimesScalar = 142, kMatrixTimesScalar = 143,
+                            kReturnValue = 254;
+    std::set<std::uint32_t> exact;
+    std::set<std::uint32_t> products;  // ids of values, variables and functions
+    std::set<std::uint32_t> sums;
+    for (int pass = 0; pass < 4; ++pass) {  // functions may be called before they are there
+        std::uint32_t function = 0;
+        for (std::size_t at = 5; at < code.size(); at += code[at] >> 16) {
+            const std::uint32_t operation = code[at] & 0xffff;
+            const auto operand = [&](std::size_t i) { return code[at + 1 + i]; };
+            const auto is_product = [&](std::size_t i) { return products.contains(operand(i)); };
+            switch (operation) {
+            case kDecorate:
+                if (operand(1) == kNoContraction) exact.insert(operand(0));
+                break;
+            case kFunction:
+                function = operand(1);
+                break;
+            case kMultiply:
+            case kVectorTimesScalar:
+            case kMatrixTimesScalar:
+                products.insert(operand(1));
+                break;
+            case kNegate:
+            case kLoad:
+            case kCall:
+                if (is_product(2)) products.insert(operand(1));
+                break;
+            case kStore:
+                if (is_product(1)) products.insert(operand(0));
+                break;
+            case kReturnValue:
+                if (is_product(0)) products.insert(function);
+                break;
+            case kAdd:
+            case kSubtract:
+                if (!exact.contains(operand(1)) && (is_product(2) || is_product(3)))
+                    sums.insert(operand(1));
+                break;
+            default:
+                break;
+            }
+        }
+    }
+    return sums.size();
+}
+
+// Position of a vertex is the built-in 0 of gl_PerVertex; decorations 11 and 18.
+bool hasInvariantPosition(std::span<const std::uint32_t> code) {
+    constexpr std::uint32_t kMemberDecorate = 72, kDecorate = 71, kBuiltIn = 11, kInvariant = 18;
+    using Member = std::pair<std::uint32_t, std::uint32_t>;
+    std::set<Member> positions;
+    std::set<Member> invariant;
+    for (std::size_t at = 5; at < code.size(); at += code[at] >> 16) {
+        const std::uint32_t operation = code[at] & 0xffff;
+        if (operation == kMemberDecorate) {
+            const Member member{code[at + 1], code[at + 2]};
+            if (code[at + 3] == kBuiltIn && code[at + 4] == 0) positions.insert(member);
+            if (code[at + 3] == kInvariant) invariant.insert(member);
+        }
+        if (operation == kDecorate) {
+            const Member variable{code[at + 1], ~0u};
+            if (code[at + 2] == kBuiltIn && code[at + 3] == 0) positions.insert(variable);
+            if (code[at + 2] == kInvariant) invariant.insert(variable);
+        }
+    }
+    return std::ranges::any_of(
+        positions, [&](const Member& each) { return invariant.contains(each); });
+}
+
+TEST(StrandShaders, PlaceStrandsWithoutSumsThatCompilersMayFuse) {
+    for (const std::string_view path :
+         {"strands/tessellation.tesc", "strands/tessellation.tese",
+          "strands/watched/tessellation.tese", "strands/pulling.vert", "strands/evaluate.comp"})
+        EXPECT_EQ(fusibleSums(engine::shaderCode(path)), 0u) << path;
+    // It can tell: colours may be fused.
+    EXPECT_GT(fusibleSums(engine::shaderCode("strands/strand.frag")), 0u);
+}
+
+TEST(StrandShaders, ProjectAllVerticesAlike) {
+    for (const std::string_view path :
+         {"strands/strand.geom", "strands/watched/strand.geom", "shadows/hair.geom",
+          "scene/mesh.vert"})
+        EXPECT_TRUE(hasInvariantPosition(engine::shaderCode(path))) << path;
+    EXPECT_FALSE(hasInvariantPosition(engine::shaderCode("composite/screen.vert")));
 }
 
 // What the pipeline counts of a split density is what the plan says.
