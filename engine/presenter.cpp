@@ -315,9 +315,10 @@ Presenter::Presenter(const Device& device, const Window& window, PresentMode mod
 
 Presenter::~Presenter() {
     vkQueueWaitIdle(device_.queue());
-    retire();
     for (const auto& old : old_) old->finish();
+    if (swapchain_) swapchain_->finish();
     old_.clear();
+    swapchain_.reset();
     vkDestroySurfaceKHR(device_.instance(), surface_, nullptr);
 }
 
