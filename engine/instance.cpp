@@ -6,6 +6,7 @@
 #include <cstring>
 #include <iterator>
 #include <ranges>
+#include <span>
 
 #include <vulkan/vulkan_beta.h>
 
@@ -94,14 +95,16 @@ constexpr std::array kVulkan13Features{
     RequiredFeature{"maintenance4", &VkPhysicalDeviceVulkan13Features::maintenance4},
 };
 
-// What stands for a feature: a member of VkPhysicalDeviceFeatures, an extension, or a format of
-// colour attachments that can be blended into. Of a queue, nothing: its family does.
+// What stands for a feature: a member of VkPhysicalDeviceFeatures, an extension, a format of
+// colour attachments that can be blended into, or a member of VkPhysicalDeviceVulkan12Features.
+// Of a queue, nothing: its family does.
 struct FeatureRow {
     Feature feature;
     std::string_view name;
     VkBool32 VkPhysicalDeviceFeatures::* member;
     const char* extension;
     VkFormat blended = VK_FORMAT_UNDEFINED;
+    VkBool32 VkPhysicalDeviceVulkan12Features::* member12 = nullptr;
 };
 
 constexpr std::array kFeatures{
@@ -125,6 +128,9 @@ constexpr std::array kFeatures{
     FeatureRow{
         Feature::long_integers, "64-bit integers in shaders",
         &VkPhysicalDeviceFeatures::shaderInt64, nullptr},
+    FeatureRow{
+        Feature::long_atomics, "atomics on 64-bit integers in buffers", nullptr, nullptr,
+        VK_FORMAT_UNDEFINED, &VkPhysicalDeviceVulkan12Features::shaderBufferInt64Atomics},
     FeatureRow{
         Feature::pipeline_statistics, "pipeline statistics",
         &VkPhysicalDeviceFeatures::pipelineStatisticsQuery, nullptr},
@@ -222,6 +228,7 @@ void findFeatures(DeviceInfo& info) {
     appendMissing(available.vulkan13, kVulkan13Features, info.missing);
     for (const FeatureRow& row : kFeatures) {
         const bool there = row.member      ? available.core.features.*row.member == VK_TRUE
+                           : row.member12  ? available.vulkan12.*row.member12 == VK_TRUE
                            : row.extension ? extensions.contains(row.extension)
                            : row.blended   ? canBlend(info.handle, row.blended)
                                            : false;
@@ -285,6 +292,17 @@ void findQueueFamily(DeviceInfo& info) {
     if (second != families.end()) info.features.insert(Feature::second_queue);
 }
 
+std::uint64_t largestLocalHeap(VkPhysicalDevice device) {
+    VkPhysicalDeviceMemoryProperties memory{};
+    vkGetPhysicalDeviceMemoryProperties(device, &memory);
+    std::uint64_t largest = 0;
+    for (const VkMemoryHeap& heap : std::span(memory.memoryHeaps, memory.memoryHeapCount)) {
+        if ((heap.flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0)
+            largest = std::max(largest, std::uint64_t{heap.size});
+    }
+    return largest;
+}
+
 DeviceInfo inspect(VkPhysicalDevice device) {
     VkPhysicalDeviceDriverProperties driver{};
     driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
@@ -303,6 +321,7 @@ DeviceInfo inspect(VkPhysicalDevice device) {
     info.driver_id = driver.driverID;
     info.api_version = versionText(core.apiVersion);
     info.limits = core.limits;
+    info.local_bytes = largestLocalHeap(device);
     if (core.apiVersion < VK_API_VERSION_1_3) {
         info.missing.push_back("Vulkan 1.3 (it has " + info.api_version + ")");
         return info;
@@ -463,6 +482,8 @@ VkDevice createDevice(const DeviceInfo& info, std::vector<const char*> extension
         if (!info.features.contains(row.feature)) continue;
         if (row.member)
             features.core.features.*row.member = VK_TRUE;
+        else if (row.member12)
+            features.vulkan12.*row.member12 = VK_TRUE;
         else if (row.extension)
             extensions.push_back(row.extension);
     }

@@ -104,6 +104,7 @@ enum class Feature {
     independent_blend,  // attachments of one pipeline that are blended in different ways
     float_blend,  // of 32-bit floats
     long_integers,  // of 64 bits, in shaders
+    long_atomics,  // on such integers in buffers
     pipeline_statistics,
     sample_counts,  // occlusion queries that count
     calibrated_timestamps,  // a moment by the clocks of device and host at once
@@ -130,6 +131,7 @@ struct DeviceInfo {
     std::string api_version;  // e.g. "1.3.230"
     VkDriverId driver_id{};
     VkPhysicalDeviceLimits limits{};
+    std::uint64_t local_bytes = 0;  // of the largest memory heap that is the device's own
     std::uint32_t queue_family = 0;  // graphics, compute and transfer
     // Of the second queue: another family with compute, best one without graphics, or the same one
     // where that has several queues. That of the first where there is no second.
