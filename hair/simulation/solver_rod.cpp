@@ -16,7 +16,7 @@ namespace hair::simulation {
 // Rods at rest as the solver wants them. A segment shorter than 1e-9 m has the direction of the one
 // before it, the first one +y; it bends with its neighbours and is not massless.
 struct RodRest {
-    std::vector<gpu::RodSegment> segments;  // [vertex][strand]
+    std::vector<glm::vec4> segments;  // [vertex][gpu::kRodSegmentRows][strand]
     std::vector<float> units;  // [strand], m
 };
 
@@ -40,8 +40,8 @@ glm::dquat halfOf(glm::dquat rotation) {
 glm::vec4 toGpu(const glm::dquat& q) { return glm::dvec4(q.x, q.y, q.z, q.w); }
 
 struct Strand {
-    std::vector<gpu::RodSegment> segments;
-    double unit;
+    std::vector<std::array<glm::vec4, gpu::kRodSegmentRows>> segments;
+    double unit;  // m
 };
 
 // `bending` is h^2 E I / lambda, m^4: over the fourth power of a length, the stiffness of a joint
@@ -72,14 +72,12 @@ Strand restOfStrand(std::span<const glm::vec3> points, double bending, double tw
         const double joint = i < 2 ? lengths[segment] / 2.0 : (lengths[i] + lengths[i - 1]) / 2.0;
         const double stiffness = bending / (std::max(joint, kShortest) * unit * unit * unit);
         const double below = i + 1 < size ? lengths[i + 1] : 0.0;
-        strand.segments.push_back(
-            {.half_rotation =
-                 toGpu(i == 0 ? orientation : halfOf(glm::conjugate(above) * orientation)),
-             .rest_length = static_cast<float>(lengths[i] / unit),
-             .mass = static_cast<float>(std::max((lengths[i] + below) / (2.0 * unit), kLeastMass)),
-             .bend_stiffness = static_cast<float>(std::min(stiffness, kMostStiffness)),
-             .twist_stiffness =
-                 static_cast<float>(std::min(stiffness * twisting, kMostStiffness))});
+        auto& rows = strand.segments.emplace_back();
+        rows[gpu::kRodHalfRotation] =
+            toGpu(i == 0 ? orientation : halfOf(glm::conjugate(above) * orientation));
+        rows[gpu::kRodStiffness] = glm::dvec4(
+            lengths[i] / unit, std::max((lengths[i] + below) / (2.0 * unit), kLeastMass),
+            std::min(stiffness, kMostStiffness), std::min(stiffness * twisting, kMostStiffness));
     }
     return strand;
 }
@@ -96,30 +94,35 @@ restOfRods(const groom::Groom& groom, const MaterialSettings& material, const gp
         1.0 / kMostAnisotropy, kMostAnisotropy);
 
     RodRest rest;
-    rest.segments.resize(groom.points.size());
+    rest.segments.resize(groom.points.size() * gpu::kRodSegmentRows);
     for (std::uint32_t s = 0; s < groom.strand_count; ++s) {
         const Strand strand = restOfStrand(groom.strand(s), bending, twisting);
         rest.units.push_back(static_cast<float>(strand.unit));
         for (std::size_t i = 0; i < strand.segments.size(); ++i)
-            rest.segments[i * groom.strand_count + s] = strand.segments[i];
+            for (std::size_t row = 0; row < gpu::kRodSegmentRows; ++row)
+                rest.segments[(i * gpu::kRodSegmentRows + row) * groom.strand_count + s] =
+                    strand.segments[i][row];
     }
     return rest;
 }
 
-static_assert(sizeof(gpu::RodSegment) == 32 && sizeof(gpu::RodMotion) == 52);
 static_assert(offsetof(gpu::RodParameters, most_strands) == 32);
 
-constexpr std::size_t kMostScratch = std::size_t{64} << 20;  // B, for more than one group
+// Scratch memory takes at most this part of the device's own. Of the heap's size, not of what is
+// free in it: then the same case has the same dispatches every time.
+constexpr std::uint64_t kScratchShare = 16;
 
 std::size_t scratchOfStrand(const groom::Groom& groom) {
     return sizeof(glm::vec4) * gpu::kRodScratchRows * groom.vertices_per_strand;
 }
 
-// Strands in a dispatch: whole groups whose scratch memory fits, at least one.
-std::uint32_t strandsInDispatch(const groom::Groom& groom) {
-    const std::size_t groups = kMostScratch / (gpu::kRodGroupSize * scratchOfStrand(groom));
-    const std::size_t most = gpu::kRodGroupSize * std::max<std::size_t>(groups, 1);
-    return static_cast<std::uint32_t>(std::min<std::size_t>(most, groom.strand_count));
+// Strands in a dispatch: all of them, or whole groups whose scratch memory fits, at least one.
+std::uint32_t strandsInDispatch(const engine::DeviceInfo& device, const groom::Groom& groom) {
+    const std::uint64_t scratch = std::min<std::uint64_t>(
+        device.limits.maxStorageBufferRange, device.local_bytes / kScratchShare);
+    const std::uint64_t groups = scratch / (gpu::kRodGroupSize * scratchOfStrand(groom));
+    const std::uint64_t most = gpu::kRodGroupSize * std::max<std::uint64_t>(groups, 1);
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(most, groom.strand_count));
 }
 
 }  // namespace
@@ -132,11 +135,13 @@ RodSolver::RodSolver(
 RodSolver::RodSolver(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const RodRest& rest)
-    : strand_count_(groom.strand_count), most_strands_(strandsInDispatch(groom)),
-      segments_(engine::makeBuffer(
-          device, std::span<const gpu::RodSegment>(rest.segments), "rod segments")),
+    : strand_count_(groom.strand_count), most_strands_(strandsInDispatch(device.info(), groom)),
+      segments_(
+          engine::makeBuffer(device, std::span<const glm::vec4>(rest.segments), "rod segments")),
       units_(engine::makeBuffer(device, std::span<const float>(rest.units), "rod units")),
-      motion_(device, {.size = sizeof(gpu::RodMotion) * groom.points.size(), .name = "rod motion"}),
+      motion_(
+          device, {.size = sizeof(glm::vec4) * gpu::kRodMotionRows * groom.points.size(),
+                   .name = "rod motion"}),
       scratch_(device, {.size = scratchOfStrand(groom) * most_strands_, .name = "rod scratch"}),
       parameters_(engine::makeBuffer(
           device,

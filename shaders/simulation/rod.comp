@@ -28,13 +28,25 @@ uint root;    // of the strand's vertices
 float unit;   // m
 vec3 root_now;
 
-uint segmentIndex(uint i) { return i * guides.strand_count + strand; }
+float restLength(uint i) {
+    return segmentRow(rod.segments, i, kRodStiffness, guides.strand_count, strand).x;
+}
+
+RodMotion motionAt(uint i) { return loadMotion(rod.motion, i, guides.strand_count, strand); }
+
+void setMotion(uint i, RodMotion motion) {
+    storeMotion(rod.motion, i, guides.strand_count, strand, motion);
+}
+
+uint orientationIndex(uint i) {
+    return motionIndex(i, kRodOrientation, guides.strand_count, strand);
+}
 
 // Rows of the scratch memory: 0 to 2 the columns of `by_move` with `by_itself` as the last row, 3
 // to 5 those of `by_turn`, 6 the vertex's displacement and 7 the segment's rotation, both since the
 // prediction.
 uint scratchIndex(uint i, uint row) {
-    return (i * kRodScratchRows + row) * rod.most_strands + strand - push.first_strand;
+    return rodIndex(i, row, kRodScratchRows, rod.most_strands, strand - push.first_strand);
 }
 
 // Mesa 22's llvmpipe reads x where the last component alone is read: hence the whole vector.
@@ -44,14 +56,14 @@ bool isPinned(uint i) {
 }
 
 vec4 orientationAt(uint i) {
-    if (i > 0) return RodMotions(rod.motion).at[segmentIndex(i)].orientation;
+    if (i > 0) return State(rod.motion).at[orientationIndex(i)];
     return multiply(
-        push.frame.rotation, RodSegments(rod.segments).at[segmentIndex(0)].half_rotation);
+        push.frame.rotation,
+        segmentRow(rod.segments, 0, kRodHalfRotation, guides.strand_count, strand));
 }
 
 // Velocities with the forces of the substep, and where they would take the strand.
 void predict() {
-    RodMotions motions = RodMotions(rod.motion);
     State scratch = State(rod.scratch);
     State positions = State(from.positions);
     root_now = toWorld(push.frame, Vectors(guides.rest_positions).at[root].xyz);
@@ -64,8 +76,8 @@ void predict() {
     vec3 misfits = vec3(0.0);  // from the root to here
     vec3 moved = vec3(0.0);    // by segments that turn
     for (uint i = 1; i < guides.vertices_per_strand; ++i) {
-        RodMotion motion = motions.at[segmentIndex(i)];
-        float len = RodSegments(rod.segments).at[segmentIndex(i)].rest_length;
+        RodMotion motion = motionAt(i);
+        float len = restLength(i);
         vec3 acceleration = guides.gravity;
         if (push.accelerations != kNoAddress) acceleration += Vectors(push.accelerations).at[root + i].xyz;
         motion.velocity = guides.velocity_kept * motion.velocity + scale * acceleration;
@@ -79,7 +91,7 @@ void predict() {
             motion.velocity = vec3(0.0);
             displacement = (root_now - positions.at[root + i].xyz) / unit + edges;
         }
-        motions.at[segmentIndex(i)] = motion;
+        setMotion(i, motion);
         scratch.at[scratchIndex(i, 6)] = vec4(displacement, 0.0);
         scratch.at[scratchIndex(i, 7)] = vec4(0.0);
     }
@@ -99,7 +111,7 @@ void eliminate() {
     vec3 force = vec3(0.0);  // through the segment on the vertex where it ends
     vec4 orientation = orientationAt(guides.vertices_per_strand - 1);
     for (uint i = guides.vertices_per_strand - 1; i > 0; --i) {
-        RodSegment segment = RodSegments(rod.segments).at[segmentIndex(i)];
+        RodSegment segment = loadSegment(rod.segments, i, guides.strand_count, strand);
         vec4 above = orientationAt(i - 1);
         mat3 from_space = transpose(matrixOf(orientation));
         vec3 displacement = from_space * scratch.at[scratchIndex(i, 6)].xyz;
@@ -154,7 +166,6 @@ void eliminate() {
 
 // From the root down: every segment's turn, and where it takes the vertices.
 void turnSegments() {
-    RodMotions motions = RodMotions(rod.motion);
     State scratch = State(rod.scratch);
     vec3 turn = vec3(0.0);
     vec3 linear = vec3(0.0);  // how far small turns would take the vertex above
@@ -169,14 +180,14 @@ void turnSegments() {
             by_itself[k] = row.w;
             by_turn[k] = scratch.at[scratchIndex(i, 3 + k)].xyz;
         }
-        vec4 orientation = motions.at[segmentIndex(i)].orientation;
+        vec4 orientation = orientationAt(i);
         mat3 to_space = matrixOf(orientation);
-        vec3 edge = RodSegments(rod.segments).at[segmentIndex(i)].rest_length * to_space[2];
+        vec3 edge = restLength(i) * to_space[2];
         vec3 own = by_move * (linear * to_space) + by_turn * (turn * to_space) + by_itself;
         turn = to_space * own * (kMostTurn / max(length(own), kMostTurn));
         linear += cross(turn, edge);
         moved += gainOf(edge, turn);
-        motions.at[segmentIndex(i)].orientation = turned(orientation, turn);
+        State(rod.motion).at[orientationIndex(i)] = turned(orientation, turn);
         scratch.at[scratchIndex(i, 6)].xyz += moved;
         scratch.at[scratchIndex(i, 7)].xyz += turn;
     }
@@ -184,15 +195,14 @@ void turnSegments() {
 
 // Velocities and positions, and collisions: what they move turns segments and leaves misfits.
 void finish() {
-    RodMotions motions = RodMotions(rod.motion);
     State scratch = State(rod.scratch);
     State positions = State(guides.positions);
     vec3 edges = vec3(0.0);  // from the root to here, without collisions
     vec3 pushed_above = vec3(0.0);
     float contact = 0.0;  // 1 from the first vertex that touches a body
     for (uint i = 1; i < guides.vertices_per_strand; ++i) {
-        RodMotion motion = motions.at[segmentIndex(i)];
-        float len = RodSegments(rod.segments).at[segmentIndex(i)].rest_length;
+        RodMotion motion = motionAt(i);
+        float len = restLength(i);
         vec3 axis = axisOf(motion.orientation);
         vec4 point = State(from.positions).at[root + i];
         vec3 before = point.xyz;
@@ -222,7 +232,7 @@ void finish() {
             }
             motion.misfit = edge - len * axisOf(motion.orientation);
         }
-        motions.at[segmentIndex(i)] = motion;
+        setMotion(i, motion);
         State(guides.previous).at[root + i] = vec4(before, contact);
         pushed_above = pushed;
     }

@@ -18,17 +18,18 @@ void main() {
 
     State positions = State(guides.positions);
     State previous = State(guides.previous);
-    RodSegments segments = RodSegments(rod.segments);
     float unit = Factors(rod.units).at[strand];
     uint root = strand * guides.vertices_per_strand;
-    vec4 orientation = multiply(push.frame.rotation, segments.at[strand].half_rotation);
+    uint strands = guides.strand_count;
+    vec4 orientation = multiply(
+        push.frame.rotation, segmentRow(rod.segments, 0, kRodHalfRotation, strands, strand));
     for (uint i = 1; i < guides.vertices_per_strand; ++i) {
-        uint own = i * guides.strand_count + strand;
         vec3 here = positions.at[root + i].xyz;
         vec3 before = previous.at[root + i].xyz;
         vec3 edge = here - positions.at[root + i - 1].xyz;
         vec3 edge_before = before - previous.at[root + i - 1].xyz;
-        float rest_length = unit * segments.at[own].rest_length;
+        float len = segmentRow(rod.segments, i, kRodStiffness, strands, strand).x;
+        float rest_length = unit * len;
 
         RodMotion motion;
         motion.velocity = (here - before) / unit;
@@ -42,7 +43,7 @@ void main() {
                     2.0 * rotationBetween(normalize(edge_before), tangent).xyz;
         }
         motion.orientation = orientation;
-        motion.misfit = edge / unit - segments.at[own].rest_length * axisOf(orientation);
-        RodMotions(rod.motion).at[own] = motion;
+        motion.misfit = edge / unit - len * axisOf(orientation);
+        storeMotion(rod.motion, i, strands, strand, motion);
     }
 }

@@ -238,6 +238,42 @@ TEST_F(LesserDevice, ShapeMovesStrandsTheSameInLittleSharedMemory) {
     hair::simulation::expectNearReference(device(), hair::simulation::wavyGroom(5, 16), settings);
 }
 
+// Bytes that a buffer of this name holds.
+std::uint64_t bytesOf(const engine::Device& device, const std::string& name) {
+    std::uint64_t bytes = 0;
+    for (const auto& [entry, size] : device.memory().bytes())
+        if (entry.name == name) bytes += size;
+    return bytes;
+}
+
+// 100 strands by dispatches of 64, by the range of a buffer and by a sixteenth of the device's
+// memory, and of 32 where there is room for none: a strand's state knows nothing of the others.
+TEST_F(LesserDevice, RodMovesStrandsTheSameInDispatchesOfAnySize) {
+    constexpr std::uint64_t kStrand = 8 * 16 * 9;  // B: eight vec4 for each vertex
+    hair::SimulationSettings settings = hair::simulation::windy();
+    settings.solver = hair::Solver::rod;
+    const hair::groom::Groom groom = hair::simulation::wavyGroom(100, 9);
+    struct State {
+        std::vector<glm::vec3> positions;
+        std::vector<glm::vec3> previous;
+        bool operator==(const State&) const = default;
+    };
+    const auto played = [&](std::uint64_t strands) {
+        hair::simulation::Simulation simulation(device(), groom, settings, 3);
+        EXPECT_EQ(bytesOf(device(), "rod scratch"), strands * kStrand);
+        hair::simulation::advance(device(), simulation, 10);
+        return State{simulation.readPositions(), simulation.readPrevious()};
+    };
+    const State whole = played(100);
+    EXPECT_NE(whole.positions, groom.points);
+    make([](DeviceInfo& info) { info.limits.maxStorageBufferRange = 96 * kStrand - 1; });
+    EXPECT_EQ(played(64), whole);
+    make([](DeviceInfo& info) { info.local_bytes = 16 * 64 * kStrand; });
+    EXPECT_EQ(played(64), whole);
+    make([](DeviceInfo& info) { info.local_bytes = 0; });
+    EXPECT_EQ(played(32), whole);
+}
+
 TEST_F(LesserDevice, DrawsEverythingButStrandsWithoutAnyFeature) {
     hair::Settings settings = onlyGuides();
     settings.shading.shadows.meshes = true;

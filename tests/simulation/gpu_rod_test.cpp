@@ -164,7 +164,7 @@ TEST_F(GpuRod, RepeatsItselfToTheBit) {
     EXPECT_EQ(points, first.readPositions());
 }
 
-// More strands than one dispatch has scratch memory for: equal strands stay equal.
+// Equal strands stay equal. What a device with less memory does: tests/devices/.
 TEST_F(GpuRod, TreatsEveryStrandAlike) {
     const auto strand = helix(511, 0.005, 0.01, 20.0);
     const groom::Groom groom = groomOf(std::vector(1200, strand));

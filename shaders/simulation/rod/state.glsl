@@ -7,8 +7,59 @@
 #include "simulation/guides.glsl"
 
 layout(buffer_reference, scalar) readonly buffer RodReference { RodParameters parameters; };
-layout(buffer_reference, scalar) readonly buffer RodSegments { RodSegment at[]; };
-layout(buffer_reference, scalar) buffer RodMotions { RodMotion at[]; };
+
+// A segment, and how it and the vertex where it ends move: rod_structs.h.
+struct RodSegment {
+    vec4 half_rotation;
+    float rest_length;
+    float mass;
+    float bend_stiffness;
+    float twist_stiffness;
+};
+
+struct RodMotion {
+    vec4 orientation;
+    vec3 angular_velocity;
+    vec3 velocity;
+    vec3 misfit;
+};
+
+// Where a row of vertex i is in an array of so many rows a vertex and strands a row.
+uint rodIndex(uint i, uint row, uint rows, uint strands, uint strand) {
+    return (i * rows + row) * strands + strand;
+}
+
+vec4 segmentRow(Address segments, uint i, uint row, uint strands, uint strand) {
+    return Vectors(segments).at[rodIndex(i, row, kRodSegmentRows, strands, strand)];
+}
+
+RodSegment loadSegment(Address segments, uint i, uint strands, uint strand) {
+    vec4 rotation = segmentRow(segments, i, kRodHalfRotation, strands, strand);
+    vec4 numbers = segmentRow(segments, i, kRodStiffness, strands, strand);
+    return RodSegment(rotation, numbers.x, numbers.y, numbers.z, numbers.w);
+}
+
+uint motionIndex(uint i, uint row, uint strands, uint strand) {
+    return rodIndex(i, row, kRodMotionRows, strands, strand);
+}
+
+RodMotion loadMotion(Address motion, uint i, uint strands, uint strand) {
+    State rows = State(motion);
+    return RodMotion(
+        rows.at[motionIndex(i, kRodOrientation, strands, strand)],
+        rows.at[motionIndex(i, kRodAngularVelocity, strands, strand)].xyz,
+        rows.at[motionIndex(i, kRodVelocity, strands, strand)].xyz,
+        rows.at[motionIndex(i, kRodMisfit, strands, strand)].xyz);
+}
+
+void storeMotion(Address motion, uint i, uint strands, uint strand, RodMotion moves) {
+    State rows = State(motion);
+    rows.at[motionIndex(i, kRodOrientation, strands, strand)] = moves.orientation;
+    rows.at[motionIndex(i, kRodAngularVelocity, strands, strand)] =
+        vec4(moves.angular_velocity, 0.0);
+    rows.at[motionIndex(i, kRodVelocity, strands, strand)] = vec4(moves.velocity, 0.0);
+    rows.at[motionIndex(i, kRodMisfit, strands, strand)] = vec4(moves.misfit, 0.0);
+}
 
 // The third axis of the frame that a unit quaternion turns to.
 vec3 axisOf(vec4 q) {
