@@ -153,7 +153,11 @@ RodSolver::RodSolver(
               .most_strands = most_strands_,
               .iterations = settings.rod.iterations}}),
           "rod parameters")),
-      step_(device, {.shader = "simulation/rod.comp", .push_size = sizeof(gpu::SubstepPush)}),
+      step_(
+          device,
+          {.shader = device.has(engine::Feature::long_integers) ? "simulation/rod_packed.comp"
+                                                                : "simulation/rod.comp",
+           .push_size = sizeof(gpu::SubstepPush)}),
       adopt_(
           device, {.shader = "simulation/rod_adopt.comp", .push_size = sizeof(gpu::SubstepPush)}) {}
 

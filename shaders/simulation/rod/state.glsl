@@ -1,4 +1,5 @@
-// The `rod` solver's memory, and rotations of segments.
+// The `rod` solver's memory, and rotations of segments. Before it: simulation/vectors.glsl or
+// simulation/packed_vectors.glsl.
 #ifndef HAIRBENCH_SIMULATION_ROD_STATE_GLSL
 #define HAIRBENCH_SIMULATION_ROD_STATE_GLSL
 
@@ -30,7 +31,7 @@ uint rodIndex(uint i, uint row, uint rows, uint strands, uint strand) {
 }
 
 vec4 segmentRow(Address segments, uint i, uint row, uint strands, uint strand) {
-    return Vectors(segments).at[rodIndex(i, row, kRodSegmentRows, strands, strand)];
+    return loadVector(segments, rodIndex(i, row, kRodSegmentRows, strands, strand));
 }
 
 RodSegment loadSegment(Address segments, uint i, uint strands, uint strand) {
@@ -44,21 +45,20 @@ uint motionIndex(uint i, uint row, uint strands, uint strand) {
 }
 
 RodMotion loadMotion(Address motion, uint i, uint strands, uint strand) {
-    State rows = State(motion);
     return RodMotion(
-        rows.at[motionIndex(i, kRodOrientation, strands, strand)],
-        rows.at[motionIndex(i, kRodAngularVelocity, strands, strand)].xyz,
-        rows.at[motionIndex(i, kRodVelocity, strands, strand)].xyz,
-        rows.at[motionIndex(i, kRodMisfit, strands, strand)].xyz);
+        loadVector(motion, motionIndex(i, kRodOrientation, strands, strand)),
+        loadVector(motion, motionIndex(i, kRodAngularVelocity, strands, strand)).xyz,
+        loadVector(motion, motionIndex(i, kRodVelocity, strands, strand)).xyz,
+        loadVector(motion, motionIndex(i, kRodMisfit, strands, strand)).xyz);
 }
 
 void storeMotion(Address motion, uint i, uint strands, uint strand, RodMotion moves) {
-    State rows = State(motion);
-    rows.at[motionIndex(i, kRodOrientation, strands, strand)] = moves.orientation;
-    rows.at[motionIndex(i, kRodAngularVelocity, strands, strand)] =
-        vec4(moves.angular_velocity, 0.0);
-    rows.at[motionIndex(i, kRodVelocity, strands, strand)] = vec4(moves.velocity, 0.0);
-    rows.at[motionIndex(i, kRodMisfit, strands, strand)] = vec4(moves.misfit, 0.0);
+    storeVector(motion, motionIndex(i, kRodOrientation, strands, strand), moves.orientation);
+    storeVector(
+        motion, motionIndex(i, kRodAngularVelocity, strands, strand),
+        vec4(moves.angular_velocity, 0.0));
+    storeVector(motion, motionIndex(i, kRodVelocity, strands, strand), vec4(moves.velocity, 0.0));
+    storeVector(motion, motionIndex(i, kRodMisfit, strands, strand), vec4(moves.misfit, 0.0));
 }
 
 // The third axis of the frame that a unit quaternion turns to.

@@ -1,0 +1,257 @@
+// One substep of the `rod` solver, one invocation per strand: implicit Euler for an elastic rod
+// that neither stretches nor shears. The unknowns are rotations of the segments; the vertices
+// follow. Each iteration is a Newton step, which eliminates one segment after the other from the
+// tip up: Featherstone 1983, The calculation of robot dynamics using articulated-body inertias. See
+// rod.h for the rod and for where it comes from, rod_structs.h for the units. Before it:
+// simulation/vectors.glsl or simulation/packed_vectors.glsl.
+#include "common/rigid_frame.glsl"
+#include "simulation/constraints/bodies.glsl"
+#include "simulation/rod/joint.glsl"
+#include "simulation/rod/state.glsl"
+#include "simulation/rod/symmetric.glsl"
+
+layout(local_size_x = kRodGroupSize) in;
+
+layout(push_constant, scalar) uniform Push { SubstepPush push; };
+
+const float kMostTurn = 1.0;  // rad in an iteration; a Newton step from far away can overshoot
+const float kPinMass = 100.0;  // of a pinned vertex, over the strand's: a stiff spring to its place
+const float kLeastLength = 0.1;  // that a segment turns as if it had
+
+GuideParameters guides;
+GuideParameters from;
+RodParameters rod;
+uint strand;
+uint root;    // of the strand's vertices
+float unit;   // m
+vec3 root_now;
+
+float restLength(uint i) {
+    return segmentRow(rod.segments, i, kRodStiffness, guides.strand_count, strand).x;
+}
+
+RodMotion motionAt(uint i) { return loadMotion(rod.motion, i, guides.strand_count, strand); }
+
+void setMotion(uint i, RodMotion motion) {
+    storeMotion(rod.motion, i, guides.strand_count, strand, motion);
+}
+
+uint orientationIndex(uint i) {
+    return motionIndex(i, kRodOrientation, guides.strand_count, strand);
+}
+
+// Rows of the scratch memory: 0 to 2 the columns of `by_move` with `by_itself` as the last row, 3
+// to 5 those of `by_turn`, 6 the vertex's displacement and 7 the segment's rotation, both since the
+// prediction.
+uint scratchIndex(uint i, uint row) {
+    return rodIndex(i, row, kRodScratchRows, rod.most_strands, strand - push.first_strand);
+}
+
+vec4 scratchAt(uint i, uint row) { return loadVector(rod.scratch, scratchIndex(i, row)); }
+
+void setScratch(uint i, uint row, vec4 value) {
+    storeVector(rod.scratch, scratchIndex(i, row), value);
+}
+
+// Mesa 22's llvmpipe reads x where the last component alone is read: hence the whole vector.
+bool isPinned(uint i) {
+    vec4 point = State(from.positions).at[root + i];
+    return point.w == 0.0;
+}
+
+vec4 orientationAt(uint i) {
+    if (i > 0) return loadVector(rod.motion, orientationIndex(i));
+    return multiply(
+        push.frame.rotation,
+        segmentRow(rod.segments, 0, kRodHalfRotation, guides.strand_count, strand));
+}
+
+// Velocities with the forces of the substep, and where they would take the strand.
+void predict() {
+    State positions = State(from.positions);
+    root_now = toWorld(push.frame, Vectors(guides.rest_positions).at[root].xyz);
+    vec4 follicle = positions.at[root];
+    vec3 root_moved = (root_now - follicle.xyz) / unit;
+    State(guides.previous).at[root] = vec4(follicle.xyz, 0.0);
+    State(guides.positions).at[root] = vec4(root_now, follicle.w);
+    float scale = guides.step.sub * guides.step.sub / unit;
+    vec3 edges = vec3(0.0);    // from the root to here
+    vec3 misfits = vec3(0.0);  // from the root to here
+    vec3 moved = vec3(0.0);    // by segments that turn
+    for (uint i = 1; i < guides.vertices_per_strand; ++i) {
+        RodMotion motion = motionAt(i);
+        float len = restLength(i);
+        vec3 acceleration = guides.gravity;
+        if (push.accelerations != kNoAddress) acceleration += Vectors(push.accelerations).at[root + i].xyz;
+        motion.velocity = guides.velocity_kept * motion.velocity + scale * acceleration;
+        motion.angular_velocity *= guides.velocity_kept;
+        moved += gainOf(len * axisOf(motion.orientation), motion.angular_velocity);
+        motion.orientation = turned(motion.orientation, motion.angular_velocity);
+        misfits += motion.misfit;
+        edges += len * axisOf(motion.orientation);
+        vec3 displacement = root_moved - misfits + moved - motion.velocity;
+        if (isPinned(i)) {
+            motion.velocity = vec3(0.0);
+            displacement = (root_now - positions.at[root + i].xyz) / unit + edges;
+        }
+        setMotion(i, motion);
+        setScratch(i, 6, vec4(displacement, 0.0));
+        setScratch(i, 7, vec4(0.0));
+    }
+}
+
+// From the tip up. The least energy of all below a vertex is, of the vertex's further move x and
+// the further turn t of the segment that ends there, x A x / 2 + x B t + t C t / 2 + a x + b t. All
+// in the segment's own axes: under a great tension its bending and twisting differ by more than 32
+// bits hold side by side.
+void eliminate() {
+    mat3 A = mat3(0.0);
+    mat3 B = mat3(0.0);
+    mat3 C = mat3(0.0);
+    vec3 a = vec3(0.0);
+    vec3 b = vec3(0.0);
+    vec3 force = vec3(0.0);  // through the segment on the vertex where it ends
+    vec4 orientation = orientationAt(guides.vertices_per_strand - 1);
+    for (uint i = guides.vertices_per_strand - 1; i > 0; --i) {
+        RodSegment segment = loadSegment(rod.segments, i, guides.strand_count, strand);
+        vec4 above = orientationAt(i - 1);
+        mat3 from_space = transpose(matrixOf(orientation));
+        vec3 displacement = from_space * scratchAt(i, 6).xyz;
+        vec3 rotation = from_space * scratchAt(i, 7).xyz;
+        float mass = isPinned(i) ? kPinMass * float(guides.vertices_per_strand - 1) : segment.mass;
+        float turning_length = max(segment.rest_length, kLeastLength);
+        float inertia = turning_length * turning_length * turning_length / 12.0;
+
+        // Tension straightens: Tournier et al. 2015, Stable constrained dynamics.
+        force += mass * displacement;
+        float straightening = segment.rest_length * max(-force.z, 0.0);
+        A += mat3(mass);
+        a += mass * displacement;
+        C += mat3(inertia);
+        C[0][0] += straightening;
+        C[1][1] += straightening;
+        b += inertia * rotation;
+
+        // From the vertex at the segment's end to the one at its start, which is x + lever t away.
+        mat3 lever = -segment.rest_length * crossMatrix(vec3(0.0, 0.0, 1.0));
+        mat3 raised = transpose(lever) * B;
+        C = symmetric(C + transpose(lever) * A * lever + raised + transpose(raised));
+        B += A * lever;
+        b += transpose(lever) * a;
+
+        RodJoint joint = bendAndTwist(
+            multiply(above, segment.half_rotation),
+            multiply(orientation, conjugate(segment.half_rotation)), segment.bend_stiffness,
+            segment.twist_stiffness, i == 1);
+        vec3 torque = from_space * joint.torque;
+        mat3 stiffness = symmetric(from_space * joint.stiffness * transpose(from_space));
+
+        mat3 yields = inverseOfSymmetric(C + stiffness);
+        mat3 by_move = -yields * transpose(B);
+        mat3 by_turn = yields * stiffness;
+        vec3 by_itself = yields * (torque - b);
+        for (uint k = 0; k < 3; ++k) {
+            setScratch(i, k, vec4(by_move[k], by_itself[k]));
+            setScratch(i, 3 + k, vec4(by_turn[k], 0.0));
+        }
+
+        mat3 to_above = transpose(matrixOf(above)) * transpose(from_space);
+        a = to_above * (a + B * by_itself);
+        b = to_above * (stiffness * (yields * b) + C * (yields * torque));
+        A = symmetric(to_above * (A + B * by_move) * transpose(to_above));
+        B = to_above * (B * by_turn) * transpose(to_above);
+        C = symmetric(to_above * (C * by_turn) * transpose(to_above));
+        force = to_above * force;
+        orientation = above;
+    }
+}
+
+// From the root down: every segment's turn, and where it takes the vertices.
+void turnSegments() {
+    vec3 turn = vec3(0.0);
+    vec3 linear = vec3(0.0);  // how far small turns would take the vertex above
+    vec3 moved = vec3(0.0);   // and how far they do
+    for (uint i = 1; i < guides.vertices_per_strand; ++i) {
+        mat3 by_move;
+        mat3 by_turn;
+        vec3 by_itself;
+        for (uint k = 0; k < 3; ++k) {
+            vec4 row = scratchAt(i, k);
+            by_move[k] = row.xyz;
+            by_itself[k] = row.w;
+            by_turn[k] = scratchAt(i, 3 + k).xyz;
+        }
+        vec4 orientation = orientationAt(i);
+        mat3 to_space = matrixOf(orientation);
+        vec3 edge = restLength(i) * to_space[2];
+        vec3 own = by_move * (linear * to_space) + by_turn * (turn * to_space) + by_itself;
+        turn = to_space * own * (kMostTurn / max(length(own), kMostTurn));
+        linear += cross(turn, edge);
+        moved += gainOf(edge, turn);
+        storeVector(rod.motion, orientationIndex(i), turned(orientation, turn));
+        setScratch(i, 6, vec4(scratchAt(i, 6).xyz + moved, 0.0));
+        setScratch(i, 7, vec4(scratchAt(i, 7).xyz + turn, 0.0));
+    }
+}
+
+// Velocities and positions, and collisions: what they move turns segments and leaves misfits.
+void finish() {
+    State positions = State(guides.positions);
+    vec3 edges = vec3(0.0);  // from the root to here, without collisions
+    vec3 pushed_above = vec3(0.0);
+    float contact = 0.0;  // 1 from the first vertex that touches a body
+    for (uint i = 1; i < guides.vertices_per_strand; ++i) {
+        RodMotion motion = motionAt(i);
+        float len = restLength(i);
+        vec3 axis = axisOf(motion.orientation);
+        vec4 point = State(from.positions).at[root + i];
+        vec3 before = point.xyz;
+        edges += len * axis;
+        motion.angular_velocity += scratchAt(i, 7).xyz;
+        vec3 pushed = vec3(0.0);
+        if (!isPinned(i)) {
+            vec3 free = root_now + unit * edges;
+            bool touched = false;
+            vec3 held = pushOutOfBodies(
+                free, before, guides.bodies, push.frame, push.frame_before, touched);
+            if (touched) {
+                contact = 1.0;
+                pushed = (held - free) / unit;
+            }
+            motion.velocity += scratchAt(i, 6).xyz + pushed;
+            point.xyz = held;
+        }
+        positions.at[root + i] = point;
+        motion.misfit = vec3(0.0);
+        if (pushed != pushed_above) {
+            vec3 edge = len * axis + pushed - pushed_above;
+            if (unit * min(len, length(edge)) >= kShortestSegment) {
+                vec4 turn = rotationBetween(axis, normalize(edge));
+                motion.orientation = normalize(multiply(turn, motion.orientation));
+                motion.angular_velocity += 2.0 * turn.xyz;
+            }
+            motion.misfit = edge - len * axisOf(motion.orientation);
+        }
+        setMotion(i, motion);
+        State(guides.previous).at[root + i] = vec4(before, contact);
+        pushed_above = pushed;
+    }
+}
+
+void main() {
+    guides = GuideReference(push.guides).parameters;
+    from = GuideReference(push.from).parameters;
+    rod = RodReference(push.solver).parameters;
+    uint lane = workgroupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    strand = push.first_strand + lane;
+    if (lane >= rod.most_strands || strand >= guides.strand_count) return;  // no barrier follows
+
+    root = strand * guides.vertices_per_strand;
+    unit = Factors(rod.units).at[strand];
+    predict();
+    for (uint i = 0; i < rod.iterations; ++i) {
+        eliminate();
+        turnSegments();
+    }
+    finish();
+}
