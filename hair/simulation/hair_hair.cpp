@@ -18,7 +18,8 @@ namespace {
 using engine::Access;
 
 static_assert(sizeof(gpu::VolumeSample) == 32);
-static_assert(sizeof(gpu::VolumeParameters) == 68 && offsetof(gpu::VolumeParameters, origin) == 32);
+static_assert(sizeof(gpu::VolumeParameters) == 72 && offsetof(gpu::VolumeParameters, origin) == 32);
+static_assert(sizeof(gpu::VolumeBlock) == 8);
 static_assert(sizeof(gpu::VolumePush) == 52);
 
 // How far from the roots the grids reach, over the longest strand's length: the thesis's length
@@ -82,19 +83,31 @@ parametersOf(const groom::Groom& groom, const SimulationSettings& settings, cons
         .shares = 0,
         .samples = 0,
         .sums = 0,
-        .fastest = 0,
+        .blocks = 0,
         .origin = grid.origin,
         .cell = static_cast<float>(grid.cell),
         .resolution = grid.resolution,
         .crowded = static_cast<float>(double{contact.crowding} * meanRestDensity(groom, grid)),
         .friction = static_cast<float>(friction / whole),
         .repulsion = static_cast<float>(repulsion / grid.cell),
-        .greatest_repulsion = static_cast<float>(kGreatestPush * fastest / whole)};
+        .greatest_repulsion = static_cast<float>(kGreatestPush * fastest / whole),
+        .borrows = 0};
 }
 
+std::size_t cellCount(std::size_t side) { return gpu::kVolumeGrids * side * side * side; }
+
 std::size_t cellCount(const SimulationSettings& settings) {
-    const std::size_t side = settings.hair_hair.resolution;
-    return gpu::kVolumeGrids * side * side * side;
+    return cellCount(settings.hair_hair.resolution);
+}
+
+std::size_t blockCount(const SimulationSettings& settings) {
+    return cellCount(((settings.hair_hair.resolution - 1) >> gpu::kVolumeBlockBits) + 1);
+}
+
+// Whether two components of a sum are one integer of 64 bits, as in volume_splat_packed.comp: half
+// as many atomic operations.
+bool isPacked(const engine::Device& device) {
+    return device.has(engine::Feature::long_integers) && device.has(engine::Feature::long_atomics);
 }
 
 engine::ComputePipeline pipeline(const engine::Device& device, const char* shader) {
@@ -164,16 +177,21 @@ HairHair::HairHair(
           device, {.size = vertex_count_ * sizeof(gpu::VolumeSample), .name = "volume samples"}),
       sums_(
           device, {.size = cellCount(settings) * 4 * sizeof(std::int32_t), .name = "volume sums"}),
-      fastest_(device, {.size = sizeof(float), .name = "volume fastest"}),
+      blocks_(
+          device,
+          {.size = blockCount(settings) * sizeof(gpu::VolumeBlock), .name = "volume blocks"}),
       parameters_(device, {.size = sizeof(gpu::VolumeParameters), .name = "volume parameters"}),
       sample_(pipeline(device, "simulation/volume_sample.comp")),
-      splat_(pipeline(device, "simulation/volume_splat.comp")),
+      splat_(pipeline(
+          device, isPacked(device) ? "simulation/volume_splat_packed.comp"
+                                   : "simulation/volume_splat.comp")),
       force_(pipeline(device, "simulation/volume_force.comp")) {
     gpu::VolumeParameters parameters = parametersOf(groom, settings, step);
     parameters.shares = shares_.address();
     parameters.samples = samples_.address();
     parameters.sums = sums_.address();
-    parameters.fastest = fastest_.address();
+    parameters.blocks = blocks_.address();
+    parameters.borrows = isPacked(device) ? 1 : 0;
     engine::upload(device, std::as_bytes(std::span(&parameters, 1)), parameters_);
 }
 
@@ -187,7 +205,7 @@ void HairHair::record(
     // The grids may still be read by the step before.
     commands.barrier(Access::compute_write, Access::transfer_write);
     commands.fill(sums_, 0);
-    commands.fill(fastest_, 0);
+    commands.fill(blocks_, 0);
     commands.barrier(Access::transfer_write, Access::compute_write);
 
     commands.bind(sample_, push);
@@ -195,14 +213,14 @@ void HairHair::record(
         {{guides.positions, Access::compute_read},
          {guides.previous, Access::compute_read},
          {samples_, Access::compute_write},
-         {fastest_, Access::compute_write}});
+         {blocks_, Access::compute_write}});
     dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
 
     commands.barrier(Access::compute_write, Access::compute_write);
     commands.bind(splat_, push);
     commands.uses(
         {{samples_, Access::compute_read},
-         {fastest_, Access::compute_read},
+         {blocks_, Access::compute_read},
          {sums_, Access::compute_write}});
     dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
 
@@ -211,7 +229,7 @@ void HairHair::record(
     commands.bind(force_, push);
     commands.uses(
         {{samples_, Access::compute_read},
-         {fastest_, Access::compute_read},
+         {blocks_, Access::compute_read},
          {sums_, Access::compute_read},
          {guides.accelerations, Access::compute_write}});
     dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);

@@ -60,9 +60,11 @@ double meanRestDensity(const groom::Groom& groom, const VolumeGrid& grid);
 // A vertex counts where it will be at the end of the step by its velocity: this takes energy
 // from pressure waves instead of adding some. All of it is continuous in the vertices' places.
 //
-// Sums are integers (kVolumeOne is all of the groom, and all of it at the speed of the fastest
-// vertex), so they don't depend on the order of additions and can't overflow. A vertex's part in a
-// cell is rounded to 2^-30 of the groom.
+// Sums are integers, so they don't depend on the order of additions. Their fixed point is that of a
+// block of 4 x 4 x 4 cells: a unit is at most 2^-31 of the share M of all vertices that reach into
+// the block, and of momentum 2^-30 M V, where V is the greatest component of their velocities. So
+// sums can't overflow, and hair that is slow or sparse keeps its digits beside hair elsewhere that
+// is fast or dense. Of N vertices in a cell at most N / 2 units are lost by rounding.
 class HairHair {
 public:
     HairHair(
@@ -75,17 +77,17 @@ public:
     void record(
         engine::Commands& commands, const GuideAddresses& guides, const RigidMotion& later) const;
 
-    // int [grid][z][y][x][4]: momentum over fastest() and share, times kVolumeOne.
+    // gpu::VolumeParameters::sums and blocks.
     const engine::Buffer& sums() const { return sums_; }
-    // The greatest component of a velocity, float, m/s.
-    const engine::Buffer& fastest() const { return fastest_; }
+    const engine::Buffer& blocks() const { return blocks_; }
+    const engine::Buffer& parameters() const { return parameters_; }
 
 private:
     std::uint32_t vertex_count_;
     engine::Buffer shares_;
     engine::Buffer samples_;
     engine::Buffer sums_;
-    engine::Buffer fastest_;
+    engine::Buffer blocks_;
     engine::Buffer parameters_;  // gpu::VolumeParameters
     engine::ComputePipeline sample_;
     engine::ComputePipeline splat_;

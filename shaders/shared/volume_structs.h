@@ -4,9 +4,18 @@
 // What the host and the compute code of the contact of hair with hair share (hair_hair.h). Scalar
 // layout; addresses are device addresses.
 
-// The share 1, all of the groom's length, in the grid's fixed point: half the range of int. The
-// rest is for roundings.
-const uint kVolumeOne = 0x40000000u;
+// The grids' sums are in fixed point, whose scale is that of a block of cells: 4 x 4 x 4 of them,
+// which have all but the lowest two bits of their places in common.
+const uint kVolumeBlockBits = 2u;
+
+// The share 1, all of the groom's length, in units of VolumeBlock::share.
+const uint kVolumeBlockOne = 0x80000000u;
+
+// Of the vertices that add to any cell of a block.
+struct VolumeBlock {
+    uint share;    // the sum, each rounded up
+    uint fastest;  // bits of the greatest component of a velocity, m/s
+};
 
 // Grids, half a cell apart along each axis.
 const uint kVolumeGrids = 2u;
@@ -27,8 +36,8 @@ struct VolumeSample {
 struct VolumeParameters {
     Address shares;   // float [strand][vertex]
     Address samples;  // VolumeSample [strand][vertex]
-    Address sums;     // int [grid][z][y][x][4], fixed point: momentum over the fastest, share
-    Address fastest;  // uint: bits of the greatest component of a velocity, m/s
+    Address sums;     // int [grid][z][y][x][4], fixed point of the block: share, momentum
+    Address blocks;   // VolumeBlock [grid][z][y][x]
     vec3 origin;       // corner of the first grid on the head, m
     float cell;        // m
     uint resolution;   // cells a side
@@ -36,6 +45,7 @@ struct VolumeParameters {
     float friction;    // 1/s
     float repulsion;   // m/s^2
     float greatest_repulsion;  // m/s^2
+    uint borrows;  // 1: the last component of sums lacks 1 where the one before it is negative
 };
 
 // Push constants of every pass of the grid.

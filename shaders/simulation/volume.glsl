@@ -13,8 +13,7 @@
 
 layout(buffer_reference, scalar) readonly buffer VolumeReference { VolumeParameters parameters; };
 layout(buffer_reference, scalar) buffer Samples { VolumeSample at[]; };
-layout(buffer_reference, scalar) buffer Sums { int at[]; };
-layout(buffer_reference, scalar) buffer Fastest { uint bits; };
+layout(buffer_reference, scalar) buffer Blocks { VolumeBlock at[]; };
 
 // Cells that a vertex is spread over in a grid, and where they lie round the one that it is in.
 const uint kStencil = 27;
@@ -62,18 +61,62 @@ uint cellIndex(uint grid, ivec3 cell, uint resolution) {
     return ((grid * resolution + c.z) * resolution + c.y) * resolution + c.x;
 }
 
-// The factor from velocity times share to fixed point. `fastest` is no less than any component, so
-// the sum of all vertices fits.
-float momentumScale(float fastest) {
-    return fastest > 1.0e-20 ? float(kVolumeOne) / fastest : 0.0;
+uvec3 blockOf(ivec3 cell) { return uvec3(cell) >> kVolumeBlockBits; }
+
+uint blockIndex(uint grid, uvec3 block, uint resolution) {
+    return cellIndex(grid, ivec3(block), ((resolution - 1) >> kVolumeBlockBits) + 1);
 }
 
-// A vertex's share and momentum, for its weight in a cell to part. xyz momentum, w share.
-vec4 scaled(VolumeSample vertex, float momentum_scale) {
-    return vertex.share * vec4(vertex.velocity * momentum_scale, float(kVolumeOne));
+float powerOfTwo(int exponent) { return uintBitsToFloat(uint(exponent + 127) << 23); }
+
+// 1 / x of a power of two.
+float inverseOf(float power_of_two) {
+    return uintBitsToFloat((254u << 23) - floatBitsToUint(power_of_two));
 }
 
-// What a vertex adds to a cell, fixed point. `scaled_vertex` is from scaled().
-ivec4 fixedPoint(vec4 scaled_vertex, float weight) { return ivec4(round(weight * scaled_vertex)); }
+// A block's fixed point: the factors from share and from share times velocity. They are powers of
+// two, so that they round nothing, and are the same wherever they are worked out. No weight is
+// above (3/4)^3, so no sum is above 27/64 2^32: it fits an int with room for the roundings of
+// 6 10^8 vertices.
+vec2 scalesOf(VolumeBlock block) {
+    // Exponents of powers of two that are more than the share and than the fastest. Slower hair
+    // than 2^-62 m/s is no matter.
+    int share = findMSB(block.share) + 1 - 31;
+    int fastest = max(int(block.fastest >> 23) - 126, -62);
+    return vec2(powerOfTwo(32 - share), powerOfTwo(32 - share - fastest));
+}
+
+// The scales of the cells that a vertex in the cell `middle` is spread over. They lie in up to two
+// blocks along each axis.
+void findScales(
+    Blocks blocks, uint grid, ivec3 middle, uint resolution, out vec2 scales[kStencil]) {
+    uvec3 first = blockOf(middle - 1);
+    uvec3 last = blockOf(middle + 1);
+    vec2 corners[8];
+    [[unroll]] for (uint i = 0; i < 8; ++i) {
+        uvec3 block = mix(first, last, bvec3(i % 2 == 1, i / 2 % 2 == 1, i / 4 == 1));
+        corners[i] = scalesOf(blocks.at[blockIndex(grid, block, resolution)]);
+    }
+    bvec3 is_last[3] = bvec3[3](bvec3(false), equal(blockOf(middle), last), bvec3(true));
+    [[unroll]] for (uint z = 0; z < 3; ++z) {
+        vec2 slice[4];
+        [[unroll]] for (uint i = 0; i < 4; ++i)
+            slice[i] = is_last[z].z ? corners[4 + i] : corners[i];
+        [[unroll]] for (uint y = 0; y < 3; ++y) {
+            vec2 low = is_last[y].y ? slice[2] : slice[0];
+            vec2 high = is_last[y].y ? slice[3] : slice[1];
+            [[unroll]] for (uint x = 0; x < 3; ++x)
+                scales[(z * 3 + y) * 3 + x] = is_last[x].x ? high : low;
+        }
+    }
+}
+
+// Share and momentum of a vertex, in that order.
+vec4 partsOf(VolumeSample vertex) { return vertex.share * vec4(1.0, vertex.velocity); }
+
+// What a vertex adds to a cell. `parts` are from partsOf().
+ivec4 inFixedPoint(vec4 parts, float weight, vec2 scales) {
+    return ivec4(round((weight * scales).xyyy * parts));
+}
 
 #endif

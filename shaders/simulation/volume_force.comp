@@ -9,18 +9,17 @@ layout(local_size_x = kGuideGroupSize) in;
 
 layout(push_constant, scalar) uniform Push { VolumePush push; };
 
-float shareOf(int fixed_point) { return float(fixed_point) / float(kVolumeOne); }
+layout(buffer_reference, scalar) readonly buffer Cells { ivec4 at[]; };
+
+// Share and momentum of a cell, in its block's fixed point.
+ivec4 sumAt(VolumeParameters volume, uint cell) {
+    ivec4 sum = Cells(volume.sums).at[cell];
+    if (volume.borrows == 1 && sum.z < 0) ++sum.w;
+    return sum;
+}
 
 // The pressure's potential in a cell with that share in it, over the repulsion's setting.
-float potential(int fixed_point, float crowded) {
-    return log(max(shareOf(fixed_point) / crowded, 1.0));
-}
-
-ivec4 sumAt(VolumeParameters volume, uint grid, ivec3 cell) {
-    uint first = 4 * cellIndex(grid, cell, volume.resolution);
-    Sums sums = Sums(volume.sums);
-    return ivec4(sums.at[first], sums.at[first + 1], sums.at[first + 2], sums.at[first + 3]);
-}
+float potential(float share, float crowded) { return log(max(share / crowded, 1.0)); }
 
 void main() {
     VolumeParameters volume = VolumeReference(push.volume).parameters;
@@ -29,9 +28,8 @@ void main() {
     if (index >= guides.strand_count * guides.vertices_per_strand) return;  // no barrier follows
 
     Samples samples = Samples(volume.samples);
+    Blocks blocks = Blocks(volume.blocks);
     VolumeSample vertex = samples.at[index];
-    float fastest = uintBitsToFloat(Fastest(volume.fastest).bits);
-    float momentum_scale = momentumScale(fastest);
     uint root = index - index % guides.vertices_per_strand;
 
     vec3 dragged = vec3(0.0);  // m/s
@@ -39,6 +37,8 @@ void main() {
     for (uint grid = 0; grid < kVolumeGrids; ++grid) {
         vec3 point = onGrid(vertex.point, grid);
         ivec3 middle = ivec3(floor(point));
+        vec2 scales[kStencil];
+        findScales(blocks, grid, middle, volume.resolution, scales);
 
         // What the own strand has added to the cells.
         ivec4 own[kStencil];
@@ -48,23 +48,26 @@ void main() {
             vec3 away = abs(other.point - vertex.point);
             if (max(away.x, max(away.y, away.z)) > 3.0) continue;  // no cell in common
             Splines splines = splinesAt(onGrid(other.point, grid), middle);
-            vec4 whole = scaled(other, momentum_scale);
+            vec4 parts = partsOf(other);
             [[unroll]] for (uint i = 0; i < kStencil; ++i)
-                own[i] += fixedPoint(whole, weight(splines, i));
+                own[i] += inFixedPoint(parts, weight(splines, i), scales[i]);
         }
 
         Splines splines = splinesAt(point, middle);
         Splines slopes = slopesAt(point, middle);
         [[unroll]] for (uint i = 0; i < kStencil; ++i) {
-            ivec4 sum = sumAt(volume, grid, middle + stencilOffset(i));
+            ivec3 cell = middle + stencilOffset(i);
+            ivec4 sum = sumAt(volume, cellIndex(grid, cell, volume.resolution));
             ivec4 others = sum - own[i];
-            vec3 momentum = vec3(others.xyz) / float(kVolumeOne) * fastest;
+            float share_unit = inverseOf(scales[i].x);
+            vec3 momentum = inverseOf(scales[i].y) * vec3(others.yzw);
             // A cell without hair has none of the vertex's either.
             dragged += weight(splines, i) *
-                       (momentum - shareOf(others.w) * vertex.velocity) / shareOf(max(sum.w, 1));
-            pushed -=
-                (potential(sum.w, volume.crowded) - potential(own[i].w, volume.crowded)) *
-                weightGradient(splines, slopes, i);
+                       (momentum - share_unit * float(others.x) * vertex.velocity) /
+                       (share_unit * float(max(sum.x, 1)));
+            pushed -= (potential(share_unit * float(sum.x), volume.crowded) -
+                       potential(share_unit * float(own[i].x), volume.crowded)) *
+                      weightGradient(splines, slopes, i);
         }
     }
     dragged /= float(kVolumeGrids);

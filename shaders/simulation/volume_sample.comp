@@ -1,6 +1,6 @@
 #version 460
-// Guide vertices in the grid's coordinates, and the greatest component of their velocities; one
-// invocation per vertex.
+// Guide vertices in the grid's coordinates, and what the fixed point of each block of cells has to
+// hold of them; one invocation per vertex.
 #extension GL_GOOGLE_include_directive : require
 
 #include "simulation/volume.glsl"
@@ -9,33 +9,47 @@ layout(local_size_x = kGuideGroupSize) in;
 
 layout(push_constant, scalar) uniform Push { VolumePush push; };
 
-shared uint fastest_of_group;
+// Adds a vertex to the blocks that its 3 x 3 x 3 cells lie in.
+void addToBlocks(VolumeParameters volume, VolumeSample vertex) {
+    Blocks blocks = Blocks(volume.blocks);
+    vec3 size = abs(vertex.velocity);
+    // Floats that are not negative are in the order of their bits.
+    uint speed = floatBitsToUint(max(size.x, max(size.y, size.z)));
+    uint share = uint(ceil(vertex.share * float(kVolumeBlockOne)));
+    for (uint grid = 0; grid < kVolumeGrids; ++grid) {
+        ivec3 middle = ivec3(floor(onGrid(vertex.point, grid)));
+        uvec3 first = blockOf(middle - 1);
+        uvec3 last = blockOf(middle + 1);
+        for (uint z = first.z; z <= last.z; ++z)
+            for (uint y = first.y; y <= last.y; ++y)
+                for (uint x = first.x; x <= last.x; ++x) {
+                    uint block = blockIndex(grid, uvec3(x, y, z), volume.resolution);
+                    atomicAdd(blocks.at[block].share, share);
+                    // It only grows: an old value asks for an atomic operation too many at worst.
+                    if (blocks.at[block].fastest < speed)
+                        atomicMax(blocks.at[block].fastest, speed);
+                }
+    }
+}
 
 void main() {
     VolumeParameters volume = VolumeReference(push.volume).parameters;
     GuideParameters guides = GuideReference(push.guides).parameters;
     uint index = workgroupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    if (gl_LocalInvocationID.x == 0) fastest_of_group = 0;
-    barrier();
-    if (index < guides.strand_count * guides.vertices_per_strand) {
-        vec3 position = State(guides.positions).at[index].xyz;
-        vec3 moved = position - State(guides.previous).at[index].xyz;
-        vec3 later = fromWorld(push.frame, position + float(guides.step.count) * moved);
-        vec3 velocity = moved / guides.step.sub;
+    if (index >= guides.strand_count * guides.vertices_per_strand) return;  // no barrier follows
 
-        VolumeSample vertex;
-        // Hair that is stretched beyond its reach counts at the grid's edge.
-        vertex.point = clamp(
-            (later - volume.origin) / volume.cell, vec3(kVolumeMargin),
-            vec3(float(volume.resolution - kVolumeMargin) - 0.001));
-        vertex.share = Factors(volume.shares).at[index];
-        vertex.velocity = velocity;
-        vertex.unused = 0.0;
-        Samples(volume.samples).at[index] = vertex;
-        // Floats that are not negative are in the order of their bits.
-        vec3 size = abs(velocity);
-        atomicMax(fastest_of_group, floatBitsToUint(max(size.x, max(size.y, size.z))));
-    }
-    barrier();
-    if (gl_LocalInvocationID.x == 0) atomicMax(Fastest(volume.fastest).bits, fastest_of_group);
+    vec3 position = State(guides.positions).at[index].xyz;
+    vec3 moved = position - State(guides.previous).at[index].xyz;
+    vec3 later = fromWorld(push.frame, position + float(guides.step.count) * moved);
+
+    VolumeSample vertex;
+    // Hair that is stretched beyond its reach counts at the grid's edge.
+    vertex.point = clamp(
+        (later - volume.origin) / volume.cell, vec3(kVolumeMargin),
+        vec3(float(volume.resolution - kVolumeMargin) - 0.001));
+    vertex.share = Factors(volume.shares).at[index];
+    vertex.velocity = moved / guides.step.sub;
+    vertex.unused = 0.0;
+    Samples(volume.samples).at[index] = vertex;
+    addToBlocks(volume, vertex);
 }

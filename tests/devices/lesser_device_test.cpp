@@ -277,6 +277,27 @@ TEST_F(LesserDevice, RodMovesStrandsTheSameOnAnyDevice) {
     EXPECT_EQ(played(32), whole);
 }
 
+// Sums are of integers: the same whether two of them are added at once or each by itself.
+TEST_F(LesserDevice, HairFeelsHairTheSameWithoutAtomicsOnLongIntegers) {
+    hair::SimulationSettings settings = hair::simulation::windy();
+    settings.hair_hair = {.friction = 0.3f, .repulsion = 0.3f, .crowding = 0.5f, .resolution = 32};
+    const hair::groom::Groom groom = hair::simulation::wavyGroom(100, 9);
+    const auto played = [&] {
+        hair::simulation::Simulation simulation(device(), groom, settings, 3);
+        hair::simulation::advance(device(), simulation, 10);
+        return simulation.readPositions();
+    };
+    const std::vector<glm::vec3> there = played();
+    for (const std::vector<Feature>& missing :
+         {std::vector{Feature::long_atomics}, std::vector{Feature::long_integers},
+          engine::allFeatures()}) {
+        make(without(missing));
+        EXPECT_EQ(played(), there);
+    }
+    settings.hair_hair = {};
+    EXPECT_NE(played(), there);
+}
+
 TEST_F(LesserDevice, DrawsEverythingButStrandsWithoutAnyFeature) {
     hair::Settings settings = onlyGuides();
     settings.shading.shadows.meshes = true;
@@ -357,7 +378,7 @@ TEST_F(LesserDevice, BindsAnyNumberOfImagesWithoutPushDescriptors) {
 TEST(ShaderCapabilities, AreThoseThatFeaturesStandFor) {
     constexpr std::uint32_t kCapability = 17;  // the operation
     constexpr std::uint32_t kShader = 1, kGeometry = 2, kTessellation = 3, kLongIntegers = 11,
-                            kImageQuery = 50, kPhysicalAddresses = 5347;
+                            kLongAtomics = 12, kImageQuery = 50, kPhysicalAddresses = 5347;
     for (const std::string_view path : engine::shaderPaths())
         engine::forEachDeclaration(
             engine::shaderCode(path), [&](engine::SpirvInstruction instruction) {
@@ -368,6 +389,8 @@ TEST(ShaderCapabilities, AreThoseThatFeaturesStandFor) {
                     return;
                 if (path == "simulation/shape_packed.comp" || path == "simulation/rod_packed.comp")
                     EXPECT_EQ(capability, kLongIntegers) << path;
+                else if (path == "simulation/volume_splat_packed.comp")
+                    EXPECT_TRUE(capability == kLongIntegers || capability == kLongAtomics) << path;
                 else if (path.ends_with(".geom"))
                     EXPECT_EQ(capability, kGeometry) << path;
                 else if (path.ends_with(".tesc") || path.ends_with(".tese"))

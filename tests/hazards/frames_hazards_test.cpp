@@ -182,7 +182,7 @@ void missEach(
 
 TEST_F(FramesHazards, EachBarrierThatIsTakenOutIsMissed) {
     const std::vector<Missed> missed{
-        {"volume", 1, "volume fastest"},  // cleared
+        {"volume", 1, "volume blocks"},  // cleared
         {"volume", 2, "volume samples"},
         {"volume", 3, "volume sums"},
         {"pull", 0, "guide accelerations"},  // by hair on hair
@@ -261,13 +261,13 @@ TEST_F(FramesHazards, EachBarrierOfSeveralStepsIsMissed) {
     missEach(
         device(), settings,
         {{"volume", 0, "volume sums"},  // still read by the frame before
-         {"volume", 1, "volume fastest"},  // cleared
+         {"volume", 1, "volume blocks"},  // cleared
          {"volume", 2, "volume samples"},
          {"volume", 3, "volume sums"},
          {"simulate", 0, "guide accelerations"},
          {"simulate", 2, "guide positions"},
          {"volume", 4, "volume sums"},  // still read by the step before
-         {"volume", 5, "volume fastest"},
+         {"volume", 5, "volume blocks"},
          {"volume", 6, "volume samples"},
          {"volume", 7, "volume sums"},
          {"simulate", 4, "guide accelerations"},

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -84,12 +88,28 @@ public:
     // The grids of the last accelerations(), [grid][z][y][x].
     std::vector<Sum> sums() const {
         const auto fixed = engine::downloadAs<std::int32_t>(device_, hair_hair_.sums());
-        const double fastest = engine::downloadAs<float>(device_, hair_hair_.fastest())[0];
+        const auto blocks = engine::downloadAs<gpu::VolumeBlock>(device_, hair_hair_.blocks());
+        const auto parameters =
+            engine::downloadAs<gpu::VolumeParameters>(device_, hair_hair_.parameters());
+        const std::size_t side = settings_.hair_hair.resolution;
+        const std::size_t blocks_of_side = (side + 3) / 4;
         std::vector<Sum> result;
-        for (std::size_t i = 0; i < fixed.size(); i += 4) {
-            const glm::dvec3 momentum(fixed[i], fixed[i + 1], fixed[i + 2]);
+        for (std::size_t cell = 0; cell < fixed.size() / 4; ++cell) {
+            const std::size_t grid_and_z = cell / side / side;
+            const std::size_t z = grid_and_z / side * blocks_of_side + grid_and_z % side / 4;
+            const std::size_t y = z * blocks_of_side + cell / side % side / 4;
+            const gpu::VolumeBlock& block = blocks[y * blocks_of_side + cell % side / 4];
+            // The powers of two that are more than the share and than the speed.
+            const double share = std::exp2(std::bit_width(block.share));
+            int speed = 0;
+            (void)std::frexp(std::bit_cast<float>(block.fastest), &speed);
+            const double share_unit = share / gpu::kVolumeBlockOne * 0x1p-32;
+            const double momentum_unit = std::ldexp(share_unit, std::max(speed, -62));
+            const std::int32_t* sum = &fixed[4 * cell];
+            const int borrowed = parameters[0].borrows == 1 && sum[2] < 0 ? 1 : 0;
             result.push_back(
-                {fastest / gpu::kVolumeOne * momentum, double(fixed[i + 3]) / gpu::kVolumeOne});
+                {momentum_unit * glm::dvec3(sum[1], sum[2], sum[3] + borrowed),
+                 share_unit * sum[0]});
         }
         return result;
     }
