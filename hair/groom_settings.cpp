@@ -200,7 +200,7 @@ const Table& tableOf(const GroomSettings*) {
              "vertices per strand that the file is resampled to, 0 or at least 2; 0: as many as "
              "its longest strand has"),
          number(
-             "guides", &S::guides, 0, 200000, "count",
+             "guides", &S::guides, 0, 1000000, "count",
              "guides to grow, or to choose from the file; 0: all of the file's strands, or 86 "
              "grown ones"),
          group("grow", &S::grow, "guides grown on a scalp"),

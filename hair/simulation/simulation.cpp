@@ -77,8 +77,10 @@ Simulation::Simulation(
     checkPulls(settings.pulls, strand_count_, vertices_per_strand_);
     if (hasPulls()) pulls_.emplace(pullPassOf(settings));
     if (hairActsOnHair(settings)) hair_hair_.emplace(device, groom, settings, step_);
+    const RigidMotion placed = pose();
     std::vector<glm::vec3> start;
-    for (const glm::vec3& point : groom.points) start.emplace_back(pose()(point));
+    start.reserve(groom.points.size());
+    for (const glm::vec3& point : groom.points) start.emplace_back(placed(point));
     setState(start, start);
     settle(settings.settle_steps);
 

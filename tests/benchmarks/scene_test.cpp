@@ -152,7 +152,7 @@ const BadScene kBadFields[] = {
     {R"({"render": {"msaa": "x"}})", ": /render/msaa: expected an integer, found the string \"x\""},
     {R"({"strands": {"density": 0}})", ": /strands/density: 0 is outside [1, 4096] count"},
     {R"({"strands": {"density": -1}})", ": /strands/density: -1 is outside [1, 4096] count"},
-    {R"({"groom": {"guides": 300000}})", ": /groom/guides: 300000 is outside [0, 200000] count"},
+    {R"({"groom": {"guides": 1300000}})", ": /groom/guides: 1300000 is outside [0, 1000000] count"},
     {R"({"seed": 4294967296})", ": /seed: 4294967296 is outside [0, 4294967295]"},
     {R"({"simulation": {"friction": 1.5}})", ": /simulation/friction: 1.5 is outside [0, 1]"},
     {R"({"simulation": {"time_step": 1e-9}})",
