@@ -32,9 +32,9 @@ const uint kRodScratchRows = 8u;
 // Parameters of simulation/rod.comp and simulation/rod_adopt.comp.
 struct RodParameters {
     Address segments;  // vec4 [vertex][kRodSegmentRows][strand]
-    Address units;     // float [strand], m
-    Address motion;    // vec4 [vertex][kRodMotionRows][strand]
-    Address scratch;   // vec4 [vertex][kRodScratchRows][strand of the dispatch]
+    Address units;  // float [strand], m
+    Address motion;  // vec4 [vertex][kRodMotionRows][strand]
+    Address scratch;  // vec4 [vertex][kRodScratchRows][strand of the dispatch]
     uint most_strands;  // of a dispatch
     uint iterations;
 };
