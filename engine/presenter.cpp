@@ -315,7 +315,7 @@ Presenter::Presenter(const Device& device, const Window& window, PresentMode mod
 
 Presenter::~Presenter() {
     vkQueueWaitIdle(device_.queue());
-    for (const auto& old : old_) old->finish();
+    for (const OldSwapchain& old : old_) old.swapchain->finish();
     if (swapchain_) swapchain_->finish();
     old_.clear();
     swapchain_.reset();
@@ -350,20 +350,24 @@ void Presenter::wait() {
 // Another swapchain is made for the next picture.
 void Presenter::retire() {
     if (!swapchain_) return;
-    old_.push_back(std::move(swapchain_));
+    old_.push_back({.swapchain = std::move(swapchain_), .frames = frames_});
     // A window that is being resized gets other images before any come back.
     constexpr std::size_t kMostOld = 4;
     if (old_.size() <= kMostOld) return;
     check(vkQueueWaitIdle(device_.queue()), "wait for the device");
-    old_.front()->finish();
+    old_.front().swapchain->finish();
     old_.erase(old_.begin());
 }
 
 // Of what a present waits for and shows nothing may go before it is over. A fence says when; where
 // there are none, an image that comes back was shown, and with it all that was to be shown earlier.
+// A frame that was submitted after the present is over, too: who watches the queue from outside, as
+// validation layers do, may not know that fence.
 void Presenter::dropRetired() {
     if (device_.has(Feature::present_fences))
-        std::erase_if(old_, [](const auto& old) { return old->isDone(); });
+        std::erase_if(old_, [this](const OldSwapchain& old) {
+            return old.frames < frames_ && old.swapchain->isDone();
+        });
     else if (swapchain_->cameBack())
         old_.clear();
 }
@@ -379,7 +383,7 @@ bool Presenter::prepare() {
     if (!fits) {
         retire();
         swapchain_ = std::make_unique<Swapchain>(
-            device_, surface_, extent, mode_, old_.empty() ? nullptr : old_.back().get());
+            device_, surface_, extent, mode_, old_.empty() ? nullptr : old_.back().swapchain.get());
     }
     const VkExtent2D canvas = canvas_ ? canvas_->extent() : VkExtent2D{};
     if (canvas.width != swapchain_->extent().width ||
@@ -464,6 +468,7 @@ void Presenter::submit(std::uint32_t index) {
     info.pSignalSemaphoreInfos = &drawn;
     check(vkQueueSubmit2(device_.queue(), 1, &info, done_.get()), "submit the window's picture");
     pending_ = true;
+    ++frames_;
 }
 
 Presenter::Picture Presenter::picture() const {

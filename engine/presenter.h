@@ -141,11 +141,16 @@ private:
     DescriptorSets sets_;
     Handle<VkFence, &vkDestroyFence> done_;
     Handle<VkSemaphore, &vkDestroySemaphore> acquired_;
-    std::vector<std::unique_ptr<Swapchain>> old_;
+    struct OldSwapchain {
+        std::unique_ptr<Swapchain> swapchain;
+        std::uint64_t frames;  // that were submitted before it was retired
+    };
+    std::vector<OldSwapchain> old_;
     std::unique_ptr<Swapchain> swapchain_;
     std::optional<Image> canvas_;
     std::optional<Timestamps> timestamps_;
     bool pending_ = false;
+    std::uint64_t frames_ = 0;  // that were submitted
     std::uint64_t submission_ = 0;  // the pending one, as HazardLog counts
     double milliseconds_ = 0.0;
 };
