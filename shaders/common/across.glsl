@@ -2,14 +2,7 @@
 #ifndef HAIRBENCH_ACROSS_GLSL
 #define HAIRBENCH_ACROSS_GLSL
 
-// A unit vector across a unit vector, always the same one.
-vec3 anyAcross(vec3 unit) {
-    vec3 size = abs(unit);
-    vec3 axis = size.x <= size.y && size.x <= size.z ? vec3(1.0, 0.0, 0.0)
-                : size.y <= size.z                   ? vec3(0.0, 1.0, 0.0)
-                                                     : vec3(0.0, 0.0, 1.0);
-    return normalize(cross(unit, axis));
-}
+#include "common/quaternion.glsl"
 
 // The unit vector along `direction`, or where that has no length `otherwise`.
 vec3 unitOr(vec3 direction, vec3 otherwise) {
@@ -21,7 +14,7 @@ vec3 unitOr(vec3 direction, vec3 otherwise) {
 vec3 unitSide(vec3 to_eye, vec3 tangent) {
     vec3 side = cross(to_eye, tangent);
     if (dot(side, side) > 1e-14) return normalize(side);
-    return anyAcross(tangent);
+    return perpendicular(tangent);
 }
 
 // The vector of this length along E x T, of vectors of any length; where they are parallel any
@@ -30,7 +23,7 @@ vec3 sideOfLength(vec3 to_eye, vec3 tangent, float size) {
     vec3 side = cross(to_eye, tangent);
     float squared = dot(side, side);
     if (squared > 1e-30) return side * (size * inversesqrt(squared));
-    return size * anyAcross(unitOr(tangent, vec3(0.0, 1.0, 0.0)));
+    return size * perpendicular(unitOr(tangent, vec3(0.0, 1.0, 0.0)));
 }
 
 #endif

@@ -3,8 +3,8 @@
 // Wang, Juettler, Zheng and Liu 2008, Computation of rotation minimizing frames, table I. One
 // invocation per guide.
 #extension GL_GOOGLE_include_directive : require
-#include "common/across.glsl"
 #include "common/picture.glsl"
+#include "common/quaternion.glsl"
 
 layout(local_size_x = kFramesGroupSize) in;
 layout(push_constant, scalar) uniform Push { FramesPush push; };
@@ -30,7 +30,7 @@ vec3 vertexTangent(uint first, uint vertex, vec3 before) {
 vec3 unitAcross(vec3 normal, vec3 tangent) {
     vec3 part = normal - dot(normal, tangent) * tangent;
     float size = length(part);
-    return size > kShortest ? part / size : anyAcross(tangent);
+    return size > kShortest ? part / size : perpendicular(tangent);
 }
 
 // A vector across `from`, turned as the smallest rotation turns `from` to `to`.
