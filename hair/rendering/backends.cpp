@@ -39,11 +39,24 @@ engine::GraphicsDescription strandPipeline(const BackendContext& context) {
         .sampled_images = output.sampled_images};
 }
 
+// The geometry stage that makes the quads.
+std::string geometryShader(QuadKind quads) {
+    return quads == QuadKind::camera ? "strands/strand.geom" : "shadows/hair.geom";
+}
+
+// Says that what is drawn next evaluates the picture's strands (Commands::uses).
+void declareStrands(engine::Commands& commands, const gpu::PictureParameters& picture) {
+    using engine::Access;
+    commands.uses(
+        {{picture.guides, Access::vertex_read},
+         {picture.contacts, Access::vertex_read},
+         {picture.guide_normals, Access::vertex_read}});
+}
+
 // No strand at all.
 class EmptyBackend : public StrandBackend {
 public:
-    void
-    draw(engine::Commands&, std::uint64_t, std::span<const engine::SampledImage>) const override {}
+    void draw(engine::Commands&, const StrandPicture&) const override {}
 
     std::optional<ExpectedCounts> expected() const override { return std::nullopt; }
 };
@@ -55,11 +68,10 @@ public:
     explicit PullingGeometryBackend(const BackendContext& context)
         : vertices_(vertexCount(context.plan)), pipeline_(context.device, describe(context)) {}
 
-    void draw(
-        engine::Commands& commands, std::uint64_t picture,
-        std::span<const engine::SampledImage> images) const override {
-        commands.bind(pipeline_, gpu::StrandPush{.picture = picture});
-        commands.images(pipeline_, images);
+    void draw(engine::Commands& commands, const StrandPicture& picture) const override {
+        declareStrands(commands, picture.parameters);
+        commands.bind(pipeline_, gpu::StrandPush{.picture = picture.address});
+        commands.images(pipeline_, picture.images);
         commands.draw({.vertices = vertices_});
     }
 
@@ -80,7 +92,7 @@ private:
         context.device.require(engine::Feature::geometry, "/strands/backend: pulling_geometry");
         engine::GraphicsDescription description = strandPipeline(context);
         description.shaders = {
-            "strands/pulling.vert", context.output.geometry, context.output.fragment};
+            "strands/pulling.vert", geometryShader(context.output.quads), context.output.fragment};
         description.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
         return description;
     }
@@ -106,7 +118,7 @@ std::vector<std::string> stageShaders(const BackendContext& context) {
         context.device.require(engine::Feature::geometry, "/strands/backend: tessellation");
         shaders.push_back(
             stages.watched == StrandStage::geometry ? "strands/watched/strand.geom"
-                                                    : context.output.geometry);
+                                                    : geometryShader(context.output.quads));
     }
     if (stages.last >= StrandStage::fragment) shaders.push_back(context.output.fragment);
     return shaders;
@@ -124,14 +136,13 @@ public:
         assert(watch_ != 0 || !context.stages.watched);
     }
 
-    void draw(
-        engine::Commands& commands, std::uint64_t picture,
-        std::span<const engine::SampledImage> images) const override {
+    void draw(engine::Commands& commands, const StrandPicture& picture) const override {
+        declareStrands(commands, picture.parameters);
         if (watch_ != 0)
-            commands.bind(pipeline_, gpu::WatchedPush{.picture = picture, .watch = watch_});
+            commands.bind(pipeline_, gpu::WatchedPush{.picture = picture.address, .watch = watch_});
         else
-            commands.bind(pipeline_, gpu::StrandPush{.picture = picture});
-        commands.images(pipeline_, images);
+            commands.bind(pipeline_, gpu::StrandPush{.picture = picture.address});
+        commands.images(pipeline_, picture.images);
         for (const engine::Draw& draw : draws_) commands.draw(draw);
     }
 
@@ -188,14 +199,6 @@ std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext
     if (backend != Backend::tessellation && context.stages != StrandStages{})
         throw engine::Unsupported("/strands/backend", "only tessellation's stages can be left out");
     return row->make(context);
-}
-
-void declareStrands(engine::Commands& commands, const gpu::PictureParameters& picture) {
-    using engine::Access;
-    commands.uses(
-        {{picture.guides, Access::vertex_read},
-         {picture.contacts, Access::vertex_read},
-         {picture.guide_normals, Access::vertex_read}});
 }
 
 engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan) {

@@ -40,25 +40,39 @@ struct StrandStages {
 // Whether primitives end before they are rasterised.
 inline bool discards(const StrandStages& stages) { return stages.last < StrandStage::raster; }
 
+// A picture of strands, by the camera or a light.
+struct StrandPicture {
+    std::uint64_t address = 0;  // of `parameters` on the device
+    const gpu::PictureParameters& parameters;
+    std::span<const engine::SampledImage> images{};  // as many as StrandOutput says
+};
+
 // Draws all strands of a picture into the target that is being rendered to. Every back end draws
 // the same strands; they differ in the pipeline stages that make them.
 class StrandBackend {
 public:
     virtual ~StrandBackend() = default;
 
-    // `picture` is the device address of the picture's gpu::PictureParameters; `images` are as many
-    // as StrandOutput says.
-    virtual void draw(
-        engine::Commands& commands, std::uint64_t picture,
-        std::span<const engine::SampledImage> images) const = 0;
+    // Records what draw() needs of the picture, before rendering begins.
+    virtual void prepare(engine::Commands&, const StrandPicture&) const {}
+
+    // Records the draws; within rendering, after prepare() of the same picture.
+    virtual void draw(engine::Commands& commands, const StrandPicture& picture) const = 0;
 
     // What the pipeline statistics of draw() must be; absent where the back end has no such stages.
     virtual std::optional<ExpectedCounts> expected() const = 0;
 };
 
+// What strands' quads face, and so what is known at their corners.
+enum class QuadKind {
+    camera,  // the eye; what strands/fragment.glsl shades
+    light,  // a light; at least a texel of its map wide, with the share that the strand covers of
+            // it
+};
+
 // What becomes of strands' quads: the last stages of the pipeline and what they write to.
 struct StrandOutput {
-    std::string geometry = "strands/strand.geom";
+    QuadKind quads = QuadKind::camera;
     std::string fragment;
     std::vector<engine::ColorTarget> colors;
     VkFormat depth_format = engine::Target::kDepthFormat;
@@ -78,9 +92,6 @@ struct BackendContext {
 
 // Throws engine::Unsupported for stages that the back end or the device doesn't have.
 std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext& context);
-
-// Says that what is drawn next evaluates the picture's strands (Commands::uses).
-void declareStrands(engine::Commands& commands, const gpu::PictureParameters& picture);
 
 // The specialization constants of every shader that includes strands/strand.glsl.
 engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan);

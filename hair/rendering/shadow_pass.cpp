@@ -308,16 +308,16 @@ ShadowPass::ShadowPass(
         with_output.output = output;
         return makeBackend(settings.strands.backend, with_output);
     };
-    depth_ = backend({.geometry = "shadows/hair.geom", .fragment = "shadows/depth.frag"});
+    depth_ = backend({.quads = QuadKind::light, .fragment = "shadows/depth.frag"});
     opacity_ = backend(
-        {.geometry = "shadows/hair.geom",
+        {.quads = QuadKind::light,
          .fragment = "shadows/opacity.frag",
          .colors = {{kLayerFormat, engine::Blend::add}},
          .depth_format = VK_FORMAT_UNDEFINED,
          .sampled_images = 1});
 }
 
-std::vector<std::uint64_t> ShadowPass::writeParameters(
+std::vector<ShadowPass::LightPicture> ShadowPass::writeParameters(
     std::uint32_t slot, const StrandView& view, const gpu::PictureParameters& of) {
     const ShadowSettings& shadows = settings_.shading.shadows;
     gpu::ShadowParameters parameters{};
@@ -328,7 +328,7 @@ std::vector<std::uint64_t> ShadowPass::writeParameters(
     const float margin = std::max(shadows.softness, 0.5f) + 1.0f;
     const ShadowBounds bounds = scene_.bounds(view);
     std::vector<std::byte> pictures(lights_.size() * kPictureStride);
-    std::vector<std::uint64_t> addresses;
+    std::vector<LightPicture> seen_pictures;
     for (std::uint32_t i = 0; i < lights_.size(); ++i) {
         const std::uint32_t light = lights_[i];
         const LightView seen =
@@ -352,37 +352,45 @@ std::vector<std::uint64_t> ShadowPass::writeParameters(
                           light * sizeof(gpu::ShadowMap);
         const std::size_t place = i * kPictureStride;
         std::memcpy(&pictures[place], &picture, sizeof picture);
-        addresses.push_back(pictures_[slot].address() + place);
+        seen_pictures.push_back({pictures_[slot].address() + place, picture});
     }
     parameters_[slot].write(parameters);
     pictures_[slot].write(std::span<const std::byte>(pictures));
-    return addresses;
+    return seen_pictures;
 }
 
 void ShadowPass::drawMeshes(
     engine::Commands& commands, const SceneMeshes& meshes,
-    std::span<const std::uint64_t> pictures) const {
+    std::span<const LightPicture> pictures) const {
     toDraw(commands, mesh_depths_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
     engine::beginRendering(
         commands, {}, engine::Attachment{&mesh_depths_, engine::Load::clear, {engine::kFarDepth}});
     for (std::uint32_t i = 0; i < pictures.size(); ++i) {
         engine::setArea(commands, atlas_.part(i));
-        meshes.drawDepth(commands, pictures[i]);
+        meshes.drawDepth(commands, pictures[i].address);
     }
     engine::endRendering(commands);
     toRead(commands, mesh_depths_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
 }
 
 void ShadowPass::drawHair(
-    engine::Commands& commands, const gpu::PictureParameters& picture,
-    std::span<const std::uint64_t> pictures) const {
+    engine::Commands& commands, std::span<const LightPicture> pictures) const {
+    const auto drawn = [&](const LightPicture& picture, std::size_t images) {
+        return StrandPicture{
+            .address = picture.address,
+            .parameters = picture.parameters,
+            .images = std::span(images_).subspan(1, images)};
+    };
+    for (const LightPicture& picture : pictures) {
+        depth_->prepare(commands, drawn(picture, 0));
+        opacity_->prepare(commands, drawn(picture, 1));
+    }
     toDraw(commands, hair_depths_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
     engine::beginRendering(
         commands, {}, engine::Attachment{&hair_depths_, engine::Load::clear, {engine::kFarDepth}});
-    declareStrands(commands, picture);
     for (std::uint32_t i = 0; i < pictures.size(); ++i) {
         engine::setArea(commands, atlas_.part(i));
-        depth_->draw(commands, pictures[i], {});
+        depth_->draw(commands, drawn(pictures[i], 0));
     }
     engine::endRendering(commands);
     toRead(commands, hair_depths_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
@@ -390,10 +398,9 @@ void ShadowPass::drawHair(
     toDraw(commands, hair_layers_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
     const engine::Attachment layers{&hair_layers_, engine::Load::clear, {}};
     engine::beginRendering(commands, std::span(&layers, 1), std::nullopt);
-    declareStrands(commands, picture);
     for (std::uint32_t i = 0; i < pictures.size(); ++i) {
         engine::setArea(commands, atlas_.part(i));
-        opacity_->draw(commands, pictures[i], std::span(images_).subspan(1, 1));
+        opacity_->draw(commands, drawn(pictures[i], 1));
     }
     engine::endRendering(commands);
     toRead(commands, hair_layers_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
@@ -403,7 +410,7 @@ void ShadowPass::record(
     engine::Passes& passes, const SceneMeshes& meshes, const StrandView& view,
     const gpu::PictureParameters& picture) {
     if (lights_.empty()) return;
-    const std::vector<std::uint64_t> pictures = writeParameters(passes.slot(), view, picture);
+    const std::vector<LightPicture> pictures = writeParameters(passes.slot(), view, picture);
     if (mesh_maps_) {
         passes.pass("mesh_shadow", engine::PassKind::graphics, [&](engine::Commands& commands) {
             drawMeshes(commands, meshes, pictures);
@@ -411,7 +418,7 @@ void ShadowPass::record(
     }
     if (hair_maps_) {
         passes.pass("hair_shadow", engine::PassKind::graphics, [&](engine::Commands& commands) {
-            drawHair(commands, picture, pictures);
+            drawHair(commands, pictures);
         });
     }
 }

@@ -90,15 +90,17 @@ public:
     std::span<const engine::SampledImage> images() const { return images_; }
 
 private:
-    // Returns the addresses of the pictures that the lights see, gpu::PictureParameters.
-    std::vector<std::uint64_t>
+    // What a light sees.
+    struct LightPicture {
+        std::uint64_t address;  // of `parameters` on the device
+        gpu::PictureParameters parameters;
+    };
+    std::vector<LightPicture>
     writeParameters(std::uint32_t slot, const StrandView& view, const gpu::PictureParameters& of);
     void drawMeshes(
         engine::Commands& commands, const SceneMeshes& meshes,
-        std::span<const std::uint64_t> pictures) const;
-    void drawHair(
-        engine::Commands& commands, const gpu::PictureParameters& picture,
-        std::span<const std::uint64_t> pictures) const;
+        std::span<const LightPicture> pictures) const;
+    void drawHair(engine::Commands& commands, std::span<const LightPicture> pictures) const;
 
     Settings settings_;
     ShadowScene scene_;

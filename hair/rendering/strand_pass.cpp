@@ -50,10 +50,11 @@ public:
 
     void record(
         engine::Passes& passes, const engine::Target& target,
-        const std::function<void(engine::Commands&)>& draw) const override {
+        const RecordedStrands& strands) const override {
         passes.pass("strands", engine::PassKind::graphics, [&](engine::Commands& commands) {
+            strands.prepare(commands);
             target.beginRendering(commands, engine::Load::keep, {});
-            draw(commands);
+            strands.draw(commands);
             target.endRendering(commands);
         });
     }
@@ -88,13 +89,14 @@ public:
 
     void record(
         engine::Passes& passes, const engine::Target& target,
-        const std::function<void(engine::Commands&)>& draw) const override {
+        const RecordedStrands& strands) const override {
         passes.pass("strands", engine::PassKind::graphics, [&](engine::Commands& commands) {
+            strands.prepare(commands);
             target.beginRendering(commands, engine::Load::keep, {});
             target.endRendering(commands);
             const VkRect2D area{{0, 0}, target.color().extent()};
             engine::beginRendering(commands, {}, std::nullopt, area);
-            draw(commands);
+            strands.draw(commands);
             engine::endRendering(commands);
         });
     }
@@ -154,9 +156,9 @@ public:
 
     void record(
         engine::Passes& passes, const engine::Target& target,
-        const std::function<void(engine::Commands&)>& draw) const override {
+        const RecordedStrands& strands) const override {
         passes.pass("strands", engine::PassKind::graphics, [&](engine::Commands& commands) {
-            list(commands, target, draw);
+            list(commands, target, strands);
         });
         passes.pass("composite", engine::PassKind::graphics, [&](engine::Commands& commands) {
             commands.barrier(Access::fragment_write, Access::fragment_read);
@@ -184,7 +186,8 @@ public:
 private:
     void list(
         engine::Commands& commands, const engine::Target& target,
-        const std::function<void(engine::Commands&)>& draw) const {
+        const RecordedStrands& strands) const {
+        strands.prepare(commands);
         // The lists may still be in use by the last picture's passes.
         commands.barrier(Access::fragment_write, Access::transfer_write);
         commands.fill(heads_, gpu::kNoFragment);
@@ -196,7 +199,7 @@ private:
             {{heads_, Access::fragment_write},
              {nodes_, Access::fragment_write},
              {counter_, Access::fragment_write}});
-        draw(commands);
+        strands.draw(commands);
         engine::endRendering(commands);
     }
 
@@ -272,9 +275,9 @@ public:
 
     void record(
         engine::Passes& passes, const engine::Target& target,
-        const std::function<void(engine::Commands&)>& draw) const override {
+        const RecordedStrands& strands) const override {
         passes.pass("strands", engine::PassKind::graphics, [&](engine::Commands& commands) {
-            sumUp(commands, target, draw);
+            sumUp(commands, target, strands);
         });
         passes.pass("composite", engine::PassKind::graphics, [&](engine::Commands& commands) {
             blend(commands, target);
@@ -290,7 +293,8 @@ public:
 private:
     void sumUp(
         engine::Commands& commands, const engine::Target& target,
-        const std::function<void(engine::Commands&)>& draw) const {
+        const RecordedStrands& strands) const {
+        strands.prepare(commands);
         for (const engine::Image* image : {&sum_, &revealed_}) {
             commands.transition(
                 *image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
@@ -301,7 +305,7 @@ private:
             engine::Attachment{.image = &sum_, .load = engine::Load::clear, .clear = {}},
             engine::Attachment{.image = &revealed_, .load = engine::Load::clear, .clear = {1}}};
         engine::beginRendering(commands, sums, engine::Attachment{.image = &target.depth()});
-        draw(commands);
+        strands.draw(commands);
         engine::endRendering(commands);
     }
 
@@ -426,10 +430,11 @@ StrandPass::StrandPass(
 void StrandPass::record(
     engine::Passes& passes, const engine::Target& target, std::uint64_t picture,
     const gpu::PictureParameters& parameters, std::span<const engine::SampledImage> images) const {
-    blend_->record(passes, target, [&](engine::Commands& commands) {
-        declareStrands(commands, parameters);
-        backend_->draw(commands, picture, images);
-    });
+    const StrandPicture drawn{.address = picture, .parameters = parameters, .images = images};
+    blend_->record(
+        passes, target,
+        {.prepare = [&](engine::Commands& commands) { backend_->prepare(commands, drawn); },
+         .draw = [&](engine::Commands& commands) { backend_->draw(commands, drawn); }});
 }
 
 }  // namespace hair::rendering

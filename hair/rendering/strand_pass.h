@@ -27,6 +27,12 @@ struct ListedFragments {
     std::uint64_t dropped() const { return wanted > capacity ? wanted - capacity : 0; }
 };
 
+// What a back end records of a picture's strands.
+struct RecordedStrands {
+    std::function<void(engine::Commands&)> prepare;  // before rendering begins
+    std::function<void(engine::Commands&)> draw;  // within it
+};
+
 // What becomes of strands' fragments: one kind of transparency.
 class StrandBlend {
 public:
@@ -35,10 +41,10 @@ public:
     // What a back end's pipeline writes, but for how strands are shaded.
     virtual StrandOutput output() const = 0;
 
-    // The pass "strands", in which `draw` draws them, and "composite", where there is one.
+    // The pass "strands", which draws them, and "composite", where there is one.
     virtual void record(
         engine::Passes& passes, const engine::Target& target,
-        const std::function<void(engine::Commands&)>& draw) const = 0;
+        const RecordedStrands& strands) const = 0;
 
     // The value of PictureParameters::fragments.
     virtual std::uint64_t fragments() const { return 0; }
