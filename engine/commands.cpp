@@ -349,9 +349,23 @@ void Commands::images(
     bindImages(VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout(), pipeline.imagesLayout(), writes);
 }
 
+void Commands::images(const ComputePipeline& pipeline, std::span<const SampledImage> sampled) {
+    bindSampled(
+        VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout(), pipeline.imagesLayout(), sampled,
+        Access::compute_read);
+}
+
 void Commands::images(const GraphicsPipeline& pipeline, std::span<const SampledImage> sampled) {
+    bindSampled(
+        VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout(), pipeline.imagesLayout(), sampled,
+        Access::fragment_read);
+}
+
+void Commands::bindSampled(
+    VkPipelineBindPoint point, VkPipelineLayout layout, VkDescriptorSetLayout set_layout,
+    std::span<const SampledImage> sampled, Access access) {
     if (sampled.empty()) return;
-    for (const SampledImage& entry : sampled) uses({{*entry.image, Access::fragment_read}});
+    for (const SampledImage& entry : sampled) uses({{*entry.image, access}});
     std::vector<VkDescriptorImageInfo> infos;
     for (const SampledImage& entry : sampled) {
         infos.push_back(
@@ -365,7 +379,7 @@ void Commands::images(const GraphicsPipeline& pipeline, std::span<const SampledI
         writes[i].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
         writes[i].pImageInfo = &infos[i];
     }
-    bindImages(VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout(), pipeline.imagesLayout(), writes);
+    bindImages(point, layout, set_layout, writes);
 }
 
 void Commands::bindImages(

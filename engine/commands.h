@@ -158,7 +158,8 @@ public:
         const ComputePipeline& pipeline, std::span<const Image* const> sampled,
         std::span<const Image* const> storage);
 
-    // Gives the bound graphics pipeline its images, at bindings 0 ...
+    // Gives the bound pipeline its images, at bindings 0 ...
+    void images(const ComputePipeline& pipeline, std::span<const SampledImage> sampled);
     void images(const GraphicsPipeline& pipeline, std::span<const SampledImage> sampled);
 
     void dispatch(std::uint32_t groups_x, std::uint32_t groups_y = 1);
@@ -178,6 +179,9 @@ private:
     void bindImages(
         VkPipelineBindPoint point, VkPipelineLayout layout, VkDescriptorSetLayout set_layout,
         std::span<VkWriteDescriptorSet> writes);
+    void bindSampled(
+        VkPipelineBindPoint point, VkPipelineLayout layout, VkDescriptorSetLayout set_layout,
+        std::span<const SampledImage> sampled, Access access);
 
     VkCommandBuffer buffer_;
     DescriptorSets& sets_;

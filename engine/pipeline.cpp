@@ -167,9 +167,13 @@ VkPipelineColorBlendAttachmentState blendState(Blend blend) {
 }
 
 PipelineObjects makePipeline(const Device& device, const ComputeDescription& description) {
+    assert(
+        description.combined_images == 0 ||
+        description.sampled_images + description.storage_images == 0);
     PipelineObjects objects;
     std::vector<VkDescriptorType> types(
-        description.sampled_images, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE);
+        description.combined_images, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+    types.resize(types.size() + description.sampled_images, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE);
     types.resize(types.size() + description.storage_images, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
     if (!types.empty())
         objects.images = {
@@ -322,6 +326,7 @@ std::string keyOf(const Device& device, const ComputeDescription& description) {
     key.add(device, description.shader);
     key.add(description.constants);
     key.add(description.push_size);
+    key.add(description.combined_images);
     key.add(description.sampled_images);
     key.add(description.storage_images);
     return key.bytes();

@@ -39,6 +39,9 @@ struct ComputeDescription {
     std::string shader;  // path under shaders/, e.g. "simulation/wind.comp"
     Constants constants;
     std::uint32_t push_size = 0;  // B
+    // Either images with their samplers, at bindings 0 .., or sampled ones without and storage ones
+    // after them.
+    std::uint32_t combined_images = 0;
     std::uint32_t sampled_images = 0;
     std::uint32_t storage_images = 0;
 };

@@ -113,9 +113,12 @@ Target::Target(const Device& device, const TargetDescription& description)
                           VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                       "color")),
       depth_(
-          device,
-          rendered(
-              description, kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, "depth")),
+          device, rendered(
+                      description, kDepthFormat,
+                      VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT |
+                          (description.sampled_depth ? VkImageUsageFlags{VK_IMAGE_USAGE_SAMPLED_BIT}
+                                                     : VkImageUsageFlags{}),
+                      "depth")),
       output_(
           device, {.format = kOutputFormat,
                    .width = description.width,
@@ -159,6 +162,19 @@ void Target::beginRendering(
 }
 
 void Target::endRendering(Commands& commands) const { engine::endRendering(commands); }
+
+void Target::beginDepthRead(Commands& commands) const {
+    assert(description_.sampled_depth);
+    commands.transition(
+        depth_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+        Access::attachment, Access::compute_read);
+}
+
+void Target::endDepthRead(Commands& commands) const {
+    commands.transition(
+        depth_, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+        Access::compute_read, Access::attachment);
+}
 
 bool Target::resolvesByCopy() const {
     return !radiance_ && description_.msaa == 1 && description_.ssaa == 1;

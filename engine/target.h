@@ -35,6 +35,7 @@ struct TargetDescription {
     std::uint32_t msaa = 1;    // samples per rendered pixel
     std::uint32_t ssaa = 1;    // rendered pixels per picture pixel, along each side
     VkFormat color_format = VK_FORMAT_R8G8B8A8_UNORM;  // of what is rendered
+    bool sampled_depth = false;  // shaders read the depth of what is rendered
 };
 
 // The images of an offscreen picture: color and depth that passes render into, the output picture
@@ -54,6 +55,10 @@ public:
     void
     beginRendering(Commands& commands, Load load, const std::array<float, 3>& background) const;
     void endRendering(Commands& commands) const;
+
+    // Bracket dispatches between renderings that read depth(); needs sampled_depth.
+    void beginDepthRead(Commands& commands) const;
+    void endDepthRead(Commands& commands) const;
 
     // Bracket a compute pass that reads color() and writes output() and radiance().
     void beginResolve(Commands& commands) const;

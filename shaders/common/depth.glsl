@@ -16,4 +16,13 @@ float nearer(float depth, float by) { return depth + by; }
 // A depth moved into what images of depth can hold: nothing is drawn beyond the far plane.
 float notBeyondFar(float depth) { return max(depth, float(kFarDepth)); }
 
+// A number that is smaller the nearer a depth is, and back. Floats that are not negative are ordered
+// as their bits.
+uint nearness(float depth) { return ~floatBitsToUint(max(depth, float(kFarDepth))); }
+
+float depthOf(uint nearness) { return uintBitsToFloat(~nearness); }
+
+// Of clip space: 0 on the near plane, positive beyond; linear in the coordinates.
+float beyondNear(vec4 clip) { return clip.w - clip.z; }
+
 #endif
