@@ -38,9 +38,11 @@ const Table& tableOf(const StrandSettings*) {
         {choice(
              "backend", &S::backend,
              {{Backend::tessellation, "tessellation"},
-              {Backend::pulling_geometry, "pulling_geometry"}},
+              {Backend::pulling_geometry, "pulling_geometry"},
+              {Backend::software, "software"}},
              "tessellation: control, isolines, evaluation, geometry; pulling_geometry: points "
-             "evaluated in the vertex stage, the same geometry stage"),
+             "evaluated in the vertex stage, the same geometry stage; software: rasterised in "
+             "compute"),
          choice(
              "source", &S::source,
              {{StrandSource::root_triangles, "root_triangles"}, {StrandSource::groom, "groom"}},

@@ -425,6 +425,7 @@ constexpr Row kPurposes[] = {
     {"upload staging", "transfers"},
     {"download staging", "transfers"},
     {"picture", "transfers"},
+    {"software ", "strands"},
     {"strand points", "measuring"},
     {"stage watch", "measuring"},
     {"busy work", "measuring"},

@@ -7,6 +7,7 @@
 
 #include "engine/error.h"
 #include "hair/gpu_structs.h"
+#include "hair/rendering/software_backend.h"
 #include "hair/rendering/strand_offsets.h"
 #include "hair/shader_codes.h"
 
@@ -181,6 +182,20 @@ struct BackendRow {
 constexpr std::array kBackends{
     BackendRow{Backend::tessellation, make<TessellationBackend>},
     BackendRow{Backend::pulling_geometry, make<PullingGeometryBackend>},
+    BackendRow{Backend::software, make<SoftwareBackend>},
+};
+
+// All that is skipped, one row each.
+constexpr std::array kBackendLimits{
+    BackendLimit{
+        Backend::software, "a `/render/transparency` but `none`", "it keeps one strand a sample",
+        [](const Settings& s) { return s.render.transparency != Transparency::none; }},
+    BackendLimit{
+        Backend::software, "a `/render/show` but `shading`", "it only shades",
+        [](const Settings& s) { return s.render.show != Show::shading; }},
+    BackendLimit{
+        Backend::software, "`/strands/texture`", "its strands have no holes",
+        [](const Settings& s) { return !s.strands.texture.empty(); }},
 };
 
 engine::Buffer watchBuffer(const engine::Device& device) {
@@ -193,12 +208,35 @@ engine::Buffer watchBuffer(const engine::Device& device) {
 }  // namespace
 
 std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext& context) {
+    if (context.output.quads == QuadKind::light) backend = mapBackend(backend, context.device);
     const auto row = std::ranges::find(kBackends, backend, &BackendRow::backend);
     assert(row != kBackends.end());
     if (!context.stages.last) return std::make_unique<EmptyBackend>();
     if (backend != Backend::tessellation && context.stages != StrandStages{})
         throw engine::Unsupported("/strands/backend", "only tessellation's stages can be left out");
     return row->make(context);
+}
+
+Backend mapBackend(Backend backend, const engine::Device& device) {
+    if (backend != Backend::software) return backend;
+    return device.has(engine::Feature::tessellation) ? Backend::tessellation
+                                                     : Backend::pulling_geometry;
+}
+
+std::span<const BackendLimit> backendLimits() { return kBackendLimits; }
+
+void checkBackend(const Settings& settings) {
+    for (const BackendLimit& limit : kBackendLimits) {
+        if (limit.backend != settings.strands.backend || !limit.asks(settings)) continue;
+        std::string text =
+            std::string(limit.asked_for) + " is not drawn: " + std::string(limit.reason);
+        std::erase(text, '`');
+        throw engine::Unsupported("/strands/backend", text);
+    }
+}
+
+bool readsSceneDepth(const Settings& settings) {
+    return settings.render.hair && settings.strands.backend == Backend::software;
 }
 
 engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/buffer_image.h"
@@ -88,10 +89,30 @@ struct BackendContext {
     const StrandSettings& strands;
     StrandOutput output;
     StrandStages stages{};
+    const engine::Target* target = nullptr;  // what the camera's picture is drawn to
 };
 
-// Throws engine::Unsupported for stages that the back end or the device doesn't have.
+// Throws engine::Unsupported for stages that the back end or the device doesn't have. Quads that
+// face a light are those of mapBackend().
 std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext& context);
+
+// The back end that draws lights' maps for one: itself, or where it draws none another.
+Backend mapBackend(Backend backend, const engine::Device& device);
+
+// What a back end doesn't draw: docs/rendering.md has the table.
+struct BackendLimit {
+    Backend backend;
+    std::string_view asked_for;
+    std::string_view reason;
+    bool (*asks)(const Settings&);
+};
+std::span<const BackendLimit> backendLimits();
+
+// Throws engine::Unsupported for what the case's back end doesn't draw.
+void checkBackend(const Settings& settings);
+
+// Whether the case's back end reads the depth of what the scene has drawn.
+bool readsSceneDepth(const Settings& settings);
 
 // The specialization constants of every shader that includes strands/strand.glsl.
 engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan);

@@ -26,6 +26,12 @@ engine::Buffer parameterBuffer(const engine::Device& device) {
          .name = "picture parameters"}};
 }
 
+engine::TargetDescription rendered(const Settings& settings) {
+    engine::TargetDescription description = targetDescription(settings.render);
+    description.sampled_depth = readsSceneDepth(settings);
+    return description;
+}
+
 std::vector<engine::SampledImage>
 strandImages(const StrandTexture& texture, const ShadowPass& shadows) {
     std::vector<engine::SampledImage> images{texture.image()};
@@ -101,7 +107,7 @@ Renderer::Renderer(
     const RenderAssets& assets, const StrandStages& stages)
     : settings_(settings),
       plan_(planStrands(view, settings, device.info().limits.maxTessellationGenerationLevel)),
-      target_(device, targetDescription(settings.render)),
+      target_(device, rendered(settings)),
       lights_(
           engine::makeBuffer(device, std::span<const gpu::Light>(makeLights(settings)), "lights")),
       optics_(device, settings), shadows_(device, settings, plan_, assets),

@@ -381,6 +381,7 @@ StrandStages drawnStages(const Settings& settings, const StrandStages& stages) {
 
 std::unique_ptr<StrandBlend> blendOf(const BlendContext& context, const StrandStages& stages) {
     if (!context.settings.render.hair) return makeOpaqueBlend(context);
+    checkBackend(context.settings);
     return stages.last && discards(stages) ? makeDiscardedBlend() : makeBlend(context);
 }
 
@@ -425,7 +426,8 @@ StrandPass::StrandPass(
                                      .plan = plan,
                                      .strands = settings.strands,
                                      .output = shaded(blend_->output(), settings),
-                                     .stages = drawnStages(settings, stages)})) {}
+                                     .stages = drawnStages(settings, stages),
+                                     .target = &target})) {}
 
 void StrandPass::record(
     engine::Passes& passes, const engine::Target& target, std::uint64_t picture,

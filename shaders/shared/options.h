@@ -70,6 +70,11 @@ const uint kCollisionRuleConstant = 7u;
 const uint kRandomnessConstant = 8u;
 const uint kLodMorphConstant = 9u;
 
+// Constants of strands/software: strands/software/software.glsl.
+const uint kMostSegmentsConstant = 10u;
+const uint kMostPiecesConstant = 11u;
+const uint kStrandBlockConstant = 12u;
+
 // Constant of strands' fragment and geometry stages: strands/pixel_samples.glsl.
 const uint kPixelSamplesConstant = 15u;
 

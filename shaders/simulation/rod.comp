@@ -1,6 +1,6 @@
 #version 460
 // A substep of the `rod` solver, on devices without 64-bit integers.
 #extension GL_GOOGLE_include_directive : require
-#include "simulation/vectors.glsl"
+#include "common/vectors.glsl"
 
 #include "simulation/rod.glsl"

@@ -3,7 +3,7 @@
 // follow. Each iteration is a Newton step, which eliminates one segment after the other from the
 // tip up: Featherstone 1983, The calculation of robot dynamics using articulated-body inertias. See
 // rod.h for the rod and for where it comes from, rod_structs.h for the units. Before it:
-// simulation/vectors.glsl or simulation/packed_vectors.glsl.
+// common/vectors.glsl or common/packed_vectors.glsl.
 #include "common/rigid_frame.glsl"
 #include "simulation/constraints/bodies.glsl"
 #include "simulation/rod/joint.glsl"

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "common/rigid_frame.glsl"
-#include "simulation/vectors.glsl"
+#include "common/vectors.glsl"
 #include "simulation/rod/state.glsl"
 
 layout(local_size_x = kRodGroupSize) in;

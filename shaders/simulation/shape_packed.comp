@@ -1,6 +1,6 @@
 #version 460
 // A substep of the `shape` solver, on devices with 64-bit integers.
 #extension GL_GOOGLE_include_directive : require
-#include "simulation/packed_vectors.glsl"
+#include "common/packed_vectors.glsl"
 
 #include "simulation/shape.glsl"

@@ -1,5 +1,5 @@
-// The `rod` solver's memory, and rotations of segments. Before it: simulation/vectors.glsl or
-// simulation/packed_vectors.glsl.
+// The `rod` solver's memory, and rotations of segments. Before it: common/vectors.glsl or
+// common/packed_vectors.glsl.
 #ifndef HAIRBENCH_SIMULATION_ROD_STATE_GLSL
 #define HAIRBENCH_SIMULATION_ROD_STATE_GLSL
 

@@ -1,0 +1,47 @@
+#ifndef HAIRBENCH_SOFTWARE_STRUCTS_H
+#define HAIRBENCH_SOFTWARE_STRUCTS_H
+
+// What the strand back end `software` shares with its shaders, strands/software.
+
+// Invocations in a workgroup: of one a strand, and of one a pixel.
+const uint kSoftwareStrandGroup = 32u;
+const uint kSoftwarePixelGroup = 32u;
+
+// Pieces that are estimated to cover more samples than this are covered by whole workgroups; those
+// have places for so many. Mesa's lavapipe ends an invocation's loops after 65,535 turns in all, in
+// silence: no invocation may have a large piece for itself.
+const uint kManySamples = 256u;
+const uint kMostLargePieces = 65536u;
+const uint kLargeGroups = 256u;
+
+// What a sample shows that shows no strand.
+const uint kNoPiece = 0xffffffffu;
+
+// The rectangle of pixels that hair may touch, as distances from the picture's opposite sides:
+// each grows with the hair, from 0 where there is none.
+struct HairBounds {
+    uint from_right;  // of the left edge, px
+    uint from_bottom;  // of the upper edge, px
+    uint right;  // px
+    uint bottom;  // px
+    uint large_pieces;  // may be over kMostLargePieces
+};
+
+// Push constants of everything in strands/software.
+struct SoftwarePush {
+    Address picture;  // PictureParameters
+    Address points;  // vec4 [strand][point], root first: strands/software/points.glsl
+    Address pieces;  // uint [strand]: pieces of a guide segment that are drawn; 0: none of it
+    // uvec2 [pixel][sample]. x: the piece that is seen, [strand][piece], or kNoPiece; shaded: its
+    // color. y: how near it is, or what the scene has there.
+    Address samples;
+    Address colors;  // uvec2 [pixel][sample], half floats; where light is linear
+    Address bounds;  // HairBounds
+    Address large;  // uint: large pieces
+    uint width;  // of the rendered picture, px
+    uint height;  // px
+    uint strands;
+    uint choice;  // cover.comp: 0 how near, 1 which; show.frag: the sample
+};
+
+#endif

@@ -1,0 +1,30 @@
+// What the samples within the hair's bounds show before the hair is there: the scene's depth. A
+// workgroup a row of pixels.
+#include "common/depth.glsl"
+#include "strands/software/software.glsl"
+
+layout(local_size_x = kSoftwarePixelGroup) in;
+
+#ifdef HAIRBENCH_MULTISAMPLE
+layout(binding = 0) uniform texture2DMS scene_depth;
+#else
+layout(binding = 0) uniform texture2D scene_depth;
+#endif
+
+// Of one sample a pixel there is level 0, of more there are samples.
+float sceneDepth(uvec2 pixel, uint index) {
+    return texelFetch(scene_depth, ivec2(pixel), int(index)).r;
+}
+
+void main() {
+    HairBounds bounds = Bounds(push.bounds).bounds;
+    uvec2 pixel = uvec2(push.width - bounds.from_right, gl_WorkGroupID.x);
+    if (pixel.y < push.height - bounds.from_bottom || pixel.y >= bounds.bottom) return;
+    for (pixel.x += gl_LocalInvocationID.x; pixel.x < bounds.right;
+         pixel.x += gl_WorkGroupSize.x) {
+        for (uint i = 0u; i < kSamples; ++i) {
+            float depth = sceneDepth(pixel, i);
+            storePair(push.samples, sampleIndex(pixel, i), uvec2(kNoPiece, nearness(depth)));
+        }
+    }
+}

@@ -1,0 +1,110 @@
+// The samples that pieces of strands cover: each keeps the nearest piece, of equally near ones the
+// first. Pieces are drawn by spans across their major axis: each row of samples, or column, meets a
+// thin piece in few. offer() has to be there.
+#include "strands/software/quad.glsl"
+#include "strands/software/samples.glsl"
+
+// A piece's samples, row by row: where it is nearer to level, column by column.
+struct Cover {
+    bool columns;
+    int begin;  // rows of samples
+    int end;
+    vec4 starts;  // of the four edges across the rows, where these are 0
+    vec4 slopes;
+    bvec4 lower;  // edges that bound it from below
+    float size;  // of the picture along a row, px
+    vec2 origin;  // along and across rows: a place of known depth
+    float depth;
+    vec2 gradient;  // of depth, along and across rows
+    vec2 depth_range;
+    float row_length;  // in the mean, px
+};
+
+float least(vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
+float most(vec4 v) { return max(max(v.x, v.y), max(v.z, v.w)); }
+
+void makeEdges(PieceQuad quad, inout Cover cover) {
+    vec4 x = vec4(quad.from.place.x, quad.from.place.x, quad.to.place.x, quad.to.place.x) +
+             vec4(-quad.from.side.x, quad.from.side.x, quad.to.side.x, -quad.to.side.x);
+    vec4 y = vec4(quad.from.place.y, quad.from.place.y, quad.to.place.y, quad.to.place.y) +
+             vec4(-quad.from.side.y, quad.from.side.y, quad.to.side.y, -quad.to.side.y);
+    vec4 down = cover.columns ? x : y;
+    vec4 across = cover.columns ? y : x;
+    vec4 run = down.yzwx - down;
+    vec4 rise = across.yzwx - across;
+    float area = dot(down, across.yzwx - across.wxyz);
+    cover.lower = greaterThan(area > 0.0 ? run : -run, vec4(0.0));
+    run = mix(run, vec4(1e-6), lessThan(abs(run), vec4(1e-6)));
+    cover.slopes = rise / run;
+    cover.starts = across - cover.slopes * down;
+    vec2 size = vec2(push.width, push.height);
+    if (cover.columns) size = size.yx;
+    cover.size = size.x;
+    float first = clamp(least(down), -1.0, size.y);
+    float last = clamp(most(down), -1.0, size.y);
+    cover.begin = max(int(ceil(first * float(kSamples) - 0.5)), 0);
+    cover.end = min(int(ceil(last * float(kSamples) - 0.5)), int(size.y) * int(kSamples));
+    cover.row_length = 0.5 * abs(area) / max(last - first, 1.0);
+}
+
+// Depth is a plane through the middle line and the mean side.
+void makeDepth(PieceQuad quad, vec2 run, inout Cover cover) {
+    vec2 side = 0.5 * (quad.from.side + quad.to.side);
+    float area = cross2(run, side);
+    float change = quad.to.depth - quad.from.depth;
+    float side_change = 0.5 * (quad.from.side_depth + quad.to.side_depth);
+    vec2 gradient = vec2(side.y * change - run.y * side_change,
+                         run.x * side_change - side.x * change) /
+                    (abs(area) < 1e-12 ? 1e-12 : area);
+    float slack = max(abs(quad.from.side_depth), abs(quad.to.side_depth));
+    cover.depth = quad.from.depth;
+    cover.depth_range = vec2(min(quad.from.depth, quad.to.depth) - slack,
+                             max(quad.from.depth, quad.to.depth) + slack);
+    cover.origin = cover.columns ? quad.from.place : quad.from.place.yx;
+    cover.gradient = cover.columns ? gradient : gradient.yx;
+}
+
+Cover makeCover(PieceQuad quad) {
+    vec2 run = quad.to.place - quad.from.place;
+    // Sides that cross on the screen would make no quad.
+    if (cross2(run, quad.from.side) * cross2(run, quad.to.side) < 0.0) {
+        quad.to.side = -quad.to.side;
+        quad.to.side_depth = -quad.to.side_depth;
+    }
+    Cover cover;
+    cover.columns = abs(run.x) > abs(run.y);
+    makeEdges(quad, cover);
+    makeDepth(quad, run, cover);
+    return cover;
+}
+
+// Offers the samples of every `step`-th row from `row` on. The search for the next sample touches no
+// memory, so that invocations which go together are together where they do.
+void coverRows(Cover cover, int row, int step, uint piece) {
+    uint places = cover.columns ? columnPlaces() : rowPlaces();
+    uint samples = cover.columns ? columnSamples() : rowSamples();
+    float across = 0.0;
+    float end = -1.0;
+    float depth = 0.0;
+    row -= step;
+    while (true) {
+        while (!(across < end) && row + step < cover.end) {
+            row += step;
+            float down = (float(row) + 0.5) / float(kSamples);
+            vec4 bounds = cover.starts + cover.slopes * down;
+            float place = float(entry(places, uint(row) % kSamples)) / 16.0;
+            float begin = most(mix(vec4(-1.0), bounds, cover.lower));
+            across = max(ceil(begin - place), 0.0) + place;
+            end = least(mix(bounds, vec4(cover.size), cover.lower));
+            depth = cover.depth + cover.gradient.x * (down - cover.origin.x) +
+                    cover.gradient.y * (across - cover.origin.y);
+        }
+        if (!(across < end)) return;
+        uvec2 pixel = uvec2(uint(across), uint(row) / kSamples);
+        offer(sampleIndex(cover.columns ? pixel.yx : pixel,
+                          entry(samples, uint(row) % kSamples)),
+              nearness(clamp(depth, cover.depth_range.x, cover.depth_range.y)), piece);
+        across += 1.0;
+        depth += cover.gradient.y;
+    }
+}

@@ -1,0 +1,6 @@
+#version 460
+// The points of strands.
+#extension GL_GOOGLE_include_directive : require
+#include "common/vectors.glsl"
+
+#include "strands/software/evaluate.glsl"

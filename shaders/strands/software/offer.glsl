@@ -1,0 +1,15 @@
+// How a piece is offered to a sample, by 32-bit minima: first how near the nearest piece is, and once
+// that is known of all samples, which it is.
+#include "common/vectors.glsl"
+
+#include "strands/software/software.glsl"
+
+void offer(uint index, uint near, uint piece) {
+    uvec2 now = loadPair(push.samples, index);
+    PlainPairs samples = PlainPairs(push.samples);
+    if (push.choice == 0u) {
+        if (near < now.y) atomicMin(samples.at[index].y, near);
+    } else if (near == now.y && piece < now.x) {
+        atomicMin(samples.at[index].x, piece);
+    }
+}

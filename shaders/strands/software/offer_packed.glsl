@@ -1,0 +1,9 @@
+// How a piece is offered to a sample: by a 64-bit minimum, of how near above which piece.
+#extension GL_EXT_shader_atomic_int64 : require
+#include "common/packed_vectors.glsl"
+
+#include "strands/software/software.glsl"
+
+void offer(uint index, uint near, uint piece) {
+    atomicMin(PackedPairs(push.samples).at[index], packUint2x32(uvec2(piece, near)));
+}

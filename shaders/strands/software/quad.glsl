@@ -1,0 +1,102 @@
+// The quad that a piece of a strand is on the screen: that of strands/quad.glsl, thesis 2.2.
+#ifndef HAIRBENCH_SOFTWARE_QUAD_GLSL
+#define HAIRBENCH_SOFTWARE_QUAD_GLSL
+
+#include "common/depth.glsl"
+#include "strands/software/points.glsl"
+
+// A place of a strand on the screen: of its middle, and from there to the edge.
+struct ScreenEnd {
+    vec2 place;  // px
+    vec2 side;
+    float depth;
+    float side_depth;  // what depth changes by towards the edge
+    float w;  // of clip space
+};
+
+// An end of a piece.
+struct PieceEnd {
+    vec3 position;  // m
+    vec3 side;  // m, from the middle to an edge
+    vec3 tangent;  // unit length
+    vec4 middle_clip;
+    vec4 side_clip;
+    float beyond;  // how far both corners are beyond the near plane, by beyondNear()
+    ScreenEnd seen;  // where both are beyond it
+};
+
+// A middle and an edge in clip space.
+ScreenEnd screenEnd(vec4 middle, vec4 side) {
+    vec4 low = middle - side;
+    vec4 high = middle + side;
+    vec3 a = low.xyz / low.w;
+    vec3 b = high.xyz / high.w;
+    vec2 half_size = 0.5 * vec2(push.width, push.height);
+    ScreenEnd end;
+    end.place = (0.5 * (a.xy + b.xy) + 1.0) * half_size;
+    end.side = 0.5 * (b.xy - a.xy) * half_size;
+    end.depth = 0.5 * (a.z + b.z);
+    end.side_depth = 0.5 * (b.z - a.z);
+    end.w = middle.w;
+    return end;
+}
+
+PieceEnd pieceEnd(PictureParameters picture, PackedPoint point) {
+    PieceEnd end;
+    end.position = point.position;
+    end.tangent = point.tangent;
+    end.side = cross(picture.eye - point.position, end.tangent);
+    end.side *= 0.5 * point.width * inversesqrt(max(dot(end.side, end.side), 1e-30));
+    end.middle_clip = picture.view_projection * vec4(end.position, 1.0);
+    end.side_clip = picture.view_projection * vec4(end.side, 0.0);
+    end.beyond = beyondNear(end.middle_clip) - abs(beyondNear(end.side_clip));
+    end.seen = screenEnd(end.middle_clip, end.side_clip);
+    return end;
+}
+
+// The part of a piece before the near plane. Corners are from -+ side at both ends.
+struct PieceQuad {
+    ScreenEnd from;
+    ScreenEnd to;
+    vec2 part;  // of the piece at `from` and `to`, 0 to 1
+    bool seen;
+};
+
+PieceQuad pieceQuad(PieceEnd from, PieceEnd to) {
+    PieceQuad quad = PieceQuad(from.seen, to.seen, vec2(0.0, 1.0), true);
+    if (min(from.beyond, to.beyond) > 0.0) return quad;
+    quad.seen = max(from.beyond, to.beyond) > 0.0;
+    float crossing = from.beyond / (from.beyond - to.beyond);
+    vec4 middle = mix(from.middle_clip, to.middle_clip, crossing);
+    vec4 side = mix(from.side_clip, to.side_clip, crossing);
+    if (from.beyond > 0.0) {
+        quad.part.y = crossing;
+        quad.to = screenEnd(middle, side);
+    } else {
+        quad.part.x = crossing;
+        quad.from = screenEnd(middle, side);
+    }
+    return quad;
+}
+
+// A piece by its number.
+struct Piece {
+    PieceEnd from;
+    PieceEnd to;
+    PieceQuad quad;
+};
+
+Piece pieceOf(PictureParameters picture, uint number) {
+    uint strand = number / kPiecesPerStrand;
+    uint pieces = kSplitJoints == 1u ? StrandPieces(push.pieces).at[strand] : 1u;
+    uint first = firstPoint(strand, number % kPiecesPerStrand, pieces);
+    Piece piece;
+    piece.from = pieceEnd(picture, loadPoint(first));
+    piece.to = pieceEnd(picture, loadPoint(first + 1u));
+    piece.quad = pieceQuad(piece.from, piece.to);
+    return piece;
+}
+
+float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
+
+#endif

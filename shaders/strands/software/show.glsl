@@ -1,0 +1,20 @@
+// A sample's color and depth, where it shows a strand.
+#include "common/depth.glsl"
+#include "shading/options.glsl"
+#include "strands/software/software.glsl"
+
+layout(location = 0) out vec4 color;
+
+void main() {
+    uint index = sampleIndex(uvec2(gl_FragCoord.xy), push.choice);
+    uvec2 seen = loadPair(push.samples, index);
+    if (seen.x == kNoPiece) discard;
+    gl_FragDepth = depthOf(seen.y);
+    gl_SampleMask[0] = 1 << push.choice;  // 0 of one sample a pixel
+    if (kLinearLight == 1u) {
+        uvec2 light = loadPair(push.colors, index);
+        color = vec4(unpackHalf2x16(light.x), unpackHalf2x16(light.y).x, 1.0);
+    } else {
+        color = vec4(unpackUnorm4x8(seen.x).rgb, 1.0);
+    }
+}
