@@ -134,6 +134,18 @@ TEST_F(LesserDevice, StrandsNeedTheStagesOfTheirBackEnd) {
         skipped(pulled), "/strands/backend: pulling_geometry: the device has no geometry stages");
 }
 
+TEST_F(LesserDevice, StrandsInComputeNeedSamplesAtKnownPlaces) {
+    hair::Settings settings = smallCase();
+    settings.strands.backend = hair::Backend::software;
+    settings.render.msaa = 4;
+    make([](DeviceInfo& info) { info.limits.standardSampleLocations = VK_FALSE; });
+    EXPECT_EQ(
+        skipped(settings),
+        "/strands/backend: software: the device has samples at places of its own");
+    settings.render.msaa = 1;
+    EXPECT_EQ(skipped(settings), "not skipped");
+}
+
 TEST_F(LesserDevice, ShadowsOfHairNeedThemToo) {
     hair::Settings settings = smallCase();
     settings.shading.shadows.hair = hair::HairShadows::deep_opacity;
@@ -310,6 +322,24 @@ TEST_F(LesserDevice, DrawsEverythingButStrandsWithoutAnyFeature) {
     EXPECT_EQ(pictureOf(settings), there);
 }
 
+// The nearest piece by two 32-bit minima is that by one of 64 bits.
+TEST_F(LesserDevice, CoversTheSameSamplesWithoutLongAtomics) {
+    hair::Settings settings = smallCase();
+    settings.strands.backend = hair::Backend::software;
+    for (const std::uint32_t samples : {1u, 4u}) {
+        settings.render.msaa = samples;
+        make({});
+        const Pixels there = pictureOf(settings);
+        hair::Settings bald = settings;
+        bald.render.hair = false;
+        EXPECT_NE(there, pictureOf(bald));
+        make(without({Feature::long_atomics}));
+        EXPECT_EQ(pictureOf(settings), there);
+        make(bare);
+        EXPECT_EQ(pictureOf(settings), there);
+    }
+}
+
 // Where a device has no isolines, its limit of them is 0.
 TEST_F(LesserDevice, PullsTheSameStrandsWithoutTessellation) {
     hair::Settings settings = smallCase();
@@ -389,8 +419,14 @@ TEST(ShaderCapabilities, AreThoseThatFeaturesStandFor) {
                     return;
                 if (path == "simulation/shape_packed.comp" || path == "simulation/rod_packed.comp")
                     EXPECT_EQ(capability, kLongIntegers) << path;
-                else if (path == "simulation/volume_splat_packed.comp")
-                    EXPECT_TRUE(capability == kLongIntegers || capability == kLongAtomics) << path;
+                else if (
+                    path == "simulation/volume_splat_packed.comp" ||
+                    path == "strands/software/cover_packed.comp")
+                    EXPECT_THAT(capability, testing::AnyOf(kLongIntegers, kLongAtomics)) << path;
+                else if (
+                    path.starts_with("strands/software/") &&
+                    path.find("_packed.") != std::string_view::npos)
+                    EXPECT_EQ(capability, kLongIntegers) << path;
                 else if (path.ends_with(".geom"))
                     EXPECT_EQ(capability, kGeometry) << path;
                 else if (path.ends_with(".tesc") || path.ends_with(".tese"))

@@ -174,6 +174,15 @@ inline const std::vector<Feature>& features() {
              s.simulation.colliders = {
                  {.a = {-0.03f, 0.0f, 0.0f}, .b = {0.03f, 0.02f, 0.0f}, .radius = 0.075f}};
          }},
+        {"software",
+         [](Settings& s) {
+             lit(s);
+             s.strands.backend = Backend::software;
+             s.strands.curl.radius = 0.004f;
+             s.render.msaa = 4;
+             s.render.overlays.guides = true;
+         },
+         "lit"},
         {"tangents", [](Settings& s) { s.render.show = Show::tangents; }},
         {"normals", [](Settings& s) { s.render.show = Show::normals; }, "tangents"},
         {"levels",

@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
 #include "engine/pictures.h"
+#include "tests/flip_errors.h"
 #include "tests/golden/features.h"
 #include "tests/gpu_fixture.h"
 #include "tests/python.h"
@@ -25,24 +24,6 @@ constexpr double kTolerance = 0.002;
 
 fs::path goldenPicture(const std::string& name) {
     return fs::path(HAIRBENCH_SOURCE_DIR "/tests/golden/pictures") / (name + ".png");
-}
-
-// FLIP of each pair, in order.
-std::vector<double> flips(const std::vector<std::pair<fs::path, fs::path>>& pairs) {
-    const TemporaryFolder folder;
-    {
-        std::ofstream list(folder.path() / "pairs.txt");
-        for (const auto& [reference, picture] : pairs)
-            list << reference.string() << '\t' << picture.string() << '\n';
-    }
-    const Outcome outcome =
-        runPython("tests/golden/flip.py", "< '" + (folder.path() / "pairs.txt").string() + "'");
-    std::vector<double> figures;
-    std::istringstream lines(outcome.output);
-    for (double figure = 0; lines >> figure;) figures.push_back(figure);
-    if (figures.size() != pairs.size()) ADD_FAILURE() << outcome.output;
-    figures.resize(pairs.size(), 1.0);
-    return figures;
 }
 
 class GoldenTest : public GpuTest {
@@ -75,7 +56,7 @@ TEST_F(GoldenTest, FeaturesLookAsTheyDid) {
         else
             ADD_FAILURE() << path << " has no golden picture";
     }
-    const std::vector<double> figures = flips(pairs);
+    const std::vector<double> figures = flipErrors(pairs);
     for (std::size_t i = 0; i < pairs.size(); ++i)
         EXPECT_LE(figures[i], kTolerance) << "see " << pairs[i].second;
 }
@@ -89,7 +70,7 @@ TEST_F(GoldenTest, FeaturesAreSeen) {
         pairs.emplace_back(goldenPicture(feature.differs_from), goldenPicture(feature.name));
         names.push_back(feature.name);
     }
-    const std::vector<double> figures = flips(pairs);
+    const std::vector<double> figures = flipErrors(pairs);
     for (std::size_t i = 0; i < pairs.size(); ++i)
         EXPECT_GT(figures[i], 3 * kTolerance) << names[i];
 }
@@ -100,7 +81,8 @@ TEST_F(GoldenTest, ToleranceIsSmallerThanAShiftByAPixel) {
     std::rotate(shifted.begin(), shifted.begin() + 4, shifted.end());
     const TemporaryFolder folder;
     engine::writePng(folder.path() / "shifted.png", golden.width, golden.height, shifted);
-    EXPECT_GT(flips({{goldenPicture("plain"), folder.path() / "shifted.png"}})[0], 3 * kTolerance);
+    EXPECT_GT(
+        flipErrors({{goldenPicture("plain"), folder.path() / "shifted.png"}})[0], 3 * kTolerance);
 }
 
 }  // namespace

@@ -74,6 +74,20 @@ struct ProbeModelsPush {
     uint count;
 };
 
+// Where strands/software/samples.glsl has a pixel's samples: written by probe_samples.comp.
+struct SamplePlaces {
+    vec2 places[8];  // px, of each sample
+    uint row_samples[8];  // which sample a row has
+    float row_places[8];  // px, along the row
+    uint column_samples[8];
+    float column_places[8];
+};
+
+// Push constants of probe_samples.comp.
+struct SamplePlacesPush {
+    Address places;  // SamplePlaces
+};
+
 // A point to be asked about, and what probe_shadows.frag finds.
 struct ShadowProbe {
     vec3 position;  // m

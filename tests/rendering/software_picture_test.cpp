@@ -1,0 +1,242 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "benchmarks/scene/scene.h"
+#include "engine/pictures.h"
+#include "tests/flip_errors.h"
+#include "tests/gpu_fixture.h"
+#include "tests/rendering/pictures.h"
+#include "tests/required.h"
+
+// Pictures by the back end `software` against those by `tessellation`, which draws the same quads
+// by other means.
+namespace hair::rendering {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Mean FLIP error of what is seen as the same: edges of strands fall on other sides of samples
+// where quads are rounded differently, and with several samples a pixel each is shaded by itself.
+constexpr double kMostDifferent = 0.02;
+
+// Of two pictures, in steps of a channel.
+std::vector<int> channelDifferences(const Pixels& a, const Pixels& b) {
+    if (a.size() != b.size() || a.empty()) throw std::invalid_argument("pictures of other sizes");
+    std::vector<int> differences;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        differences.push_back(std::abs(int{a[i]} - int{b[i]}));
+    return differences;
+}
+
+Settings with(Settings settings, Backend backend) {
+    settings.strands.backend = backend;
+    return settings;
+}
+
+class SoftwarePicture : public GpuTest {
+protected:
+    // The picture after some frames, in which the simulation moves the hair.
+    static Pixels drawFrames(const Settings& settings, int frames) {
+        benchmarks::measure::Case picture(device(), settings, HAIRBENCH_SCENES_DIR);
+        engine::FrameLoop loop(device(), engine::Timing::overlapped);
+        for (int i = 0; i < frames; ++i)
+            loop.frame([&](engine::Passes& passes) { picture.frame(passes); });
+        loop.finish();
+        return picture.picture();
+    }
+
+    // A shipped scene, less settled.
+    static Settings sceneOf(const std::string& name, std::uint32_t samples) {
+        Settings settings =
+            benchmarks::scene::loadScene(fs::path(HAIRBENCH_SCENES_DIR) / (name + ".json"))
+                .settings;
+        settings.simulation.settle_steps = std::min(settings.simulation.settle_steps, 30u);
+        settings.render.ssaa = 1;
+        settings.render.msaa = samples;
+        return settings;
+    }
+
+    fs::path write(const std::string& name, const Settings& settings, const Pixels& pixels) {
+        const fs::path path = folder_.path() / (name + ".png");
+        engine::writePng(path, settings.render.width, settings.render.height, pixels);
+        return path;
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(SoftwarePicture, IsThatOfTessellation) {
+    if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
+    std::vector<std::pair<fs::path, fs::path>> pairs;
+    std::vector<std::string> names;
+    for (const char* scene : {"rest", "strong_wind", "curly", "tight_curls", "lod_path"}) {
+        for (const std::uint32_t samples : {1u, 4u}) {
+            const Settings settings = sceneOf(scene, samples);
+            const std::string name = std::string(scene) + " " + std::to_string(samples);
+            const Pixels expected = drawFrames(with(settings, Backend::tessellation), 3);
+            const Pixels drawn = drawFrames(with(settings, Backend::software), 3);
+            Settings bald = with(settings, Backend::tessellation);
+            bald.render.hair = false;
+            EXPECT_GT(differingPixels(expected, drawFrames(bald, 3)), 1280u * 720u / 20u) << name;
+            names.push_back(name);
+            pairs.emplace_back(
+                write(name + " t", settings, expected), write(name + " s", settings, drawn));
+        }
+    }
+    const std::vector<double> errors = flipErrors(pairs);
+    for (std::size_t i = 0; i < errors.size(); ++i)
+        EXPECT_LE(errors[i], kMostDifferent) << names[i];
+}
+
+// 8 x 8 rendered pixels of one sample each are the 64-sample reference.
+TEST_F(SoftwarePicture, IsNearerToManySamplesThanMultisampling) {
+    if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
+    Settings settings = thesisAtRest();
+    settings.camera.position = {0.2f, 0.06f, 0.36f};
+    settings.camera.field_of_view = 45.0f;
+    settings.render.width = 320;
+    settings.render.height = 240;
+    Settings many = settings;
+    many.render.ssaa = 8;
+    settings.render.msaa = 4;
+    const fs::path reference =
+        write("reference", settings, drawCase(device(), with(many, Backend::tessellation)));
+    const fs::path multisampled =
+        write("multisampled", settings, drawCase(device(), with(settings, Backend::tessellation)));
+    const fs::path software =
+        write("software", settings, drawCase(device(), with(settings, Backend::software)));
+    const std::vector<double> errors =
+        flipErrors({{reference, software}, {reference, multisampled}});
+    EXPECT_LT(errors[0], errors[1]);
+}
+
+// The eye is in the hair, so that strands cross the near plane and are behind it.
+TEST_F(SoftwarePicture, IsThatOfTessellationWithinTheHair) {
+    if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
+    Settings settings = thesisAtRest();
+    settings.camera.position = {0.0f, 0.02f, 0.11f};
+    settings.camera.target = {0.08f, 0.0f, 0.02f};
+    settings.camera.near_plane = 0.02f;
+    settings.render.width = 480;
+    settings.render.height = 300;
+    const Pixels expected = drawCase(device(), with(settings, Backend::tessellation));
+    EXPECT_GT(differingPixels(expected, drawBald(device(), settings)), 480u * 300u / 4u);
+    const std::vector<double> errors = flipErrors(
+        {{write("t", settings, expected),
+          write("s", settings, drawCase(device(), with(settings, Backend::software)))}});
+    EXPECT_LE(errors[0], kMostDifferent);
+}
+
+// A strand along the view from before the near plane to far beyond it: what is cut off is what
+// hardware cuts off.
+TEST_F(SoftwarePicture, CutsStrandsAtTheNearPlane) {
+    Settings settings;
+    settings.strands.density = 1;
+    settings.strands.root_width = settings.strands.tip_width = 0.05f;
+    settings.camera.position = {0.0f, 0.0f, 0.5f};
+    settings.camera.field_of_view = 45.0f;
+    settings.camera.near_plane = 0.2f;
+    settings.render.width = 640;
+    settings.render.height = 480;
+    settings.render.head = false;
+    const groom::Groom groom = oneTriangle({{-0.1f, -0.05f, 0.6f}, {0.1f, 0.05f, -0.2f}});
+    const Pixels expected =
+        drawGroom(device(), with(settings, Backend::tessellation), groom, nullptr);
+    const Pixels drawn = drawGroom(device(), with(settings, Backend::software), groom, nullptr);
+    Settings bald = settings;
+    bald.render.hair = false;
+    const Pixels empty = drawGroom(device(), bald, groom, nullptr);
+    const std::size_t seen = differingPixels(expected, empty);
+    EXPECT_GT(seen, 3000u);
+    // Pixels at its edges and its ends may fall to either side.
+    std::size_t other = 0;
+    for (std::size_t i = 0; i < expected.size(); i += 4) {
+        const bool there = !std::equal(&expected[i], &expected[i] + 3, &empty[i]);
+        const bool here = !std::equal(&drawn[i], &drawn[i] + 3, &empty[i]);
+        other += there != here;
+    }
+    EXPECT_LT(other, seen / 50);
+}
+
+TEST_F(SoftwarePicture, ShowsNoStrandBehindTheCamera) {
+    Settings settings = with({}, Backend::software);
+    settings.strands.root_width = settings.strands.tip_width = 0.05f;
+    settings.camera.position = {0.0f, 0.0f, 0.5f};
+    settings.render.width = 160;
+    settings.render.height = 120;
+    const groom::Groom behind = oneTriangle({{-0.1f, 0.0f, 0.7f}, {0.1f, 0.1f, 2.0f}});
+    const groom::Groom before = oneTriangle({{-0.1f, 0.0f, 0.2f}, {0.1f, 0.1f, 0.0f}});
+    Settings bald = settings;
+    bald.render.hair = false;
+    const Pixels empty = drawGroom(device(), bald, behind, nullptr);
+    EXPECT_EQ(differingPixels(drawGroom(device(), settings, behind, nullptr), empty), 0u);
+    EXPECT_GT(differingPixels(drawGroom(device(), settings, before, nullptr), empty), 50u);
+}
+
+TEST_F(SoftwarePicture, ShowsNothingOfNoStrands) {
+    Settings settings = with({}, Backend::software);
+    settings.render.width = 64;
+    settings.render.height = 48;
+    groom::Groom groom = oneTriangle({{-0.1f, 0.0f, 0.2f}, {0.1f, 0.1f, 0.0f}});
+    groom.root_triangles.clear();
+    Settings bald = settings;
+    bald.render.hair = false;
+    const Pixels empty = drawGroom(device(), bald, groom, nullptr);
+    EXPECT_EQ(differingPixels(drawGroom(device(), settings, groom, nullptr), empty), 0u);
+}
+
+// A pixel of 1.2 m, in which a strand is 0.002 px wide. Phong's terms are not negative: what the
+// ambient one says is the least.
+TEST_F(SoftwarePicture, HasOnePixel) {
+    Settings settings = with(thesisAtRest(), Backend::software);
+    settings.camera.position = {0.0f, 0.05f, 0.5f};
+    settings.camera.target = {0.0f, 0.05f, 0.0f};
+    settings.render.width = settings.render.height = 1;
+    const Pixels drawn = drawCase(device(), settings);
+    EXPECT_EQ(differingPixels(drawn, drawBald(device(), settings)), 1u);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_GE(
+            drawn.at(static_cast<std::size_t>(i)),
+            std::floor(255.0f * settings.shading.ambient * settings.shading.color[i]));
+}
+
+// A straight strand of several pixels' width that nothing hides: every pixel inside is the same.
+TEST_F(SoftwarePicture, ShadesAWideStrandAsTessellationDoes) {
+    Settings settings;
+    settings.strands.density = 1;
+    settings.strands.root_width = settings.strands.tip_width = 0.04f;
+    settings.camera.position = {0.0f, 0.0f, 0.5f};
+    settings.render.width = 320;
+    settings.render.height = 240;
+    settings.render.head = false;
+    const groom::Groom groom =
+        oneTriangle({{-0.15f, -0.1f, 0.05f}, {0.0f, 0.0f, 0.0f}, {0.15f, 0.1f, -0.05f}});
+    for (const ShadingModel model :
+         {ShadingModel::phong, ShadingModel::kajiya_kay, ShadingModel::marschner,
+          ShadingModel::dual_scattering}) {
+        settings.shading.model = model;
+        const Pixels expected =
+            drawGroom(device(), with(settings, Backend::tessellation), groom, nullptr);
+        const Pixels drawn = drawGroom(device(), with(settings, Backend::software), groom, nullptr);
+        const std::vector<int> differences = channelDifferences(expected, drawn);
+        // Two edges of some 70 px, of which rounding to 1/256 px moves few; three channels each.
+        EXPECT_LT(std::ranges::count_if(differences, [](int d) { return d > 6; }), 60)
+            << static_cast<int>(model);
+    }
+}
+
+TEST_F(SoftwarePicture, IsTheSameEveryTime) {
+    Settings settings = with(thesisAtRest(), Backend::software);
+    settings.render.width = 320;
+    settings.render.height = 180;
+    const Pixels first = drawCase(device(), settings);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(differingPixels(first, drawCase(device(), settings)), 0u);
+}
+
+}  // namespace
+}  // namespace hair::rendering

@@ -1,0 +1,23 @@
+#version 460
+// Where the back end `software` has a pixel's samples; one invocation.
+#extension GL_GOOGLE_include_directive : require
+
+#include "probes.glsl"
+#include "strands/software/samples.glsl"
+
+layout(local_size_x = 1) in;
+
+layout(push_constant, scalar) uniform Push { SamplePlacesPush push; };
+
+layout(buffer_reference, scalar) buffer PlacesReference { SamplePlaces all; };
+
+void main() {
+    PlacesReference reference = PlacesReference(push.places);
+    for (uint i = 0u; i < kSamples; ++i) {
+        reference.all.places[i] = samplePlace(i);
+        reference.all.row_samples[i] = entry(rowSamples(), i);
+        reference.all.row_places[i] = float(entry(rowPlaces(), i)) / 16.0;
+        reference.all.column_samples[i] = entry(columnSamples(), i);
+        reference.all.column_places[i] = float(entry(columnPlaces(), i)) / 16.0;
+    }
+}
