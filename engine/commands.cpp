@@ -32,10 +32,16 @@ Scope scope(Access access) {
         return {
             VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT,
             VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT};
+    case Access::indirect_read:
+        return {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT};
     case Access::vertex_read:
         return {VK_PIPELINE_STAGE_2_PRE_RASTERIZATION_SHADERS_BIT, VK_ACCESS_2_SHADER_READ_BIT};
     case Access::fragment_read:
         return {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT};
+    case Access::shading_read:
+        return {
+            VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+            VK_ACCESS_2_SHADER_READ_BIT};
     case Access::fragment_write:
         return {
             VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
@@ -60,7 +66,8 @@ Scope scope(Access access) {
 
 bool isGraphics(const Scope& scope) {
     constexpr VkPipelineStageFlags2 kGraphics =
-        VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT | VK_PIPELINE_STAGE_2_PRE_RASTERIZATION_SHADERS_BIT |
+        VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT |
+        VK_PIPELINE_STAGE_2_PRE_RASTERIZATION_SHADERS_BIT |
         VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT |
         VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
     return (scope.stages & kGraphics) != 0;
@@ -403,13 +410,38 @@ void Commands::dispatch(std::uint32_t groups_x, std::uint32_t groups_y) {
     vkCmdDispatch(buffer_, groups_x, groups_y, 1);
 }
 
+void Commands::dispatchGroups(std::uint32_t groups) {
+    if (groups == 0) return;
+    constexpr std::uint32_t kMostInRow = 65535;  // what every device has
+    const std::uint32_t columns = std::min(groups, kMostInRow);
+    dispatch(columns, (groups + columns - 1) / columns);
+}
+
+void Commands::dispatchInvocations(std::uint32_t invocations, std::uint32_t size) {
+    dispatchGroups((invocations + size - 1) / size);
+}
+
 void Commands::draw(const Draw& draw) {
     vkCmdDraw(buffer_, draw.vertices, draw.instances, draw.first_vertex, draw.first_instance);
 }
 
-void Commands::drawIndexed(const Buffer& indices, std::uint32_t first, std::uint32_t count) {
+void Commands::drawIndexed(const Buffer& indices, const IndexedDraw& draw) {
     vkCmdBindIndexBuffer(buffer_, indices.get(), 0, VK_INDEX_TYPE_UINT32);
-    vkCmdDrawIndexed(buffer_, count, 1, first, 0, 0);
+    vkCmdDrawIndexed(
+        buffer_, draw.indices, draw.instances, draw.first_index, 0, draw.first_instance);
+}
+
+void Commands::drawIndexed(const Buffer& indices, const Buffer& arguments, std::uint32_t draws) {
+    if (hazards_) touch({{arguments, Access::indirect_read}});
+    vkCmdBindIndexBuffer(buffer_, indices.get(), 0, VK_INDEX_TYPE_UINT32);
+    constexpr std::uint32_t kStride = sizeof(VkDrawIndexedIndirectCommand);
+    const Device& device = sets_.device();
+    const std::uint32_t at_once =
+        device.has(Feature::multi_draw) ? device.info().limits.maxDrawIndirectCount : 1;
+    for (std::uint32_t first = 0; first < draws; first += at_once)
+        vkCmdDrawIndexedIndirect(
+            buffer_, arguments.get(), VkDeviceSize{first} * kStride,
+            std::min(at_once, draws - first), kStride);
 }
 
 void Commands::beginLabel(const char* name) {

@@ -23,8 +23,10 @@ enum class Access {
     compute_read,
     compute_write,  // read, too
     graphics_read,  // buffers and images read by any graphics stage
+    indirect_read,  // a draw's arguments
     vertex_read,  // buffers read by the stages before the rasteriser: vertex to geometry
     fragment_read,  // buffers and images read by the fragment stage
+    shading_read,  // images read where something is shaded: by the fragment stage or by compute
     fragment_write,  // buffers read and written by the fragment stage
     attachment,     // color and depth attachments, read and written
     transfer_read,
@@ -54,6 +56,13 @@ struct Draw {
     std::uint32_t vertices = 0;
     std::uint32_t instances = 1;
     std::uint32_t first_vertex = 0;
+    std::uint32_t first_instance = 0;
+};
+
+struct IndexedDraw {
+    std::uint32_t indices = 0;
+    std::uint32_t instances = 1;
+    std::uint32_t first_index = 0;
     std::uint32_t first_instance = 0;
 };
 
@@ -163,8 +172,15 @@ public:
     void images(const GraphicsPipeline& pipeline, std::span<const SampledImage> sampled);
 
     void dispatch(std::uint32_t groups_x, std::uint32_t groups_y = 1);
+    // Where more workgroups are needed than fit in a row, shaders count them row by row, and the
+    // last row may have some too many.
+    void dispatchGroups(std::uint32_t groups);
+    // As many workgroups of `size` invocations as `invocations` need; none for 0.
+    void dispatchInvocations(std::uint32_t invocations, std::uint32_t size);
     void draw(const Draw& draw);
-    void drawIndexed(const Buffer& indices, std::uint32_t first, std::uint32_t count);
+    void drawIndexed(const Buffer& indices, const IndexedDraw& draw);
+    // Draws whose arguments are so many VkDrawIndexedIndirectCommand in a buffer.
+    void drawIndexed(const Buffer& indices, const Buffer& arguments, std::uint32_t draws);
 
     void beginLabel(const char* name);
     void endLabel();

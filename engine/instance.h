@@ -103,6 +103,7 @@ enum class Feature {
     fragment_stores,
     independent_blend,  // attachments of one pipeline that are blended in different ways
     float_blend,  // of 32-bit floats
+    multi_draw,  // several draws by one command, their arguments in a buffer
     long_integers,  // of 64 bits, in shaders
     long_atomics,  // on such integers in buffers
     pipeline_statistics,

@@ -29,6 +29,7 @@ using uint = std::uint32_t;
 #include "shaders/shared/optics_structs.h"
 #include "shaders/shared/options.h"
 #include "shaders/shared/overlay_structs.h"
+#include "shaders/shared/points_structs.h"
 #include "shaders/shared/rod_structs.h"
 #include "shaders/shared/shadow_structs.h"
 #include "shaders/shared/simulation_structs.h"

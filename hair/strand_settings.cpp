@@ -39,10 +39,15 @@ const Table& tableOf(const StrandSettings*) {
              "backend", &S::backend,
              {{Backend::tessellation, "tessellation"},
               {Backend::pulling_geometry, "pulling_geometry"},
+              {Backend::lines, "lines"},
+              {Backend::pulling, "pulling"},
+              {Backend::expanded, "expanded"},
               {Backend::software, "software"}},
              "tessellation: control, isolines, evaluation, geometry; pulling_geometry: points "
-             "evaluated in the vertex stage, the same geometry stage; software: rasterised in "
-             "compute"),
+             "evaluated in the vertex stage, the same geometry stage; lines: lines a pixel wide "
+             "instead of quads; pulling: corners of quads made in the vertex stage; expanded: so "
+             "too, from points evaluated in compute; "
+             "software: rasterised in compute"),
          choice(
              "source", &S::source,
              {{StrandSource::root_triangles, "root_triangles"}, {StrandSource::groom, "groom"}},

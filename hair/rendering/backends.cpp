@@ -7,12 +7,15 @@
 
 #include "engine/error.h"
 #include "hair/gpu_structs.h"
+#include "hair/rendering/points_pass.h"
 #include "hair/rendering/software_backend.h"
 #include "hair/rendering/strand_offsets.h"
 #include "hair/shader_codes.h"
 
 namespace hair::rendering {
 namespace {
+
+using engine::Access;
 
 constexpr std::uint32_t pushSize(const StrandStages& stages) {
     return stages.watched ? std::uint32_t{sizeof(gpu::WatchedPush)}
@@ -47,7 +50,6 @@ std::string geometryShader(QuadKind quads) {
 
 // Says that what is drawn next evaluates the picture's strands (Commands::uses).
 void declareStrands(engine::Commands& commands, const gpu::PictureParameters& picture) {
-    using engine::Access;
     commands.uses(
         {{picture.guides, Access::vertex_read},
          {picture.contacts, Access::vertex_read},
@@ -62,12 +64,22 @@ public:
     std::optional<ExpectedCounts> expected() const override { return std::nullopt; }
 };
 
+// Both ends of every piece.
+std::uint32_t lineListVertices(const StrandPlan& plan) {
+    const std::uint64_t count =
+        std::uint64_t{2} * plan.patches() * plan.strands_per_patch * plan.forced_tessellation;
+    if (count > std::numeric_limits<std::uint32_t>::max())
+        throw engine::Unsupported(
+            "/strands/backend", std::to_string(count) + " vertices do not fit one draw");
+    return static_cast<std::uint32_t>(count);
+}
+
 // Strand points evaluated in the vertex stage of a line list, then the same geometry and fragment
 // stages as tessellation.
 class PullingGeometryBackend : public StrandBackend {
 public:
     explicit PullingGeometryBackend(const BackendContext& context)
-        : vertices_(vertexCount(context.plan)), pipeline_(context.device, describe(context)) {}
+        : vertices_(lineListVertices(context.plan)), pipeline_(context.device, describe(context)) {}
 
     void draw(engine::Commands& commands, const StrandPicture& picture) const override {
         declareStrands(commands, picture.parameters);
@@ -79,26 +91,262 @@ public:
     std::optional<ExpectedCounts> expected() const override { return std::nullopt; }
 
 private:
-    static std::uint32_t vertexCount(const StrandPlan& plan) {
-        const std::uint64_t count =
-            std::uint64_t{2} * plan.patches() * plan.strands_per_patch * plan.forced_tessellation;
-        if (count > std::numeric_limits<std::uint32_t>::max()) {
-            throw engine::Unsupported(
-                "pulling_geometry", std::to_string(count) + " vertices do not fit one draw");
-        }
-        return static_cast<std::uint32_t>(count);
-    }
-
     static engine::GraphicsDescription describe(const BackendContext& context) {
         context.device.require(engine::Feature::geometry, "/strands/backend: pulling_geometry");
         engine::GraphicsDescription description = strandPipeline(context);
         description.shaders = {
-            "strands/pulling.vert", geometryShader(context.output.quads), context.output.fragment};
+            "strands/pulling_geometry.vert", geometryShader(context.output.quads),
+            context.output.fragment};
         description.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
         return description;
     }
 
     std::uint32_t vertices_;
+    engine::GraphicsPipeline pipeline_;
+};
+
+// Whether lines are rectangles a pixel wide. Lavapipe says so, and draws a pixel in every row, or
+// column.
+bool drawsRectangles(const engine::DeviceInfo& device) {
+    return device.limits.strictLines == VK_TRUE && device.driver_id != VK_DRIVER_ID_MESA_LLVMPIPE;
+}
+
+// Strands as lines a pixel wide. Of what they cover of a pixel, opaque ones take as many of its
+// samples, at random: one is a dotted line.
+class LinesBackend : public StrandBackend {
+public:
+    explicit LinesBackend(const BackendContext& context)
+        : vertices_(lineListVertices(context.plan)), pipeline_(context.device, describe(context)) {}
+
+    void draw(engine::Commands& commands, const StrandPicture& picture) const override {
+        declareStrands(commands, picture.parameters);
+        commands.bind(pipeline_, gpu::StrandPush{.picture = picture.address});
+        commands.images(pipeline_, picture.images);
+        commands.draw({.vertices = vertices_});
+    }
+
+    std::optional<ExpectedCounts> expected() const override { return std::nullopt; }
+
+private:
+    static engine::GraphicsDescription describe(const BackendContext& context) {
+        engine::GraphicsDescription description = strandPipeline(context);
+        description.constants.emplace_back(
+            gpu::kStrictLinesConstant, drawsRectangles(context.device.info()));
+        description.constants.emplace_back(gpu::kLinesConstant, true);
+        const bool is_opaque = context.output.fragment == "strands/strand.frag";
+        description.shaders = {
+            "strands/lines.vert", is_opaque ? "strands/samples.frag" : context.output.fragment};
+        description.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
+        return description;
+    }
+
+    std::uint32_t vertices_;
+    engine::GraphicsPipeline pipeline_;
+};
+
+// Lines of pieces one after the other, whose ends are two corners each.
+struct PieceLines {
+    std::uint32_t lines;
+    std::uint32_t pieces;  // of a line
+    std::uint32_t ends;  // from a line's first end to the next one's
+};
+
+// The corners of the pieces' quads.
+std::vector<std::uint32_t> quadIndices(const PieceLines& of) {
+    std::vector<std::uint32_t> indices;
+    indices.reserve(std::size_t{6} * of.lines * of.pieces);
+    for (std::uint32_t line = 0; line < of.lines; ++line) {
+        for (std::uint32_t piece = 0; piece < of.pieces; ++piece) {
+            const std::uint32_t first = 2 * (line * of.ends + piece);
+            for (const std::uint32_t corner : {0u, 1u, 2u, 1u, 3u, 2u})
+                indices.push_back(first + corner);
+        }
+    }
+    return indices;
+}
+
+// Corners of quads made in the vertex stage, which evaluates the points as well.
+class PullingBackend : public StrandBackend {
+public:
+    explicit PullingBackend(const BackendContext& context)
+        : lines_(lineCount(context.plan)), block_(blockOf(context.plan)),
+          indices_per_line_(6 * context.plan.forced_tessellation),
+          indices_(engine::makeBuffer(
+              context.device,
+              std::span<const std::uint32_t>(quadIndices(
+                  {.lines = block_,
+                   .pieces = context.plan.forced_tessellation,
+                   .ends = context.plan.forced_tessellation + 1})),
+              "strands' corners")),
+          pipeline_(context.device, describe(context, block_)) {}
+
+    void draw(engine::Commands& commands, const StrandPicture& picture) const override {
+        declareStrands(commands, picture.parameters);
+        commands.bind(pipeline_, gpu::StrandPush{.picture = picture.address});
+        commands.images(pipeline_, picture.images);
+        const std::uint32_t whole = lines_ / block_;
+        if (whole > 0)
+            commands.drawIndexed(
+                indices_, {.indices = block_ * indices_per_line_, .instances = whole});
+        if (const std::uint32_t rest = lines_ % block_; rest > 0)
+            commands.drawIndexed(
+                indices_, {.indices = rest * indices_per_line_, .first_instance = whole});
+    }
+
+    std::optional<ExpectedCounts> expected() const override { return std::nullopt; }
+
+private:
+    // Isolines of patches.
+    static std::uint32_t lineCount(const StrandPlan& plan) {
+        const std::uint64_t count = std::uint64_t{plan.patches()} * plan.strands_per_patch;
+        if (count > std::numeric_limits<std::uint32_t>::max()) {
+            throw engine::Unsupported(
+                "pulling", std::to_string(count) + " strands' segments are too many");
+        }
+        return static_cast<std::uint32_t>(count);
+    }
+
+    // Isolines of an instance: so many that an instance is worth its while, so few that their
+    // corners' list is short.
+    static std::uint32_t blockOf(const StrandPlan& plan) {
+        constexpr std::uint32_t kCorners = 4096;
+        return std::max(kCorners / (2 * (plan.forced_tessellation + 1)), 1u);
+    }
+
+    static engine::GraphicsDescription
+    describe(const BackendContext& context, std::uint32_t block) {
+        engine::GraphicsDescription description = strandPipeline(context);
+        description.constants.emplace_back(gpu::kStrandBlockConstant, block);
+        description.shaders = {
+            context.output.quads == QuadKind::camera ? "strands/pulling.vert"
+                                                     : "shadows/pulling.vert",
+            context.output.fragment};
+        return description;
+    }
+
+    std::uint32_t lines_;
+    std::uint32_t block_;
+    std::uint32_t indices_per_line_;
+    engine::Buffer indices_;
+    engine::GraphicsPipeline pipeline_;
+};
+
+// Corners of quads made in the vertex stage from points that are there. The camera's picture draws
+// the strands that it can show, lights' maps all of them.
+class ExpandedBackend : public StrandBackend {
+public:
+    explicit ExpandedBackend(const BackendContext& context)
+        : points_(*context.points), is_listed_(context.output.quads == QuadKind::camera),
+          draws_(divideUp(points_.strandCount(), gpu::kExpandedStrands)),
+          indices_per_strand_(6 * context.plan.segments * context.plan.forced_tessellation),
+          indices_(engine::makeBuffer(
+              context.device, std::span<const std::uint32_t>(quadIndices(strandLines(context))),
+              "strands' corners")),
+          seen_(listBuffer(
+              context.device, sizeof(std::uint32_t) * points_.strandCount(), "seen strands")),
+          arguments_(listBuffer(
+              context.device, sizeof(gpu::IndexedCommand) * draws_, "arguments of draws")),
+          list_(
+              context.device, {.shader = "strands/points/list.comp",
+                               .constants = pointsConstants(context.strands, context.plan),
+                               .push_size = sizeof(gpu::ExpandedPush)}),
+          pipeline_(context.device, describe(context)) {}
+
+    void prepare(engine::Commands& commands, const StrandPicture& picture) const override {
+        if (!is_listed_) return;
+        commands.uses(
+            {{points_.pieces(), Access::compute_read},
+             {seen_, Access::compute_write},
+             {arguments_, Access::compute_write}});
+        gpu::ExpandedPush constants = push(picture);
+        constants.picture = 0;
+        constants.points = 0;
+        commands.bind(list_, constants);
+        commands.dispatchInvocations(draws_, gpu::kPointsGroup);
+        commands.barrier(
+            {{Access::compute_write, Access::indirect_read},
+             {Access::compute_write, Access::vertex_read}});
+    }
+
+    void draw(engine::Commands& commands, const StrandPicture& picture) const override {
+        gpu::ExpandedPush constants = push(picture);
+        constants.arguments = 0;
+        commands.uses(
+            {{points_.points(), Access::vertex_read},
+             {points_.pieces(), Access::vertex_read},
+             {constants.seen, Access::vertex_read}});
+        commands.bind(pipeline_, constants);
+        commands.images(pipeline_, picture.images);
+        if (is_listed_) {
+            commands.drawIndexed(indices_, arguments_, draws_);
+            return;
+        }
+        const std::uint32_t whole = points_.strandCount() / gpu::kExpandedStrands;
+        const std::uint32_t rest = points_.strandCount() % gpu::kExpandedStrands;
+        if (whole > 0)
+            commands.drawIndexed(
+                indices_,
+                {.indices = gpu::kExpandedStrands * indices_per_strand_, .instances = whole});
+        if (rest > 0)
+            commands.drawIndexed(
+                indices_, {.indices = rest * indices_per_strand_, .first_instance = whole});
+    }
+
+    std::optional<ExpectedCounts> expected() const override { return std::nullopt; }
+
+private:
+    gpu::ExpandedPush push(const StrandPicture& picture) const {
+        return {
+            .picture = picture.address,
+            .points = points_.points().address(),
+            .pieces = points_.pieces().address(),
+            .seen = is_listed_ ? seen_.address() : 0,
+            .arguments = is_listed_ ? arguments_.address() : 0,
+            .strands = points_.strandCount()};
+    }
+
+    // Where points between segments are there twice, a segment is a line.
+    static PieceLines strandLines(const BackendContext& context) {
+        const StrandPlan& plan = context.plan;
+        if (context.strands.taper == Taper::segment)
+            return {
+                .lines = gpu::kExpandedStrands * plan.segments,
+                .pieces = plan.forced_tessellation,
+                .ends = plan.forced_tessellation + 1};
+        const std::uint32_t pieces = plan.segments * plan.forced_tessellation;
+        return {.lines = gpu::kExpandedStrands, .pieces = pieces, .ends = pieces + 1};
+    }
+
+    static engine::Buffer
+    listBuffer(const engine::Device& device, std::size_t bytes, const std::string& name) {
+        return {
+            device,
+            {.size = std::max(bytes, sizeof(gpu::IndexedCommand)),
+             .usage = engine::Usage::storage,
+             .name = name}};
+    }
+
+    static engine::GraphicsDescription describe(const BackendContext& context) {
+        engine::GraphicsDescription description = strandPipeline(context);
+        const engine::Constants places = placeConstants(context.plan);
+        description.constants.insert(description.constants.end(), places.begin(), places.end());
+        const std::string folder =
+            context.output.quads == QuadKind::camera ? "strands/" : "shadows/";
+        description.shaders = {
+            folder + (readsPairs(context.device) ? "expanded_packed.vert" : "expanded.vert"),
+            context.output.fragment};
+        description.push_size = sizeof(gpu::ExpandedPush);
+        return description;
+    }
+
+    const PointsPass& points_;
+    bool is_listed_;  // by prepare(): what the picture can show
+    std::uint32_t draws_;
+    std::uint32_t indices_per_strand_;
+    engine::Buffer indices_;
+    engine::Buffer seen_;  // gpu::ExpandedPush::seen
+    engine::Buffer arguments_;  // gpu::IndexedCommand
+    engine::ComputePipeline list_;
     engine::GraphicsPipeline pipeline_;
 };
 
@@ -182,11 +430,17 @@ struct BackendRow {
 constexpr std::array kBackends{
     BackendRow{Backend::tessellation, make<TessellationBackend>},
     BackendRow{Backend::pulling_geometry, make<PullingGeometryBackend>},
+    BackendRow{Backend::lines, make<LinesBackend>},
+    BackendRow{Backend::pulling, make<PullingBackend>},
+    BackendRow{Backend::expanded, make<ExpandedBackend>},
     BackendRow{Backend::software, make<SoftwareBackend>},
 };
 
 // All that is skipped, one row each.
 constexpr std::array kBackendLimits{
+    BackendLimit{
+        Backend::lines, "`/render/coverage` `analytic`", "its lines are a pixel wide",
+        [](const Settings& s) { return s.render.coverage == Coverage::analytic; }},
     BackendLimit{
         Backend::software, "a `/render/transparency` but `none`", "it keeps one strand a sample",
         [](const Settings& s) { return s.render.transparency != Transparency::none; }},
@@ -208,7 +462,7 @@ engine::Buffer watchBuffer(const engine::Device& device) {
 }  // namespace
 
 std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext& context) {
-    if (context.output.quads == QuadKind::light) backend = mapBackend(backend, context.device);
+    if (context.output.quads == QuadKind::light) backend = mapBackend(backend);
     const auto row = std::ranges::find(kBackends, backend, &BackendRow::backend);
     assert(row != kBackends.end());
     if (!context.stages.last) return std::make_unique<EmptyBackend>();
@@ -217,10 +471,14 @@ std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext
     return row->make(context);
 }
 
-Backend mapBackend(Backend backend, const engine::Device& device) {
-    if (backend != Backend::software) return backend;
-    return device.has(engine::Feature::tessellation) ? Backend::tessellation
-                                                     : Backend::pulling_geometry;
+Backend mapBackend(Backend backend) {
+    if (backend == Backend::lines) return Backend::pulling;
+    return backend == Backend::software ? Backend::expanded : backend;
+}
+
+bool readsPoints(const Settings& settings) {
+    return settings.render.hair && (settings.strands.backend == Backend::software ||
+                                    settings.strands.backend == Backend::expanded);
 }
 
 std::span<const BackendLimit> backendLimits() { return kBackendLimits; }

@@ -20,6 +20,8 @@
 // What draws strands: back ends, which differ in the pipeline stages that make the same strands.
 namespace hair::rendering {
 
+class PointsPass;
+
 // The stages of the tessellation back end that can be left away, in the order in which strands go
 // through them. The control stage goes with the evaluation.
 enum class StrandStage { vertex, evaluation, geometry, raster, fragment };
@@ -90,6 +92,7 @@ struct BackendContext {
     StrandOutput output;
     StrandStages stages{};
     const engine::Target* target = nullptr;  // what the camera's picture is drawn to
+    const PointsPass* points = nullptr;  // where readsPoints()
 };
 
 // Throws engine::Unsupported for stages that the back end or the device doesn't have. Quads that
@@ -97,7 +100,7 @@ struct BackendContext {
 std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext& context);
 
 // The back end that draws lights' maps for one: itself, or where it draws none another.
-Backend mapBackend(Backend backend, const engine::Device& device);
+Backend mapBackend(Backend backend);
 
 // What a back end doesn't draw: docs/rendering.md has the table.
 struct BackendLimit {
@@ -110,6 +113,9 @@ std::span<const BackendLimit> backendLimits();
 
 // Throws engine::Unsupported for what the case's back end doesn't draw.
 void checkBackend(const Settings& settings);
+
+// Whether the case's back end draws from points that are evaluated before.
+bool readsPoints(const Settings& settings);
 
 // Whether the case's back end reads the depth of what the scene has drawn.
 bool readsSceneDepth(const Settings& settings);

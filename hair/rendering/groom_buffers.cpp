@@ -46,6 +46,9 @@ std::vector<gpu::RootFrame> rootFrames(const groom::Groom& groom) {
     return frames;
 }
 
+// Of the cubic through the values of offsets: its weights' magnitudes add up to 1 + t (1 - t).
+constexpr float kOvershoot = 1.25f;
+
 }  // namespace
 
 GroomBuffers::GroomBuffers(
@@ -60,6 +63,9 @@ GroomBuffers::GroomBuffers(
     view_.centre = bounds.centre;
     view_.radius = bounds.radius;
     view_.greatest_width_scale = greatestWidthScale(groom, settings.strands);
+    view_.greatest_width = settings.strands.width == WidthSource::groom
+                               ? std::ranges::max(groom.widths)
+                               : std::max(settings.strands.root_width, settings.strands.tip_width);
     const auto upload = [&]<class Value>(
                             engine::Buffer& buffer, const std::vector<Value>& values,
                             const char* name) {
@@ -84,6 +90,8 @@ GroomBuffers::GroomBuffers(
         const StrandOffsets offsets =
             makeStrandOffsets(settings.strands, groom, model, settings.seed);
         view_.offsets = upload(offsets_, offsets.values, "strand offsets");
+        for (const glm::vec3& value : offsets.values)
+            view_.offset_reach = std::max(view_.offset_reach, kOvershoot * glm::length(value));
         view_.offset_profiles = offsets.profiles;
         view_.offset_samples = offsets.samples;
         view_.root_frames = upload(root_frames_, rootFrames(groom), "root frames");

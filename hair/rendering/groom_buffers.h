@@ -28,6 +28,8 @@ struct StrandView {
     std::uint64_t offsets = 0;  // StrandOffsets::values
     glm::vec3 centre{0.0f};  // of a sphere that the strands can't leave, m, before the head moved
     float radius = 0.0f;  // of it
+    float offset_reach = 0.0f;  // m, how far offsets move a strand's points
+    float greatest_width = 0.0f;  // m, of strands at level 0 of detail
     float greatest_width_scale = 0.0f;  // of levels of detail by distance: strand_plan.h; 0: any
     glm::mat4 head{1.0f};  // rigid motion of the root normals and of the mesh under the hair
     std::uint32_t guide_count = 0;

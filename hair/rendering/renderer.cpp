@@ -32,6 +32,19 @@ engine::TargetDescription rendered(const Settings& settings) {
     return description;
 }
 
+std::optional<PointsPass> makePoints(
+    const engine::Device& device, const Settings& settings, const StrandPlan& plan,
+    const StrandView& view) {
+    if (!readsPoints(settings)) return std::nullopt;
+    checkBackend(settings);
+    return std::optional<PointsPass>(
+        std::in_place, device, settings, plan, view, !hasHairMaps(settings));
+}
+
+const PointsPass* pointerTo(const std::optional<PointsPass>& points) {
+    return points ? &*points : nullptr;
+}
+
 std::vector<engine::SampledImage>
 strandImages(const StrandTexture& texture, const ShadowPass& shadows) {
     std::vector<engine::SampledImage> images{texture.image()};
@@ -110,12 +123,13 @@ Renderer::Renderer(
       target_(device, rendered(settings)),
       lights_(
           engine::makeBuffer(device, std::span<const gpu::Light>(makeLights(settings)), "lights")),
-      optics_(device, settings), shadows_(device, settings, plan_, assets),
+      optics_(device, settings), points_(makePoints(device, settings, plan_, view)),
+      shadows_(device, settings, plan_, assets, pointerTo(points_)),
       environment_(device, settings, assets), meshes_(device, settings, assets),
       texture_(device, settings.render, assets.strand_texture),
       strand_images_(strandImages(texture_, shadows_)),
-      strands_(device, settings, plan_, target_, view, stages), overlay_(device, settings, assets),
-      resolve_(device, settings.render, target_.description()) {
+      strands_(device, settings, plan_, target_, view, pointerTo(points_), stages),
+      overlay_(device, settings, assets), resolve_(device, settings.render, target_.description()) {
     for (engine::Buffer& parameters : parameters_) parameters = parameterBuffer(device);
     if (settings.render.hair && hasOffsets(settings.strands)) frames_.emplace(device, view);
 }
@@ -137,6 +151,11 @@ void Renderer::record(engine::Passes& passes, const StrandView& view) {
     if (frames_) {
         passes.pass("frames", engine::PassKind::compute, [&](engine::Commands& commands) {
             frames_->record(commands, view);
+        });
+    }
+    if (points_) {
+        passes.pass("points", engine::PassKind::compute, [&](engine::Commands& commands) {
+            points_->record(commands, picture, picture_parameters);
         });
     }
     shadows_.record(passes, meshes_, view, picture_parameters);

@@ -11,6 +11,7 @@
 #include "hair/rendering/fiber.h"
 #include "hair/rendering/groom_buffers.h"
 #include "hair/rendering/overlay_pass.h"
+#include "hair/rendering/points_pass.h"
 #include "hair/rendering/render_assets.h"
 #include "hair/rendering/resolve_pass.h"
 #include "hair/rendering/scene_meshes.h"
@@ -37,9 +38,9 @@ gpu::PictureParameters pictureParameters(
     const Settings& settings, const StrandPlan& plan, const StrandView& view,
     const PictureBuffers& buffers);
 
-// Draws pictures of a head of hair: the passes frames (where strands are offset), mesh_shadow and
-// hair_shadow (where asked for), scene, strands, composite (where fragments are blended at the
-// end), overlay (where asked for) and resolve.
+// Draws pictures of a head of hair: the passes frames (where strands are offset), points (where a
+// back end draws from them), mesh_shadow and hair_shadow (where asked for), scene, strands,
+// composite (where fragments are blended at the end), overlay (where asked for) and resolve.
 class Renderer {
 public:
     // `view` gives the counts, which stay as they are. Throws engine::Unsupported for what the
@@ -68,6 +69,7 @@ private:
     engine::Buffer lights_;  // gpu::Light
     HairOpticsBuffers optics_;
     std::optional<FramesPass> frames_;
+    std::optional<PointsPass> points_;
     ShadowPass shadows_;
     EnvironmentPass environment_;
     SceneMeshes meshes_;

@@ -226,7 +226,9 @@ void SceneMeshes::draw(
                 material.images.begin(), material.images.end());
             images.insert(images.end(), shadows.begin(), shadows.end());
             commands.images(pipeline, images);
-            commands.drawIndexed(mesh.geometry.indices, part.first_index, part.index_count);
+            commands.drawIndexed(
+                mesh.geometry.indices,
+                {.indices = part.index_count, .first_index = part.first_index});
         }
     }
 }
@@ -239,7 +241,9 @@ void SceneMeshes::drawDepth(engine::Commands& commands, std::uint64_t picture) c
                 depth_pipelines_.at(depthLook(material.look));
             bind(commands, pipeline, picture, mesh, material);
             if (material.look.mask) commands.images(pipeline, material.images);
-            commands.drawIndexed(mesh.geometry.indices, part.first_index, part.index_count);
+            commands.drawIndexed(
+                mesh.geometry.indices,
+                {.indices = part.index_count, .first_index = part.first_index});
         }
     }
 }

@@ -173,13 +173,13 @@ void toRead(engine::Commands& commands, const engine::Image& image, VkImageLayou
     const bool was_drawn = from != VK_IMAGE_LAYOUT_UNDEFINED;
     commands.transition(
         image, from, kRead, was_drawn ? engine::Access::attachment : engine::Access::anything,
-        engine::Access::fragment_read);
+        engine::Access::shading_read);
 }
 
 // For what is drawn next, after the last frame's pictures have read the image.
 void toDraw(engine::Commands& commands, const engine::Image& image, VkImageLayout to) {
     commands.transition(
-        image, VK_IMAGE_LAYOUT_UNDEFINED, to, engine::Access::fragment_read,
+        image, VK_IMAGE_LAYOUT_UNDEFINED, to, engine::Access::shading_read,
         engine::Access::attachment);
 }
 
@@ -252,6 +252,11 @@ VkRect2D ShadowAtlas::part(std::uint32_t index) const {
         {side, side}};
 }
 
+bool hasHairMaps(const Settings& settings) {
+    return settings.shading.shadows.hair != HairShadows::none && settings.render.hair &&
+           !shadowingLights(settings).empty();
+}
+
 void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas) {
     const VkPhysicalDeviceLimits& limits = device.info().limits;
     const std::uint32_t most = std::min(
@@ -270,12 +275,10 @@ void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas) {
 
 ShadowPass::ShadowPass(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan,
-    const RenderAssets& assets)
+    const RenderAssets& assets, const PointsPass* points)
     : settings_(settings), scene_(settings, assets), lights_(shadowingLights(settings)),
       mesh_maps_(settings.shading.shadows.meshes && !lights_.empty()),
-      hair_maps_(
-          settings.shading.shadows.hair != HairShadows::none && settings.render.hair &&
-          plan.strands() > 0 && !lights_.empty()),
+      hair_maps_(hasHairMaps(settings) && plan.strands() > 0),
       atlas_(checkedAtlas(
           device, static_cast<std::uint32_t>(lights_.size()), settings.shading.shadows.resolution)),
       mesh_depths_(atlasImage(
@@ -302,7 +305,8 @@ ShadowPass::ShadowPass(
     });
     if (!hair_maps_) return;
     device.require(engine::Feature::float_blend, "/shading/shadows/hair");
-    const BackendContext context{.device = device, .plan = plan, .strands = settings.strands};
+    const BackendContext context{
+        .device = device, .plan = plan, .strands = settings.strands, .points = points};
     const auto backend = [&](const StrandOutput& output) {
         BackendContext with_output = context;
         with_output.output = output;

@@ -63,6 +63,9 @@ struct ShadowAtlas {
     VkRect2D part(std::uint32_t index) const;
 };
 
+// Whether there are maps of hair.
+bool hasHairMaps(const Settings& settings);
+
 // Throws engine::Unsupported where the device has no such images.
 void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas);
 
@@ -71,10 +74,11 @@ void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas);
 // throw those of points at their centres.
 class ShadowPass {
 public:
-    // Throws engine::Unsupported where the device lacks the images.
+    // `points` are there where readsPoints(). Throws engine::Unsupported where the device lacks the
+    // images.
     ShadowPass(
         const engine::Device& device, const Settings& settings, const StrandPlan& plan,
-        const RenderAssets& assets);
+        const RenderAssets& assets, const PointsPass* points = nullptr);
 
     // The passes "mesh_shadow" and "hair_shadow", where asked for. `picture` is what the camera's
     // picture reads: levels of detail are those of its lod_eye.

@@ -8,21 +8,22 @@
 #include "engine/pipeline.h"
 #include "hair/gpu_structs.h"
 #include "hair/rendering/backends.h"
+#include "hair/rendering/points_pass.h"
 
 namespace hair::rendering {
 
-// Strands rasterised in compute, opaque. Every point is evaluated once; pieces of strands leave
-// their number and depth at the samples that they cover, by atomic minima; each sample that shows a
-// strand is shaded once; and two triangles bring color and depth into the target. What shows no
-// hair costs nothing: samples are cleared, shaded and drawn within the hair's bounds on the screen.
+// Strands rasterised in compute, opaque, from their points. Pieces of strands leave their number
+// and depth at the samples that they cover, by atomic minima; each sample that shows a strand is
+// shaded once; and two triangles bring color and depth into the target. What shows no hair costs
+// nothing: samples are cleared, shaded and drawn within the hair's bounds on the screen.
 //
 // Pieces are the quads that the other back ends draw, and samples lie where Vulkan's standard
 // positions are, so that the picture is theirs but for rounding; with several samples each is
 // shaded by itself, not once a pixel.
 class SoftwareBackend : public StrandBackend {
 public:
-    // Needs context.target, with sampled_depth. Throws engine::Unsupported for what the device or
-    // the back end can't do.
+    // Needs context.target, with sampled_depth, and context.points. Throws engine::Unsupported for
+    // what the device or the back end can't do.
     explicit SoftwareBackend(const BackendContext& context);
 
     void prepare(engine::Commands& commands, const StrandPicture& picture) const override;
@@ -33,24 +34,18 @@ public:
 private:
     // What every stage knows; it adds the addresses of what it touches, and no others.
     gpu::SoftwarePush push(const StrandPicture& picture) const;
-    void evaluate(engine::Commands& commands, const StrandPicture& picture) const;
     void clear(engine::Commands& commands, const StrandPicture& picture) const;
     void cover(engine::Commands& commands, const StrandPicture& picture) const;
     void shade(engine::Commands& commands, const StrandPicture& picture) const;
 
     const engine::Target& target_;
+    const PointsPass& points_;
     std::uint32_t samples_per_pixel_;
-    std::uint32_t strand_count_;
-    std::uint32_t evaluated_blocks_;
     std::uint32_t covered_blocks_;
     bool is_packed_;  // with 64-bit integers and atomics
-    engine::Buffer points_;
-    engine::Buffer pieces_;
     engine::Buffer samples_;
     engine::Buffer colors_;  // empty without linear light
-    engine::Buffer bounds_;  // gpu::HairBounds
-    engine::Buffer large_;  // pieces with many samples
-    engine::ComputePipeline evaluate_;
+    engine::Buffer large_;  // how many pieces with many samples, and which
     engine::ComputePipeline clear_;
     engine::ComputePipeline cover_;
     engine::ComputePipeline cover_large_;

@@ -418,7 +418,8 @@ StrandTexture::StrandTexture(
 
 StrandPass::StrandPass(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan,
-    const engine::Target& target, const StrandView& view, const StrandStages& stages)
+    const engine::Target& target, const StrandView& view, const PointsPass* points,
+    const StrandStages& stages)
     : blend_(blendOf(
           {.device = device, .settings = settings, .target = target, .view = view}, stages)),
       backend_(makeBackend(
@@ -427,7 +428,8 @@ StrandPass::StrandPass(
                                      .strands = settings.strands,
                                      .output = shaded(blend_->output(), settings),
                                      .stages = drawnStages(settings, stages),
-                                     .target = &target})) {}
+                                     .target = &target,
+                                     .points = points})) {}
 
 void StrandPass::record(
     engine::Passes& passes, const engine::Target& target, std::uint64_t picture,

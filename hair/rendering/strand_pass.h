@@ -82,11 +82,12 @@ private:
 // fragments are blended after all are known, "composite".
 class StrandPass {
 public:
-    // `view` has the sphere that the strands can't leave, which weighted_blended goes by. Throws
-    // engine::Unsupported for what the device lacks.
+    // `view` has the sphere that the strands can't leave, which weighted_blended goes by; `points`
+    // are there where readsPoints(). Throws engine::Unsupported for what the device lacks.
     StrandPass(
         const engine::Device& device, const Settings& settings, const StrandPlan& plan,
-        const engine::Target& target, const StrandView& view, const StrandStages& stages = {});
+        const engine::Target& target, const StrandView& view, const PointsPass* points,
+        const StrandStages& stages = {});
 
     // `picture` is the address of `parameters`; `images` are the kStrandImages that
     // strands/fragment.glsl samples.

@@ -37,10 +37,6 @@ double radius(const groom::Groom& groom) {
     return std::sqrt(std::max(squares / count - glm::dot(mean, mean), 0.0));
 }
 
-constexpr std::uint32_t divideUp(std::uint32_t value, std::uint32_t divisor) {
-    return (value + divisor - 1) / divisor;
-}
-
 std::uint32_t smallestFactor(std::uint32_t number) {
     for (std::uint32_t factor = 2; factor * factor <= number; ++factor)
         if (number % factor == 0) return factor;

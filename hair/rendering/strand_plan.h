@@ -15,6 +15,10 @@
 // How many strands a picture draws, in which draws and at which level of detail.
 namespace hair::rendering {
 
+constexpr std::uint32_t divideUp(std::uint32_t value, std::uint32_t divisor) {
+    return (value + divisor - 1) / divisor;
+}
+
 // How many strands, patches and vertices a picture draws, and by which draws: thesis 2.3.5. The
 // strands of a groom are those of one triangle, each a patch of its own in every guide segment.
 struct StrandPlan {

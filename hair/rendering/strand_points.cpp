@@ -21,8 +21,6 @@ using Record = gpu::StrandPointRecord;
 static_assert(sizeof(Record) == 32 && offsetof(Record, tangent) == 16);
 static_assert(offsetof(gpu::StrandPointsPush, count) == 16);
 
-constexpr std::uint32_t kMostGroupsInRow = 65535;  // what every device has
-
 // Shaders number points in 32 bits.
 std::uint32_t pointCount(const StrandPlan& plan) {
     const std::uint64_t count = plan.strands() * plan.segments * (plan.forced_tessellation + 1);
@@ -32,13 +30,6 @@ std::uint32_t pointCount(const StrandPlan& plan) {
             "strand points", std::to_string(count) + " are over " + std::to_string(kMost));
     }
     return static_cast<std::uint32_t>(count);
-}
-
-void dispatchFor(engine::Commands& commands, std::uint32_t invocations) {
-    const std::uint32_t groups =
-        (invocations + gpu::kStrandPointsGroupSize - 1) / gpu::kStrandPointsGroupSize;
-    const std::uint32_t columns = std::min(groups, kMostGroupsInRow);
-    commands.dispatch(columns, (groups + columns - 1) / columns);
 }
 
 }  // namespace
@@ -95,7 +86,7 @@ StrandPoints evaluateStrandPoints(
                               .records = records.address(),
                               .count = part,
                               .first = first});
-            dispatchFor(commands, part);
+            commands.dispatchInvocations(part, gpu::kStrandPointsGroupSize);
             commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);
         });
         const std::vector<Record> evaluated = engine::downloadAs<Record>(device, records);

@@ -191,7 +191,7 @@ DistanceField::DistanceField(
             .block_count = std::min(kBlocksPerBatch, count - first)};
         device.runOnce([&](engine::Commands& commands) {
             commands.bind(pipeline, push);
-            dispatchGroups(commands, push.block_count);
+            commands.dispatchGroups(push.block_count);
             commands.barrier(engine::Access::compute_write, engine::Access::anything);
         });
     }

@@ -214,7 +214,7 @@ void HairHair::record(
          {guides.previous, Access::compute_read},
          {samples_, Access::compute_write},
          {blocks_, Access::compute_write}});
-    dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
+    commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
 
     commands.barrier(Access::compute_write, Access::compute_write);
     commands.bind(splat_, push);
@@ -222,7 +222,7 @@ void HairHair::record(
         {{samples_, Access::compute_read},
          {blocks_, Access::compute_read},
          {sums_, Access::compute_write}});
-    dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
+    commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
 
     commands.barrier(Access::compute_write, Access::compute_write);
     push.accelerations = guides.accelerations;
@@ -232,7 +232,7 @@ void HairHair::record(
          {blocks_, Access::compute_read},
          {sums_, Access::compute_read},
          {guides.accelerations, Access::compute_write}});
-    dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
+    commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
 }
 
 }  // namespace hair::simulation

@@ -110,7 +110,7 @@ void PullPass::record(engine::Commands& commands, const GuideAddresses& guides, 
         commands.bind(spread_, push);
         commands.uses(
             {{held_, Access::compute_read}, {guides.accelerations, Access::compute_write}});
-        dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
+        commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
     }
 }
 

@@ -23,7 +23,7 @@ FtlSolver::FtlSolver(
 void FtlSolver::record(engine::Commands& commands, gpu::SubstepPush push) const {
     push.solver = parameters_.address();
     commands.bind(pipeline_, push);
-    dispatchInvocations(commands, strand_count_, gpu::kGuideGroupSize);
+    commands.dispatchInvocations(strand_count_, gpu::kGuideGroupSize);
 }
 
 }  // namespace hair::simulation

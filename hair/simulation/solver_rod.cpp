@@ -169,8 +169,8 @@ void RodSolver::record(engine::Commands& commands, gpu::SubstepPush push) const 
         push.first_strand = first;
         commands.bind(step_, push);
         commands.uses({{motion_, Access::compute_write}, {scratch_, Access::compute_write}});
-        dispatchInvocations(
-            commands, std::min(most_strands_, strand_count_ - first), gpu::kRodGroupSize);
+        commands.dispatchInvocations(
+            std::min(most_strands_, strand_count_ - first), gpu::kRodGroupSize);
     }
 }
 
@@ -178,7 +178,7 @@ void RodSolver::recordAdopt(engine::Commands& commands, gpu::SubstepPush push) c
     push.solver = parameters_.address();
     commands.bind(adopt_, push);
     commands.uses({{motion_, Access::compute_write}});
-    dispatchInvocations(commands, strand_count_, gpu::kRodGroupSize);
+    commands.dispatchInvocations(strand_count_, gpu::kRodGroupSize);
 }
 
 }  // namespace hair::simulation

@@ -185,7 +185,7 @@ ShapeSolver::ShapeSolver(
 void ShapeSolver::record(engine::Commands& commands, gpu::SubstepPush push) const {
     push.solver = parameters_.address();
     commands.bind(pipeline_, push);
-    dispatchInvocations(commands, strand_count_, plan_.strands_per_group);
+    commands.dispatchInvocations(strand_count_, plan_.strands_per_group);
 }
 
 void ShapeSolver::expectBodies(const engine::Device& device) {

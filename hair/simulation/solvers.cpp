@@ -26,7 +26,7 @@ public:
 
     void record(engine::Commands& commands, gpu::SubstepPush push) const override {
         commands.bind(pipeline_, push);
-        dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
+        commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
     }
 
 private:

@@ -11,22 +11,8 @@
 #include "hair/gpu_structs.h"
 #include "hair/settings.h"
 
-// What the solvers have in common: dispatches, rotations, and stiffness at any step.
+// What the solvers have in common: rotations, and stiffness at any step.
 namespace hair::simulation {
-
-// Dispatches `groups` workgroups. Where more are needed than fit in a row, shaders count them row
-// by row (workgroupIndex() in simulation/guides.glsl), and the last row may have some too many.
-inline void dispatchGroups(engine::Commands& commands, std::uint32_t groups) {
-    constexpr std::uint32_t kMostInRow = 65535;  // what every device has
-    const std::uint32_t columns = std::min(groups, kMostInRow);
-    commands.dispatch(columns, (groups + columns - 1) / columns);
-}
-
-// Dispatches as many workgroups of `size` invocations as `invocations` need.
-inline void
-dispatchInvocations(engine::Commands& commands, std::uint32_t invocations, std::uint32_t size) {
-    dispatchGroups(commands, (invocations + size - 1) / size);
-}
 
 // A unit vector perpendicular to `v`: its cross product with the axis it has least of (x before y
 // before z where they tie). (0, 1, 0) for v = 0. The same choice as in

@@ -117,7 +117,7 @@ void WindPass::recordThesis(
     commands.bind(pipeline_, push);
     commands.uses(
         {{guides.positions, Access::compute_read}, {guides.accelerations, Access::compute_write}});
-    dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
+    commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
 }
 
 // The mean wind has carried the lattice from its start at the world's origin by speed times time:
@@ -145,7 +145,7 @@ void WindPass::recordDrag(
         {{guides.positions, Access::compute_read},
          {guides.previous, Access::compute_read},
          {guides.accelerations, Access::compute_write}});
-    dispatchInvocations(commands, vertex_count_, gpu::kGuideGroupSize);
+    commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
 }
 
 }  // namespace hair::simulation

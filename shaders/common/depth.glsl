@@ -10,6 +10,9 @@ bool isNearer(float depth, float than) { return depth > than; }
 
 bool isNearerOrEqual(float depth, float than) { return depth >= than; }
 
+// A place that no picture shows, beyond the far plane.
+const vec4 kNowhere = vec4(0.0, 0.0, 2.0 * float(kFarDepth) - float(kNearDepth), 1.0);
+
 // A depth moved towards the near plane, by a positive amount.
 float nearer(float depth, float by) { return depth + by; }
 

@@ -73,9 +73,14 @@ const uint kLodMorphConstant = 9u;
 // Constants of strands/software: strands/software/software.glsl.
 const uint kMostSegmentsConstant = 10u;
 const uint kMostPiecesConstant = 11u;
+// Of that and of strands/pulling.glsl.
 const uint kStrandBlockConstant = 12u;
 
-// Constant of strands' fragment and geometry stages: strands/pixel_samples.glsl.
+// Constants of the back end `lines`: strands/lines.vert, strands/fragment.glsl.
+const uint kStrictLinesConstant = 13u;
+const uint kLinesConstant = 14u;
+
+// Constant of strands' quads and fragments: strands/pixel_samples.glsl.
 const uint kPixelSamplesConstant = 15u;
 
 // Constants of a mesh's material: scene/options.glsl.

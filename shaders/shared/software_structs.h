@@ -17,27 +17,17 @@ const uint kLargeGroups = 256u;
 // What a sample shows that shows no strand.
 const uint kNoPiece = 0xffffffffu;
 
-// The rectangle of pixels that hair may touch, as distances from the picture's opposite sides:
-// each grows with the hair, from 0 where there is none.
-struct HairBounds {
-    uint from_right;  // of the left edge, px
-    uint from_bottom;  // of the upper edge, px
-    uint right;  // px
-    uint bottom;  // px
-    uint large_pieces;  // may be over kMostLargePieces
-};
-
 // Push constants of everything in strands/software.
 struct SoftwarePush {
     Address picture;  // PictureParameters
-    Address points;  // vec4 [strand][point], root first: strands/software/points.glsl
-    Address pieces;  // uint [strand]: pieces of a guide segment that are drawn; 0: none of it
+    Address points;  // PointsPush::points
+    Address pieces;  // PointsPush::pieces
     // uvec2 [pixel][sample]. x: the piece that is seen, [strand][piece], or kNoPiece; shaded: its
     // color. y: how near it is, or what the scene has there.
     Address samples;
     Address colors;  // uvec2 [pixel][sample], half floats; where light is linear
     Address bounds;  // HairBounds
-    Address large;  // uint: large pieces
+    Address large;  // uint: how many large pieces there are, and which
     uint width;  // of the rendered picture, px
     uint height;  // px
     uint strands;

@@ -11,7 +11,10 @@ layout(push_constant, scalar) uniform Push { StrandPush push; };
 
 layout(location = 0) in vec4 position_and_across;
 layout(location = 1) in vec4 tangent_and_along;
-layout(location = 2) in float half_width;  // m; with analytic coverage
+layout(location = 2) in float half_width;  // m; with analytic coverage. Of lines their coverage
+
+// 1: strands are lines a pixel wide
+layout(constant_id = kLinesConstant) const uint kLines = 0;
 
 // A point of a strand as a pixel sees it.
 struct SeenStrand {
@@ -29,7 +32,9 @@ SeenStrand seenStrand(PictureParameters picture) {
     seen.fragment.across = position_and_across.w;
     seen.fragment.along = tangent_and_along.w;
     seen.coverage = 1.0;
-    if (kAnalyticCoverage != 0) {
+    if (kLines != 0) {
+        seen.coverage = half_width;
+    } else if (kAnalyticCoverage != 0) {
         float offset = position_and_across.w;
         PixelFilter pixel = pixelFilter(offset);
         seen.coverage = pixelCoverage(pixel, offset, half_width);

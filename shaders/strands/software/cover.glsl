@@ -1,7 +1,9 @@
 // The samples that pieces of strands cover: each keeps the nearest piece, of equally near ones the
 // first. Pieces are drawn by spans across their major axis: each row of samples, or column, meets a
 // thin piece in few. offer() has to be there.
-#include "strands/software/quad.glsl"
+#include "strands/software/software.glsl"
+
+#include "strands/points/quad.glsl"
 #include "strands/software/samples.glsl"
 
 // A piece's samples, row by row: where it is nearer to level, column by column.

@@ -4,11 +4,12 @@
 layout(local_size_x = kSoftwareStrandGroup) in;
 
 void main() {
-    uint count = min(Bounds(push.bounds).bounds.large_pieces, kMostLargePieces);
+    LargePieces large = LargePieces(push.large);
+    uint count = min(large.count, kMostLargePieces);
     if (gl_WorkGroupID.x >= count) return;  // no barrier follows
     PictureParameters picture = PictureReference(push.picture).parameters;
     for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x) {
-        uint piece = LargePieces(push.large).at[i];
+        uint piece = large.at[i];
         Cover cover = makeCover(pieceOf(picture, piece).quad);
         coverRows(cover, cover.begin + int(gl_LocalInvocationID.x), int(gl_WorkGroupSize.x), piece);
     }

@@ -6,21 +6,21 @@ layout(local_size_x = kSoftwareStrandGroup) in;
 
 // Whether the piece is listed, to be covered by and by.
 bool isListed(uint piece) {
-    Bounds bounds = Bounds(push.bounds);
-    if (push.choice > 0u) return bounds.bounds.large_pieces <= kMostLargePieces;
-    uint place = atomicAdd(bounds.bounds.large_pieces, 1u);
+    LargePieces large = LargePieces(push.large);
+    if (push.choice > 0u) return large.count <= kMostLargePieces;
+    uint place = atomicAdd(large.count, 1u);
     if (place >= kMostLargePieces) return false;
-    LargePieces(push.large).at[place] = piece;
+    large.at[place] = piece;
     return true;
 }
 
 void coverStrand(PictureParameters picture, uint strand, uint pieces) {
-    PieceEnd from = pieceEnd(picture, loadPoint(firstPoint(strand, 0u, pieces)));
+    PieceEnd from = pieceEnd(picture, loadPoint(push.points, firstPoint(strand, 0u, pieces)));
     for (uint i = 0u; i < kSegments * pieces; ++i) {
         uint first = firstPoint(strand, i, pieces);
         if (kSplitJoints == 1u && i > 0u && i % pieces == 0u)
-            from = pieceEnd(picture, loadPoint(first));
-        PieceEnd to = pieceEnd(picture, loadPoint(first + 1u));
+            from = pieceEnd(picture, loadPoint(push.points, first));
+        PieceEnd to = pieceEnd(picture, loadPoint(push.points, first + 1u));
         PieceQuad quad = pieceQuad(from, to);
         from = to;
         if (!quad.seen) continue;

@@ -1,6 +1,8 @@
 // The color of each sample that shows a strand. A workgroup a row of pixels.
 #include "shading/strand_shading.glsl"
-#include "strands/software/quad.glsl"
+#include "strands/software/software.glsl"
+
+#include "strands/points/quad.glsl"
 #include "strands/software/samples.glsl"
 
 layout(local_size_x = kSoftwarePixelGroup) in;

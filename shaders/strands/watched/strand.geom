@@ -1,14 +1,16 @@
 #version 460
 // strands/strand.geom with its stage watched: strands/watch.glsl.
 #extension GL_GOOGLE_include_directive : require
+#include "strands/geometry_lines.glsl"
 #include "strands/quad.glsl"
 #include "strands/watch.glsl"
 
 void main() {
-    if (!isDrawn()) return;
+    if (position_and_width[0].w < 0.0) return;
     PictureParameters picture = PictureReference(push.picture).parameters;
     uint made = 0;
-    for (int end = 0; end < 2; ++end) {
+    for (int i = 0; i < 2; ++i) {
+        LineEnd end = lineEnd(i);
         QuadEnd quad = quadEnd(picture, end);
         for (float across = -1.0; across <= 1.0; across += 2.0) {
             makeCorner(picture, end, quad, across);

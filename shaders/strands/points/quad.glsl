@@ -1,9 +1,11 @@
-// The quad that a piece of a strand is on the screen: that of strands/quad.glsl, thesis 2.2.
-#ifndef HAIRBENCH_SOFTWARE_QUAD_GLSL
-#define HAIRBENCH_SOFTWARE_QUAD_GLSL
+// The quad that a piece of a strand is on the screen: that of strands/quad.glsl, thesis 2.2. Before
+// it: push constants with points, pieces, width and height.
+#ifndef HAIRBENCH_POINTS_QUAD_GLSL
+#define HAIRBENCH_POINTS_QUAD_GLSL
 
 #include "common/depth.glsl"
-#include "strands/software/points.glsl"
+#include "common/picture.glsl"
+#include "strands/points/points.glsl"
 
 // A place of a strand on the screen: of its middle, and from there to the edge.
 struct ScreenEnd {
@@ -91,8 +93,8 @@ Piece pieceOf(PictureParameters picture, uint number) {
     uint pieces = kSplitJoints == 1u ? StrandPieces(push.pieces).at[strand] : 1u;
     uint first = firstPoint(strand, number % kPiecesPerStrand, pieces);
     Piece piece;
-    piece.from = pieceEnd(picture, loadPoint(first));
-    piece.to = pieceEnd(picture, loadPoint(first + 1u));
+    piece.from = pieceEnd(picture, loadPoint(push.points, first));
+    piece.to = pieceEnd(picture, loadPoint(push.points, first + 1u));
     piece.quad = pieceQuad(piece.from, piece.to);
     return piece;
 }

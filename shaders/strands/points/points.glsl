@@ -1,9 +1,9 @@
 // A point of a strand in 16 bytes: its place, and in a word the direction of the strand and its
 // width. Needs common/vectors.glsl or common/packed_vectors.glsl before it.
-#ifndef HAIRBENCH_SOFTWARE_POINTS_GLSL
-#define HAIRBENCH_SOFTWARE_POINTS_GLSL
+#ifndef HAIRBENCH_POINTS_GLSL
+#define HAIRBENCH_POINTS_GLSL
 
-#include "strands/software/software.glsl"
+#include "strands/points/layout.glsl"
 
 struct PackedPoint {
     vec3 position;  // m
@@ -42,13 +42,13 @@ float unpackWidth(uint word) {
     return word == 0u ? 0.0 : exp2((float(word) - kMostWidth) / kWidthsPerOctave);
 }
 
-void storePoint(uint index, PackedPoint point) {
+void storePoint(Address points, uint index, PackedPoint point) {
     uint word = packDirection(point.tangent) | packWidth(point.width) << 20;
-    storeVector(push.points, index, vec4(point.position, uintBitsToFloat(word)));
+    storeVector(points, index, vec4(point.position, uintBitsToFloat(word)));
 }
 
-PackedPoint loadPoint(uint index) {
-    vec4 stored = loadVector(push.points, index);
+PackedPoint loadPoint(Address points, uint index) {
+    vec4 stored = loadVector(points, index);
     uint word = floatBitsToUint(stored.w);
     return PackedPoint(stored.xyz, unpackDirection(word), unpackWidth(word >> 20));
 }

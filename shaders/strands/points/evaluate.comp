@@ -3,4 +3,4 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/vectors.glsl"
 
-#include "strands/software/evaluate.glsl"
+#include "strands/points/evaluate.glsl"

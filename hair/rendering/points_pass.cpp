@@ -1,0 +1,143 @@
+#include "hair/rendering/points_pass.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <string>
+
+#include "engine/error.h"
+#include "hair/rendering/backends.h"
+
+namespace hair::rendering {
+namespace {
+
+using engine::Access;
+
+static_assert(sizeof(gpu::HairBounds) == 16);
+static_assert(sizeof(gpu::PointsPush) == 56 && offsetof(gpu::PointsPush, width) == 32);
+
+constexpr std::size_t kPointBytes = 16;  // strands/points/points.glsl
+
+// Shaders number pieces in 32 bits, of which the last stands for none.
+std::uint32_t countStrands(const StrandPlan& plan) {
+    const std::uint64_t pieces = plan.drawnSegments();
+    if (pieces >= std::numeric_limits<std::uint32_t>::max())
+        throw engine::Unsupported(
+            "/strands/backend", std::to_string(pieces) + " drawn segments are too many");
+    return static_cast<std::uint32_t>(plan.strands());
+}
+
+// kPointsPerStrand of strands/points/layout.glsl.
+std::size_t pointsPerStrand(const StrandSettings& strands, const StrandPlan& plan) {
+    if (strands.taper == Taper::segment)
+        return std::size_t{plan.segments} * (plan.forced_tessellation + 1);
+    return std::size_t{plan.segments} * plan.forced_tessellation + 1;
+}
+
+engine::Buffer
+pointsBuffer(const engine::Device& device, std::size_t bytes, const std::string& name) {
+    return {
+        device,
+        {.size = std::max(bytes, kPointBytes), .usage = engine::Usage::storage, .name = name}};
+}
+
+// A point, and where segments begin some more.
+std::uint32_t evaluatedBlock(
+    const engine::Device& device, const StrandSettings& strands, const StrandPlan& plan) {
+    return strandBlock(device, strands, plan, 4);
+}
+
+engine::ComputeDescription
+evaluateStage(const engine::Device& device, const Settings& settings, const StrandPlan& plan) {
+    engine::Constants constants = pointsConstants(settings.strands, plan);
+    constants.emplace_back(
+        gpu::kStrandBlockConstant, evaluatedBlock(device, settings.strands, plan));
+    constants.emplace_back(gpu::kPixelSamplesConstant, settings.render.msaa);
+    return {
+        .shader = readsPairs(device) ? "strands/points/evaluate_packed.comp"
+                                     : "strands/points/evaluate.comp",
+        .constants = constants,
+        .push_size = sizeof(gpu::PointsPush)};
+}
+
+}  // namespace
+
+PointsPass::PointsPass(
+    const engine::Device& device, const Settings& settings, const StrandPlan& plan,
+    const StrandView& view, bool culls)
+    : push_{
+          .picture = 0,
+          .points = 0,
+          .pieces = 0,
+          .bounds = 0,
+          .width = settings.render.width * settings.render.ssaa,
+          .height = settings.render.height * settings.render.ssaa,
+          .strands = countStrands(plan),
+          .reach = view.offset_reach,
+          .greatest_width = view.greatest_width,
+          .culls = culls},
+      blocks_(
+          plan.triangles *
+          divideUp(plan.forced_density, evaluatedBlock(device, settings.strands, plan))),
+      points_(pointsBuffer(
+          device, kPointBytes * push_.strands * pointsPerStrand(settings.strands, plan),
+          "strands' points")),
+      pieces_(pointsBuffer(device, sizeof(std::uint32_t) * push_.strands, "pieces of strands")),
+      bounds_(pointsBuffer(device, sizeof(gpu::HairBounds), "bounds of hair")),
+      evaluate_(device, evaluateStage(device, settings, plan)) {
+    push_.points = points_.address();
+    push_.pieces = pieces_.address();
+    push_.bounds = bounds_.address();
+}
+
+void PointsPass::record(
+    engine::Commands& commands, std::uint64_t picture,
+    const gpu::PictureParameters& parameters) const {
+    // After the last frame's picture, and after the guides' frames of this one.
+    commands.barrier(Access::compute_write, Access::transfer_write);
+    commands.fill(bounds_, 0);
+    commands.barrier(Access::transfer_write, Access::compute_write);
+    gpu::PointsPush push = push_;
+    push.picture = picture;
+    commands.uses(
+        {{parameters.guides, Access::compute_read},
+         {parameters.contacts, Access::compute_read},
+         {parameters.guide_normals, Access::compute_read},
+         {points_, Access::compute_write},
+         {pieces_, Access::compute_write},
+         {bounds_, Access::compute_write}});
+    commands.bind(evaluate_, push);
+    commands.dispatchInvocations(blocks_, gpu::kPointsGroup);
+    commands.barrier(
+        {{Access::compute_write, Access::compute_read},
+         {Access::compute_write, Access::vertex_read}});
+}
+
+engine::Constants placeConstants(const StrandPlan& plan) {
+    return {
+        {gpu::kMostSegmentsConstant, plan.segments},
+        {gpu::kMostPiecesConstant, plan.forced_tessellation}};
+}
+
+engine::Constants pointsConstants(const StrandSettings& strands, const StrandPlan& plan) {
+    engine::Constants constants = strandConstants(strands, plan);
+    const engine::Constants places = placeConstants(plan);
+    constants.insert(constants.end(), places.begin(), places.end());
+    return constants;
+}
+
+bool readsPairs(const engine::Device& device) { return device.has(engine::Feature::long_integers); }
+
+std::uint32_t strandBlock(
+    const engine::Device& device, const StrandSettings& strands, const StrandPlan& plan,
+    std::uint32_t turns) {
+    constexpr std::uint64_t kMostTurns = 60000;
+    constexpr std::uint64_t kProcessorBlock = 8;
+    if (device.info().type != "cpu") return 1;
+    if (strands.source != StrandSource::root_triangles) return 1;
+    const std::uint64_t pieces = std::uint64_t{plan.segments} * plan.forced_tessellation;
+    const std::uint64_t most = kMostTurns / (turns * pieces);
+    return static_cast<std::uint32_t>(std::clamp(most, std::uint64_t{1}, kProcessorBlock));
+}
+
+}  // namespace hair::rendering

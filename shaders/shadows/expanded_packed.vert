@@ -1,0 +1,7 @@
+#version 460
+// Strands' quads in a light's map from their points, on devices with 64-bit integers.
+#extension GL_GOOGLE_include_directive : require
+#include "common/packed_vectors.glsl"
+#include "shadows/quad.glsl"
+
+#include "strands/points/expanded.glsl"

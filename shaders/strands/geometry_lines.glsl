@@ -1,0 +1,19 @@
+// The geometry stage that makes quads: what it is given of a line, and how many corners it gives.
+#ifndef HAIRBENCH_GEOMETRY_LINES_GLSL
+#define HAIRBENCH_GEOMETRY_LINES_GLSL
+
+#include "strands/line_end.glsl"
+
+layout(lines) in;
+layout(triangle_strip, max_vertices = 4) out;
+
+layout(location = 0) in vec4 position_and_width[];  // a negative width drops the line
+layout(location = 1) in vec4 tangent_and_along[];
+
+LineEnd lineEnd(int end) {
+    vec4 position = position_and_width[end];
+    vec4 tangent = tangent_and_along[end];
+    return LineEnd(position.xyz, tangent.xyz, position.w, tangent.w);
+}
+
+#endif

@@ -1,0 +1,12 @@
+// An end of a line of a strand, as quads are made of it.
+#ifndef HAIRBENCH_LINE_END_GLSL
+#define HAIRBENCH_LINE_END_GLSL
+
+struct LineEnd {
+    vec3 position;  // m
+    vec3 tangent;  // of any length
+    float width;  // m
+    float along;
+};
+
+#endif

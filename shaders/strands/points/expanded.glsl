@@ -1,0 +1,52 @@
+// The back end `expanded`: a vertex is a corner of a quad, and fetches its point. Before it:
+// common/vectors.glsl or common/packed_vectors.glsl, and strands/quad.glsl or shadows/quad.glsl.
+#ifndef HAIRBENCH_EXPANDED_GLSL
+#define HAIRBENCH_EXPANDED_GLSL
+
+#include "common/depth.glsl"
+#include "strands/points/points.glsl"
+#include "strands/strand.glsl"
+
+layout(push_constant, scalar) uniform Push { ExpandedPush push; };
+
+layout(buffer_reference, scalar) readonly buffer SeenStrands { uint at[]; };
+
+// What stands in the place along a strand where something else is shown than its shading.
+float shownAlong(PictureParameters picture, uint strand, float along) {
+    if (kShow != kShowLod && kShow != kShowStrands) return along;
+    uint triangle = strand / picture.forced_density;
+    uint index = strand % picture.forced_density;
+    uint part = triangle * picture.patches_per_triangle + index / picture.strands_per_patch;
+    StrandPatch strand_patch = strandPatch(picture, part * kSegments);
+    strand_patch.lod = patchLod(picture, strand_patch, patchGuides(picture, strand_patch));
+    StrandPoint shown;
+    putShown(picture, strand_patch, index, shown);
+    return shown.along;
+}
+
+void main() {
+    // Vertices are numbered [strand][point][corner], of all draws with direct arguments by instances
+    // of kExpandedStrands; there are as many points as at the finest level.
+    uint vertex = uint(gl_InstanceIndex) * kExpandedStrands * kPointsPerStrand * 2u +
+                  uint(gl_VertexIndex);
+    uint corner = vertex % 2u;
+    uint place = vertex / 2u % kPointsPerStrand;
+    uint strand = vertex / 2u / kPointsPerStrand;
+    if (push.seen != kNoAddress) strand = SeenStrands(push.seen).at[strand];
+    uint pieces = StrandPieces(push.pieces).at[strand];
+    gl_Position = kNowhere;
+    if (pieces == 0u) return;
+
+    // Pieces beyond those that are drawn have no length.
+    uint segment = place / (kMostPieces + kSplitJoints);
+    uint end = min(place % (kMostPieces + kSplitJoints), pieces);
+    PackedPoint point = loadPoint(
+        push.points, strand * kPointsPerStrand + segment * (pieces + kSplitJoints) + end);
+    float along = (float(segment) + float(end) / float(pieces)) / float(kSegments);
+    PictureParameters picture = PictureReference(push.picture).parameters;
+    LineEnd line_end = LineEnd(
+        point.position, point.tangent, point.width, shownAlong(picture, strand, along));
+    makeCorner(picture, line_end, quadEnd(picture, line_end), corner == 0u ? -1.0 : 1.0);
+}
+
+#endif

@@ -1,0 +1,17 @@
+#version 460
+// Strands without tessellation, for the same geometry stage as the tessellation back end's.
+#extension GL_GOOGLE_include_directive : require
+#include "strands/line_list.glsl"
+
+layout(push_constant, scalar) uniform Push { StrandPush push; };
+
+layout(location = 0) out vec4 position_and_width;  // a negative width drops the line
+layout(location = 1) out vec4 tangent_and_along;
+
+void main() {
+    bool drawn;
+    StrandPoint point = listedPoint(
+        PictureReference(push.picture).parameters, uint(gl_VertexIndex), drawn);
+    position_and_width = vec4(point.position, drawn ? point.width : -1.0);
+    tangent_and_along = vec4(point.tangent, point.along);
+}
