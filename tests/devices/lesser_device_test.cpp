@@ -132,6 +132,9 @@ TEST_F(LesserDevice, StrandsNeedTheStagesOfTheirBackEnd) {
         skipped(smallCase()), "/strands/backend: tessellation: the device has no geometry stages");
     EXPECT_EQ(
         skipped(pulled), "/strands/backend: pulling_geometry: the device has no geometry stages");
+    pulled.strands.backend = hair::Backend::pulling;
+    make(bare);
+    EXPECT_EQ(skipped(pulled), "not skipped");
 }
 
 TEST_F(LesserDevice, StrandsInComputeNeedSamplesAtKnownPlaces) {
@@ -210,7 +213,7 @@ TEST_F(LesserDevice, SamplesAreCountedOnlyWhereQueriesCount) {
 TEST_F(LesserDevice, PipelinesNameTheStageThatIsMissing) {
     make(bare);
     const engine::GraphicsDescription description{
-        .shaders = {"strands/pulling.vert", "strands/strand.geom", "strands/strand.frag"}};
+        .shaders = {"strands/pulling_geometry.vert", "strands/strand.geom", "strands/strand.frag"}};
     EXPECT_EQ(
         reasonOf([&] { engine::GraphicsPipeline(device(), description); }),
         "strands/strand.geom: the device has no geometry stages");
@@ -351,6 +354,13 @@ TEST_F(LesserDevice, PullsTheSameStrandsWithoutTessellation) {
         info.limits.maxTessellationGenerationLevel = 0;
     });
     EXPECT_EQ(pictureOf(settings), there);
+    for (const hair::Backend backend : {hair::Backend::pulling, hair::Backend::expanded}) {
+        settings.strands.backend = backend;
+        make({});
+        const Pixels whole = pictureOf(settings);
+        make(bare);
+        EXPECT_EQ(pictureOf(settings), whole);
+    }
 }
 
 TEST_F(LesserDevice, HasNoStatisticsWhereTheyAreMissing) {
@@ -417,15 +427,11 @@ TEST(ShaderCapabilities, AreThoseThatFeaturesStandFor) {
                 if (capability == kShader || capability == kImageQuery ||
                     capability == kPhysicalAddresses)
                     return;
-                if (path == "simulation/shape_packed.comp" || path == "simulation/rod_packed.comp")
-                    EXPECT_EQ(capability, kLongIntegers) << path;
-                else if (
-                    path == "simulation/volume_splat_packed.comp" ||
-                    path == "strands/software/cover_packed.comp")
+                const bool is_packed = path.find("_packed.") != std::string_view::npos;
+                if (is_packed && (path.starts_with("simulation/volume_splat") ||
+                                  path.starts_with("strands/software/cover")))
                     EXPECT_THAT(capability, testing::AnyOf(kLongIntegers, kLongAtomics)) << path;
-                else if (
-                    path.starts_with("strands/software/") &&
-                    path.find("_packed.") != std::string_view::npos)
+                else if (is_packed)
                     EXPECT_EQ(capability, kLongIntegers) << path;
                 else if (path.ends_with(".geom"))
                     EXPECT_EQ(capability, kGeometry) << path;

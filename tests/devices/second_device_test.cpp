@@ -70,23 +70,26 @@ TEST_F(SwiftShader, SkipsStrandsWithTheirReason) {
     }
 }
 
-// Strands drawn in compute need none of the stages that it lacks. Edges of strands fall on either
-// side of a sample by rounding, and so does shading of steep strands.
-TEST_F(SwiftShader, DrawsStrandsInComputeAsTheOtherDeviceDoes) {
+// Back ends that need none of the stages that it lacks. Edges of strands fall on either side of a
+// sample by rounding, and so does shading of steep strands.
+TEST_F(SwiftShader, DrawsStrandsAsTheOtherDeviceDoes) {
     if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
     if (hairbench("devices").status != 0) return skipWithout(Need::device, "no other device");
-    for (const std::string samples : {"1", "4"}) {
-        const auto draw = [&](const std::string& name, bool here) {
-            const fs::path picture = folder_.path() / (name + samples + ".png");
-            const std::string arguments =
-                "render " + shippedScene("rest.json") +
-                "--set /strands/backend=software --set /render/ssaa=1 --set /render/msaa=" +
-                samples + " --set /simulation/solver=none --frame 1 -o '" + picture.string() + "'";
-            const Outcome outcome = here ? run(arguments) : hairbench(arguments);
-            EXPECT_EQ(outcome.status, 0) << outcome.output;
-            return picture;
-        };
-        EXPECT_LE(flipErrors({{draw("there", false), draw("here", true)}})[0], 0.01);
+    for (const std::string backend : {"software", "pulling"}) {
+        for (const std::string samples : {"1", "4"}) {
+            const auto draw = [&](const std::string& name, bool here) {
+                const fs::path picture = folder_.path() / (name + backend + samples + ".png");
+                const std::string arguments =
+                    "render " + shippedScene("rest.json") + "--set /strands/backend=" + backend +
+                    " --set /render/ssaa=1 --set /render/msaa=" + samples +
+                    " --set /simulation/solver=none --frame 1 -o '" + picture.string() + "'";
+                const Outcome outcome = here ? run(arguments) : hairbench(arguments);
+                EXPECT_EQ(outcome.status, 0) << outcome.output;
+                return picture;
+            };
+            EXPECT_LE(flipErrors({{draw("there", false), draw("here", true)}})[0], 0.01)
+                << backend << " " << samples;
+        }
     }
 }
 

@@ -119,6 +119,21 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
     hair::Settings rods = everything();
     rods.simulation.solver = hair::Solver::rod;
     silent("rods", rods);
+    for (const hair::Backend backend : {hair::Backend::expanded, hair::Backend::software}) {
+        for (const std::uint32_t samples : {1u, 4u}) {
+            for (const bool has_maps : {false, true}) {
+                hair::Settings settings = hair::plainSettings();
+                if (has_maps) hair::lit(settings);
+                settings.render.msaa = samples;
+                settings.simulation.solver = hair::Solver::ftl;
+                settings.strands.backend = backend;
+                silent(
+                    "back end " + std::to_string(static_cast<int>(backend)) + ", " +
+                        std::to_string(samples) + " samples, maps " + std::to_string(has_maps),
+                    made(settings));
+            }
+        }
+    }
     for (const auto& entry : fs::directory_iterator(HAIRBENCH_SCENES_DIR)) {
         if (entry.path().extension() != ".json" || entry.path().stem() == "scene.schema" ||
             scene::isSuite(entry.path()))

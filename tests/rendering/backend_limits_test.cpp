@@ -45,10 +45,18 @@ TEST(BackendLimits, AreRefusedWithTheirReason) {
         refusal(textured),
         "/strands/backend: /strands/texture is not drawn: its strands have no holes");
     EXPECT_EQ(refusal(software()), "drawn");
+    Settings covered;
+    covered.strands.backend = Backend::lines;
+    EXPECT_EQ(refusal(covered), "drawn");
+    covered.render.coverage = Coverage::analytic;
+    EXPECT_EQ(
+        refusal(covered), "/strands/backend: /render/coverage analytic is not drawn: its lines "
+                          "are a pixel wide");
 }
 
 TEST(BackendLimits, AreThoseOfTheirOwnBackEnd) {
-    for (const Backend backend : {Backend::tessellation, Backend::pulling_geometry}) {
+    for (const Backend backend :
+         {Backend::tessellation, Backend::pulling_geometry, Backend::pulling, Backend::expanded}) {
         Settings settings;
         settings.strands.backend = backend;
         settings.render.transparency = Transparency::fragment_list;
@@ -70,10 +78,11 @@ TEST(BackendLimits, AreThoseOfTheDocumentation) {
     }
     std::set<std::string> known;
     for (const BackendLimit& limit : backendLimits()) {
-        ASSERT_EQ(limit.backend, Backend::software);
+        ASSERT_TRUE(limit.backend == Backend::software || limit.backend == Backend::lines);
+        const std::string name = limit.backend == Backend::software ? "software" : "lines";
         known.insert(
-            "| `software` | " + std::string(limit.asked_for) + " | " + std::string(limit.reason) +
-            " |");
+            "| `" + name + "` | " + std::string(limit.asked_for) + " | " +
+            std::string(limit.reason) + " |");
     }
     EXPECT_EQ(written, known);
 }

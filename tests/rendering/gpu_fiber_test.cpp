@@ -39,7 +39,7 @@ protected:
             .count = static_cast<std::uint32_t>(probes.size())};
         device().runOnce([&](engine::Commands& commands) {
             commands.bind(pipeline, push);
-            simulation::dispatchInvocations(commands, push.count, 64);
+            commands.dispatchInvocations(push.count, 64);
             commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);
         });
         return engine::downloadAs<gpu::FiberProbe>(device(), buffer);

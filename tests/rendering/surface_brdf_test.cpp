@@ -55,7 +55,7 @@ protected:
             .probes = buffer.address(), .count = static_cast<std::uint32_t>(probes.size())};
         device().runOnce([&](engine::Commands& commands) {
             commands.bind(pipeline, push);
-            simulation::dispatchInvocations(commands, push.count, 64);
+            commands.dispatchInvocations(push.count, 64);
             commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);
         });
         return engine::downloadAs<SurfaceProbe>(device(), buffer);

@@ -36,7 +36,7 @@ inline std::vector<gpu::DistanceProbe> probe(
         .friction = contact.friction};
     device.runOnce([&](engine::Commands& commands) {
         commands.bind(pipeline, push);
-        dispatchInvocations(commands, push.count, 64);
+        commands.dispatchInvocations(push.count, 64);
         commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);
     });
     return engine::downloadAs<gpu::DistanceProbe>(device, buffer);

@@ -13,16 +13,24 @@
 #include "tests/rendering/pictures.h"
 #include "tests/required.h"
 
-// Pictures by the back end `software` against those by `tessellation`, which draws the same quads
-// by other means.
+// Pictures by back ends that draw from points in memory, against those by `tessellation`, which
+// draws the same quads by other means.
 namespace hair::rendering {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Mean FLIP error of what is seen as the same: edges of strands fall on other sides of samples
-// where quads are rounded differently, and with several samples a pixel each is shaded by itself.
-constexpr double kMostDifferent = 0.02;
+struct Way {
+    const char* name;
+    Backend backend;
+    // Mean FLIP error of what is seen as the same. Points keep tangents to 0.1 degrees and widths
+    // to 0.4 %; edges of strands fall on other sides of samples where quads are rounded
+    // differently; and `software` shades each of several samples a pixel by itself.
+    double most_different;
+};
+
+constexpr std::array kWays{
+    Way{"expanded", Backend::expanded, 0.005}, Way{"software", Backend::software, 0.02}};
 
 // Of two pictures, in steps of a channel.
 std::vector<int> channelDifferences(const Pixels& a, const Pixels& b) {
@@ -38,7 +46,7 @@ Settings with(Settings settings, Backend backend) {
     return settings;
 }
 
-class SoftwarePicture : public GpuTest {
+class PointsPicture : public GpuTest {
 protected:
     // The picture after some frames, in which the simulation moves the hair.
     static Pixels drawFrames(const Settings& settings, int frames) {
@@ -70,31 +78,36 @@ protected:
     TemporaryFolder folder_;
 };
 
-TEST_F(SoftwarePicture, IsThatOfTessellation) {
+TEST_F(PointsPicture, IsThatOfTessellation) {
     if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
     std::vector<std::pair<fs::path, fs::path>> pairs;
-    std::vector<std::string> names;
+    std::vector<std::pair<std::string, double>> expectations;
     for (const char* scene : {"rest", "strong_wind", "curly", "tight_curls", "lod_path"}) {
         for (const std::uint32_t samples : {1u, 4u}) {
             const Settings settings = sceneOf(scene, samples);
             const std::string name = std::string(scene) + " " + std::to_string(samples);
             const Pixels expected = drawFrames(with(settings, Backend::tessellation), 3);
-            const Pixels drawn = drawFrames(with(settings, Backend::software), 3);
+            const fs::path expected_path = write(name + " t", settings, expected);
             Settings bald = with(settings, Backend::tessellation);
             bald.render.hair = false;
             EXPECT_GT(differingPixels(expected, drawFrames(bald, 3)), 1280u * 720u / 20u) << name;
-            names.push_back(name);
-            pairs.emplace_back(
-                write(name + " t", settings, expected), write(name + " s", settings, drawn));
+            for (const Way& way : kWays) {
+                const std::string drawn = name + " " + way.name;
+                expectations.emplace_back(drawn, way.most_different);
+                pairs.emplace_back(
+                    expected_path,
+                    write(drawn, settings, drawFrames(with(settings, way.backend), 3)));
+            }
         }
     }
     const std::vector<double> errors = flipErrors(pairs);
+    ASSERT_EQ(errors.size(), expectations.size());
     for (std::size_t i = 0; i < errors.size(); ++i)
-        EXPECT_LE(errors[i], kMostDifferent) << names[i];
+        EXPECT_LE(errors[i], expectations[i].second) << expectations[i].first;
 }
 
 // 8 x 8 rendered pixels of one sample each are the 64-sample reference.
-TEST_F(SoftwarePicture, IsNearerToManySamplesThanMultisampling) {
+TEST_F(PointsPicture, IsNearerToManySamplesThanMultisampling) {
     if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
     Settings settings = thesisAtRest();
     settings.camera.position = {0.2f, 0.06f, 0.36f};
@@ -116,7 +129,7 @@ TEST_F(SoftwarePicture, IsNearerToManySamplesThanMultisampling) {
 }
 
 // The eye is in the hair, so that strands cross the near plane and are behind it.
-TEST_F(SoftwarePicture, IsThatOfTessellationWithinTheHair) {
+TEST_F(PointsPicture, IsThatOfTessellationWithinTheHair) {
     if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
     Settings settings = thesisAtRest();
     settings.camera.position = {0.0f, 0.02f, 0.11f};
@@ -126,15 +139,17 @@ TEST_F(SoftwarePicture, IsThatOfTessellationWithinTheHair) {
     settings.render.height = 300;
     const Pixels expected = drawCase(device(), with(settings, Backend::tessellation));
     EXPECT_GT(differingPixels(expected, drawBald(device(), settings)), 480u * 300u / 4u);
-    const std::vector<double> errors = flipErrors(
-        {{write("t", settings, expected),
-          write("s", settings, drawCase(device(), with(settings, Backend::software)))}});
-    EXPECT_LE(errors[0], kMostDifferent);
+    for (const Way& way : kWays) {
+        const std::vector<double> errors = flipErrors(
+            {{write("t", settings, expected),
+              write(way.name, settings, drawCase(device(), with(settings, way.backend)))}});
+        EXPECT_LE(errors[0], way.most_different) << way.name;
+    }
 }
 
 // A strand along the view from before the near plane to far beyond it: what is cut off is what
 // hardware cuts off.
-TEST_F(SoftwarePicture, CutsStrandsAtTheNearPlane) {
+TEST_F(PointsPicture, CutsStrandsAtTheNearPlane) {
     Settings settings;
     settings.strands.density = 1;
     settings.strands.root_width = settings.strands.tip_width = 0.05f;
@@ -147,24 +162,26 @@ TEST_F(SoftwarePicture, CutsStrandsAtTheNearPlane) {
     const groom::Groom groom = oneTriangle({{-0.1f, -0.05f, 0.6f}, {0.1f, 0.05f, -0.2f}});
     const Pixels expected =
         drawGroom(device(), with(settings, Backend::tessellation), groom, nullptr);
-    const Pixels drawn = drawGroom(device(), with(settings, Backend::software), groom, nullptr);
     Settings bald = settings;
     bald.render.hair = false;
     const Pixels empty = drawGroom(device(), bald, groom, nullptr);
     const std::size_t seen = differingPixels(expected, empty);
     EXPECT_GT(seen, 3000u);
-    // Pixels at its edges and its ends may fall to either side.
-    std::size_t other = 0;
-    for (std::size_t i = 0; i < expected.size(); i += 4) {
-        const bool there = !std::equal(&expected[i], &expected[i] + 3, &empty[i]);
-        const bool here = !std::equal(&drawn[i], &drawn[i] + 3, &empty[i]);
-        other += there != here;
+    for (const Way& way : kWays) {
+        const Pixels drawn = drawGroom(device(), with(settings, way.backend), groom, nullptr);
+        // Pixels at its edges and its ends may fall to either side.
+        std::size_t other = 0;
+        for (std::size_t i = 0; i < expected.size(); i += 4) {
+            const bool there = !std::equal(&expected[i], &expected[i] + 3, &empty[i]);
+            const bool here = !std::equal(&drawn[i], &drawn[i] + 3, &empty[i]);
+            other += there != here;
+        }
+        EXPECT_LT(other, seen / 50) << way.name;
     }
-    EXPECT_LT(other, seen / 50);
 }
 
-TEST_F(SoftwarePicture, ShowsNoStrandBehindTheCamera) {
-    Settings settings = with({}, Backend::software);
+TEST_F(PointsPicture, ShowsNoStrandBehindTheCamera) {
+    Settings settings;
     settings.strands.root_width = settings.strands.tip_width = 0.05f;
     settings.camera.position = {0.0f, 0.0f, 0.5f};
     settings.render.width = 160;
@@ -174,12 +191,15 @@ TEST_F(SoftwarePicture, ShowsNoStrandBehindTheCamera) {
     Settings bald = settings;
     bald.render.hair = false;
     const Pixels empty = drawGroom(device(), bald, behind, nullptr);
-    EXPECT_EQ(differingPixels(drawGroom(device(), settings, behind, nullptr), empty), 0u);
-    EXPECT_GT(differingPixels(drawGroom(device(), settings, before, nullptr), empty), 50u);
+    for (const Way& way : kWays) {
+        settings.strands.backend = way.backend;
+        EXPECT_EQ(differingPixels(drawGroom(device(), settings, behind, nullptr), empty), 0u);
+        EXPECT_GT(differingPixels(drawGroom(device(), settings, before, nullptr), empty), 50u);
+    }
 }
 
-TEST_F(SoftwarePicture, ShowsNothingOfNoStrands) {
-    Settings settings = with({}, Backend::software);
+TEST_F(PointsPicture, ShowsNothingOfNoStrands) {
+    Settings settings;
     settings.render.width = 64;
     settings.render.height = 48;
     groom::Groom groom = oneTriangle({{-0.1f, 0.0f, 0.2f}, {0.1f, 0.1f, 0.0f}});
@@ -187,12 +207,17 @@ TEST_F(SoftwarePicture, ShowsNothingOfNoStrands) {
     Settings bald = settings;
     bald.render.hair = false;
     const Pixels empty = drawGroom(device(), bald, groom, nullptr);
-    EXPECT_EQ(differingPixels(drawGroom(device(), settings, groom, nullptr), empty), 0u);
+    for (const Way& way : kWays)
+        EXPECT_EQ(
+            differingPixels(
+                drawGroom(device(), with(settings, way.backend), groom, nullptr), empty),
+            0u)
+            << way.name;
 }
 
 // A pixel of 1.2 m, in which a strand is 0.002 px wide. Phong's terms are not negative: what the
 // ambient one says is the least.
-TEST_F(SoftwarePicture, HasOnePixel) {
+TEST_F(PointsPicture, HasOnePixel) {
     Settings settings = with(thesisAtRest(), Backend::software);
     settings.camera.position = {0.0f, 0.05f, 0.5f};
     settings.camera.target = {0.0f, 0.05f, 0.0f};
@@ -206,7 +231,7 @@ TEST_F(SoftwarePicture, HasOnePixel) {
 }
 
 // A straight strand of several pixels' width that nothing hides: every pixel inside is the same.
-TEST_F(SoftwarePicture, ShadesAWideStrandAsTessellationDoes) {
+TEST_F(PointsPicture, ShadesAWideStrandAsTessellationDoes) {
     Settings settings;
     settings.strands.density = 1;
     settings.strands.root_width = settings.strands.tip_width = 0.04f;
@@ -222,20 +247,67 @@ TEST_F(SoftwarePicture, ShadesAWideStrandAsTessellationDoes) {
         settings.shading.model = model;
         const Pixels expected =
             drawGroom(device(), with(settings, Backend::tessellation), groom, nullptr);
-        const Pixels drawn = drawGroom(device(), with(settings, Backend::software), groom, nullptr);
-        const std::vector<int> differences = channelDifferences(expected, drawn);
-        // Two edges of some 70 px, of which rounding to 1/256 px moves few; three channels each.
-        EXPECT_LT(std::ranges::count_if(differences, [](int d) { return d > 6; }), 60)
-            << static_cast<int>(model);
+        for (const Way& way : kWays) {
+            const Pixels drawn = drawGroom(device(), with(settings, way.backend), groom, nullptr);
+            const std::vector<int> differences = channelDifferences(expected, drawn);
+            // Two edges of some 70 px, of which rounding to 1/256 px moves few; three channels
+            // each.
+            EXPECT_LT(std::ranges::count_if(differences, [](int d) { return d > 6; }), 60)
+                << way.name << " " << static_cast<int>(model);
+        }
     }
 }
 
-TEST_F(SoftwarePicture, IsTheSameEveryTime) {
-    Settings settings = with(thesisAtRest(), Backend::software);
+TEST_F(PointsPicture, IsTheSameEveryTime) {
+    Settings settings = thesisAtRest();
     settings.render.width = 320;
     settings.render.height = 180;
-    const Pixels first = drawCase(device(), settings);
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(differingPixels(first, drawCase(device(), settings)), 0u);
+    for (const Way& way : kWays) {
+        settings.strands.backend = way.backend;
+        const Pixels first = drawCase(device(), settings);
+        for (int i = 0; i < 3; ++i)
+            EXPECT_EQ(differingPixels(first, drawCase(device(), settings)), 0u) << way.name;
+    }
+}
+
+// What `expanded` draws in other ways than shaded and opaque, and levels of detail whose pieces are
+// fewer than the finest.
+TEST_F(PointsPicture, IsThatOfTessellationHoweverItIsShown) {
+    if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
+    Settings plain = thesisAtRest();
+    plain.render.width = 480;
+    plain.render.height = 300;
+    const std::vector<std::pair<const char*, void (*)(Settings&)>> kinds{
+        {"lists", [](Settings& s) { s.render.transparency = Transparency::fragment_list; }},
+        {"weighted", [](Settings& s) { s.render.transparency = Transparency::weighted_blended; }},
+        {"covered", [](Settings& s) { s.render.coverage = Coverage::analytic; }},
+        {"tangents", [](Settings& s) { s.render.show = Show::tangents; }},
+        {"strands", [](Settings& s) { s.render.show = Show::strands; }},
+        {"levels",
+         [](Settings& s) {
+             s.render.show = Show::lod;
+             s.lod.mode = LodMode::distance;
+             s.lod.near_distance = 0.42f;
+             s.lod.far_distance = 0.6f;
+         }},
+        {"segments", [](Settings& s) { s.strands.taper = Taper::segment; }},
+        {"segments' levels", [](Settings& s) {
+             s.strands.taper = Taper::segment;
+             s.lod.mode = LodMode::distance;
+             s.lod.near_distance = 0.42f;
+             s.lod.far_distance = 0.6f;
+         }}};
+    for (const auto& [name, change] : kinds) {
+        Settings settings = plain;
+        change(settings);
+        const auto draw = [&](Backend backend, const char* file) {
+            return write(file, settings, drawCase(device(), with(settings, backend)));
+        };
+        EXPECT_LE(
+            flipErrors({{draw(Backend::tessellation, "t"), draw(Backend::expanded, "e")}})[0],
+            0.005)
+            << name;
+    }
 }
 
 }  // namespace
