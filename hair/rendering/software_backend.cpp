@@ -15,7 +15,7 @@ namespace {
 
 using engine::Access;
 
-static_assert(offsetof(gpu::SoftwarePush, width) == 56 && sizeof(gpu::SoftwarePush) == 72);
+static_assert(offsetof(gpu::SoftwarePush, width) == 64 && sizeof(gpu::SoftwarePush) == 84);
 
 constexpr const char* kSoftware = "/strands/backend: software";
 constexpr std::size_t kSampleBytes = 8;  // two words
@@ -35,6 +35,11 @@ std::uint32_t checkedSamples(const BackendContext& context) {
 std::size_t sampleCount(const engine::Target& target) {
     const VkExtent2D extent = target.color().extent();
     return std::size_t{extent.width} * extent.height * target.description().msaa;
+}
+
+std::size_t tileCount(const engine::Target& target) {
+    const VkExtent2D extent = target.color().extent();
+    return std::size_t{divideUp(extent.width, gpu::kTile)} * divideUp(extent.height, gpu::kTile);
 }
 
 engine::Buffer
@@ -105,12 +110,15 @@ engine::GraphicsDescription showStage(const BackendContext& context) {
 SoftwareBackend::SoftwareBackend(const BackendContext& context)
     : target_(*context.target), points_(*context.points),
       samples_per_pixel_(checkedSamples(context)),
-      covered_blocks_(divideUp(points_.strandCount(), coveredBlock(context))),
+      blocks_(divideUp(points_.strandCount(), coveredBlock(context))),
       is_packed_(isPacked(context.device)),
       samples_(softwareBuffer(context.device, kSampleBytes * sampleCount(target_), "samples")),
       large_(softwareBuffer(
           context.device, sizeof(std::uint32_t) * (1 + gpu::kMostLargePieces), "large pieces")),
+      tiles_(softwareBuffer(
+          context.device, sizeof(std::uint32_t) * tileCount(target_), "depths of tiles")),
       clear_(context.device, clearStage(context)),
+      find_tiles_(context.device, softwareStage(context, "tiles")),
       cover_(context.device, softwareStage(context, "cover", coveredBlock(context))),
       cover_large_(context.device, softwareStage(context, "cover_large")),
       shade_(context.device, shadeStage(context)), show_(context.device, showStage(context)) {
@@ -128,10 +136,12 @@ gpu::SoftwarePush SoftwareBackend::push(const StrandPicture& picture) const {
         .colors = 0,
         .bounds = 0,
         .large = 0,
+        .tiles = 0,
         .width = extent.width,
         .height = extent.height,
         .strands = points_.strandCount(),
-        .choice = 0};
+        .choice = 0,
+        .part = gpu::kCoverAll};
 }
 
 void SoftwareBackend::clear(engine::Commands& commands, const StrandPicture& picture) const {
@@ -147,28 +157,69 @@ void SoftwareBackend::clear(engine::Commands& commands, const StrandPicture& pic
     target_.endDepthRead(commands);
 }
 
+void SoftwareBackend::coverStrands(
+    engine::Commands& commands, const gpu::SoftwarePush& constants) const {
+    const std::uint32_t first = divideUp(blocks_, gpu::kFirstStrands);
+    const std::uint32_t blocks = constants.part == gpu::kCoverFirst    ? first
+                                 : constants.part == gpu::kCoverOthers ? blocks_ - first
+                                                                       : blocks_;
+    if (blocks == 0) return;
+    commands.uses(
+        {{points_.points(), Access::compute_read},
+         {points_.pieces(), Access::compute_read},
+         {samples_, Access::compute_write},
+         {tiles_, Access::compute_read},
+         {large_, Access::compute_write}});
+    commands.bind(cover_, constants);
+    commands.dispatchInvocations(blocks, gpu::kSoftwareStrandGroup);
+}
+
+void SoftwareBackend::coverLarge(
+    engine::Commands& commands, const gpu::SoftwarePush& constants) const {
+    commands.barrier(Access::compute_write, Access::compute_write);
+    commands.uses(
+        {{points_.points(), Access::compute_read},
+         {points_.pieces(), Access::compute_read},
+         {samples_, Access::compute_write},
+         {tiles_, Access::compute_read},
+         {large_, Access::compute_write}});
+    commands.bind(cover_large_, constants);
+    commands.dispatch(gpu::kLargeGroups);
+}
+
+void SoftwareBackend::findTiles(engine::Commands& commands, gpu::SoftwarePush constants) const {
+    constants.points = constants.pieces = constants.large = 0;
+    constants.bounds = points_.bounds().address();
+    commands.barrier(Access::compute_write, Access::compute_write);
+    commands.uses(
+        {{samples_, Access::compute_read},
+         {points_.bounds(), Access::compute_read},
+         {tiles_, Access::compute_write}});
+    commands.bind(find_tiles_, constants);
+    commands.dispatch(divideUp(constants.height, gpu::kTile));
+    commands.barrier(Access::compute_write, Access::compute_write);
+}
+
 void SoftwareBackend::cover(engine::Commands& commands, const StrandPicture& picture) const {
     gpu::SoftwarePush constants = push(picture);
     constants.points = points_.points().address();
     constants.pieces = points_.pieces().address();
     constants.samples = samples_.address();
     constants.large = large_.address();
-    const std::uint32_t passes = is_packed_ ? 1 : 2;
-    for (constants.choice = 0; constants.choice < passes; ++constants.choice) {
-        for (const engine::ComputePipeline* pipeline : {&cover_, &cover_large_}) {
-            commands.barrier(Access::compute_write, Access::compute_write);
-            commands.uses(
-                {{points_.points(), Access::compute_read},
-                 {points_.pieces(), Access::compute_read},
-                 {samples_, Access::compute_write},
-                 {large_, Access::compute_write}});
-            commands.bind(*pipeline, constants);
-            if (pipeline == &cover_)
-                commands.dispatchInvocations(covered_blocks_, gpu::kSoftwareStrandGroup);
-            else
-                commands.dispatch(gpu::kLargeGroups);
-        }
-    }
+    constants.tiles = tiles_.address();
+    commands.barrier(Access::compute_write, Access::compute_write);
+    constants.part = gpu::kCoverFirst;
+    coverStrands(commands, constants);
+    findTiles(commands, constants);
+    constants.part = gpu::kCoverOthers;
+    coverStrands(commands, constants);
+    coverLarge(commands, constants);
+    if (is_packed_) return;
+    constants.choice = 1;
+    constants.part = gpu::kCoverAll;
+    commands.barrier(Access::compute_write, Access::compute_write);
+    coverStrands(commands, constants);
+    coverLarge(commands, constants);
 }
 
 void SoftwareBackend::shade(engine::Commands& commands, const StrandPicture& picture) const {

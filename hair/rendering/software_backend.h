@@ -15,7 +15,8 @@ namespace hair::rendering {
 // Strands rasterised in compute, opaque, from their points. Pieces of strands leave their number
 // and depth at the samples that they cover, by atomic minima; each sample that shows a strand is
 // shaded once; and two triangles bring color and depth into the target. What shows no hair costs
-// nothing: samples are cleared, shaded and drawn within the hair's bounds on the screen.
+// nothing: samples are cleared, shaded and drawn within the hair's bounds on the screen. Some
+// strands come first; of the others the pieces are left out that are behind those and the scene.
 //
 // Pieces are the quads that the other back ends draw, and samples lie where Vulkan's standard
 // positions are, so that the picture is theirs but for rounding; with several samples each is
@@ -36,17 +37,22 @@ private:
     gpu::SoftwarePush push(const StrandPicture& picture) const;
     void clear(engine::Commands& commands, const StrandPicture& picture) const;
     void cover(engine::Commands& commands, const StrandPicture& picture) const;
+    void coverStrands(engine::Commands& commands, const gpu::SoftwarePush& constants) const;
+    void coverLarge(engine::Commands& commands, const gpu::SoftwarePush& constants) const;
+    void findTiles(engine::Commands& commands, gpu::SoftwarePush constants) const;
     void shade(engine::Commands& commands, const StrandPicture& picture) const;
 
     const engine::Target& target_;
     const PointsPass& points_;
     std::uint32_t samples_per_pixel_;
-    std::uint32_t covered_blocks_;
+    std::uint32_t blocks_;  // of strands that an invocation covers
     bool is_packed_;  // with 64-bit integers and atomics
     engine::Buffer samples_;
     engine::Buffer colors_;  // empty without linear light
     engine::Buffer large_;  // how many pieces with many samples, and which
+    engine::Buffer tiles_;
     engine::ComputePipeline clear_;
+    engine::ComputePipeline find_tiles_;
     engine::ComputePipeline cover_;
     engine::ComputePipeline cover_large_;
     engine::ComputePipeline shade_;

@@ -14,6 +14,18 @@ const uint kManySamples = 256u;
 const uint kMostLargePieces = 65536u;
 const uint kLargeGroups = 256u;
 
+// One strand, or block of strands, of so many is covered first. Of others the pieces are left out
+// that are behind all that each of their tiles shows by then: tiles are squares of so many pixels,
+// and pieces that touch more than so many of them aren't looked at.
+const uint kFirstStrands = 8u;
+const uint kTile = 8u;
+const uint kMostTiles = 12u;
+
+// Which strands are covered.
+const uint kCoverFirst = 0u;
+const uint kCoverOthers = 1u;
+const uint kCoverAll = 2u;
+
 // What a sample shows that shows no strand.
 const uint kNoPiece = 0xffffffffu;
 
@@ -28,10 +40,12 @@ struct SoftwarePush {
     Address colors;  // uvec2 [pixel][sample], half floats; where light is linear
     Address bounds;  // HairBounds
     Address large;  // uint: how many large pieces there are, and which
+    Address tiles;  // uint [row][column]: how near the farthest sample within the bounds is
     uint width;  // of the rendered picture, px
     uint height;  // px
     uint strands;
     uint choice;  // cover.comp: 0 how near, 1 which; show.frag: the sample
+    uint part;  // cover.comp: of the strands
 };
 
 #endif

@@ -49,6 +49,13 @@ void makeEdges(PieceQuad quad, inout Cover cover) {
     cover.row_length = 0.5 * abs(area) / max(last - first, 1.0);
 }
 
+// The farthest and the nearest depth of a piece.
+vec2 depthRange(PieceQuad quad) {
+    float slack = max(abs(quad.from.side_depth), abs(quad.to.side_depth));
+    return vec2(min(quad.from.depth, quad.to.depth) - slack,
+                max(quad.from.depth, quad.to.depth) + slack);
+}
+
 // Depth is a plane through the middle line and the mean side.
 void makeDepth(PieceQuad quad, vec2 run, inout Cover cover) {
     vec2 side = 0.5 * (quad.from.side + quad.to.side);
@@ -58,10 +65,8 @@ void makeDepth(PieceQuad quad, vec2 run, inout Cover cover) {
     vec2 gradient = vec2(side.y * change - run.y * side_change,
                          run.x * side_change - side.x * change) /
                     (abs(area) < 1e-12 ? 1e-12 : area);
-    float slack = max(abs(quad.from.side_depth), abs(quad.to.side_depth));
     cover.depth = quad.from.depth;
-    cover.depth_range = vec2(min(quad.from.depth, quad.to.depth) - slack,
-                             max(quad.from.depth, quad.to.depth) + slack);
+    cover.depth_range = depthRange(quad);
     cover.origin = cover.columns ? quad.from.place : quad.from.place.yx;
     cover.gradient = cover.columns ? gradient : gradient.yx;
 }

@@ -14,6 +14,28 @@ bool isListed(uint piece) {
     return true;
 }
 
+// Whether nothing of the piece can be seen: it is beside the picture, or behind what its tiles show.
+bool isHidden(PieceQuad quad) {
+    vec2 low = min(quad.from.place - abs(quad.from.side), quad.to.place - abs(quad.to.side));
+    vec2 high = max(quad.from.place + abs(quad.from.side), quad.to.place + abs(quad.to.side));
+    vec2 size = vec2(push.width, push.height);
+    if (any(lessThan(high, vec2(0.0))) || any(greaterThanEqual(low, size))) return true;
+    if (push.part == kCoverFirst) return false;
+    uvec2 first = uvec2(max(low, vec2(0.0))) / kTile;
+    uvec2 last = uvec2(min(high, size - 1.0)) / kTile;
+    uvec2 count = last - first + 1u;
+    if (count.x * count.y > kMostTiles) return false;
+    uint near = nearness(depthRange(quad).y);
+    uint begin = tileIndex(first);
+    uint row = begin;
+    uint end = tileIndex(last);
+    for (uint i = begin; i <= end;) {
+        if (TileDepths(push.tiles).at[i] >= near) return false;
+        if (++i >= row + count.x) i = row = row + tileIndex(uvec2(0u, 1u));
+    }
+    return true;
+}
+
 void coverStrand(PictureParameters picture, uint strand, uint pieces) {
     PieceEnd from = pieceEnd(picture, loadPoint(push.points, firstPoint(strand, 0u, pieces)));
     for (uint i = 0u; i < kSegments * pieces; ++i) {
@@ -23,7 +45,7 @@ void coverStrand(PictureParameters picture, uint strand, uint pieces) {
         PieceEnd to = pieceEnd(picture, loadPoint(push.points, first + 1u));
         PieceQuad quad = pieceQuad(from, to);
         from = to;
-        if (!quad.seen) continue;
+        if (!quad.seen || isHidden(quad)) continue;
         Cover cover = makeCover(quad);
         uint piece = strand * kPiecesPerStrand + i;
         float samples = float(cover.end - cover.begin) * (1.0 + cover.row_length);
@@ -34,7 +56,10 @@ void coverStrand(PictureParameters picture, uint strand, uint pieces) {
 
 void main() {
     uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    uint begin = (group * gl_WorkGroupSize.x + gl_LocalInvocationID.x) * kBlock;
+    uint block = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (push.part == kCoverFirst) block *= kFirstStrands;
+    if (push.part == kCoverOthers) block += block / (kFirstStrands - 1u) + 1u;
+    uint begin = block * kBlock;
     uint end = min(begin + kBlock, push.strands);
     if (begin >= end) return;  // no barrier follows
     PictureParameters picture = PictureReference(push.picture).parameters;

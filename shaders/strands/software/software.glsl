@@ -17,6 +17,10 @@ layout(buffer_reference, scalar) buffer LargePieces {
     uint at[];
 };
 
+layout(buffer_reference, scalar) buffer TileDepths { uint at[]; };
+
+uint tileIndex(uvec2 tile) { return tile.y * ((push.width + kTile - 1u) / kTile) + tile.x; }
+
 uint sampleIndex(uvec2 pixel, uint index) {
     return (pixel.y * push.width + pixel.x) * kSamples + index;
 }

@@ -1,0 +1,6 @@
+#version 460
+// The depth of tiles.
+#extension GL_GOOGLE_include_directive : require
+#include "common/vectors.glsl"
+
+#include "strands/software/tiles.glsl"

@@ -1,0 +1,26 @@
+// How near the farthest sample of each tile is: what is farther is not seen there. A workgroup a row
+// of tiles.
+#include "strands/software/software.glsl"
+
+layout(local_size_x = kSoftwarePixelGroup) in;
+
+uint farthest(uvec2 begin, uvec2 end) {
+    uint far = 0u;
+    for (uint y = begin.y; y < end.y; ++y) {
+        uint last = sampleIndex(uvec2(end.x, y), 0u);
+        for (uint i = sampleIndex(uvec2(begin.x, y), 0u); i < last; ++i)
+            far = max(far, loadPair(push.samples, i).y);
+    }
+    return far;
+}
+
+void main() {
+    HairBounds bounds = Bounds(push.bounds).bounds;
+    uvec2 low = uvec2(push.width - bounds.from_right, push.height - bounds.from_bottom);
+    uvec2 high = uvec2(bounds.right, bounds.bottom);
+    uvec2 tile = uvec2(low.x / kTile, gl_WorkGroupID.x);
+    if (tile.y * kTile + kTile <= low.y || tile.y * kTile >= high.y) return;
+    for (tile.x += gl_LocalInvocationID.x; tile.x * kTile < high.x; tile.x += gl_WorkGroupSize.x)
+        TileDepths(push.tiles).at[tileIndex(tile)] =
+            farthest(max(tile * kTile, low), min((tile + 1u) * kTile, high));
+}
