@@ -84,6 +84,9 @@ std::string textOf(const std::source_location& place) {
     return std::string(path.substr(path.rfind('/') + 1)) + ":" + std::to_string(place.line());
 }
 
+// Workgroups in a row, of compute and of task stages: what every device has.
+constexpr std::uint32_t kMostGroupsInRow = 65535;
+
 // Sets of a pool, and images of each kind in it: more than a set has bindings.
 constexpr std::uint32_t kSetsPerPool = 64;
 constexpr std::uint32_t kImagesPerSet = 8;
@@ -412,8 +415,7 @@ void Commands::dispatch(std::uint32_t groups_x, std::uint32_t groups_y) {
 
 void Commands::dispatchGroups(std::uint32_t groups) {
     if (groups == 0) return;
-    constexpr std::uint32_t kMostInRow = 65535;  // what every device has
-    const std::uint32_t columns = std::min(groups, kMostInRow);
+    const std::uint32_t columns = std::min(groups, kMostGroupsInRow);
     dispatch(columns, (groups + columns - 1) / columns);
 }
 
@@ -442,6 +444,12 @@ void Commands::drawIndexed(const Buffer& indices, const Buffer& arguments, std::
         vkCmdDrawIndexedIndirect(
             buffer_, arguments.get(), VkDeviceSize{first} * kStride,
             std::min(at_once, draws - first), kStride);
+}
+
+void Commands::drawMeshTasks(std::uint32_t groups) {
+    if (groups == 0) return;
+    const std::uint32_t columns = std::min(groups, kMostGroupsInRow);
+    vkCmdDrawMeshTasksEXT(buffer_, columns, (groups + columns - 1) / columns, 1);
 }
 
 void Commands::beginLabel(const char* name) {
@@ -481,7 +489,7 @@ void Commands::bindGraphics(const GraphicsPipeline& pipeline, std::span<const st
     if (hazards_) declareHanded(hazards_->hostBuffersIn(push), Access::graphics_read);
     vkCmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
     vkCmdPushConstants(
-        buffer_, pipeline.layout(), VK_SHADER_STAGE_ALL_GRAPHICS, 0,
+        buffer_, pipeline.layout(), pipeline.pushStages(), 0,
         static_cast<std::uint32_t>(push.size()), push.data());
 }
 

@@ -24,11 +24,12 @@ enum class Access {
     compute_write,  // read, too
     graphics_read,  // buffers and images read by any graphics stage
     indirect_read,  // a draw's arguments
-    vertex_read,  // buffers read by the stages before the rasteriser: vertex to geometry
+    vertex_read,  // buffers read by the stages before the rasteriser: vertex to geometry, or task
+                  // and mesh
     fragment_read,  // buffers and images read by the fragment stage
     shading_read,  // images read where something is shaded: by the fragment stage or by compute
     fragment_write,  // buffers read and written by the fragment stage
-    attachment,     // color and depth attachments, read and written
+    attachment,  // color and depth attachments, read and written
     transfer_read,
     transfer_write,
     host_read,
@@ -181,6 +182,8 @@ public:
     void drawIndexed(const Buffer& indices, const IndexedDraw& draw);
     // Draws whose arguments are so many VkDrawIndexedIndirectCommand in a buffer.
     void drawIndexed(const Buffer& indices, const Buffer& arguments, std::uint32_t draws);
+    // Task workgroups, counted as dispatchGroups() does.
+    void drawMeshTasks(std::uint32_t groups);
 
     void beginLabel(const char* name);
     void endLabel();

@@ -129,6 +129,7 @@ Device::Device(const DeviceOptions& options)
       info_(chooseDevice(instance_, options.wanted)) {
     if (!instance_.allowsPresentFences()) info_.features.erase(Feature::present_fences);
     if (options.mask) options.mask(info_);
+    if (!has(Feature::mesh_shader)) info_.features.erase(Feature::mesh_statistics);
     std::vector<const char*> extensions;
     if (!options.window_extensions.empty()) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     device_ = createDevice(info_, extensions);

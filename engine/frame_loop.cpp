@@ -124,8 +124,11 @@ public:
             break;
         }
         case Timing::statistics:
-            if (kind == PassKind::graphics && device_.hasPipelineStatistics()) {
-                auto& query = slot_data_.queries.emplace_back(name, PipelineStatistics(device_));
+            if (kind != PassKind::compute && device_.hasPipelineStatistics()) {
+                const DrawnFrom drawn_from =
+                    kind == PassKind::meshes ? DrawnFrom::meshes : DrawnFrom::vertices;
+                auto& query =
+                    slot_data_.queries.emplace_back(name, PipelineStatistics(device_, drawn_from));
                 query.statistics.begin(*commands_);
                 record(*commands_);
                 query.statistics.end(*commands_);

@@ -40,7 +40,11 @@ struct Overlap {
     bool async = false;
 };
 
-enum class PassKind { compute, graphics };
+enum class PassKind {
+    compute,
+    graphics,  // draws from vertices alone
+    meshes,  // draws from task and mesh stages alone
+};
 
 struct PassTime {
     std::string name;

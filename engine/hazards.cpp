@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <span>
 
 #include "engine/instance.h"
 
@@ -11,8 +12,8 @@ namespace {
 
 // ---- Stages and accesses ------------------------------------------------------------------------
 
-// The stages of a draw, each after those before it.
-constexpr std::array<VkPipelineStageFlags2, 10> kGraphicsStages{
+// The stages of a draw, each after those before it: of vertices, and of meshes.
+constexpr std::array<VkPipelineStageFlags2, 10> kVertexDraw{
     VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
     VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT,
     VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT,
@@ -23,10 +24,16 @@ constexpr std::array<VkPipelineStageFlags2, 10> kGraphicsStages{
     VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
     VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
     VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT};
+constexpr std::array<VkPipelineStageFlags2, 7> kMeshDraw{
+    VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,          VK_PIPELINE_STAGE_2_TASK_SHADER_BIT_EXT,
+    VK_PIPELINE_STAGE_2_MESH_SHADER_BIT_EXT,        VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT,
+    VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,        VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+    VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT};
 
 constexpr VkPipelineStageFlags2 allGraphics() {
     VkPipelineStageFlags2 stages = 0;
-    for (const VkPipelineStageFlags2 stage : kGraphicsStages) stages |= stage;
+    for (const VkPipelineStageFlags2 stage : kVertexDraw) stages |= stage;
+    for (const VkPipelineStageFlags2 stage : kMeshDraw) stages |= stage;
     return stages;
 }
 
@@ -56,7 +63,8 @@ Scope expanded(Scope scope) {
         VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT |
         VK_PIPELINE_STAGE_2_TESSELLATION_CONTROL_SHADER_BIT |
         VK_PIPELINE_STAGE_2_TESSELLATION_EVALUATION_SHADER_BIT |
-        VK_PIPELINE_STAGE_2_GEOMETRY_SHADER_BIT;
+        VK_PIPELINE_STAGE_2_GEOMETRY_SHADER_BIT | VK_PIPELINE_STAGE_2_TASK_SHADER_BIT_EXT |
+        VK_PIPELINE_STAGE_2_MESH_SHADER_BIT_EXT;
     expand(
         scope.stages, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
         allGraphics() | kTransfer | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
@@ -69,26 +77,38 @@ Scope expanded(Scope scope) {
     return scope;
 }
 
-// With the stages that a draw goes through before, which a barrier waits for too.
-VkPipelineStageFlags2 withEarlier(VkPipelineStageFlags2 stages) {
+using Stages = std::span<const VkPipelineStageFlags2>;
+
+// The stages of a draw before the last of these.
+VkPipelineStageFlags2 earlierOf(Stages draw, VkPipelineStageFlags2 stages) {
     VkPipelineStageFlags2 earlier = 0;
-    VkPipelineStageFlags2 result = stages;
-    for (const VkPipelineStageFlags2 stage : kGraphicsStages) {
+    VkPipelineStageFlags2 result = 0;
+    for (const VkPipelineStageFlags2 stage : draw) {
         if (stages & stage) result |= earlier;
         earlier |= stage;
     }
     return result;
 }
 
-// With the stages that a draw goes through after, which wait too.
-VkPipelineStageFlags2 withLater(VkPipelineStageFlags2 stages) {
-    VkPipelineStageFlags2 result = stages;
+// The stages of a draw after the first of these.
+VkPipelineStageFlags2 laterOf(Stages draw, VkPipelineStageFlags2 stages) {
+    VkPipelineStageFlags2 result = 0;
     bool reached = false;
-    for (const VkPipelineStageFlags2 stage : kGraphicsStages) {
+    for (const VkPipelineStageFlags2 stage : draw) {
         if (reached) result |= stage;
         reached = reached || (stages & stage);
     }
     return result;
+}
+
+// With the stages that a draw goes through before, which a barrier waits for too.
+VkPipelineStageFlags2 withEarlier(VkPipelineStageFlags2 stages) {
+    return stages | earlierOf(kVertexDraw, stages) | earlierOf(kMeshDraw, stages);
+}
+
+// With the stages that a draw goes through after, which wait too.
+VkPipelineStageFlags2 withLater(VkPipelineStageFlags2 stages) {
+    return stages | laterOf(kVertexDraw, stages) | laterOf(kMeshDraw, stages);
 }
 
 bool isWithin(VkFlags64 part, VkFlags64 whole) { return (part & ~whole) == 0; }

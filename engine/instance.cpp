@@ -97,7 +97,7 @@ constexpr std::array kVulkan13Features{
 
 // What stands for a feature: a member of VkPhysicalDeviceFeatures, an extension, a format of
 // colour attachments that can be blended into, or a member of VkPhysicalDeviceVulkan12Features.
-// Of a queue, nothing: its family does.
+// Of a queue, nothing: its family does; nor of mesh_statistics: a member of an extension's struct.
 struct FeatureRow {
     Feature feature;
     std::string_view name;
@@ -113,6 +113,8 @@ constexpr std::array kFeatures{
         &VkPhysicalDeviceFeatures::tessellationShader, nullptr},
     FeatureRow{
         Feature::geometry, "geometry stages", &VkPhysicalDeviceFeatures::geometryShader, nullptr},
+    FeatureRow{
+        Feature::mesh_shader, "task and mesh stages", nullptr, VK_EXT_MESH_SHADER_EXTENSION_NAME},
     FeatureRow{
         Feature::vertex_stores, "stores in vertex, tessellation and geometry stages",
         &VkPhysicalDeviceFeatures::vertexPipelineStoresAndAtomics, nullptr},
@@ -137,6 +139,7 @@ constexpr std::array kFeatures{
     FeatureRow{
         Feature::pipeline_statistics, "pipeline statistics",
         &VkPhysicalDeviceFeatures::pipelineStatisticsQuery, nullptr},
+    FeatureRow{Feature::mesh_statistics, "statistics of task and mesh stages", nullptr, nullptr},
     FeatureRow{
         Feature::sample_counts, "occlusion queries that count",
         &VkPhysicalDeviceFeatures::occlusionQueryPrecise, nullptr},
@@ -179,21 +182,27 @@ struct FeatureChain {
     VkPhysicalDeviceVulkan12Features vulkan12{};
     VkPhysicalDeviceVulkan13Features vulkan13{};
     VkPhysicalDeviceSwapchainMaintenance1FeaturesEXT presents{};
+    VkPhysicalDeviceMeshShaderFeaturesEXT meshes{};
     VkPhysicalDevicePortabilitySubsetFeaturesKHR portability{};
 
     // Structs of extensions only where the device has these.
-    FeatureChain(bool is_portability, bool has_present_fences) {
+    FeatureChain(bool is_portability, bool has_present_fences, bool has_mesh_shaders) {
         core.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
         core.pNext = &vulkan12;
         vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
         vulkan12.pNext = &vulkan13;
         vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
         presents.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SWAPCHAIN_MAINTENANCE_1_FEATURES_EXT;
+        meshes.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_FEATURES_EXT;
         portability.sType = kPortabilityFeaturesType;
         void** next = &vulkan13.pNext;
         if (has_present_fences) {
             *next = &presents;
             next = &presents.pNext;
+        }
+        if (has_mesh_shaders) {
+            *next = &meshes;
+            next = &meshes.pNext;
         }
         if (is_portability) *next = &portability;
     }
@@ -225,7 +234,8 @@ void findFeatures(DeviceInfo& info) {
     const std::set<std::string> extensions = extensionsOf(info.handle);
     info.is_portability = extensions.contains(VK_KHR_PORTABILITY_SUBSET_EXTENSION_NAME);
     FeatureChain available(
-        info.is_portability, extensions.contains(VK_EXT_SWAPCHAIN_MAINTENANCE_1_EXTENSION_NAME));
+        info.is_portability, extensions.contains(VK_EXT_SWAPCHAIN_MAINTENANCE_1_EXTENSION_NAME),
+        extensions.contains(VK_EXT_MESH_SHADER_EXTENSION_NAME));
     vkGetPhysicalDeviceFeatures2(info.handle, &available.core);
     appendMissing(available.vulkan12, kVulkan12Features, info.missing);
     appendMissing(available.vulkan13, kVulkan13Features, info.missing);
@@ -240,6 +250,21 @@ void findFeatures(DeviceInfo& info) {
     if (info.is_portability && !available.portability.tessellationIsolines)
         info.features.erase(Feature::tessellation);
     if (!available.presents.swapchainMaintenance1) info.features.erase(Feature::present_fences);
+    if (!available.meshes.taskShader || !available.meshes.meshShader)
+        info.features.erase(Feature::mesh_shader);
+    else if (available.meshes.meshShaderQueries)
+        info.features.insert(Feature::mesh_statistics);
+}
+
+VkPhysicalDeviceMeshShaderPropertiesEXT meshLimits(VkPhysicalDevice device) {
+    VkPhysicalDeviceMeshShaderPropertiesEXT meshes{};
+    meshes.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MESH_SHADER_PROPERTIES_EXT;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &meshes;
+    vkGetPhysicalDeviceProperties2(device, &properties);
+    meshes.pNext = nullptr;
+    return meshes;
 }
 
 // ---- Devices ------------------------------------------------------------------------------------
@@ -331,6 +356,7 @@ DeviceInfo inspect(VkPhysicalDevice device) {
     }
 
     findFeatures(info);
+    if (info.features.contains(Feature::mesh_shader)) info.mesh_limits = meshLimits(device);
     findQueueFamily(info);
     return info;
 }
@@ -477,8 +503,12 @@ std::vector<Feature> allFeatures() {
 
 VkDevice createDevice(const DeviceInfo& info, std::vector<const char*> extensions) {
     const bool has_present_fences = info.features.contains(Feature::present_fences);
-    FeatureChain features(info.is_portability, has_present_fences);
+    const bool has_mesh_shaders = info.features.contains(Feature::mesh_shader);
+    FeatureChain features(info.is_portability, has_present_fences, has_mesh_shaders);
     features.presents.swapchainMaintenance1 = has_present_fences ? VK_TRUE : VK_FALSE;
+    features.meshes.taskShader = features.meshes.meshShader = has_mesh_shaders ? VK_TRUE : VK_FALSE;
+    features.meshes.meshShaderQueries =
+        info.features.contains(Feature::mesh_statistics) ? VK_TRUE : VK_FALSE;
     enable(features.vulkan12, kVulkan12Features);
     enable(features.vulkan13, kVulkan13Features);
     for (const FeatureRow& row : kFeatures) {

@@ -99,6 +99,7 @@ public:
 enum class Feature {
     tessellation,  // control and evaluation stages, with isolines
     geometry,
+    mesh_shader,  // task and mesh stages
     vertex_stores,  // of vertex, tessellation and geometry stages
     fragment_stores,
     independent_blend,  // attachments of one pipeline that are blended in different ways
@@ -107,6 +108,7 @@ enum class Feature {
     long_integers,  // of 64 bits, in shaders
     long_atomics,  // on such integers in buffers
     pipeline_statistics,
+    mesh_statistics,  // of task and mesh stages
     sample_counts,  // occlusion queries that count
     calibrated_timestamps,  // a moment by the clocks of device and host at once
     push_descriptors,  // Commands does with descriptor sets where they are missing
@@ -132,6 +134,7 @@ struct DeviceInfo {
     std::string api_version;  // e.g. "1.3.230"
     VkDriverId driver_id{};
     VkPhysicalDeviceLimits limits{};
+    VkPhysicalDeviceMeshShaderPropertiesEXT mesh_limits{};  // with Feature::mesh_shader
     std::uint64_t local_bytes = 0;  // of the largest memory heap that is the device's own
     std::uint32_t queue_family = 0;  // graphics, compute and transfer
     // Of the second queue: another family with compute, best one without graphics, or the same one

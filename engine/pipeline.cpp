@@ -22,6 +22,8 @@ constexpr std::array kStages{
     std::pair{".tesc", VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT},
     std::pair{".tese", VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT},
     std::pair{".geom", VK_SHADER_STAGE_GEOMETRY_BIT},
+    std::pair{".task", VK_SHADER_STAGE_TASK_BIT_EXT},
+    std::pair{".mesh", VK_SHADER_STAGE_MESH_BIT_EXT},
     std::pair{".frag", VK_SHADER_STAGE_FRAGMENT_BIT},
     std::pair{".comp", VK_SHADER_STAGE_COMPUTE_BIT},
 };
@@ -107,9 +109,21 @@ void requireStage(const Device& device, const std::string& path) {
         return device.require(Feature::tessellation, path);
     case VK_SHADER_STAGE_GEOMETRY_BIT:
         return device.require(Feature::geometry, path);
+    case VK_SHADER_STAGE_TASK_BIT_EXT:
+    case VK_SHADER_STAGE_MESH_BIT_EXT:
+        return device.require(Feature::mesh_shader, path);
     default:
         return;
     }
+}
+
+// The stages that may have push constants: of a device without mesh stages no layout names them.
+VkShaderStageFlags pushStages(const std::vector<std::string>& shaders) {
+    const bool has_mesh = std::ranges::any_of(
+        shaders, [](const auto& path) { return stageOf(path) == VK_SHADER_STAGE_MESH_BIT_EXT; });
+    if (!has_mesh) return VK_SHADER_STAGE_ALL_GRAPHICS;
+    return VK_SHADER_STAGE_TASK_BIT_EXT | VK_SHADER_STAGE_MESH_BIT_EXT |
+           VK_SHADER_STAGE_FRAGMENT_BIT;
 }
 
 // One image at each binding, of these types.
@@ -178,8 +192,9 @@ PipelineObjects makePipeline(const Device& device, const ComputeDescription& des
     if (!types.empty())
         objects.images = {
             device.get(), makeImageLayout(device, types, VK_SHADER_STAGE_COMPUTE_BIT)};
-    objects.layout = makeLayout(
-        device, VK_SHADER_STAGE_COMPUTE_BIT, description.push_size, objects.images.get());
+    objects.push_stages = VK_SHADER_STAGE_COMPUTE_BIT;
+    objects.layout =
+        makeLayout(device, objects.push_stages, description.push_size, objects.images.get());
 
     const ShaderModule module = loadModule(device, description.shader);
     const Specialization specialization(description.constants);
@@ -206,8 +221,9 @@ PipelineObjects makePipeline(const Device& device, const GraphicsDescription& de
         objects.images = {
             device.get(), makeImageLayout(device, types, VK_SHADER_STAGE_FRAGMENT_BIT)};
     }
-    objects.layout = makeLayout(
-        device, VK_SHADER_STAGE_ALL_GRAPHICS, description.push_size, objects.images.get());
+    objects.push_stages = pushStages(description.shaders);
+    objects.layout =
+        makeLayout(device, objects.push_stages, description.push_size, objects.images.get());
     const Specialization specialization(description.constants);
     std::vector<ShaderModule> modules;
     std::vector<VkPipelineShaderStageCreateInfo> stages;

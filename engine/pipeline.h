@@ -50,6 +50,7 @@ struct PipelineObjects {
     Handle<VkDescriptorSetLayout, &vkDestroyDescriptorSetLayout> images;
     Handle<VkPipelineLayout, &vkDestroyPipelineLayout> layout;
     Handle<VkPipeline, &vkDestroyPipeline> pipeline;
+    VkShaderStageFlags push_stages = 0;  // that the push constants are of
 };
 
 // The pipelines that a device made last, by all that they were made of: the code of their stages,
@@ -105,7 +106,8 @@ constexpr VkCompareOp kIsNearer = VK_COMPARE_OP_GREATER;
 constexpr VkCompareOp kIsNearerOrEqual = VK_COMPARE_OP_GREATER_OR_EQUAL;
 
 struct GraphicsDescription {
-    std::vector<std::string> shaders;  // one per stage, by extension: .vert .tesc .tese .geom .frag
+    // One per stage, by extension: .vert .tesc .tese .geom .frag, or .task .mesh .frag.
+    std::vector<std::string> shaders;
     Constants constants;  // the same for every stage
     std::uint32_t push_size = 0;  // B
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
@@ -131,6 +133,7 @@ public:
     VkPipeline get() const { return objects_->pipeline.get(); }
     VkPipelineLayout layout() const { return objects_->layout.get(); }
     VkDescriptorSetLayout imagesLayout() const { return objects_->images.get(); }  // null: none
+    VkShaderStageFlags pushStages() const { return objects_->push_stages; }
 
 private:
     PipelineStore::Objects objects_;

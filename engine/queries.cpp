@@ -12,15 +12,49 @@ namespace engine {
 
 // ---- Pipeline statistics ------------------------------------------------------------------------
 
-PipelineStatistics::PipelineStatistics(const Device& device) : device_(device.get()) {
-    static_assert(
-        VK_QUERY_PIPELINE_STATISTIC_TESSELLATION_EVALUATION_SHADER_INVOCATIONS_BIT ==
-        1 << (kStatisticNames.size() - 1));
+namespace {
+
+// Of kStatisticNames.
+constexpr std::size_t kMeshStatistics = 2;
+constexpr std::size_t kVertexStatistics = kStatisticNames.size() - kMeshStatistics;
+static_assert(
+    VK_QUERY_PIPELINE_STATISTIC_TESSELLATION_EVALUATION_SHADER_INVOCATIONS_BIT ==
+    1 << (kVertexStatistics - 1));
+
+VkQueryPipelineStatisticFlags statisticBit(std::size_t index) {
+    constexpr VkQueryPipelineStatisticFlags kTask =
+        VK_QUERY_PIPELINE_STATISTIC_TASK_SHADER_INVOCATIONS_BIT_EXT;
+    static_assert(VK_QUERY_PIPELINE_STATISTIC_MESH_SHADER_INVOCATIONS_BIT_EXT == kTask << 1);
+    return index < kVertexStatistics ? 1u << index : kTask << (index - kVertexStatistics);
+}
+
+VkQueryPipelineStatisticFlags countedBits(const Device& device, DrawnFrom drawn_from) {
+    if (drawn_from == DrawnFrom::vertices) return (1u << kVertexStatistics) - 1;
+    VkQueryPipelineStatisticFlags counted =
+        VK_QUERY_PIPELINE_STATISTIC_CLIPPING_INVOCATIONS_BIT |
+        VK_QUERY_PIPELINE_STATISTIC_CLIPPING_PRIMITIVES_BIT |
+        VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT;
+    if (device.has(Feature::mesh_statistics))
+        counted |= VK_QUERY_PIPELINE_STATISTIC_TASK_SHADER_INVOCATIONS_BIT_EXT |
+                   VK_QUERY_PIPELINE_STATISTIC_MESH_SHADER_INVOCATIONS_BIT_EXT;
+    return counted;
+}
+
+}  // namespace
+
+std::span<const std::string_view> statisticNames(const Device& device) {
+    const bool counts_meshes = device.has(Feature::mesh_statistics);
+    return std::span(kStatisticNames)
+        .first(counts_meshes ? kStatisticNames.size() : kVertexStatistics);
+}
+
+PipelineStatistics::PipelineStatistics(const Device& device, DrawnFrom drawn_from)
+    : device_(device.get()), counted_(countedBits(device, drawn_from)) {
     VkQueryPoolCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
     create.queryType = VK_QUERY_TYPE_PIPELINE_STATISTICS;
     create.queryCount = 1;
-    create.pipelineStatistics = (1u << kStatisticNames.size()) - 1;
+    create.pipelineStatistics = counted_;
     VkQueryPool pool{};
     check(vkCreateQueryPool(device_, &create, nullptr, &pool), "create a statistics pool");
     pool_ = {device_, pool};
@@ -34,12 +68,16 @@ void PipelineStatistics::begin(Commands& commands) {
 void PipelineStatistics::end(Commands& commands) { vkCmdEndQuery(commands.get(), pool_.get(), 0); }
 
 StatisticCounts PipelineStatistics::read() const {
-    StatisticCounts counts{};
+    StatisticCounts results{};  // one after the other, of the bits that are counted
     check(
         vkGetQueryPoolResults(
-            device_, pool_.get(), 0, 1, sizeof counts, counts.data(), sizeof counts,
+            device_, pool_.get(), 0, 1, sizeof results, results.data(), sizeof results,
             VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
         "read the pipeline statistics");
+    StatisticCounts counts{};
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < counts.size(); ++i)
+        if (counted_ & statisticBit(i)) counts[i] = results[next++];
     return counts;
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -11,29 +12,49 @@
 // What the device counts and times: pipeline statistics, samples and timestamps.
 namespace engine {
 
-// The graphics counters of VkQueryPipelineStatisticFlagBits, in the order of the bits 0 to 9. The
-// compute counter is left out: lavapipe crashes on it when no compute pipeline is bound.
-inline constexpr std::array<std::string_view, 10> kStatisticNames{
-    "input_assembly_vertices",      "input_assembly_primitives",
-    "vertex_invocations",           "geometry_invocations",
-    "geometry_primitives",          "clipping_invocations",
-    "clipping_primitives",          "fragment_invocations",
-    "tessellation_control_patches", "tessellation_evaluation_invocations"};
+// The graphics counters of VkQueryPipelineStatisticFlagBits, in the order of their bits: 0 to 9,
+// and 11 and 12 of task and mesh stages. The compute counter is left out: lavapipe crashes on it
+// when no compute pipeline is bound.
+inline constexpr std::array<std::string_view, 12> kStatisticNames{
+    "input_assembly_vertices",
+    "input_assembly_primitives",
+    "vertex_invocations",
+    "geometry_invocations",
+    "geometry_primitives",
+    "clipping_invocations",
+    "clipping_primitives",
+    "fragment_invocations",
+    "tessellation_control_patches",
+    "tessellation_evaluation_invocations",
+    "task_invocations",
+    "mesh_invocations"};
+
+// Those that the device counts: not those of task and mesh stages without
+// Feature::mesh_statistics.
+std::span<const std::string_view> statisticNames(const Device& device);
 
 using StatisticCounts = std::array<std::uint64_t, kStatisticNames.size()>;
+
+// What a query's draws begin with. It may count only what they have.
+enum class DrawnFrom {
+    vertices,
+    meshes,  // task and mesh stages
+};
 
 // One pipeline-statistics query.
 class PipelineStatistics {
 public:
-    explicit PipelineStatistics(const Device& device);
+    PipelineStatistics(const Device& device, DrawnFrom drawn_from);
 
     void begin(Commands& commands);
     void end(Commands& commands);
-    // The counts, once the work is complete. Read once: on some drivers a second read differs.
+    // The counts, once the work is complete; 0 for stages that the draws don't have. Read once: on
+    // some drivers a second read differs.
     StatisticCounts read() const;
 
 private:
     VkDevice device_;
+    VkQueryPipelineStatisticFlags counted_;
     Handle<VkQueryPool, &vkDestroyQueryPool> pool_;
 };
 

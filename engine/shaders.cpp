@@ -88,6 +88,7 @@ void GlslIncluder::releaseInclude(IncludeResult* result) {
 constexpr std::array kStages{
     std::pair{".vert", EShLangVertex},         std::pair{".tesc", EShLangTessControl},
     std::pair{".tese", EShLangTessEvaluation}, std::pair{".geom", EShLangGeometry},
+    std::pair{".task", EShLangTask},           std::pair{".mesh", EShLangMesh},
     std::pair{".frag", EShLangFragment},       std::pair{".comp", EShLangCompute},
 };
 

@@ -163,11 +163,12 @@ void addStatistics(
     if (strands == frame.statistics.end()) return;
 
     const std::optional<hair::rendering::ExpectedCounts> expected = test_case.expected();
-    for (std::size_t i = 0; i < engine::kStatisticNames.size(); ++i) {
+    const std::span<const std::string_view> names = engine::statisticNames(device);
+    for (std::size_t i = 0; i < names.size(); ++i) {
         report::Statistic statistic{
-            .name = std::string(engine::kStatisticNames[i]),
+            .name = std::string(names[i]),
             .measured = strands->counts[i],
-            .expected = expectedOf(expected, engine::kStatisticNames[i]),
+            .expected = expectedOf(expected, names[i]),
             .note = ""};
         const bool fragments = statistic.name == "fragment_invocations";
         if (fragments && device.fragmentCountsAreApproximate()) {

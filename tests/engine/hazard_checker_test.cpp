@@ -21,6 +21,8 @@ constexpr Scope kComputeWrite{
     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
     VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT};
 constexpr Scope kVertexRead{VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT};
+constexpr Scope kTaskRead{VK_PIPELINE_STAGE_2_TASK_SHADER_BIT_EXT, VK_ACCESS_2_SHADER_READ_BIT};
+constexpr Scope kMeshRead{VK_PIPELINE_STAGE_2_MESH_SHADER_BIT_EXT, VK_ACCESS_2_SHADER_READ_BIT};
 constexpr Scope kFragmentRead{VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_READ_BIT};
 constexpr Scope kCopyRead{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
 constexpr Scope kFill{VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
@@ -165,6 +167,31 @@ TEST(HazardChecker, KnowsTheOrderOfADrawsStages) {
     const Recording sees_later{
         use(1, kComputeWrite), barrier(kComputeWrite, kVertexRead), use(1, kFragmentRead)};
     EXPECT_THAT(hazards(sees_later), ElementsAre(Kind::read_after_write));
+}
+
+// Those of a draw of meshes are no part of a draw of vertices.
+TEST(HazardChecker, KnowsTheOrderOfTheStagesOfMeshes) {
+    const auto read = [](Scope reads, Scope waited_for) {
+        return hazards({use(1, reads), barrier(waited_for, kComputeWrite), use(1, kComputeWrite)});
+    };
+    const auto kHazard = ElementsAre(Kind::write_after_read);
+    EXPECT_THAT(read(kTaskRead, kMeshRead), IsEmpty());
+    EXPECT_THAT(read(kMeshRead, kFragmentRead), IsEmpty());
+    EXPECT_THAT(read(kMeshRead, kTaskRead), kHazard);
+    EXPECT_THAT(read(kFragmentRead, kMeshRead), kHazard);
+    EXPECT_THAT(read(kVertexRead, kMeshRead), kHazard);
+    EXPECT_THAT(read(kMeshRead, kVertexRead), kHazard);
+    const Scope before_raster{
+        VK_PIPELINE_STAGE_2_PRE_RASTERIZATION_SHADERS_BIT, VK_ACCESS_2_SHADER_READ_BIT};
+    const Scope all{VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT, VK_ACCESS_2_SHADER_READ_BIT};
+    for (const Scope& group : {before_raster, all}) {
+        EXPECT_THAT(read(kTaskRead, group), IsEmpty());
+        EXPECT_THAT(
+            hazards(
+                {use(1, kComputeWrite), barrier(kComputeWrite, group), use(1, kTaskRead),
+                 use(1, kMeshRead)}),
+            IsEmpty());
+    }
 }
 
 TEST(HazardChecker, LetsAnImagesBarrierOrderAllAndShowItselfAlone) {
