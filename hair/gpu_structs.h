@@ -34,6 +34,7 @@ using uint = std::uint32_t;
 #include "shaders/shared/shadow_structs.h"
 #include "shaders/shared/simulation_structs.h"
 #include "shaders/shared/software_structs.h"
+#include "shaders/shared/strand_mesh_structs.h"
 #include "shaders/shared/strand_structs.h"
 #include "shaders/shared/volume_structs.h"
 #include "shaders/shared/watch_structs.h"

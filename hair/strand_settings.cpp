@@ -42,11 +42,13 @@ const Table& tableOf(const StrandSettings*) {
               {Backend::lines, "lines"},
               {Backend::pulling, "pulling"},
               {Backend::expanded, "expanded"},
+              {Backend::mesh, "mesh"},
               {Backend::software, "software"}},
              "tessellation: control, isolines, evaluation, geometry; pulling_geometry: points "
              "evaluated in the vertex stage, the same geometry stage; lines: lines a pixel wide "
              "instead of quads; pulling: corners of quads made in the vertex stage; expanded: so "
              "too, from points evaluated in compute; "
+             "mesh: task stages choose blocks of strands, mesh stages make their quads; "
              "software: rasterised in compute"),
          choice(
              "source", &S::source,

@@ -8,7 +8,7 @@ namespace hair {
 
 class Table;
 
-enum class Backend { tessellation, pulling_geometry, lines, pulling, expanded, software };
+enum class Backend { tessellation, pulling_geometry, lines, pulling, expanded, mesh, software };
 enum class Interpolation { multi, single, mixed };
 enum class Randomness { hashed, thesis };
 enum class Curve { bspline, bspline_unpinned, catmull_rom };

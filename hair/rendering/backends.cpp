@@ -7,6 +7,7 @@
 
 #include "engine/error.h"
 #include "hair/gpu_structs.h"
+#include "hair/rendering/mesh_backend.h"
 #include "hair/rendering/points_pass.h"
 #include "hair/rendering/software_backend.h"
 #include "hair/rendering/strand_offsets.h"
@@ -22,38 +23,9 @@ constexpr std::uint32_t pushSize(const StrandStages& stages) {
                           : std::uint32_t{sizeof(gpu::StrandPush)};
 }
 
-// The pipeline state that all line back ends share; without shaders.
-engine::GraphicsDescription strandPipeline(const BackendContext& context) {
-    const StrandOutput& output = context.output;
-    const StrandStages& stages = context.stages;
-    std::vector<engine::ColorTarget> colors = output.colors;
-    if (stages.last != StrandStage::fragment)
-        for (engine::ColorTarget& color : colors) color.blend = engine::Blend::keep;
-    engine::Constants constants = strandConstants(context.strands, context.plan);
-    constants.emplace_back(gpu::kPixelSamplesConstant, output.samples);
-    constants.insert(constants.end(), output.shading.begin(), output.shading.end());
-    return {
-        .constants = constants,
-        .push_size = pushSize(stages),
-        .colors = colors,
-        .depth_format = output.depth_format,
-        .samples = output.samples,
-        .depth_write = output.depth_write,
-        .discard = discards(stages),
-        .sampled_images = output.sampled_images};
-}
-
 // The geometry stage that makes the quads.
 std::string geometryShader(QuadKind quads) {
     return quads == QuadKind::camera ? "strands/strand.geom" : "shadows/hair.geom";
-}
-
-// Says that what is drawn next evaluates the picture's strands (Commands::uses).
-void declareStrands(engine::Commands& commands, const gpu::PictureParameters& picture) {
-    commands.uses(
-        {{picture.guides, Access::vertex_read},
-         {picture.contacts, Access::vertex_read},
-         {picture.guide_normals, Access::vertex_read}});
 }
 
 // No strand at all.
@@ -433,6 +405,7 @@ constexpr std::array kBackends{
     BackendRow{Backend::lines, make<LinesBackend>},
     BackendRow{Backend::pulling, make<PullingBackend>},
     BackendRow{Backend::expanded, make<ExpandedBackend>},
+    BackendRow{Backend::mesh, make<MeshBackend>},
     BackendRow{Backend::software, make<SoftwareBackend>},
 };
 
@@ -495,6 +468,33 @@ void checkBackend(const Settings& settings) {
 
 bool readsSceneDepth(const Settings& settings) {
     return settings.render.hair && settings.strands.backend == Backend::software;
+}
+
+engine::GraphicsDescription strandPipeline(const BackendContext& context) {
+    const StrandOutput& output = context.output;
+    const StrandStages& stages = context.stages;
+    std::vector<engine::ColorTarget> colors = output.colors;
+    if (stages.last != StrandStage::fragment)
+        for (engine::ColorTarget& color : colors) color.blend = engine::Blend::keep;
+    engine::Constants constants = strandConstants(context.strands, context.plan);
+    constants.emplace_back(gpu::kPixelSamplesConstant, output.samples);
+    constants.insert(constants.end(), output.shading.begin(), output.shading.end());
+    return {
+        .constants = constants,
+        .push_size = pushSize(stages),
+        .colors = colors,
+        .depth_format = output.depth_format,
+        .samples = output.samples,
+        .depth_write = output.depth_write,
+        .discard = discards(stages),
+        .sampled_images = output.sampled_images};
+}
+
+void declareStrands(engine::Commands& commands, const gpu::PictureParameters& picture) {
+    commands.uses(
+        {{picture.guides, Access::vertex_read},
+         {picture.contacts, Access::vertex_read},
+         {picture.guide_normals, Access::vertex_read}});
 }
 
 engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan) {

@@ -11,6 +11,7 @@
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/device.h"
+#include "engine/frame_loop.h"
 #include "engine/pipeline.h"
 #include "engine/target.h"
 #include "hair/gpu_structs.h"
@@ -55,6 +56,9 @@ struct StrandPicture {
 class StrandBackend {
 public:
     virtual ~StrandBackend() = default;
+
+    // What draw() draws from.
+    virtual engine::PassKind passKind() const { return engine::PassKind::graphics; }
 
     // Records what draw() needs of the picture, before rendering begins.
     virtual void prepare(engine::Commands&, const StrandPicture&) const {}
@@ -119,6 +123,13 @@ bool readsPoints(const Settings& settings);
 
 // Whether the case's back end reads the depth of what the scene has drawn.
 bool readsSceneDepth(const Settings& settings);
+
+// The pipeline state that all back ends share whose quads are rasterised by hardware; without
+// shaders.
+engine::GraphicsDescription strandPipeline(const BackendContext& context);
+
+// Says that what is drawn next evaluates the picture's strands (Commands::uses).
+void declareStrands(engine::Commands& commands, const gpu::PictureParameters& picture);
 
 // The specialization constants of every shader that includes strands/strand.glsl.
 engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan);

@@ -421,7 +421,7 @@ void ShadowPass::record(
         });
     }
     if (hair_maps_) {
-        passes.pass("hair_shadow", engine::PassKind::graphics, [&](engine::Commands& commands) {
+        passes.pass("hair_shadow", depth_->passKind(), [&](engine::Commands& commands) {
             drawHair(commands, pictures);
         });
     }

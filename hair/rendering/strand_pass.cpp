@@ -51,7 +51,7 @@ public:
     void record(
         engine::Passes& passes, const engine::Target& target,
         const RecordedStrands& strands) const override {
-        passes.pass("strands", engine::PassKind::graphics, [&](engine::Commands& commands) {
+        passes.pass("strands", strands.kind, [&](engine::Commands& commands) {
             strands.prepare(commands);
             target.beginRendering(commands, engine::Load::keep, {});
             strands.draw(commands);
@@ -90,7 +90,7 @@ public:
     void record(
         engine::Passes& passes, const engine::Target& target,
         const RecordedStrands& strands) const override {
-        passes.pass("strands", engine::PassKind::graphics, [&](engine::Commands& commands) {
+        passes.pass("strands", strands.kind, [&](engine::Commands& commands) {
             strands.prepare(commands);
             target.beginRendering(commands, engine::Load::keep, {});
             target.endRendering(commands);
@@ -157,7 +157,7 @@ public:
     void record(
         engine::Passes& passes, const engine::Target& target,
         const RecordedStrands& strands) const override {
-        passes.pass("strands", engine::PassKind::graphics, [&](engine::Commands& commands) {
+        passes.pass("strands", strands.kind, [&](engine::Commands& commands) {
             list(commands, target, strands);
         });
         passes.pass("composite", engine::PassKind::graphics, [&](engine::Commands& commands) {
@@ -276,7 +276,7 @@ public:
     void record(
         engine::Passes& passes, const engine::Target& target,
         const RecordedStrands& strands) const override {
-        passes.pass("strands", engine::PassKind::graphics, [&](engine::Commands& commands) {
+        passes.pass("strands", strands.kind, [&](engine::Commands& commands) {
             sumUp(commands, target, strands);
         });
         passes.pass("composite", engine::PassKind::graphics, [&](engine::Commands& commands) {
@@ -437,7 +437,8 @@ void StrandPass::record(
     const StrandPicture drawn{.address = picture, .parameters = parameters, .images = images};
     blend_->record(
         passes, target,
-        {.prepare = [&](engine::Commands& commands) { backend_->prepare(commands, drawn); },
+        {.kind = backend_->passKind(),
+         .prepare = [&](engine::Commands& commands) { backend_->prepare(commands, drawn); },
          .draw = [&](engine::Commands& commands) { backend_->draw(commands, drawn); }});
 }
 

@@ -29,6 +29,7 @@ struct ListedFragments {
 
 // What a back end records of a picture's strands.
 struct RecordedStrands {
+    engine::PassKind kind;  // of the pass that draws them
     std::function<void(engine::Commands&)> prepare;  // before rendering begins
     std::function<void(engine::Commands&)> draw;  // within it
 };

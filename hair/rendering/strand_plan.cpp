@@ -117,12 +117,16 @@ planStrands(const StrandView& view, const Settings& settings, std::uint32_t isol
         throw engine::Error(
             "/strands/collision_rule", "is set, but it is not known where guides touch bodies");
     const std::uint32_t segments = view.vertices_per_guide - 1;
-    if (settings.strands.source == StrandSource::root_triangles)
-        return planStrands(
-            view.triangle_count, segments, settings.strands, settings.lod, isoline_limit);
     StrandSettings strands = settings.strands;
-    strands.density = view.bound_strand_count;
-    return planStrands(1, segments, strands, settings.lod, 1);
+    std::uint32_t triangles = view.triangle_count;
+    if (strands.source == StrandSource::groom) {
+        strands.density = view.bound_strand_count;
+        triangles = isoline_limit = 1;
+    }
+    StrandPlan plan = planStrands(triangles, segments, strands, settings.lod, isoline_limit);
+    plan.reach = view.offset_reach;
+    plan.greatest_width = view.greatest_width;
+    return plan;
 }
 
 std::uint32_t StrandPlan::verticesPerPatch() const {

@@ -35,6 +35,8 @@ struct StrandPlan {
     std::uint32_t patches_per_triangle = 0;  // per guide segment
     std::uint32_t strands_per_patch = 0;
     LodMode lod_mode = LodMode::forced;
+    float reach = 0.0f;  // m, how far offsets move points of strands
+    float greatest_width = 0.0f;  // m, at level 0 of detail
 
     // Patches of the whole picture, numbered [triangle][part][segment].
     std::uint32_t patches() const { return triangles * patches_per_triangle * segments; }

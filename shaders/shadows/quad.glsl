@@ -1,36 +1,18 @@
-// A line of a strand -> a quad that faces the light, and the part of it that the strand covers: a
-// strand thinner than a texel of the map is as wide as one and as much less opaque, so that what it
-// covers of the map has the right mean, however thin it is.
+// The corners of strands' quads in a light's map as outputs of the last stage before the rasteriser,
+// geometry or vertex.
 #ifndef HAIRBENCH_SHADOW_QUAD_GLSL
 #define HAIRBENCH_SHADOW_QUAD_GLSL
 
-#include "common/across.glsl"
-#include "common/picture.glsl"
-#include "strands/line_end.glsl"
+#include "shadows/quad_corner.glsl"
 
 layout(location = 0) out float coverage;
 invariant gl_Position;  // the same in the pass of depths and in that of opacity
 
-struct QuadEnd {
-    vec3 side;  // m
-    float coverage;
-};
-
-QuadEnd quadEnd(PictureParameters picture, LineEnd end) {
-    // Along the view, not to the eye: a texel spans as much at all points of one depth.
-    float depth = (picture.view_projection * vec4(end.position, 1.0)).w;
-    float texel = picture.pixel_near + picture.pixel_slope * max(depth, 0.0);
-    float width = max(end.width, texel);
-    QuadEnd quad;
-    quad.side = sideOfLength(picture.eye - end.position, end.tangent, 0.5 * width);
-    quad.coverage = picture.opacity * max(end.width, 0.0) / max(width, 1e-30);
-    return quad;
-}
-
 // The outputs of a corner of the quad; across: -1 or 1.
 void makeCorner(PictureParameters picture, LineEnd end, QuadEnd quad, float across) {
-    gl_Position = picture.view_projection * vec4(end.position + across * quad.side, 1.0);
-    coverage = quad.coverage;
+    QuadCorner corner = quadCorner(picture, end, quad, across);
+    gl_Position = corner.clip;
+    coverage = corner.coverage;
 }
 
 #endif

@@ -70,7 +70,7 @@ const uint kCollisionRuleConstant = 7u;
 const uint kRandomnessConstant = 8u;
 const uint kLodMorphConstant = 9u;
 
-// Constants of strands/software: strands/software/software.glsl.
+// Constants of strands/software: strands/software/software.glsl; of strands/mesh, too.
 const uint kMostSegmentsConstant = 10u;
 const uint kMostPiecesConstant = 11u;
 // Of that and of strands/pulling.glsl.
@@ -82,6 +82,12 @@ const uint kLinesConstant = 14u;
 
 // Constant of strands' quads and fragments: strands/pixel_samples.glsl.
 const uint kPixelSamplesConstant = 15u;
+
+// Constants of the back end `mesh`: strands/mesh/block.glsl, and the invocations of a workgroup of
+// strands/mesh/draw.glsl.
+const uint kBlockPointsConstant = 26u;
+const uint kTaskGroupConstant = 27u;
+const uint kMeshGroupConstant = 28u;
 
 // Constants of a mesh's material: scene/options.glsl.
 const uint kBaseColorTextureConstant = 0u;

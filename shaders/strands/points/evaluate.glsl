@@ -1,5 +1,6 @@
 // The points of strands, each evaluated once, and the part of the picture that they touch. An
 // invocation has some strands of a root triangle, for which control points slide along its guides.
+#include "strands/outside.glsl"
 #include "strands/points/layout.glsl"
 #include "strands/strand.glsl"
 
@@ -44,37 +45,6 @@ void mergeBounds(Extent extent) {
     if (high.y > seen.bottom) atomicMax(reference.bounds.bottom, high.y);
 }
 
-// Whether no strand between the guides can be in the picture. Splines and interpolation stay within
-// the guides' hull but for what `beyond` counts: roots apart from their guide's, a segment at
-// splines' ends and bends, offsets, widths and what coverage draws beside them.
-bool isOutside(PictureParameters picture, StrandPatch strand_patch, uvec3 guides, float offset) {
-    mat4 rows = transpose(picture.view_projection);
-    vec4 planes[5] = vec4[5](rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1],
-                             rows[3] - rows[1], rows[3] - rows[2]);
-    float furthest[5] = float[5](-1e30, -1e30, -1e30, -1e30, -1e30);  // inside
-    vec3 first = guideVertex(picture, guides.x, 0u);
-    float edge = 0.0;
-    float longest = 0.0;
-    float margin = 0.0;
-    for (int corner = 0; corner < 3; ++corner) {
-        vec3 before = guideVertex(picture, guides[corner], 0u);
-        edge = max(edge, distance(first, before));
-        for (uint i = 0u; i <= kSegments; ++i) {
-            vec3 vertex = guideVertex(picture, guides[corner], i);
-            longest = max(longest, distance(before, vertex));
-            before = vertex;
-            margin = max(margin, pixelMargin(picture, vertex));
-            for (int k = 0; k < 5; ++k)
-                furthest[k] = max(furthest[k], dot(planes[k], vec4(vertex, 1.0)));
-        }
-    }
-    float beyond = push.reach + offset + 2.0 * edge + longest + margin +
-                   push.greatest_width * strand_patch.lod.width_scale;
-    for (int k = 0; k < 5; ++k)
-        if (furthest[k] < -beyond * length(planes[k].xyz)) return true;
-    return false;
-}
-
 void main() {
     uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     uint block = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
@@ -95,7 +65,9 @@ void main() {
     if (push.culls != 0u) {
         float offset = 0.0;
         if (kSource == kSourceGroom) offset = length(boundStrand(picture, begin).offset);
-        if (isOutside(picture, strand_patch, guides, offset)) drawn = begin;
+        float beyond =
+            push.reach + offset + push.greatest_width * strand_patch.lod.width_scale;
+        if (isOutside(picture, guides, 0u, kSegments, beyond)) drawn = begin;
     }
     for (uint index = begin; index < end; ++index)
         StrandPieces(push.pieces).at[number + index - begin] = index < drawn ? pieces : 0u;

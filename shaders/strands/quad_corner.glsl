@@ -1,0 +1,46 @@
+// A line of a strand -> a quad that faces the camera, thesis 2.2: side = normalize(E x T), P -+ side w / 2.
+// What its corners are, whichever stage makes them.
+#ifndef HAIRBENCH_QUAD_CORNER_GLSL
+#define HAIRBENCH_QUAD_CORNER_GLSL
+
+#include "common/across.glsl"
+#include "common/picture.glsl"
+#include "shading/options.glsl"
+#include "strands/line_end.glsl"
+#include "strands/pixel_margin.glsl"
+
+// How far the quad's edges are from an end of the line, and where to.
+struct QuadEnd {
+    vec3 side;  // m
+    float half_quad;  // m
+};
+
+struct QuadCorner {
+    vec4 clip;
+    vec4 position_and_across;  // m; across: -1 at one edge, 1 at the other, or with analytic
+                               // coverage m from the middle
+    vec4 tangent_and_along;
+    float half_width;  // m
+};
+
+QuadEnd quadEnd(PictureParameters picture, LineEnd end) {
+    QuadEnd quad;
+    quad.half_quad = 0.5 * end.width;
+    if (kAnalyticCoverage != 0) quad.half_quad += pixelMargin(picture, end.position);
+    quad.side = sideOfLength(picture.eye - end.position, end.tangent, quad.half_quad);
+    return quad;
+}
+
+// across: -1 or 1.
+QuadCorner quadCorner(PictureParameters picture, LineEnd end, QuadEnd quad, float across) {
+    precise vec3 place = end.position + across * quad.side;
+    QuadCorner corner;
+    corner.clip = picture.view_projection * vec4(place, 1.0);
+    corner.position_and_across =
+        vec4(place, kAnalyticCoverage != 0 ? across * quad.half_quad : across);
+    corner.tangent_and_along = vec4(end.tangent, end.along);
+    corner.half_width = 0.5 * end.width;
+    return corner;
+}
+
+#endif
