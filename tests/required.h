@@ -11,11 +11,12 @@
 #include <gtest/gtest.h>
 
 // What some tests need and a machine may lack.
-enum class Need { device, validation, gbench, python, report, browser, display, swiftshader };
+enum class Need { device, validation, gbench, python, report, browser, display, swiftshader, mesh };
 
-inline constexpr std::array<std::string_view, 8> kNeedNames{
-    "device", "validation", "gbench", "python", "report", "browser", "display", "swiftshader"};
-static_assert(kNeedNames.size() == static_cast<std::size_t>(Need::swiftshader) + 1);
+inline constexpr std::array<std::string_view, 9> kNeedNames{
+    "device",  "validation", "gbench",      "python", "report",
+    "browser", "display",    "swiftshader", "mesh"};  // task and mesh stages
+static_assert(kNeedNames.size() == static_cast<std::size_t>(Need::mesh) + 1);
 
 // Whether HAIRBENCH_REQUIRE, names that are separated by commas, has it: scripts/test puts there
 // what it has set up. Throws for names that there are none of.

@@ -135,6 +135,8 @@ TEST_F(LesserDevice, StrandsNeedTheStagesOfTheirBackEnd) {
     pulled.strands.backend = hair::Backend::pulling;
     make(bare);
     EXPECT_EQ(skipped(pulled), "not skipped");
+    pulled.strands.backend = hair::Backend::mesh;
+    EXPECT_EQ(skipped(pulled), "/strands/backend: mesh: the device has no task and mesh stages");
 }
 
 TEST_F(LesserDevice, StrandsInComputeNeedSamplesAtKnownPlaces) {
@@ -418,7 +420,8 @@ TEST_F(LesserDevice, BindsAnyNumberOfImagesWithoutPushDescriptors) {
 TEST(ShaderCapabilities, AreThoseThatFeaturesStandFor) {
     constexpr std::uint32_t kCapability = 17;  // the operation
     constexpr std::uint32_t kShader = 1, kGeometry = 2, kTessellation = 3, kLongIntegers = 11,
-                            kLongAtomics = 12, kImageQuery = 50, kPhysicalAddresses = 5347;
+                            kLongAtomics = 12, kImageQuery = 50, kMeshShading = 5283,
+                            kPhysicalAddresses = 5347;
     for (const std::string_view path : engine::shaderPaths())
         engine::forEachDeclaration(
             engine::shaderCode(path), [&](engine::SpirvInstruction instruction) {
@@ -435,6 +438,8 @@ TEST(ShaderCapabilities, AreThoseThatFeaturesStandFor) {
                     EXPECT_EQ(capability, kLongIntegers) << path;
                 else if (path.ends_with(".geom"))
                     EXPECT_EQ(capability, kGeometry) << path;
+                else if (path.ends_with(".task") || path.ends_with(".mesh"))
+                    EXPECT_EQ(capability, kMeshShading) << path;
                 else if (path.ends_with(".tesc") || path.ends_with(".tese"))
                     EXPECT_EQ(capability, kTessellation) << path;
                 else

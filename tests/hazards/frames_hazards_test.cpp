@@ -195,36 +195,47 @@ void missEach(
     device.messages().take();
 }
 
+// Of everything().
+const std::vector<Missed> kMissed{
+    {"volume", 1, "volume blocks"},  // cleared
+    {"volume", 2, "volume samples"},
+    {"volume", 3, "volume sums"},
+    {"pull", 0, "guide accelerations"},  // by hair on hair
+    {"pull", 1, "guide pull"},
+    {"simulate", 0, "guide accelerations"},  // by the hand
+    {"simulate", 1, "guide positions"},  // by the substep before
+    {"frames", 1, "guide normals"},
+    {"mesh_shadow", 0, "depth of meshes"},
+    {"mesh_shadow", 1, "depth of meshes"},
+    {"hair_shadow", 0, "depth of hair"},
+    {"hair_shadow", 1, "depth of hair"},
+    {"hair_shadow", 2, "opacity of hair"},
+    {"hair_shadow", 3, "opacity of hair"},
+    {"scene", 0, "color"},  // still resolved by the frame before
+    {"scene", 1, "depth"},
+    {"strands", 1, "fragment heads"},  // cleared
+    {"strands", 2, "depth"},
+    {"composite", 0, "fragment heads"},
+    {"composite", 1, "depth"},
+    {"overlay", 0, "color"},
+    {"resolve", 0, "color"},
+    {"resolve", 1, "output"},
+    {"resolve", 2, "radiance"},
+    {"resolve", 3, "output"},
+    {"resolve", 4, "radiance"}};
+
 TEST_F(FramesHazards, EachBarrierThatIsTakenOutIsMissed) {
-    const std::vector<Missed> missed{
-        {"volume", 1, "volume blocks"},  // cleared
-        {"volume", 2, "volume samples"},
-        {"volume", 3, "volume sums"},
-        {"pull", 0, "guide accelerations"},  // by hair on hair
-        {"pull", 1, "guide pull"},
-        {"simulate", 0, "guide accelerations"},  // by the hand
-        {"simulate", 1, "guide positions"},  // by the substep before
-        {"frames", 1, "guide normals"},
-        {"mesh_shadow", 0, "depth of meshes"},
-        {"mesh_shadow", 1, "depth of meshes"},
-        {"hair_shadow", 0, "depth of hair"},
-        {"hair_shadow", 1, "depth of hair"},
-        {"hair_shadow", 2, "opacity of hair"},
-        {"hair_shadow", 3, "opacity of hair"},
-        {"scene", 0, "color"},  // still resolved by the frame before
-        {"scene", 1, "depth"},
-        {"strands", 1, "fragment heads"},  // cleared
-        {"strands", 2, "depth"},
-        {"composite", 0, "fragment heads"},
-        {"composite", 1, "depth"},
-        {"overlay", 0, "color"},
-        {"resolve", 0, "color"},
-        {"resolve", 1, "output"},
-        {"resolve", 2, "radiance"},
-        {"resolve", 3, "output"},
-        {"resolve", 4, "radiance"}};
-    ASSERT_GE(missed.size(), 20u);
-    missEach(device(), everything(), missed);
+    ASSERT_GE(kMissed.size(), 20u);
+    missEach(device(), everything(), kMissed);
+}
+
+// Task and mesh stages read what vertex stages do, after the same barriers.
+TEST_F(FramesHazards, EachBarrierIsMissedByMeshStages) {
+    if (!device().has(engine::Feature::mesh_shader))
+        return skipWithout(Need::mesh, "the device has no task and mesh stages");
+    hair::Settings settings = everything();
+    settings.strands.backend = hair::Backend::mesh;
+    missEach(device(), settings, kMissed);
 }
 
 // Hair that is drawn as it is simulated, blended by weights, and copied to the output.
