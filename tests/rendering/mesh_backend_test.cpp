@@ -273,7 +273,11 @@ TEST_F(MeshBackendPicture, IsThatOfTessellationHoweverItIsShown) {
     const std::initializer_list<std::pair<const char*, void (*)(Settings&)>> kinds{
         {"lists", [](Settings& s) { s.render.transparency = Transparency::fragment_list; }},
         {"samples", [](Settings& s) { s.render.transparency = Transparency::alpha_to_coverage; }},
-        {"covered", [](Settings& s) { s.render.coverage = Coverage::analytic; }},
+        {"covered",
+         [](Settings& s) {
+             s.render.coverage = Coverage::analytic;
+             s.render.transparency = Transparency::fragment_list;
+         }},
         {"tangents", [](Settings& s) { s.render.show = Show::tangents; }},
         {"normals", [](Settings& s) { s.render.show = Show::normals; }},
         {"strands", [](Settings& s) { s.render.show = Show::strands; }},
@@ -323,6 +327,8 @@ TEST_F(MeshBackendPicture, IsThatOfTessellationInScenes) {
                                     fs::path(HAIRBENCH_SCENES_DIR) / (std::string(scene) + ".json"))
                                     .settings;
             settings.simulation.settle_steps = 10;
+            settings.render.width = 480;
+            settings.render.height = 270;
             settings.render.ssaa = 1;
             settings.render.msaa = samples;
             const auto draw = [&](Backend backend, const char* kind) {
