@@ -15,6 +15,7 @@ static_assert(offsetof(gpu::StrandMeshPush, blocks) == 8 && sizeof(gpu::StrandMe
 
 constexpr const char* kMesh = "/strands/backend: mesh";
 constexpr std::uint32_t kMostInvocations = 128;  // what every device has, of tasks as of meshes
+constexpr std::uint32_t kProcessorGroup = 8;
 
 // Of a mesh workgroup: strands/mesh/draw.glsl.
 constexpr std::uint32_t kStrandBytes = 80;  // BlockStrand, vectors strided
@@ -25,7 +26,7 @@ constexpr std::uint32_t kPayloadBytes = kMostInvocations * sizeof(std::uint32_t)
 
 MeshSizes sizesFor(const engine::Device& device) {
     device.require(engine::Feature::mesh_shader, kMesh);
-    return meshSizes(device.info().mesh_limits);
+    return meshSizes(device.info());
 }
 
 std::uint32_t
@@ -56,7 +57,8 @@ engine::GraphicsDescription describe(const BackendContext& context, const MeshSi
 
 }  // namespace
 
-MeshSizes meshSizes(const VkPhysicalDeviceMeshShaderPropertiesEXT& limits) {
+MeshSizes meshSizes(const engine::DeviceInfo& device) {
+    const VkPhysicalDeviceMeshShaderPropertiesEXT& limits = device.mesh_limits;
     struct Needed {
         const char* what;
         std::uint32_t there;
@@ -83,8 +85,9 @@ MeshSizes meshSizes(const VkPhysicalDeviceMeshShaderPropertiesEXT& limits) {
                                     {limits.maxTaskPayloadSize, limits.maxTaskSharedMemorySize,
                                      limits.maxTaskPayloadAndSharedMemorySize / 2}) /
                                 static_cast<std::uint32_t>(sizeof(std::uint32_t));
-    const auto group = [](std::initializer_list<std::uint32_t> most) {
-        return std::max(std::min(std::min(most), kMostInvocations), 1u);
+    const std::uint32_t liked = device.type == "cpu" ? kProcessorGroup : kMostInvocations;
+    const auto group = [&](std::initializer_list<std::uint32_t> most) {
+        return std::max(std::min(std::min(most), liked), 1u);
     };
     return {
         .points = gpu::kMeshVertices / 2,

@@ -20,9 +20,10 @@ struct MeshSizes {
     std::uint32_t mesh_group = 0;  // in a mesh workgroup
 };
 
-// As large as the device can and likes to have them. Throws engine::Unsupported where it can't have
-// what every device should.
-MeshSizes meshSizes(const VkPhysicalDeviceMeshShaderPropertiesEXT& limits);
+// As large as the device can and likes to have them; on a processor, which runs a vector of
+// invocations at a time, no more than that. Throws engine::Unsupported where it can't have what
+// every device should.
+MeshSizes meshSizes(const engine::DeviceInfo& device);
 
 // Blocks of strands that mesh workgroups draw, at the finest level of detail. Throws
 // engine::Unsupported for more than shaders number.

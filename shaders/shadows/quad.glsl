@@ -1,5 +1,5 @@
-// The corners of strands' quads in a light's map as outputs of the last stage before the rasteriser,
-// geometry or vertex.
+// The corners of strands' quads in a light's map as outputs of the last stage before the
+// rasteriser, geometry or vertex.
 #ifndef HAIRBENCH_SHADOW_QUAD_GLSL
 #define HAIRBENCH_SHADOW_QUAD_GLSL
 

@@ -7,9 +7,9 @@
 #include "strands/pixel_margin.glsl"
 
 // Whether no strand between the guides can be in the picture, where only their vertices `first` to
-// `last` bear on it. Splines and interpolation stay within the guides' hull but for roots apart from
-// their guide's, a segment at splines' ends and bends, what coverage draws beside strands, and what
-// `beyond` counts: offsets and widths, m.
+// `last` bear on it. Splines and interpolation stay within the guides' hull but for roots apart
+// from their guide's, a segment at splines' ends and bends, what coverage draws beside strands, and
+// what `beyond` counts: offsets and widths, m.
 bool isOutside(PictureParameters picture, uvec3 guides, uint first, uint last, float beyond) {
     mat4 rows = transpose(picture.view_projection);
     vec4 planes[5] = vec4[5](rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1],

@@ -1,5 +1,5 @@
-// A line of a strand -> a quad that faces the camera, thesis 2.2: side = normalize(E x T), P -+ side w / 2.
-// What its corners are, whichever stage makes them.
+// A line of a strand -> a quad that faces the camera, thesis 2.2: side = normalize(E x T), P -+ side
+// w / 2. What its corners are, whichever stage makes them.
 #ifndef HAIRBENCH_QUAD_CORNER_GLSL
 #define HAIRBENCH_QUAD_CORNER_GLSL
 

@@ -50,8 +50,16 @@ VkPhysicalDeviceMeshShaderPropertiesEXT leastLimits() {
     return limits;
 }
 
+engine::DeviceInfo
+deviceWith(const VkPhysicalDeviceMeshShaderPropertiesEXT& limits, const char* type = "discrete") {
+    engine::DeviceInfo info;
+    info.type = type;
+    info.mesh_limits = limits;
+    return info;
+}
+
 TEST(MeshBackend, FitsEveryDevice) {
-    const MeshSizes sizes = meshSizes(leastLimits());
+    const MeshSizes sizes = meshSizes(deviceWith(leastLimits()));
     EXPECT_EQ(sizes.points, 128u);
     EXPECT_EQ(sizes.task_group, 128u);
     EXPECT_EQ(sizes.mesh_group, 128u);
@@ -61,27 +69,28 @@ TEST(MeshBackend, HasWorkgroupsAsTheDeviceLikesThem) {
     VkPhysicalDeviceMeshShaderPropertiesEXT limits = leastLimits();
     limits.maxTaskWorkGroupInvocations = limits.maxMeshWorkGroupInvocations = 1024;
     limits.maxTaskWorkGroupSize[0] = limits.maxMeshWorkGroupSize[0] = 1024;
-    EXPECT_EQ(meshSizes(limits).mesh_group, 128u);
+    EXPECT_EQ(meshSizes(deviceWith(limits)).mesh_group, 128u);
     limits.maxPreferredTaskWorkGroupInvocations = 32;
     limits.maxPreferredMeshWorkGroupInvocations = 64;
-    EXPECT_EQ(meshSizes(limits).task_group, 32u);
-    EXPECT_EQ(meshSizes(limits).mesh_group, 64u);
+    EXPECT_EQ(meshSizes(deviceWith(limits)).task_group, 32u);
+    EXPECT_EQ(meshSizes(deviceWith(limits)).mesh_group, 64u);
+    EXPECT_EQ(meshSizes(deviceWith(limits, "cpu")).mesh_group, 8u);
     limits.maxTaskPayloadSize = 40;  // of four bytes a block
     limits.maxMeshWorkGroupSize[0] = 16;
-    EXPECT_EQ(meshSizes(limits).task_group, 10u);
-    EXPECT_EQ(meshSizes(limits).mesh_group, 16u);
+    EXPECT_EQ(meshSizes(deviceWith(limits)).task_group, 10u);
+    EXPECT_EQ(meshSizes(deviceWith(limits)).mesh_group, 16u);
 }
 
 TEST(MeshBackend, RefusesDevicesThatHaveLessThanAllShould) {
     VkPhysicalDeviceMeshShaderPropertiesEXT limits = leastLimits();
     limits.maxMeshOutputVertices = 128;
     EXPECT_EQ(
-        errorText([&] { meshSizes(limits); }),
+        errorText([&] { meshSizes(deviceWith(limits)); }),
         "/strands/backend: mesh: mesh workgroups of the device have 128 vertices, not 256");
     limits = leastLimits();
     limits.maxMeshSharedMemorySize = 1000;
     EXPECT_NE(
-        errorText([&] { meshSizes(limits); }).find("1000 bytes of shared memory"),
+        errorText([&] { meshSizes(deviceWith(limits)); }).find("1000 bytes of shared memory"),
         std::string::npos);
 }
 
@@ -436,7 +445,7 @@ protected:
 
 // 136 triangles of 64 strands, four a block.
 TEST_F(MeshBackendCounts, AreABlockForEachInvocationAndAWorkgroupForEachBlock) {
-    const MeshSizes sizes = meshSizes(device().info().mesh_limits);
+    const MeshSizes sizes = meshSizes(device().info());
     const Invocations counted = count(small());
     EXPECT_EQ(counted.task, divideUp(136u * 16, sizes.task_group) * sizes.task_group);
     EXPECT_EQ(counted.mesh, 136u * 16 * sizes.mesh_group);
@@ -465,7 +474,7 @@ TEST_F(MeshBackendCounts, AreFewerOfCoarseLevels) {
         .near_distance = 0.01f,
         .far_distance = 0.02f,
         .maximum_level = 3.0f};
-    const MeshSizes sizes = meshSizes(device().info().mesh_limits);
+    const MeshSizes sizes = meshSizes(device().info());
     EXPECT_EQ(count(far).mesh, 136u * sizes.mesh_group);
 }
 

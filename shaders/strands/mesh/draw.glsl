@@ -1,7 +1,7 @@
 // A workgroup draws a block of strands: what their roots have, then their control points, then each
 // point once, whose two vertices are shared by the quads of the pieces that meet there. Before it:
-// strands/quad_corner.glsl or shadows/quad_corner.glsl, the layout of outputs, and putCorner(), which
-// writes a vertex.
+// strands/quad_corner.glsl or shadows/quad_corner.glsl, the layout of outputs, and putCorner(),
+// which writes a vertex.
 #ifndef HAIRBENCH_STRAND_MESH_GLSL
 #define HAIRBENCH_STRAND_MESH_GLSL
 
