@@ -178,7 +178,12 @@ const Table& tableOf(const RunSettings*) {
          fileName(
              "reference", &S::reference,
              "picture (.exr, .png) that the last frame is compared with, relative to the scene "
-             "file; empty: none")});
+             "file; empty: none"),
+         toggle(
+             "compare_backends", &S::compare_backends,
+             "what it takes to compare strand back ends: errors of the picture against "
+             "tessellation's and against 64 samples a pixel, times per point and per sample, and "
+             "the least time that the device could take")});
     return table;
 }
 

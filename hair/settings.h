@@ -112,6 +112,7 @@ struct RunSettings {
     std::string busy_pass;
     std::uint32_t busy_work = 0;
     std::string reference;
+    bool compare_backends = false;
 };
 
 const Table& tableOf(const RunSettings*);

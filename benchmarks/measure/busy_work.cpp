@@ -1,24 +1,16 @@
 #include "benchmarks/measure/busy_work.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <span>
 #include <utility>
 
+#include "benchmarks/measure/gpu_structs.h"
 #include "engine/buffer_image.h"
-#include "engine/device_address.h"
 #include "engine/error.h"
 
 namespace benchmarks::measure {
 
 // ---- Busy work ----------------------------------------------------------------------------------
-
-namespace gpu {
-using Address = engine::DeviceAddress;
-using uint = std::uint32_t;
-#include "shaders/shared/busy_structs.h"
-static_assert(offsetof(BusyPush, steps) == 8);
-}  // namespace gpu
 
 namespace {
 

@@ -430,6 +430,7 @@ constexpr Row kPurposes[] = {
     {"strand points", "measuring"},
     {"stage watch", "measuring"},
     {"busy work", "measuring"},
+    {"limits' ", "measuring"},
     {"window", "window"},
     {"shown picture", "window"},
     {"difference ", "window"},

@@ -47,10 +47,22 @@ constexpr MetricKind kKinds[] = {
     {Of::image, What::psnr, "image.psnr", "dB", higher},
     {Of::image, What::ssim, "image.ssim", "1", higher},
     {Of::image, What::flip, "image.flip", "1", lower},
+    {Of::image, What::flip_tessellation, "image.flip.tessellation", "1", lower},
+    {Of::image, What::flip_many_samples, "image.flip.many_samples", "1", lower},
     {Of::memory, What::allocated, "memory.device", "B", lower},
     {Of::memory, What::heap, "memory.heap.*", "B", lower},
     {Of::memory, What::purpose, "memory.purpose.*", "B", lower},
     {Of::memory, What::transparency, "memory.transparency", "B", lower},
+    {Of::strands, What::time, "strands.time", "ms", lower},
+    {Of::strands, What::time_per_point, "strands.time_per_point", "ns", lower},
+    {Of::strands, What::time_per_sample, "strands.time_per_sample", "ns", lower},
+    // What a model counts: more of it is another case, not a worse one.
+    {Of::strands, What::bytes, "strands.bytes", "B", neither},
+    {Of::strands, What::operations, "strands.*.operations", "1", neither},
+    {Of::strands, What::limit, "strands.limit", "ms", neither},
+    {Of::strands, What::limit_share, "strands.limit_share", "1", higher},
+    {Of::device, What::copy_bandwidth, "device.copy_bandwidth", "GB/s", neither},
+    {Of::device, What::arithmetic, "device.*.arithmetic", "GFLOP/s", neither},
 };
 
 // Null for MetricOf::other.

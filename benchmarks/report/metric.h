@@ -21,6 +21,8 @@ enum class MetricOf {
     pass,  // one pass, by its name
     image,  // the picture, against a reference
     memory,  // of the device
+    strands,  // the passes points and strands together
+    device,  // what it can do, by a measurement of its own
     other,  // not known here: some other program's report has it
 };
 
@@ -49,10 +51,20 @@ enum class Measured {
     psnr,
     ssim,
     flip,
+    flip_tessellation,  // against the picture by that back end
+    flip_many_samples,  // against 64 samples a pixel
     allocated,  // all memory
     heap,
     purpose,
     transparency,
+    bytes,  // that must be moved
+    operations,  // that must be done
+    limit,  // the least time for both
+    limit_share,
+    time_per_point,
+    time_per_sample,
+    copy_bandwidth,
+    arithmetic,
     other,
 };
 
@@ -83,8 +95,8 @@ std::span<const MetricKind> metricKinds();
 struct MetricId {
     MetricOf of = MetricOf::other;
     Measured what = Measured::other;
-    // The pass, the index of the heap or the purpose of memory, without dots; the whole name of
-    // MetricOf::other; otherwise empty.
+    // The pass, the index of the heap, the purpose of memory or the kind of stage, without dots;
+    // the whole name of MetricOf::other; otherwise empty.
     std::string part{};
 
     // "pass.strands.time". A pair of `of` and `what` that metricKinds() lacks is our own bug.
@@ -103,6 +115,12 @@ inline MetricId ofPass(std::string pass, Measured what) {
     return {MetricOf::pass, what, std::move(pass)};
 }
 inline MetricId ofImage(Measured what) { return {MetricOf::image, what}; }
+inline MetricId ofStrands(Measured what, std::string stage = {}) {
+    return {MetricOf::strands, what, std::move(stage)};
+}
+inline MetricId ofDevice(Measured what, std::string stage = {}) {
+    return {MetricOf::device, what, std::move(stage)};
+}
 inline MetricId ofMemory(Measured what, std::string part = {}) {
     return {MetricOf::memory, what, std::move(part)};
 }

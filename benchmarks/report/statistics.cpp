@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -310,6 +311,89 @@ std::vector<double> falseDiscoveryAdjusted(std::span<const double> p_values) {
         adjusted[i] = smallest;
     }
     return adjusted;
+}
+
+namespace {
+
+// ---- Power laws ---------------------------------------------------------------------------------
+
+// P(|t| <= x) of Student's t: Abramowitz and Stegun 1964, 26.7.3 and 26.7.4, finite sums that are
+// exact for whole degrees of freedom.
+double studentWithin(double x, std::size_t degrees) {
+    const double n = static_cast<double>(degrees);
+    const double angle = std::atan(x / std::sqrt(n));
+    const double cosine = std::cos(angle);
+    const bool odd = degrees % 2 == 1;
+    double term = odd ? cosine : 1.0;
+    double total = 0.0;
+    // Terms cos^k with the factors (k - 1) / k, from cos (odd) or 1 (even) up to cos^(n - 2).
+    for (std::size_t k = odd ? 1 : 0; k + 2 <= degrees; k += 2) {
+        total += term;
+        term *= cosine * cosine * static_cast<double>(k + 1) / static_cast<double>(k + 2);
+    }
+    const double sine = std::sin(angle);
+    return odd ? 2.0 / std::numbers::pi * (angle + sine * total) : sine * total;
+}
+
+}  // namespace
+
+double studentQuantile(double p, std::size_t degrees_of_freedom) {
+    if (!(p > 0.0 && p < 1.0) || degrees_of_freedom == 0)
+        throw engine::Error("statistics", "no quantile of Student's t");
+    const double within = std::abs(2.0 * p - 1.0);
+    double low = 0.0;
+    double high = 1.0;
+    while (studentWithin(high, degrees_of_freedom) < within && high < 1e150) high *= 2.0;
+    for (int i = 0; i < 200 && low < high; ++i) {
+        const double middle = std::midpoint(low, high);
+        (studentWithin(middle, degrees_of_freedom) < within ? low : high) = middle;
+    }
+    return p < 0.5 ? -high : high;
+}
+
+PowerLaw fitPowerLaw(std::span<const double> x, std::span<const double> y, double alpha) {
+    if (x.size() != y.size() || x.size() < 2)
+        throw engine::Error("statistics", "a power law takes two points at least");
+    const auto logarithms = [](std::span<const double> values) {
+        std::vector<double> logs;
+        for (const double value : values) {
+            if (!(value > 0.0) || !std::isfinite(value))
+                throw engine::Error("statistics", "a power law is of what is greater than 0");
+            logs.push_back(std::log(value));
+        }
+        return logs;
+    };
+    const std::vector<double> u = logarithms(x);
+    const std::vector<double> v = logarithms(y);
+    const double n = static_cast<double>(u.size());
+    const double mean_u = sum(u) / n;
+    const double mean_v = sum(v) / n;
+    double squares = 0.0;
+    double products = 0.0;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+        squares += (u[i] - mean_u) * (u[i] - mean_u);
+        products += (u[i] - mean_u) * (v[i] - mean_v);
+    }
+    if (!(squares > 0.0))
+        throw engine::Error("statistics", "a power law takes two places at least");
+    const double exponent = products / squares;
+    const double intercept = mean_v - exponent * mean_u;
+    PowerLaw law{
+        .exponent = exponent,
+        .factor = std::exp(intercept),
+        .lower = -std::numeric_limits<double>::infinity(),
+        .upper = std::numeric_limits<double>::infinity()};
+    if (u.size() < 3) return law;
+    double residuals = 0.0;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+        const double residual = v[i] - intercept - exponent * u[i];
+        residuals += residual * residual;
+    }
+    const double error = std::sqrt(residuals / (n - 2.0) / squares);
+    const double half = error * studentQuantile(1.0 - 0.5 * alpha, u.size() - 2);
+    law.lower = exponent - half;
+    law.upper = exponent + half;
+    return law;
 }
 
 }  // namespace benchmarks::report

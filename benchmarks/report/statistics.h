@@ -87,6 +87,24 @@ inline constexpr double stageLevel(double whole_level) {
     return whole_level / static_cast<double>(std::size(kStages));
 }
 
+// How a cost grows: y = factor * x^exponent, by least squares of log y over log x.
+struct PowerLaw {
+    double exponent;
+    double factor;
+    // Between which the exponent lies with the confidence that was asked for, if the logarithms'
+    // residuals are independent and normal: Student's t with two fewer degrees of freedom than
+    // points. Infinite of two points.
+    double lower;
+    double upper;
+};
+
+// `x` and `y` are as many, at least two, all greater than 0, and not all of x are equal, or
+// engine::Error. Two-sided at level `alpha`.
+PowerLaw fitPowerLaw(std::span<const double> x, std::span<const double> y, double alpha);
+
+// The quantile of Student's t distribution, `p` in (0, 1), or engine::Error.
+double studentQuantile(double p, std::size_t degrees_of_freedom);
+
 // Order statistics of a sample. Everything here wants at least one value, all finite: none at all
 // is an engine::Error. Results are in the samples' unit unless said otherwise.
 struct Summary {

@@ -118,7 +118,7 @@ void keepPicture(
 
 report::CaseResult runCase(
     const engine::Device& device, const PlannedCase& planned, const measure::MeasureHooks& hooks,
-    const std::filesystem::path& report, reference::ReferenceComparison& references) {
+    const std::filesystem::path& report, CaseComparisons& comparisons) {
     const hair::RunSettings& run = planned.spec.settings.run;
     const hair::RenderSettings& render = planned.spec.settings.render;
     report::CaseResult result = emptyResult(planned);
@@ -127,8 +127,10 @@ report::CaseResult runCase(
         const measure::ClockHold clocks(device.info(), run.clocks);
         const auto picture = measure::measure(device, test_case, run, hooks, result);
         if (!run.reference.empty())
-            references.add(
+            comparisons.references.add(
                 planned.directory / run.reference, render.width, render.height, picture, result);
+        if (run.compare_backends)
+            comparisons.backends.add(device, test_case, planned.spec.settings, picture, result);
         if (!report.empty()) keepPicture(picture, render, report, result);
     } catch (const engine::Unsupported& error) {
         result = without(planned, report::Status::skipped, error.what());

@@ -9,6 +9,7 @@
 #include "benchmarks/measure/measure.h"
 #include "benchmarks/reference/picture_errors.h"
 #include "benchmarks/report/report.h"
+#include "benchmarks/run/backends.h"
 #include "benchmarks/run/plan.h"
 #include "benchmarks/scene/json.h"
 #include "engine/device.h"
@@ -26,10 +27,16 @@ std::string writeCasePicture(
 // Removes the pictures that older runs left beside the report and that it does not name.
 void removeOtherPictures(const scene::Json& report, const std::filesystem::path& path);
 
+// What the cases of a run are compared with.
+struct CaseComparisons {
+    reference::ReferenceComparison references;
+    BackendComparison backends;
+};
+
 // Measures a case. One that can't run here, or that fails, is part of the result with its reason.
 // `report` is the file beside which its picture goes; empty: none is written. Throws Interrupted.
 report::CaseResult runCase(
     const engine::Device& device, const PlannedCase& planned, const measure::MeasureHooks& hooks,
-    const std::filesystem::path& report, reference::ReferenceComparison& references);
+    const std::filesystem::path& report, CaseComparisons& comparisons);
 
 }  // namespace benchmarks::run

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/measure/progress.h"
-#include "benchmarks/reference/picture_errors.h"
 #include "benchmarks/report/environment.h"
 #include "benchmarks/report/report.h"
 #include "benchmarks/run/case.h"
@@ -40,13 +39,13 @@ bool playCases(
         .stop = engine::interrupted,
         .progress = [&](const measure::SamplingState& state) { progress.update(state); },
         .known = &known};
-    reference::ReferenceComparison references;
+    CaseComparisons comparisons;
     bool interrupted = false;
     try {
         for (const auto& [place, order] : record.remaining()) {
             const PlannedCase& each = plan.cases[place];
             progress.begin(each.spec.name);
-            report::CaseResult result = runCase(device, each, hooks, pictures_of, references);
+            report::CaseResult result = runCase(device, each, hooks, pictures_of, comparisons);
             result.order = order;
             record.add(result);
         }

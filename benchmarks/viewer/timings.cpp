@@ -14,6 +14,7 @@
 #include "benchmarks/reference/picture_errors.h"
 #include "benchmarks/report/environment.h"
 #include "benchmarks/report/text.h"
+#include "benchmarks/run/backends.h"
 #include "benchmarks/run/case.h"
 #include "benchmarks/scene/settings_json.h"
 #include "benchmarks/viewer/player.h"
@@ -344,6 +345,8 @@ SideMeasurement measureSide(
             directory / settings.run.reference, settings.render.width, settings.render.height,
             measured.picture, result);
     }
+    if (settings.run.compare_backends)
+        run::BackendComparison().add(device, test_case, settings, measured.picture, result);
     warnOfChangedShaders(device, result.trust);
     result.trust.warnings.push_back(
         "measured in the viewer: pipelines and files were warm, and the window's pictures were "

@@ -93,5 +93,66 @@ TEST(LowRates, IntegrateOverSeveralFrames) {
         report::lowRates(std::vector{10.0, 20.0, 30.0, 40.0}, 0.5).integral, 1000.0 / 30.0);
 }
 
+// Student's table: two-sided 5 % with 1 to 30 degrees of freedom, one-sided 1 % with 5.
+TEST(StudentQuantile, IsThatOfTheTable) {
+    EXPECT_NEAR(report::studentQuantile(0.975, 1), 12.706, 5e-4);
+    EXPECT_NEAR(report::studentQuantile(0.975, 2), 4.303, 5e-4);
+    EXPECT_NEAR(report::studentQuantile(0.975, 3), 3.182, 5e-4);
+    EXPECT_NEAR(report::studentQuantile(0.975, 4), 2.776, 5e-4);
+    EXPECT_NEAR(report::studentQuantile(0.975, 10), 2.228, 5e-4);
+    EXPECT_NEAR(report::studentQuantile(0.975, 30), 2.042, 5e-4);
+    EXPECT_NEAR(report::studentQuantile(0.99, 5), 3.365, 5e-4);
+    EXPECT_NEAR(report::studentQuantile(0.025, 4), -2.776, 5e-4);
+    EXPECT_NEAR(report::studentQuantile(0.5, 7), 0.0, 1e-12);
+    for (const double p : {0.0, 1.0, std::nan("")})
+        EXPECT_NE(errorText([&] { report::studentQuantile(p, 3); }), "no error") << p;
+    EXPECT_NE(errorText([] { report::studentQuantile(0.9, 0); }), "no error");
+}
+
+TEST(PowerLaw, IsThatOfPointsOnIt) {
+    const std::vector<double> x{10.0, 100.0, 1000.0, 1000.0};
+    std::vector<double> y;
+    for (const double each : x) y.push_back(3.0 * std::pow(each, 1.25));
+    const report::PowerLaw law = report::fitPowerLaw(x, y, 0.05);
+    EXPECT_NEAR(law.exponent, 1.25, 1e-12);
+    EXPECT_NEAR(law.factor, 3.0, 1e-11);
+    EXPECT_NEAR(law.lower, 1.25, 1e-9);
+    EXPECT_NEAR(law.upper, 1.25, 1e-9);
+}
+
+// Logarithms 0 to 3 and 0, 1.1, 1.9, 3: sums of squares and products 5 and 4.9, so 0.98; residuals
+// -0.03, 0.09, -0.09, 0.03 have the sum of squares 0.018, so the exponent's standard error is
+// sqrt(0.018 / 2 / 5), and t is 4.302653 with two degrees of freedom.
+TEST(PowerLaw, HasTheIntervalOfLinearRegression) {
+    const std::vector<double> x{1.0, std::exp(1.0), std::exp(2.0), std::exp(3.0)};
+    const std::vector<double> y{1.0, std::exp(1.1), std::exp(1.9), std::exp(3.0)};
+    const report::PowerLaw law = report::fitPowerLaw(x, y, 0.05);
+    EXPECT_NEAR(law.exponent, 0.98, 1e-12);
+    EXPECT_NEAR(law.factor, std::exp(0.03), 1e-12);
+    const double half = 4.302653 * std::sqrt(0.018 / 2.0 / 5.0);
+    EXPECT_NEAR(law.lower, 0.98 - half, 1e-6);
+    EXPECT_NEAR(law.upper, 0.98 + half, 1e-6);
+}
+
+TEST(PowerLaw, KnowsNoIntervalOfTwoPoints) {
+    const report::PowerLaw law =
+        report::fitPowerLaw(std::vector{1.0, 4.0}, std::vector{2.0, 4.0}, 0.05);
+    EXPECT_NEAR(law.exponent, 0.5, 1e-12);
+    EXPECT_EQ(law.lower, -HUGE_VAL);
+    EXPECT_EQ(law.upper, HUGE_VAL);
+}
+
+TEST(PowerLaw, RefusesWhatHasNone) {
+    const auto refused = [](std::vector<double> x, std::vector<double> y) {
+        return errorText([&] { report::fitPowerLaw(x, y, 0.05); }) != "no error";
+    };
+    EXPECT_TRUE(refused({1.0}, {1.0}));
+    EXPECT_TRUE(refused({1.0, 2.0}, {1.0}));
+    EXPECT_TRUE(refused({2.0, 2.0}, {1.0, 3.0}));
+    EXPECT_TRUE(refused({0.0, 2.0}, {1.0, 3.0}));
+    EXPECT_TRUE(refused({1.0, 2.0}, {-1.0, 3.0}));
+    EXPECT_TRUE(refused({1.0, 2.0}, {1.0, std::nan("")}));
+}
+
 }  // namespace
 }  // namespace benchmarks
