@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/report/backends.h"
 #include "benchmarks/report/compare.h"
 #include "benchmarks/report/environment.h"
 #include "benchmarks/report/metric.h"
@@ -22,7 +23,7 @@ namespace benchmarks::report {
 namespace {
 
 // In the order in which the page has them: what a script uses while it is read stands before it.
-constexpr const char* kScripts[] = {"page.js", "figures.js", "details.js"};
+constexpr const char* kScripts[] = {"page.js", "figures.js", "backends.js", "details.js"};
 
 std::string readPart(const std::string& name) {
     return engine::readFile(HAIRBENCH_SOURCE_DIR "/benchmarks/report/page/" + name);
@@ -181,6 +182,8 @@ scene::Json pageData(std::span<const std::filesystem::path> files) {
             report["file"] = file.filename().string();
             addPictures(report, file, pictures);
             addMetrics(report, pass_times, image_metrics);
+            if (const auto backends = compareBackends(report))
+                report["backends"] = backendsJson(*backends);
             reports.push_back(std::move(report));
         } catch (const scene::Json::exception& error) {
             throw engine::Error(file.string(), error.what());

@@ -1,6 +1,7 @@
 #include "tests/report_page/sample_reports.h"
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -70,6 +71,43 @@ Report knownReport(double slower) {
     skipped.status = Status::skipped;
     skipped.reason = kSkipReason;
     report.cases.push_back(skipped);
+    return report;
+}
+
+Report backendReport() {
+    Report report = emptyReport("backends");
+    for (const int guides : {10, 100, 1000})
+        for (const int msaa : {1, 4, 8})
+            for (const bool software : {false, true}) {
+                const char* const backend = software ? "software" : "tessellation";
+                CaseResult result;
+                result.name = "backends/guides:" + std::to_string(guides) +
+                              "/msaa:" + std::to_string(msaa) + "/backend:" + backend;
+                result.axes = {
+                    {"/groom/guides", scene::Document(guides)},
+                    {"/render/msaa", scene::Document(msaa)},
+                    {"/strands/backend", scene::Document(backend)}};
+                if (msaa == 8) {
+                    result.status = Status::skipped;
+                    result.reason = kSkipReason;
+                    report.cases.push_back(result);
+                    continue;
+                }
+                const KnownLaw& law = software ? kSoftwareLaw : kTessellationLaw;
+                const double strands = 64.0 * guides;
+                const double ms =
+                    law.factor * std::pow(strands, law.exponent) * (msaa == 4 ? 2.0 : 1.0);
+                result.counts = {{"strands", static_cast<std::uint64_t>(strands)}};
+                result.metrics = {
+                    {ofFrame(Measured::time), around(1.5 * ms), Mode::overlapped},
+                    {ofPass("strands", Measured::time), around(ms), Mode::isolated},
+                    {ofStrands(Measured::time), around(ms), Mode::isolated},
+                    {ofStrands(Measured::time_per_point), around(1e6 * ms / strands / 29.0),
+                     Mode::isolated},
+                    {ofImage(Measured::flip_tessellation), {software ? 0.01 : 0.0}},
+                    {ofImage(Measured::flip_many_samples), {software ? 0.02 : 0.03}}};
+                report.cases.push_back(result);
+            }
     return report;
 }
 

@@ -24,6 +24,18 @@ inline constexpr const char* kWarning = "timestamps are not trusted";  // of the
 // which was skipped.
 Report knownReport(double slower = 1.0);
 
+// Two back ends on 10, 100 and 1,000 guides, 64 strands each, with 1 and 4 samples a pixel:
+// `tessellation` takes kTessellationLaw, `software` kSoftwareLaw, and twice that with 4 samples.
+// FLIP of `software` is 0.01 to tessellation's and 0.02 to 64 samples. With 8 samples all are
+// skipped, for kSkipReason.
+struct KnownLaw {
+    double factor;  // ms
+    double exponent;  // of the strands
+};
+inline constexpr KnownLaw kTessellationLaw{0.01, 1.1};
+inline constexpr KnownLaw kSoftwareLaw{0.05, 0.8};
+Report backendReport();
+
 // One case with these axes: a frame takes 1 ms, its strands 0.5 ms, and 0.75 ms of CPU time.
 Report oneCaseReport(const std::string& name, std::vector<scene::AxisValue> axes);
 

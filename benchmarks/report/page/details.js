@@ -465,7 +465,7 @@ function buildEnvironment() {
 
 function buildContents() {
     const sections = [["scaling", "Scaling"], ["passes", "Passes"], ["distributions", "Samples"],
-        ["quality", "Quality"], ["comparison", "Comparison"], ["pictures", "Pictures"],
+        ["quality", "Quality"], ["backends", "Back ends"], ["comparison", "Comparison"], ["pictures", "Pictures"],
         ["cases", "Cases"], ["environment", "Environment"]];
     showOnly(byId("contents"), ...sections.filter(([id]) => byId(id)).map(
         ([id, text]) => element("a", {href: `#${id}`}, text)));
@@ -478,6 +478,7 @@ buildScaling();
 buildPasses();
 buildSamples();
 buildQuality();
+buildBackends();
 buildComparison();
 buildPictures();
 buildCases();

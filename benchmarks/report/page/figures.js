@@ -531,6 +531,10 @@ function errorOf(row) {
 function errorTitle(name) {
     return kErrors[name]?.title ?? metricTitle(name, metricUnits.get(name));
 }
+const kQualityReferences = {
+    "image.flip.tessellation": "the same case's picture by tessellation",
+    "image.flip.many_samples": "the same hair with 64 samples a pixel",
+};
 function moreIsBetter() { return quality.error === "image.psnr"; }
 
 function qualityRows() {
@@ -583,15 +587,16 @@ function drawQuality() {
         yaxis: axisStyle({...scaleStyle(quality.yType), title: plain(errorTitle(quality.error))}),
     });
     byId("quality-note").textContent = `${counted(found.length, "case")}. Dotted: those that no ` +
-        "other case beats in both time and error. Reference: the scene's /run/reference.";
+        `other case beats in both time and error. Reference: ${
+            kQualityReferences[quality.error] ?? "the scene's /run/reference"}.`;
 }
 
 function buildQuality() {
     const section = byId("quality");
     if (!imageMetrics.length) {
         showOnly(section, heading("Quality and cost"), note(
-            "No case was compared with a reference picture: the scene names none " +
-            "(/run/reference)."));
+            "No case was compared with a reference picture: the scene asks for none " +
+            "(/run/reference, /run/compare_backends)."));
         return;
     }
     Object.assign(quality, {
