@@ -427,6 +427,7 @@ constexpr Row kPurposes[] = {
     {"download staging", "transfers"},
     {"picture", "transfers"},
     {"software ", "strands"},
+    {"strands' ", "strands"},
     {"strand points", "measuring"},
     {"stage watch", "measuring"},
     {"busy work", "measuring"},

@@ -215,9 +215,9 @@ public:
               context.device, std::span<const std::uint32_t>(quadIndices(strandLines(context))),
               "strands' corners")),
           seen_(listBuffer(
-              context.device, sizeof(std::uint32_t) * points_.strandCount(), "seen strands")),
+              context.device, sizeof(std::uint32_t) * points_.strandCount(), "strands' list")),
           arguments_(listBuffer(
-              context.device, sizeof(gpu::IndexedCommand) * draws_, "arguments of draws")),
+              context.device, sizeof(gpu::IndexedCommand) * draws_, "strands' draws")),
           list_(
               context.device, {.shader = "strands/points/list.comp",
                                .constants = pointsConstants(context.strands, context.plan),

@@ -82,8 +82,8 @@ PointsPass::PointsPass(
       points_(pointsBuffer(
           device, kPointBytes * push_.strands * pointsPerStrand(settings.strands, plan),
           "strands' points")),
-      pieces_(pointsBuffer(device, sizeof(std::uint32_t) * push_.strands, "pieces of strands")),
-      bounds_(pointsBuffer(device, sizeof(gpu::HairBounds), "bounds of hair")),
+      pieces_(pointsBuffer(device, sizeof(std::uint32_t) * push_.strands, "strands' pieces")),
+      bounds_(pointsBuffer(device, sizeof(gpu::HairBounds), "strands' bounds")),
       evaluate_(device, evaluateStage(device, settings, plan)) {
     push_.points = points_.address();
     push_.pieces = pieces_.address();
