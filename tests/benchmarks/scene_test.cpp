@@ -139,7 +139,7 @@ const BadScene kBadFields[] = {
     {R"({"run": {"a/b\n~": 1}})",
      ": /run/a~1b?~0: unknown key; known: warmup, frames, precision, "
      "max_time, warmup_time, round_time, frame_time, frames_in_flight, overlapped_stamps, "
-     "async_compute, clocks, busy_pass, busy_work, reference"},
+     "async_compute, clocks, busy_pass, busy_work, reference, compare_backends"},
     {R"({"strands": 3})", ": /strands: expected an object, found 3"},
     {R"({"strands": {"density": "64"}})",
      ": /strands/density: expected an integer, found the string \"64\""},
