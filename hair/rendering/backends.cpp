@@ -216,8 +216,8 @@ public:
               "strands' corners")),
           seen_(listBuffer(
               context.device, sizeof(std::uint32_t) * points_.strandCount(), "strands' list")),
-          arguments_(listBuffer(
-              context.device, sizeof(gpu::IndexedCommand) * draws_, "strands' draws")),
+          arguments_(
+              listBuffer(context.device, sizeof(gpu::IndexedCommand) * draws_, "strands' draws")),
           list_(
               context.device, {.shader = "strands/points/list.comp",
                                .constants = pointsConstants(context.strands, context.plan),
