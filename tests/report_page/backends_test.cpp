@@ -112,7 +112,7 @@ TEST_F(PageInBrowser, ComparesBackends) {
             (each) => each.textContent.trim());
         const at = (title) => column("backends-table", titles.indexOf(title));
         say("ratios", at("\u00f7 tessellation"));
-        say("errors", at("FLIP to tessellation"));
+        say("flips", at("FLIP to tessellation"));
         say("reasons", at("reason"));
         document.querySelector('.chip[data-filter="/render/msaa"][data-value="4"]').click();
         await settle();
@@ -138,8 +138,8 @@ TEST_F(PageInBrowser, ComparesBackends) {
     // Of 640 strands: 5 x 640^-0.3.
     EXPECT_THAT(said.at("ratios").at(1).get<std::string>(), testing::StartsWith("0.7196 ("));
     EXPECT_EQ(said.at("ratios").at(4), "");
-    EXPECT_EQ(said.at("errors").at(0), "0");
-    EXPECT_EQ(said.at("errors").at(1), "0.01");
+    EXPECT_EQ(said.at("flips").at(0), "0");
+    EXPECT_EQ(said.at("flips").at(1), "0.01");
     EXPECT_EQ(said.at("reasons").at(4), kSkipReason);
     EXPECT_EQ(said.at("reasons").at(0), "");
     EXPECT_EQ(said.at("filtered"), Json({6, 12, 2}));
