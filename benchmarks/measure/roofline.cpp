@@ -113,6 +113,15 @@ StrandWork expandedWork(const StrandCounts& counts) {
     return work;
 }
 
+// Its stages are compute's in all but what follows them.
+StrandWork meshWork(const StrandCounts& counts) {
+    StrandWork work = rasterised(counts, 0.0);
+    work.operations[StageKind::compute] =
+        asDouble(counts.strands * counts.segments) * kMix +
+        asDouble(counts.points()) * (kPoint + kEnd + 2.0 * kCorner);
+    return work;
+}
+
 StrandWork softwareWork(const StrandCounts& counts) {
     const double samples = asDouble(counts.covered_samples);
     const double points = asDouble(counts.points());
@@ -140,6 +149,7 @@ constexpr std::array kWorks{
     WorkRow{hair::Backend::lines, linesWork},
     WorkRow{hair::Backend::pulling, pullingWork},
     WorkRow{hair::Backend::expanded, expandedWork},
+    WorkRow{hair::Backend::mesh, meshWork},
     WorkRow{hair::Backend::software, softwareWork},
 };
 

@@ -15,7 +15,7 @@
 namespace benchmarks::measure {
 
 // Kinds of stages that arithmetic is done in. Stages between vertex and rasteriser, tessellation
-// and geometry, count as vertex.
+// and geometry, count as vertex, task and mesh stages as compute.
 enum class StageKind { compute, vertex, fragment };
 const char* stageName(StageKind kind);
 

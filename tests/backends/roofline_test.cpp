@@ -42,6 +42,13 @@ TEST(StrandWork, IsThatOfTheTable) {
     EXPECT_EQ(expanded->operations.at(StageKind::compute), 10 * 7 * 81 + 290 * (84 + 100));
     EXPECT_EQ(expanded->operations.at(StageKind::vertex), 2 * 290 * (22 + 34));
 
+    const auto mesh = strandWork(Backend::mesh, fewStrands());
+    ASSERT_TRUE(mesh);
+    EXPECT_EQ(mesh->bytes, work->bytes);
+    EXPECT_EQ(mesh->operations.at(StageKind::compute), 10 * 7 * 81 + 290 * (84 + 22 + 2 * 34));
+    EXPECT_EQ(mesh->operations.at(StageKind::fragment), 100 * (75 + 2 * 60));
+    EXPECT_EQ(mesh->operations.size(), 2u);
+
     const auto software = strandWork(Backend::software, fewStrands());
     ASSERT_TRUE(software);
     EXPECT_EQ(software->operations.size(), 1u);
