@@ -1,8 +1,30 @@
 #include "hair/strand_settings.h"
 
+#include <algorithm>
+#include <cassert>
+
 #include "hair/field_rows.h"
 
 namespace hair {
+namespace {
+
+constexpr std::initializer_list<Named<Backend>> kBackendNames{
+    {Backend::automatic, "automatic"},
+    {Backend::tessellation, "tessellation"},
+    {Backend::pulling_geometry, "pulling_geometry"},
+    {Backend::lines, "lines"},
+    {Backend::pulling, "pulling"},
+    {Backend::expanded, "expanded"},
+    {Backend::mesh, "mesh"},
+    {Backend::software, "software"}};
+
+}  // namespace
+
+const char* backendName(Backend backend) {
+    const auto named = std::ranges::find(kBackendNames, backend, &Named<Backend>::value);
+    assert(named != kBackendNames.end());
+    return named->name;
+}
 
 const Table& tableOf(const StrandCurlSettings*) {
     using S = StrandCurlSettings;
@@ -36,15 +58,9 @@ const Table& tableOf(const StrandSettings*) {
     using S = StrandSettings;
     static const Table table = tableWith<S>(
         {choice(
-             "backend", &S::backend,
-             {{Backend::tessellation, "tessellation"},
-              {Backend::pulling_geometry, "pulling_geometry"},
-              {Backend::lines, "lines"},
-              {Backend::pulling, "pulling"},
-              {Backend::expanded, "expanded"},
-              {Backend::mesh, "mesh"},
-              {Backend::software, "software"}},
-             "tessellation: control, isolines, evaluation, geometry; pulling_geometry: points "
+             "backend", &S::backend, kBackendNames,
+             "automatic: the fastest that can draw the case on the device; tessellation: control, "
+             "isolines, evaluation, geometry; pulling_geometry: points "
              "evaluated in the vertex stage, the same geometry stage; lines: lines a pixel wide "
              "instead of quads; pulling: corners of quads made in the vertex stage; expanded: so "
              "too, from points evaluated in compute; "

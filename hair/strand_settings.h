@@ -8,7 +8,19 @@ namespace hair {
 
 class Table;
 
-enum class Backend { tessellation, pulling_geometry, lines, pulling, expanded, mesh, software };
+enum class Backend {
+    automatic,
+    tessellation,
+    pulling_geometry,
+    lines,
+    pulling,
+    expanded,
+    mesh,
+    software
+};
+// As the scene names it.
+const char* backendName(Backend backend);
+
 enum class Interpolation { multi, single, mixed };
 enum class Randomness { hashed, thesis };
 enum class Curve { bspline, bspline_unpinned, catmull_rom };
@@ -38,7 +50,7 @@ struct StrandVariationSettings {
 const Table& tableOf(const StrandVariationSettings*);
 
 struct StrandSettings {
-    Backend backend = Backend::tessellation;
+    Backend backend = Backend::automatic;
     StrandSource source = StrandSource::root_triangles;
     Interpolation interpolation = Interpolation::multi;
     float blend = 0.5f;

@@ -270,11 +270,13 @@ void measureCase(
     const engine::Device& device, const scene::CaseSpec& spec,
     const std::filesystem::path& directory, std::uint32_t laps,
     const std::function<void(const std::string&)>& progress, CaseAblation& result) {
+    hair::Settings settings = spec.settings;
+    settings.strands.backend = hair::Backend::tessellation;
     progress("simulation");
-    const StillHair hair(device, spec.settings, directory, result.frame);
+    const StillHair hair(device, settings, directory, result.frame);
     result.counts = hair.counts();
     progress("pipelines");
-    LadderWalk ladder(device, hair, spec.settings, result);
+    LadderWalk ladder(device, hair, settings, result);
     try {
         ladder.walk(laps, progress);
     } catch (const engine::Interrupted&) {

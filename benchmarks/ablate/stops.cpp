@@ -101,7 +101,8 @@ std::vector<StopPlan> planStops(const hair::Settings& settings, std::uint64_t wa
 
 std::string ablationObstacle(const hair::Settings& settings) {
     if (!settings.render.hair) return "/render/hair: no strands are drawn";
-    if (settings.strands.backend != hair::Backend::tessellation)
+    if (settings.strands.backend != hair::Backend::tessellation &&
+        settings.strands.backend != hair::Backend::automatic)
         return "/strands/backend: only tessellation's stages can be taken apart";
     if (settings.render.transparency != hair::Transparency::none)
         return "/render/transparency: only opaque strands' stages can be taken apart";

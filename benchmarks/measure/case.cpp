@@ -167,6 +167,11 @@ std::vector<std::pair<std::string, std::uint64_t>> Case::counts() const {
     return counts;
 }
 
+std::optional<hair::rendering::BackendChoice> Case::backend() const {
+    if (!settings_.render.hair) return std::nullopt;
+    return renderer_->backend();
+}
+
 hair::rendering::StrandView Case::view() const { return viewOf(*groom_buffers_); }
 
 hair::rendering::StrandView Case::viewOf(const hair::rendering::GroomBuffers& buffers) const {

@@ -90,6 +90,8 @@ public:
         return renderer_->expected();
     }
     std::vector<std::pair<std::string, std::uint64_t>> counts() const;
+    // What draws the strands, and why; absent where no hair is drawn.
+    std::optional<hair::rendering::BackendChoice> backend() const;
     // What becomes of the strands' fragments, and what of the last frame's.
     const hair::rendering::StrandBlend& blend() const { return renderer_->blend(); }
 

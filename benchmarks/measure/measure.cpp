@@ -131,6 +131,8 @@ std::vector<std::uint8_t> measure(
     const engine::Device& device, Case& test_case, const hair::RunSettings& run,
     const MeasureHooks& hooks, report::CaseResult& result) {
     result.counts = test_case.counts();
+    if (const auto backend = test_case.backend())
+        result.backend = {hair::backendName(backend->backend), backend->variant, backend->reason};
     DeviceStage stage(device, test_case, run, hooks);
     std::vector<std::uint8_t> picture = measureFrames(stage, run, hooks, result);
     addTransparency(test_case, result);

@@ -164,6 +164,14 @@ scene::Json toJson(const Trust& trust) {
     return object;
 }
 
+void put(scene::Json& object, const char* name, const BackendRecord& backend) {
+    if (backend.name.empty()) return;
+    scene::Json& made = object[name] = scene::Json::object();
+    put(made, "name", backend.name);
+    put(made, "variant", backend.variant);
+    put(made, "reason", backend.reason);
+}
+
 void putMeasured(scene::Json& object, const CaseResult& result) {
     scene::Json& metrics = object["metrics"] = scene::Json::object();
     for (const Metric& metric : result.metrics)
@@ -191,6 +199,7 @@ scene::Json toJson(const CaseResult& result) {
     put(object, "order", result.order);
     object["status"] = statusName(result.status);
     put(object, "reason", result.reason);
+    put(object, "backend", result.backend);
     // A case that was throttled throughout has failed, and what was measured says by how much.
     if (result.status == Status::ok || !result.metrics.empty()) putMeasured(object, result);
     return object;

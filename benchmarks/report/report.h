@@ -18,7 +18,7 @@
 // "": empty strings, empty optionals, and numbers that are not finite are left out.
 namespace benchmarks::report {
 
-inline constexpr const char* kReportSchema = "hairbench-report/1.2.0";
+inline constexpr const char* kReportSchema = "hairbench-report/1.3.0";
 
 struct DeviceRecord {
     std::string name;
@@ -119,6 +119,13 @@ struct Trust {
 
 enum class Status { ok, skipped, failed };
 
+// What drew the strands.
+struct BackendRecord {
+    std::string name;  // as /strands/backend has it, but "automatic"; empty: no hair is drawn
+    std::string variant;  // how it was made for the device; may be empty
+    std::string reason;  // why this one drew them
+};
+
 struct CaseResult {
     std::string name;
     std::optional<std::size_t> index;  // in the whole sweep, from 0
@@ -126,6 +133,7 @@ struct CaseResult {
     std::vector<scene::AxisValue> axes;
     Status status = Status::ok;
     std::string reason;  // why it was skipped or failed
+    BackendRecord backend;
     // Medians, MAD and the rest are worked out when they are written; those without a finite sample
     // are left out then.
     std::vector<Metric> metrics;

@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/report/backends.h"
 #include "benchmarks/report/metric.h"
 #include "benchmarks/scene/axis.h"
 
@@ -116,6 +117,12 @@ Column column(std::string title, const scene::Json& cases, Cell&& cell) {
     return column;
 }
 
+// Whether what drew the strands is not to be seen from the axes.
+bool drawnByAnother(const scene::Json& result) {
+    const std::string name = text(member(result, "backend"), "name");
+    return !name.empty() && text(member(result, "axes"), kBackendAxis) != name;
+}
+
 std::vector<Column> columns(const scene::Json& report) {
     std::vector<Column> all;
     const scene::Json& cases = member(report, "cases");
@@ -132,6 +139,13 @@ std::vector<Column> columns(const scene::Json& report) {
     if (pointers.empty()) {
         all.push_back(
             column("case", cases, [](const scene::Json& result) { return text(result, "name"); }));
+        all.back().numeric = false;
+    }
+    if (std::ranges::any_of(cases, drawnByAnother)) {
+        all.push_back(column("drawn by", cases, [](const scene::Json& result) {
+            const std::string name = text(member(result, "backend"), "name");
+            return name.empty() ? std::string("-") : name;
+        }));
         all.back().numeric = false;
     }
     const auto addMedian = [&](std::string title, const MetricId& metric) {

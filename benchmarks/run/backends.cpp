@@ -176,12 +176,14 @@ const BackendComparison::Reference& BackendComparison::reference(
 }
 
 void BackendComparison::add(
-    const engine::Device& device, measure::Case& test_case, const hair::Settings& settings,
+    const engine::Device& device, measure::Case& test_case, hair::Settings settings,
     std::span<const std::uint8_t> picture, report::CaseResult& result) {
     const auto warn = [&](const std::string& text) {
         result.trust.warnings.push_back("/run/compare_backends: " + text);
     };
-    if (!settings.render.hair) return warn("no hair is drawn");
+    const auto drawn_by = test_case.backend();
+    if (!drawn_by) return warn("no hair is drawn");
+    settings.strands.backend = drawn_by->backend;
     replay(device, test_case, settings.run);
     const std::string state = test_case.stateHash();
     if (state != result.state_hash)

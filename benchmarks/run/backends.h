@@ -38,7 +38,7 @@ public:
     // `picture` is; for what can't be had a warning. Plays the case's simulation once more and
     // draws some pictures: for what the case itself is, nothing changes.
     void
-    add(const engine::Device& device, measure::Case& test_case, const hair::Settings& settings,
+    add(const engine::Device& device, measure::Case& test_case, hair::Settings settings,
         std::span<const std::uint8_t> picture, report::CaseResult& result);
 
 private:

@@ -53,6 +53,11 @@ public:
     explicit PullingGeometryBackend(const BackendContext& context)
         : vertices_(lineListVertices(context.plan)), pipeline_(context.device, describe(context)) {}
 
+    static void check(const engine::Device& device, const Settings&, const StrandPlan& plan) {
+        device.require(engine::Feature::geometry, "/strands/backend: pulling_geometry");
+        lineListVertices(plan);
+    }
+
     void draw(engine::Commands& commands, const StrandPicture& picture) const override {
         declareStrands(commands, picture.parameters);
         commands.bind(pipeline_, gpu::StrandPush{.picture = picture.address});
@@ -89,6 +94,10 @@ class LinesBackend : public StrandBackend {
 public:
     explicit LinesBackend(const BackendContext& context)
         : vertices_(lineListVertices(context.plan)), pipeline_(context.device, describe(context)) {}
+
+    static void check(const engine::Device&, const Settings&, const StrandPlan& plan) {
+        lineListVertices(plan);
+    }
 
     void draw(engine::Commands& commands, const StrandPicture& picture) const override {
         declareStrands(commands, picture.parameters);
@@ -151,6 +160,10 @@ public:
                    .ends = context.plan.forced_tessellation + 1})),
               "strands' corners")),
           pipeline_(context.device, describe(context, block_)) {}
+
+    static void check(const engine::Device&, const Settings&, const StrandPlan& plan) {
+        lineCount(plan);
+    }
 
     void draw(engine::Commands& commands, const StrandPicture& picture) const override {
         declareStrands(commands, picture.parameters);
@@ -223,6 +236,10 @@ public:
                                .constants = pointsConstants(context.strands, context.plan),
                                .push_size = sizeof(gpu::ExpandedPush)}),
           pipeline_(context.device, describe(context)) {}
+
+    static void check(const engine::Device&, const Settings&, const StrandPlan& plan) {
+        checkPoints(plan);
+    }
 
     void prepare(engine::Commands& commands, const StrandPicture& picture) const override {
         if (!is_listed_) return;
@@ -357,6 +374,11 @@ public:
         assert(watch_ != 0 || !context.stages.watched);
     }
 
+    static void check(const engine::Device& device, const Settings&, const StrandPlan&) {
+        device.require(engine::Feature::tessellation, "/strands/backend: tessellation");
+        device.require(engine::Feature::geometry, "/strands/backend: tessellation");
+    }
+
     void draw(engine::Commands& commands, const StrandPicture& picture) const override {
         declareStrands(commands, picture.parameters);
         if (watch_ != 0)
@@ -388,42 +410,38 @@ private:
     engine::GraphicsPipeline pipeline_;
 };
 
-template <class Made>
-std::unique_ptr<StrandBackend> make(const BackendContext& context) {
-    return std::make_unique<Made>(context);
-}
-
 struct BackendRow {
     Backend backend;
     std::unique_ptr<StrandBackend> (*make)(const BackendContext&);
+    void (*check)(const engine::Device&, const Settings&, const StrandPlan&);
 };
+
+template <class Made>
+constexpr BackendRow row(Backend backend) {
+    return {
+        backend,
+        [](const BackendContext& context) -> std::unique_ptr<StrandBackend> {
+            return std::make_unique<Made>(context);
+        },
+        Made::check};
+}
 
 // All back ends, one row each.
 constexpr std::array kBackends{
-    BackendRow{Backend::tessellation, make<TessellationBackend>},
-    BackendRow{Backend::pulling_geometry, make<PullingGeometryBackend>},
-    BackendRow{Backend::lines, make<LinesBackend>},
-    BackendRow{Backend::pulling, make<PullingBackend>},
-    BackendRow{Backend::expanded, make<ExpandedBackend>},
-    BackendRow{Backend::mesh, make<MeshBackend>},
-    BackendRow{Backend::software, make<SoftwareBackend>},
+    row<TessellationBackend>(Backend::tessellation),
+    row<PullingGeometryBackend>(Backend::pulling_geometry),
+    row<LinesBackend>(Backend::lines),
+    row<PullingBackend>(Backend::pulling),
+    row<ExpandedBackend>(Backend::expanded),
+    row<MeshBackend>(Backend::mesh),
+    row<SoftwareBackend>(Backend::software),
 };
 
-// All that is skipped, one row each.
-constexpr std::array kBackendLimits{
-    BackendLimit{
-        Backend::lines, "`/render/coverage` `analytic`", "its lines are a pixel wide",
-        [](const Settings& s) { return s.render.coverage == Coverage::analytic; }},
-    BackendLimit{
-        Backend::software, "a `/render/transparency` but `none`", "it keeps one strand a sample",
-        [](const Settings& s) { return s.render.transparency != Transparency::none; }},
-    BackendLimit{
-        Backend::software, "a `/render/show` but `shading`", "it only shades",
-        [](const Settings& s) { return s.render.show != Show::shading; }},
-    BackendLimit{
-        Backend::software, "`/strands/texture`", "its strands have no holes",
-        [](const Settings& s) { return !s.strands.texture.empty(); }},
-};
+const BackendRow& rowOf(Backend backend) {
+    const auto found = std::ranges::find(kBackends, backend, &BackendRow::backend);
+    assert(found != kBackends.end());
+    return *found;
+}
 
 engine::Buffer watchBuffer(const engine::Device& device) {
     device.require(engine::Feature::vertex_stores, "ablation");
@@ -436,12 +454,16 @@ engine::Buffer watchBuffer(const engine::Device& device) {
 
 std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext& context) {
     if (context.output.quads == QuadKind::light) backend = mapBackend(backend);
-    const auto row = std::ranges::find(kBackends, backend, &BackendRow::backend);
-    assert(row != kBackends.end());
     if (!context.stages.last) return std::make_unique<EmptyBackend>();
     if (backend != Backend::tessellation && context.stages != StrandStages{})
         throw engine::Unsupported("/strands/backend", "only tessellation's stages can be left out");
-    return row->make(context);
+    return rowOf(backend).make(context);
+}
+
+void checkDevice(
+    Backend backend, const engine::Device& device, const Settings& settings,
+    const StrandPlan& plan) {
+    rowOf(backend).check(device, settings, plan);
 }
 
 Backend mapBackend(Backend backend) {
@@ -452,18 +474,6 @@ Backend mapBackend(Backend backend) {
 bool readsPoints(const Settings& settings) {
     return settings.render.hair && (settings.strands.backend == Backend::software ||
                                     settings.strands.backend == Backend::expanded);
-}
-
-std::span<const BackendLimit> backendLimits() { return kBackendLimits; }
-
-void checkBackend(const Settings& settings) {
-    for (const BackendLimit& limit : kBackendLimits) {
-        if (limit.backend != settings.strands.backend || !limit.asks(settings)) continue;
-        std::string text =
-            std::string(limit.asked_for) + " is not drawn: " + std::string(limit.reason);
-        std::erase(text, '`');
-        throw engine::Unsupported("/strands/backend", text);
-    }
 }
 
 bool readsSceneDepth(const Settings& settings) {

@@ -66,6 +66,9 @@ public:
     // Records the draws; within rendering, after prepare() of the same picture.
     virtual void draw(engine::Commands& commands, const StrandPicture& picture) const = 0;
 
+    // How it was made for the device, where devices differ; may be empty.
+    virtual std::string variant() const { return {}; }
+
     // What the pipeline statistics of draw() must be; absent where the back end has no such stages.
     virtual std::optional<ExpectedCounts> expected() const = 0;
 };
@@ -106,17 +109,11 @@ std::unique_ptr<StrandBackend> makeBackend(Backend backend, const BackendContext
 // The back end that draws lights' maps for one: itself, or where it draws none another.
 Backend mapBackend(Backend backend);
 
-// What a back end doesn't draw: docs/rendering.md has the table.
-struct BackendLimit {
-    Backend backend;
-    std::string_view asked_for;
-    std::string_view reason;
-    bool (*asks)(const Settings&);
-};
-std::span<const BackendLimit> backendLimits();
-
-// Throws engine::Unsupported for what the case's back end doesn't draw.
-void checkBackend(const Settings& settings);
+// Throws engine::Unsupported where the device can't draw the case's strands by the back end: it
+// lacks stages of it, or the strands are more than its shaders number.
+void checkDevice(
+    Backend backend, const engine::Device& device, const Settings& settings,
+    const StrandPlan& plan);
 
 // Whether the case's back end draws from points that are evaluated before.
 bool readsPoints(const Settings& settings);

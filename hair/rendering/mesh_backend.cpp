@@ -123,6 +123,18 @@ MeshBackend::MeshBackend(const BackendContext& context)
       groups_(taskGroups(context.device, sizes_, push_.blocks)),
       pipeline_(context.device, describe(context, sizes_)) {}
 
+void MeshBackend::check(
+    const engine::Device& device, const Settings& settings, const StrandPlan& plan) {
+    const MeshSizes sizes = sizesFor(device);
+    taskGroups(device, sizes, countBlocks(plan, settings.strands, sizes.points));
+}
+
+std::string MeshBackend::variant() const {
+    return "workgroups of " + std::to_string(sizes_.task_group) + " tasks, of " +
+           std::to_string(sizes_.mesh_group) + " invocations for " + std::to_string(sizes_.points) +
+           " points";
+}
+
 void MeshBackend::draw(engine::Commands& commands, const StrandPicture& picture) const {
     declareStrands(commands, picture.parameters);
     gpu::StrandMeshPush push = push_;

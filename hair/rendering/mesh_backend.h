@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "engine/commands.h"
 #include "engine/device.h"
@@ -38,8 +39,13 @@ public:
     // Throws engine::Unsupported for what the device can't do.
     explicit MeshBackend(const BackendContext& context);
 
+    // The same of a case, before it is made.
+    static void
+    check(const engine::Device& device, const Settings& settings, const StrandPlan& plan);
+
     engine::PassKind passKind() const override { return engine::PassKind::meshes; }
     void draw(engine::Commands& commands, const StrandPicture& picture) const override;
+    std::string variant() const override;
     std::optional<ExpectedCounts> expected() const override { return std::nullopt; }
 
 private:

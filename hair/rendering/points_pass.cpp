@@ -18,12 +18,8 @@ static_assert(sizeof(gpu::PointsPush) == 56 && offsetof(gpu::PointsPush, width) 
 
 constexpr std::size_t kPointBytes = 16;  // strands/points/points.glsl
 
-// Shaders number pieces in 32 bits, of which the last stands for none.
 std::uint32_t countStrands(const StrandPlan& plan) {
-    const std::uint64_t pieces = plan.drawnSegments();
-    if (pieces >= std::numeric_limits<std::uint32_t>::max())
-        throw engine::Unsupported(
-            "/strands/backend", std::to_string(pieces) + " drawn segments are too many");
+    checkPoints(plan);
     return static_cast<std::uint32_t>(plan.strands());
 }
 
@@ -61,6 +57,14 @@ evaluateStage(const engine::Device& device, const Settings& settings, const Stra
 }
 
 }  // namespace
+
+// Shaders number pieces in 32 bits, of which the last stands for none.
+void checkPoints(const StrandPlan& plan) {
+    const std::uint64_t pieces = plan.drawnSegments();
+    if (pieces >= std::numeric_limits<std::uint32_t>::max())
+        throw engine::Unsupported(
+            "/strands/backend", std::to_string(pieces) + " drawn segments are too many");
+}
 
 PointsPass::PointsPass(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan,

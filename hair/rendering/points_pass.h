@@ -13,12 +13,15 @@
 
 namespace hair::rendering {
 
+// Throws engine::Unsupported for more strands than shaders number.
+void checkPoints(const StrandPlan& plan);
+
 // The points of all drawn strands, each evaluated once, for every picture of a frame: the camera's
 // and the lights'. Levels of detail are the camera's in all of them. 16 bytes a point.
 class PointsPass {
 public:
     // `culls`: strands that the camera can't see get no points; only where no light's map needs
-    // them. Throws engine::Unsupported for more strands than shaders number.
+    // them. As checkPoints().
     PointsPass(
         const engine::Device& device, const Settings& settings, const StrandPlan& plan,
         const StrandView& view, bool culls);

@@ -26,6 +26,11 @@ engine::Buffer parameterBuffer(const engine::Device& device) {
          .name = "picture parameters"}};
 }
 
+Settings withBackend(Settings settings, Backend backend) {
+    settings.strands.backend = backend;
+    return settings;
+}
+
 engine::TargetDescription rendered(const Settings& settings) {
     engine::TargetDescription description = targetDescription(settings.render);
     description.sampled_depth = readsSceneDepth(settings);
@@ -36,7 +41,6 @@ std::optional<PointsPass> makePoints(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan,
     const StrandView& view) {
     if (!readsPoints(settings)) return std::nullopt;
-    checkBackend(settings);
     return std::optional<PointsPass>(
         std::in_place, device, settings, plan, view, !hasHairMaps(settings));
 }
@@ -118,20 +122,22 @@ gpu::PictureParameters pictureParameters(
 Renderer::Renderer(
     const engine::Device& device, const Settings& settings, const StrandView& view,
     const RenderAssets& assets, const StrandStages& stages)
-    : settings_(settings),
-      plan_(planStrands(view, settings, device.info().limits.maxTessellationGenerationLevel)),
-      target_(device, rendered(settings)),
+    : plan_(planStrands(view, settings, device.info().limits.maxTessellationGenerationLevel)),
+      backend_(chooseBackend(device, settings, plan_, stages)),
+      settings_(withBackend(settings, backend_.backend)), target_(device, rendered(settings_)),
       lights_(
-          engine::makeBuffer(device, std::span<const gpu::Light>(makeLights(settings)), "lights")),
-      optics_(device, settings), points_(makePoints(device, settings, plan_, view)),
-      shadows_(device, settings, plan_, assets, pointerTo(points_)),
-      environment_(device, settings, assets), meshes_(device, settings, assets),
-      texture_(device, settings.render, assets.strand_texture),
+          engine::makeBuffer(device, std::span<const gpu::Light>(makeLights(settings_)), "lights")),
+      optics_(device, settings_), points_(makePoints(device, settings_, plan_, view)),
+      shadows_(device, settings_, plan_, assets, pointerTo(points_)),
+      environment_(device, settings_, assets), meshes_(device, settings_, assets),
+      texture_(device, settings_.render, assets.strand_texture),
       strand_images_(strandImages(texture_, shadows_)),
-      strands_(device, settings, plan_, target_, view, pointerTo(points_), stages),
-      overlay_(device, settings, assets), resolve_(device, settings.render, target_.description()) {
+      strands_(device, settings_, plan_, target_, view, pointerTo(points_), stages),
+      overlay_(device, settings_, assets),
+      resolve_(device, settings_.render, target_.description()) {
+    backend_.variant = strands_.backendVariant();
     for (engine::Buffer& parameters : parameters_) parameters = parameterBuffer(device);
-    if (settings.render.hair && hasOffsets(settings.strands)) frames_.emplace(device, view);
+    if (settings_.render.hair && hasOffsets(settings_.strands)) frames_.emplace(device, view);
 }
 
 void Renderer::record(engine::Passes& passes, const StrandView& view) {

@@ -7,6 +7,7 @@
 #include "engine/frame_loop.h"
 #include "engine/target.h"
 #include "hair/gpu_structs.h"
+#include "hair/rendering/backend_choice.h"
 #include "hair/rendering/environment.h"
 #include "hair/rendering/fiber.h"
 #include "hair/rendering/groom_buffers.h"
@@ -58,12 +59,14 @@ public:
 
     const engine::Target& target() const { return target_; }
     const StrandPlan& plan() const { return plan_; }
+    const BackendChoice& backend() const { return backend_; }
     std::optional<ExpectedCounts> expected() const { return strands_.expected(); }
     const StrandBlend& blend() const { return strands_.blend(); }
 
 private:
-    Settings settings_;
     StrandPlan plan_;
+    BackendChoice backend_;
+    Settings settings_;  // with the back end that was chosen
     engine::Target target_;
     std::array<engine::Buffer, engine::FrameLoop::kMaxSlots> parameters_;  // gpu::PictureParameters
     engine::Buffer lights_;  // gpu::Light

@@ -21,13 +21,12 @@ constexpr const char* kSoftware = "/strands/backend: software";
 constexpr std::size_t kSampleBytes = 8;  // two words
 
 // Samples are where the device has them.
-std::uint32_t checkedSamples(const BackendContext& context) {
-    const std::uint32_t samples = context.output.samples;
+std::uint32_t checkedSamples(const engine::Device& device, std::uint32_t samples) {
     const bool known = samples == 1 || samples == 2 || samples == 4 || samples == 8;
     if (!known)
         throw engine::Unsupported(
             kSoftware, std::to_string(samples) + " samples a pixel; it knows the places of 1 to 8");
-    if (samples > 1 && !context.device.info().limits.standardSampleLocations)
+    if (samples > 1 && !device.info().limits.standardSampleLocations)
         throw engine::Unsupported(kSoftware, "the device has samples at places of its own");
     return samples;
 }
@@ -109,7 +108,7 @@ engine::GraphicsDescription showStage(const BackendContext& context) {
 
 SoftwareBackend::SoftwareBackend(const BackendContext& context)
     : target_(*context.target), points_(*context.points),
-      samples_per_pixel_(checkedSamples(context)),
+      samples_per_pixel_(checkedSamples(context.device, context.output.samples)),
       blocks_(divideUp(points_.strandCount(), coveredBlock(context))),
       is_packed_(isPacked(context.device)),
       samples_(softwareBuffer(context.device, kSampleBytes * sampleCount(target_), "samples")),
@@ -124,6 +123,17 @@ SoftwareBackend::SoftwareBackend(const BackendContext& context)
       shade_(context.device, shadeStage(context)), show_(context.device, showStage(context)) {
     if (target_.hasRadiance())
         colors_ = softwareBuffer(context.device, kSampleBytes * sampleCount(target_), "colors");
+}
+
+void SoftwareBackend::check(
+    const engine::Device& device, const Settings& settings, const StrandPlan& plan) {
+    checkPoints(plan);
+    checkedSamples(device, settings.render.msaa);
+}
+
+std::string SoftwareBackend::variant() const {
+    return is_packed_ ? "one pass of 64-bit atomics, which the device has"
+                      : "two passes of 32-bit atomics, as the device has none of 64 bits";
 }
 
 gpu::SoftwarePush SoftwareBackend::push(const StrandPicture& picture) const {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
@@ -27,9 +28,14 @@ public:
     // what the device or the back end can't do.
     explicit SoftwareBackend(const BackendContext& context);
 
+    // The same of a case, before it is made.
+    static void
+    check(const engine::Device& device, const Settings& settings, const StrandPlan& plan);
+
     void prepare(engine::Commands& commands, const StrandPicture& picture) const override;
     void draw(engine::Commands& commands, const StrandPicture& picture) const override;
 
+    std::string variant() const override;
     std::optional<ExpectedCounts> expected() const override { return std::nullopt; }
 
 private:

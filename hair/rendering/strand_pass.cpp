@@ -381,7 +381,6 @@ StrandStages drawnStages(const Settings& settings, const StrandStages& stages) {
 
 std::unique_ptr<StrandBlend> blendOf(const BlendContext& context, const StrandStages& stages) {
     if (!context.settings.render.hair) return makeOpaqueBlend(context);
-    checkBackend(context.settings);
     return stages.last && discards(stages) ? makeDiscardedBlend() : makeBlend(context);
 }
 

@@ -100,6 +100,7 @@ public:
     // The value of PictureParameters::fragments.
     std::uint64_t fragments() const { return blend_->fragments(); }
 
+    std::string backendVariant() const { return backend_->variant(); }
     std::optional<ExpectedCounts> expected() const { return backend_->expected(); }
 
     const StrandBlend& blend() const { return *blend_; }

@@ -68,7 +68,7 @@ TEST(WriteSettings, WritesEveryFieldWithCleanNumbers) {
     EXPECT_EQ(echo["simulation"]["global"]["stiffness"].dump(), "0.002");
     EXPECT_EQ(echo["simulation"]["gravity"].dump(), "[0,-9.8,0]");
     EXPECT_EQ(echo["lod"]["level"].dump(), "0");
-    EXPECT_EQ(echo["strands"]["backend"], "tessellation");
+    EXPECT_EQ(echo["strands"]["backend"], "automatic");
     EXPECT_EQ(echo["simulation"]["colliders"].dump(), "[]");
     EXPECT_EQ(echo["render"]["overlays"]["guides"], false);
     EXPECT_EQ(echo.begin().key(), "description");

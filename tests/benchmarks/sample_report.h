@@ -43,6 +43,7 @@ inline report::Report sampleReport() {
          .axes =
              {{"/strands/density", scene::Document(64)},
               {"/strands/backend", scene::Document("tessellation")}},
+         .backend = {.name = "tessellation", .reason = "the scene names it"},
          .metrics =
              {{report::ofFrame(report::Measured::time),
                {2.0, 4.0, 3.0, nan},

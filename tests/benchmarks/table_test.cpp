@@ -44,6 +44,20 @@ TEST(Table, NamesTheCaseWhereNothingVaries) {
         "thesis/density:64/backend:tessellation    -         -     8704  ok, 1 warning\n");
 }
 
+TEST(Table, SaysWhatDrewAnAutomaticCase) {
+    report::Report report = sampleReport();
+    report.cases[0].axes[1].value = scene::Document("automatic");
+    report.cases[0].backend.name = "software";
+    EXPECT_EQ(
+        report::table(report::reportJson(report)),
+        "Soft (cpu), llvmpipe 22.3.6, Vulkan 1.3.230; scenes/thesis.json\n"
+        "  backend  drawn by  fps  frame ms  wind ms  strands ms  strands  status\n"
+        "automatic  software  333      3.00   0.0125        2.50     8704  ok, 1 warning\n"
+        "     mesh  -           -         -        -           -        -  skipped: the device has "
+        "no VK_EXT_mesh_shader, which...\n"
+        "    lines  -           -         -        -           -        -  failed: device lost\n");
+}
+
 TEST(Table, HasAColumnForEachPassAlone) {
     report::Report report = sampleReport();
     report.cases[0].metrics.push_back(

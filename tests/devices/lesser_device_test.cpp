@@ -101,6 +101,7 @@ hair::Settings smallCase() {
     settings.groom.guides = 20;
     settings.simulation.settle_steps = 0;
     settings.simulation.wind.strength = 10.0f;
+    settings.strands.backend = hair::Backend::tessellation;
     settings.strands.density = 4;
     settings.strands.tessellation = 2;
     settings.render.width = 160;
@@ -137,6 +138,30 @@ TEST_F(LesserDevice, StrandsNeedTheStagesOfTheirBackEnd) {
     EXPECT_EQ(skipped(pulled), "not skipped");
     pulled.strands.backend = hair::Backend::mesh;
     EXPECT_EQ(skipped(pulled), "/strands/backend: mesh: the device has no task and mesh stages");
+}
+
+// The next in the order of processors that needs nothing which the device lacks.
+TEST_F(LesserDevice, StrandsAreDrawnByWhatTheDeviceHas) {
+    hair::Settings settings = smallCase();
+    settings.strands.backend = hair::Backend::automatic;
+    settings.render.msaa = 4;
+    const auto drawnBy = [&] {
+        return measure::Case(device(), settings, HAIRBENCH_SCENES_DIR).backend().value();
+    };
+    make({});
+    EXPECT_EQ(drawnBy().backend, hair::Backend::software);
+    make([](DeviceInfo& info) { info.limits.standardSampleLocations = VK_FALSE; });
+    EXPECT_EQ(drawnBy().backend, hair::Backend::tessellation);
+    make([](DeviceInfo& info) {
+        info.limits.standardSampleLocations = VK_FALSE;
+        info.features.erase(Feature::geometry);
+    });
+    EXPECT_EQ(drawnBy().backend, hair::Backend::expanded);
+    EXPECT_EQ(
+        drawnBy().reason,
+        "automatic: the fastest that can draw it; not software: /strands/backend: software: the "
+        "device has samples at places of its own; not tessellation: /strands/backend: "
+        "tessellation: the device has no geometry stages");
 }
 
 TEST_F(LesserDevice, StrandsInComputeNeedSamplesAtKnownPlaces) {

@@ -21,6 +21,7 @@ using testing::IsEmpty;
 // A little of the thesis's hair in the wind, in a small picture.
 hair::Settings smallCase() {
     hair::Settings settings;
+    settings.strands.backend = hair::Backend::tessellation;
     settings.strands.density = 2;
     settings.strands.tessellation = 1;
     settings.render.width = 64;

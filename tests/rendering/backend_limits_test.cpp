@@ -7,7 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/error.h"
-#include "hair/rendering/backends.h"
+#include "hair/rendering/backend_choice.h"
+#include "tests/gpu_fixture.h"
 
 // What back ends don't draw.
 namespace hair::rendering {
@@ -15,7 +16,7 @@ namespace {
 
 std::string refusal(const Settings& settings) {
     try {
-        checkBackend(settings);
+        checkBackend(settings.strands.backend, settings);
     } catch (const engine::Unsupported& error) {
         return error.what();
     }
@@ -66,25 +67,89 @@ TEST(BackendLimits, AreThoseOfTheirOwnBackEnd) {
     }
 }
 
-// docs/rendering.md has a row for each, and no other.
-TEST(BackendLimits, AreThoseOfTheDocumentation) {
+// Rows of a table in docs/rendering.md.
+std::set<std::string> rowsBelow(const std::string& head) {
     std::ifstream page(HAIRBENCH_SOURCE_DIR "/docs/rendering.md");
-    std::set<std::string> written;
+    std::set<std::string> rows;
     bool in_table = false;
     for (std::string line; std::getline(page, line);) {
-        if (line == "| `/strands/backend` | does not draw | because |") in_table = true;
         if (in_table && !line.starts_with("|")) break;
-        if (in_table && line.starts_with("| `") && !line.starts_with("| `/")) written.insert(line);
+        if (in_table && !line.starts_with("|--")) rows.insert(line);
+        if (line == head) in_table = true;
     }
+    return rows;
+}
+
+// docs/rendering.md has a row for each, and no other.
+TEST(BackendLimits, AreThoseOfTheDocumentation) {
     std::set<std::string> known;
-    for (const BackendLimit& limit : backendLimits()) {
-        ASSERT_TRUE(limit.backend == Backend::software || limit.backend == Backend::lines);
-        const std::string name = limit.backend == Backend::software ? "software" : "lines";
+    for (const BackendLimit& limit : backendLimits())
         known.insert(
-            "| `" + name + "` | " + std::string(limit.asked_for) + " | " +
-            std::string(limit.reason) + " |");
+            "| `" + std::string(backendName(limit.backend)) + "` | " +
+            std::string(limit.asked_for) + " | " + std::string(limit.reason) + " |");
+    EXPECT_EQ(rowsBelow("| `/strands/backend` | does not draw | because |"), known);
+}
+
+std::string orderRow(const std::string& devices, const char* type) {
+    std::string row = "| " + devices + " | ";
+    for (const Backend backend : backendOrder({.type = type}))
+        row += (row.ends_with("| ") ? "`" : ", `") + std::string(backendName(backend)) + "`";
+    return row + " |";
+}
+
+TEST(BackendOrder, IsThatOfTheDocumentation) {
+    EXPECT_EQ(
+        rowsBelow("| `/strands/backend` `automatic` on | first to last |"),
+        (std::set{orderRow("processors", "cpu"), orderRow("graphics processors", "discrete")}));
+}
+
+// Whatever draws a case draws the same strands, so that none is left out but `lines`.
+TEST(BackendOrder, HasEveryBackEndOfTheSamePicture) {
+    for (const char* type : {"cpu", "discrete", "integrated", "virtual", "other"})
+        EXPECT_THAT(
+            backendOrder({.type = type}),
+            testing::UnorderedElementsAre(
+                Backend::tessellation, Backend::pulling_geometry, Backend::pulling,
+                Backend::expanded, Backend::mesh, Backend::software))
+            << type;
+}
+
+class BackendChoiceTest : public GpuTest {
+protected:
+    BackendChoice choice(const Settings& settings, const StrandStages& stages = {}) const {
+        return chooseBackend(device(), settings, StrandPlan{}, stages);
     }
-    EXPECT_EQ(written, known);
+};
+
+TEST_F(BackendChoiceTest, IsTheFirstThatDrawsTheCase) {
+    const Settings plain;
+    ASSERT_EQ(plain.strands.backend, Backend::automatic);
+    EXPECT_EQ(choice(plain).backend, Backend::software);
+    EXPECT_EQ(choice(plain).reason, "automatic: the fastest that can draw it");
+
+    Settings blended;
+    blended.render.transparency = Transparency::fragment_list;
+    const BackendChoice other = choice(blended);
+    EXPECT_EQ(other.backend, backendOrder(device().info())[1]);
+    EXPECT_EQ(
+        other.reason, "automatic: the fastest that can draw it; not software: /strands/backend: a "
+                      "/render/transparency but none is not drawn: it keeps one strand a sample");
+}
+
+TEST_F(BackendChoiceTest, IsTheScenesOwn) {
+    Settings settings;
+    settings.strands.backend = Backend::pulling;
+    EXPECT_EQ(choice(settings).backend, Backend::pulling);
+    EXPECT_EQ(choice(settings).reason, "the scene names it");
+    settings.strands.backend = Backend::software;
+    settings.render.show = Show::tangents;
+    EXPECT_THROW(choice(settings), engine::Unsupported);
+    settings.render.hair = false;
+    EXPECT_NO_THROW(choice(settings));
+}
+
+TEST_F(BackendChoiceTest, IsTessellationWhereItsStagesAreLeftOut) {
+    EXPECT_EQ(choice(Settings{}, {.last = StrandStage::raster}).backend, Backend::tessellation);
 }
 
 }  // namespace

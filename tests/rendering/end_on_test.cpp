@@ -121,6 +121,7 @@ groom::Groom bentStrand() {
 
 Settings bentSettings(ShadingModel model) {
     Settings settings = litSettings(model);
+    settings.strands.backend = Backend::tessellation;
     settings.strands.density = 1;
     settings.strands.tessellation = 4;
     settings.strands.curve = Curve::catmull_rom;  // goes through its points, to the last bit
@@ -191,6 +192,21 @@ TEST_F(EndOn, SoDoBackEndsCoverageAndShadows) {
             expectSound(
                 drawRendered(device(), settings),
                 std::to_string(static_cast<int>(backend)) + (is_analytic ? ", analytic" : ""));
+        }
+}
+
+// Tangents that are kept to 0.1 degrees have a side even where the strand is seen end-on, but not
+// the same to the last bit: what lies on the very edge of it may not be theirs.
+TEST_F(EndOn, BackEndsFromPointsDrawFiniteLight) {
+    for (const Backend backend : {Backend::expanded, Backend::software})
+        for (const ShadingModel model : kModels) {
+            Settings settings = bentSettings(model);
+            settings.strands.backend = backend;
+            settings.shading.shadows.hair = HairShadows::deep_opacity;
+            const std::vector<std::uint16_t> halves = drawRendered(device(), settings);
+            ASSERT_EQ(halves.size(), 4u * 33 * 33);
+            EXPECT_TRUE(std::ranges::all_of(halves, isFiniteHalf)) << static_cast<int>(model);
+            EXPECT_TRUE(std::ranges::any_of(halves, isAboveZero)) << static_cast<int>(model);
         }
 }
 

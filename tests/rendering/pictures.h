@@ -32,6 +32,7 @@ inline std::size_t differingPixels(const Pixels& a, const Pixels& b) {
 inline Settings thesisAtRest() {
     Settings settings;
     settings.simulation.solver = Solver::none;
+    settings.strands.backend = Backend::tessellation;
     return settings;
 }
 

@@ -64,6 +64,7 @@ groom::StrandSet zigzag() {
 class StrandFeaturePictureTest : public GpuTest {
 protected:
     static Settings small(StrandSettings strands) {
+        strands.backend = Backend::tessellation;
         strands.density = 30;
         strands.tessellation = 5;
         return {

@@ -71,6 +71,7 @@ protected:
         hair::Settings settings;
         settings.simulation.solver = hair::Solver::none;
         settings.groom.guides = 8;
+        settings.strands.backend = hair::Backend::tessellation;
         settings.strands.density = 2;
         settings.strands.tessellation = 1;
         settings.render.width = 64;

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "engine/device.h"
+#include "hair/rendering/backends.h"
+#include "hair/rendering/strand_plan.h"
+#include "hair/settings.h"
+
+// Which back end draws a case's strands.
+namespace hair::rendering {
+
+// What a back end doesn't draw: docs/rendering.md has the table.
+struct BackendLimit {
+    Backend backend;
+    std::string_view asked_for;
+    std::string_view reason;
+    bool (*asks)(const Settings&);
+};
+std::span<const BackendLimit> backendLimits();
+
+// Throws engine::Unsupported for what the back end doesn't draw.
+void checkBackend(Backend backend, const Settings& settings);
+
+// Back ends that draw the same picture, those first that are faster on devices of the kind:
+// docs/rendering.md has both orders and where they are from.
+std::span<const Backend> backendOrder(const engine::DeviceInfo& device);
+
+struct BackendChoice {
+    Backend backend = Backend::tessellation;
+    std::string variant;  // StrandBackend::variant() of what was made of it
+    std::string reason;
+};
+
+// The case's own back end or, where that is `automatic`, the first of backendOrder() that can draw
+// the case on the device. Throws engine::Unsupported for a case that the one of its own can't draw.
+BackendChoice chooseBackend(
+    const engine::Device& device, const Settings& settings, const StrandPlan& plan,
+    const StrandStages& stages);
+
+}  // namespace hair::rendering
