@@ -1,5 +1,6 @@
 #include "engine/device.h"
 
+#include <atomic>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -53,6 +54,9 @@ bool belongsTo(const std::vector<char>& data, const VkPhysicalDeviceProperties& 
            header.vendorID == properties.vendorID && header.deviceID == properties.deviceID &&
            std::memcmp(header.pipelineCacheUUID, properties.pipelineCacheUUID, VK_UUID_SIZE) == 0;
 }
+
+// volk's function pointers, of which there is one set, must do for all of them.
+std::atomic<int> devices_alive = 0;
 
 VmaAllocator createAllocator(VkInstance instance, const DeviceInfo& info, VkDevice device) {
     VmaVulkanFunctions functions{};
@@ -133,7 +137,9 @@ Device::Device(const DeviceOptions& options)
     std::vector<const char*> extensions;
     if (!options.window_extensions.empty()) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     device_ = createDevice(info_, extensions);
-    volkLoadDevice(device_);
+    // The functions of one device may be called without the loader between; those of several only
+    // through it, which knows whose handle it is given: Instance has just loaded these.
+    if (devices_alive++ == 0) volkLoadDevice(device_);
     vkGetDeviceQueue(device_, info_.queue_family, 0, &queue_);
     compute_queue_ = queue_;
     if (has(Feature::second_queue))
@@ -171,6 +177,7 @@ Device::~Device() {
     cache_.reset();
     vmaDestroyAllocator(allocator_);
     vkDestroyDevice(device_, nullptr);
+    --devices_alive;
 }
 
 std::vector<std::uint32_t> Device::queueFamilies() const {

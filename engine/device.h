@@ -110,7 +110,10 @@ struct DeviceOptions {
 };
 
 // One logical device with its queues, its memory allocator and pipeline cache. Everything else
-// borrows it.
+// borrows it. A device and what was made of it are one thread's at a time; another device, which
+// has an instance and a driver's queue of its own, may be another thread's meanwhile. Devices are
+// made while no other thread uses one, and the one that shows pictures in a window is made last:
+// functions are looked up for the last instance that was made.
 class Device {
 public:
     explicit Device(const DeviceOptions& options = {});

@@ -92,6 +92,8 @@ void Window::poll(double seconds) {
         glfwPollEvents();
 }
 
+void Window::endWait() { glfwPostEmptyEvent(); }
+
 bool Window::wantsToClose() const { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
 
 void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }

@@ -41,6 +41,8 @@ public:
 
     // Handles what happened since the last call; `seconds`: waits so long for something to happen.
     void poll(double seconds = 0.0);
+    // Ends a poll() that waits, or the next one. From any thread, while there is a window.
+    static void endWait();
     // Whether the mouse, the keyboard or the desktop did anything to it since the last call.
     bool takeActivity() { return std::exchange(active_, false); }
 
