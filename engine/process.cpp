@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include <linux/perf_event.h>
+#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -115,6 +116,13 @@ ProcessUse processUse() {
     return {
         static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6,
         instructions.read()};
+}
+
+void giveWay() {
+    // Of a thread, on Linux. About a third of the share of a thread that does not.
+    constexpr int kNice = 5;
+    const auto thread = static_cast<id_t>(syscall(SYS_gettid));
+    setpriority(PRIO_PROCESS, thread, getpriority(PRIO_PROCESS, thread) + kNice);
 }
 
 }  // namespace engine

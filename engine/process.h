@@ -70,4 +70,8 @@ ProcessUse operator+(const ProcessUse& a, const ProcessUse& b);
 // device is made, which starts threads.
 ProcessUse processUse();
 
+// The calling thread, and those that it starts from now on, give way where others of this machine
+// want the same processors; where none do, they are as fast as before.
+void giveWay();
+
 }  // namespace engine

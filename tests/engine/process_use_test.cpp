@@ -6,6 +6,7 @@
 
 #include <linux/perf_event.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
@@ -93,6 +94,24 @@ TEST_F(PerfCounterTest, CountsThreadsOfThreads) {
     const double before = count();
     std::thread([] { std::thread(touchPages).join(); }).join();
     EXPECT_GE(count() - before, double{kPages});
+}
+
+// Higher is less.
+int niceness() { return getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())); }
+
+TEST(GiveWay, IsForAThreadAndThoseThatItStarts) {
+    const int before = niceness();
+    int of_thread = before, of_its_own = before;
+    std::thread([&] {
+        giveWay();
+        of_thread = niceness();
+        std::thread([&] { of_its_own = niceness(); }).join();
+    }).join();
+    if (before < 19) {
+        EXPECT_GT(of_thread, before);
+    }
+    EXPECT_EQ(of_its_own, of_thread);
+    EXPECT_EQ(niceness(), before);
 }
 
 TEST(PerfCounter, IsNoneWhereTheKernelHasNone) {
