@@ -1,3 +1,5 @@
+#include <chrono>
+#include <cstdlib>
 #include <iostream>
 #include <optional>
 
@@ -12,6 +14,9 @@
 
 namespace benchmarks::commands {
 namespace {
+
+// That a picture may take which is being drawn when the window closes.
+constexpr std::chrono::milliseconds kPatience{300};
 
 int view(const viewer::ViewOptions& options) {
     viewer::Viewer viewer(options);
@@ -28,7 +33,16 @@ int view(const viewer::ViewOptions& options) {
         const engine::Presenter::Picture picture = viewer.picture();
         engine::writePng(options.screenshot, picture.width, picture.height, picture.pixels);
     }
-    return engine::interrupted() ? report::kInterrupted : report::kOk;
+    const int status = engine::interrupted() ? report::kInterrupted : report::kOk;
+    if (!viewer.finish(kPatience)) {
+        // Nothing can end what a device has begun to draw but the end of its process, and whoever
+        // closed the window has seen enough of it.
+        viewer.keepPreferences();
+        std::cerr.flush();
+        std::cout.flush();
+        std::_Exit(status);
+    }
+    return status;
 }
 
 }  // namespace

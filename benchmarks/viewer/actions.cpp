@@ -100,6 +100,9 @@ constexpr std::array kActions{
         Action::reset_layout, "View", "Reset layout", 0, "",
         "columns and letters as they were at first"},
     ActionRow{
+        Action::preview, "View", "Preview what moves", ImGuiKey_P, "P",
+        "draws fewer strands and pixels while something moves that takes too long whole"},
+    ActionRow{
         Action::present_fifo, "View", "In step with the screen (fifo)", 0, "",
         "never torn, and never more pictures than the screen shows"},
     ActionRow{

@@ -25,6 +25,7 @@ enum class Action {
     play,  // plays or pauses
     step,
     restart,
+    preview,  // of what moves, on and off
     frame_groom,
     view_front,
     view_side,

@@ -106,17 +106,16 @@ void keepAllowed(hair::CameraSettings& camera, const hair::CameraSettings& befor
 
 // The point of the hair or the head that a pixel shows; none where it shows neither.
 std::optional<glm::vec3>
-pointUnder(const PictureView& view, glm::vec2 pixel, float reach, const Player& player) {
-    const hair::Settings& settings = player.settings();
-    const measure::Case& played = player.played();
+pointUnder(const PictureView& view, glm::vec2 pixel, float reach, const Shown& played) {
+    const hair::Settings& settings = played.settings;
     std::optional<glm::vec3> point;
     if (settings.render.hair)
-        point = pickHair(view, played.guides(), played.groom().vertices_per_strand, pixel, reach);
+        point = pickHair(view, played.guides, played.vertices_per_guide, pixel, reach);
     if (!settings.render.head) return point;
-    const std::optional<hair::groom::Mesh> mesh = scene::loadMesh(settings, player.directory());
+    const std::optional<hair::groom::Mesh> mesh = scene::loadMesh(settings, played.directory);
     if (!mesh) return point;
     const Ray ray = view.ray(pixel);
-    const auto hit = pickMesh(ray, *mesh, played.head());
+    const auto hit = pickMesh(ray, *mesh, played.head);
     if (!hit) return point;
     const glm::vec3 skin = ray.from + ray.direction * *hit;
     if (!point || view.depth(skin) < view.depth(*point)) return skin;
@@ -241,7 +240,7 @@ Edit CameraTool::keys(const Pointer& pointer, hair::CameraSettings& camera) {
 bool CameraTool::isMoving() const { return ImGui::GetTime() < moving_until_; }
 
 Edit CameraTool::update(
-    const Pointer& pointer, Left left, bool held, hair::Settings& settings, const Player& player) {
+    const Pointer& pointer, Left left, bool held, hair::Settings& settings, const Shown& played) {
     hair::CameraSettings& camera = settings.camera;
     const hair::CameraSettings before = camera;
     Edit edit = keys(pointer, camera);
@@ -253,7 +252,7 @@ Edit CameraTool::update(
     if (held) edit |= mouse(pointer, left, camera);
     if (pointer.hovers && left == Left::camera &&
         ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-        const auto point = pointUnder(pointer.view, pointer.at, Handles::reach(), player);
+        const auto point = pointUnder(pointer.view, pointer.at, Handles::reach(), played);
         if (point) focus(camera, *point);
     }
     keepAllowed(camera, before);

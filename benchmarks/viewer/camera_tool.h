@@ -58,7 +58,7 @@ public:
     // `held`: a button that went down on the picture is down.
     Edit update(
         const Pointer& pointer, Left left, bool held, hair::Settings& settings,
-        const Player& player);
+        const Shown& played);
 
     // Whether keys or the wheel move the camera, or did a moment ago: until then it is one edit.
     bool isMoving() const;

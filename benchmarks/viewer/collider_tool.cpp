@@ -167,12 +167,12 @@ hair::Collider colliderInFront(const Sphere& groom) {
 // ---- The tool -----------------------------------------------------------------------------------
 
 std::optional<ColliderHandle> ColliderTool::handleUnder(
-    const Pointer& pointer, const hair::Settings& settings, const Player& player) const {
+    const Pointer& pointer, const hair::Settings& settings, const Shown& played) const {
     if (!selected_ || !pointer.hovers) return {};
     std::optional<ColliderHandle> best;
     float nearest = Handles::reach();
-    for (const ColliderHandle& handle : colliderHandles(
-             settings.simulation.colliders[*selected_], player.played().head(), pointer.view)) {
+    for (const ColliderHandle& handle :
+         colliderHandles(settings.simulation.colliders[*selected_], played.head, pointer.view)) {
         const auto shown = pointer.view.pixel(handle.point);
         if (!shown || glm::length(*shown - pointer.at) >= nearest) continue;
         nearest = glm::length(*shown - pointer.at);
@@ -183,29 +183,29 @@ std::optional<ColliderHandle> ColliderTool::handleUnder(
 
 void ColliderTool::press(
     const Pointer& pointer, std::optional<ColliderHandle> hot, const hair::Settings& settings,
-    const Player& player) {
+    const Shown& played) {
     const auto& colliders = settings.simulation.colliders;
     drag_.reset();
     if (!hot) {
-        selected_ = pickCollider(pointer.view, colliders, player.played().head(), pointer.at);
+        selected_ = pickCollider(pointer.view, colliders, played.head, pointer.at);
         if (!selected_) return;
-        hot = colliderHandles(colliders[*selected_], player.played().head(), pointer.view).front();
+        hot = colliderHandles(colliders[*selected_], played.head, pointer.view).front();
     }
-    drag_ = {&player, *hot, colliders[*selected_], pointer.at};
+    drag_ = {&played, *hot, colliders[*selected_], pointer.at};
 }
 
 Edit ColliderTool::update(
-    const Pointer& pointer, Handles& handles, hair::Settings& settings, const Player& player) {
+    const Pointer& pointer, Handles& handles, hair::Settings& settings, const Shown& played) {
     const PictureView& view = pointer.view;
-    const hair::simulation::RigidMotion head = player.played().head();
+    const hair::simulation::RigidMotion head = played.head;
     std::vector<hair::Collider>& colliders = settings.simulation.colliders;
     if (selected_ && *selected_ >= colliders.size()) {
         selected_.reset();
         drag_.reset();
     }
-    std::optional<ColliderHandle> hot = handleUnder(pointer, settings, player);
-    if (pointer.pressed) press(pointer, hot, settings, player);
-    const bool drags = drag_ && drag_->player == &player;
+    std::optional<ColliderHandle> hot = handleUnder(pointer, settings, played);
+    if (pointer.pressed) press(pointer, hot, settings, played);
+    const bool drags = drag_ && drag_->played == &played;
     Edit edit;
     if (drags) {
         hair::Collider& collider = colliders[*selected_];
@@ -240,14 +240,14 @@ Edit ColliderTool::update(
     return edit;
 }
 
-Edit ColliderTool::options(OptionsLine& line, hair::Settings& settings, const Player& player) {
+Edit ColliderTool::options(OptionsLine& line, hair::Settings& settings, const Shown& played) {
     std::vector<hair::Collider>& colliders = settings.simulation.colliders;
     const bool has_room = colliders.size() < mostOf(&hair::SimulationSettings::colliders);
     if (line.button(
             "Add collider", has_room,
             "Adds a sphere in front of the face, which moves with the head")) {
-        Sphere groom = sphereRound(player.played().guides());
-        groom.center = toHead(groom.center, player.played().head());
+        Sphere groom = groomNow(played);
+        groom.center = toHead(groom.center, played.head);
         colliders.push_back(colliderInFront(groom));
         selected_ = colliders.size() - 1;
         return {.changed = true};

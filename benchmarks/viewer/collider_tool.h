@@ -47,25 +47,25 @@ hair::Collider colliderInFront(const Sphere& groom);
 // Moves the capsules of /simulation/colliders with the mouse.
 class ColliderTool {
 public:
-    Edit update(
-        const Pointer& pointer, Handles& handles, hair::Settings& settings, const Player& player);
+    Edit
+    update(const Pointer& pointer, Handles& handles, hair::Settings& settings, const Shown& played);
     bool drags() const { return drag_.has_value(); }
 
     // Buttons that add a collider and remove the selected one, in one line.
-    Edit options(OptionsLine& line, hair::Settings& settings, const Player& player);
+    Edit options(OptionsLine& line, hair::Settings& settings, const Shown& played);
 
 private:
     struct Drag {
-        const Player* player;  // whose picture the mouse is in
+        const Shown* played;  // whose picture the mouse is in
         ColliderHandle held;
         hair::Collider start;
         glm::vec2 from;  // px
     };
     std::optional<ColliderHandle>
-    handleUnder(const Pointer& pointer, const hair::Settings& settings, const Player& player) const;
+    handleUnder(const Pointer& pointer, const hair::Settings& settings, const Shown& played) const;
     void press(
         const Pointer& pointer, std::optional<ColliderHandle> hot, const hair::Settings& settings,
-        const Player& player);
+        const Shown& played);
 
     std::optional<std::size_t> selected_;
     std::optional<Drag> drag_;

@@ -76,11 +76,12 @@ std::string differenceText(const DifferenceFigures& figures) {
 const engine::Image&
 ShownPicture::renew(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage) {
     retired_.reset();
+    size_ = extent;
     if (shown_ && extent.width == shown_->image.extent().width &&
         extent.height == shown_->image.extent().height)
         return shown_->image;
     retired_ = std::exchange(
-        shown_, std::make_unique<Shown>(
+        shown_, std::make_unique<Texture>(
                     device_, engine::ImageDescription{
                                  .format = format,
                                  .width = extent.width,
@@ -90,16 +91,28 @@ ShownPicture::renew(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage)
     return shown_->image;
 }
 
-void ShownPicture::copy(engine::Commands& commands, const engine::Image& output) {
+bool ShownPicture::copy(
+    engine::Commands& commands, std::uint64_t number, std::span<const std::uint8_t> rgba,
+    VkExtent2D extent, VkExtent2D size) {
+    size_ = size;
+    if (number_ == number) return true;
     const engine::Image& image =
-        renew(output.format(), output.extent(), VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+        renew(VK_FORMAT_R8G8B8A8_UNORM, extent, VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+    size_ = size;
+    number_ = number;
+    if (staging_.size() != rgba.size())
+        staging_ = engine::Buffer(
+            device_,
+            {.size = rgba.size(), .usage = engine::Usage::upload, .name = "shown picture"});
+    staging_.write(std::as_bytes(rgba));
     commands.transition(
         image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
         engine::Access::anything, engine::Access::transfer_write);
-    commands.copy(output, image);
+    commands.copy(staging_, 0, image, 0);
     commands.transition(
         image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
         engine::Access::transfer_write, engine::Access::graphics_read);
+    return !retired_;
 }
 
 // ---- The difference as a picture ----------------------------------------------------------------

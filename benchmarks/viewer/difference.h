@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "engine/buffer_image.h"
@@ -57,13 +58,18 @@ private:
 // "at most 37 of 255, on average 0.42; 12.3 % of the pixels differ", or "identical".
 std::string differenceText(const DifferenceFigures& figures);
 
-// A picture that widgets can show, pixel by pixel as it was drawn.
+// A picture that widgets can show, pixel by pixel as it was drawn, on whichever device that was.
 class ShownPicture {
 public:
     explicit ShownPicture(const engine::Device& device) : device_(device) {}
 
-    // Records the copy of what was drawn. The device must be done with the last copy.
-    void copy(engine::Commands& commands, const engine::Image& output);
+    // Records the copy of a picture of the host's, RGBA, top row first, unless it is the one that
+    // was copied last, by its number. It is shown as large as `size` says: of a preview it has
+    // fewer pixels. The device must be done with the last copy. False where widgets that were made
+    // before show the last picture still, which had another size.
+    bool copy(
+        engine::Commands& commands, std::uint64_t number, std::span<const std::uint8_t> rgba,
+        VkExtent2D extent, VkExtent2D size);
 
     // The image, of that size and with undefined contents, for callers that record into it instead
     // of a copy and leave it in SHADER_READ_ONLY_OPTIMAL. The device must be done with the last
@@ -74,19 +80,24 @@ public:
     const engine::Image& image() const { return shown_->image; }
     ImTextureID id() const { return shown_->texture.id(); }
     VkExtent2D extent() const { return shown_->image.extent(); }
+    // px of the picture that it stands for.
+    VkExtent2D size() const { return size_; }
 
 private:
-    struct Shown {
-        Shown(const engine::Device& device, const engine::ImageDescription& description)
+    struct Texture {
+        Texture(const engine::Device& device, const engine::ImageDescription& description)
             : image(device, description), texture(device, image) {}
         engine::Image image;
         engine::Ui::Texture texture;
     };
 
     const engine::Device& device_;
-    std::unique_ptr<Shown> shown_;
+    std::unique_ptr<Texture> shown_;
     // The last picture of another size: widgets that are about to be drawn still show it.
-    std::unique_ptr<Shown> retired_;
+    std::unique_ptr<Texture> retired_;
+    VkExtent2D size_{};
+    engine::Buffer staging_;
+    std::optional<std::uint64_t> number_;  // of the picture that was copied last
 };
 
 // The difference of two pictures that are shown, as a picture that can be shown too.

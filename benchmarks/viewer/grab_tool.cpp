@@ -33,8 +33,8 @@ void cut(std::vector<hair::PullKey>& path, float now) {
 constexpr float kCentimetres = 100.0f;  // per m
 constexpr float kMostRadius = 10.0f;  // cm, at the end of the slider
 
-std::size_t indexOf(const GuideVertex& held, const Player& player) {
-    return std::size_t{held.guide} * player.played().groom().vertices_per_strand + held.vertex;
+std::size_t indexOf(const GuideVertex& held, const Shown& played) {
+    return std::size_t{held.guide} * played.vertices_per_guide + held.vertex;
 }
 
 bool samePath(const std::vector<hair::PullKey>& a, const std::vector<hair::PullKey>& b) {
@@ -44,13 +44,11 @@ bool samePath(const std::vector<hair::PullKey>& a, const std::vector<hair::PullK
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
 }
 
-std::optional<GuideVertex>
-under(const Pointer& pointer, const std::vector<glm::vec3>& guides, const Player& player) {
-    const hair::groom::Groom& groom = player.played().groom();
+std::optional<GuideVertex> under(const Pointer& pointer, const Shown& played) {
     // Of two vertices that are equally near to the mouse, the one in front.
     return pickVertex(
-        pointer.view, guides, groom.vertices_per_strand, pointer.at, 2.5f * Handles::reach(),
-        sphereRound(groom.points).radius);
+        pointer.view, played.guides, played.vertices_per_guide, pointer.at, 2.5f * Handles::reach(),
+        played.rest.radius);
 }
 
 // ---- The wind's arrow ---------------------------------------------------------------------------
@@ -77,9 +75,9 @@ glm::vec3 windDirection(const hair::WindSettings& wind) {
 // ---- The tool of the wind -----------------------------------------------------------------------
 
 // The groom at rest, where the head is: its arrow does not sway with the hair.
-Sphere groomOf(const Player& player) {
-    Sphere groom = sphereRound(player.played().groom().points);
-    groom.center = player.played().head()(groom.center);
+Sphere groomOf(const Shown& played) {
+    Sphere groom = played.rest;
+    groom.center = played.head(groom.center);
     return groom;
 }
 
@@ -133,9 +131,9 @@ bool hasRoom(std::span<const hair::PullKey> path) {
 
 // ---- The tool that grabs ------------------------------------------------------------------------
 
-Edit GrabTool::drag(const Pointer& pointer, hair::Settings& settings, const Player& player) {
+Edit GrabTool::drag(const Pointer& pointer, hair::Settings& settings, const Shown& played) {
     std::vector<hair::PullSettings>& pulls = settings.simulation.pulls;
-    const Moment moment = momentOf(player);
+    const Moment moment = momentOf(played);
     Edit edit{.changed = false, .continues = true};
     if (!drag_->pull && pointer.at != drag_->from && pointer.holds &&
         pulls.size() < mostOf(&hair::SimulationSettings::pulls)) {
@@ -168,18 +166,17 @@ Edit GrabTool::drag(const Pointer& pointer, hair::Settings& settings, const Play
 }
 
 Edit GrabTool::update(
-    const Pointer& pointer, Handles& handles, hair::Settings& settings, const Player& player,
+    const Pointer& pointer, Handles& handles, hair::Settings& settings, const Shown& played,
     bool runs) {
     if (pointer.pressed) {
-        const std::vector<glm::vec3> guides = player.played().guides();
         drag_.reset();
-        if (const auto held = under(pointer, guides, player))
-            drag_ = {&player, *held, guides[indexOf(*held, player)], pointer.at, {}};
+        if (const auto held = under(pointer, played))
+            drag_ = {&played, *held, played.guides[indexOf(*held, played)], pointer.at, {}};
     }
-    const bool drags = drag_ && drag_->player == &player;
+    const bool drags = drag_ && drag_->played == &played;
     Edit edit;
-    if (drags) edit = drag(pointer, settings, player);
-    draw(pointer, handles, settings, player);
+    if (drags) edit = drag(pointer, settings, played);
+    draw(pointer, handles, settings, played);
     if (settings.simulation.solver == hair::Solver::none)
         handles.hint("The solver is none: this hair can't be pulled.");
     else if (settings.simulation.pulls.size() >= mostOf(&hair::SimulationSettings::pulls) && !drags)
@@ -191,13 +188,13 @@ Edit GrabTool::update(
 
 void GrabTool::draw(
     const Pointer& pointer, Handles& handles, const hair::Settings& settings,
-    const Player& player) const {
-    const bool drags = drag_ && drag_->player == &player;
+    const Shown& played) const {
+    const bool drags = drag_ && drag_->played == &played;
     if (!drags && !pointer.hovers) return;
-    const std::vector<glm::vec3> guides = player.played().guides();
-    const auto held = drags ? std::optional(drag_->held) : under(pointer, guides, player);
-    if (!held) return;
-    const glm::vec3 vertex = guides[indexOf(*held, player)];
+    const auto held = drags ? std::optional(drag_->held) : under(pointer, played);
+    // The groom may have become another since it was held, and guides are not there for all frames.
+    if (!held || indexOf(*held, played) >= played.guides.size()) return;
+    const glm::vec3 vertex = played.guides[indexOf(*held, played)];
     const auto shown = pointer.view.pixel(vertex);
     if (!shown) return;
     const float reach = radius_ * pointer.view.pixelsPerMetre(vertex);
@@ -264,14 +261,14 @@ void setWind(hair::WindSettings& wind, float value) {
 // ---- The tool of the wind -----------------------------------------------------------------------
 
 Edit WindTool::update(
-    const Pointer& pointer, Handles& handles, hair::Settings& settings, const Player& player) {
+    const Pointer& pointer, Handles& handles, hair::Settings& settings, const Shown& played) {
     const PictureView& view = pointer.view;
     hair::WindSettings& wind = settings.simulation.wind;
-    const Sphere groom = groomOf(player);
+    const Sphere groom = groomOf(played);
     const auto held = view.pixel(windTip(wind, groom));
     const bool hot = pointer.hovers && held && glm::length(*held - pointer.at) < Handles::reach();
-    if (pointer.pressed && hot) drag_ = {&player, windTip(wind, groom), pointer.at};
-    const bool drags = drag_ && drag_->player == &player;
+    if (pointer.pressed && hot) drag_ = {&played, windTip(wind, groom), pointer.at};
+    const bool drags = drag_ && drag_->played == &played;
     Edit edit;
     if (drags) {
         const hair::WindSettings before = wind;

@@ -22,7 +22,7 @@ class GrabTool {
 public:
     // `runs`: whether frames are being played.
     Edit update(
-        const Pointer& pointer, Handles& handles, hair::Settings& settings, const Player& player,
+        const Pointer& pointer, Handles& handles, hair::Settings& settings, const Shown& played,
         bool runs);
     bool drags() const { return drag_.has_value(); }
 
@@ -31,16 +31,16 @@ public:
 
 private:
     struct Drag {
-        const Player* player;  // whose picture the mouse is in
+        const Shown* played;  // whose picture the mouse is in
         GuideVertex held;
         glm::vec3 start;  // where the vertex was
         glm::vec2 from;   // px
         std::optional<std::size_t> pull;  // the entry that is written; none before the mouse moves
     };
-    Edit drag(const Pointer& pointer, hair::Settings& settings, const Player& player);
+    Edit drag(const Pointer& pointer, hair::Settings& settings, const Shown& played);
     void draw(
         const Pointer& pointer, Handles& handles, const hair::Settings& settings,
-        const Player& player) const;
+        const Shown& played) const;
 
     float radius_ = hair::PullSettings{}.radius;  // m, of the next pull
     std::optional<Drag> drag_;
@@ -49,8 +49,8 @@ private:
 // Turns and stretches the wind's arrow: the tip is dragged.
 class WindTool {
 public:
-    Edit update(
-        const Pointer& pointer, Handles& handles, hair::Settings& settings, const Player& player);
+    Edit
+    update(const Pointer& pointer, Handles& handles, hair::Settings& settings, const Shown& played);
     bool drags() const { return drag_.has_value(); }
 
     // A slider for the wind and a button for still air, in one line.
@@ -58,7 +58,7 @@ public:
 
 private:
     struct Drag {
-        const Player* player;  // whose picture the mouse is in
+        const Shown* played;  // whose picture the mouse is in
         glm::vec3 tip;  // where the arrow was held
         glm::vec2 from;  // px
     };

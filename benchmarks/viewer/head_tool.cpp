@@ -162,7 +162,7 @@ Gizmo headGizmo(const glm::vec3& pivot, const HeadPose& pose, float size) {
         .size = size};
 }
 
-Edit HeadTool::drag(const Pointer& pointer, hair::Settings& settings, const Player& player) {
+Edit HeadTool::drag(const Pointer& pointer, hair::Settings& settings, const Shown& played) {
     Drag& drag = *drag_;
     const int axis = drag.part.axis;
     if (drag.part.kind == GizmoPart::Kind::arrow) {
@@ -174,11 +174,11 @@ Edit HeadTool::drag(const Pointer& pointer, hair::Settings& settings, const Play
     }
     drag.last = pointer.at;
     Edit edit{.changed = false, .continues = true};
-    const Moment moment = momentOf(player);
+    const Moment moment = momentOf(played);
     if (!drag.has_moved && drag.pose != drag.start) {
         drag.has_moved = true;
         settings.simulation.motion = motionUntil(
-            player.settings().simulation.motion, moment, double{player.settings().run.frame_time});
+            played.settings.simulation.motion, moment, double{played.settings.run.frame_time});
         edit.changed = true;
     }
     if (drag.has_moved) edit.changed |= moveHead(settings.simulation.motion, moment, drag.pose);
@@ -186,14 +186,14 @@ Edit HeadTool::drag(const Pointer& pointer, hair::Settings& settings, const Play
 }
 
 Edit HeadTool::update(
-    const Pointer& pointer, Handles& handles, hair::Settings& settings, const Player& player,
+    const Pointer& pointer, Handles& handles, hair::Settings& settings, const Shown& played,
     bool runs) {
     const PictureView& view = pointer.view;
-    const hair::MotionSettings& motion = player.settings().simulation.motion;
-    const Moment moment = momentOf(player);
+    const hair::MotionSettings& motion = played.settings.simulation.motion;
+    const Moment moment = momentOf(played);
     // What is set while it is paused is there in the next frame only: the gizmo is there now.
     HeadPose pose = headAt(motion, double{runs ? moment.now : moment.next});
-    bool drags = drag_ && drag_->player == &player;
+    bool drags = drag_ && drag_->played == &played;
     if (drags && !pointer.pressed) pose = drag_->pose;
     Gizmo gizmo = headGizmo(motion.pivot, pose, 0.0f);
     const float scale = view.pixelsPerMetre(gizmo.origin);
@@ -214,7 +214,7 @@ Edit HeadTool::update(
         drag_.reset();
         if (hot)
             drag_ = Drag{
-                .player = &player,
+                .played = &played,
                 .part = *hot,
                 .gizmo = gizmo,
                 .start = pose,
@@ -224,7 +224,7 @@ Edit HeadTool::update(
         drags = hot.has_value();
     }
     Edit edit;
-    if (drags) edit = drag(pointer, settings, player);
+    if (drags) edit = drag(pointer, settings, played);
     draw(view, handles, gizmo, hot);
     if (hot && drags)
         handles.label(pointer.at, textOf(*hot, drag_->pose));

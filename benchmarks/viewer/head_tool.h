@@ -38,7 +38,7 @@ class HeadTool {
 public:
     // `runs`: whether frames are being played.
     Edit update(
-        const Pointer& pointer, Handles& handles, hair::Settings& settings, const Player& player,
+        const Pointer& pointer, Handles& handles, hair::Settings& settings, const Shown& played,
         bool runs);
     bool drags() const { return drag_.has_value(); }
 
@@ -47,7 +47,7 @@ public:
 
 private:
     struct Drag {
-        const Player* player;  // whose picture the mouse is in
+        const Shown* played;  // whose picture the mouse is in
         GizmoPart part;
         Gizmo gizmo;     // when the drag began
         HeadPose start;
@@ -57,7 +57,7 @@ private:
         float angle = 0.0f;  // rad so far; more than a turn is possible
         bool has_moved = false;
     };
-    Edit drag(const Pointer& pointer, hair::Settings& settings, const Player& player);
+    Edit drag(const Pointer& pointer, hair::Settings& settings, const Shown& played);
 
     std::optional<Drag> drag_;
 };

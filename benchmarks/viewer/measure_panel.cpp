@@ -237,52 +237,76 @@ void MeasurePanel::progress() {
         ImGui::TextUnformatted("the first round");
         ImGui::ProgressBar(0.0f, bar, "");
     }
-    if (ImGui::Button("Cancel")) cancelled_ = true;
+    if (ImGui::Button("Cancel")) link_.cancel();
     ImGui::SameLine();
-    ImGui::TextDisabled("%s", cancelled_ ? "ends" : "heeded after each round");
+    ImGui::TextDisabled("%s", link_.isCancelled() ? "ends" : "heeded after each round");
     ImGui::EndPopup();
 }
 
-void MeasurePanel::measure(
-    const Side& side, const ReportOrigin& origin, const MeasuringWindow& window) {
-    using Clock = std::chrono::steady_clock;
-    // The window may give the side up while it is drawn.
-    const hair::Settings settings = side.player().settings();
-    const std::filesystem::path directory = side.player().directory();
-    const std::string kind = wanted_ == std::size_t{1} ? "viewer-b" : "viewer";
+measure::MeasureHooks MeasurePanel::begin() {
+    side_ = wanted_.value_or(0);
     wanted_.reset();
-    cancelled_ = false;
     measuring_ = true;
     state_.reset();
     told_.clear();
-    bool closes = false;
-    Clock::time_point looked = Clock::now();
-    const measure::MeasureHooks hooks{
-        .stop =
-            [&] {
-                if (Clock::now() - looked >= kLook) {
-                    closes = window.closes();
-                    looked = Clock::now();
-                }
-                return cancelled_ || closes;
-            },
-        .progress =
-            [&](const measure::SamplingState& state) {
-                state_ = state;
-                window.picture();
-            }};
-    try {
-        window.picture();
-        measured_ = measureSide(device_, settings, directory, origin.name, hooks);
-        kind_ = kind;
-    } catch (const engine::Interrupted&) {
-        told_ = "Cancelled: nothing was measured.";
-    } catch (const engine::DeviceLost&) {
-        throw;
-    } catch (const engine::Error& error) {
-        told_ = error.what();
-    }
+    link_.restart();
+    return link_.hooks();
+}
+
+void MeasurePanel::end(std::optional<SideMeasurement> measured, const std::string& why_not) {
     measuring_ = false;
+    told_ = why_not;
+    if (!measured) return;
+    measured_ = std::move(measured);
+    kind_ = side_ == 1 ? "viewer-b" : "viewer";
+}
+
+bool MeasurePanel::wantsPicture() {
+    const std::optional<measure::SamplingState> state = link_.take();
+    if (state) state_ = state;
+    return state.has_value();
+}
+
+// ---- Between the window and the thread that measures --------------------------------------------
+
+measure::MeasureHooks MeasureLink::hooks() {
+    return {
+        .stop = [this] { return cancelled_.load(); },
+        .progress = [this](const measure::SamplingState& state) { tell(state); }};
+}
+
+void MeasureLink::tell(const measure::SamplingState& state) {
+    std::unique_lock lock(mutex_);
+    state_ = state;
+    waits_ = true;
+    lock.unlock();
+    told_();
+    lock.lock();
+    changed_.wait(lock, [this] { return !waits_ || cancelled_; });
+}
+
+std::optional<measure::SamplingState> MeasureLink::take() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(state_, std::nullopt);
+}
+
+void MeasureLink::shown() {
+    const std::scoped_lock lock(mutex_);
+    waits_ = false;
+    changed_.notify_all();
+}
+
+void MeasureLink::cancel() {
+    const std::scoped_lock lock(mutex_);
+    cancelled_ = true;
+    changed_.notify_all();
+}
+
+void MeasureLink::restart() {
+    const std::scoped_lock lock(mutex_);
+    state_.reset();
+    waits_ = false;
+    cancelled_ = false;
 }
 
 }  // namespace benchmarks::viewer

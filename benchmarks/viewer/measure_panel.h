@@ -1,8 +1,11 @@
 #pragma once
 
+#include <atomic>
+#include <condition_variable>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -63,40 +66,71 @@ private:
     std::string told_;  // what was written
 };
 
-// How the window lives on while something is measured.
-struct MeasuringWindow {
-    // Draws a picture of the window in which nothing is played. Called between rounds: what the
-    // device does beside frames would be in their times.
-    std::function<void()> picture;
-    // Looks at the window's events, and says whether it is to close. Called between frames, a few
-    // times a second.
-    std::function<bool()> closes;
+// What passes between the window and the thread that measures: how far it is, and whether it is to
+// go on. The window holds still meanwhile, for what it draws would be in the figures: it draws one
+// picture after each round, and the next round begins when that is done.
+class MeasureLink {
+public:
+    // `told` is called on the thread that measures when there is something to show.
+    explicit MeasureLink(std::function<void()> told) : told_(std::move(told)) {}
+
+    // For the thread that measures.
+    measure::MeasureHooks hooks();
+
+    // For the window: the state that it is to show, after which it calls shown().
+    std::optional<measure::SamplingState> take();
+    void shown();
+    void cancel();
+    bool isCancelled() const { return cancelled_; }
+    void restart();  // for another measurement
+
+private:
+    void tell(const measure::SamplingState& state);
+
+    std::function<void()> told_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::optional<measure::SamplingState> state_;
+    bool waits_ = false;  // the thread that measures, for the window
+    std::atomic<bool> cancelled_ = false;
 };
 
-// Measures what a side shows as the runner does, and shows and saves what came of it.
+// Asks for measurements of what a side shows as the runner measures it, and shows and saves what
+// came of them.
 class MeasurePanel {
 public:
-    explicit MeasurePanel(const engine::Device& device) : device_(device) {}
+    // `told` as MeasureLink.
+    MeasurePanel(const engine::Device& device, std::function<void()> told)
+        : device_(device), link_(std::move(told)) {}
 
     // Shows, within the current window of Dear ImGui, a button for each of one or two sides, what
     // was measured and the button that saves it. While it is measured: how far it is, in front of
     // everything else, and a button that ends it.
     void show(std::size_t sides, const ReportOrigin& origin);
 
-    // The side whose button was pressed: measure() is to be called next, between two pictures of
-    // the window.
+    // The side whose button was pressed; begin() is to be called, with the window's next picture
+    // shown before the measurement begins, and end() once it is over.
     std::optional<std::size_t> wanted() const { return wanted_; }
-    void measure(const Side& side, const ReportOrigin& origin, const MeasuringWindow& window);
+    measure::MeasureHooks begin();
+    void end(std::optional<SideMeasurement> measured, const std::string& why_not);
+    bool isMeasuring() const { return measuring_; }
+
+    // Whether another picture is to be shown while it is measured; the measurement goes on after
+    // shown().
+    bool wantsPicture();
+    void shown() { link_.shown(); }
+    void cancel() { link_.cancel(); }
 
 private:
     void buttons(std::size_t sides);
     void progress();
 
     const engine::Device& device_;
+    MeasureLink link_;
     std::optional<std::size_t> wanted_;
+    std::size_t side_ = 0;  // that is measured
     std::string kind_ = "viewer";  // kind of the last report, for its file name
     bool measuring_ = false;
-    bool cancelled_ = false;
     std::optional<measure::SamplingState> state_;
     std::optional<SideMeasurement> measured_;
     std::string told_;

@@ -49,19 +49,18 @@ void speedCombo(std::optional<double>& speed) {
 
 // ---- The scene and its sides --------------------------------------------------------------------
 
-OpenScene::OpenScene(
-    const engine::Device& device, const SceneFile& file, const hair::Settings& settings)
-    : device_(device), file_(file), a_(std::make_unique<Side>(device, settings, file.directory)) {
+OpenScene::OpenScene(const SceneFile& file, const hair::Settings& settings)
+    : file_(file), a_(makeSide(settings, file.directory)) {
     a_->setOriginal(file.settings);
 }
 
+std::unique_ptr<Side>
+OpenScene::makeSide(const hair::Settings& settings, const std::filesystem::path& directory) {
+    return std::make_unique<Side>(++sides_made_, settings, directory);
+}
+
 void OpenScene::open(const SceneFile& file) {
-    auto side = std::make_unique<Side>(device_, file.settings, file.directory);
-    b_.reset();
-    a_ = std::move(side);
-    file_ = file;
-    edited_ = 0;
-    was_saved_ = false;
+    coming_ = Coming{.side = makeSide(file.settings, file.directory), .file = file};
 }
 
 std::vector<Side*> OpenScene::sides() {
@@ -70,18 +69,41 @@ std::vector<Side*> OpenScene::sides() {
     return sides;
 }
 
+Side* OpenScene::find(std::uint64_t id) {
+    for (Side* const each : sides())
+        if (each->id() == id) return each;
+    return nullptr;
+}
+
 void OpenScene::startComparing() {
     if (b_) return;
     a_->settle();
-    a_->follow();
-    auto side = std::make_unique<Side>(device_, a_->player().settings(), file_.directory);
-    side->seek(a_->player().frame());
+    // What was refused is not shown either.
+    auto side =
+        makeSide(a_->problem().empty() ? a_->wanted() : a_->shown().settings, file_.directory);
     side->setOriginal(file_.settings);
-    b_ = std::move(side);
-    edited_ = 1;
+    coming_ = Coming{.side = std::move(side), .file = std::nullopt};
+}
+
+// What was being made is there.
+void OpenScene::arrive(News& news) {
+    if (coming_->file) {
+        b_.reset();
+        a_ = std::move(coming_->side);
+        file_ = *coming_->file;
+        edited_ = 0;
+        was_saved_ = false;
+        news.opened = true;
+    } else {
+        b_ = std::move(coming_->side);
+        edited_ = 1;
+        news.compares = true;
+    }
+    coming_.reset();
 }
 
 void OpenScene::stopComparing() {
+    if (coming_ && !coming_->file) coming_.reset();
     b_.reset();
     edited_ = 0;
 }
@@ -109,35 +131,67 @@ void OpenScene::edit(std::size_t index, const hair::Settings& settings, Edit edi
     other.edit(followed, edit);
 }
 
-bool OpenScene::play(PlayState& state, double seconds, Frames frames) {
-    const std::vector<Side*> all = sides();
-    for (Side* const each : all) each->follow();
-    const bool seeks = state.seek.has_value();
-    if (seeks)
-        for (Side* const each : all) each->seek(*state.seek);
-    std::uint32_t due = 0;
+bool OpenScene::isFollowed() const {
+    return !isMaking() && a_->isFollowed() && (!b_ || b_->isFollowed());
+}
+
+bool OpenScene::isDragged() const { return a_->isDragged() || (b_ && b_->isDragged()); }
+
+Order OpenScene::order(PlayState& state, double seconds, Frames frames) {
+    Order order;
+    for (Side* const each : sides()) order.sides.push_back(each->order());
+    // What is being made starts where the rest is, so that nothing is played meanwhile.
+    if (isMaking()) {
+        if (coming_) {
+            order.sides.push_back(coming_->side->order());
+            if (!coming_->file) order.sides.back().beside = a_->id();
+        }
+        return order;
+    }
+    order.seek = std::exchange(state.seek, std::nullopt);
+    const bool steps = std::exchange(state.step, false);
     if (state.playing)
-        due =
-            pacer_.framesFor(seconds, double{a_->player().settings().run.frame_time}, state.speed);
-    else if (state.step)
-        due = 1;
-    if (frames == Frames::every_one) due = std::min(due, 1u);
-    if (due > 0) {
+        order.frames =
+            pacer_.framesFor(seconds, double{a_->shown().settings.run.frame_time}, state.speed);
+    else if (steps)
+        order.frames = 1;
+    if (frames == Frames::every_one) order.frames = std::min(order.frames, 1u);
+    if (order.frames > 0) {
         // In turns, so that the timings panel has both.
         timing_ = timing_ == engine::Timing::isolated ? engine::Timing::overlapped
                                                       : engine::Timing::isolated;
-        for (Side* const each : all) each->play(due, timing_);
+        order.timing = timing_;
     }
-    state.seek.reset();
-    state.step = false;
-    return due > 0 || seeks;
+    return order;
 }
 
-void OpenScene::savedAs(const std::filesystem::path& path) {
+OpenScene::News OpenScene::take(std::vector<SideReply> replies, Side::Beside beside) {
+    News news;
+    for (SideReply& reply : replies) {
+        if (coming_ && coming_->side->id() == reply.side) {
+            if (reply.failure) {
+                news.failure = reply.failure;
+                coming_.reset();
+            } else {
+                coming_->side->take(std::move(reply), beside);
+                arrive(news);
+            }
+            continue;
+        }
+        // A side that was closed meanwhile has no more use for it.
+        Side* const side = find(reply.side);
+        if (!side) continue;
+        if (reply.failure) news.failure = reply.failure;
+        side->take(std::move(reply), beside);
+    }
+    return news;
+}
+
+void OpenScene::savedAs(const std::filesystem::path& path, const hair::Settings& settings) {
     file_.path = path;
     file_.name = path.stem().string();
     was_saved_ = true;
-    file_.settings = side(edited_).wanted();
+    file_.settings = settings;
     for (Side* const each : sides()) each->setOriginal(file_.settings);
 }
 

@@ -12,6 +12,7 @@
 #include <imgui_internal.h>  // owners of keys
 
 #include "benchmarks/viewer/columns.h"
+#include "benchmarks/viewer/player.h"
 
 namespace benchmarks::viewer {
 namespace {
@@ -121,7 +122,7 @@ void divider(const char* id, const PictureRect& rect, float& share) {
 
 // ---- Words on a picture -------------------------------------------------------------------------
 
-enum class Corner { top_left, top_right };
+enum class Corner { top_left, top_right, bottom_left };
 
 // A few words over a corner of a picture, readable on every picture; in more lines where it is
 // narrow, and none where there is no room for them. `rect` is what is seen of the picture.
@@ -133,10 +134,12 @@ void pictureTag(const std::string& text, const PictureRect& rect, Corner corner)
     // Nothing is better than half of a word.
     if (widest < 2 * font || size.x > widest || size.y > rect.size.y - 2 * (margin + padding))
         return;
-    const float left = corner == Corner::top_left
-                           ? rect.corner.x + margin
-                           : rect.corner.x + rect.size.x - margin - 2 * padding - size.x;
-    const float top = rect.corner.y + margin;
+    const float left = corner == Corner::top_right
+                           ? rect.corner.x + rect.size.x - margin - 2 * padding - size.x
+                           : rect.corner.x + margin;
+    const float top = corner == Corner::bottom_left
+                          ? rect.corner.y + rect.size.y - margin - 2 * padding - size.y
+                          : rect.corner.y + margin;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(
         {left, top}, {left + size.x + 2 * padding, top + size.y + 2 * padding},
@@ -204,12 +207,12 @@ void pictureScrollBars(const PictureRect& room, glm::vec2 visible_share, glm::ve
 constexpr ImGuiKey kMoveKey = ImGuiKey_M;  // held, the mouse moves magnified pictures
 
 glm::vec2 pixelsOf(const ShownPicture& picture) {
-    return {picture.extent().width, picture.extent().height};
+    return {picture.size().width, picture.size().height};
 }
 
 std::string sizeOf(const ShownPicture& picture) {
-    return std::to_string(picture.extent().width) + " × " +
-           std::to_string(picture.extent().height) + " px";
+    return std::to_string(picture.size().width) + " × " + std::to_string(picture.size().height) +
+           " px";
 }
 
 void draw(const ShownPicture& picture, const PictureRect& rect, const PictureRect& clip) {
@@ -288,16 +291,31 @@ std::array<Placed, 2> arrangeTwo(
 PictureArea::PictureArea(const engine::Device& device)
     : a_(device), b_(device), difference_(device) {}
 
-bool PictureArea::sizesDiffer() const { return pixelsOf(a_) != pixelsOf(b_); }
+// Also where both stand for pictures of one size, but one is a preview.
+bool PictureArea::sizesDiffer() const {
+    if (!a_.isThere() || !b_.isThere()) return true;
+    const VkExtent2D a = a_.extent(), b = b_.extent();
+    return pixelsOf(a_) != pixelsOf(b_) || a.width != b.width || a.height != b.height;
+}
 
-void PictureArea::copy(engine::Commands& commands, const engine::Image& a, const engine::Image* b) {
-    a_.copy(commands, a);
-    if (b) b_.copy(commands, *b);
-    has_b_ = b != nullptr;
+bool PictureArea::copy(engine::Commands& commands, const viewer::Shown& a, const viewer::Shown* b) {
+    const auto copyOf = [&](ShownPicture& picture, const viewer::Shown& shown) {
+        if (!shown.isThere()) return true;
+        const hair::RenderSettings& render = shown.settings.render;
+        return picture.copy(
+            commands, shown.number, shown.picture, {shown.width, shown.height},
+            {render.width, render.height});
+    };
+    // A picture that was not there before has no widget either.
+    bool all = a_.isThere() || !a.isThere();
+    all &= copyOf(a_, a);
+    if (b) all &= copyOf(b_, *b);
+    has_b_ = b && b_.isThere();
     if (shownViews() == Views::difference && !sizesDiffer())
         difference_.record(commands, a_, b_, gain);
     else
         difference_.forget();
+    return all;
 }
 
 std::vector<Placed> PictureArea::arrange(const PictureRect& room) const {
@@ -327,9 +345,13 @@ glm::vec2 PictureArea::roomBesideBars(const PictureRect& room) const {
     return left.size;
 }
 
-std::vector<PictureArea::Shown> PictureArea::show(const std::array<std::string, 2>& captions) {
+std::vector<PictureArea::Shown>
+PictureArea::show(const std::array<std::string, 2>& captions, const std::string& note) {
     held_ = -1;
-    if (!a_.isThere()) return {};
+    if (!a_.isThere()) {
+        ImGui::TextDisabled("%s", note.c_str());
+        return {};
+    }
     zoomBar(zoom);
     const ImVec2 corner = ImGui::GetCursorScreenPos(), all = ImGui::GetContentRegionAvail();
     PictureRect room{{corner.x, corner.y}, glm::max(glm::vec2(all.x, all.y), glm::vec2(1.0f))};
@@ -350,6 +372,7 @@ std::vector<PictureArea::Shown> PictureArea::show(const std::array<std::string, 
     default:
         showAlone(shown, placed, captions);
     }
+    if (!note.empty()) pictureTag(note, common(room, placed[0].picture), Corner::bottom_left);
     const glm::vec2 visible = smallestShare(placed);
     if (zoom) pictureScrollBars(room, visible, focus_);
     focus_ = reachableFocus(focus_, visible);

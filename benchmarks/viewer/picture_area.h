@@ -14,6 +14,8 @@
 // The part of the window with the pictures: where they go, and how one or two are shown.
 namespace benchmarks::viewer {
 
+struct Shown;  // player.h
+
 // ---- Where pictures go: geometry only, in Dear ImGui's coordinates ------------------------------
 
 // How much of a picture is to be seen.
@@ -70,8 +72,9 @@ public:
     std::optional<int> zoom;  // px of the window for a px of a picture; absent: fits
     float divider_share = 0.5f;  // where the slider is in what is seen of the pictures
 
-    // Records copies of what the sides have drawn; `b` may be null. Before the window is rendered.
-    void copy(engine::Commands& commands, const engine::Image& a, const engine::Image* b);
+    // Records copies of what the sides show; `b` may be null. Before the window is rendered.
+    // False where widgets that were made before don't show all of them yet.
+    bool copy(engine::Commands& commands, const viewer::Shown& a, const viewer::Shown* b);
 
     struct Shown {
         PictureRect rect;  // the whole picture, which may be partly hidden
@@ -80,8 +83,10 @@ public:
         PictureRect clip;  // what is seen of the picture
     };
     // Shows the pictures within the current window of Dear ImGui, below a line of zooms; each is an
-    // item. `captions` stand beside the letters of two sides.
-    std::vector<Shown> show(const std::array<std::string, 2>& captions = {});
+    // item. `captions` stand beside the letters of two sides, `note` in the lower corner of the
+    // pictures, or in their place where there are none yet.
+    std::vector<Shown>
+    show(const std::array<std::string, 2>& captions = {}, const std::string& note = {});
     // The side whose picture the mouse holds down on; -1: none.
     int held() const { return held_; }
 

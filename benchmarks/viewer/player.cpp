@@ -3,13 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/measure/metrics.h"
+#include "benchmarks/report/environment.h"
 #include "benchmarks/scene/schema.h"
 #include "benchmarks/scene/settings_json.h"
 #include "engine/device.h"
+#include "engine/process.h"
+#include "engine/target.h"
 
 namespace benchmarks::viewer {
 namespace {
@@ -46,10 +51,7 @@ scene::Document documentOf(const hair::Settings& settings) {
     return scene::Document(scene::writeSettings(settings));
 }
 
-bool sameButCamera(hair::Settings a, const hair::Settings& b) {
-    a.camera = b.camera;
-    return documentOf(a) == documentOf(b);
-}
+constexpr std::size_t kFewVertices = 1u << 19;  // as many bytes as a picture of 1080 lines
 
 constexpr double kPause = 0.5;  // s without a new frame: longer than a slow device takes for one
 
@@ -108,14 +110,20 @@ void Player::preview(const hair::Settings& settings) {
     drawWith(settings);
 }
 
-// Draws the same frame with other settings.
+// From the next picture on.
 void Player::drawWith(const hair::Settings& settings) {
-    if (effectOf(settings_, settings) == Effect::camera)
+    if (effectOf(settings_, settings) == Effect::camera) {
         case_->setCamera(settings.camera);
-    else
+        for (const auto& renderer : coarse_)
+            if (renderer) renderer->setCamera(settings.camera);
+        // A level by distance is another where the camera is.
+        if (settings.lod.mode == hair::LodMode::distance) coarse_ = {};
+    } else {
         case_->setDrawing(settings);
+        coarse_ = {};
+    }
     settings_ = settings;
-    redraw();
+    outdated_ = true;
 }
 
 void Player::rebuild() {
@@ -123,8 +131,11 @@ void Player::rebuild() {
 }
 
 void Player::replace(std::unique_ptr<measure::Case> other, const hair::Settings& settings) {
+    coarse_ = {};
     case_ = std::move(other);
     settings_ = settings;
+    // It is as if it had been made now: nothing of it went on from somewhere else.
+    previews_ = false;
     seek(frame_);
 }
 
@@ -134,10 +145,35 @@ void Player::play(engine::Timing timing, const std::function<void(engine::Passes
     record_ = loop.finish().back();
 }
 
+hair::rendering::Renderer& Player::coarse() {
+    std::unique_ptr<hair::rendering::Renderer>& renderer = coarse_[level_];
+    // It can't be moved, as make_unique() would.
+    if (!renderer)
+        renderer.reset(
+            new hair::rendering::Renderer(case_->rendererOf(previewSettings(settings_, level_))));
+    return *renderer;
+}
+
+// Draws after what `simulate` records, which may be nothing.
+void Player::drawFrame(
+    engine::Timing timing, const std::function<void(engine::Passes&)>& simulate) {
+    hair::rendering::Renderer* const renderer = level_ > 0 ? &coarse() : nullptr;
+    play(timing, [&](engine::Passes& passes) {
+        if (simulate) passes.beside(1, [&] { simulate(passes); });
+        if (renderer)
+            renderer->record(passes, case_->view());
+        else
+            case_->draw(passes);
+    });
+    drawn_level_ = level_;
+    outdated_ = false;
+    ++pictures_;
+}
+
 void Player::next(engine::Timing timing) {
-    // What was submitted before, such as a picture of the window, is in none of the frame's times.
+    // What was submitted before is in none of the frame's times.
     device_.runOnce([](engine::Commands&) {});
-    play(timing, [&](engine::Passes& passes) { case_->frame(passes); });
+    drawFrame(timing, [&](engine::Passes& passes) { case_->simulate(passes); });
     ++frame_;
 }
 
@@ -146,20 +182,78 @@ void Player::skip() {
     ++frame_;
 }
 
-void Player::redraw() {
-    play(engine::Timing::isolated, [&](engine::Passes& passes) { case_->draw(passes); });
+void Player::refresh() {
+    if (outdated_ || drawn_level_ != level_) drawFrame(engine::Timing::isolated, {});
 }
 
-void Player::seek(std::uint32_t frame) {
+void Player::seek(std::uint32_t frame, const std::function<bool()>& stop) {
     // What a preview's simulation would be reset to is of the settings before.
-    if (std::exchange(previews_, false))
+    if (std::exchange(previews_, false)) {
+        coarse_ = {};
         case_ = std::make_unique<measure::Case>(device_, settings_, directory_);
-    else
+    } else {
         case_->reset();
+    }
     frame_ = 0;
-    while (frame_ < frame) skip();
-    play(engine::Timing::isolated, [&](engine::Passes& passes) { case_->frame(passes); });
+    while (frame_ < frame) {
+        if (stop && stop()) throw engine::Interrupted();
+        skip();
+    }
+    drawFrame(engine::Timing::isolated, [&](engine::Passes& passes) { case_->simulate(passes); });
 }
+
+Shown Player::shown(Guides guides) const {
+    const hair::rendering::Renderer* const renderer = coarse_[drawn_level_].get();
+    const engine::Target* const target = renderer ? &renderer->target() : nullptr;
+    const hair::groom::Groom& groom = case_->groom();
+    const bool reads = guides == Guides::all || groom.points.size() <= kFewVertices;
+    Shown shown{
+        .settings = settings_,
+        .directory = directory_,
+        .frame = frame_,
+        .previews = previews_,
+        .level = drawn_level_,
+        .strand_share = 1.0,
+        .width = settings_.render.width,
+        .height = settings_.render.height,
+        .picture = target ? engine::readOutput(device_, *target) : case_->picture(),
+        .number = 0,
+        .has_guides = reads,
+        .guides = reads ? case_->guides() : std::vector<glm::vec3>(),
+        .vertices_per_guide = groom.vertices_per_strand,
+        .rest = sphereRound(groom.points),
+        .head = case_->head(),
+        .counts = case_->counts(),
+        .transparency = {}};
+    if (target) {
+        shown.width = target->output().extent().width;
+        shown.height = target->output().extent().height;
+        const double all = static_cast<double>(case_->plan().strands());
+        if (all > 0.0) shown.strand_share = static_cast<double>(renderer->plan().strands()) / all;
+    } else {
+        measure::addTransparency(*case_, shown.transparency);
+    }
+    return shown;
+}
+
+// ---- What is shown ------------------------------------------------------------------------------
+
+double Shown::time() const {
+    return (static_cast<double>(frame) + 1.0) * double{settings.run.frame_time};
+}
+
+std::string Shown::pictureHash() const {
+    return report::hashBytes(std::as_bytes(std::span(picture)));
+}
+
+Sphere groomNow(const Shown& shown) {
+    if (!shown.guides.empty()) return sphereRound(shown.guides);
+    Sphere groom = shown.rest;
+    groom.center = shown.head(groom.center);
+    return groom;
+}
+
+std::string Shown::stateHash() const { return report::hashBytes(std::as_bytes(std::span(guides))); }
 
 // ---- Edit history -------------------------------------------------------------------------------
 
@@ -192,67 +286,57 @@ const scene::Document& EditHistory::redo() {
 
 // ---- Side ---------------------------------------------------------------------------------------
 
-Side::Side(
-    const engine::Device& device, const hair::Settings& settings,
-    const std::filesystem::path& directory)
-    : wanted_(settings), original_(settings), history_(documentOf(settings)),
-      player_(device, settings, directory) {}
+Side::Side(std::uint64_t id, const hair::Settings& settings, const std::filesystem::path& directory)
+    : id_(id), directory_(directory), wanted_(settings), original_(settings),
+      history_(documentOf(settings)) {
+    shown_.settings = settings;
+    shown_.directory = directory;
+}
 
 void Side::edit(const hair::Settings& settings, Edit edit) {
     if (!edit.changed) return;
     wanted_ = settings;
     history_.edit(documentOf(settings), edit.continues);
     continues_ = edit.continues;
-    follows_ = false;
+    ++revision_;
 }
 
 void Side::settle() {
     history_.settle();
     if (!continues_) return;
     continues_ = false;
-    follows_ = false;
+    ++revision_;
 }
 
 void Side::undo() {
     wanted_ = scene::readSettings(history_.undo().json());
-    continues_ = follows_ = false;
+    continues_ = false;
+    ++revision_;
 }
 
 void Side::redo() {
     wanted_ = scene::readSettings(history_.redo().json());
-    continues_ = follows_ = false;
+    continues_ = false;
+    ++revision_;
 }
 
-void Side::follow() {
-    if (follows_) return;
-    follows_ = true;
-    const hair::Settings before = player_.settings();
-    try {
-        if (continues_)
-            player_.preview(wanted_);
-        else
-            player_.apply(wanted_);
-        problem_.clear();
-    } catch (const engine::DeviceLost&) {
-        throw;
-    } catch (const engine::Error& error) {
-        problem_ = error.what();
-    }
-    if (!sameButCamera(before, player_.settings())) timings_.clear();
+SideOrder Side::order() const {
+    return {
+        .side = id_,
+        .revision = revision_,
+        .settings = wanted_,
+        .continues = continues_,
+        .directory = directory_,
+        .beside = std::nullopt};
 }
 
-void Side::play(std::uint32_t frames, engine::Timing timing) {
-    if (frames == 0) return;
-    for (std::uint32_t i = 0; i + 1 < frames; ++i) player_.skip();
-    player_.next(timing);
-    timings_.add(player_.record(), timing, player_.frame());
-}
-
-void Side::seek(std::uint32_t frame) { player_.seek(frame); }
-
-void Side::rebuild() {
-    player_.rebuild();
-    timings_.clear();
+void Side::take(SideReply reply, Beside beside) {
+    answered_ = reply.revision;
+    problem_ = std::move(reply.problem);
+    if (reply.restarts_timings) timings_.clear();
+    if (reply.timed && beside == Beside::nothing)
+        timings_.add(reply.timed->record, reply.timed->timing, reply.timed->number);
+    if (reply.shown) shown_ = std::move(*reply.shown);
 }
 
 // ---- Moment of a drag ---------------------------------------------------------------------------
@@ -275,18 +359,18 @@ Moment momentAfter(std::uint32_t frame, double frame_time, double time_step) {
     return moment;
 }
 
-Moment momentOf(const Player& player) {
-    const hair::Settings& settings = player.settings();
+Moment momentOf(const Shown& shown) {
+    const hair::Settings& settings = shown.settings;
     return momentAfter(
-        player.frame(), double{settings.run.frame_time}, double{settings.simulation.time_step});
+        shown.frame, double{settings.run.frame_time}, double{settings.simulation.time_step});
 }
 
 // ---- Running clock ------------------------------------------------------------------------------
 
-bool RunningClock::runs(const Player& player, double seconds) {
-    const auto [entry, is_new] = seen_.try_emplace(&player, Seen{.frame = player.frame()});
+bool RunningClock::runs(const Shown& shown, double seconds) {
+    const auto [entry, is_new] = seen_.try_emplace(&shown, Seen{.frame = shown.frame});
     Seen& seen = entry->second;
-    if (seen.frame != player.frame()) seen = {player.frame(), seconds};
+    if (seen.frame != shown.frame) seen = {shown.frame, seconds};
     return seconds - seen.since < kPause;
 }
 

@@ -38,17 +38,15 @@ void Recorder::start(const std::filesystem::path& folder) {
     written_ = 0;
 }
 
-void Recorder::frame(const Player& player) {
-    if (!folder_ || last_ == player.frame()) return;
-    const hair::RenderSettings& render = player.settings().render;
+void Recorder::frame(const Shown& shown) {
+    if (!folder_ || last_ == shown.frame || !shown.isThere()) return;
     try {
-        engine::writePng(
-            pictureOf(*folder_, written_), render.width, render.height, player.played().picture());
+        engine::writePng(pictureOf(*folder_, written_), shown.width, shown.height, shown.picture);
     } catch (...) {
         stop();
         throw;
     }
-    last_ = player.frame();
+    last_ = shown.frame;
     ++written_;
 }
 

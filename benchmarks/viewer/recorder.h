@@ -21,7 +21,7 @@ public:
     void stop() { folder_.reset(); }
     // Writes the frame that is shown: once, however often this is called with it. Does nothing
     // while nothing is recorded. Stops where it throws engine::Error.
-    void frame(const Player& player);
+    void frame(const Shown& shown);
 
     std::uint32_t written() const { return written_; }
     const std::filesystem::path& folder() const { return *folder_; }  // while it records

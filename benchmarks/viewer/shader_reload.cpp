@@ -393,19 +393,32 @@ const ReloadedShaders& ShaderReload::reloaded() const { return parts_->reloaded;
 bool ShaderReload::watches() const { return parts_->watches; }
 const std::filesystem::path& ShaderReload::folder() const { return parts_->files.folder(); }
 
+ShaderStatus ShaderReload::status() const {
+    ShaderStatus status{
+        .watches = watches(),
+        .folder = folder(),
+        .problems = problems(),
+        .changed = changed(),
+        .reloaded = reloaded(),
+        .replaced = {}};
+    for (const auto& [path, code] : parts_->device.shaders().replacements())
+        status.replaced.push_back(path);
+    return status;
+}
+
 // ---- The panel ----------------------------------------------------------------------------------
 
-void shaderPanel(const ShaderReload& reload) {
+void shaderPanel(const ShaderStatus& status) {
     ImGui::TextDisabled("Watched folder");
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("GLSL files that are saved here are compiled and drawn with at once.");
-    selectableText("##folder", reload.folder().string(), textColor());
-    showProblems(reload.problems());
-    if (reload.watches())
-        showChanged(reload.changed());
-    else if (reload.problems().empty())
+    selectableText("##folder", status.folder.string(), textColor());
+    showProblems(status.problems);
+    if (status.watches)
+        showChanged(status.changed);
+    else if (status.problems.empty())
         ImGui::TextWrapped("There is no such folder: shaders stay as they were built.");
-    showReloaded(reload.reloaded());
+    showReloaded(status.reloaded);
 }
 
 }  // namespace benchmarks::viewer

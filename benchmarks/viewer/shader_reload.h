@@ -30,6 +30,16 @@ struct ReloadedShaders {
     std::chrono::system_clock::time_point when;
 };
 
+// What is known of shaders that are watched: a value.
+struct ShaderStatus {
+    bool watches = false;  // whether the folder has shaders of the program
+    std::filesystem::path folder;
+    std::vector<ShaderProblem> problems;  // of what was compiled last
+    std::vector<std::string> changed;  // files that differ from what the program was built with
+    ReloadedShaders reloaded;  // what was taken last
+    std::vector<std::string> replaced;  // shaders that are not those of the build
+};
+
 // Watches the GLSL that the program was built from and compiles what was saved since, in process.
 // Pipelines that are made from then on have the new code: that of all files that were saved, or,
 // while one of them does not compile, of none.
@@ -61,6 +71,8 @@ public:
     // Whether the folder has shaders of the program.
     bool watches() const;
     const std::filesystem::path& folder() const;
+    // All of this.
+    ShaderStatus status() const;
 
 private:
     struct Parts;
@@ -68,7 +80,7 @@ private:
 };
 
 // What was reloaded and what the compiler says, within the current window of Dear ImGui.
-void shaderPanel(const ShaderReload& reload);
+void shaderPanel(const ShaderStatus& status);
 
 // The texts of files that others write. Editors save in steps (truncate, then write; or write
 // beside, then rename), so that a file may be gone, empty or cut short for a moment: it counts as

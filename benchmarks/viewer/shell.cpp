@@ -15,6 +15,7 @@
 namespace benchmarks::viewer {
 namespace {
 
+constexpr double kLong = 1.0;  // s from which on a picture of the scene is said to take long
 constexpr double kToldFor = 12.0;  // s that a message is shown for
 
 constexpr std::array kSides{
@@ -146,13 +147,16 @@ void Viewer::Parts::showTab(Tab tab) {
         origin.name = scene.file().name;
         timings.show(
             scene.side(0), scene.sideCount() > 1 ? &scene.side(1) : nullptr, origin,
-            presenter.milliseconds());
+            {.device = presenter.milliseconds(),
+             .slowest_answer = answers.empty() ? 0.0 : std::ranges::max(answers),
+             .pictures_per_second = picturesPerSecond(),
+             .memory = device.allocatedBytes()});
         break;
     case Tab::compare:
         showCompare();
         break;
     case Tab::shaders:
-        shaderPanel(reload);
+        shaderPanel(shaders);
         break;
     }
 }
@@ -172,9 +176,12 @@ void Viewer::Parts::showPicture() {
         Side& side = scene.editedSide();
         hair::Settings settings = side.wanted();
         Edit edit;
+        // Tools point at what is shown.
+        ImGui::BeginDisabled(!side.shown().isThere());
         if (ImGui::BeginChild("toolbar", {0.0f, 0.0f}, ImGuiChildFlags_AutoResizeY))
-            edit = tools.toolbar(settings, side.player());
+            edit = tools.toolbar(settings, side.shown());
         ImGui::EndChild();
+        ImGui::EndDisabled();
         scene.edit(scene.edited(), settings, edit);
     }
     constexpr ImGuiWindowFlags kStill =
@@ -183,16 +190,32 @@ void Viewer::Parts::showPicture() {
         std::array<std::string, 2> captions;
         for (std::size_t i = 0; i < scene.sideCount(); ++i)
             captions[i] = frameTimeCaption(scene.side(i).timings());
-        for (const PictureArea::Shown& shown : area.show(captions)) {
+        shown_note = drawingNote();
+        for (const PictureArea::Shown& shown : area.show(captions, shown_note)) {
             const auto index = static_cast<std::size_t>(shown.side);
             hair::Settings settings = scene.side(index).wanted();
             const Edit edit = tools.update(
                 shown.rect, shown.clip, shown.hovered, area.held() == shown.side, settings,
-                scene.side(index).player());
+                scene.side(index).shown());
             scene.edit(index, settings, edit);
         }
     }
     ImGui::EndChild();
+}
+
+// What there is to know of the pictures as they are.
+std::string Viewer::Parts::drawingNote() const {
+    const Shown& shown = scene.side(0).shown();
+    std::string note;
+    if (shown.level > 0)
+        note = previewText(shown.level, shown.strand_share, shown.width, shown.height);
+    const double since = drawing.busy() ? seconds() - ordered_at : 0.0;
+    if (!shown.isThere() || since >= kLong) {
+        if (!note.empty()) note += "; ";
+        note += shown.isThere() ? "the next picture is being drawn" : "the scene is being opened";
+        note += ", " + std::to_string(static_cast<int>(since)) + " s";
+    }
+    return note;
 }
 
 void Viewer::Parts::showStatus() {
@@ -200,15 +223,16 @@ void Viewer::Parts::showStatus() {
         told = message.count();
         told_at = ImGui::GetTime();
     }
-    const Player& player = scene.editedSide().player();
-    const hair::RenderSettings& render = player.settings().render;
+    const Shown& shown = scene.editedSide().shown();
+    const hair::RenderSettings& render = shown.settings.render;
     StatusText status{
         .text = hintOf(tools.tool),
-        .device = device.info().name,
+        .device = scene_device->info().name,
         .picture = std::to_string(render.width) + " × " + std::to_string(render.height) +
-                   " px, frame " + std::to_string(player.frame())};
-    if (player.previews()) status.picture += ", preview";
-    if (!device.shaders().replacements().empty()) status.picture += ", shaders changed";
+                   " px, frame " + std::to_string(shown.frame)};
+    if (shown.previews) status.picture += ", goes on from what was";
+    if (shown.level > 0) status.picture += ", preview";
+    if (!shaders.replaced.empty()) status.picture += ", shaders changed";
     if (recorder.records()) {
         status.text = recorder.message();
         status.tone = StatusText::Tone::message;
@@ -237,8 +261,8 @@ void Viewer::Parts::showWindow() {
     showColumn("Right", layout.right, rightTabs(), tabs.right);
     pane("Picture", layout.picture, Surface::stage, [&] { showPicture(); });
     pane("Play", layout.play, Surface::bar, [&] {
-        const Player& player = scene.side(0).player();
-        playPanel(state, player.frame(), player.time());
+        const Shown& shown = scene.side(0).shown();
+        playPanel(state, shown.frame, shown.time());
     });
     pane("Status", layout.status, Surface::bar, [&] { showStatus(); });
     splitters(layout, preferences.now);
@@ -285,30 +309,28 @@ std::optional<std::filesystem::path> PathPopup::show() {
 // ---- What menus and keys do ---------------------------------------------------------------------
 
 void Viewer::Parts::compare() {
-    message.attempt([&] {
-        if (scene.sideCount() > 1) {
-            scene.stopComparing();
-            area.views = Views::a;
-            message.tell("A is shown alone");
-        } else {
-            scene.startComparing();
-            area.views = Views::side_by_side;
-            message.tell("the settings panel is B's now; A is as it was");
-        }
-    });
+    if (scene.sideCount() > 1) {
+        scene.stopComparing();
+        area.views = Views::a;
+        message.tell("A is shown alone");
+    } else {
+        scene.startComparing();
+    }
 }
 
 // Changes settings; false where the action is none on settings.
 bool Viewer::Parts::changeSetting(Action action) {
     hair::Settings settings = scene.editedSide().wanted();
-    const Player& player = scene.editedSide().player();
+    const Shown& shown = scene.editedSide().shown();
     Edit edit{.changed = true};
     if (bool* const value = switchOf(action, settings))
         *value = !*value;
+    else if ((presetOf(action) || action == Action::frame_groom) && !shown.isThere())
+        return true;
     else if (const CameraPreset* const preset = presetOf(action))
-        edit = tools.look(settings, player, *preset);
+        edit = tools.look(settings, shown, *preset);
     else if (action == Action::frame_groom)
-        edit = tools.frameGroom(settings, player);
+        edit = tools.frameGroom(settings, shown);
     else
         return false;
     scene.edit(scene.edited(), settings, edit);
@@ -414,6 +436,9 @@ void Viewer::Parts::perform(Action action) {
     case Action::restart:
         state.seek = 0;
         break;
+    case Action::preview:
+        previews = !previews;
+        break;
     case Action::compare:
         compare();
         break;
@@ -445,6 +470,8 @@ ActionState Viewer::Parts::stateOf(Action action) const {
         return {.checked = state.playing};
     case Action::step:
         return {.enabled = !state.playing};
+    case Action::preview:
+        return {.checked = previews};
     case Action::compare:
         return {.checked = scene.sideCount() > 1};
     case Action::edit_other:

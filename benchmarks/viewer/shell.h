@@ -1,21 +1,29 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "benchmarks/viewer/actions.h"
 #include "benchmarks/viewer/columns.h"
 #include "benchmarks/viewer/compare_panel.h"
 #include "benchmarks/viewer/open_scene.h"
+#include "benchmarks/viewer/order_thread.h"
 #include "benchmarks/viewer/picture_area.h"
 #include "benchmarks/viewer/player.h"
 #include "benchmarks/viewer/preferences.h"
+#include "benchmarks/viewer/preview.h"
 #include "benchmarks/viewer/recorder.h"
 #include "benchmarks/viewer/scene_list.h"
 #include "benchmarks/viewer/shader_reload.h"
+#include "benchmarks/viewer/studio.h"
 #include "benchmarks/viewer/timings_panel.h"
 #include "benchmarks/viewer/toolbar.h"
 #include "benchmarks/viewer/viewer.h"
@@ -86,13 +94,31 @@ struct Viewer::Parts {
 
     // Draws one picture of the window; false once it is closed.
     bool frame();
+    void drawPicture();
     void waitForEvents();
+    double patience() const;
     void followScale();
     void present();
-    void reloadShaders();
-    void playFrames();
     void keepPreferences();
-    void measure(std::size_t side);
+    double seconds() const;  // since it was opened, by a clock that scripts don't set
+
+    // ---- viewer.cpp: the thread that draws
+
+    bool waitsForDrawing() const { return driven && !live; }
+    void orderWork();
+    void beginWork(Order order);
+    void waitForWork();
+    void takeWork();
+    void holdStill();
+    void takeNews(const OpenScene::News& news);
+    unsigned levelFor(const Order& order);
+    double picturesPerSecond() const;
+    void stopDrawing(const std::string& why);
+    // Does something once what a side was asked for last is followed and, where that is wanted,
+    // shown as the runner draws it.
+    enum class Needs { settings, picture };
+    void whenFollowed(Side& side, Needs needs, std::function<void(Side&)> act);
+    void actOnFollowed();
 
     // ---- viewer.cpp: files that are opened and written
 
@@ -114,6 +140,7 @@ struct Viewer::Parts {
     void showFiles();
     void showCompare();
     void showPicture();
+    std::string drawingNote() const;
     void showStatus();
 
     // ---- shell.cpp: what menus and keys do
@@ -126,17 +153,19 @@ struct Viewer::Parts {
     void compare();
 
     PreferencesFile preferences;
-    bool driven;        // by a script, or for a number of pictures: it never waits for events
+    bool driven;  // by a script, or for a number of pictures
+    bool live = false;  // though it is driven, it doesn't wait for what is drawn
     float fixed_scale;  // the command line's, in place of the screen's; 0: none
     float styled_scale = 0.0f;
     Theme styled_theme = Theme::dark;
     engine::Window window;
-    engine::Device device;
+    bool gives_way;  // whether what draws the scene leaves the processors to the window
+    std::unique_ptr<engine::Device> scene_device;  // of the thread that draws
+    engine::Device device;  // of the window; the last one to be made
     engine::Presenter presenter;
     engine::Ui ui;
     PictureArea area;
     ComparePanel compare_panel;
-    ShaderReload reload;
     OpenScene scene;
     SceneList scenes;
     PictureTools tools;
@@ -152,10 +181,37 @@ struct Viewer::Parts {
     Tabs tabs;
     bool help = false;
     bool merged = false;  // there is room for one column only
+    std::string shown_note;  // drawingNote() of the last picture of the window
     double awake_until = 0.0;  // s, as ImGui::GetTime()
-    double kept_at = -1e9;     // s; the first picture looks, so that a broken file is reported
-    double told_at = 0.0;      // s
-    unsigned told = 0;         // count of the message that is shown
+    double kept_at = -1e9;  // s; the first picture looks, so that a broken file is reported
+    double told_at = 0.0;  // s
+    unsigned told = 0;  // count of the message that is shown
+
+    // What waits for a side to be followed.
+    struct Waiting {
+        std::uint64_t side = 0;
+        std::uint64_t revision = 0;
+        Needs needs = Needs::settings;
+        std::function<void(Side&)> act;
+    };
+    std::vector<Waiting> waiting;
+    bool previews = true;  // what moves may be drawn coarser
+    PreviewControl control;
+    ShaderStatus shaders;
+    double due = 0.0;  // s since the last order, by the window's clock
+    double ordered_at = 0.0;  // s, as seconds()
+    double moved_at = 0.0;  // s, when something moved last
+    std::chrono::steady_clock::time_point opened_at = std::chrono::steady_clock::now();
+    std::optional<double> looked_at;  // s: at mouse and keys, for the next picture
+    bool unseen = false;  // something came that the window has not shown
+    bool disturbed = false;  // the window drew while it was drawn
+    bool stopped = false;  // whoever draws has failed
+    std::vector<double> answers;  // ms, of the last pictures of the window
+    std::vector<double> came;  // s, as seconds(), when pictures of the scene came of late
+
+    // Last, so that it is over before anything that it uses is gone.
+    Studio studio;
+    OrderThread<Order, Reply> drawing;
 };
 
 }  // namespace benchmarks::viewer

@@ -259,7 +259,7 @@ ShownSide shownTimings(const TimingHistory& history, std::string_view device_typ
 
 ShownSide shownSide(const Side& side, std::string_view device_type) {
     ShownSide shown = shownTimings(side.timings(), device_type);
-    shown.metrics.counts = side.player().played().counts();
+    shown.metrics.counts = side.shown().counts;
     return shown;
 }
 
@@ -271,10 +271,9 @@ std::string frameTimeCaption(const TimingHistory& history) {
 
 // ---- Reports of what is shown or measured -------------------------------------------------------
 
-void warnOfChangedShaders(const engine::Device& device, report::Trust& trust) {
+void warnOfChangedShaders(std::span<const std::string> replaced, report::Trust& trust) {
     std::string names;
-    for (const auto& [path, code] : device.shaders().replacements())
-        names += (names.empty() ? "" : ", ") + path;
+    for (const std::string& path : replaced) names += (names.empty() ? "" : ", ") + path;
     if (names.empty()) return;
     trust.warnings.push_back("shaders that are not those of the build: " + names);
 }
@@ -282,7 +281,6 @@ void warnOfChangedShaders(const engine::Device& device, report::Trust& trust) {
 report::CaseResult countStatistics(const engine::Device& device, measure::Case& shown) {
     report::CaseResult result;
     if (!device.hasPipelineStatistics()) return result;
-    device.runOnce([](engine::Commands&) {});  // the window may still be copying the picture
     engine::FrameLoop loop(device, engine::Timing::statistics);
     loop.frame([&](engine::Passes& passes) { shown.draw(passes); });
     measure::addStatistics(loop.finish().front(), device, shown, result);
@@ -290,13 +288,18 @@ report::CaseResult countStatistics(const engine::Device& device, measure::Case& 
 }
 
 FrozenSide frozenSide(const Side& side, ShownSide shown) {
-    const Player& player = side.player();
-    measure::addTransparency(player.played(), shown.metrics);
-    if (!player.previews()) {
-        shown.metrics.image_hash = player.played().pictureHash();
-        shown.metrics.state_hash = player.played().stateHash();
+    const Shown& seen = side.shown();
+    const report::CaseResult& transparency = seen.transparency;
+    std::ranges::copy(transparency.metrics, std::back_inserter(shown.metrics.metrics));
+    std::ranges::copy(transparency.counts, std::back_inserter(shown.metrics.counts));
+    std::ranges::copy(
+        transparency.trust.warnings, std::back_inserter(shown.metrics.trust.warnings));
+    if (seen.isExact()) {
+        shown.metrics.image_hash = seen.pictureHash();
+        // Of very many guides the places may not be known while frames are played.
+        if (seen.has_guides) shown.metrics.state_hash = seen.stateHash();
     }
-    return {.shown = std::move(shown), .settings = player.settings(), .frame = player.frame()};
+    return {.shown = std::move(shown), .settings = seen.settings, .frame = seen.frame};
 }
 
 report::CaseResult frozenResult(const FrozenSide& frozen, const report::CaseResult& statistics) {
@@ -347,7 +350,9 @@ SideMeasurement measureSide(
     }
     if (settings.run.compare_backends)
         run::BackendComparison().add(device, test_case, settings, measured.picture, result);
-    warnOfChangedShaders(device, result.trust);
+    std::vector<std::string> replaced;
+    for (const auto& [path, code] : device.shaders().replacements()) replaced.push_back(path);
+    warnOfChangedShaders(replaced, result.trust);
     result.trust.warnings.push_back(
         "measured in the viewer: pipelines and files were warm, and the window's pictures were "
         "drawn between rounds");

@@ -135,9 +135,9 @@ std::string frameTimeCaption(const TimingHistory& history);
 
 // ---- Reports ------------------------------------------------------------------------------------
 
-// Adds a warning where shaders are not those that the program was built with: the report does not
-// describe the build that it names.
-void warnOfChangedShaders(const engine::Device& device, report::Trust& trust);
+// Adds a warning where shaders, by their paths, are not those that the program was built with: the
+// report does not describe the build that it names.
+void warnOfChangedShaders(std::span<const std::string> replaced, report::Trust& trust);
 
 // Draws the frame that a case shows once more, untimed, and counts with pipeline statistics as the
 // runner does: result.statistics, and a warning for each count that is not as expected. The frame
@@ -151,8 +151,8 @@ struct FrozenSide {
     std::uint32_t frame = 0;  // the frame that the hashes are of
 };
 
-// A frozen side, with what is read back from the device: what blended fragments took, and the
-// hashes of the picture and the guides, unless the side shows a preview.
+// A frozen side, with what blended fragments took, and the hashes of the picture and the guides,
+// unless the side shows a preview.
 FrozenSide frozenSide(const Side& side, ShownSide shown);
 
 // What a report has of a frozen side: the metrics in their modes, `statistics` (countStatistics(),

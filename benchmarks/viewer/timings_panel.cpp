@@ -202,14 +202,13 @@ void line(
 }
 
 // Device memory by what it is for, as bars, the largest first.
-void memoryTable(const engine::MemoryLedger& ledger) {
+void memoryTable(const engine::MemoryLedger& ledger, double window) {
     std::vector<report::Metric> purposes = measure::memoryMetrics(ledger);
-    double window = 0.0, scene = 0.0;
+    double scene = 0.0;
     std::erase_if(purposes, [&](const report::Metric& metric) {
         if (metric.id.what != report::Measured::purpose) return true;
-        const bool is_window = metric.id.part == "window";
-        (is_window ? window : scene) += bytesOf(metric);
-        return is_window;
+        scene += bytesOf(metric);
+        return false;
     });
     std::ranges::sort(purposes, std::ranges::greater{}, bytesOf);
     if (!ImGui::BeginTable("##memory", 2, ImGuiTableFlags_SizingFixedFit)) return;
@@ -491,8 +490,8 @@ void remember(std::vector<double>& times, double time) {
 // ---- The panel ----------------------------------------------------------------------------------
 
 void TimingsPanel::show(
-    Side& side, Side* compared, const ReportOrigin& origin, double ui_milliseconds) {
-    if (!frozen_) remember(ui_, ui_milliseconds);
+    Side& side, Side* compared, const ReportOrigin& origin, const WindowFigures& window) {
+    if (!frozen_) remember(ui_, window.device);
     controls(side, compared, origin);
     const std::string& type = device_.info().type;
     const ShownSide a = frozen_ ? frozen_->shown : shownSide(side, type);
@@ -501,18 +500,36 @@ void TimingsPanel::show(
     const ShownSide* const other = b ? &*b : nullptr;
 
     frameFigures(a, other);
+    if (side.shown().level > 0 && !frozen_)
+        ImGui::TextWrapped(
+            "Pictures of a preview are not timed. Without View > Preview what moves (P) all are "
+            "drawn whole.");
     if (section("Passes") && a.passes) {
         std::optional<TimeSeries> ui;
         if (!ui_.empty()) ui = timeSeries("ui", ui_, {});
         passTable(
             *a.passes, other && other->passes ? &*other->passes : nullptr, ui ? &*ui : nullptr);
     }
-    if (section("CPU and device")) splitFigures(a, other);
+    if (section("CPU and device")) {
+        splitFigures(a, other);
+        FigureTable table("##window", FigureTable::Columns::one);
+        table.row(
+            "Panels answer in, ms",
+            "Longest time of the last 300 pictures of the window, from when it looked at mouse and "
+            "keys until the picture with what they did was handed to the desktop",
+            window.slowest_answer);
+        table.row(
+            "Pictures / s",
+            "Of the scene, previews among them, that came in the last 2 s, with all that lies "
+            "between them",
+            window.pictures_per_second > 0.0 ? std::optional(window.pictures_per_second)
+                                             : std::nullopt);
+    }
     for (const std::string& warning : a.metrics.trust.warnings)
         ImGui::TextWrapped("Warning: %s", warning.c_str());
     if (section("Pipeline statistics")) statistics(side);
     if (section("Memory and counts")) {
-        memoryTable(device_.memory());
+        memoryTable(memory_, static_cast<double>(window.memory));
         countTable(a.metrics.counts, other ? &other->metrics.counts : nullptr);
     }
     if (section("As the runner measures")) measure_.show(compared ? 2 : 1, origin);
@@ -526,7 +543,7 @@ void TimingsPanel::controls(Side& side, Side* compared, const ReportOrigin& orig
         const std::string& type = device_.info().type;
         if (freeze) {
             frozen_ = frozenSide(side, shownSide(side, type));
-            warnOfChangedShaders(device_, frozen_->shown.metrics.trust);
+            warnOfChangedShaders(replaced_, frozen_->shown.metrics.trust);
         }
         if (freeze && compared) frozen_compared_ = shownSide(*compared, type);
     }
@@ -552,17 +569,23 @@ void TimingsPanel::controls(Side& side, Side* compared, const ReportOrigin& orig
 }
 
 const report::CaseResult* TimingsPanel::countedOf(const Side& side) const {
-    const bool fits = counted_ && counted_->revision == side.timings().revision();
+    const bool fits =
+        counted_ && counted_->side == side.id() && counted_->revision == side.timings().revision();
     return fits ? &counted_->result : nullptr;
+}
+
+void TimingsPanel::setCounts(report::CaseResult result, const Side& side) {
+    wants_counts_.reset();
+    counted_ = Counted{
+        .result = std::move(result),
+        .side = side.id(),
+        .revision = side.timings().revision(),
+        .frame = side.shown().frame};
 }
 
 void TimingsPanel::statistics(Side& side) {
     ImGui::BeginDisabled(!device_.hasPipelineStatistics());
-    if (ImGui::Button("Count"))
-        counted_ = Counted{
-            .result = countStatistics(device_, side.player().played()),
-            .revision = side.timings().revision(),
-            .frame = side.player().frame()};
+    if (ImGui::Button("Count")) wants_counts_ = side.id();
     ImGui::EndDisabled();
     helpMarker(
         "Draws the frame that is shown once more, untimed, with pipeline statistics of the strands "

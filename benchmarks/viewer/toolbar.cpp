@@ -34,32 +34,32 @@ bool PictureTools::drags() const {
 }
 
 Edit PictureTools::handle(
-    const Pointer& pointer, Handles& handles, hair::Settings& settings, const Player& player) {
-    const bool runs = clock_.runs(player, ImGui::GetTime());
+    const Pointer& pointer, Handles& handles, hair::Settings& settings, const Shown& played) {
+    const bool runs = clock_.runs(played, ImGui::GetTime());
     switch (tool) {
     case Tool::camera:
         break;
     case Tool::wind:
-        return wind_.update(pointer, handles, settings, player);
+        return wind_.update(pointer, handles, settings, played);
     case Tool::grab:
-        return grab_.update(pointer, handles, settings, player, runs);
+        return grab_.update(pointer, handles, settings, played, runs);
     case Tool::head:
-        return head_.update(pointer, handles, settings, player, runs);
+        return head_.update(pointer, handles, settings, played, runs);
     case Tool::colliders:
-        return colliders_.update(pointer, handles, settings, player);
+        return colliders_.update(pointer, handles, settings, played);
     }
     return {};
 }
 
 Edit PictureTools::update(
     const PictureRect& rect, const PictureRect& clip, bool hovered, bool held,
-    hair::Settings& settings, const Player& player) {
+    hair::Settings& settings, const Shown& played) {
     const ImGuiIO& io = ImGui::GetIO();
     // A press with Shift, Ctrl or Alt is the camera's, not a handle's.
     const bool is_plain = !io.KeyShift && !io.KeyCtrl && !io.KeyAlt;
     // The view is that of the settings that are shown: the wanted ones can be ahead of them.
     const Pointer pointer{
-        .view = {player.settings().camera, player.settings().render, rect},
+        .view = {played.settings.camera, played.settings.render, rect},
         .at = {io.MousePos.x, io.MousePos.y},
         .moved = {io.MouseDelta.x, io.MouseDelta.y},
         .hovers = hovered,
@@ -67,29 +67,29 @@ Edit PictureTools::update(
         .holds = held && ImGui::IsMouseDown(ImGuiMouseButton_Left)};
     Handles handles(clip);
     const bool had = drags();
-    Edit edit = handle(pointer, handles, settings, player);
+    Edit edit = handle(pointer, handles, settings, played);
     const bool has = had || drags();
     edit |= camera_.update(
-        pointer, has ? CameraTool::Left::handle : CameraTool::Left::camera, held, settings, player);
+        pointer, has ? CameraTool::Left::handle : CameraTool::Left::camera, held, settings, played);
     return edit;
 }
 
-Edit PictureTools::frameGroom(hair::Settings& settings, const Player& player) const {
-    const Sphere groom = sphereRound(player.played().guides());
+Edit PictureTools::frameGroom(hair::Settings& settings, const Shown& played) const {
+    const Sphere groom = groomNow(played);
     frameSphere(settings.camera, groom.center, groom.radius, aspectOf(settings));
     return {.changed = true};
 }
 
 Edit PictureTools::look(
-    hair::Settings& settings, const Player& player, const CameraPreset& preset) const {
-    const Sphere groom = sphereRound(player.played().guides());
+    hair::Settings& settings, const Shown& played, const CameraPreset& preset) const {
+    const Sphere groom = groomNow(played);
     viewer::look(settings.camera, preset, groom.center, groom.radius, aspectOf(settings));
     return {.changed = true};
 }
 
 // ---- The line of tools --------------------------------------------------------------------------
 
-Edit PictureTools::toolbar(hair::Settings& settings, const Player& player) {
+Edit PictureTools::toolbar(hair::Settings& settings, const Shown& played) {
     ImGui::PushID("tools");
     OptionsLine line;
     for (const ToolRow& row : kTools)
@@ -104,7 +104,7 @@ Edit PictureTools::toolbar(hair::Settings& settings, const Player& player) {
     case Tool::camera:
         for (const CameraPreset& preset : cameraPresets())
             if (line.button(preset.name, true, "Looks at the whole groom from this direction"))
-                edit |= look(settings, player, preset);
+                edit |= look(settings, played, preset);
         break;
     case Tool::wind:
         edit = WindTool::options(line, settings);
@@ -116,7 +116,7 @@ Edit PictureTools::toolbar(hair::Settings& settings, const Player& player) {
         edit = head_.options(line, settings);
         break;
     case Tool::colliders:
-        edit = colliders_.options(line, settings, player);
+        edit = colliders_.options(line, settings, played);
         break;
     }
     ImGui::PopID();

@@ -28,27 +28,27 @@ public:
 
     // Buttons of the tools and what the chosen one has, such as the camera's presets, in a line (or
     // more where there is no room) within the current window.
-    Edit toolbar(hair::Settings& settings, const Player& player);
+    Edit toolbar(hair::Settings& settings, const Shown& played);
 
     // Takes the mouse and keys over the picture shown in `rect`, of which `clip` is seen, and draws
     // handles into the current window. `hovered`: the mouse is over the picture; `held`: a button
     // that was pressed on it is down. What is dragged changes settings.
     Edit update(
         const PictureRect& rect, const PictureRect& clip, bool hovered, bool held,
-        hair::Settings& settings, const Player& player);
+        hair::Settings& settings, const Shown& played);
 
     // Whether an edit goes on without a widget that is active: keys or the wheel move the camera.
     bool isBusy() const { return camera_.isMoving(); }
 
     // Looks at the whole groom from where the camera is.
-    Edit frameGroom(hair::Settings& settings, const Player& player) const;
+    Edit frameGroom(hair::Settings& settings, const Shown& played) const;
     // Looks at the whole groom from a preset's direction.
-    Edit look(hair::Settings& settings, const Player& player, const CameraPreset& preset) const;
+    Edit look(hair::Settings& settings, const Shown& played, const CameraPreset& preset) const;
 
 private:
     bool drags() const;
-    Edit handle(
-        const Pointer& pointer, Handles& handles, hair::Settings& settings, const Player& player);
+    Edit
+    handle(const Pointer& pointer, Handles& handles, hair::Settings& settings, const Shown& played);
 
     CameraTool camera_;
     WindTool wind_;

@@ -1,6 +1,13 @@
 #include "benchmarks/viewer/viewer.h"
 
+#include <algorithm>
+#include <exception>
+#include <future>
+#include <iterator>
+#include <memory>
 #include <string>
+#include <thread>
+#include <utility>
 
 #include <imgui.h>
 
@@ -15,9 +22,39 @@ constexpr double kAwake = 1.0;    // s that the window is drawn on for after som
 constexpr double kAsleep = 0.25;  // s between pictures while nothing does
 constexpr double kKeeping = 2.0;  // s between looks at whether preferences changed
 
+// s between pictures of the window while something moves that no event tells of, and while the
+// scene is drawn, whose processors a software device needs, too.
+constexpr double kMoving = 1.0 / 60.0;
+constexpr double kMovingBeside = 1.0 / 15.0;
+constexpr double kHolding = 0.02;  // s between looks at events while it is measured
+constexpr double kLooking = 0.25;  // s between looks at files of shaders
+
+// A scene's picture that is there so soon is waited for: nothing is drawn beside it, and nobody
+// notices.
+constexpr std::chrono::milliseconds kSoon{8};
+constexpr double kOfLate = 2.0;  // s in which pictures of the scene are counted
+constexpr std::size_t kAnswers = 300;  // pictures of the window that are looked back on
+
 engine::DeviceOptions windowed(engine::DeviceOptions options) {
     options.window_extensions = engine::Window::instanceExtensions();
     return options;
+}
+
+bool computesOnProcessors(const engine::DeviceOptions& options) {
+    const engine::Instance instance(engine::Validation::off);
+    return engine::chooseDevice(instance, options.wanted).type == "cpu";
+}
+
+// A device that computes on the processors does so with threads of the one that makes it.
+std::unique_ptr<engine::Device>
+makeSceneDevice(const engine::DeviceOptions& options, bool gives_way) {
+    std::packaged_task<std::unique_ptr<engine::Device>()> make([&] {
+        if (gives_way) engine::giveWay();
+        return std::make_unique<engine::Device>(options);
+    });
+    std::future<std::unique_ptr<engine::Device>> made = make.get_future();
+    std::thread(std::move(make)).join();
+    return made.get();
 }
 
 std::filesystem::path preferencesOf(const ViewOptions& options) {
@@ -39,15 +76,6 @@ hair::Settings settingsOf(const ViewOptions& options) {
     return scene::singleCase(scene, options.scene).settings;
 }
 
-// Makes what is shown the picture of the side's settings: ends drags, and throws where the settings
-// were refused.
-void bringUpToDate(Side& side) {
-    side.settle();
-    side.follow();
-    if (!side.problem().empty())
-        throw engine::Error("what the panel says can't be", side.problem());
-}
-
 }  // namespace
 
 // ---- The window, picture by picture -------------------------------------------------------------
@@ -55,25 +83,57 @@ void bringUpToDate(Side& side) {
 Viewer::Parts::Parts(
     const ViewOptions& options, const SceneFile& file, const hair::Settings& settings)
     : preferences(preferencesOf(options)), driven(!options.script.empty() || options.frames > 0),
-      fixed_scale(static_cast<float>(options.scale)), window(windowOf(options, preferences.now)),
+      live(options.live), fixed_scale(static_cast<float>(options.scale)),
+      window(windowOf(options, preferences.now)),
+      gives_way(!waitsForDrawing() && computesOnProcessors(options.scene.device)),
+      scene_device(makeSceneDevice(options.scene.device, gives_way)),
       device(windowed(options.scene.device)),
       presenter(device, window, preferences.now.present_mode), ui(device, window, 1.0f),
-      area(device),
-      reload(device, options.shaders.empty() ? HAIRBENCH_SHADER_FOLDER : options.shaders),
-      scene(device, file, settings), scenes(file.directory), timings(device) {
+      area(device), scene(file, settings), scenes(file.directory),
+      timings(*scene_device, &engine::Window::endWait), previews(!driven),
+      studio(
+          *scene_device, options.shaders.empty() ? HAIRBENCH_SHADER_FOLDER : options.shaders,
+          options.before_drawing),
+      drawing(
+          [this, first = true](const Order& order, const Stop& stop) mutable {
+              if (std::exchange(first, false) && gives_way) engine::giveWay();
+              return studio.perform(order, stop);
+          },
+          &engine::Window::endWait) {
     origin.command = options.command;
     origin.validation = options.scene.device.validation;
     // What the command line says is the whole scale.
     if (options.scale > 0.0) preferences.now.zoom = 1.0f;
     window.setTitle("hairbench " + file.name);
     remember(preferences.now, file.path);
+    if (!waitsForDrawing()) return;
+    orderWork();
+    waitForWork();
+}
+
+double Viewer::Parts::seconds() const {
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - opened_at;
+    return passed.count();
+}
+
+// How long the window may sleep: until something happens, which includes that a picture of the
+// scene is there, or for so many s.
+double Viewer::Parts::patience() const {
+    if (waitsForDrawing() || unseen) return 0.0;
+    if (timings.measuring().isMeasuring()) return kHolding;
+    if (presenter.extent().width == 0) return kAsleep;
+    const bool awake = driven || tools.isBusy() || ImGui::GetTime() < awake_until;
+    if (drawing.busy()) return awake ? kMovingBeside : kAsleep;
+    if (stopped) return awake ? kMoving : kAsleep;
+    if (!scene.isFollowed() || (state.playing && !state.speed)) return 0.0;
+    const bool refines = scene.side(0).shown().level > 0;
+    return awake || state.playing || refines ? kMoving : kAsleep;
 }
 
 // A window in which nothing happens is drawn a few times a second.
 void Viewer::Parts::waitForEvents() {
-    const bool minimised = presenter.extent().width == 0;
-    const bool awake = driven || state.playing || tools.isBusy() || ImGui::GetTime() < awake_until;
-    window.poll(awake && !minimised ? 0.0 : kAsleep);
+    window.poll(patience());
+    looked_at = seconds();
     if (window.takeActivity()) awake_until = ImGui::GetTime() + kAwake;
 }
 
@@ -91,58 +151,30 @@ void Viewer::Parts::followScale() {
 void Viewer::Parts::present() {
     presenter.frame(
         [&](engine::Commands& commands) {
-            area.copy(
-                commands, scene.side(0).player().played().output(),
-                scene.sideCount() > 1 ? &scene.side(1).player().played().output() : nullptr);
+            const bool all_seen = area.copy(
+                commands, scene.side(0).shown(),
+                scene.sideCount() > 1 ? &scene.side(1).shown() : nullptr);
+            unseen |= !all_seen;
         },
         [&](engine::Commands& commands) { ui.draw(commands); });
+    disturbed |= drawing.busy();
 }
 
-void Viewer::Parts::reloadShaders() {
-    if (!reload.poll()) return;
-    const auto rebuild = [&] {
-        for (Side* const side : scene.sides()) side->rebuild();
-    };
-    try {
-        rebuild();
-        reload.accept();
-    } catch (const engine::DeviceLost&) {
-        throw;
-    } catch (const engine::Error& error) {
-        reload.reject(error.what());
-        rebuild();
-    }
-}
-
-void Viewer::Parts::playFrames() {
-    // A recording has every frame, however fast time is to go by.
-    const auto frames =
-        recorder.records() ? OpenScene::Frames::every_one : OpenScene::Frames::as_due;
-    scene.play(state, double{ImGui::GetIO().DeltaTime}, frames);
-    const std::string& problem = scene.editedSide().problem();
-    if (problem != reported && !problem.empty()) message.complain(problem);
-    reported = problem;
-    message.attempt([&] { recorder.frame(scene.side(0).player()); });
-}
-
-// The runner's measurement of a side, while the window shows how far it is.
-void Viewer::Parts::measure(std::size_t side) {
-    timings.measuring().measure(
-        scene.side(side), origin,
-        {.picture =
-             [&] {
-                 window.poll(0.0);
-                 if (presenter.extent().width == 0) return;  // minimised
-                 ui.begin();
-                 showWindow();
-                 ui.end();
-                 present();
-             },
-         .closes =
-             [&] {
-                 window.poll(0.0);
-                 return window.wantsToClose() || engine::interrupted();
-             }});
+void Viewer::Parts::drawPicture() {
+    const double start = looked_at.value_or(seconds());
+    looked_at.reset();
+    unseen = false;
+    followScale();
+    presenter.setMode(preferences.now.present_mode);
+    ui.begin();
+    due += double{ImGui::GetIO().DeltaTime};
+    showWindow();
+    if (!ImGui::IsAnyItemActive() && !tools.isBusy())
+        for (Side* const side : scene.sides()) side->settle();
+    ui.end();
+    present();
+    if (answers.size() == kAnswers) answers.erase(answers.begin());
+    answers.push_back(1000.0 * (seconds() - start));
 }
 
 void Viewer::Parts::keepPreferences() {
@@ -170,19 +202,207 @@ bool Viewer::Parts::frame() {
     }
     if (window.wantsToClose()) return false;
     for (const std::filesystem::path& file : window.takeDropped()) drop(file);
-    if (presenter.extent().width == 0) return true;  // minimised
-    followScale();
-    presenter.setMode(preferences.now.present_mode);
-    ui.begin();
-    showWindow();
-    if (!ImGui::IsAnyItemActive() && !tools.isBusy())
-        for (Side* const side : scene.sides()) side->settle();
-    ui.end();
-    present();
-    if (const auto side = timings.measuring().wanted()) measure(*side);
-    reloadShaders();
-    playFrames();
+    takeWork();
+    const bool is_minimised = presenter.extent().width == 0;
+    if (timings.measuring().isMeasuring()) {
+        holdStill();
+        return true;
+    }
+    if (is_minimised) return true;
+    // While the scene is drawn nothing changes in a window that nobody touches, but for what it
+    // says of a picture that takes long; frames that are played are not disturbed for that.
+    const bool untouched = !driven && !unseen && !tools.isBusy() && now >= awake_until;
+    if (untouched && drawing.busy() && (state.playing || drawingNote() == shown_note)) return true;
+    drawPicture();
+    orderWork();
+    if (waitsForDrawing()) waitForWork();
     return true;
+}
+
+// ---- The thread that draws ----------------------------------------------------------------------
+
+// The level of the next picture.
+unsigned Viewer::Parts::levelFor(const Order& order) {
+    const bool moves = order.frames > 0 || order.seek || !scene.isFollowed() || scene.isDragged() ||
+                       tools.isBusy();
+    if (moves) moved_at = seconds();
+    const bool exact = std::ranges::any_of(
+        waiting, [](const Waiting& each) { return each.needs == Needs::picture; });
+    if (!previews || exact || recorder.records() || scene.isMaking()) return 0;
+    return moves ? control.moving()
+                 : control.still(scene.side(0).shown().level, seconds() - moved_at);
+}
+
+// Asks for what the window wants next, if there is anything. One thing is done at a time: whatever
+// is wanted meanwhile is in the next order, as it is then.
+void Viewer::Parts::orderWork() {
+    if (drawing.busy() || stopped) return;
+    MeasurePanel& measuring = timings.measuring();
+    if (const auto wanted = measuring.wanted(); wanted && !scene.isMaking()) {
+        PlayState still{.playing = false};
+        Order order = scene.order(still, 0.0, OpenScene::Frames::as_due);
+        order.measure = MeasureOrder{
+            .side = scene.side(*wanted).id(),
+            .name = scene.file().name,
+            .hooks = measuring.begin()};
+        drawPicture();
+        beginWork(std::move(order));
+        return;
+    }
+    // A recording has every frame, however fast time is to go by.
+    const auto frames =
+        recorder.records() ? OpenScene::Frames::every_one : OpenScene::Frames::as_due;
+    Order order = scene.order(state, std::exchange(due, 0.0), frames);
+    order.level = levelFor(order);
+    if (const auto side = timings.wantsCounts(); side && !scene.isMaking()) order.count = *side;
+    const auto lacks = [&](const Side* side) {
+        return side->shown().level != order.level || !side->shown().has_guides;
+    };
+    const bool asks = order.frames > 0 || order.seek || order.count || !scene.isFollowed() ||
+                      std::ranges::any_of(scene.sides(), lacks) ||
+                      (shaders.watches && seconds() >= ordered_at + kLooking);
+    if (asks) beginWork(std::move(order));
+}
+
+void Viewer::Parts::beginWork(Order order) {
+    // What the window's device still has to do would be in the frame's times.
+    device.runOnce([](engine::Commands&) {});
+    disturbed = false;
+    ordered_at = seconds();
+    drawing.begin(std::move(order));
+    if (!waitsForDrawing() && drawing.waitFor(kSoon)) takeWork();
+}
+
+// Until the reply is there.
+void Viewer::Parts::waitForWork() {
+    while (drawing.busy() && !engine::interrupted()) {
+        if (drawing.waitFor(kSoon)) {
+            takeWork();
+            return;
+        }
+        window.poll(0.0);
+        if (timings.measuring().isMeasuring()) holdStill();
+    }
+}
+
+// While something is measured the window is drawn between rounds alone.
+void Viewer::Parts::holdStill() {
+    MeasurePanel& measuring = timings.measuring();
+    if (window.wantsToClose() || engine::interrupted()) measuring.cancel();
+    if (!measuring.wantsPicture()) return;
+    if (presenter.extent().width > 0) {
+        drawPicture();
+        device.runOnce([](engine::Commands&) {});
+    }
+    measuring.shown();
+}
+
+// Of the scene, while they come.
+double Viewer::Parts::picturesPerSecond() const {
+    if (came.size() < 2 || came.back() < seconds() - kOfLate) return 0.0;
+    return static_cast<double>(came.size() - 1) / (came.back() - came.front());
+}
+
+void Viewer::Parts::stopDrawing(const std::string& why) {
+    stopped = true;
+    timings.measuring().end(std::nullopt, why);
+    message.complain(why + "; nothing is drawn any more, and the scene can be saved");
+    actOnFollowed();
+}
+
+void Viewer::Parts::takeWork() {
+    std::optional<Reply> reply;
+    try {
+        reply = drawing.take();
+    } catch (const std::exception& error) {
+        // What was changed can be saved where there is a user to do it.
+        if (driven || !scene.side(0).shown().isThere()) throw;
+        stopDrawing(error.what());
+        return;
+    }
+    if (!reply) return;
+    control.drawn(reply->level, reply->milliseconds);
+    timings.setMemory(reply->memory);
+    timings.setReplacedShaders(reply->shaders.replaced);
+    shaders = std::move(reply->shaders);
+    for (const SideReply& side : reply->sides) unseen |= side.shown.has_value();
+    if (!reply->sides.empty() && reply->sides.front().shown) {
+        const double now = seconds();
+        came.push_back(now);
+        std::erase_if(came, [&](double time) { return time < now - kOfLate; });
+    }
+    const auto beside = disturbed ? Side::Beside::other_work : Side::Beside::nothing;
+    const OpenScene::News news = scene.take(std::move(reply->sides), beside);
+    if (timings.measuring().isMeasuring()) {
+        timings.measuring().end(std::move(reply->measured), reply->not_measured);
+        unseen = true;
+    }
+    takeNews(news);
+    if (const auto counts = timings.wantsCounts()) {
+        const Side* const side = scene.find(*counts);
+        if (!side) timings.forgetCounts();
+        if (side && reply->counted) timings.setCounts(std::move(*reply->counted), *side);
+        unseen |= reply->counted.has_value();
+    }
+    const std::string& problem = scene.editedSide().problem();
+    if (problem != reported) unseen = true;
+    if (problem != reported && !problem.empty()) message.complain(problem);
+    reported = problem;
+    const Shown& shown = scene.side(0).shown();
+    if (shown.level == 0) message.attempt([&] { recorder.frame(shown); });
+    actOnFollowed();
+}
+
+void Viewer::Parts::takeNews(const OpenScene::News& news) {
+    if (news.failure) {
+        // Without a scene there is no viewer.
+        if (!scene.side(0).shown().isThere()) std::rethrow_exception(news.failure);
+        message.attempt([&] { std::rethrow_exception(news.failure); });
+    }
+    if (news.opened) {
+        const SceneFile& file = scene.file();
+        scenes = SceneList(file.directory);
+        area.views = Views::a;
+        window.setTitle("hairbench " + file.name);
+        remember(preferences.now, file.path);
+        message.tell("opened " + file.path.string());
+    }
+    if (news.compares) {
+        area.views = Views::side_by_side;
+        message.tell("the settings panel is B's now; A is as it was");
+    }
+    unseen |= news.failure || news.opened || news.compares;
+}
+
+void Viewer::Parts::whenFollowed(Side& side, Needs needs, std::function<void(Side&)> act) {
+    side.settle();
+    waiting.push_back(
+        {.side = side.id(), .revision = side.revision(), .needs = needs, .act = std::move(act)});
+    actOnFollowed();
+}
+
+void Viewer::Parts::actOnFollowed() {
+    std::vector<Waiting> left;
+    for (Waiting& each : std::exchange(waiting, {})) {
+        Side* const side = scene.find(each.side);
+        if (!side) {
+            message.complain("the scene that was to be written was closed before");
+        } else if (stopped && each.needs == Needs::picture) {
+            message.complain("no picture can be drawn any more");
+        } else if (
+            stopped || (side->answered() >= each.revision &&
+                        (each.needs == Needs::settings || side->shown().isExact()))) {
+            // It is followed, but for settings that are impossible.
+            message.attempt([&] {
+                if (!side->problem().empty())
+                    throw engine::Error("what the panel says can't be", side->problem());
+                each.act(*side);
+            });
+        } else {
+            left.push_back(std::move(each));
+        }
+    }
+    std::ranges::move(left, std::back_inserter(waiting));
 }
 
 // ---- Files that are opened and written ----------------------------------------------------------
@@ -195,13 +415,8 @@ std::filesystem::path Viewer::Parts::suggestedPath() const {
 
 void Viewer::Parts::open(const std::filesystem::path& path) {
     message.attempt([&] {
-        const SceneFile file = openScene(path);
-        scene.open(file);
-        scenes = SceneList(file.directory);
-        area.views = Views::a;
-        window.setTitle("hairbench " + file.name);
-        remember(preferences.now, file.path);
-        message.tell("opened " + file.path.string());
+        scene.open(openScene(path));
+        message.tell("opening " + path.string());
     });
 }
 
@@ -215,11 +430,11 @@ void Viewer::Parts::save() {
 }
 
 void Viewer::Parts::saveAs(const std::filesystem::path& path) {
-    message.attempt([&] {
-        Side& side = scene.editedSide();
-        bringUpToDate(side);
-        saveScene(side.wanted(), scene.file().directory, path);
-        scene.savedAs(path);
+    Side& edited = scene.editedSide();
+    edited.settle();
+    whenFollowed(edited, Needs::settings, [this, path, settings = edited.wanted()](Side&) {
+        saveScene(settings, scene.file().directory, path);
+        scene.savedAs(path, settings);
         window.setTitle("hairbench " + scene.file().name);
         remember(preferences.now, path);
         message.tell("saved to " + path.string());
@@ -239,16 +454,14 @@ void Viewer::Parts::copyArguments() {
 }
 
 void Viewer::Parts::screenshot() {
-    message.attempt([&] {
-        Side& side = scene.editedSide();
-        bringUpToDate(side);
+    whenFollowed(scene.editedSide(), Needs::picture, [this](Side& side) {
         const std::filesystem::path folder = std::filesystem::current_path();
         const std::filesystem::path path =
             freeName(folder, "hairbench-" + scene.file().name, ".png");
-        const hair::Settings& settings = side.player().settings();
+        const Shown& shown = side.shown();
         writeScreenshot(
-            path, settings.render.width, settings.render.height, side.player().played().picture(),
-            sceneText(settings, scene.file().directory, folder));
+            path, shown.width, shown.height, shown.picture,
+            sceneText(shown.settings, shown.directory, folder));
         message.tell("wrote " + path.string());
     });
 }
@@ -290,9 +503,23 @@ void Viewer::Parts::drop(const std::filesystem::path& file) {
 Viewer::Viewer(const ViewOptions& options)
     : parts_(
           std::make_unique<Parts>(options, openScene(options.scene.scene), settingsOf(options))) {}
-Viewer::~Viewer() { parts_->keepPreferences(); }
+Viewer::~Viewer() {
+    // Whoever measures waits for the window between rounds.
+    parts_->timings.measuring().cancel();
+    parts_->keepPreferences();
+}
 
 bool Viewer::frame() { return parts_->frame(); }
+
+bool Viewer::finish(std::chrono::milliseconds patience) {
+    parts_->timings.measuring().cancel();
+    parts_->drawing.requestStop();
+    return parts_->drawing.waitFor(patience);
+}
+
+void Viewer::keepPreferences() { parts_->keepPreferences(); }
+
+void Viewer::setLive(bool live) { parts_->live = live; }
 
 std::size_t Viewer::sideCount() const { return parts_->scene.sideCount(); }
 const Side& Viewer::side(std::size_t index) const { return parts_->scene.side(index); }
@@ -314,6 +541,16 @@ const std::string& Viewer::message() const { return parts_->message.text(); }
 float Viewer::scale() const { return parts_->ui.scale(); }
 engine::PresentMode Viewer::presentMode() const { return parts_->presenter.mode(); }
 
-std::vector<std::string> Viewer::takeMessages() { return parts_->device.messages().take(); }
+double Viewer::picturesPerSecond() const { return parts_->picturesPerSecond(); }
+
+double Viewer::slowestAnswer() const {
+    return parts_->answers.empty() ? 0.0 : std::ranges::max(parts_->answers);
+}
+
+std::vector<std::string> Viewer::takeMessages() {
+    std::vector<std::string> messages = parts_->device.messages().take();
+    std::ranges::move(parts_->scene_device->messages().take(), std::back_inserter(messages));
+    return messages;
+}
 
 }  // namespace benchmarks::viewer

@@ -1,7 +1,10 @@
 // What the viewer measures is what the runner measures, and what it shows is not touched by it.
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <optional>
+#include <semaphore>
+#include <thread>
 
 #include <gmock/gmock.h>
 
@@ -124,6 +127,45 @@ TEST_F(MeasuredSide, CountsWithoutTouchingTheFrame) {
             return each.expected.has_value();
         });
     EXPECT_GT(compared, 0);
+}
+
+// ---- Between the window and the thread that measures
+
+// The next round begins when the window has shown the last one, and not before.
+TEST(MeasureLink, HoldsTheRoundsUntilTheWindowHasShownThem) {
+    std::counting_semaphore<> told(0);
+    std::atomic<std::uint32_t> rounds = 0;
+    MeasureLink link([&] { told.release(); });
+    std::thread measures([&, hooks = link.hooks()] {
+        while (!hooks.stop() && rounds < 3) hooks.progress({.rounds = ++rounds});
+    });
+    for (std::uint32_t round = 1; round <= 3; ++round) {
+        told.acquire();
+        EXPECT_EQ(rounds, round);
+        const std::optional<measure::SamplingState> state = link.take();
+        EXPECT_TRUE(state && state->rounds == round);
+        EXPECT_FALSE(link.take().has_value());
+        link.shown();
+    }
+    measures.join();
+}
+
+// A window that closes shows nothing more; whoever measures must not wait for it.
+TEST(MeasureLink, LetsGoOfWhoeverMeasuresWhenItIsCancelled) {
+    std::counting_semaphore<> told(0);
+    std::uint32_t rounds = 0;
+    MeasureLink link([&] { told.release(); });
+    std::thread measures([&, hooks = link.hooks()] {
+        while (!hooks.stop()) hooks.progress({.rounds = ++rounds});
+    });
+    told.acquire();
+    link.cancel();
+    measures.join();
+    EXPECT_EQ(rounds, 1u);
+    EXPECT_TRUE(link.isCancelled());
+    link.restart();
+    EXPECT_FALSE(link.isCancelled());
+    EXPECT_FALSE(link.take().has_value());
 }
 
 }  // namespace

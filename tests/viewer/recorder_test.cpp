@@ -33,7 +33,7 @@ protected:
 TEST_F(RecorderTest, WritesEachShownFrameOnce) {
     Player shown = player();
     Recorder recorder;
-    recorder.frame(shown);
+    recorder.frame(shown.shown());
     EXPECT_FALSE(recorder.records());
     EXPECT_EQ(recorder.message(), "");
     const auto place = folder_.file("new/take");
@@ -42,8 +42,8 @@ TEST_F(RecorderTest, WritesEachShownFrameOnce) {
     std::vector<std::vector<std::uint8_t>> expected;
     for (int i = 0; i < 3; ++i) {
         expected.push_back(shown.played().picture());
-        recorder.frame(shown);
-        recorder.frame(shown);  // the window is drawn more often than the hair
+        recorder.frame(shown.shown());
+        recorder.frame(shown.shown());  // the window is drawn more often than the hair
         if (i == 0) {
             EXPECT_EQ(recorder.message(), "recording 1 frame to " + place.string());
         }
@@ -51,7 +51,7 @@ TEST_F(RecorderTest, WritesEachShownFrameOnce) {
     }
     EXPECT_EQ(recorder.written(), 3u);
     recorder.stop();
-    recorder.frame(shown);
+    recorder.frame(shown.shown());
     for (std::size_t i = 0; i < expected.size(); ++i) {
         const auto file = place / ("000" + std::to_string(i) + ".png");
         EXPECT_EQ(engine::readImage(file).rgba, expected[i]) << i;
@@ -82,14 +82,15 @@ TEST_F(RecorderTest, StopsWhereAPictureCannotBeWritten) {
     Player shown = player();
     Recorder recorder;
     recorder.start(folder_.file("take"));
-    recorder.frame(shown);
+    recorder.frame(shown.shown());
     std::filesystem::remove_all(folder_.file("take"));
     folder_.write("take", "in the way");
     shown.next();
     EXPECT_THAT(
-        errorText([&] { recorder.frame(shown); }), HasSubstr(folder_.file("take").string()));
+        errorText([&] { recorder.frame(shown.shown()); }),
+        HasSubstr(folder_.file("take").string()));
     EXPECT_FALSE(recorder.records());
-    recorder.frame(shown);
+    recorder.frame(shown.shown());
 }
 
 }  // namespace

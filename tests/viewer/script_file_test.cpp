@@ -53,7 +53,7 @@ TEST_F(ScriptFile, NamesTheVerbsItCouldHave) {
         problemOfStep(R"({"clik": "Play"})"),
         "script.json: /steps/1: unknown verb (did you mean \"click\"?); known: wait, frames, play, "
         "seek, set, perform, drop, resize, move, click, drag, scroll, key, type, screenshot, "
-        "picture, save, state, expect");
+        "picture, save, state, live, expect");
 }
 
 TEST_F(ScriptFile, NamesTheMembersItCouldHave) {

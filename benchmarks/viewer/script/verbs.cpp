@@ -45,7 +45,7 @@ void checkTrue(const scene::Json& value, const std::string& pointer) {
 Check readHash(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
     const std::string wanted = textOf(value, pointer);
     return [=](const Driver&, const Side& side) {
-        const std::string hash = side.player().played().pictureHash();
+        const std::string hash = side.shown().pictureHash();
         if (hash != wanted) fail("the picture's hash is " + hash + ", not " + wanted);
     };
 }
@@ -62,7 +62,7 @@ Check readSameHash(
     const scene::Json& value, const std::string& pointer, const ScriptFolders& folders) {
     const std::filesystem::path file = folders.out / textOf(value, pointer);
     return [=](const Driver&, const Side& side) {
-        const std::string hash = side.player().played().pictureHash(), other = hashIn(file);
+        const std::string hash = side.shown().pictureHash(), other = hashIn(file);
         if (hash != other)
             fail("the picture's hash is " + hash + ", and " + file.string() + " has " + other);
     };
@@ -72,7 +72,7 @@ Check readOtherHash(
     const scene::Json& value, const std::string& pointer, const ScriptFolders& folders) {
     const std::filesystem::path file = folders.out / textOf(value, pointer);
     return [=](const Driver&, const Side& side) {
-        if (side.player().played().pictureHash() == hashIn(file))
+        if (side.shown().pictureHash() == hashIn(file))
             fail("the picture is the same as in " + file.string());
     };
 }
@@ -80,7 +80,7 @@ Check readOtherHash(
 Check readFrame(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
     const std::uint32_t wanted = countOf(value, pointer);
     return [=](const Driver&, const Side& side) {
-        const std::uint32_t frame = side.player().frame();
+        const std::uint32_t frame = side.shown().frame;
         if (frame != wanted)
             fail("it is frame " + std::to_string(frame) + ", not " + std::to_string(wanted));
     };
@@ -90,7 +90,7 @@ Check readSetting(const scene::Json& value, const std::string& pointer, const Sc
     if (!value.is_object())
         throw engine::Error(pointer, "must be an object, as in {\"/strands/density\": 16}");
     return [=](const Driver&, const Side& side) {
-        scene::Json document = scene::writeSettings(side.player().settings());
+        scene::Json document = scene::writeSettings(side.shown().settings);
         for (const auto& [field, wanted] : value.items()) {
             const scene::Json& is = scene::valueAt(document, field);
             if (is != wanted) fail(field + " is " + is.dump() + ", not " + wanted.dump());
@@ -226,15 +226,16 @@ Act readExpect(const scene::Json& value, const std::string& pointer, const Scrip
 // ---- Steps that write files ---------------------------------------------------------------------
 
 scene::Json sideState(const Side& side) {
-    const Player& player = side.player();
+    const Shown& shown = side.shown();
     return {
-        {"frame", player.frame()},
-        {"time", player.time()},
-        {"preview", player.previews()},
+        {"frame", shown.frame},
+        {"time", shown.time()},
+        {"preview", shown.previews},
+        {"level", shown.level},
         {"problem", side.problem()},
-        {"image_hash", player.played().pictureHash()},
-        {"state_hash", player.played().stateHash()},
-        {"settings", scene::writeSettings(player.settings())}};
+        {"image_hash", shown.pictureHash()},
+        {"state_hash", shown.stateHash()},
+        {"settings", scene::writeSettings(shown.settings)}};
 }
 
 scene::Json itemState(const engine::UiItem& item) {
@@ -264,6 +265,8 @@ scene::Json shownState(const Driver& driver) {
         {"scale", viewer.scale()},
         {"present_mode", engine::presentModeName(viewer.presentMode())},
         {"message", viewer.message()},
+        {"slowest_answer", viewer.slowestAnswer()},
+        {"pictures_per_second", viewer.picturesPerSecond()},
         {"sides", sides},
         {"items", items}};
 }
@@ -297,17 +300,16 @@ Act readPicture(
     const scene::Json& value, const std::string& pointer, const ScriptFolders& folders) {
     const OneSide wanted = oneSide(value, pointer, folders);
     return [=](Driver& driver) {
-        const Player& player = driver.side(wanted.side).player();
-        const hair::RenderSettings& render = player.settings().render;
-        engine::writePng(wanted.file, render.width, render.height, player.played().picture());
+        const Shown& shown = driver.side(wanted.side).shown();
+        engine::writePng(wanted.file, shown.width, shown.height, shown.picture);
     };
 }
 
 Act readSave(const scene::Json& value, const std::string& pointer, const ScriptFolders& folders) {
     const OneSide wanted = oneSide(value, pointer, folders);
     return [=](Driver& driver) {
-        const Player& player = driver.side(wanted.side).player();
-        saveScene(player.settings(), player.directory(), wanted.file);
+        const Shown& shown = driver.side(wanted.side).shown();
+        saveScene(shown.settings, shown.directory, wanted.file);
     };
 }
 
@@ -474,6 +476,11 @@ Act readPlay(const scene::Json& value, const std::string& pointer, const ScriptF
     };
 }
 
+Act readLive(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
+    const bool live = flagOf(value, pointer);
+    return [=](Driver& driver) { driver.viewer.setLive(live); };
+}
+
 Act readSeek(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
     const std::uint32_t frame = countOf(value, pointer);
     return [=](Driver& driver) {
@@ -576,7 +583,7 @@ constexpr Verb kVerbs[] = {
     {"click", readClick},     {"drag", readDrag},     {"scroll", readScroll},
     {"key", readKey},         {"type", readType},     {"screenshot", readScreenshot},
     {"picture", readPicture}, {"save", readSave},     {"state", readState},
-    {"expect", readExpect},
+    {"live", readLive},       {"expect", readExpect},
 };
 
 }  // namespace

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+namespace benchmarks::viewer {
+
+// Whether whoever works is asked to end.
+using Stop = std::function<bool()>;
+
+// A thread that does one order at a time and answers it. Orders and replies are values that are
+// moved through a mailbox with room for one: whoever gives orders and the thread share nothing
+// else, and neither sees half of what the other writes. All functions are for the thread that made
+// it.
+template <class Order, class Reply>
+class OrderThread {
+public:
+    // Called on the thread. `stop`: the one who waits has lost patience.
+    using Work = std::function<Reply(const Order& order, const Stop& stop)>;
+
+    // `replied` is called on the thread once there is a reply to take.
+    OrderThread(Work work, std::function<void()> replied)
+        : work_(std::move(work)), replied_(std::move(replied)), thread_([this] { run(); }) {}
+
+    // Asks the thread to stop, and waits for the order that it works on.
+    ~OrderThread() {
+        requestStop();
+        thread_.join();
+    }
+    OrderThread(const OrderThread&) = delete;
+    OrderThread& operator=(const OrderThread&) = delete;
+
+    // Whether an order was given whose reply was not taken.
+    bool busy() const { return busy_; }
+
+    // Hands an order over. Not while it is busy.
+    void begin(Order order) {
+        const std::scoped_lock lock(mutex_);
+        order_ = std::move(order);
+        busy_ = true;
+        changed_.notify_all();
+    }
+
+    // The reply, once it is there; throws what the work threw. It is not busy then.
+    std::optional<Reply> take() {
+        const std::scoped_lock lock(mutex_);
+        if (!isDone()) return std::nullopt;
+        busy_ = false;
+        if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+        return std::exchange(reply_, std::nullopt);
+    }
+
+    // Waits until there is something to take, or nothing to wait for; false where that takes
+    // longer.
+    bool waitFor(std::chrono::microseconds patience) {
+        std::unique_lock lock(mutex_);
+        return !busy_ || changed_.wait_for(lock, patience, [this] { return isDone(); });
+    }
+
+    // Asks the work to end early, for good.
+    void requestStop() {
+        const std::scoped_lock lock(mutex_);
+        stops_ = true;
+        changed_.notify_all();
+    }
+
+private:
+    bool isDone() const { return reply_.has_value() || error_ != nullptr; }
+
+    void run() {
+        const Stop stop = [this] { return stops_.load(); };
+        std::unique_lock lock(mutex_);
+        while (true) {
+            changed_.wait(lock, [this] { return order_.has_value() || stops_; });
+            if (stops_) return;
+            const Order order = *std::exchange(order_, std::nullopt);
+            lock.unlock();
+            std::optional<Reply> reply;
+            std::exception_ptr error;
+            try {
+                reply = work_(order, stop);
+            } catch (...) {
+                error = std::current_exception();
+            }
+            lock.lock();
+            reply_ = std::move(reply);
+            error_ = error;
+            changed_.notify_all();
+            lock.unlock();
+            replied_();
+            lock.lock();
+        }
+    }
+
+    Work work_;
+    std::function<void()> replied_;
+    bool busy_ = false;  // of the thread that gives orders alone
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::optional<Order> order_;
+    std::optional<Reply> reply_;
+    std::exception_ptr error_;
+    std::atomic<bool> stops_ = false;
+    std::thread thread_;
+};
+
+}  // namespace benchmarks::viewer

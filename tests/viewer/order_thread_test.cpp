@@ -1,0 +1,160 @@
+#include "benchmarks/viewer/order_thread.h"
+
+#include <algorithm>
+#include <array>
+#include <semaphore>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace benchmarks::viewer {
+namespace {
+
+using namespace std::chrono_literals;
+
+// Far longer than a machine that is busy with other things needs: what takes so long hangs.
+constexpr auto kHangs = 60s;
+
+// A value of which half would be seen: its members are equal.
+struct Whole {
+    std::array<std::uint64_t, 64> copies{};
+
+    static Whole of(std::uint64_t value) {
+        Whole whole;
+        whole.copies.fill(value);
+        return whole;
+    }
+    bool isWhole() const {
+        for (const std::uint64_t copy : copies)
+            if (copy != copies.front()) return false;
+        return true;
+    }
+};
+
+// Work that is held up until it is let go.
+struct Held {
+    std::binary_semaphore begun{0};
+    std::binary_semaphore let_go{0};
+};
+
+TEST(OrderThread, AnswersEachOrderOnce) {
+    std::counting_semaphore<> told(0);
+    OrderThread<int, int> thread(
+        [](int order, const Stop&) { return order * order; }, [&] { told.release(); });
+    EXPECT_FALSE(thread.busy());
+    EXPECT_FALSE(thread.take());
+    for (int i = 0; i < 100; ++i) {
+        thread.begin(i);
+        EXPECT_TRUE(thread.busy());
+        told.acquire();  // it is told of every reply
+        EXPECT_TRUE(thread.waitFor(kHangs));
+        EXPECT_EQ(thread.take(), i * i);
+        EXPECT_FALSE(thread.busy());
+        EXPECT_FALSE(thread.take());
+    }
+    EXPECT_FALSE(told.try_acquire());
+}
+
+// Whoever gives orders sees the latch closed and goes on: nothing waits for the work.
+TEST(OrderThread, LeavesWhoeverGivesOrdersFreeMeanwhile) {
+    Held held;
+    OrderThread<int, int> thread(
+        [&](int order, const Stop&) {
+            held.begun.release();
+            held.let_go.acquire();
+            return order;
+        },
+        [] {});
+    thread.begin(7);
+    held.begun.acquire();
+    for (int i = 0; i < 1000; ++i) {
+        EXPECT_TRUE(thread.busy());
+        EXPECT_FALSE(thread.take());
+        EXPECT_FALSE(thread.waitFor(0us));
+    }
+    held.let_go.release();
+    EXPECT_TRUE(thread.waitFor(kHangs));
+    EXPECT_EQ(thread.take(), 7);
+}
+
+// What is changed while an order is worked on is in the next one, as it is then: all of it.
+TEST(OrderThread, LosesNoLastValueAndShowsNoneByHalf) {
+    constexpr std::uint64_t kValues = 20000;
+    std::vector<std::uint64_t> seen;
+    bool whole = true;
+    OrderThread<Whole, Whole> thread(
+        [&](const Whole& order, const Stop&) {
+            whole = whole && order.isWhole();
+            seen.push_back(order.copies.front());
+            return order;
+        },
+        [] {});
+    std::uint64_t answered = 0;
+    Whole wanted = Whole::of(0);
+    for (std::uint64_t value = 1; value <= kValues; ++value) {
+        wanted = Whole::of(value);  // as a slider does that is dragged
+        if (const auto reply = thread.take()) {
+            EXPECT_TRUE(reply->isWhole());
+            answered = reply->copies.front();
+        }
+        if (!thread.busy()) thread.begin(wanted);
+    }
+    while (answered != kValues) {
+        if (!thread.busy()) thread.begin(wanted);
+        ASSERT_TRUE(thread.waitFor(kHangs));
+        const auto reply = thread.take();
+        ASSERT_TRUE(reply.has_value());
+        EXPECT_TRUE(reply->isWhole());
+        answered = reply->copies.front();
+    }
+    EXPECT_TRUE(whole);
+    EXPECT_EQ(seen.back(), kValues);
+    EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+}
+
+TEST(OrderThread, HandsErrorsOverAndGoesOn) {
+    OrderThread<int, int> thread(
+        [](int order, const Stop&) {
+            if (order < 0) throw std::runtime_error("the device was lost");
+            return order;
+        },
+        [] {});
+    thread.begin(-1);
+    ASSERT_TRUE(thread.waitFor(kHangs));
+    EXPECT_THROW(thread.take(), std::runtime_error);
+    EXPECT_FALSE(thread.busy());
+    thread.begin(3);
+    ASSERT_TRUE(thread.waitFor(kHangs));
+    EXPECT_EQ(thread.take(), 3);
+}
+
+TEST(OrderThread, EndsWorkThatLooksWhetherItIsToStop) {
+    Held held;
+    OrderThread<int, std::string> thread(
+        [&](int, const Stop& stop) -> std::string {
+            held.begun.release();
+            while (!stop()) std::this_thread::yield();
+            return "stopped";
+        },
+        [] {});
+    thread.begin(1);
+    held.begun.acquire();
+    thread.requestStop();
+    ASSERT_TRUE(thread.waitFor(kHangs));
+    EXPECT_EQ(thread.take(), "stopped");
+}
+
+// One that never gets an order ends, too, and so does one whose reply nobody takes.
+TEST(OrderThread, EndsWithoutAnOrderAndWithAReplyThatIsLeft) {
+    {
+        OrderThread<int, int> thread([](int order, const Stop&) { return order; }, [] {});
+    }
+    OrderThread<int, int> thread([](int order, const Stop&) { return order; }, [] {});
+    thread.begin(1);
+    EXPECT_TRUE(thread.waitFor(kHangs));
+}
+
+}  // namespace
+}  // namespace benchmarks::viewer

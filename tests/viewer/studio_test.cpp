@@ -1,0 +1,183 @@
+// What the thread that draws does with orders, without the thread.
+#include "benchmarks/viewer/studio.h"
+
+#include <exception>
+#include <utility>
+
+#include <gmock/gmock.h>
+
+#include "tests/golden/features.h"
+#include "tests/gpu_fixture.h"
+
+namespace benchmarks::viewer {
+namespace {
+
+using testing::HasSubstr;
+
+// Hair that moves.
+hair::Settings movingSettings() {
+    hair::Settings settings = hair::plainSettings();
+    settings.simulation.solver = hair::Solver::shape;
+    settings.simulation.wind.strength = 2.0f;
+    settings.strands.density = 16;
+    return settings;
+}
+
+class StudioTest : public GpuTest {
+protected:
+    StudioTest() : studio_(device(), "no shaders are watched") {}
+
+    static SideOrder side(std::uint64_t number, const hair::Settings& settings) {
+        return {
+            .side = number,
+            .revision = ++revision_,
+            .settings = settings,
+            .directory = HAIRBENCH_SCENES_DIR};
+    }
+    Reply perform(const Order& order) {
+        return studio_.perform(order, [] { return false; });
+    }
+    static std::string hashOf(const hair::Settings& settings, std::uint32_t frame) {
+        Player player(device(), settings, HAIRBENCH_SCENES_DIR);
+        player.seek(frame);
+        return player.played().pictureHash();
+    }
+
+    static inline std::uint64_t revision_ = 0;
+    Studio studio_;
+};
+
+TEST_F(StudioTest, DrawsFewerStrandsAndPixelsInAPreview) {
+    const hair::Settings settings = movingSettings();
+    Order order{.sides = {side(1, settings)}};
+    const Shown whole = *perform(order).sides.front().shown;
+    EXPECT_EQ(whole.level, 0u);
+    EXPECT_TRUE(whole.isExact());
+    order.level = 3;
+    const Reply reply = perform(order);
+    const Shown coarse = *reply.sides.front().shown;
+    EXPECT_EQ(reply.level, 3u);
+    EXPECT_GT(reply.milliseconds, 0.0);
+    EXPECT_EQ(coarse.level, 3u);
+    EXPECT_FALSE(coarse.isExact());
+    EXPECT_EQ(coarse.width, std::lround(0.375 * settings.render.width));
+    EXPECT_EQ(coarse.height, std::lround(0.375 * settings.render.height));
+    EXPECT_EQ(coarse.picture.size(), std::size_t{4} * coarse.width * coarse.height);
+    // 16 strands of a root triangle at level 0, and 2^-3 of them at level 3: thesis 2.3.8.1.
+    EXPECT_DOUBLE_EQ(coarse.strand_share, 2.0 / 16.0);
+    EXPECT_EQ(coarse.guides, whole.guides);
+}
+
+// Previews change what is drawn and nothing else: frames that were played in previews are refined
+// to the runner's.
+TEST_F(StudioTest, RefinesPreviewsToTheRunnersPicture) {
+    const hair::Settings settings = movingSettings();
+    Order order{.sides = {side(1, settings)}, .frames = 1, .level = 4};
+    perform(order);
+    for (int i = 0; i < 2; ++i) {
+        const Reply reply = perform(order);
+        EXPECT_FALSE(reply.sides.front().timed.has_value());  // figures are of whole pictures
+    }
+    order.frames = 0;
+    order.level = 0;
+    const Reply refined = perform(order);
+    ASSERT_TRUE(refined.sides.front().shown.has_value());
+    EXPECT_EQ(refined.sides.front().shown->frame, 3u);
+    EXPECT_EQ(refined.sides.front().shown->pictureHash(), hashOf(settings, 3));
+    // And there is nothing more to draw.
+    const Reply again = perform(order);
+    EXPECT_FALSE(again.sides.front().shown.has_value());
+    EXPECT_EQ(again.milliseconds, 0.0);
+}
+
+TEST_F(StudioTest, MovesTheCameraOfEveryLevel) {
+    hair::Settings settings = movingSettings();
+    Order order{.sides = {side(1, settings)}, .level = 2};
+    const std::string before = perform(order).sides.front().shown->pictureHash();
+    settings.camera.position.x += 0.1f;
+    order.sides = {side(1, settings)};
+    EXPECT_NE(perform(order).sides.front().shown->pictureHash(), before);
+    order.level = 0;
+    EXPECT_EQ(perform(order).sides.front().shown->pictureHash(), hashOf(settings, 0));
+}
+
+TEST_F(StudioTest, KeepsWhatItPlaysWhereSettingsAreRefused) {
+    const hair::Settings settings = movingSettings();
+    const std::string before =
+        perform({.sides = {side(1, settings)}}).sides.front().shown->pictureHash();
+    hair::Settings broken = settings;
+    broken.groom.file = "there is no such file.hair";
+    Order order{.sides = {side(1, broken)}};
+    const SideReply refused = std::move(perform(order).sides.front());
+    EXPECT_THAT(refused.problem, HasSubstr("there is no such file.hair"));
+    EXPECT_EQ(refused.revision, order.sides.front().revision);
+    EXPECT_FALSE(refused.failure);
+    // It is said again as long as it holds, and frames are played on.
+    order.frames = 1;
+    const SideReply played = std::move(perform(order).sides.front());
+    EXPECT_NE(played.problem, "");
+    EXPECT_EQ(played.shown->frame, 1u);
+    EXPECT_EQ(played.shown->settings.groom.file, settings.groom.file);
+    order = {.sides = {side(1, settings)}, .seek = 0};
+    const SideReply good = std::move(perform(order).sides.front());
+    EXPECT_EQ(good.problem, "");
+    EXPECT_EQ(good.shown->pictureHash(), before);
+}
+
+TEST_F(StudioTest, SaysWhyASideCannotBeMade) {
+    hair::Settings broken = movingSettings();
+    broken.groom.file = "there is no such file.hair";
+    const Reply reply = perform({.sides = {side(1, broken)}});
+    ASSERT_TRUE(reply.sides.front().failure);
+    EXPECT_THROW(std::rethrow_exception(reply.sides.front().failure), engine::Error);
+    EXPECT_FALSE(reply.sides.front().shown.has_value());
+}
+
+TEST_F(StudioTest, LetsGoOfSidesThatAreNotWanted) {
+    const auto bytes = [](const Reply& reply) {
+        std::uint64_t sum = 0;
+        for (const auto& [entry, held] : reply.memory.bytes()) sum += held;
+        return sum;
+    };
+    const SideOrder a = side(1, movingSettings()), b = side(2, movingSettings());
+    const std::uint64_t one = bytes(perform({.sides = {a}}));
+    EXPECT_GT(bytes(perform({.sides = {a, b}})), one);
+    EXPECT_EQ(bytes(perform({.sides = {a}})), one);
+}
+
+TEST_F(StudioTest, BeginsASecondSideAtTheFrameOfTheFirst) {
+    Order order{.sides = {side(1, movingSettings())}};
+    perform(order);
+    order.frames = 2;
+    perform(order);
+    order.frames = 0;
+    order.sides.push_back(side(2, movingSettings()));
+    order.sides.back().beside = 1;
+    const Reply reply = perform(order);
+    EXPECT_EQ(reply.sides.back().shown->frame, 2u);
+    EXPECT_EQ(reply.sides.back().shown->pictureHash(), hashOf(movingSettings(), 2));
+}
+
+// A seek that nobody waits for any more ends at the next frame, and what was reached is replied.
+TEST_F(StudioTest, StopsBetweenFrames) {
+    Order order{.sides = {side(1, movingSettings())}};
+    perform(order);
+    order.seek = 1000000;
+    int asked = 0;
+    const Reply reply = studio_.perform(order, [&] { return ++asked > 3; });
+    EXPECT_EQ(asked, 4);
+    EXPECT_EQ(reply.sides.size(), 1u);
+}
+
+TEST_F(StudioTest, CountsTheSideThatWasAskedFor) {
+    if (!device().hasPipelineStatistics()) GTEST_SKIP() << "no pipeline statistics";
+    Order order{.sides = {side(1, movingSettings())}};
+    EXPECT_FALSE(perform(order).counted.has_value());
+    order.count = 1;
+    const Reply reply = perform(order);
+    ASSERT_TRUE(reply.counted.has_value());
+    EXPECT_EQ(reply.counted->statistics.size(), engine::statisticNames(device()).size());
+}
+
+}  // namespace
+}  // namespace benchmarks::viewer
