@@ -224,7 +224,10 @@ Shown Player::shown(Guides guides) const {
         .rest = sphereRound(groom.points),
         .head = case_->head(),
         .counts = case_->counts(),
+        .backend = {},
         .transparency = {}};
+    if (const auto backend = case_->backend())
+        shown.backend = {hair::backendName(backend->backend), backend->variant, backend->reason};
     if (target) {
         shown.width = target->output().extent().width;
         shown.height = target->output().extent().height;

@@ -69,6 +69,7 @@ struct Shown {
     Sphere rest;  // round the guides at rest, before the head moved
     hair::simulation::RigidMotion head;
     std::vector<std::pair<std::string, std::uint64_t>> counts;  // Case::counts()
+    report::BackendRecord backend;  // what draws the strands of whole pictures, and why
     report::CaseResult transparency;  // measure::addTransparency()
 
     bool isThere() const { return !picture.empty(); }

@@ -260,6 +260,7 @@ ShownSide shownTimings(const TimingHistory& history, std::string_view device_typ
 ShownSide shownSide(const Side& side, std::string_view device_type) {
     ShownSide shown = shownTimings(side.timings(), device_type);
     shown.metrics.counts = side.shown().counts;
+    shown.metrics.backend = side.shown().backend;
     return shown;
 }
 

@@ -126,7 +126,7 @@ struct ShownSide {
 };
 
 ShownSide shownTimings(const TimingHistory& history, std::string_view device_type);
-// shownTimings() with the counts of what the side plays.
+// shownTimings() with the counts of what the side plays, and what draws its strands.
 ShownSide shownSide(const Side& side, std::string_view device_type);
 
 // "12.3 ms": the median time of the isolated frames, from submission to completion; empty while

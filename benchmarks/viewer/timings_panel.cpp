@@ -225,17 +225,19 @@ void memoryTable(const engine::MemoryLedger& ledger, double window) {
     ImGui::EndTable();
 }
 
-// "guides", "strands", "segments", ... and how many.
-void countTable(
-    const std::vector<std::pair<std::string, std::uint64_t>>& counts,
-    const std::vector<std::pair<std::string, std::uint64_t>>* compared) {
+// What draws the strands, and "guides", "strands", "segments", ... and how many.
+void countTable(const report::CaseResult& shown, const report::CaseResult* compared) {
     FigureTable table(
         "##counts", compared ? FigureTable::Columns::compared : FigureTable::Columns::one);
-    for (const auto& [name, count] : counts) {
+    if (!shown.backend.name.empty())
+        table.row(
+            "drawn by", shown.backend.reason.c_str(), shown.backend.name,
+            compared ? compared->backend.name : "");
+    for (const auto& [name, count] : shown.counts) {
         std::string text = name, other;
         std::ranges::replace(text, '_', ' ');
         if (compared)
-            for (const auto& [other_name, other_count] : *compared)
+            for (const auto& [other_name, other_count] : compared->counts)
                 if (other_name == name) other = report::countText(other_count);
         table.row(text.c_str(), "", report::countText(count), other);
     }
@@ -530,7 +532,7 @@ void TimingsPanel::show(
     if (section("Pipeline statistics")) statistics(side);
     if (section("Memory and counts")) {
         memoryTable(memory_, static_cast<double>(window.memory));
-        countTable(a.metrics.counts, other ? &other->metrics.counts : nullptr);
+        countTable(a.metrics, other ? &other->metrics : nullptr);
     }
     if (section("As the runner measures")) measure_.show(compared ? 2 : 1, origin);
 }
