@@ -21,8 +21,10 @@ class DistanceField {
 public:
     // Bakes on the device and waits. The longest side of the mesh's bounding box is `resolution`
     // cells, at least 1; the grid goes on for at least `padding` (m, not negative) on every side,
-    // as far on opposite ones. Throws engine::Error for a mesh that is not closed, and
-    // engine::Unsupported where a buffer is larger than the device's.
+    // as far on opposite ones. Distances are exact inside and, outside, to `padding` and two cells
+    // more; what is farther away is said to be at least that, and at most as far as it is. Throws
+    // engine::Error for a mesh that is not closed, and engine::Unsupported where a buffer is larger
+    // than the device's.
     DistanceField(
         const engine::Device& device, const groom::Mesh& mesh, std::uint32_t resolution,
         float padding);

@@ -39,15 +39,24 @@ struct TriangleNormals {
     vec3 corners[3];
 };
 
+// What is nearest to the middle of a block of points.
+struct BlockMiddle {
+    float distance;  // m, signed
+    uint triangle;  // of the tree's leaves
+};
+
 // Push constants of simulation/bake_distance.comp.
 struct BakeDistancePush {
     DistanceField field;  // its distances are written
     Address nodes;  // TreeNode
     Address triangles;  // TreeTriangle, in the order of the leaves
     Address normals;  // TriangleNormals, in the same order
+    Address middles;  // BlockMiddle [block]
     uvec3 blocks;  // along each axis
     uint first_block;
     uint block_count;  // of this dispatch
+    uint finds_middles;  // 1: those are written; 0: they are there, and the field is written
+    float band;  // m: farther outside no distance need be exact
 };
 
 #endif

@@ -1,8 +1,9 @@
 #version 460
-// Signed distances to a closed surface; one invocation per grid point, a workgroup per block of
-// them. The nearest triangle is found by depth-first search of a tree of boxes, the nearer child
-// first; the sign is that of the pseudonormal of the nearest feature: Baerentzen and Aanaes 2005,
-// Signed distance computation using the angle weighted pseudonormal.
+// Signed distances to a closed surface: first of the middles of blocks of grid points, which say
+// where no search is needed and how far others have to go; then of the points, one to an
+// invocation, a workgroup per block. The nearest triangle is found by depth-first search of a tree
+// of boxes, the nearer child first; the sign is that of the pseudonormal of the nearest feature:
+// Baerentzen and Aanaes 2005, Signed distance computation using the angle weighted pseudonormal.
 #extension GL_GOOGLE_include_directive : require
 
 #include "common/extensions.glsl"
@@ -16,6 +17,7 @@ layout(push_constant, scalar) uniform Push { BakeDistancePush push; };
 layout(buffer_reference, scalar) readonly buffer Nodes { TreeNode at[]; };
 layout(buffer_reference, scalar) readonly buffer Triangles { TreeTriangle at[]; };
 layout(buffer_reference, scalar) readonly buffer Normals { TriangleNormals at[]; };
+layout(buffer_reference, scalar) buffer Middles { BlockMiddle at[]; };
 layout(buffer_reference, scalar) writeonly buffer Distances { float at[]; };
 
 // The square distance to a box; 0 inside.
@@ -30,11 +32,12 @@ vec3 pseudonormal(TriangleNormals normals, uint feature) {
                                      : normals.corners[feature - kCornerFeatures];
 }
 
-float signedDistance(vec3 p) {
+// `most` is more than the distance, m. `found` is a nearest triangle.
+float signedDistance(vec3 p, float most, out uint found) {
     Nodes nodes = Nodes(push.nodes);
     Triangles triangles = Triangles(push.triangles);
-    Nearest nearest = Nearest(vec3(0.0), 3.0e38, kFaceFeature);
-    uint found = 0u;
+    Nearest nearest = Nearest(vec3(0.0), most * most, kFaceFeature);
+    found = 0u;
 
     uint waiting[kTreeDepth];
     float waiting_distance[kTreeDepth];
@@ -81,16 +84,50 @@ uvec3 pointInBlock(uint lane) {
     return low + 2u * high;
 }
 
-void main() {
-    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+uvec3 placeOf(uint block) {
+    return uvec3(block, block / push.blocks.x, block / push.blocks.x / push.blocks.y) %
+           push.blocks;
+}
+
+vec3 middleOf(uint block) {
+    vec3 place = float(kBakeBlock) * vec3(placeOf(block)) + 0.5 * float(kBakeBlock - 1u);
+    return push.field.origin + push.field.cell * place;
+}
+
+void findMiddle(uint lane) {
+    if (lane >= push.block_count) return;
+    uint block = push.first_block + lane;
+    uint triangle;
+    float distance = signedDistance(middleOf(block), 1.0e19, triangle);
+    Middles(push.middles).at[block] = BlockMiddle(distance, triangle);
+}
+
+void findPoint(uint group) {
     uint block = push.first_block + group;
-    uvec3 block_at = uvec3(block, block / push.blocks.x, block / push.blocks.x / push.blocks.y) %
-                     push.blocks;
-    uvec3 point = kBakeBlock * block_at + pointInBlock(gl_LocalInvocationID.x);
-    if (group >= push.block_count || any(greaterThanEqual(point, push.field.points)))
-        return;  // no barrier follows
+    uvec3 point = kBakeBlock * placeOf(block) + pointInBlock(gl_LocalInvocationID.x);
+    if (group >= push.block_count || any(greaterThanEqual(point, push.field.points))) return;
 
     vec3 p = push.field.origin + push.field.cell * vec3(point);
     uint index = point.x + push.field.points.x * (point.y + push.field.points.y * point.z);
-    Distances(push.field.distances).at[index] = signedDistance(p);
+    BlockMiddle middle = Middles(push.middles).at[block];
+    float reach = 0.5 * sqrt(3.0) * float(kBakeBlock - 1u) * push.field.cell;
+    float found = middle.distance - reach;  // at most the distance, as far as rounding lets it
+    if (found <= push.band) {
+        // What is nearest to the middle is not much farther than the nearest. Roundings are less
+        // than a quarter of a cell.
+        TreeTriangle triangle = Triangles(push.triangles).at[middle.triangle];
+        Nearest near = Nearest(vec3(0.0), 3.0e38, kFaceFeature);
+        compareTriangle(p, triangle.corners, triangle.normal, near);
+        uint nearest;
+        found = signedDistance(p, sqrt(near.size) + 0.25 * push.field.cell, nearest);
+    }
+    Distances(push.field.distances).at[index] = found;
+}
+
+void main() {
+    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    if (push.finds_middles != 0u)
+        findMiddle(group * gl_WorkGroupSize.x + gl_LocalInvocationID.x);
+    else
+        findPoint(group);
 }

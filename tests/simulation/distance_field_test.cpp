@@ -32,10 +32,11 @@ protected:
     // A field with what it holds.
     struct Baked {
         DistanceField field;
+        double padding;
         std::vector<float> distances;
 
-        Baked(const groom::Mesh& mesh, std::uint32_t resolution, float padding)
-            : field(device(), mesh, resolution, padding),
+        Baked(const groom::Mesh& mesh, std::uint32_t resolution, float beyond)
+            : field(device(), mesh, resolution, beyond), padding(double{beyond}),
               distances(engine::downloadAs<float>(device(), field.distances())) {}
 
         const gpu::DistanceField& grid() const { return field.parameters(); }
@@ -45,6 +46,21 @@ protected:
             const glm::dvec3 point(
                 index % points.x, index / points.x % points.y, index / points.x / points.y);
             return glm::dvec3(grid().origin) + double{grid().cell} * point;
+        }
+
+        // Farther outside than this distances are lower bounds, and at least this.
+        double exactTo() const { return padding + 2.0 * double{grid().cell}; }
+
+        // Whether a grid point is said to be as far as it is, or, beyond what is exact, at most
+        // that far and too far to touch.
+        testing::AssertionResult tells(double found, double exact) const {
+            const double rounding = roundingOf(size());
+            const bool fits = exact <= exactTo()
+                                  ? std::abs(found - exact) <= rounding
+                                  : found <= exact + rounding && found >= exactTo() - rounding;
+            if (fits) return testing::AssertionSuccess();
+            return testing::AssertionFailure() << found << " for " << exact << ", exact to "
+                                               << exactTo() << ", rounding " << rounding;
         }
 
         double size() const {
@@ -82,7 +98,8 @@ protected:
 
     static void expectDistances(const groom::Mesh& mesh, const Baked& baked, int count) {
         atRandomPoints(baked, count, [&](const glm::dvec3& p, double distance) {
-            EXPECT_NEAR(std::abs(distance), reference::distance(mesh, p), roundingOf(baked.size()));
+            const double exact = reference::distance(mesh, p);
+            EXPECT_TRUE(baked.tells(distance, std::copysign(exact, distance)));
         });
     }
 };
@@ -90,11 +107,22 @@ protected:
 TEST_F(DistanceFieldTest, OfABoxIsExact) {
     const glm::dvec3 half{0.5, 0.25, 0.75};
     const Baked baked(makeBox(-half, half), 24, 0.3f);
+    for (std::size_t i = 0; i < baked.distances.size(); ++i)
+        ASSERT_TRUE(baked.tells(baked.distances[i], boxDistance(baked.position(i), half))) << i;
+}
+
+// The corners of the grid are 0.52 m away.
+TEST_F(DistanceFieldTest, BeyondThePaddingIsALowerBoundThatIsOutside) {
+    const groom::Mesh box = makeBox({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+    const Baked baked(box, 64, 0.3f);
+    ASSERT_LT(baked.exactTo(), 0.5);
+    std::size_t bounds = 0;
     for (std::size_t i = 0; i < baked.distances.size(); ++i) {
-        ASSERT_NEAR(
-            baked.distances[i], boxDistance(baked.position(i), half), roundingOf(baked.size()))
-            << i;
+        const double exact = boxDistance(baked.position(i), glm::dvec3(0.5));
+        ASSERT_TRUE(baked.tells(baked.distances[i], exact)) << i;
+        bounds += baked.distances[i] < exact - roundingOf(baked.size());
     }
+    EXPECT_GT(bounds, 0u);  // what is saved
 }
 
 // Moved to where 1 / 16 mm is the distance between floats.
@@ -102,11 +130,8 @@ TEST_F(DistanceFieldTest, OfABoxFarFromTheOriginIsAsExactAsFloats) {
     const glm::dvec3 half{0.5, 0.5, 0.5};
     const glm::dvec3 centre{1000.0, -1000.0, 500.0};
     const Baked baked(makeBox(centre - half, centre + half), 16, 0.25f);
-    for (std::size_t i = 0; i < baked.distances.size(); ++i) {
-        ASSERT_NEAR(
-            baked.distances[i], boxDistance(baked.position(i) - centre, half),
-            roundingOf(baked.size()));
-    }
+    for (std::size_t i = 0; i < baked.distances.size(); ++i)
+        ASSERT_TRUE(baked.tells(baked.distances[i], boxDistance(baked.position(i) - centre, half)));
 }
 
 // The sphere of the vertices holds the mesh, and that which touches the planes of its triangles is
@@ -125,7 +150,7 @@ TEST_F(DistanceFieldTest, OfASphereLiesBetweenThoseOfTheSpheresRoundAndInIt) {
     ASSERT_GT(inner, 0.0985);
     for (std::size_t i = 0; i < baked.distances.size(); ++i) {
         const double from_centre = glm::distance(baked.position(i), centre);
-        ASSERT_GT(baked.distances[i], from_centre - 0.1 - rounding);
+        ASSERT_GT(baked.distances[i], std::min(from_centre - 0.1, baked.exactTo()) - rounding);
         ASSERT_LT(baked.distances[i], from_centre - inner + rounding);
     }
 }
@@ -158,7 +183,7 @@ TEST_F(DistanceFieldTest, OfTwoPartsIsThatOfTheNearerOne) {
         const glm::dvec3 p = baked.position(i);
         const double small = boxDistance(p - glm::dvec3(-1.5, 0, 0), glm::dvec3(0.5));
         const double large = boxDistance(p - glm::dvec3(1.5, 0, 0), glm::dvec3(1.0));
-        ASSERT_NEAR(baked.distances[i], std::min(small, large), roundingOf(baked.size()));
+        ASSERT_TRUE(baked.tells(baked.distances[i], std::min(small, large)));
     }
 }
 
