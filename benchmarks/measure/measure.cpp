@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "benchmarks/measure/machine_watch.h"
@@ -20,6 +22,9 @@ using engine::Timing;
 // Share of /run/max_time for wall-clock rounds that give nothing but the passes' use of the CPU.
 constexpr double kUseShare = 1.0 / 3.0;
 
+// Share of it for the check of the timestamps.
+constexpr double kCheckShare = 0.1;
+
 template <class Get>
 double medianOf(const std::vector<FrameRecord>& frames, Get get) {
     std::vector<double> values;
@@ -34,18 +39,21 @@ void checkEnds(const RoundEnd& overlapped, const RoundEnd& isolated, report::Cas
         result.trust.warnings.push_back("overlapped and isolated frames made different states");
 }
 
-// What keeps the passes' times of these frames from being believed. Asked once in a run of frames
-// with the same passes, if nothing does.
-std::vector<std::string> faultsOf(
-    Stage& stage, const std::vector<FrameRecord>& isolated, DeviceKnowledge* known,
-    report::CaseResult& result) {
-    const std::vector<std::string> passes = passNames(isolated);
-    if (passes.empty()) return {"the device has no timestamps"};
-    if (known && std::ranges::find(known->trusted_passes, passes) != known->trusted_passes.end())
-        return {};
-    std::vector<std::string> faults = checkTimestamps(stage, result);
-    if (faults.empty() && known && !stage.isProcessor()) known->trusted_passes.push_back(passes);
-    return faults;
+// Says in the report what is known of the timestamps.
+void tellJudgement(const TimestampJudgement& judgement, report::CaseResult& result) {
+    using Verdict = TimestampJudgement::Verdict;
+    report::Trust& trust = result.trust;
+    trust.timestamps = judgement.verdict == Verdict::right   ? "right"
+                       : judgement.verdict == Verdict::wrong ? "wrong"
+                                                             : "unchecked";
+    if (judgement.verdict == Verdict::wrong)
+        trust.warnings.push_back(
+            "timestamps are not trusted: the passes' times are by the CPU's clock");
+    else if (!judgement.faults.empty())
+        trust.warnings.push_back(
+            "timestamps and the CPU's clock disagree, and a tenth of /run/max_time is too short to "
+            "tell a disturbance from a fault");
+    std::ranges::copy(judgement.faults, std::back_inserter(trust.warnings));
 }
 
 // Adds the passes' times, by timestamps if they can be trusted and else by the CPU's clock; on a
@@ -54,24 +62,32 @@ std::vector<std::string> faultsOf(
 std::vector<report::Conditions> addPasses(
     Stage& stage, const SampledMode& isolated, const hair::RunSettings& run,
     const MeasureHooks& hooks, report::CaseResult& result) {
-    const std::vector<std::string> faults = faultsOf(stage, isolated.frames, hooks.known, result);
-    const bool software = stage.isProcessor();
-    if (faults.empty()) addPassTimes(isolated.frames, report::Mode::isolated, result);
-    if (faults.empty() && !software) return {};
-
-    SamplingRule rule = samplingRule(Timing::wall_clock, run);
-    if (faults.empty()) {
-        rule.max_time *= kUseShare;
-        rule.most_rounds = isolated.sampling.rounds;
-    } else {
-        result.trust.warnings.push_back(
-            "timestamps are not trusted: the passes' times are by the CPU's clock");
-        result.trust.warnings.insert(result.trust.warnings.end(), faults.begin(), faults.end());
+    const SamplingRule rule = samplingRule(Timing::wall_clock, run);
+    std::optional<SampledMode> clocked;
+    if (stage.isProcessor() && !passNames(isolated.frames).empty()) {
+        SamplingRule for_use = rule;
+        for_use.max_time *= kUseShare;
+        for_use.most_rounds = isolated.sampling.rounds;
+        clocked = sampleMode(stage, Timing::wall_clock, for_use, run, hooks, result);
     }
-    SampledMode clocked = sampleMode(stage, Timing::wall_clock, rule, run, hooks, result);
-    if (!faults.empty()) addPassTimes(clocked.frames, report::Mode::wall_clock, result);
-    if (software) addPassUse(clocked.frames, result);
-    return std::move(clocked.conditions);
+    const TimestampJudgement judgement = judgeTimestamps(
+        stage, isolated.frames, clocked ? std::span(clocked->frames) : std::span<FrameRecord>(),
+        kCheckShare * double{run.max_time}, hooks.known, result);
+    tellJudgement(judgement, result);
+    if (judgement.verdict != TimestampJudgement::Verdict::wrong) {
+        addPassTimes(isolated.frames, report::Mode::isolated, result);
+    } else {
+        // What was played for the passes' use is too little for their times.
+        if (clocked && rule.max_time > 0.0) {
+            clocked.reset();
+            result.sampling.pop_back();
+        }
+        if (!clocked) clocked = sampleMode(stage, Timing::wall_clock, rule, run, hooks, result);
+        addPassTimes(clocked->frames, report::Mode::wall_clock, result);
+    }
+    if (!clocked) return {};
+    if (stage.isProcessor()) addPassUse(clocked->frames, result);
+    return std::move(clocked->conditions);
 }
 
 }  // namespace
@@ -80,7 +96,9 @@ std::vector<std::uint8_t> measureFrames(
     Stage& stage, const hair::RunSettings& run, const MeasureHooks& hooks,
     report::CaseResult& result) {
     const auto sample = [&](Timing timing) {
-        return sampleMode(stage, timing, samplingRule(timing, run), run, hooks, result);
+        SamplingRule rule = samplingRule(timing, run);
+        rule.counts = timing == Timing::isolated;
+        return sampleMode(stage, timing, rule, run, hooks, result);
     };
     SampledMode overlapped = sample(Timing::overlapped);
     const SampledMode isolated = sample(Timing::isolated);
@@ -135,8 +153,11 @@ std::vector<std::uint8_t> measure(
         result.backend = {hair::backendName(backend->backend), backend->variant, backend->reason};
     DeviceStage stage(device, test_case, run, hooks);
     std::vector<std::uint8_t> picture = measureFrames(stage, run, hooks, result);
-    addTransparency(test_case, result);
-    addStatistics(device, test_case, result);
+    report::CaseResult counted = stage.takeCounted();
+    result.statistics = std::move(counted.statistics);
+    std::ranges::move(counted.metrics, std::back_inserter(result.metrics));
+    std::ranges::move(counted.counts, std::back_inserter(result.counts));
+    std::ranges::move(counted.trust.warnings, std::back_inserter(result.trust.warnings));
     result.metrics.push_back(
         {report::ofMemory(report::Measured::allocated),
          {static_cast<double>(device.allocatedBytes())}});

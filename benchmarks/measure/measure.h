@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -30,6 +31,11 @@ struct DeviceKnowledge {
     std::map<hair::Clocks, double> held_clock;
     // Names of the passes of frames whose timestamps were checked and are right.
     std::vector<std::vector<std::string>> trusted_passes;
+    // Of frames of these passes, in how many of them planted work was found so far.
+    std::map<std::vector<std::string>, std::size_t> checked_passes;
+    std::uint32_t planted_steps = 0;  // of work that is looked for; 0: not known yet
+    // Stage::timestampRate(), once it was asked for.
+    std::optional<std::optional<double>> timestamp_rate;
 };
 
 struct MeasureHooks {
@@ -41,11 +47,11 @@ struct MeasureHooks {
 // Plays the case in rounds of /run/warmup and /run/frames frames, overlapped and then isolated,
 // until the frame time is known to /run/precision or /run/max_time is over, checks that all made
 // the same picture and state, holds the timestamps against the CPU's clock, and counts with
-// pipeline statistics in a frame of its own. Fills in metrics, statistics, counts, sampling,
-// conditions, trust and hashes of `result`; its status is `failed`, and its samples those of
-// throttled rounds, if the device was throttled in all rounds. Returns the picture that is hashed,
-// [row][column] RGBA, top row first: that of a round's last frame. Throws Interrupted where the
-// user asks to stop, engine::Error if there is no /run/busy_pass.
+// pipeline statistics in the frame that ends the first isolated round. Fills in metrics,
+// statistics, counts, sampling, conditions, trust and hashes of `result`; its status is `failed`,
+// and its samples those of throttled rounds, if the device was throttled in all rounds. Returns the
+// picture that is hashed, [row][column] RGBA, top row first: that of a round's last frame. Throws
+// Interrupted where the user asks to stop, engine::Error if there is no /run/busy_pass.
 std::vector<std::uint8_t> measure(
     const engine::Device& device, Case& test_case, const hair::RunSettings& run,
     const MeasureHooks& hooks, report::CaseResult& result);

@@ -23,102 +23,6 @@ using engine::FrameRecord;
 using engine::PassTime;
 using engine::ProcessUse;
 
-// ---- Timestamps against the CPU's clock ---------------------------------------------------------
-
-constexpr std::uint32_t kPairs = 2;  // between two looks
-constexpr std::uint32_t kMostPairs = 16;
-
-// Work that is planted in one pass after another: many times what submitting it may take.
-constexpr double kPlantedTime = 10.0;  // ms
-constexpr double kMostPlantedSteps = 1u << 30;
-
-// Clocks of a device and its host drift apart by some 1e-5; what is wrong is wrong by much.
-constexpr double kRateTolerance = 0.01;
-
-}  // namespace
-
-std::vector<std::string> checkTimestamps(const PlayedFrames& stamped, const PlayedFrames& clocked) {
-    std::vector<engine::FrameRecord> stamped_frames;
-    std::vector<engine::FrameRecord> clocked_frames;
-    std::vector<std::string> faults;
-    do {
-        for (std::uint32_t i = 0; i < kPairs; ++i) {
-            stamped.play();
-            clocked.play();
-        }
-        std::ranges::move(stamped.finish(), std::back_inserter(stamped_frames));
-        std::ranges::move(clocked.finish(), std::back_inserter(clocked_frames));
-        faults = timestampFaults(stamped_frames, clocked_frames);
-    } while (!faults.empty() && stamped_frames.size() < kMostPairs);
-    return faults;
-}
-
-namespace {
-
-PlayedFrames playedBy(Player& player) {
-    return {[&] { player.frame(); }, [&] { return player.finish(); }};
-}
-
-double timeOf(std::span<const engine::FrameRecord> frames, const std::string& pass) {
-    const std::vector<double> times = passTimes(frames, pass);
-    return times.empty() ? 0.0 : std::ranges::min(times);
-}
-
-std::vector<engine::FrameRecord> playTwice(Player& player) {
-    player.frame();
-    player.frame();
-    return player.finish();
-}
-
-// Steps of planted work that take the pass kPlantedTime by the CPU's clock.
-std::uint32_t stepsToSee(Stage& stage, const std::string& pass, double without) {
-    double steps = 1024.0;
-    while (steps < kMostPlantedSteps) {
-        const std::unique_ptr<Player> player =
-            stage.player(engine::Timing::wall_clock, {pass, static_cast<std::uint32_t>(steps)});
-        const double planted = timeOf(playTwice(*player), pass) - without;
-        if (planted >= kPlantedTime) break;
-        // What is long enough to be told from a submission says how much more is needed.
-        steps *= planted > 0.2 * kPlantedTime ? 1.2 * kPlantedTime / planted : 4.0;
-    }
-    return static_cast<std::uint32_t>(std::min(steps, kMostPlantedSteps));
-}
-
-std::vector<std::string> rateFaults(std::optional<double> rate) {
-    if (!rate || std::abs(*rate - 1.0) <= kRateTolerance) return {};
-    return {
-        "the device's timestamps run at " + report::shortNumber(*rate) +
-        " of the rate that their period says"};
-}
-
-}  // namespace
-
-std::vector<std::string> checkTimestamps(Stage& stage, report::CaseResult& result) {
-    result.trust.timestamp_rate = stage.timestampRate();
-    std::vector<std::string> faults = rateFaults(result.trust.timestamp_rate);
-    if (stage.isProcessor()) {
-        const auto stamped = stage.player(engine::Timing::isolated);
-        const auto clocked = stage.player(engine::Timing::wall_clock);
-        std::ranges::move(
-            checkTimestamps(playedBy(*stamped), playedBy(*clocked)), std::back_inserter(faults));
-        return faults;
-    }
-    const auto plain = stage.player(engine::Timing::wall_clock);
-    const std::vector<engine::FrameRecord> frames = playTwice(*plain);
-    std::uint32_t steps = 0;
-    for (const std::string& pass : passNames(frames)) {
-        if (steps == 0) steps = stepsToSee(stage, pass, timeOf(frames, pass));
-        const auto stamped = stage.player(engine::Timing::isolated, {pass, steps});
-        const auto clocked = stage.player(engine::Timing::wall_clock, {pass, steps});
-        for (std::string& fault : checkTimestamps(playedBy(*stamped), playedBy(*clocked)))
-            if (std::ranges::find(faults, fault) == faults.end())
-                faults.push_back(std::move(fault) + ", with planted work in " + pass);
-    }
-    return faults;
-}
-
-namespace {
-
 // ---- Pipeline statistics and fragment lists -----------------------------------------------------
 
 std::optional<std::uint64_t>
@@ -146,13 +50,6 @@ std::optional<std::string> missedCount(
     const bool may_repeat = makesVertices(statistic) && device.type != "cpu" && *expected > 0;
     if (may_repeat ? measured >= *expected : measured == *expected) return std::nullopt;
     return (may_repeat ? "expected at least " : "expected ") + std::to_string(*expected);
-}
-
-void addStatistics(const engine::Device& device, Case& test_case, report::CaseResult& result) {
-    if (!device.hasPipelineStatistics()) return;
-    engine::FrameLoop loop(device, engine::Timing::statistics);
-    loop.frame([&](engine::Passes& passes) { test_case.frame(passes); });
-    addStatistics(loop.finish().front(), device, test_case, result);
 }
 
 void addStatistics(

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,23 +15,6 @@
 // Metrics, statistics and counts of a case, from its frames.
 namespace benchmarks::measure {
 
-// Something that plays frames in one timing mode.
-struct PlayedFrames {
-    std::function<void()> play;  // one frame
-    std::function<std::vector<engine::FrameRecord>()> finish;  // waits; frames since the last call
-};
-
-// Plays isolated frames and frames whose passes are submitted and waited for one at a time, in
-// turns, and returns what timestampFaults() (trust.h) finds. A fault of the device stays, a
-// disturbance passes: while there are faults more pairs are played, up to 16.
-std::vector<std::string> checkTimestamps(const PlayedFrames& stamped, const PlayedFrames& clocked);
-
-// The same for a case, and what is wrong with the timestamps' rate (trust.timestamp_rate). Passes
-// of some microseconds are shorter than what submitting them takes: on a device that is no
-// processor work of 10 ms is planted in one pass after another, and both clocks have to find it
-// there, all of it, and nowhere else.
-std::vector<std::string> checkTimestamps(Stage& stage, report::CaseResult& result);
-
 // What a count should have been, "expected 120" or "expected at least 120"; absent where it is, or
 // where nothing is expected. A GPU may run the stages that make vertices more than once for one of
 // them, as where batches of a patch's vertices share some, but never less often; a processor runs
@@ -42,12 +24,8 @@ std::optional<std::string> missedCount(
     std::string_view statistic, std::uint64_t measured, std::optional<std::uint64_t> expected,
     const engine::DeviceInfo& device);
 
-// Plays a frame, untimed and without busy work, with pipeline statistics of the strands, and holds
-// them against the counts that follow from the settings. Nothing where the device has none.
-void addStatistics(const engine::Device& device, Case& test_case, report::CaseResult& result);
-
-// Adds the statistics of a frame that was played with Timing::statistics. Nothing where it has no
-// strands.
+// Adds the statistics of a frame that was played with Timing::statistics, and holds them against
+// the counts that follow from the settings. Nothing where it has no strands.
 void addStatistics(
     const engine::FrameRecord& frame, const engine::Device& device, const Case& test_case,
     report::CaseResult& result);

@@ -16,21 +16,33 @@ using engine::Timing;
 
 // ---- Plays of one mode --------------------------------------------------------------------------
 
-RoundPlayer::RoundPlayer(std::unique_ptr<Player> player, const hair::RunSettings& run)
-    : player_(std::move(player)), warmup_(run.warmup), frames_(run.frames) {}
+RoundPlayer::RoundPlayer(
+    std::unique_ptr<Player> player, const hair::RunSettings& run, Counts counts)
+    : player_(std::move(player)), warmup_(run.warmup), frames_(run.frames), counts_(counts) {}
 
 std::vector<FrameRecord> RoundPlayer::round() {
     if (plays_ == 1) firstEnd();
     player_->reset();
     player_->frame();
     if (plays_ == 0) first_frame_ = player_->finish().front().interval;
-    for (std::uint32_t i = 1; i < warmup_; ++i) player_->frame();
+    const bool counts = plays_ == 0 && counts_ == Counts::last_frame;
     // The interval of the last frame contains the wait for it: one more frame is drawn than
     // measured.
-    for (std::uint32_t i = 0; i <= frames_; ++i) player_->frame();
-    const std::vector<FrameRecord> frames = player_->finish();
+    const std::uint32_t timed = warmup_ + frames_ + (counts ? 0 : 1);
+    for (std::uint32_t i = 1; i < timed; ++i) player_->frame();
+    std::vector<FrameRecord> frames = player_->finish();
+    if (counts)
+        player_->count();
+    else
+        frames.pop_back();
     ++plays_;
-    return {frames.end() - 1 - frames_, frames.end() - 1};
+    // What finish() returned for the first frame of all is not among them.
+    return {frames.end() - frames_, frames.end()};
+}
+
+std::vector<FrameRecord> RoundPlayer::more() {
+    for (std::uint32_t i = 0; i < frames_; ++i) player_->frame();
+    return player_->finish();
 }
 
 void RoundPlayer::play() {
@@ -295,7 +307,10 @@ SamplingRule samplingRule(engine::Timing timing, const hair::RunSettings& run) {
 SampledMode sampleMode(
     Stage& stage, engine::Timing timing, const SamplingRule& rule, const hair::RunSettings& run,
     const MeasureHooks& hooks, report::CaseResult& result) {
-    RoundPlayer player(stage.player(timing), run);
+    using Counts = RoundPlayer::Counts;
+    RoundPlayer player(
+        stage.player(timing), run, rule.counts ? Counts::last_frame : Counts::nothing);
+    const bool follows = timing == Timing::wall_clock && rule.max_time <= 0.0;
     const bool streams = !stage.isProcessor() && rule.max_time > 0.0 && run.round_time > 0.0f;
     SamplingRule this_rule = rule;
     this_rule.looks_beside = streams && stage.runsBesideThought();
@@ -305,7 +320,11 @@ SampledMode sampleMode(
         player.firstEnd();
     }
     const SamplingTools tools{
-        .play = [&] { return streams ? player.stream(*plays) : player.round(); },
+        .play =
+            [&] {
+                if (follows) return player.more();
+                return streams ? player.stream(*plays) : player.round();
+            },
         .begin =
             [&] {
                 if (streams) {
@@ -328,13 +347,15 @@ SampledMode sampleMode(
     double* const held = hooks.known ? &hooks.known->held_clock[run.clocks] : nullptr;
     SampledMode mode{sampleRounds(this_rule, tools, held), player.firstFrame(), {}};
     if (streams) player.drain();
-    mode.end = player.lastEnd();
     mode.sampling.plays = plays.value_or(1);
-    const RoundEnd& first = player.firstEnd();
-    if (mode.end.picture_hash != first.picture_hash)
-        result.trust.warnings.push_back(rule.mode + " rounds made different pictures");
-    if (mode.end.state_hash != first.state_hash)
-        result.trust.warnings.push_back(rule.mode + " rounds made different states");
+    if (!follows) {
+        mode.end = player.lastEnd();
+        const RoundEnd& first = player.firstEnd();
+        if (mode.end.picture_hash != first.picture_hash)
+            result.trust.warnings.push_back(rule.mode + " rounds made different pictures");
+        if (mode.end.state_hash != first.state_hash)
+            result.trust.warnings.push_back(rule.mode + " rounds made different states");
+    }
     result.sampling.push_back(mode.sampling);
     return mode;
 }

@@ -22,10 +22,19 @@ namespace benchmarks::measure {
 // the same picture and state.
 class RoundPlayer {
 public:
-    RoundPlayer(std::unique_ptr<Player> player, const hair::RunSettings& run);
+    // Whether the frame that ends the first round, which no sample is of, is counted
+    // (Player::count()). Not where frames overlap: it ends the interval of the one before.
+    enum class Counts { nothing, last_frame };
+
+    RoundPlayer(
+        std::unique_ptr<Player> player, const hair::RunSettings& run,
+        Counts counts = Counts::nothing);
 
     // One play, waited for: the frames that count.
     std::vector<engine::FrameRecord> round();
+
+    // As many frames as count in a round, from where the case is: no play, as it begins nowhere.
+    std::vector<engine::FrameRecord> more();
 
     // Plays without a pause, one after the other, and nothing read between them: the frames that
     // count of the next so many plays. What is in flight when this returns is of the play after.
@@ -47,6 +56,7 @@ private:
     std::unique_ptr<Player> player_;
     std::uint32_t warmup_;
     std::uint32_t frames_;
+    Counts counts_;
     std::uint64_t plays_ = 0;
     double first_frame_ = 0.0;
     std::vector<engine::FrameRecord> complete_;  // of a stream, from the first frame of a play on
@@ -59,6 +69,8 @@ struct SamplingRule {
     double precision = 0.01;  // half the median's interval over it; 0: until max_time
     double max_time = 10.0;  // s, after which no round is begun; 0: one round
     std::uint32_t most_rounds = std::numeric_limits<std::uint32_t>::max();
+    // Whether the first round's last frame is counted.
+    bool counts = false;
     // Whether the samples are looked at while the next round is played, so that the device is never
     // left without work.
     bool looks_beside = false;
@@ -100,7 +112,7 @@ sampleRounds(const SamplingRule& rule, const SamplingTools& tools, double* held_
 // A mode of a case, sampled.
 struct SampledMode : SampledRounds {
     double first_frame = 0.0;  // ms, from recording to completion, of the mode's first
-    RoundEnd end;  // of the last round
+    RoundEnd end;  // of the last round; empty where frames follow on others
 };
 
 // The rule of a mode by a scene's settings: the overlapped mode is judged by its intervals, the
@@ -109,7 +121,8 @@ SamplingRule samplingRule(engine::Timing timing, const hair::RunSettings& run);
 
 // Plays the mode's rounds: on a processor each is one play, on other devices as many as take
 // /run/round_time, after the clock was driven up (warmUp()). Enters its sampling, and warns in
-// `result` if its first and last plays made different pictures or states.
+// `result` if its first and last plays made different pictures or states. Where there is no time,
+// wall-clock frames are those that follow on what was played before.
 SampledMode sampleMode(
     Stage& stage, engine::Timing timing, const SamplingRule& rule, const hair::RunSettings& run,
     const MeasureHooks& hooks, report::CaseResult& result);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "benchmarks/measure/measure.h"
+#include "benchmarks/measure/metrics.h"
 #include "benchmarks/report/environment.h"
 #include "engine/error.h"
 #include "engine/queries.h"
@@ -20,8 +21,10 @@ class DevicePlayer : public Player {
 public:
     DevicePlayer(
         const engine::Device& device, Case& test_case, const MeasureHooks& hooks,
-        engine::Timing timing, const engine::Overlap& overlap, const PlantedWork& planted)
-        : test_case_(test_case), hooks_(hooks), loop_(device, timing, overlap) {
+        engine::Timing timing, const engine::Overlap& overlap, const PlantedWork& planted,
+        report::CaseResult& counted)
+        : device_(device), test_case_(test_case), hooks_(hooks), loop_(device, timing, overlap),
+          counted_(counted) {
         if (!planted.pass.empty()) busy_.emplace(device, planted.pass, planted.steps);
     }
 
@@ -40,6 +43,19 @@ public:
         });
     }
 
+    void count() override {
+        if (hooks_.stop()) throw engine::Interrupted();
+        engine::FrameLoop loop(device_, engine::Timing::statistics);
+        loop.frame([&](engine::Passes& passes) {
+            if (std::exchange(reset_, false)) test_case_.recordReset(passes);
+            test_case_.frame(passes);
+        });
+        const engine::FrameRecord frame = loop.finish().front();
+        counted_ = {};
+        addTransparency(test_case_, counted_);
+        addStatistics(frame, device_, test_case_, counted_);
+    }
+
     std::vector<engine::FrameRecord> completed() override { return loop_.completed(); }
 
     std::vector<engine::FrameRecord> finish() override {
@@ -56,9 +72,11 @@ public:
     }
 
 private:
+    const engine::Device& device_;
     Case& test_case_;
     const MeasureHooks& hooks_;
     engine::FrameLoop loop_;
+    report::CaseResult& counted_;
     std::optional<BusyPass> busy_;
     bool reset_ = false;
 };
@@ -74,6 +92,7 @@ public:
         if (hooks_.stop()) throw engine::Interrupted();
         loop_.frame([](engine::Passes&) {});
     }
+    void count() override { frame(); }
     std::vector<engine::FrameRecord> completed() override { return loop_.completed(); }
     std::vector<engine::FrameRecord> finish() override { return loop_.finish(); }
     RoundEnd end() override { return {}; }
@@ -109,7 +128,8 @@ std::unique_ptr<Player> DeviceStage::player(engine::Timing timing, const Planted
         .frames = run_.frames_in_flight,
         .stamps = run_.overlapped_stamps ? engine::Stamps::passes : engine::Stamps::frame,
         .async = run_.async_compute};
-    return std::make_unique<DevicePlayer>(device_, test_case_, hooks_, timing, overlap, planted);
+    return std::make_unique<DevicePlayer>(
+        device_, test_case_, hooks_, timing, overlap, planted, counted_);
 }
 
 std::unique_ptr<Player> DeviceStage::emptyPlayer(engine::Timing timing) {

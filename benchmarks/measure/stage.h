@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "benchmarks/measure/busy_work.h"
@@ -36,6 +37,9 @@ public:
     virtual void reset() = 0;
     // Plays the next frame. Throws Interrupted where the user asks to stop.
     virtual void frame() = 0;
+    // Plays the next frame untimed, without planted work, and has the stage count what it does. All
+    // frames must be finished.
+    virtual void count() = 0;
     // As engine::FrameLoop's: what is known of complete frames without waiting, and all the rest.
     virtual std::vector<engine::FrameRecord> completed() = 0;
     virtual std::vector<engine::FrameRecord> finish() = 0;
@@ -48,6 +52,9 @@ struct PlantedWork {
     std::string pass;
     std::uint32_t steps = 0;
 };
+
+// s that Stage::timestampRate() watches both clocks.
+inline constexpr double kRateTime = 0.1;
 
 // What measure() plays a case's frames on.
 class Stage {
@@ -73,7 +80,7 @@ public:
     virtual void pause(double seconds) = 0;
 
     // Of the device's timestamps: how much faster they run than they should, by a clock that
-    // device and host can both read. Absent where there is no such clock.
+    // device and host can both read. Absent where there is no such clock. Takes kRateTime.
     virtual std::optional<double> timestampRate() = 0;
 
     // ms by timestamps of a pass that records nothing: two barriers and two stamps. Absent where
@@ -110,12 +117,16 @@ public:
     void beginWatch() override { watch_.begin(); }
     report::Conditions conditions() override { return watch_.take(); }
 
+    // Statistics, transparency and warnings of the last frame that was counted.
+    report::CaseResult takeCounted() { return std::move(counted_); }
+
 private:
     const engine::Device& device_;
     Case& test_case_;
     const hair::RunSettings& run_;
     const MeasureHooks& hooks_;
     MachineWatch watch_;
+    report::CaseResult counted_;
 };
 
 }  // namespace benchmarks::measure

@@ -159,6 +159,7 @@ scene::Json toJson(const Trust& trust) {
     put(object, "pass_sum_over_work", trust.pass_sum_over_work);
     put(object, "empty_submission", trust.empty_submission);
     put(object, "empty_pass", trust.empty_pass);
+    put(object, "timestamps", trust.timestamps);
     put(object, "timestamp_rate", trust.timestamp_rate);
     object["warnings"] = trust.warnings;
     return object;

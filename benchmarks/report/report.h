@@ -113,6 +113,9 @@ struct Trust {
     std::optional<double> pass_sum_over_work;
     std::optional<double> empty_submission;  // ms, median
     std::optional<double> empty_pass;  // ms by timestamps of an isolated pass that does nothing
+    // "right": checked in this case or an earlier one of the run; "wrong": the passes' times are by
+    // the CPU's clock; "unchecked": /run/max_time had no time for it.
+    std::string timestamps;
     std::optional<double> timestamp_rate;  // of the device's stamps, over a clock of the host
     std::vector<std::string> warnings;
 };
@@ -176,7 +179,7 @@ scene::Json reportJson(const Report& report);
 
 const char* statusName(Status status);
 
-// Whether this program reads reports of that schema: "hairbench-report/1.2.0" for one of 1.1.0, as
+// Whether this program reads reports of that schema: "hairbench-report/1.3.0" for one of 1.1.0, as
 // minor versions add members.
 bool isReadable(std::string_view schema);
 

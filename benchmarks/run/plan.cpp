@@ -94,8 +94,8 @@ namespace {
 
 // Overlapped, isolated, and by the CPU's clock where timestamps are not trusted.
 constexpr double kModes = 3;
-// 16 pairs that test the timestamps (metrics.h), and pipeline statistics.
-constexpr double kTestFrames = 33;
+// Of /run/max_time, for the check of the timestamps.
+constexpr double kCheckShare = 0.1;
 // Pictures of /run/compare_backends: one of 64 samples a pixel, tessellation's and two of what is
 // covered.
 constexpr double kComparisonFrames = 67;
@@ -119,7 +119,7 @@ double frameTime(const engine::Device& device, measure::Case& test_case) {
 }
 
 // Seconds that measuring a case takes if its median is not known well enough before /run/max_time,
-// its timestamps are tested as long as they ever are and are not trusted in the end, and every
+// its timestamps are tested as long as they may be and are not trusted in the end, and every
 // picture that it is compared with has to be drawn. Making the case is not in it. `frame_ms`: of
 // one frame.
 double mostSeconds(const hair::RunSettings& run, double frame_ms) {
@@ -127,7 +127,7 @@ double mostSeconds(const hair::RunSettings& run, double frame_ms) {
     // Rounds begin until max_time; the last one is played to its end.
     const double mode = double{run.max_time} + round;
     const double compared = run.compare_backends ? round + kComparisonFrames * frame_ms / 1e3 : 0.0;
-    return kModes * mode + kTestFrames * frame_ms / 1e3 + compared;
+    return kModes * mode + kCheckShare * double{run.max_time} + compared;
 }
 
 Estimate estimateCase(const engine::Device& device, const PlannedCase& planned) {

@@ -52,6 +52,7 @@ struct GpuModel {
     double stamp_rate = 1.0;
     bool stamps_shifted = false;  // a pass's time is that of the pass before
     bool calibrated = true;  // host and device can read a clock together
+    bool processor = false;  // it says that it is one
 
     double most_age = 0.1;  // s, of a clock reading
     bool tells_age = false;
@@ -88,7 +89,7 @@ public:
     std::unique_ptr<Player> emptyPlayer(engine::Timing timing) override {
         return std::make_unique<Frames>(*this, timing, PlantedWork{}, true);
     }
-    bool isProcessor() const override { return false; }
+    bool isProcessor() const override { return model_.processor; }
     bool runsBesideThought() const override { return false; }
     double seconds() override { return now_; }
     void pause(double seconds) override { now_ += seconds; }
@@ -135,6 +136,9 @@ public:
     // s in which the device was throttled, of those so far.
     double throttled() const { return throttled_; }
 
+    // Frames with passes so far.
+    std::uint32_t frames() const { return frames_; }
+
 private:
     static constexpr double kNever = std::numeric_limits<double>::infinity();
     static constexpr double kReadingPeriod = 0.05;  // s
@@ -155,8 +159,13 @@ private:
             : gpu_(gpu), timing_(timing), planted_(std::move(planted)), empty_(empty) {}
 
         void reset() override { frame_ = 0; }
+        void count() override {
+            frame();
+            finish();
+        }
 
         void frame() override {
+            if (!empty_) ++gpu_.frames_;
             const double start = gpu_.now_;
             const bool overlapped = timing_ == engine::Timing::overlapped;
             if (overlapped && in_flight_.size() == kSlots) collect();
@@ -344,6 +353,7 @@ private:
     double throttle_from_;
     double throttle_to_ = 0.0;
     double throttled_ = 0.0;
+    std::uint32_t frames_ = 0;
     double since_ = 0.0;
     double next_reading_ = 0.0;
     std::deque<State> history_;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -312,6 +314,131 @@ TEST(SimulatedGpu, ACounterThatWrapsIsNoFault) {
     EXPECT_THAT(faultsOf(model), IsEmpty());
     SimulatedGpu gpu(model, 15);
     EXPECT_NEAR(medianIn(measuredOn(gpu), "frame.device.time") / gpu.truth(), 1.0, 1e-2);
+}
+
+// ---- Measuring in proportion --------------------------------------------------------------------
+
+// A processor's passes: 2, 10 and 40 ms, of which what submitting takes is little.
+GpuModel processor() {
+    GpuModel model;
+    model.processor = true;
+    model.slow = model.fast;
+    model.passes = {{"wind", 4e6}, {"simulate", 20e6}, {"strands", 80e6}};
+    return model;
+}
+
+std::vector<engine::FrameRecord> framesOf(SimulatedGpu& gpu, engine::Timing timing) {
+    const std::unique_ptr<Player> player = gpu.player(timing);
+    for (int i = 0; i < 6; ++i) player->frame();
+    return player->finish();
+}
+
+// Judges a device's timestamps in at most so many seconds; more than that is a failure.
+TimestampJudgement judged(SimulatedGpu& gpu, double seconds, DeviceKnowledge* known = nullptr) {
+    const auto isolated = framesOf(gpu, engine::Timing::isolated);
+    const auto clocked = framesOf(gpu, engine::Timing::wall_clock);
+    report::CaseResult result;
+    const double begin = gpu.seconds();
+    TimestampJudgement judgement = judgeTimestamps(gpu, isolated, clocked, seconds, known, result);
+    EXPECT_LE(gpu.seconds() - begin, seconds);
+    return judgement;
+}
+
+using Verdict = TimestampJudgement::Verdict;
+
+// Overlapped and isolated 2 to warm up, 2 that count and the one that ends them; on a processor, or
+// where there are no timestamps, 2 more by the CPU's clock.
+TEST(SimulatedGpu, AskedForCountsACaseIsTwelveFramesAtMost) {
+    GpuModel unstamped;
+    unstamped.valid_bits = 0;
+    for (const auto& [model, frames] :
+         {std::pair{GpuModel{}, 10u}, std::pair{processor(), 12u}, std::pair{unstamped, 12u}}) {
+        SimulatedGpu gpu(model, 21);
+        const report::CaseResult result =
+            measuredOn(gpu, {.warmup = 2, .frames = 2, .max_time = 0.0f});
+        EXPECT_LE(gpu.frames(), frames);
+        for (const char* name : {"frame.time", "frame.isolated.time", "pass.strands.time"}) {
+            ASSERT_TRUE(metricIn(result, name)) << name;
+            EXPECT_EQ(metricIn(result, name)->samples.size(), 2u) << name;
+        }
+    }
+}
+
+// However short the time and however long the frames; and what had time was looked at.
+TEST(SimulatedGpu, CheckingTimestampsTakesNoMoreThanItsTime) {
+    for (const bool is_processor : {false, true})
+        for (const double scale : {0.1, 1.0, 30.0})
+            for (const double seconds : {0.0, 0.01, 0.1, 1.0, 10.0})
+                for (const bool shifted : {false, true}) {
+                    GpuModel model = is_processor ? processor() : GpuModel{};
+                    for (GpuModel::Pass& pass : model.passes) pass.cycles *= scale;
+                    model.stamps_shifted = shifted;
+                    SimulatedGpu gpu(model, 23);
+                    const TimestampJudgement judgement = judged(gpu, seconds);
+                    EXPECT_NE(judgement.verdict, shifted ? Verdict::right : Verdict::wrong)
+                        << is_processor << ' ' << scale << ' ' << seconds;
+                    if (seconds == 0.0 && !is_processor) {
+                        EXPECT_EQ(judgement.verdict, Verdict::unchecked);
+                    }
+                }
+    for (const GpuModel& model : {GpuModel{}, processor()}) {
+        SimulatedGpu gpu(model, 25);
+        EXPECT_EQ(judged(gpu, 1.0).verdict, Verdict::right);
+        GpuModel shifted = model;
+        shifted.stamps_shifted = true;
+        SimulatedGpu wrong(shifted, 25);
+        EXPECT_EQ(judged(wrong, 1.0).verdict, Verdict::wrong);
+    }
+}
+
+// Frames that something else slowed down by half are no fault of the timestamps: pairs in turns
+// tell, and where they have no time the judgement is left open.
+TEST(SimulatedGpu, ADisturbanceOfAProcessorIsNoFault) {
+    SimulatedGpu gpu(processor(), 27);
+    std::vector<engine::FrameRecord> slowed = framesOf(gpu, engine::Timing::isolated);
+    for (engine::FrameRecord& frame : slowed)
+        for (engine::PassTime& pass : frame.passes) pass.milliseconds *= 1.5;
+    const auto clocked = framesOf(gpu, engine::Timing::wall_clock);
+    report::CaseResult result;
+    const std::uint32_t before = gpu.frames();
+    const TimestampJudgement open = judgeTimestamps(gpu, slowed, clocked, 0.0, nullptr, result);
+    EXPECT_EQ(open.verdict, Verdict::unchecked);
+    EXPECT_THAT(open.faults, Contains(HasSubstr("pass.strands")));
+    EXPECT_EQ(gpu.frames(), before);
+    EXPECT_EQ(judgeTimestamps(gpu, slowed, clocked, 2.0, nullptr, result).verdict, Verdict::right);
+    EXPECT_GT(gpu.frames(), before);
+}
+
+TEST(SimulatedGpu, TimestampsThatWereRightAreNotCheckedAgainInARun) {
+    for (const GpuModel& model : {GpuModel{}, processor()}) {
+        SimulatedGpu gpu(model, 29);
+        DeviceKnowledge known;
+        ASSERT_EQ(judged(gpu, 2.0, &known).verdict, Verdict::right);
+        const std::uint32_t before = gpu.frames();
+        EXPECT_EQ(judged(gpu, 2.0, &known).verdict, Verdict::right);
+        EXPECT_EQ(gpu.frames(), before + 12);  // what it is to judge
+    }
+}
+
+// A case has time for a pass or two; the next one of the run goes on.
+TEST(SimulatedGpu, WhatIsLeftOfACheckIsDoneInLaterCases) {
+    SimulatedGpu gpu(GpuModel{}, 31);
+    DeviceKnowledge known;
+    int cases = 1;
+    for (; cases < 20 && judged(gpu, 0.15, &known).verdict != Verdict::right; ++cases) {
+    }
+    EXPECT_GT(cases, 1);
+    EXPECT_LE(cases, 3);
+}
+
+TEST(SimulatedGpu, ReportsSayWhetherTimestampsWereChecked) {
+    SimulatedGpu gpu(GpuModel{}, 33);
+    EXPECT_EQ(measuredOn(gpu).trust.timestamps, "right");
+    EXPECT_EQ(measuredOn(gpu, {.max_time = 0.0f}).trust.timestamps, "unchecked");
+    GpuModel model;
+    model.stamps_shifted = true;
+    SimulatedGpu wrong(model, 33);
+    EXPECT_EQ(measuredOn(wrong).trust.timestamps, "wrong");
 }
 
 TEST(SimulatedGpu, TimesAreAbsentWithoutTimestamps) {
