@@ -139,10 +139,15 @@ std::vector<gpu::Capsule> capsulesOf(const SimulationSettings& settings) {
 
 std::vector<DistanceField> bake(
     const engine::Device& device, const SimulationSettings& settings,
-    std::span<const groom::Mesh> meshes) {
+    std::span<const groom::Mesh> meshes, std::span<const BakedField* const> baked) {
     assert(meshes.size() == settings.distance_fields.size());
+    assert(baked.empty() || baked.size() == meshes.size());
     std::vector<DistanceField> fields;
     for (std::size_t i = 0; i < meshes.size(); ++i) {
+        if (!baked.empty() && baked[i]) {
+            fields.emplace_back(device, *baked[i]);
+            continue;
+        }
         try {
             // Beyond the grid nothing touches, not by a rounding either.
             fields.emplace_back(
@@ -216,10 +221,24 @@ DistanceField::DistanceField(
     }
 }
 
+DistanceField::DistanceField(const engine::Device& device, const BakedField& baked)
+    : parameters_(baked.grid),
+      distances_(
+          engine::makeBuffer(device, std::span<const float>(baked.distances), "distance field")) {
+    parameters_.distances = distances_.address();
+}
+
+BakedField DistanceField::read(const engine::Device& device) const {
+    BakedField baked{.grid = parameters_, .distances = {}};
+    baked.grid.distances = 0;
+    baked.distances = engine::downloadAs<float>(device, distances_);
+    return baked;
+}
+
 Bodies::Bodies(
     const engine::Device& device, const SimulationSettings& settings,
-    std::span<const groom::Mesh> meshes)
-    : distances_(bake(device, settings, meshes)), capsules_(makeCapsules(device, settings)),
+    std::span<const groom::Mesh> meshes, std::span<const BakedField* const> baked)
+    : distances_(bake(device, settings, meshes, baked)), capsules_(makeCapsules(device, settings)),
       fields_(engine::makeBuffer(
           device, std::span<const gpu::BodyField>(fieldsOf(settings, distances_)),
           "distance fields")),

@@ -15,6 +15,13 @@
 // The bodies that hair collides with: capsules and distance fields.
 namespace hair::simulation {
 
+// A baked field on the host: what another one of the same mesh, resolution and padding is made of
+// at once.
+struct BakedField {
+    gpu::DistanceField grid{};  // without an address
+    std::vector<float> distances;  // [z][y][x], m
+};
+
 // Signed distances to a closed mesh on a grid, in the mesh's frame, for shaders
 // (shaders/simulation/constraints/distance_field.glsl).
 class DistanceField {
@@ -28,6 +35,11 @@ public:
     DistanceField(
         const engine::Device& device, const groom::Mesh& mesh, std::uint32_t resolution,
         float padding);
+    // The same as where it was baked, to the bit.
+    DistanceField(const engine::Device& device, const BakedField& baked);
+
+    // Waits for the device.
+    BakedField read(const engine::Device& device) const;
 
     const gpu::DistanceField& parameters() const { return parameters_; }
     const engine::Buffer& distances() const { return distances_; }  // float [z][y][x], m
@@ -45,11 +57,15 @@ public:
         std::uint32_t count;
     };
 
-    // `meshes[i]` is the mesh of settings.distance_fields[i]. Bakes the fields. Throws Error
-    // (/simulation/distance_fields/N) for a mesh that is not closed.
+    // `meshes[i]` is the mesh of settings.distance_fields[i]. Bakes the fields but those that
+    // `baked`, as many or none, has. Throws Error (/simulation/distance_fields/N) for a mesh that
+    // is not closed.
     Bodies(
         const engine::Device& device, const SimulationSettings& settings,
-        std::span<const groom::Mesh> meshes);
+        std::span<const groom::Mesh> meshes, std::span<const BakedField* const> baked = {});
+
+    // Of settings.distance_fields.
+    const std::vector<DistanceField>& fields() const { return distances_; }
 
     gpu::Bodies parameters() const { return parametersWith(capsules_); }
     // The parameters of the same distance fields with other capsules.

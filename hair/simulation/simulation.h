@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -46,6 +47,18 @@ private:
 // be drawn of the one that was drawn last: steps into the other one need not wait for them.
 enum class Copy { other, same };
 
+// The state of a simulation after construction, on the host.
+struct SettledState {
+    std::vector<std::vector<std::byte>> buffers;
+};
+
+// What takes long to make of a simulation, of one that was made of the same groom, settings and
+// seed on the same device by the same program. Borrowed.
+struct MadeBefore {
+    std::span<const BakedField* const> fields{};  // [distance field], null: not there; or empty
+    const SettledState* settled = nullptr;  // null: not there
+};
+
 // The guides on the device and the compute passes that move them. A time step is recordWind,
 // recordVolume where hasVolume, recordPulls where hasPulls, then recordStep. Simulated time is the
 // number of recorded steps times the time step: nothing depends on frames or clocks. Solver `none`
@@ -55,11 +68,17 @@ enum class Copy { other, same };
 class Simulation {
 public:
     // The groom needs at least one strand and two vertices; `field_meshes[i]` is the mesh of
-    // settings.distance_fields[i]. Settles the guides (see settle) for settings.settle_steps.
+    // settings.distance_fields[i]. Settles the guides (see settle) for settings.settle_steps. What
+    // was made before is taken as it is; a settled state that does not fit is not.
     // Throws Error for settings that make no sense, Unsupported for what the device can't do.
     Simulation(
         const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
-        std::uint32_t seed, std::span<const groom::Mesh> field_meshes = {});
+        std::uint32_t seed, std::span<const groom::Mesh> field_meshes = {},
+        const MadeBefore& made = {});
+
+    // For MadeBefore. They wait for the device.
+    BakedField readField(std::size_t index) const { return bodies_.fields()[index].read(*device_); }
+    SettledState readSettled() const;
 
     // The acceleration that air gives every vertex at the current time. Recorded without wind too,
     // so that frames with and without do the same work.
