@@ -1,8 +1,14 @@
 #include "benchmarks/scene/assets.h"
 
 #include <string>
+#include <system_error>
+#include <utility>
 
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/scene/settings_json.h"
 #include "engine/error.h"
+#include "hair/fields.h"
 #include "hair/groom/build_groom.h"
 #include "hair/groom/files.h"
 #include "hair/groom/mesh/import_mesh.h"
@@ -53,6 +59,74 @@ loadMesh(const hair::Settings& settings, const std::filesystem::path& directory)
         settings.render.head ? hair::groom::Textures::decoded : hair::groom::Textures::skipped);
 }
 
+namespace {
+
+// ---- What was made before -----------------------------------------------------------------------
+
+// A file as it is: its name, size and time.
+std::string stampOf(const std::filesystem::path& directory, const std::string& file) {
+    if (file.empty()) return "-\n";
+    const std::filesystem::path path = directory / file;
+    std::error_code none;
+    const auto size = std::filesystem::file_size(path, none);
+    const auto time = std::filesystem::last_write_time(path, none);
+    return path.string() + ' ' + std::to_string(size) + ' ' +
+           std::to_string(time.time_since_epoch().count()) + '\n';
+}
+
+const std::string& meshFile(const hair::GroomSettings& groom) {
+    return groom.file.empty() ? groom.grow.mesh : groom.mesh;
+}
+
+std::string meshKey(const hair::Settings& settings, const std::filesystem::path& directory) {
+    return (settings.render.head ? "textures of " : "") +
+           stampOf(directory, meshFile(settings.groom));
+}
+
+template <class Value>
+std::size_t bytesOf(const std::vector<Value>& values) {
+    return values.size() * sizeof(Value);
+}
+
+std::size_t bytesOf(const hair::groom::Mesh& mesh) {
+    std::size_t bytes = bytesOf(mesh.positions) + bytesOf(mesh.normals) + bytesOf(mesh.triangles);
+    for (const engine::Pixels& picture : mesh.pictures) bytes += bytesOf(picture.rgba);
+    return bytes;
+}
+
+}  // namespace
+
+const std::optional<hair::groom::Mesh>&
+AssetStore::mesh(const hair::Settings& settings, const std::filesystem::path& directory) {
+    const std::string key = meshKey(settings, directory);
+    if (const auto* known = meshes_.find(key)) return *known;
+    std::optional<hair::groom::Mesh> mesh = loadMesh(settings, directory);
+    const std::size_t bytes = mesh ? bytesOf(*mesh) : 0;
+    return meshes_.add(key, std::move(mesh), bytes);
+}
+
+const hair::groom::Groom&
+AssetStore::groom(const hair::Settings& settings, const std::filesystem::path& directory) {
+    const hair::GroomSettings& groom = settings.groom;
+    std::string key = directory.string() + '\n' + writeFields(groom).dump() + '\n' +
+                      std::to_string(settings.seed) + '\n' + meshKey(settings, directory);
+    for (const std::string& file :
+         {groom.file, groom.grow.scalp, groom.grow.mask, groom.grow.length_map})
+        key += stampOf(directory, file);
+    if (const auto* known = grooms_.find(key)) return *known;
+    const std::optional<hair::groom::Mesh>& grown_on = mesh(settings, directory);
+    hair::groom::Groom made =
+        hair::groom::buildGroom(groom, grown_on ? &*grown_on : nullptr, directory, settings.seed);
+    const std::size_t bytes = bytesOf(made.points) + bytesOf(made.widths) +
+                              bytesOf(made.root_triangles) + bytesOf(made.bindings);
+    return grooms_.add(key, std::move(made), bytes);
+}
+
+void AssetStore::trim() {
+    meshes_.trim();
+    grooms_.trim();
+}
+
 std::vector<hair::groom::Mesh> loadFieldMeshes(
     const hair::Settings& settings, const std::optional<hair::groom::Mesh>& grown_on,
     const std::filesystem::path& directory) {
@@ -89,10 +163,16 @@ hair::rendering::RenderAssets loadRenderAssets(
 }
 
 void checkAssets(const hair::Settings& settings, const std::filesystem::path& scene) {
+    AssetStore assets;
+    checkAssets(settings, scene, assets);
+}
+
+void checkAssets(
+    const hair::Settings& settings, const std::filesystem::path& scene, AssetStore& assets) {
     const std::filesystem::path directory = scene.parent_path();
-    const std::optional<hair::groom::Mesh> mesh = loadMesh(settings, directory);
-    const hair::groom::Groom groom =
-        hair::groom::buildGroom(settings.groom, mesh ? &*mesh : nullptr, directory, settings.seed);
+    assets.trim();
+    const std::optional<hair::groom::Mesh>& mesh = assets.mesh(settings, directory);
+    const hair::groom::Groom& groom = assets.groom(settings, directory);
     checkFields(settings, mesh, scene);
     checkMeshes(settings.render, scene);
     loadRenderAssets(settings, mesh ? &*mesh : nullptr, directory);

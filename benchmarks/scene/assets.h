@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <vector>
 
+#include "benchmarks/scene/recent.h"
 #include "hair/groom/groom.h"
 #include "hair/groom/mesh/mesh.h"
 #include "hair/rendering/render_assets.h"
@@ -17,6 +19,27 @@ namespace benchmarks::scene {
 // and nobody says what it grows on.
 std::optional<hair::groom::Mesh>
 loadMesh(const hair::Settings& settings, const std::filesystem::path& directory);
+
+// Meshes and grooms, each made once however often it is asked for, as long as the files stay as
+// they are. Files that other files name (the buffers of a .gltf) are not watched.
+class AssetStore {
+public:
+    // As loadMesh() and buildGroom() of it. Valid until trim().
+    const std::optional<hair::groom::Mesh>&
+    mesh(const hair::Settings& settings, const std::filesystem::path& directory);
+    const hair::groom::Groom&
+    groom(const hair::Settings& settings, const std::filesystem::path& directory);
+
+    // Lets go of what was used longest ago, if it is much.
+    void trim();
+
+private:
+    static constexpr std::size_t kMostMeshes = std::size_t{256} << 20;  // B
+    static constexpr std::size_t kMostGrooms = std::size_t{512} << 20;  // B
+
+    Recent<std::optional<hair::groom::Mesh>> meshes_{kMostMeshes};
+    Recent<hair::groom::Groom> grooms_{kMostGrooms};
+};
 
 // The meshes of /simulation/distance_fields, in their order. `grown_on` is what loadMesh gave.
 std::vector<hair::groom::Mesh> loadFieldMeshes(
@@ -34,7 +57,9 @@ hair::rendering::RenderAssets loadRenderAssets(
 
 // Reads and checks all that a case of this scene needs, without a device: the errors of a bad asset
 // before anything runs. Where the fault is in how the scene uses a file, the error is
-// "<scene>: <JSON pointer>: <reason>".
+// "<scene>: <JSON pointer>: <reason>". What it makes is left in `assets`.
+void checkAssets(
+    const hair::Settings& settings, const std::filesystem::path& scene, AssetStore& assets);
 void checkAssets(const hair::Settings& settings, const std::filesystem::path& scene);
 
 }  // namespace benchmarks::scene

@@ -241,7 +241,8 @@ Json decimal(double number) { return Json::parse(decimalText(number)); }
 
 }  // namespace
 
-std::vector<CaseSpec> selectCases(Scene& scene, const SceneOptions& options) {
+std::vector<CaseSpec> selectCases(Scene& scene, const SceneOptions& options, AssetStore* assets) {
+    AssetStore own;
     if (options.frames) setField(scene, "/run/frames", *options.frames);
     if (options.warmup) setField(scene, "/run/warmup", *options.warmup);
     if (options.precision) setField(scene, "/run/precision", decimal(*options.precision));
@@ -263,14 +264,15 @@ std::vector<CaseSpec> selectCases(Scene& scene, const SceneOptions& options) {
         for (const auto& mesh : each.settings.render.meshes) files += '\n' + mesh.file;
         for (const auto& field : each.settings.simulation.distance_fields)
             files += '\n' + field.mesh;
-        if (checked.insert(files).second) checkAssets(each.settings, scene.path);
+        if (checked.insert(files).second)
+            checkAssets(each.settings, scene.path, assets ? *assets : own);
     }
     return cases;
 }
 
-CaseSpec singleCase(Scene& scene, const SceneOptions& options) {
+CaseSpec singleCase(Scene& scene, const SceneOptions& options, AssetStore* assets) {
     scene.axes.clear();
-    return selectCases(scene, options).front();
+    return selectCases(scene, options, assets).front();
 }
 
 }  // namespace benchmarks::scene

@@ -16,6 +16,8 @@
 // Cases of scenes, sweeps and suites.
 namespace benchmarks::scene {
 
+class AssetStore;
+
 // A suite is a file that names scenes, each relative to it: {"$schema": ..., "description": ...,
 // "suite": ["thesis.json", "msaa.json"]}. Suites of suites are not.
 bool isSuite(const std::filesystem::path& path);
@@ -58,13 +60,16 @@ struct SceneOptions {
     std::optional<double> max_time;  // s
     std::vector<std::string> sets;  // "POINTER=VALUE": fields of every case
     engine::DeviceOptions device;
+    bool cache = true;  // what takes long to make is taken from disk and kept there
 };
 
-// The scene's cases with what the command line changes. Every asset that they name is read once.
-std::vector<CaseSpec> selectCases(Scene& scene, const SceneOptions& options);
+// The scene's cases with what the command line changes. Every asset that they name is read once,
+// and meshes and grooms are left in `assets`, which may be null.
+std::vector<CaseSpec>
+selectCases(Scene& scene, const SceneOptions& options, AssetStore* assets = nullptr);
 
 // The scene's own settings, no axis applied but those of the command line with one value, with what
 // it changes: what commands play that are for one case.
-CaseSpec singleCase(Scene& scene, const SceneOptions& options);
+CaseSpec singleCase(Scene& scene, const SceneOptions& options, AssetStore* assets = nullptr);
 
 }  // namespace benchmarks::scene
