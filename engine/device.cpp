@@ -1,7 +1,6 @@
 #include "engine/device.h"
 
 #include <atomic>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -10,6 +9,7 @@
 #include <unistd.h>
 
 #include "engine/commands.h"
+#include "engine/files.h"
 #include "engine/memory.h"
 #include "engine/pipeline.h"
 #include "engine/shaders.h"
@@ -17,18 +17,8 @@
 namespace engine {
 namespace {
 
-std::filesystem::path cacheFolder() {
-    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) {
-        return std::filesystem::path(cache) / "hairbench";
-    }
-    if (const char* home = std::getenv("HOME"); home && *home) {
-        return std::filesystem::path(home) / ".cache" / "hairbench";
-    }
-    return {};
-}
-
 std::filesystem::path cacheFile(const VkPhysicalDeviceProperties& properties) {
-    const std::filesystem::path folder = cacheFolder();
+    const std::filesystem::path folder = userCacheFolder();
     if (folder.empty()) return {};
     constexpr char kDigits[] = "0123456789abcdef";
     std::string name = "pipelines-";
@@ -39,7 +29,7 @@ std::filesystem::path cacheFile(const VkPhysicalDeviceProperties& properties) {
     return folder / (name + "-" + std::to_string(properties.driverVersion) + ".bin");
 }
 
-std::vector<char> readFile(const std::filesystem::path& file) {
+std::vector<char> bytesOf(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -91,7 +81,7 @@ PipelineCache::PipelineCache(VkDevice device, const DeviceInfo& info) : device_(
     VkPhysicalDeviceProperties properties{};
     vkGetPhysicalDeviceProperties(info.handle, &properties);
     file_ = cacheFile(properties);
-    if (!file_.empty()) loaded_ = readFile(file_);
+    if (!file_.empty()) loaded_ = bytesOf(file_);
     if (!belongsTo(loaded_, properties)) loaded_.clear();
 
     const VkPipelineCacheCreateInfo create{

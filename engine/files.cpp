@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 
@@ -166,6 +167,14 @@ void writeFileAtomically(const fs::path& path, const Writer& write, const WriteP
         fs::remove(partial, error);
         throw;
     }
+}
+
+fs::path userCacheFolder() {
+    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache)
+        return fs::path(cache) / "hairbench";
+    if (const char* home = std::getenv("HOME"); home && *home)
+        return fs::path(home) / ".cache" / "hairbench";
+    return {};
 }
 
 void checkWritable(const fs::path& path) {

@@ -46,6 +46,10 @@ void writeFileAtomically(
     const std::filesystem::path& path, const std::function<void(std::ostream&)>& write,
     const WritePoll& poll = {});
 
+// $XDG_CACHE_HOME/hairbench or ~/.cache/hairbench, for what can be made again; empty where there is
+// no home. It need not be there.
+std::filesystem::path userCacheFolder();
+
 // Throws the Error that writing the file would, before the work whose result it is to hold: a
 // missing folder is made, one that can't be written is an error.
 void checkWritable(const std::filesystem::path& path);

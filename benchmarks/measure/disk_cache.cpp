@@ -1,0 +1,138 @@
+#include "benchmarks/measure/disk_cache.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <span>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include <unistd.h>
+
+#include "benchmarks/report/environment.h"
+#include "engine/files.h"
+
+namespace benchmarks::measure {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kMagic = "hairbench-cache 1\n";
+constexpr std::string_view kExtension = ".entry";
+
+// What a process that was killed left of writing an entry is older than this.
+constexpr std::chrono::hours kStale{1};
+
+struct Header {
+    std::uint64_t key_size = 0;
+    std::uint64_t size = 0;
+    std::array<char, 16> hash{};  // report::hashText() of key and bytes
+};
+
+Header headerOf(const std::string& key, const std::string& bytes) {
+    Header header{.key_size = key.size(), .size = bytes.size()};
+    const std::string hash = report::hashText(report::hashText(key) + report::hashText(bytes));
+    std::ranges::copy(hash, header.hash.begin());
+    return header;
+}
+
+}  // namespace
+
+fs::path hairCacheFolder() {
+    const fs::path folder = engine::userCacheFolder();
+    return folder.empty() ? folder : folder / "hair";
+}
+
+fs::path DiskCache::fileOf(const std::string& key) const {
+    return options_.folder / (report::hashText(key) + std::string(kExtension));
+}
+
+void DiskCache::warn(const std::string& key, const std::string& reason) const {
+    if (options_.warn) options_.warn(fileOf(key).string() + ": " + reason + "; it is ignored");
+}
+
+std::optional<std::string> DiskCache::load(const std::string& key) const {
+    if (!isOn()) return std::nullopt;
+    const fs::path path = fileOf(key);
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(path, error);
+    if (error) return std::nullopt;
+    const auto unusable = [&](const char* reason) {
+        warn(key, reason);
+        return std::nullopt;
+    };
+
+    std::ifstream file(path, std::ios::binary);
+    std::string magic(kMagic.size(), '\0');
+    Header header;
+    file.read(magic.data(), static_cast<std::streamsize>(magic.size()));
+    file.read(reinterpret_cast<char*>(&header), sizeof header);
+    if (!file || magic != kMagic) return unusable("no entry of this cache");
+    const std::uintmax_t body = size - kMagic.size() - sizeof header;
+    if (header.key_size > body || header.size != body - header.key_size) return unusable("damaged");
+    std::string found(header.key_size, '\0');
+    std::string bytes(header.size, '\0');
+    file.read(found.data(), static_cast<std::streamsize>(found.size()));
+    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (!file || headerOf(found, bytes).hash != header.hash) return unusable("damaged");
+    if (found != key) return unusable("of something else");
+    fs::last_write_time(path, fs::file_time_type::clock::now(), error);  // it was used
+    return bytes;
+}
+
+void DiskCache::store(const std::string& key, const std::string& bytes) const {
+    if (!takes(bytes.size())) return;
+    const fs::path path = fileOf(key);
+    const fs::path part = path.string() + '.' + std::to_string(getpid());
+    std::error_code ignored;
+    fs::create_directories(options_.folder, ignored);
+    bool written = false;
+    {
+        std::ofstream file(part, std::ios::binary);
+        const Header header = headerOf(key, bytes);
+        file.write(kMagic.data(), kMagic.size());
+        file.write(reinterpret_cast<const char*>(&header), sizeof header);
+        file.write(key.data(), static_cast<std::streamsize>(key.size()));
+        file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        file.close();
+        written = !file.fail();
+    }
+    std::error_code error;
+    if (written) fs::rename(part, path, error);
+    if (!written || error) fs::remove(part, ignored);
+    trim();
+}
+
+void DiskCache::trim() const {
+    struct Entry {
+        fs::path path;
+        fs::file_time_type used;
+        std::uintmax_t size;
+    };
+    std::vector<Entry> entries;
+    std::uintmax_t bytes = 0;
+    std::error_code error;
+    const fs::file_time_type now = fs::file_time_type::clock::now();
+    for (const fs::directory_entry& each : fs::directory_iterator(options_.folder, error)) {
+        std::error_code gone;  // another process may have removed it
+        const Entry entry{each.path(), each.last_write_time(gone), each.file_size(gone)};
+        if (gone) continue;
+        if (entry.path.extension() == kExtension) {
+            bytes += entry.size;
+            entries.push_back(entry);
+        } else if (entry.path.stem().extension() == kExtension && now - entry.used > kStale) {
+            fs::remove(entry.path, gone);
+        }
+    }
+    std::ranges::sort(entries, {}, &Entry::used);
+    for (const Entry& entry : entries) {
+        if (bytes <= options_.most_bytes) break;
+        fs::remove(entry.path, error);
+        bytes -= entry.size;
+    }
+}
+
+}  // namespace benchmarks::measure
