@@ -53,8 +53,8 @@ std::vector<std::string> coverageWarnings(std::span<const StopRecord> stops) {
 
 StillHair::StillHair(
     const engine::Device& device, const hair::Settings& settings,
-    const std::filesystem::path& directory, std::uint32_t frame)
-    : case_(device, settings, directory), mesh_(scene::loadMesh(settings, directory)),
+    const std::filesystem::path& directory, std::uint32_t frame, measure::HairCache& cache)
+    : case_(device, settings, directory, &cache), mesh_(cache.assets().mesh(settings, directory)),
       assets_(scene::loadRenderAssets(settings, mesh_ ? &*mesh_ : nullptr, directory)) {
     engine::FrameLoop loop(device, engine::Timing::statistics);
     for (std::uint32_t i = 0; i <= frame; ++i) {
@@ -269,11 +269,12 @@ void attributeCase(const hair::rendering::StrandPlan& plan, CaseAblation& result
 void measureCase(
     const engine::Device& device, const scene::CaseSpec& spec,
     const std::filesystem::path& directory, std::uint32_t laps,
-    const std::function<void(const std::string&)>& progress, CaseAblation& result) {
+    const std::function<void(const std::string&)>& progress, measure::HairCache& cache,
+    CaseAblation& result) {
     hair::Settings settings = spec.settings;
     settings.strands.backend = hair::Backend::tessellation;
     progress("simulation");
-    const StillHair hair(device, settings, directory, result.frame);
+    const StillHair hair(device, settings, directory, result.frame, cache);
     result.counts = hair.counts();
     progress("pipelines");
     LadderWalk ladder(device, hair, settings, result);
@@ -291,7 +292,8 @@ void measureCase(
 void ablateCase(
     const engine::Device& device, const scene::CaseSpec& spec,
     const std::filesystem::path& directory, std::uint32_t laps,
-    const std::function<void(const std::string&)>& progress, CaseAblation& result) {
+    const std::function<void(const std::string&)>& progress, measure::HairCache& cache,
+    CaseAblation& result) {
     const hair::RunSettings& run = spec.settings.run;
     result = {.name = spec.name, .axes = spec.axes, .frame = run.warmup + run.frames};
     const auto without = [&](report::Status status, const std::string& reason) {
@@ -300,7 +302,7 @@ void ablateCase(
     if (const std::string obstacle = ablationObstacle(spec.settings); !obstacle.empty())
         return without(report::Status::skipped, obstacle);
     try {
-        measureCase(device, spec, directory, laps, progress, result);
+        measureCase(device, spec, directory, laps, progress, cache, result);
     } catch (const engine::Unsupported& error) {
         without(report::Status::skipped, error.what());
     } catch (const engine::Error& error) {

@@ -11,6 +11,7 @@
 #include "benchmarks/ablate/ablation.h"
 #include "benchmarks/ablate/stops.h"
 #include "benchmarks/measure/case.h"
+#include "benchmarks/measure/hair_cache.h"
 #include "benchmarks/scene/sweep.h"
 #include "engine/device.h"
 #include "engine/frame_loop.h"
@@ -29,7 +30,8 @@ namespace benchmarks::ablate {
 void ablateCase(
     const engine::Device& device, const scene::CaseSpec& spec,
     const std::filesystem::path& directory, std::uint32_t laps,
-    const std::function<void(const std::string&)>& progress, CaseAblation& result);
+    const std::function<void(const std::string&)>& progress, measure::HairCache& cache,
+    CaseAblation& result);
 
 // Where a stop without a fragment shader does not cover what the same one with it does. Not for
 // shaders that discard fragments.
@@ -42,7 +44,7 @@ public:
     // and Interrupted.
     StillHair(
         const engine::Device& device, const hair::Settings& settings,
-        const std::filesystem::path& directory, std::uint32_t frame);
+        const std::filesystem::path& directory, std::uint32_t frame, measure::HairCache& cache);
 
     hair::rendering::StrandView view() const { return case_.view(); }
     const hair::rendering::RenderAssets& assets() const { return assets_; }

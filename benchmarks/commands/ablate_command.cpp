@@ -4,6 +4,7 @@
 #include "benchmarks/ablate/ablation.h"
 #include "benchmarks/ablate/ladder_walk.h"
 #include "benchmarks/commands/commands.h"
+#include "benchmarks/measure/hair_cache.h"
 #include "benchmarks/measure/progress.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/environment.h"
@@ -27,11 +28,13 @@ std::vector<std::string> notesFor(const report::DeviceRecord& device) {
 
 void ablateAll(
     const engine::Device& device, const run::RunPlan& plan, std::uint32_t laps,
-    measure::Progress& progress, std::vector<ablate::CaseAblation>& cases) {
+    measure::HairCache& cache, measure::Progress& progress,
+    std::vector<ablate::CaseAblation>& cases) {
     for (const run::PlannedCase& each : plan.cases) {
         progress.begin(each.spec.name);
         const auto update = [&](const std::string& state) { progress.update(state); };
-        ablate::ablateCase(device, each.spec, each.directory, laps, update, cases.emplace_back());
+        ablate::ablateCase(
+            device, each.spec, each.directory, laps, update, cache, cases.emplace_back());
         for (const std::string& message : device.messages().take())
             cases.back().warnings.push_back("validation: " + message);
         progress.clear();
@@ -42,7 +45,8 @@ void ablateAll(
 }  // namespace
 
 int ablateScene(const AblateOptions& options) {
-    const run::RunPlan plan = run::planRun(options.scene, options.filter, "");
+    measure::HairCache cache = measure::userHairCache(options.scene.cache);
+    const run::RunPlan plan = run::planRun(options.scene, options.filter, "", &cache.assets());
     if (plan.cases.empty()) {
         std::cerr << "hairbench: no case's name matches '" << options.filter << "'\n";
         return report::kNothingRan;
@@ -63,7 +67,7 @@ int ablateScene(const AblateOptions& options) {
     report.notes = notesFor(report.environment.device);
     measure::Progress progress(plan.cases.size());
     try {
-        ablateAll(device, plan, options.passes, progress, report.cases);
+        ablateAll(device, plan, options.passes, cache, progress, report.cases);
     } catch (const engine::Interrupted&) {
         report.interrupted = true;
         progress.clear();

@@ -108,6 +108,12 @@ void addDeviceOptions(CLI::App& command, engine::DeviceOptions& options) {
         "run under the Vulkan validation layer and look for missing barriers; slow");
 }
 
+void addCacheOption(CLI::App& command, scene::SceneOptions& options) {
+    command.add_flag_callback(
+        "--no-cache", [&options] { options.cache = false; },
+        "bake distance fields and settle hair anew, and keep neither on disk");
+}
+
 void addSceneOptions(CLI::App& command, scene::SceneOptions& options) {
     command.add_option("scene", options.scene, "scene file (.json)")->required()->type_name("FILE");
     addRepeated(
@@ -118,6 +124,7 @@ void addSceneOptions(CLI::App& command, scene::SceneOptions& options) {
         command, "--set", options.sets, "sets a field of every case; it is not in their names")
         ->type_name("POINTER=VALUE");
     addDeviceOptions(command, options.device);
+    addCacheOption(command, options);
 }
 
 void addSamplingOptions(CLI::App& command, scene::SceneOptions& options) {
@@ -324,6 +331,7 @@ void addGateOptions(CLI::App& command, gate::GateOptions& options) {
     addRepeated(command, "--set-b", options.b_sets, "sets a field of every case of B alone")
         ->type_name("POINTER=VALUE");
     addSamplingOptions(command, options.scene);
+    addCacheOption(command, options.scene);
     command.add_option(
         "--device", options.scene.device.wanted,
         "index or part of the name of the device (see 'hairbench devices')");

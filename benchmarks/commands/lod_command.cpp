@@ -2,6 +2,7 @@
 
 #include "benchmarks/commands/commands.h"
 #include "benchmarks/lod/walk.h"
+#include "benchmarks/measure/hair_cache.h"
 #include "benchmarks/measure/progress.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/environment.h"
@@ -32,7 +33,8 @@ void checkPath(const lod::LodPath& path, const hair::Settings& settings) {
 
 int walkLod(const LodOptions& options) {
     scene::Scene scene = scene::loadScene(options.scene.scene);
-    const scene::CaseSpec spec = scene::singleCase(scene, options.scene);
+    measure::HairCache cache = measure::userHairCache(options.scene.cache);
+    const scene::CaseSpec spec = scene::singleCase(scene, options.scene, &cache.assets());
     const hair::Settings& settings = spec.settings;
     const lod::LodPath path{.from = options.from, .to = options.to, .steps = options.steps};
     checkPath(path, settings);
@@ -53,7 +55,7 @@ int walkLod(const LodOptions& options) {
         .frame = options.frame};
     measure::Progress progress(path.steps);
     try {
-        measure::Case hair(device, settings, scene.directory);
+        measure::Case hair(device, settings, scene.directory, &cache);
         simulateTo(device, hair, options.frame);
         lod::walk(
             device, hair, settings, path,

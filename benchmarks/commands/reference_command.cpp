@@ -1,6 +1,7 @@
 #include <iostream>
 
 #include "benchmarks/commands/commands.h"
+#include "benchmarks/measure/hair_cache.h"
 #include "benchmarks/reference/mitsuba.h"
 #include "benchmarks/reference/picture_errors.h"
 #include "benchmarks/report/change.h"
@@ -15,7 +16,8 @@ int renderReference(const ReferenceOptions& options) {
     if (extension != ".exr" && extension != ".png")
         throw engine::Error(options.out.string(), "is neither .exr nor .png");
     scene::Scene scene = scene::loadScene(options.scene.scene);
-    const scene::CaseSpec spec = scene::singleCase(scene, options.scene);
+    measure::HairCache cache = measure::userHairCache(options.scene.cache);
+    const scene::CaseSpec spec = scene::singleCase(scene, options.scene, &cache.assets());
     const hair::Settings& settings = spec.settings;
     engine::checkWritable(options.out);
     reference::checkReferenceTool();
@@ -25,7 +27,7 @@ int renderReference(const ReferenceOptions& options) {
         const engine::ScratchFolder folder;
         {
             const engine::Device device(options.scene.device);
-            reference::exportMitsuba(device, scene, settings, options.frame, folder.path());
+            reference::exportMitsuba(device, scene, settings, options.frame, folder.path(), cache);
             for (const std::string& message : device.messages().take())
                 std::cerr << message << '\n';
         }

@@ -4,6 +4,7 @@
 
 #include "benchmarks/commands/commands.h"
 #include "benchmarks/measure/case.h"
+#include "benchmarks/measure/hair_cache.h"
 #include "benchmarks/measure/progress.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/scene/frames.h"
@@ -65,12 +66,13 @@ int renderScene(const RenderOptions& options) {
     checkFormat(file(range.first));
 
     scene::Scene scene = scene::loadScene(options.scene.scene);
-    const scene::CaseSpec spec = scene::singleCase(scene, options.scene);
+    measure::HairCache cache = measure::userHairCache(options.scene.cache);
+    const scene::CaseSpec spec = scene::singleCase(scene, options.scene, &cache.assets());
     engine::checkWritable(file(range.first));
     const hair::RenderSettings& render = spec.settings.render;
 
     const engine::Device device(options.scene.device);
-    measure::Case picture(device, spec.settings, scene.directory);
+    measure::Case picture(device, spec.settings, scene.directory, &cache);
     engine::catchInterrupts();
     measure::Progress progress(range.count());
     std::uint32_t written = 0;

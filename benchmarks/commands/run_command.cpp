@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/commands/commands.h"
+#include "benchmarks/measure/hair_cache.h"
 #include "benchmarks/report/baseline.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/environment.h"
@@ -52,9 +53,11 @@ int printNothingToRun(const run::RunOptions& options, const run::RunPlan& plan) 
 }  // namespace
 
 int runScene(const run::RunOptions& options) {
-    const run::RunPlan plan = run::planRun(options.scene, options.filter, options.shard);
+    measure::HairCache cache = measure::userHairCache(options.scene.cache);
+    const run::RunPlan plan =
+        run::planRun(options.scene, options.filter, options.shard, &cache.assets());
     if (options.list) return run::printNames(plan);
-    if (options.dry_run) return run::estimateRun(plan, options.scene.device);
+    if (options.dry_run) return run::estimateRun(plan, options.scene.device, cache);
     if (plan.cases.empty()) return printNothingToRun(options, plan);
     // What is wrong shows before hours of work, not after them.
     if (!options.save_baseline.empty()) report::baselineFile(options.save_baseline, plan.name);
@@ -73,7 +76,7 @@ int runScene(const run::RunOptions& options) {
     const engine::Device device(options.scene.device);
     std::cerr << report::versionOnDevice(device) << '\n';
     try {
-        const run::FinishedRun finished = run::playRun(device, options, plan, out);
+        const run::FinishedRun finished = run::playRun(device, options, plan, out, cache);
         const scene::Json& report = finished.report.json();
         if (finished.was_complete)
             std::cout << "nothing left to do: " << out.string() << " is complete\n";

@@ -2,6 +2,7 @@
 
 #include "benchmarks/commands/commands.h"
 #include "benchmarks/groom/recording.h"
+#include "benchmarks/measure/hair_cache.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/text.h"
 #include "engine/files.h"
@@ -13,7 +14,8 @@ namespace benchmarks::commands {
 int simulateScene(const SimulateOptions& options) {
     const groom::RecordingOptions& recording = options.recording;
     scene::Scene scene = scene::loadScene(options.scene.scene);
-    const scene::CaseSpec spec = scene::singleCase(scene, options.scene);
+    measure::HairCache cache = measure::userHairCache(options.scene.cache);
+    const scene::CaseSpec spec = scene::singleCase(scene, options.scene, &cache.assets());
     hair::groom::strandExporterOf(recording.out);  // or there is nothing to play for
     engine::checkWritable(recording.out);
 
@@ -21,7 +23,7 @@ int simulateScene(const SimulateOptions& options) {
     engine::catchInterrupts();
     groom::Recorded recorded;
     try {
-        recorded = groom::recordStrands(device, scene, spec.settings, recording);
+        recorded = groom::recordStrands(device, scene, spec.settings, recording, cache);
     } catch (const engine::Interrupted&) {
         std::cerr << "interrupted: nothing is written\n";
         return report::kInterrupted;

@@ -19,9 +19,9 @@ class Recording {
 public:
     Recording(
         const engine::Device& device, const scene::Scene& scene, const hair::Settings& settings,
-        const RecordingOptions& options)
+        const RecordingOptions& options, measure::HairCache& cache)
         : device_(device), scene_(scene), settings_(settings), options_(options),
-          case_(device, settings, scene.directory) {}
+          case_(device, settings, scene.directory, &cache) {}
 
     Recorded everyFrame();
     Recorded lastFrame();
@@ -107,8 +107,8 @@ bool holdsFrames(const std::filesystem::path& file) {
 
 Recorded recordStrands(
     const engine::Device& device, const scene::Scene& scene, const hair::Settings& settings,
-    const RecordingOptions& options) {
-    Recording recording(device, scene, settings, options);
+    const RecordingOptions& options, measure::HairCache& cache) {
+    Recording recording(device, scene, settings, options, cache);
     return holdsFrames(options.out) ? recording.everyFrame() : recording.lastFrame();
 }
 

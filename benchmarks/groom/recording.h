@@ -11,6 +11,10 @@
 #include "hair/settings.h"
 
 // Strands of a simulation, written to a file.
+namespace benchmarks::measure {
+class HairCache;
+}  // namespace benchmarks::measure
+
 namespace benchmarks::groom {
 
 struct RecordingOptions {
@@ -32,6 +36,6 @@ struct Recorded {
 // holds every frame; Interrupted, and then nothing is written.
 Recorded recordStrands(
     const engine::Device& device, const scene::Scene& scene, const hair::Settings& settings,
-    const RecordingOptions& options);
+    const RecordingOptions& options, measure::HairCache& cache);
 
 }  // namespace benchmarks::groom

@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 
+#include "benchmarks/measure/hair_cache.h"
 #include "benchmarks/report/environment.h"
 #include "benchmarks/scene/assets.h"
 #include "engine/buffer_image.h"
@@ -25,17 +26,28 @@ const Asset* pointerTo(const std::optional<Asset>& asset) {
     return asset ? &*asset : nullptr;
 }
 
+hair::simulation::Simulation simulationOf(
+    const engine::Device& device, const hair::groom::Groom& groom, const hair::Settings& settings,
+    std::span<const hair::groom::Mesh> field_meshes, HairCache* cache) {
+    if (!cache) return {device, groom, settings.simulation, settings.seed, field_meshes};
+    cache->assets().trim();
+    return cache->simulation(device, groom, settings, field_meshes);
+}
+
 }  // namespace
 
 Case::Case(
     const engine::Device& device, const hair::Settings& settings,
-    const std::filesystem::path& directory)
+    const std::filesystem::path& directory, HairCache* cache)
     : device_(device), settings_(settings), directory_(directory),
-      mesh_(scene::loadMesh(settings, directory)),
-      groom_(hair::groom::buildGroom(settings.groom, pointerTo(mesh_), directory, settings.seed)),
-      simulation_(
-          device, groom_, settings.simulation, settings.seed,
-          scene::loadFieldMeshes(settings, mesh_, directory)),
+      mesh_(
+          cache ? cache->assets().mesh(settings, directory) : scene::loadMesh(settings, directory)),
+      groom_(
+          cache ? cache->assets().groom(settings, directory)
+                : hair::groom::buildGroom(
+                      settings.groom, pointerTo(mesh_), directory, settings.seed)),
+      simulation_(simulationOf(
+          device, groom_, settings, scene::loadFieldMeshes(settings, mesh_, directory), cache)),
       fixed_step_(double{settings.simulation.time_step}),
       groom_buffers_(std::make_unique<hair::rendering::GroomBuffers>(groomBuffers(settings))),
       renderer_(std::make_unique<hair::rendering::Renderer>(

@@ -24,15 +24,18 @@
 // One set of settings, ready to play.
 namespace benchmarks::measure {
 
+class HairCache;
+
 // One set of settings, ready to play: the groom, its simulation and its renderer. Owns every GPU
 // object that it uses; leaving its scope frees them.
 class Case {
 public:
     // `directory` is what file names in the settings are relative to. Throws engine::Error for
-    // files that can't be used, engine::Unsupported for what the device lacks.
+    // files that can't be used, engine::Unsupported for what the device lacks. What `cache` knows
+    // is not made again, and what it does not is left there; null: there is none.
     Case(
         const engine::Device& device, const hair::Settings& settings,
-        const std::filesystem::path& directory);
+        const std::filesystem::path& directory, HairCache* cache = nullptr);
 
     // Records the next frame: simulated time advances by /run/frame_time, then a picture is drawn.
     void frame(engine::Passes& passes);

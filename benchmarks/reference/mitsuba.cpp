@@ -443,13 +443,13 @@ std::string copyEnvironment(
 
 MitsubaExport exportMitsuba(
     const engine::Device& device, const scene::Scene& scene, const hair::Settings& settings,
-    std::uint32_t frame, const std::filesystem::path& folder) {
+    std::uint32_t frame, const std::filesystem::path& folder, measure::HairCache& cache) {
     const auto write = [&](const std::string& name, const auto& writer) {
         engine::writeFileAtomically(folder / name, writer, engine::checkInterrupted);
     };
     MitsubaParts parts;
     MitsubaExport result;
-    measure::Case played(device, settings, scene.directory);
+    measure::Case played(device, settings, scene.directory, &cache);
     play(device, played, frame);
     if (settings.render.hair) {
         const hair::groom::StrandSet strands = measure::drawnStrands(played.strands());

@@ -19,6 +19,10 @@
 #include "hair/simulation/head_motion.h"
 
 // Export of a frame as a scene of Mitsuba 3.
+namespace benchmarks::measure {
+class HairCache;
+}  // namespace benchmarks::measure
+
 namespace benchmarks::reference {
 
 // Control points of the uniform cubic B-spline that goes through `points`, the first at its start
@@ -38,7 +42,7 @@ struct MitsubaExport {
 // Interrupted.
 MitsubaExport exportMitsuba(
     const engine::Device& device, const scene::Scene& scene, const hair::Settings& settings,
-    std::uint32_t frame, const std::filesystem::path& folder);
+    std::uint32_t frame, const std::filesystem::path& folder, measure::HairCache& cache);
 
 // Path-traces the scene.xml that exportMitsuba() wrote into `folder`, with progress, and writes the
 // picture, .exr in linear light or .png. Throws engine::Error, Interrupted.

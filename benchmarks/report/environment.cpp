@@ -70,10 +70,6 @@ DeviceRecord describeDevice(const engine::Device& of) {
     return record;
 }
 
-namespace {
-
-// ---- Host, build, command -----------------------------------------------------------------------
-
 std::string processorName() {
     std::ifstream file("/proc/cpuinfo");
     for (std::string line; std::getline(file, line);) {
@@ -83,6 +79,10 @@ std::string processorName() {
     }
     return {};
 }
+
+namespace {
+
+// ---- Host, build, command -----------------------------------------------------------------------
 
 std::string systemName() {
     std::string name;

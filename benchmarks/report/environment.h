@@ -22,6 +22,9 @@ std::string versionText();
 // What runs where: "hairbench 0.1.0 (abc) on llvmpipe (llvmpipe 22.3.6)".
 std::string versionOnDevice(const engine::Device& device);
 
+// The processor's model, as Linux tells it; empty where it does not.
+std::string processorName();
+
 // What this program was built from and how.
 BuildRecord describeBuild();
 

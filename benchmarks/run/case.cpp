@@ -118,12 +118,12 @@ void keepPicture(
 
 report::CaseResult runCase(
     const engine::Device& device, const PlannedCase& planned, const measure::MeasureHooks& hooks,
-    const std::filesystem::path& report, CaseComparisons& comparisons) {
+    const std::filesystem::path& report, CaseComparisons& comparisons, measure::HairCache& cache) {
     const hair::RunSettings& run = planned.spec.settings.run;
     const hair::RenderSettings& render = planned.spec.settings.render;
     report::CaseResult result = emptyResult(planned);
     try {
-        measure::Case test_case(device, planned.spec.settings, planned.directory);
+        measure::Case test_case(device, planned.spec.settings, planned.directory, &cache);
         const measure::ClockHold clocks(device.info(), run.clocks);
         const auto picture = measure::measure(device, test_case, run, hooks, result);
         if (!run.reference.empty())

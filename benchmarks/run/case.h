@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "benchmarks/measure/hair_cache.h"
 #include "benchmarks/measure/measure.h"
 #include "benchmarks/reference/picture_errors.h"
 #include "benchmarks/report/report.h"
@@ -37,6 +38,6 @@ struct CaseComparisons {
 // `report` is the file beside which its picture goes; empty: none is written. Throws Interrupted.
 report::CaseResult runCase(
     const engine::Device& device, const PlannedCase& planned, const measure::MeasureHooks& hooks,
-    const std::filesystem::path& report, CaseComparisons& comparisons);
+    const std::filesystem::path& report, CaseComparisons& comparisons, measure::HairCache& cache);
 
 }  // namespace benchmarks::run

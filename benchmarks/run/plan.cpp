@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/measure/case.h"
+#include "benchmarks/measure/hair_cache.h"
 #include "benchmarks/measure/progress.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/environment.h"
@@ -51,7 +52,8 @@ report::Shard parseShard(const std::string& text) {
 }
 
 RunPlan planRun(
-    const scene::SceneOptions& options, const std::string& filter, const std::string& shard_text) {
+    const scene::SceneOptions& options, const std::string& filter, const std::string& shard_text,
+    scene::AssetStore* assets) {
     const report::Shard shard = shard_text.empty() ? report::Shard{} : parseShard(shard_text);
     std::vector<scene::Scene> scenes = scene::loadScenes(options.scene);
     RunPlan plan{
@@ -60,7 +62,7 @@ RunPlan planRun(
     std::string all_documents;
     std::vector<PlannedCase> cases;
     for (scene::Scene& scene : scenes) {
-        for (scene::CaseSpec& spec : scene::selectCases(scene, options)) {
+        for (scene::CaseSpec& spec : scene::selectCases(scene, options, assets)) {
             all_documents += spec.name + '\n' + scene::caseDocument(scene, spec.axes).text() + '\n';
             const std::size_t index = cases.size();
             cases.push_back(
@@ -130,10 +132,11 @@ double mostSeconds(const hair::RunSettings& run, double frame_ms) {
     return kModes * mode + kCheckShare * double{run.max_time} + compared;
 }
 
-Estimate estimateCase(const engine::Device& device, const PlannedCase& planned) {
+Estimate
+estimateCase(const engine::Device& device, const PlannedCase& planned, measure::HairCache& cache) {
     try {
         const hair::Settings& settings = planned.spec.settings;
-        measure::Case test_case(device, settings, planned.directory);
+        measure::Case test_case(device, settings, planned.directory, &cache);
         const double frame = frameTime(device, test_case);
         return {
             .frame = frame,
@@ -180,7 +183,8 @@ int printNames(const RunPlan& plan) {
     return report::kOk;
 }
 
-int estimateRun(const RunPlan& plan, const engine::DeviceOptions& options) {
+int estimateRun(
+    const RunPlan& plan, const engine::DeviceOptions& options, measure::HairCache& cache) {
     std::optional<engine::Device> device;
     try {
         device.emplace(options);
@@ -194,7 +198,7 @@ int estimateRun(const RunPlan& plan, const engine::DeviceOptions& options) {
     try {
         for (const PlannedCase& each : plan.cases) {
             progress.begin(each.spec.name);
-            estimates.push_back(estimateCase(*device, each));
+            estimates.push_back(estimateCase(*device, each, cache));
         }
     } catch (const engine::Interrupted&) {
         progress.clear();

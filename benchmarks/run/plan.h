@@ -12,6 +12,10 @@
 #include "benchmarks/scene/sweep.h"
 
 // Which cases a run plays, in which order, and how long that takes.
+namespace benchmarks::measure {
+class HairCache;
+}  // namespace benchmarks::measure
+
 namespace benchmarks::run {
 
 struct RunOptions {
@@ -50,9 +54,11 @@ struct RunPlan {
 };
 
 // Reads scenes and checks them and their assets. Throws engine::Error for what is wrong with them
-// or with the options; `cases` may be empty where --filter leaves none.
-RunPlan
-planRun(const scene::SceneOptions& scene, const std::string& filter, const std::string& shard);
+// or with the options; `cases` may be empty where --filter leaves none. Meshes and grooms are left
+// in `assets`, which may be null.
+RunPlan planRun(
+    const scene::SceneOptions& scene, const std::string& filter, const std::string& shard,
+    scene::AssetStore* assets = nullptr);
 
 // "2/8" -> {2, 8}. Throws engine::Error "--shard: ...".
 report::Shard parseShard(const std::string& text);
@@ -67,6 +73,7 @@ int printNames(const RunPlan& plan);
 // Prints each case with the device memory that it takes and how long measuring it takes at most,
 // and their sum: cases are made and play a few frames. Where there is no device, names alone and
 // why. Returns the exit status.
-int estimateRun(const RunPlan& plan, const engine::DeviceOptions& device);
+int estimateRun(
+    const RunPlan& plan, const engine::DeviceOptions& device, measure::HairCache& cache);
 
 }  // namespace benchmarks::run

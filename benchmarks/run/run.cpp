@@ -32,7 +32,7 @@ headerOf(const RunOptions& options, const RunPlan& plan, const engine::Device& d
 // Whether the user stopped it before the last case.
 bool playCases(
     const engine::Device& device, const RunPlan& plan, RunRecord& record,
-    const std::filesystem::path& pictures_of) {
+    const std::filesystem::path& pictures_of, measure::HairCache& cache) {
     measure::Progress progress(plan.cases.size(), record.done());
     measure::DeviceKnowledge known;
     const measure::MeasureHooks hooks{
@@ -45,7 +45,8 @@ bool playCases(
         for (const auto& [place, order] : record.remaining()) {
             const PlannedCase& each = plan.cases[place];
             progress.begin(each.spec.name);
-            report::CaseResult result = runCase(device, each, hooks, pictures_of, comparisons);
+            report::CaseResult result =
+                runCase(device, each, hooks, pictures_of, comparisons, cache);
             result.order = order;
             record.add(result);
         }
@@ -83,7 +84,7 @@ void checkReferences(const RunPlan& plan) {
 
 FinishedRun playRun(
     const engine::Device& device, const RunOptions& options, const RunPlan& plan,
-    const std::filesystem::path& out) {
+    const std::filesystem::path& out, measure::HairCache& cache) {
     const report::ReportHeader header = headerOf(options, plan, device);
     if (options.resume)
         if (auto report = completeReport(plan, header, out))
@@ -98,7 +99,7 @@ FinishedRun playRun(
                   << " cases\n";
     const bool keeps_pictures = options.pictures && record.hasJournal();
     const bool interrupted =
-        playCases(device, plan, record, keeps_pictures ? out : std::filesystem::path());
+        playCases(device, plan, record, keeps_pictures ? out : std::filesystem::path(), cache);
     scene::Json report = record.report(interrupted);
     record.write(report);
     if (!interrupted && record.hasJournal()) removeOtherPictures(report, out);

@@ -28,6 +28,6 @@ struct FinishedRun {
 // Throws engine::Error, and WriteFailed (record.h).
 FinishedRun playRun(
     const engine::Device& device, const RunOptions& options, const RunPlan& plan,
-    const std::filesystem::path& out);
+    const std::filesystem::path& out, measure::HairCache& cache);
 
 }  // namespace benchmarks::run

@@ -75,11 +75,15 @@ std::uint32_t Pacer::framesFor(double seconds, double frame_time, std::optional<
 
 Player::Player(
     const engine::Device& device, const hair::Settings& settings,
-    const std::filesystem::path& directory)
-    : device_(device), directory_(directory), settings_(settings),
-      case_(std::make_unique<measure::Case>(device, settings, directory)),
-      isolated_(device, engine::Timing::isolated), overlapped_(device, engine::Timing::overlapped) {
+    const std::filesystem::path& directory, measure::HairCache* cache)
+    : device_(device), directory_(directory), cache_(cache), settings_(settings),
+      case_(caseOf(settings)), isolated_(device, engine::Timing::isolated),
+      overlapped_(device, engine::Timing::overlapped) {
     seek(0);
+}
+
+std::unique_ptr<measure::Case> Player::caseOf(const hair::Settings& settings) const {
+    return std::make_unique<measure::Case>(device_, settings, directory_, cache_);
 }
 
 double Player::time() const {
@@ -91,7 +95,7 @@ void Player::apply(const hair::Settings& settings) {
     if (effect == Effect::none && !previews_) return;
     scene::checkSettings(settings);
     if (effect == Effect::forces || effect == Effect::everything || previews_) {
-        replace(std::make_unique<measure::Case>(device_, settings, directory_), settings);
+        replace(caseOf(settings), settings);
         return;
     }
     drawWith(settings);
@@ -126,9 +130,7 @@ void Player::drawWith(const hair::Settings& settings) {
     outdated_ = true;
 }
 
-void Player::rebuild() {
-    replace(std::make_unique<measure::Case>(device_, settings_, directory_), settings_);
-}
+void Player::rebuild() { replace(caseOf(settings_), settings_); }
 
 void Player::replace(std::unique_ptr<measure::Case> other, const hair::Settings& settings) {
     coarse_ = {};
@@ -190,7 +192,7 @@ void Player::seek(std::uint32_t frame, const std::function<bool()>& stop) {
     // What a preview's simulation would be reset to is of the settings before.
     if (std::exchange(previews_, false)) {
         coarse_ = {};
-        case_ = std::make_unique<measure::Case>(device_, settings_, directory_);
+        case_ = caseOf(settings_);
     } else {
         case_->reset();
     }

@@ -91,10 +91,10 @@ Sphere groomNow(const Shown& shown);
 // reached. Only a preview shows something else.
 class Player {
 public:
-    // Draws frame 0. Throws as Case does.
+    // Draws frame 0. Throws as Case does. The cache may be null.
     Player(
         const engine::Device& device, const hair::Settings& settings,
-        const std::filesystem::path& directory);
+        const std::filesystem::path& directory, measure::HairCache* cache = nullptr);
 
     // Plays with these settings; refresh() draws them. Throws engine::Error for impossible ones,
     // and keeps the last.
@@ -145,10 +145,12 @@ private:
     void drawWith(const hair::Settings& settings);
     void drawFrame(engine::Timing timing, const std::function<void(engine::Passes&)>& simulate);
     hair::rendering::Renderer& coarse();
+    std::unique_ptr<measure::Case> caseOf(const hair::Settings& settings) const;
     void replace(std::unique_ptr<measure::Case> other, const hair::Settings& settings);
 
     const engine::Device& device_;
     std::filesystem::path directory_;
+    measure::HairCache* cache_;
     hair::Settings settings_;
     std::unique_ptr<measure::Case> case_;
     // Of levels from 1 on; made when they are first drawn with these settings.

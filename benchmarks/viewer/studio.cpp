@@ -20,8 +20,9 @@ bool differInMoreThanCamera(hair::Settings a, const hair::Settings& b) {
 
 Studio::Studio(
     const engine::Device& device, const std::filesystem::path& shaders,
-    std::function<void()> before)
-    : device_(device), before_(std::move(before)), reload_(device, shaders) {}
+    std::function<void()> before, measure::HairCache cache)
+    : device_(device), before_(std::move(before)), cache_(std::move(cache)),
+      reload_(device, shaders) {}
 
 void Studio::reloadShaders() {
     if (!reload_.poll()) return;
@@ -44,7 +45,7 @@ void Studio::reloadShaders() {
 // A side that was not played before.
 void Studio::make(const SideOrder& order, SideReply& reply) {
     try {
-        auto played = std::make_unique<Played>(device_, order, order.directory);
+        auto played = std::make_unique<Played>(device_, order, order.directory, cache_);
         if (const auto beside = played_.find(order.beside.value_or(0)); beside != played_.end())
             played->player.seek(beside->second->player.frame());
         played->revision = order.revision;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/measure/hair_cache.h"
 #include "benchmarks/measure/measure.h"
 #include "benchmarks/viewer/order_thread.h"
 #include "benchmarks/viewer/player.h"
@@ -57,10 +58,10 @@ struct Reply {
 class Studio {
 public:
     // `before`: called with each order before anything is done, for those who want to hold it up;
-    // may be empty.
+    // may be empty. `cache`: what sides have in common.
     Studio(
         const engine::Device& device, const std::filesystem::path& shaders,
-        std::function<void()> before = {});
+        std::function<void()> before = {}, measure::HairCache cache = measure::HairCache());
 
     // Where it is asked to stop it ends between two frames, and has no picture of those that were
     // left out. Throws engine::DeviceLost; what else goes wrong is in the reply.
@@ -71,8 +72,8 @@ private:
     struct Played {
         Played(
             const engine::Device& device, const SideOrder& order,
-            const std::filesystem::path& directory)
-            : player(device, order.settings, directory) {}
+            const std::filesystem::path& directory, measure::HairCache& cache)
+            : player(device, order.settings, directory, &cache) {}
 
         Player player;
         std::uint64_t revision = 0;  // that was followed or refused
@@ -91,6 +92,7 @@ private:
 
     const engine::Device& device_;
     std::function<void()> before_;
+    measure::HairCache cache_;
     ShaderReload reload_;
     std::map<std::uint64_t, std::unique_ptr<Played>> played_;  // by the side's number
     std::uint64_t replied_ = 0;  // pictures

@@ -93,7 +93,7 @@ Viewer::Parts::Parts(
       timings(*scene_device, &engine::Window::endWait), previews(!driven),
       studio(
           *scene_device, options.shaders.empty() ? HAIRBENCH_SHADER_FOLDER : options.shaders,
-          options.before_drawing),
+          options.before_drawing, measure::userHairCache(options.scene.cache)),
       drawing(
           [this, first = true](const Order& order, const Stop& stop) mutable {
               if (std::exchange(first, false) && gives_way) engine::giveWay();

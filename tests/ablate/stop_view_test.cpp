@@ -37,7 +37,7 @@ protected:
     // Of the settings' first frame; only the last call's may draw.
     std::map<Stop, std::unique_ptr<StopView>>
     views(const hair::Settings& settings, const std::set<Stop>& wanted = {}) {
-        hair_.emplace(device(), settings, HAIRBENCH_SCENES_DIR, 0);
+        hair_.emplace(device(), settings, HAIRBENCH_SCENES_DIR, 0, cache_);
         std::map<Stop, std::unique_ptr<StopView>> views;
         for (StopPlan& plan : planStops(settings, watch_->address()))
             if (wanted.empty() || wanted.contains(plan.stop))
@@ -73,6 +73,7 @@ protected:
     }
 
     hair::Settings settings_;
+    measure::HairCache cache_;
     std::optional<hair::rendering::StageWatch> watch_;
     std::optional<StillHair> hair_;
 };

@@ -1,8 +1,12 @@
 // The program as a user meets it: its exit status, its one-line errors, the files it writes and
 // leaves alone.
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
+#include <iterator>
+#include <optional>
 #include <string>
+#include <system_error>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -224,6 +228,42 @@ TEST_F(CliRun, GivesEqualHashesTwice) {
     for (std::size_t i = 0; i < first["cases"].size(); ++i) {
         EXPECT_EQ(first["cases"][i]["image_hash"], second["cases"][i]["image_hash"]);
         EXPECT_EQ(first["cases"][i]["state_hash"], second["cases"][i]["state_hash"]);
+    }
+}
+
+// The folder is one of the test's own.
+TEST_F(CliRun, TakesSettledHairFromDiskOrNotAndHasTheSameHashes) {
+    const fs::path folder = folder_.path() / "cache";
+    const auto entries = [&] {
+        std::error_code none;
+        const fs::directory_iterator found(folder / "hairbench" / "hair", none);
+        return std::distance(begin(found), end(found));
+    };
+    const std::optional<std::string> old =
+        std::getenv("XDG_CACHE_HOME") ? std::optional(std::getenv("XDG_CACHE_HOME")) : std::nullopt;
+    setenv("XDG_CACHE_HOME", folder.c_str(), 1);
+    const std::string options =
+        "-a /strands/density=2,3 -a /render/msaa=1 --set /simulation/settle_steps=9 "
+        "--set /simulation/distance_fields='[{\"resolution\":10}]' --frames 1 --warmup 2 "
+        "--max-time 0 ";
+    const nlohmann::json without = run("without", options + "--no-cache");
+    EXPECT_EQ(entries(), 0);
+    const nlohmann::json first = run("first", options);
+    EXPECT_EQ(entries(), 2);  // a field and a state, of both cases
+    const nlohmann::json second = run("second", options);
+    EXPECT_EQ(entries(), 2);
+    if (old)
+        setenv("XDG_CACHE_HOME", old->c_str(), 1);
+    else
+        unsetenv("XDG_CACHE_HOME");
+    ASSERT_EQ(without["cases"].size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const nlohmann::json& expected = without["cases"][i];
+        ASSERT_EQ(expected["status"], "ok");
+        for (const nlohmann::json* report : {&first, &second}) {
+            EXPECT_EQ((*report)["cases"][i]["image_hash"], expected["image_hash"]);
+            EXPECT_EQ((*report)["cases"][i]["state_hash"], expected["state_hash"]);
+        }
     }
 }
 
