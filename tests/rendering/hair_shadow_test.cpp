@@ -44,6 +44,7 @@ groom::Groom fansOfStrands(const Fans& fans) {
 // One light, that of the fans from +z.
 Settings litFromAbove(float width) {
     Settings settings;
+    settings.strands.backend = Backend::tessellation;
     settings.strands.density = 1;
     settings.strands.tessellation = 1;
     settings.strands.root_width = width;

@@ -35,6 +35,7 @@ TEST_F(ShadowPassTest, AtlasesTheDeviceLacksAreUnsupported) {
 
 TEST_F(ShadowPassTest, ThereIsNothingWhereNoShadowsAreAskedFor) {
     Settings settings;
+    settings.strands.backend = Backend::tessellation;
     const DeviceHair hair(device(), tangledGroom(4), settings);
     const StrandPlan plan = planStrands(hair.view(), settings, 64);
     const auto sides = [&] {
