@@ -80,7 +80,7 @@ BackendChoice chooseBackend(
     std::string others;
     for (const Backend backend : backendOrder(device.info())) {
         const std::optional<std::string> against = obstacle(backend, device, settings, plan);
-        if (!against) return {backend, {}, "automatic: the fastest that can draw it" + others};
+        if (!against) return {backend, {}, "automatic: the first that can draw it" + others};
         others += "; not " + std::string(backendName(backend)) + ": " + *against;
     }
     throw engine::Unsupported("/strands/backend", "none can draw this" + others);

@@ -159,7 +159,7 @@ TEST_F(LesserDevice, StrandsAreDrawnByWhatTheDeviceHas) {
     EXPECT_EQ(drawnBy().backend, hair::Backend::expanded);
     EXPECT_EQ(
         drawnBy().reason,
-        "automatic: the fastest that can draw it; not software: /strands/backend: software: the "
+        "automatic: the first that can draw it; not software: /strands/backend: software: the "
         "device has samples at places of its own; not tessellation: /strands/backend: "
         "tessellation: the device has no geometry stages");
 }

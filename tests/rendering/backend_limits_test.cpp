@@ -125,14 +125,14 @@ TEST_F(BackendChoiceTest, IsTheFirstThatDrawsTheCase) {
     const Settings plain;
     ASSERT_EQ(plain.strands.backend, Backend::automatic);
     EXPECT_EQ(choice(plain).backend, Backend::software);
-    EXPECT_EQ(choice(plain).reason, "automatic: the fastest that can draw it");
+    EXPECT_EQ(choice(plain).reason, "automatic: the first that can draw it");
 
     Settings blended;
     blended.render.transparency = Transparency::fragment_list;
     const BackendChoice other = choice(blended);
     EXPECT_EQ(other.backend, backendOrder(device().info())[1]);
     EXPECT_EQ(
-        other.reason, "automatic: the fastest that can draw it; not software: /strands/backend: a "
+        other.reason, "automatic: the first that can draw it; not software: /strands/backend: a "
                       "/render/transparency but none is not drawn: it keeps one strand a sample");
 }
 
