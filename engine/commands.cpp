@@ -91,6 +91,33 @@ constexpr std::uint32_t kMostGroupsInRow = 65535;
 constexpr std::uint32_t kSetsPerPool = 64;
 constexpr std::uint32_t kImagesPerSet = 8;
 
+// What a set's bindings become, in their order.
+class ImageWrites {
+public:
+    void add(VkDescriptorType type, const VkDescriptorImageInfo& info) {
+        assert(count_ < kImagesPerSet);
+        infos_[count_] = info;
+        writes_[count_] = {
+            .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+            .pNext = nullptr,
+            .dstSet = VK_NULL_HANDLE,
+            .dstBinding = count_,
+            .dstArrayElement = 0,
+            .descriptorCount = 1,
+            .descriptorType = type,
+            .pImageInfo = &infos_[count_],
+            .pBufferInfo = nullptr,
+            .pTexelBufferView = nullptr};
+        ++count_;
+    }
+    std::span<VkWriteDescriptorSet> all() { return std::span(writes_).first(count_); }
+
+private:
+    std::uint32_t count_ = 0;
+    std::array<VkDescriptorImageInfo, kImagesPerSet> infos_;
+    std::array<VkWriteDescriptorSet, kImagesPerSet> writes_;
+};
+
 }  // namespace
 
 // ---- Descriptor sets ----------------------------------------------------------------------------
@@ -157,7 +184,7 @@ void Commands::barrier(
     std::array<VkMemoryBarrier2, 4> memory;
     std::uint32_t count = 0;
     assert(dependencies.size() <= memory.size());
-    Recorded recorded{.pass = pass_, .uses = {}, .barriers = {}};
+    std::vector<RecordedBarrier> recorded;
     for (const Dependency& dependency : dependencies) {
         const Scope from = scope(dependency.before);
         const Scope to = scope(dependency.after);
@@ -167,7 +194,7 @@ void Commands::barrier(
             if (dependencies.size() > 1)
                 name += " #" + std::to_string(&dependency - dependencies.begin() + 1);
             if (hazards_->isDropped(pass_, name)) continue;
-            recorded.barriers.push_back({.before = from, .after = to, .image = {}, .place = name});
+            recorded.push_back({.before = from, .after = to, .image = {}, .place = name});
         }
         memory[count++] = {
             .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
@@ -177,7 +204,8 @@ void Commands::barrier(
             .dstStageMask = to.stages,
             .dstAccessMask = to.access};
     }
-    if (hazards_) recording_.push_back(std::move(recorded));
+    if (hazards_)
+        recording_.push_back({.pass = pass_, .uses = {}, .barriers = std::move(recorded)});
     VkDependencyInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
     info.memoryBarrierCount = count;
@@ -340,23 +368,17 @@ void Commands::images(
     std::span<const Image* const> storage) {
     for (const Image* image : sampled) uses({{*image, Access::compute_read}});
     for (const Image* image : storage) uses({{*image, Access::compute_write}});
-    std::vector<VkDescriptorImageInfo> infos;
-    for (const Image* image : sampled) {
-        infos.push_back({VK_NULL_HANDLE, image->view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
-    }
-    for (const Image* image : storage) {
-        infos.push_back({VK_NULL_HANDLE, image->view(), VK_IMAGE_LAYOUT_GENERAL});
-    }
-    std::vector<VkWriteDescriptorSet> writes(infos.size());
-    for (std::uint32_t i = 0; i < writes.size(); ++i) {
-        writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-        writes[i].dstBinding = i;
-        writes[i].descriptorCount = 1;
-        writes[i].descriptorType = i < sampled.size() ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE
-                                                      : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-        writes[i].pImageInfo = &infos[i];
-    }
-    bindImages(VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout(), pipeline.imagesLayout(), writes);
+    ImageWrites writes;
+    for (const Image* image : sampled)
+        writes.add(
+            VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
+            {VK_NULL_HANDLE, image->view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
+    for (const Image* image : storage)
+        writes.add(
+            VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+            {VK_NULL_HANDLE, image->view(), VK_IMAGE_LAYOUT_GENERAL});
+    bindImages(
+        VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout(), pipeline.imagesLayout(), writes.all());
 }
 
 void Commands::images(const ComputePipeline& pipeline, std::span<const SampledImage> sampled) {
@@ -376,26 +398,17 @@ void Commands::bindSampled(
     std::span<const SampledImage> sampled, Access access) {
     if (sampled.empty()) return;
     for (const SampledImage& entry : sampled) uses({{*entry.image, access}});
-    std::vector<VkDescriptorImageInfo> infos;
-    for (const SampledImage& entry : sampled) {
-        infos.push_back(
+    ImageWrites writes;
+    for (const SampledImage& entry : sampled)
+        writes.add(
+            VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
             {entry.sampler->get(), entry.image->view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
-    }
-    std::vector<VkWriteDescriptorSet> writes(infos.size());
-    for (std::uint32_t i = 0; i < writes.size(); ++i) {
-        writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-        writes[i].dstBinding = i;
-        writes[i].descriptorCount = 1;
-        writes[i].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-        writes[i].pImageInfo = &infos[i];
-    }
-    bindImages(point, layout, set_layout, writes);
+    bindImages(point, layout, set_layout, writes.all());
 }
 
 void Commands::bindImages(
     VkPipelineBindPoint point, VkPipelineLayout layout, VkDescriptorSetLayout set_layout,
     std::span<VkWriteDescriptorSet> writes) {
-    assert(writes.size() <= kImagesPerSet);
     const Device& device = sets_.device();
     const auto count = static_cast<std::uint32_t>(writes.size());
     if (device.has(Feature::push_descriptors)) {

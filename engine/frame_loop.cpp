@@ -5,6 +5,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <span>
 
 namespace engine {
 namespace {
@@ -12,6 +13,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint32_t kMaxStamps = 1024;
+
+constexpr std::size_t kRecordsAtFirst = 64;  // frames
 
 double millisecondsBetween(Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double, std::milli>(to - from).count();
@@ -104,7 +107,7 @@ public:
     }
 
     void
-    pass(const char* name, PassKind kind, const std::function<void(Commands&)>& record) override {
+    pass(const char* name, PassKind kind, FunctionRef<void(Commands&)> record) override {
         commands_->beginLabel(name);
         switch (timing_) {
         case Timing::overlapped: {
@@ -143,7 +146,7 @@ public:
         if (commands_ != beside_) drawing_ = true;
     }
 
-    void beside(std::uint32_t frames, const std::function<void()>& record) override {
+    void beside(std::uint32_t frames, FunctionRef<void()> record) override {
         if (!beside_) return record();
         assert(!drawing_);
         least_ = std::min(least_.value_or(frames), frames);
@@ -181,7 +184,7 @@ public:
         : device_(device), slot_data_(slot), timeline_(timeline), submitted_(submitted),
           record_(record) {}
 
-    void pass(const char* name, PassKind, const std::function<void(Commands&)>& record) override {
+    void pass(const char* name, PassKind, FunctionRef<void(Commands&)> record) override {
         Commands commands(slot_data_.buffer, slot_data_.sets, device_.hazards());
         commands.begin();
         commands.beginLabel(name);
@@ -210,7 +213,7 @@ private:
 
 }  // namespace
 
-void Passes::beside(std::uint32_t, const std::function<void()>& record) { record(); }
+void Passes::beside(std::uint32_t, FunctionRef<void()> record) { record(); }
 
 // A command buffer of a queue family, with its pool and its sets.
 struct FrameLoop::OwnBuffer {
@@ -281,6 +284,7 @@ FrameLoop::FrameLoop(const Device& device, Timing timing, const Overlap& overlap
         slots_.push_back(std::make_unique<Slot>(device, timing, async));
     }
     if (async) beside_ = makeTimeline(device.get());
+    records_.reserve(kRecordsAtFirst);
 }
 
 FrameLoop::~FrameLoop() {
@@ -289,13 +293,14 @@ FrameLoop::~FrameLoop() {
     if (device_.hazards()) device_.hazards()->finish(device_.hazards()->submissions());
 }
 
-void FrameLoop::frame(const std::function<void(Passes&)>& record) {
+void FrameLoop::frame(FunctionRef<void(Passes&)> record) {
     const auto index = static_cast<std::uint32_t>(frames_++ % slots_.size());
     Slot& slot = *slots_[index];
     const Clock::time_point start = Clock::now();
     // Frames that overlap have no use of their own, and asking for it takes time.
     const ProcessUse used = timing_ == Timing::overlapped ? ProcessUse{} : processUse();
     collect(slot);
+    const double host = threadTime();
     const Clock::time_point free = Clock::now();
     if (!records_.empty()) records_.back().interval = millisecondsBetween(start_, start);
     start_ = start;
@@ -342,6 +347,7 @@ void FrameLoop::frame(const std::function<void(Passes&)>& record) {
     result.wait = millisecondsBetween(start, free);
     result.record = millisecondsBetween(free, recorded);
     result.submit = millisecondsBetween(recorded, submitted);
+    result.host = threadTime() - host;
     if (timing_ != Timing::overlapped) {
         waitFor(device_.get(), timeline_.get(), slot.value);
         const Clock::time_point done = Clock::now();
@@ -368,7 +374,14 @@ void FrameLoop::endBeside(Commands& beside, std::uint64_t drawn) {
 std::vector<FrameRecord> FrameLoop::finish() {
     for (const auto& slot : slots_) collect(*slot);
     if (!records_.empty()) records_.back().interval = millisecondsBetween(start_, Clock::now());
-    return std::exchange(records_, {});
+    return takeRecords();
+}
+
+// All of them. The next ones are likely to be as many.
+std::vector<FrameRecord> FrameLoop::takeRecords() {
+    std::vector<FrameRecord> next;
+    next.reserve(std::max(records_.size(), kRecordsAtFirst));
+    return std::exchange(records_, std::move(next));
 }
 
 std::vector<FrameRecord> FrameLoop::completed() {
@@ -392,7 +405,7 @@ void FrameLoop::collect(Slot& slot) {
     FrameRecord& record = records_[*slot.record];
     slot.record.reset();
     if (slot.timestamps) {
-        const std::vector<double> times = slot.timestamps->read();
+        const std::span<const double> times = slot.timestamps->read();
         for (const Slot::Span& span : slot.spans) {
             addTime(
                 record.passes,

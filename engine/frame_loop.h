@@ -2,11 +2,13 @@
 
 #include <chrono>
 #include <cstdint>
-#include <functional>
+#include <concepts>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "engine/commands.h"
@@ -14,6 +16,34 @@
 #include "engine/queries.h"
 
 namespace engine {
+
+template <class Signature>
+class FunctionRef;
+
+// Something that can be called and that lives elsewhere, for at least as long: what frames are
+// recorded by is handed on without a copy of it, which std::function would allocate.
+template <class Result, class... Arguments>
+class FunctionRef<Result(Arguments...)> {
+public:
+    template <class Function>
+        requires(
+            !std::same_as<std::remove_cvref_t<Function>, FunctionRef> &&
+            std::is_invocable_r_v<Result, Function&, Arguments...>)
+    FunctionRef(Function&& function)
+        : function_(const_cast<void*>(static_cast<const void*>(std::addressof(function)))),
+          call_([](void* called, Arguments... arguments) -> Result {
+              return (*static_cast<std::remove_reference_t<Function>*>(called))(
+                  std::forward<Arguments>(arguments)...);
+          }) {}
+
+    Result operator()(Arguments... arguments) const {
+        return call_(function_, std::forward<Arguments>(arguments)...);
+    }
+
+private:
+    void* function_;
+    Result (*call_)(void*, Arguments...);
+};
 
 // How the passes of a frame are timed. Figures of different modes are never compared.
 enum class Timing {
@@ -64,6 +94,9 @@ struct FrameRecord {
     double record = 0.0;  // CPU: recording the commands
     double submit = 0.0;  // CPU: in vkQueueSubmit2
     double wait = 0.0;  // CPU: for the device (overlapped: until a slot was free)
+    // CPU time of this thread, for recording and submitting: without what else the machine did
+    // meanwhile and what the driver's threads do. Absent in wall_clock.
+    std::optional<double> host{};
     ProcessUse use;  // CPU: of the whole process, from recording to completion (not overlapped)
     // GPU: first to last stamp (overlapped, isolated). Absent, and `passes` empty but in
     // wall_clock, where the device's queue has no timestamps.
@@ -80,12 +113,12 @@ public:
 
     // Records one pass. Its name is the debug label, the timer and the metric.
     virtual void
-    pass(const char* name, PassKind kind, const std::function<void(Commands&)>& record) = 0;
+    pass(const char* name, PassKind kind, FunctionRef<void(Commands&)> record) = 0;
 
     // Calls `record`, whose passes may run beside the drawing of the last `frames` frames, but only
     // after all that was submitted before those. What is recorded later comes after them. They are
     // compute passes, and the first of their frame.
-    virtual void beside(std::uint32_t frames, const std::function<void()>& record);
+    virtual void beside(std::uint32_t frames, FunctionRef<void()> record);
 
     // Index of the frame in flight, below FrameLoop::kMaxSlots: for buffers that the CPU writes
     // each frame.
@@ -105,7 +138,9 @@ public:
     FrameLoop(const FrameLoop&) = delete;
     FrameLoop& operator=(const FrameLoop&) = delete;
 
-    void frame(const std::function<void(Passes&)>& record);
+    // Recording and submitting overlapped frames allocates no memory: what is measured of them has
+    // its own, which finish() makes ready for as many frames as there were since the last call.
+    void frame(FunctionRef<void(Passes&)> record);
 
     // What was measured of frames that are complete, oldest first, without waiting for any; each
     // frame is returned once, by this or by finish(). The newest frame is not among them: its
@@ -121,6 +156,7 @@ private:
     struct Slot;
     void collect(Slot& slot);
     void endBeside(Commands& beside, std::uint64_t drawn);
+    std::vector<FrameRecord> takeRecords();
 
     const Device& device_;
     Timing timing_;

@@ -101,6 +101,16 @@ std::optional<double> PerfCounter::read() const {
 
 // ---- Use of the CPU -----------------------------------------------------------------------------
 
+namespace {
+
+double millisecondsOf(clockid_t clock) {
+    timespec time{};
+    clock_gettime(clock, &time);
+    return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
+}
+
+}  // namespace
+
 ProcessUse operator-(const ProcessUse& to, const ProcessUse& from) {
     return {to.cpu - from.cpu, both(to.instructions, from.instructions, std::minus<>())};
 }
@@ -109,13 +119,11 @@ ProcessUse operator+(const ProcessUse& a, const ProcessUse& b) {
     return {a.cpu + b.cpu, both(a.instructions, b.instructions, std::plus<>())};
 }
 
+double threadTime() { return millisecondsOf(CLOCK_THREAD_CPUTIME_ID); }
+
 ProcessUse processUse() {
     static const PerfCounter instructions(PERF_TYPE_HARDWARE, PERF_COUNT_HW_INSTRUCTIONS);
-    timespec time{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return {
-        static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6,
-        instructions.read()};
+    return {millisecondsOf(CLOCK_PROCESS_CPUTIME_ID), instructions.read()};
 }
 
 void giveWay() {

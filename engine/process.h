@@ -54,6 +54,9 @@ private:
     int file_;  // -1: none
 };
 
+// CPU time of the calling thread since some moment in the past, ms.
+double threadTime();
+
 // What all threads of this process have used of the CPU: on a software device, what passes cost
 // whoever else is at work on the machine.
 struct ProcessUse {

@@ -88,17 +88,23 @@ public:
     std::uint32_t write(Commands& commands);
 
     // ms since the first stamp, for each stamp written. The work must be complete; a stamp that the
-    // device did not write is an Error.
-    std::vector<double> read() const;
+    // device did not write is an Error. Valid until the next call.
+    std::span<const double> read();
 
     std::uint32_t count() const { return count_; }
 
 private:
+    struct Stamp {
+        std::uint64_t ticks;
+        std::uint64_t available;
+    };
+
     VkDevice device_;
     double period_;  // ms per tick
     std::uint64_t mask_;
-    std::uint32_t capacity_;
     std::uint32_t count_ = 0;
+    std::vector<Stamp> stamps_;  // as many as there may be, as times_
+    std::vector<double> times_;
     Handle<VkQueryPool, &vkDestroyQueryPool> pool_;
 };
 

@@ -10,6 +10,8 @@
 namespace engine {
 namespace {
 
+constexpr std::size_t kMostColors = 4;  // what every device has
+
 VkRenderingAttachmentInfo attachmentInfo(const Attachment& attachment) {
     const bool is_depth = attachment.image->aspect() == VK_IMAGE_ASPECT_DEPTH_BIT;
     VkRenderingAttachmentInfo info{};
@@ -64,8 +66,9 @@ void beginRendering(
     Commands& commands, std::span<const Attachment> colors, const std::optional<Attachment>& depth,
     const std::optional<VkRect2D>& area) {
     assert(!colors.empty() || depth || area);
-    std::vector<VkRenderingAttachmentInfo> color_infos;
-    for (const Attachment& color : colors) color_infos.push_back(attachmentInfo(color));
+    assert(colors.size() <= kMostColors);
+    std::array<VkRenderingAttachmentInfo, kMostColors> color_infos;
+    std::ranges::transform(colors, color_infos.begin(), attachmentInfo);
     VkRenderingAttachmentInfo depth_info{};
     if (depth) depth_info = attachmentInfo(*depth);
 
@@ -78,7 +81,7 @@ void beginRendering(
     info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
     info.renderArea = rendered;
     info.layerCount = 1;
-    info.colorAttachmentCount = static_cast<std::uint32_t>(color_infos.size());
+    info.colorAttachmentCount = static_cast<std::uint32_t>(colors.size());
     info.pColorAttachments = color_infos.data();
     info.pDepthAttachment = depth ? &depth_info : nullptr;
     for (const Attachment& color : colors) commands.uses({{*color.image, Access::attachment}});

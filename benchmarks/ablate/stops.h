@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -84,7 +83,7 @@ public:
 
     void pass(
         const char* name, engine::PassKind kind,
-        const std::function<void(engine::Commands&)>& record) override {
+        engine::FunctionRef<void(engine::Commands&)> record) override {
         passes_.pass(name, kind, [&](engine::Commands& commands) {
             if (name == counted_) query_.begin(commands);
             record(commands);

@@ -61,7 +61,7 @@ BusyPasses::BusyPasses(engine::Passes& passes, BusyPass& busy) : passes_(passes)
 }
 
 void BusyPasses::pass(
-    const char* name, engine::PassKind kind, const std::function<void(engine::Commands&)>& record) {
+    const char* name, engine::PassKind kind, engine::FunctionRef<void(engine::Commands&)> record) {
     if (std::ranges::find(busy_.seen_, name) == busy_.seen_.end()) busy_.seen_.emplace_back(name);
     if (busy_.name_ != name) {
         passes_.pass(name, kind, record);

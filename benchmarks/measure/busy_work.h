@@ -67,8 +67,8 @@ public:
 
     void pass(
         const char* name, engine::PassKind kind,
-        const std::function<void(engine::Commands&)>& record) override;
-    void beside(std::uint32_t frames, const std::function<void()>& record) override {
+        engine::FunctionRef<void(engine::Commands&)> record) override;
+    void beside(std::uint32_t frames, engine::FunctionRef<void()> record) override {
         passes_.beside(frames, record);
     }
 

@@ -265,6 +265,8 @@ void addOverlappedMetrics(std::span<const engine::FrameRecord> frames, report::C
     addTimes(report::ofCpu(report::Measured::record_time), [](auto& f) { return f.record; });
     addTimes(report::ofCpu(report::Measured::submit_time), [](auto& f) { return f.submit; });
     addTimes(report::ofCpu(report::Measured::wait_time), [](auto& f) { return f.wait; });
+    if (std::ranges::all_of(frames, [](auto& f) { return f.host.has_value(); }))
+        addTimes(report::ofCpu(report::Measured::host_time), [](auto& f) { return *f.host; });
     // A frame whose work began before the last one's was done takes the device longer than its
     // interval, and then the device waited for nobody.
     if (stamped)

@@ -36,6 +36,7 @@ constexpr MetricKind kKinds[] = {
     {Of::frame, What::energy, "frame.energy", "J", lower},
     {Of::cpu, What::record_time, "cpu.record.time", "ms", lower},
     {Of::cpu, What::submit_time, "cpu.submit.time", "ms", lower},
+    {Of::cpu, What::host_time, "cpu.host.time", "ms", lower},
     // One waits longer where others are faster.
     {Of::cpu, What::wait_time, "cpu.wait.time", "ms", neither},
     {Of::gpu, What::wait_time, "gpu.wait.time", "ms", neither},

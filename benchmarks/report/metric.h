@@ -47,6 +47,7 @@ enum class Measured {
     record_time,
     submit_time,
     wait_time,
+    host_time,  // of the CPU
     rmse,
     psnr,
     ssim,

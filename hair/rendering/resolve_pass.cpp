@@ -1,8 +1,9 @@
 #include "hair/rendering/resolve_pass.h"
 
+#include <array>
 #include <cmath>
+#include <span>
 #include <string>
-#include <vector>
 
 #include "hair/gpu_structs.h"
 #include "hair/rendering/render_assets.h"
@@ -47,11 +48,13 @@ void ResolvePass::record(engine::Commands& commands, const engine::Target& targe
         return;
     }
     target.beginResolve(commands);
-    const std::vector<const engine::Image*> sampled{&target.color()};
-    std::vector<const engine::Image*> storage{&target.output()};
-    if (target.hasRadiance()) storage.insert(storage.begin(), &target.radiance());
+    const engine::Image* const sampled = &target.color();
     commands.bind(*pipeline_);
-    commands.images(*pipeline_, sampled, storage);
+    if (target.hasRadiance())
+        commands.images(
+            *pipeline_, std::span(&sampled, 1), std::array{&target.radiance(), &target.output()});
+    else
+        commands.images(*pipeline_, std::span(&sampled, 1), std::array{&target.output()});
     const auto [width, height] = target.output().extent();
     commands.dispatch(
         (width + gpu::kResolveGroupSide - 1) / gpu::kResolveGroupSide,

@@ -1,6 +1,8 @@
 #include "hair/rendering/scene_meshes.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
@@ -222,9 +224,9 @@ void SceneMeshes::draw(
             const MeshMaterial& material = mesh.materials.materials()[part.material];
             const engine::GraphicsPipeline& pipeline = pipelines_.at(material.look);
             bind(commands, pipeline, picture, mesh, material);
-            std::vector<engine::SampledImage> images(
-                material.images.begin(), material.images.end());
-            images.insert(images.end(), shadows.begin(), shadows.end());
+            std::array<engine::SampledImage, kMaterialImages + kShadowImages> images;
+            assert(shadows.size() == kShadowImages);
+            std::ranges::copy(shadows, std::ranges::copy(material.images, images.begin()).out);
             commands.images(pipeline, images);
             commands.drawIndexed(
                 mesh.geometry.indices,

@@ -291,7 +291,9 @@ ShadowPass::ShadowPass(
           device, hair_maps_ ? &atlas_ : nullptr, kLayerFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
           "opacity of hair")),
       sampler_(device, {.filter = VK_FILTER_NEAREST}),
-      images_{{&mesh_depths_, &sampler_}, {&hair_depths_, &sampler_}, {&hair_layers_, &sampler_}} {
+      images_{{&mesh_depths_, &sampler_}, {&hair_depths_, &sampler_}, {&hair_layers_, &sampler_}},
+      written_(lights_.size() * kPictureStride) {
+    seen_.reserve(lights_.size());
     for (std::uint32_t slot = 0; slot < engine::FrameLoop::kMaxSlots; ++slot) {
         parameters_[slot] =
             uploadBuffer(device, sizeof(gpu::ShadowParameters), "shadow parameters");
@@ -321,7 +323,7 @@ ShadowPass::ShadowPass(
          .sampled_images = 1});
 }
 
-std::vector<ShadowPass::LightPicture> ShadowPass::writeParameters(
+void ShadowPass::writeParameters(
     std::uint32_t slot, const StrandView& view, const gpu::PictureParameters& of) {
     const ShadowSettings& shadows = settings_.shading.shadows;
     gpu::ShadowParameters parameters{};
@@ -331,8 +333,7 @@ std::vector<ShadowPass::LightPicture> ShadowPass::writeParameters(
     // What is sampled round a point lies in the map: the filter, and strands a texel wide.
     const float margin = std::max(shadows.softness, 0.5f) + 1.0f;
     const ShadowBounds bounds = scene_.bounds(view);
-    std::vector<std::byte> pictures(lights_.size() * kPictureStride);
-    std::vector<LightPicture> seen_pictures;
+    seen_.clear();
     for (std::uint32_t i = 0; i < lights_.size(); ++i) {
         const std::uint32_t light = lights_[i];
         const LightView seen =
@@ -355,46 +356,42 @@ std::vector<ShadowPass::LightPicture> ShadowPass::writeParameters(
         picture.shadows = parameters_[slot].address() + offsetof(gpu::ShadowParameters, maps) +
                           light * sizeof(gpu::ShadowMap);
         const std::size_t place = i * kPictureStride;
-        std::memcpy(&pictures[place], &picture, sizeof picture);
-        seen_pictures.push_back({pictures_[slot].address() + place, picture});
+        std::memcpy(&written_[place], &picture, sizeof picture);
+        seen_.push_back({pictures_[slot].address() + place, picture});
     }
     parameters_[slot].write(parameters);
-    pictures_[slot].write(std::span<const std::byte>(pictures));
-    return seen_pictures;
+    pictures_[slot].write(std::span<const std::byte>(written_));
 }
 
-void ShadowPass::drawMeshes(
-    engine::Commands& commands, const SceneMeshes& meshes,
-    std::span<const LightPicture> pictures) const {
+void ShadowPass::drawMeshes(engine::Commands& commands, const SceneMeshes& meshes) const {
     toDraw(commands, mesh_depths_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
     engine::beginRendering(
         commands, {}, engine::Attachment{&mesh_depths_, engine::Load::clear, {engine::kFarDepth}});
-    for (std::uint32_t i = 0; i < pictures.size(); ++i) {
+    for (std::uint32_t i = 0; i < seen_.size(); ++i) {
         engine::setArea(commands, atlas_.part(i));
-        meshes.drawDepth(commands, pictures[i].address);
+        meshes.drawDepth(commands, seen_[i].address);
     }
     engine::endRendering(commands);
     toRead(commands, mesh_depths_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
 }
 
-void ShadowPass::drawHair(
-    engine::Commands& commands, std::span<const LightPicture> pictures) const {
+void ShadowPass::drawHair(engine::Commands& commands) const {
     const auto drawn = [&](const LightPicture& picture, std::size_t images) {
         return StrandPicture{
             .address = picture.address,
             .parameters = picture.parameters,
             .images = std::span(images_).subspan(1, images)};
     };
-    for (const LightPicture& picture : pictures) {
+    for (const LightPicture& picture : seen_) {
         depth_->prepare(commands, drawn(picture, 0));
         opacity_->prepare(commands, drawn(picture, 1));
     }
     toDraw(commands, hair_depths_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
     engine::beginRendering(
         commands, {}, engine::Attachment{&hair_depths_, engine::Load::clear, {engine::kFarDepth}});
-    for (std::uint32_t i = 0; i < pictures.size(); ++i) {
+    for (std::uint32_t i = 0; i < seen_.size(); ++i) {
         engine::setArea(commands, atlas_.part(i));
-        depth_->draw(commands, drawn(pictures[i], 0));
+        depth_->draw(commands, drawn(seen_[i], 0));
     }
     engine::endRendering(commands);
     toRead(commands, hair_depths_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
@@ -402,9 +399,9 @@ void ShadowPass::drawHair(
     toDraw(commands, hair_layers_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
     const engine::Attachment layers{&hair_layers_, engine::Load::clear, {}};
     engine::beginRendering(commands, std::span(&layers, 1), std::nullopt);
-    for (std::uint32_t i = 0; i < pictures.size(); ++i) {
+    for (std::uint32_t i = 0; i < seen_.size(); ++i) {
         engine::setArea(commands, atlas_.part(i));
-        opacity_->draw(commands, drawn(pictures[i], 1));
+        opacity_->draw(commands, drawn(seen_[i], 1));
     }
     engine::endRendering(commands);
     toRead(commands, hair_layers_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
@@ -414,15 +411,15 @@ void ShadowPass::record(
     engine::Passes& passes, const SceneMeshes& meshes, const StrandView& view,
     const gpu::PictureParameters& picture) {
     if (lights_.empty()) return;
-    const std::vector<LightPicture> pictures = writeParameters(passes.slot(), view, picture);
+    writeParameters(passes.slot(), view, picture);
     if (mesh_maps_) {
         passes.pass("mesh_shadow", engine::PassKind::graphics, [&](engine::Commands& commands) {
-            drawMeshes(commands, meshes, pictures);
+            drawMeshes(commands, meshes);
         });
     }
     if (hair_maps_) {
         passes.pass("hair_shadow", depth_->passKind(), [&](engine::Commands& commands) {
-            drawHair(commands, pictures);
+            drawHair(commands);
         });
     }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -99,12 +100,10 @@ private:
         std::uint64_t address;  // of `parameters` on the device
         gpu::PictureParameters parameters;
     };
-    std::vector<LightPicture>
+    void
     writeParameters(std::uint32_t slot, const StrandView& view, const gpu::PictureParameters& of);
-    void drawMeshes(
-        engine::Commands& commands, const SceneMeshes& meshes,
-        std::span<const LightPicture> pictures) const;
-    void drawHair(engine::Commands& commands, std::span<const LightPicture> pictures) const;
+    void drawMeshes(engine::Commands& commands, const SceneMeshes& meshes) const;
+    void drawHair(engine::Commands& commands) const;
 
     Settings settings_;
     ShadowScene scene_;
@@ -119,6 +118,9 @@ private:
     engine::Image hair_layers_;
     engine::Sampler sampler_;
     std::vector<engine::SampledImage> images_;
+    // Of the frame that is recorded:
+    std::vector<LightPicture> seen_;
+    std::vector<std::byte> written_;  // into pictures_
     std::unique_ptr<StrandBackend> depth_;
     std::unique_ptr<StrandBackend> opacity_;
 };

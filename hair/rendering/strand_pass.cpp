@@ -434,11 +434,10 @@ void StrandPass::record(
     engine::Passes& passes, const engine::Target& target, std::uint64_t picture,
     const gpu::PictureParameters& parameters, std::span<const engine::SampledImage> images) const {
     const StrandPicture drawn{.address = picture, .parameters = parameters, .images = images};
+    const auto prepare = [&](engine::Commands& commands) { backend_->prepare(commands, drawn); };
+    const auto draw = [&](engine::Commands& commands) { backend_->draw(commands, drawn); };
     blend_->record(
-        passes, target,
-        {.kind = backend_->passKind(),
-         .prepare = [&](engine::Commands& commands) { backend_->prepare(commands, drawn); },
-         .draw = [&](engine::Commands& commands) { backend_->draw(commands, drawn); }});
+        passes, target, {.kind = backend_->passKind(), .prepare = prepare, .draw = draw});
 }
 
 }  // namespace hair::rendering

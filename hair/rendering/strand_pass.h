@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -30,8 +29,8 @@ struct ListedFragments {
 // What a back end records of a picture's strands.
 struct RecordedStrands {
     engine::PassKind kind;  // of the pass that draws them
-    std::function<void(engine::Commands&)> prepare;  // before rendering begins
-    std::function<void(engine::Commands&)> draw;  // within it
+    engine::FunctionRef<void(engine::Commands&)> prepare;  // before rendering begins
+    engine::FunctionRef<void(engine::Commands&)> draw;  // within it
 };
 
 // What becomes of strands' fragments: one kind of transparency.
