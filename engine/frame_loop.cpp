@@ -106,8 +106,7 @@ public:
             slot_data_.timestamps->write(*commands_);
     }
 
-    void
-    pass(const char* name, PassKind kind, FunctionRef<void(Commands&)> record) override {
+    void pass(const char* name, PassKind kind, FunctionRef<void(Commands&)> record) override {
         commands_->beginLabel(name);
         switch (timing_) {
         case Timing::overlapped: {
@@ -144,6 +143,10 @@ public:
         }
         commands_->endLabel();
         if (commands_ != beside_) drawing_ = true;
+    }
+
+    bool joins() const override {
+        return timing_ == Timing::overlapped && stamps_ == Stamps::frame;
     }
 
     void beside(std::uint32_t frames, FunctionRef<void()> record) override {

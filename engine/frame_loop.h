@@ -26,9 +26,8 @@ template <class Result, class... Arguments>
 class FunctionRef<Result(Arguments...)> {
 public:
     template <class Function>
-        requires(
-            !std::same_as<std::remove_cvref_t<Function>, FunctionRef> &&
-            std::is_invocable_r_v<Result, Function&, Arguments...>)
+        requires(!std::same_as<std::remove_cvref_t<Function>, FunctionRef> &&
+                 std::is_invocable_r_v<Result, Function&, Arguments...>)
     FunctionRef(Function&& function)
         : function_(const_cast<void*>(static_cast<const void*>(std::addressof(function)))),
           call_([](void* called, Arguments... arguments) -> Result {
@@ -112,13 +111,16 @@ public:
     virtual ~Passes() = default;
 
     // Records one pass. Its name is the debug label, the timer and the metric.
-    virtual void
-    pass(const char* name, PassKind kind, FunctionRef<void(Commands&)> record) = 0;
+    virtual void pass(const char* name, PassKind kind, FunctionRef<void(Commands&)> record) = 0;
 
     // Calls `record`, whose passes may run beside the drawing of the last `frames` frames, but only
     // after all that was submitted before those. What is recorded later comes after them. They are
     // compute passes, and the first of their frame.
     virtual void beside(std::uint32_t frames, FunctionRef<void()> record);
+
+    // Whether passes may share a rendering scope, that one begins and another ends: not where each
+    // is measured by itself, or something is added to one.
+    virtual bool joins() const { return false; }
 
     // Index of the frame in flight, below FrameLoop::kMaxSlots: for buffers that the CPU writes
     // each frame.

@@ -22,6 +22,11 @@ VkRenderingAttachmentInfo attachmentInfo(const Attachment& attachment) {
     info.loadOp =
         attachment.load == Load::clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
     info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    if (attachment.resolved) {
+        info.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
+        info.resolveImageView = attachment.resolved->view();
+        info.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    }
     if (is_depth) {
         info.clearValue.depthStencil = {attachment.clear[0], 0};
     } else {
@@ -58,6 +63,28 @@ ImageDescription rendered(
         .name = name};
 }
 
+std::optional<Image> colorOf(const Device& device, const TargetDescription& description) {
+    if (resolveOf(description) == Resolve::none) return std::nullopt;
+    constexpr VkImageUsageFlags kUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
+                                         VK_IMAGE_USAGE_SAMPLED_BIT |
+                                         VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    return std::optional<Image>(
+        std::in_place, device, rendered(description, description.color_format, kUsage, "color"));
+}
+
+// Who reads what is rendered, and the output.
+Access reader(Resolve resolve) {
+    switch (resolve) {
+    case Resolve::none:
+        return Access::transfer_read;
+    case Resolve::attachment:
+        return Access::attachment;
+    case Resolve::compute:
+        break;
+    }
+    return Access::compute_read;
+}
+
 }  // namespace
 
 // ---- Rendering to attachments -------------------------------------------------------------------
@@ -84,7 +111,10 @@ void beginRendering(
     info.colorAttachmentCount = static_cast<std::uint32_t>(colors.size());
     info.pColorAttachments = color_infos.data();
     info.pDepthAttachment = depth ? &depth_info : nullptr;
-    for (const Attachment& color : colors) commands.uses({{*color.image, Access::attachment}});
+    for (const Attachment& color : colors) {
+        commands.uses({{*color.image, Access::attachment}});
+        if (color.resolved) commands.uses({{*color.resolved, Access::attachment}});
+    }
     if (depth) commands.uses({{*depth->image, Access::attachment}});
     vkCmdBeginRendering(commands.get(), &info);
 
@@ -107,14 +137,14 @@ void endRendering(Commands& commands) { vkCmdEndRendering(commands.get()); }
 
 // ---- The images of an offscreen picture ---------------------------------------------------------
 
+Resolve resolveOf(const TargetDescription& description) {
+    if (description.color_format != Target::kOutputFormat || description.ssaa > 1)
+        return Resolve::compute;
+    return description.msaa > 1 ? Resolve::attachment : Resolve::none;
+}
+
 Target::Target(const Device& device, const TargetDescription& description)
-    : description_(checked(device, description)),
-      color_(
-          device, rendered(
-                      description, description.color_format,
-                      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-                          VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                      "color")),
+    : description_(checked(device, description)), color_(colorOf(device, description)),
       depth_(
           device, rendered(
                       description, kDepthFormat,
@@ -127,8 +157,11 @@ Target::Target(const Device& device, const TargetDescription& description)
                    .width = description.width,
                    .height = description.height,
                    .samples = 1,
-                   .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                            VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                   .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                            VkImageUsageFlags(
+                                resolveOf(description) == Resolve::compute
+                                    ? VK_IMAGE_USAGE_STORAGE_BIT
+                                    : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT),
                    .name = "output"}) {
     if (description.color_format == kOutputFormat) return;
     radiance_.emplace(
@@ -141,30 +174,40 @@ Target::Target(const Device& device, const TargetDescription& description)
 }
 
 void Target::beginRendering(
-    Commands& commands, Load load, const std::array<float, 3>& background) const {
+    Commands& commands, Load load, const std::array<float, 3>& background, Last last) const {
     constexpr VkImageLayout kColor = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
     constexpr VkImageLayout kDepth = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
     if (load == Load::clear) {
         commands.transition(
-            color_, VK_IMAGE_LAYOUT_UNDEFINED, kColor,
-            resolvesByCopy() ? Access::transfer_read : Access::compute_read,
-            Access::attachment);  // after the last frame's resolve
+            this->color(), VK_IMAGE_LAYOUT_UNDEFINED, kColor, reader(resolve()),
+            Access::attachment);  // after the last frame's readers
         commands.transition(
             depth_, VK_IMAGE_LAYOUT_UNDEFINED, kDepth, Access::attachment, Access::attachment);
     } else {
         commands.barrier(Access::attachment, Access::attachment);
     }
+    const bool resolves = last == Last::yes && resolve() == Resolve::attachment;
+    if (resolves)
+        commands.transition(
+            output_, VK_IMAGE_LAYOUT_UNDEFINED, kColor, Access::transfer_read, Access::attachment);
 
     const Attachment color{
-        .image = &color_,
+        .image = &this->color(),
         .load = load,
-        .clear = {background[0], background[1], background[2], 1.0f}};
+        .clear = {background[0], background[1], background[2], 1.0f},
+        .resolved = resolves ? &output_ : nullptr};
     engine::beginRendering(
         commands, std::span(&color, 1),
         Attachment{.image = &depth_, .load = load, .clear = {kFarDepth}});
 }
 
-void Target::endRendering(Commands& commands) const { engine::endRendering(commands); }
+void Target::endRendering(Commands& commands, Last last) const {
+    engine::endRendering(commands);
+    if (last == Last::no || resolve() == Resolve::compute) return;
+    commands.transition(
+        output_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+        Access::attachment, Access::transfer_read);
+}
 
 void Target::beginDepthRead(Commands& commands) const {
     assert(description_.sampled_depth);
@@ -179,13 +222,10 @@ void Target::endDepthRead(Commands& commands) const {
         Access::compute_read, Access::attachment);
 }
 
-bool Target::resolvesByCopy() const {
-    return !radiance_ && description_.msaa == 1 && description_.ssaa == 1;
-}
-
 void Target::beginResolve(Commands& commands) const {
+    assert(resolve() == Resolve::compute);
     commands.transition(
-        color_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+        *color_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
         Access::attachment, Access::compute_read);
     const auto begin = [&](const Image& written) {
         commands.transition(
@@ -204,20 +244,6 @@ void Target::endResolve(Commands& commands) const {
     };
     end(output_);
     if (radiance_) end(*radiance_);
-}
-
-void Target::copyToOutput(Commands& commands) const {
-    assert(resolvesByCopy());
-    commands.transition(
-        color_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-        Access::attachment, Access::transfer_read);
-    commands.transition(
-        output_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-        Access::transfer_read, Access::transfer_write);
-    commands.copy(color_, output_);
-    commands.transition(
-        output_, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-        Access::transfer_write, Access::transfer_read);
 }
 
 std::vector<std::uint8_t> readOutput(const Device& device, const Target& target) {

@@ -18,6 +18,8 @@ struct Attachment {
     const Image* image;
     Load load = Load::keep;
     std::array<float, 4> clear{};  // of a color; of depth the first number, see kFarDepth
+    // Gets the mean of a color's samples when rendering ends; color attachment layout.
+    const Image* resolved = nullptr;
 };
 
 // Begins rendering to attachments of one size. The viewport is `area`, by default all of the
@@ -38,9 +40,18 @@ struct TargetDescription {
     bool sampled_depth = false;  // shaders read the depth of what is rendered
 };
 
+// How an output picture comes of what is rendered.
+enum class Resolve {
+    none,  // it is what is rendered to: display colors with one sample a pixel
+    attachment,  // the mean of a pixel's samples, when rendering ends
+    compute,  // by a pass of its own
+};
+
+Resolve resolveOf(const TargetDescription& description);
+
 // The images of an offscreen picture: color and depth that passes render into, the output picture
-// that the resolve pass writes (8-bit RGBA, display-referred), and, where color is floats, the mean
-// linear light of each of its pixels.
+// (8-bit RGBA, display-referred), which may be the same image as color, and, where color is floats,
+// the mean linear light of each of its pixels.
 class Target {
 public:
     static constexpr VkFormat kOutputFormat = VK_FORMAT_R8G8B8A8_UNORM;
@@ -50,11 +61,14 @@ public:
     // Throws Unsupported where the device lacks the sample count or the size.
     Target(const Device& device, const TargetDescription& description);
 
-    // What is drawn goes between beginRendering() and endRendering(); `background` is for
-    // Load::clear.
-    void
-    beginRendering(Commands& commands, Load load, const std::array<float, 3>& background) const;
-    void endRendering(Commands& commands) const;
+    // Whether a picture is complete when rendering ends, but for Resolve::compute.
+    enum class Last { no, yes };
+    // What is drawn goes between beginRendering() and endRendering(), which are told the same of
+    // `last`; `background` is for Load::clear.
+    void beginRendering(
+        Commands& commands, Load load, const std::array<float, 3>& background,
+        Last last = Last::no) const;
+    void endRendering(Commands& commands, Last last = Last::no) const;
 
     // Bracket dispatches between renderings that read depth(); needs sampled_depth.
     void beginDepthRead(Commands& commands) const;
@@ -64,23 +78,20 @@ public:
     void beginResolve(Commands& commands) const;
     void endResolve(Commands& commands) const;
 
-    // Whether a copy resolves the target: display colors with one sample a pixel.
-    bool resolvesByCopy() const;
-    // Copies color() to output(), where resolvesByCopy().
-    void copyToOutput(Commands& commands) const;
+    Resolve resolve() const { return resolveOf(description_); }
 
     const TargetDescription& description() const { return description_; }
-    const Image& color() const { return color_; }
+    const Image& color() const { return color_ ? *color_ : output_; }
     const Image& depth() const { return depth_; }
-    const Image& output() const { return output_; }  // TRANSFER_SRC_OPTIMAL once resolved
+    const Image& output() const { return output_; }  // TRANSFER_SRC_OPTIMAL once complete
     bool hasRadiance() const { return radiance_.has_value(); }
     const Image& radiance() const {
         return *radiance_;
-    }  // TRANSFER_SRC_OPTIMAL once resolved; needs hasRadiance()
+    }  // TRANSFER_SRC_OPTIMAL once complete; needs hasRadiance()
 
 private:
     TargetDescription description_;
-    Image color_;
+    std::optional<Image> color_;  // none: the output is
     Image depth_;
     Image output_;
     std::optional<Image> radiance_;

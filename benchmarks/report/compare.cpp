@@ -1,5 +1,6 @@
 #include "benchmarks/report/compare.h"
 
+#include <map>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -215,9 +216,12 @@ public:
         if (!differing.empty() || a.at("status") != "ok") return;
         const std::string name = a.at("name");
         const std::vector<MetricReading> metrics_of_b = readMetrics(b);
-        for (const MetricReading& of_a : readMetrics(a))
+        const std::vector<MetricReading> metrics_of_a = readMetrics(a);
+        for (const MetricReading& of_a : metrics_of_a)
             if (const MetricReading* const of_b = findMetric(metrics_of_b, of_a.id))
                 addMetric(name, of_a, *of_b);
+        countPassesOf("A", metrics_of_a, metrics_of_b);
+        countPassesOf("B", metrics_of_b, metrics_of_a);
     }
 
     ReportComparison finish() && {
@@ -226,12 +230,26 @@ public:
         passVerdicts(comparisons, kLevel);
         for (std::size_t i = 0; i < comparisons.size(); ++i)
             found_.changes[i].comparison = comparisons[i];
+        for (const auto& [metric, cases] : only_)
+            found_.unmatched.push_back(
+                "only in " + metric + ", of " + std::to_string(cases) +
+                (cases == 1 ? " case" : " cases"));
         return std::move(found_);
     }
 
     ReportComparison& found() { return found_; }
 
 private:
+    // Passes are not the same in all versions: what was one may have become part of another.
+    void countPassesOf(
+        const char* which, const std::vector<MetricReading>& metrics,
+        const std::vector<MetricReading>& others) {
+        for (const MetricReading& each : metrics)
+            if (each.id.of == MetricOf::pass && !findMetric(others, each.id) &&
+                judgementOf(judged_, each, each, 0.0) != Judgement::not_wanted)
+                ++only_[std::string(which) + ": " + each.name()];
+    }
+
     void addMetric(const std::string& case_name, const MetricReading& a, const MetricReading& b) {
         const Judgement judgement = judgementOf(judged_, a, b, shortest_);
         if (judgement == Judgement::not_wanted) return;
@@ -256,6 +274,7 @@ private:
     MetricChoice judged_;
     double shortest_ = kShortestTime;  // ms
     ReportComparison found_;
+    std::map<std::string, std::size_t> only_;  // "A: pass.wind.time": cases
 };
 
 void addUnmatched(

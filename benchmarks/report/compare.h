@@ -105,7 +105,8 @@ struct ReportComparison {
     std::vector<std::string> warnings;  // why the two may not be comparable
     bool same_device = true;  // name and type
     std::size_t common_cases = 0;  // that both have, by name
-    std::vector<std::string> unmatched;  // "only in A: thesis/msaa:4"
+    // "only in A: thesis/msaa:4"; of cases that both have, "only in A: pass.wind.time, of 2 cases"
+    std::vector<std::string> unmatched;
     std::vector<Mismatch> mismatches;
     std::vector<Change> changes;  // of cases without a mismatch
     std::vector<Change> too_short;  // not judged: see kShortestTime

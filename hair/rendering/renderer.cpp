@@ -12,6 +12,8 @@
 namespace hair::rendering {
 namespace {
 
+using Last = engine::Target::Last;
+
 glm::vec3 hairColor(const Settings& settings) {
     if (settings.shading.color_from == ColorSource::rgb)
         return workingColor(settings.render, settings.shading.color);
@@ -152,7 +154,6 @@ void Renderer::record(engine::Passes& passes, const StrandView& view) {
     const engine::Buffer& parameters = parameters_[passes.slot()];
     parameters.write(picture_parameters);
     const std::uint64_t picture = parameters.address();
-    const glm::vec3 background = workingColor(settings_.render, settings_.render.background);
 
     if (frames_) {
         passes.pass("frames", engine::PassKind::compute, [&](engine::Commands& commands) {
@@ -165,25 +166,69 @@ void Renderer::record(engine::Passes& passes, const StrandView& view) {
         });
     }
     shadows_.record(passes, meshes_, view, picture_parameters);
+    const StrandPicture drawn{
+        .address = picture, .parameters = picture_parameters, .images = strand_images_};
+    const bool joined = passes.joins() && strands_.joinsScene();
+    if (joined)
+        recordJoined(passes, view, drawn);
+    else
+        recordApart(passes, view, drawn);
+    const engine::Resolve resolve = target_.resolve();
+    if (resolve == engine::Resolve::compute || (resolve == engine::Resolve::attachment && !joined))
+        passes.pass("resolve", resolve_.kind(), [&](engine::Commands& commands) {
+            resolve_.record(commands, target_);
+        });
+}
+
+std::array<float, 3> Renderer::background() const {
+    const glm::vec3 color = workingColor(settings_.render, settings_.render.background);
+    return {color.r, color.g, color.b};
+}
+
+void Renderer::drawScene(engine::Commands& commands, const StrandPicture& picture) const {
+    meshes_.draw(commands, picture.address, shadows_.images());
+    environment_.draw(commands, picture.address);
+}
+
+void Renderer::recordJoined(
+    engine::Passes& passes, const StrandView& view, const StrandPicture& picture) const {
+    const engine::PassKind kind = strands_.passKind();
+    passes.pass(
+        "strands", kind, [&](engine::Commands& commands) { strands_.prepare(commands, picture); });
     passes.pass("scene", engine::PassKind::graphics, [&](engine::Commands& commands) {
-        target_.beginRendering(
-            commands, engine::Load::clear, {background.r, background.g, background.b});
-        meshes_.draw(commands, picture, shadows_.images());
-        environment_.draw(commands, picture);
-        target_.endRendering(commands);
+        target_.beginRendering(commands, engine::Load::clear, background(), Last::yes);
+        drawScene(commands, picture);
     });
-    if (settings_.render.hair)
-        strands_.record(passes, target_, picture, picture_parameters, strand_images_);
+    passes.pass("strands", kind, [&](engine::Commands& commands) {
+        strands_.draw(commands, picture);
+        if (overlay_.empty()) target_.endRendering(commands, Last::yes);
+    });
+    if (overlay_.empty()) return;
+    passes.pass("overlay", engine::PassKind::graphics, [&](engine::Commands& commands) {
+        overlay_.draw(commands, picture.address, view);
+        target_.endRendering(commands, Last::yes);
+    });
+}
+
+void Renderer::recordApart(
+    engine::Passes& passes, const StrandView& view, const StrandPicture& picture) const {
+    const bool resolves = target_.resolve() != engine::Resolve::none;
+    const Last after_strands = resolves || !overlay_.empty() ? Last::no : Last::yes;
+    const Last after_scene = settings_.render.hair ? Last::no : after_strands;
+    passes.pass("scene", engine::PassKind::graphics, [&](engine::Commands& commands) {
+        target_.beginRendering(commands, engine::Load::clear, background(), after_scene);
+        drawScene(commands, picture);
+        target_.endRendering(commands, after_scene);
+    });
+    if (settings_.render.hair) strands_.record(passes, target_, picture, after_strands);
     if (!overlay_.empty()) {
+        const Last last = resolves ? Last::no : Last::yes;
         passes.pass("overlay", engine::PassKind::graphics, [&](engine::Commands& commands) {
-            target_.beginRendering(commands, engine::Load::keep, {});
-            overlay_.draw(commands, picture, view);
-            target_.endRendering(commands);
+            target_.beginRendering(commands, engine::Load::keep, {}, last);
+            overlay_.draw(commands, picture.address, view);
+            target_.endRendering(commands, last);
         });
     }
-    passes.pass("resolve", engine::PassKind::compute, [&](engine::Commands& commands) {
-        resolve_.record(commands, target_);
-    });
 }
 
 }  // namespace hair::rendering

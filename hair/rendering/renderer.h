@@ -41,7 +41,9 @@ gpu::PictureParameters pictureParameters(
 
 // Draws pictures of a head of hair: the passes frames (where strands are offset), points (where a
 // back end draws from them), mesh_shadow and hair_shadow (where asked for), scene, strands,
-// composite (where fragments are blended at the end), overlay (where asked for) and resolve.
+// composite (where fragments are blended at the end), overlay (where asked for) and resolve (where
+// the picture is not what is rendered). Where passes may join, scene, strands and overlay are one
+// rendering, at whose end samples are resolved.
 class Renderer {
 public:
     // `view` gives the counts, which stay as they are. Throws engine::Unsupported for what the
@@ -64,6 +66,13 @@ public:
     const StrandBlend& blend() const { return strands_.blend(); }
 
 private:
+    std::array<float, 3> background() const;
+    void drawScene(engine::Commands& commands, const StrandPicture& picture) const;
+    void recordJoined(
+        engine::Passes& passes, const StrandView& view, const StrandPicture& picture) const;
+    void
+    recordApart(engine::Passes& passes, const StrandView& view, const StrandPicture& picture) const;
+
     StrandPlan plan_;
     BackendChoice backend_;
     Settings settings_;  // with the back end that was chosen

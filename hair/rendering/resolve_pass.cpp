@@ -38,13 +38,14 @@ pipelineFor(const RenderSettings& render, const engine::TargetDescription& targe
 ResolvePass::ResolvePass(
     const engine::Device& device, const RenderSettings& render,
     const engine::TargetDescription& target) {
-    if (!hasLinearLight(render) && target.msaa == 1 && target.ssaa == 1) return;
+    if (engine::resolveOf(target) != engine::Resolve::compute) return;
     pipeline_.emplace(device, pipelineFor(render, target));
 }
 
 void ResolvePass::record(engine::Commands& commands, const engine::Target& target) const {
     if (!pipeline_) {
-        target.copyToOutput(commands);
+        target.beginRendering(commands, engine::Load::keep, {}, engine::Target::Last::yes);
+        target.endRendering(commands, engine::Target::Last::yes);
         return;
     }
     target.beginResolve(commands);

@@ -53,11 +53,13 @@ public:
         const RecordedStrands& strands) const override {
         passes.pass("strands", strands.kind, [&](engine::Commands& commands) {
             strands.prepare(commands);
-            target.beginRendering(commands, engine::Load::keep, {});
+            target.beginRendering(commands, engine::Load::keep, {}, strands.last);
             strands.draw(commands);
-            target.endRendering(commands);
+            target.endRendering(commands, strands.last);
         });
     }
+
+    bool drawsAtOnce() const override { return true; }
 
 private:
     StrandOutput output_;
@@ -92,8 +94,8 @@ public:
         const RecordedStrands& strands) const override {
         passes.pass("strands", strands.kind, [&](engine::Commands& commands) {
             strands.prepare(commands);
-            target.beginRendering(commands, engine::Load::keep, {});
-            target.endRendering(commands);
+            target.beginRendering(commands, engine::Load::keep, {}, strands.last);
+            target.endRendering(commands, strands.last);
             const VkRect2D area{{0, 0}, target.color().extent()};
             engine::beginRendering(commands, {}, std::nullopt, area);
             strands.draw(commands);
@@ -162,12 +164,12 @@ public:
         });
         passes.pass("composite", engine::PassKind::graphics, [&](engine::Commands& commands) {
             commands.barrier(Access::fragment_write, Access::fragment_read);
-            target.beginRendering(commands, engine::Load::keep, {});
+            target.beginRendering(commands, engine::Load::keep, {}, strands.last);
             commands.uses({{heads_, Access::fragment_read}, {nodes_, Access::fragment_read}});
             commands.bind(
                 composite_, gpu::CompositePush{.fragments = fragments(), .sample_index = 0});
             commands.draw({.vertices = 3});
-            target.endRendering(commands);
+            target.endRendering(commands, strands.last);
         });
     }
 
@@ -280,7 +282,7 @@ public:
             sumUp(commands, target, strands);
         });
         passes.pass("composite", engine::PassKind::graphics, [&](engine::Commands& commands) {
-            blend(commands, target);
+            blend(commands, target, strands.last);
         });
     }
 
@@ -309,14 +311,15 @@ private:
         engine::endRendering(commands);
     }
 
-    void blend(engine::Commands& commands, const engine::Target& target) const {
+    void blend(
+        engine::Commands& commands, const engine::Target& target, engine::Target::Last last) const {
         for (const engine::Image* image : {&sum_, &revealed_}) {
             commands.transition(
                 *image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, Access::attachment,
                 Access::fragment_read);
         }
-        target.beginRendering(commands, engine::Load::keep, {});
+        target.beginRendering(commands, engine::Load::keep, {}, last);
         // One draw for each sample: shading by sample is a feature that not every device has.
         for (std::uint32_t i = 0; i < samples_; ++i) {
             commands.bind(composite_, gpu::CompositePush{.fragments = 0, .sample_index = i});
@@ -326,7 +329,7 @@ private:
                                 engine::SampledImage{&revealed_, &sampler_}});
             commands.draw({.vertices = 3});
         }
-        target.endRendering(commands);
+        target.endRendering(commands, last);
     }
 
     std::uint32_t samples_;
@@ -428,16 +431,17 @@ StrandPass::StrandPass(
                                      .output = shaded(blend_->output(), settings),
                                      .stages = drawnStages(settings, stages),
                                      .target = &target,
-                                     .points = points})) {}
+                                     .points = points})),
+      joins_scene_(settings.render.hair && blend_->drawsAtOnce() && !readsSceneDepth(settings)) {}
 
 void StrandPass::record(
-    engine::Passes& passes, const engine::Target& target, std::uint64_t picture,
-    const gpu::PictureParameters& parameters, std::span<const engine::SampledImage> images) const {
-    const StrandPicture drawn{.address = picture, .parameters = parameters, .images = images};
-    const auto prepare = [&](engine::Commands& commands) { backend_->prepare(commands, drawn); };
-    const auto draw = [&](engine::Commands& commands) { backend_->draw(commands, drawn); };
+    engine::Passes& passes, const engine::Target& target, const StrandPicture& picture,
+    engine::Target::Last last) const {
+    const auto prepare = [&](engine::Commands& commands) { backend_->prepare(commands, picture); };
+    const auto draw = [&](engine::Commands& commands) { backend_->draw(commands, picture); };
     blend_->record(
-        passes, target, {.kind = backend_->passKind(), .prepare = prepare, .draw = draw});
+        passes, target,
+        {.kind = backend_->passKind(), .prepare = prepare, .draw = draw, .last = last});
 }
 
 }  // namespace hair::rendering

@@ -31,6 +31,7 @@ struct RecordedStrands {
     engine::PassKind kind;  // of the pass that draws them
     engine::FunctionRef<void(engine::Commands&)> prepare;  // before rendering begins
     engine::FunctionRef<void(engine::Commands&)> draw;  // within it
+    engine::Target::Last last;  // whether the picture is complete then
 };
 
 // What becomes of strands' fragments: one kind of transparency.
@@ -45,6 +46,10 @@ public:
     virtual void record(
         engine::Passes& passes, const engine::Target& target,
         const RecordedStrands& strands) const = 0;
+
+    // Whether record() but draws into the target, so that what has been drawn there may go before
+    // in the same rendering.
+    virtual bool drawsAtOnce() const { return false; }
 
     // The value of PictureParameters::fragments.
     virtual std::uint64_t fragments() const { return 0; }
@@ -89,12 +94,22 @@ public:
         const engine::Target& target, const StrandView& view, const PointsPass* points,
         const StrandStages& stages = {});
 
-    // `picture` is the address of `parameters`; `images` are the kStrandImages that
-    // strands/fragment.glsl samples.
+    // The picture's images are the kStrandImages that strands/fragment.glsl samples. `last` says
+    // whether the picture is complete then.
     void record(
-        engine::Passes& passes, const engine::Target& target, std::uint64_t picture,
-        const gpu::PictureParameters& parameters,
-        std::span<const engine::SampledImage> images) const;
+        engine::Passes& passes, const engine::Target& target, const StrandPicture& picture,
+        engine::Target::Last last) const;
+
+    // Whether scene and strands may be drawn in one rendering: by prepare() before it and draw() in
+    // it, instead of record().
+    bool joinsScene() const { return joins_scene_; }
+    void prepare(engine::Commands& commands, const StrandPicture& picture) const {
+        backend_->prepare(commands, picture);
+    }
+    void draw(engine::Commands& commands, const StrandPicture& picture) const {
+        backend_->draw(commands, picture);
+    }
+    engine::PassKind passKind() const { return backend_->passKind(); }
 
     // The value of PictureParameters::fragments.
     std::uint64_t fragments() const { return blend_->fragments(); }
@@ -107,6 +122,7 @@ public:
 private:
     std::unique_ptr<StrandBlend> blend_;
     std::unique_ptr<StrandBackend> backend_;
+    bool joins_scene_;
 };
 
 }  // namespace hair::rendering

@@ -202,7 +202,7 @@ TEST_F(CliRun, GivesEveryFigureOfACase) {
         ASSERT_EQ(each["status"], "ok") << each["reason"];
         for (const char* metric :
              {"frame.time", "fps", "cpu.host.time", "pass.wind.time", "pass.simulate.time", "pass.scene.time",
-              "pass.strands.time", "pass.resolve.time", "memory.device"}) {
+              "pass.strands.time", "memory.device"}) {
             ASSERT_TRUE(each["metrics"].contains(metric)) << metric;
             EXPECT_GT(each["metrics"][metric]["median"], 0.0) << metric;
         }

@@ -58,6 +58,28 @@ TEST(ReportComparison, PairsCasesByName) {
     EXPECT_THAT(found.unmatched, ElementsAre("only in A: gone", "only in B: new"));
 }
 
+// What was a pass in one version and is none in the other.
+TEST(ReportComparison, NamesPassesThatOneReportLacks) {
+    const auto passes = [](const std::string& name, const std::vector<const char*>& timed) {
+        std::vector<MadeMetric> metrics;
+        for (const char* metric : timed) metrics.push_back({metric, about(1.0)});
+        return madeCase(name, metrics);
+    };
+    const ReportComparison found = compareReports(
+        reportOf(
+            {passes("x", {"pass.wind.time", "pass.strands.time", "pass.wind.cpu.time"}),
+             passes("y", {"pass.wind.time", "pass.strands.time"})}),
+        reportOf(
+            {passes("x", {"pass.strands.time"}),
+             passes("y", {"pass.strands.time", "pass.points.time"})}),
+        {});
+    EXPECT_EQ(found.changes.size(), 2u);
+    EXPECT_THAT(
+        found.unmatched,
+        ElementsAre(
+            "only in A: pass.wind.time, of 2 cases", "only in B: pass.points.time, of 1 case"));
+}
+
 TEST(ReportComparison, ComparesNoTimesOfDifferentWork) {
     scene::Json other = frameCase("x", 20.0);
     other["image_hash"] = "00000000000000ff";

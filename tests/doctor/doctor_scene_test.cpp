@@ -59,7 +59,7 @@ TEST_F(DoctorSceneTest, ShowsMovingHairInEveryPassOfTheFrame) {
     const auto draw = [&] { loop.frame([&](engine::Passes& passes) { test_case.frame(passes); }); };
     draw();
     const std::vector<engine::FrameRecord> frames = loop.finish();
-    std::vector<std::string> passes{"wind", "simulate", "scene", "strands", "resolve"};
+    std::vector<std::string> passes{"wind", "simulate", "scene", "strands"};
     hair::Settings drawn = doctorSettings();
     drawn.strands.backend = test_case.backend().value().backend;
     if (hair::rendering::readsPoints(drawn)) passes.insert(passes.begin() + 2, "points");

@@ -238,7 +238,7 @@ TEST_F(FramesHazards, EachBarrierIsMissedByMeshStages) {
     missEach(device(), settings, kMissed);
 }
 
-// Hair that is drawn as it is simulated, blended by weights, and copied to the output.
+// Hair that is drawn as it is simulated, and blended by weights, into the output.
 TEST_F(FramesHazards, EachBarrierOfWeightedBlendingIsMissed) {
     hair::Settings settings = made(hair::plainSettings());
     settings.simulation.solver = hair::Solver::ftl;
@@ -249,7 +249,7 @@ TEST_F(FramesHazards, EachBarrierOfWeightedBlendingIsMissed) {
          {"simulate", 1, "guide positions"},  // drawn
          {"simulate", 2, "guide positions"},  // blown at and moved by the next frame
          {"simulate", 3, "guide positions"},  // of the next frame, still drawn by the frame before
-         {"scene", 0, "color"},
+         {"scene", 0, "output"},
          {"scene", 1, "depth"},
          {"strands", 0, "weighted sum"},
          {"strands", 1, "revealed part"},
@@ -257,9 +257,7 @@ TEST_F(FramesHazards, EachBarrierOfWeightedBlendingIsMissed) {
          {"composite", 0, "weighted sum"},
          {"composite", 1, "revealed part"},
          {"composite", 2, "depth"},
-         {"resolve", 0, "color"},
-         {"resolve", 1, "output"},
-         {"resolve", 2, "output"}});
+         {"composite", 3, "output"}});
 }
 
 // Nothing but the frames of guides at rest.
@@ -270,12 +268,9 @@ TEST_F(FramesHazards, FramesOfGuidesWaitForThoseWhoDraw) {
         device(), settings,
         {{"frames", 0, "guide normals"},
          {"frames", 1, "guide normals"},
-         {"scene", 0, "color"},
+         {"scene", 0, "output"},
          {"scene", 1, "depth"},
-         {"strands", 0, "color"},
-         {"resolve", 0, "color"},
-         {"resolve", 1, "output"},
-         {"resolve", 2, "output"}});
+         {"strands", 0, "output"}});
 }
 
 // The second step of a frame writes to the copy of the guides that the first one has left.
@@ -299,12 +294,9 @@ TEST_F(FramesHazards, EachBarrierOfSeveralStepsIsMissed) {
          {"simulate", 4, "guide accelerations"},
          {"simulate", 5, "guide positions"},  // drawn
          {"simulate", 6, "guide positions"},
-         {"scene", 0, "color"},
+         {"scene", 0, "output"},
          {"scene", 1, "depth"},
-         {"strands", 0, "color"},
-         {"resolve", 0, "color"},
-         {"resolve", 1, "output"},
-         {"resolve", 2, "output"}});
+         {"strands", 0, "output"}});
 }
 
 TEST_F(FramesHazards, EachBarrierOfListsOfFragmentsIsMissed) {
@@ -312,16 +304,14 @@ TEST_F(FramesHazards, EachBarrierOfListsOfFragmentsIsMissed) {
     settings.render.transparency = hair::Transparency::fragment_list;
     missEach(
         device(), settings,
-        {{"scene", 0, "color"},
+        {{"scene", 0, "output"},
          {"scene", 1, "depth"},
          {"strands", 0, "fragment heads"},  // still read by the frame before
          {"strands", 1, "fragment heads"},  // cleared
          {"strands", 2, "depth"},
          {"composite", 0, "fragment heads"},
          {"composite", 1, "depth"},
-         {"resolve", 0, "color"},
-         {"resolve", 1, "output"},
-         {"resolve", 2, "output"}});
+         {"composite", 2, "output"}});
 }
 
 }  // namespace
