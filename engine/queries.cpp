@@ -205,8 +205,8 @@ std::span<const double> Timestamps::read() {
     const std::span<Stamp> stamps = std::span(stamps_).first(count_);
     check(
         vkGetQueryPoolResults(
-            device_, pool_.get(), 0, count_, stamps.size_bytes(), stamps.data(),
-            sizeof(Stamp), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WITH_AVAILABILITY_BIT),
+            device_, pool_.get(), 0, count_, stamps.size_bytes(), stamps.data(), sizeof(Stamp),
+            VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WITH_AVAILABILITY_BIT),
         "read the timestamps");
     for (std::size_t i = 0; i < stamps.size(); ++i) {
         if (!stamps[i].available) throw Error("the device did not write a timestamp");

@@ -201,8 +201,8 @@ TEST_F(CliRun, GivesEveryFigureOfACase) {
         if (each["status"] == "skipped") continue;
         ASSERT_EQ(each["status"], "ok") << each["reason"];
         for (const char* metric :
-             {"frame.time", "fps", "cpu.host.time", "pass.wind.time", "pass.simulate.time", "pass.scene.time",
-              "pass.strands.time", "memory.device"}) {
+             {"frame.time", "fps", "cpu.host.time", "pass.wind.time", "pass.simulate.time",
+              "pass.scene.time", "pass.strands.time", "memory.device"}) {
             ASSERT_TRUE(each["metrics"].contains(metric)) << metric;
             EXPECT_GT(each["metrics"][metric]["median"], 0.0) << metric;
         }
