@@ -26,7 +26,8 @@ Buffer::Buffer(const Device& device, const BufferDescription& description)
     create.size = description.size;
     create.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
                    VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                   VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
+                   VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+                   VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     const std::vector<std::uint32_t> families = device.queueFamilies();
     create.sharingMode =
         families.size() > 1 ? VK_SHARING_MODE_CONCURRENT : VK_SHARING_MODE_EXCLUSIVE;
@@ -75,6 +76,20 @@ void Buffer::swap(Buffer& other) noexcept {
     std::swap(mapped_, other.mapped_);
     std::swap(line_, other.line_);
     std::swap(known_, other.known_);
+}
+
+TexelView::TexelView(const Device& device, const Buffer& buffer, VkFormat format) {
+    const VkBufferViewCreateInfo create{
+        .sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
+        .pNext = nullptr,
+        .flags = 0,
+        .buffer = buffer.get(),
+        .format = format,
+        .offset = 0,
+        .range = VK_WHOLE_SIZE};
+    VkBufferView view{};
+    check(vkCreateBufferView(device.get(), &create, nullptr, &view), "create a buffer's view");
+    view_ = {device.get(), view};
 }
 
 // ---- Images -------------------------------------------------------------------------------------

@@ -72,6 +72,20 @@ private:
     HazardLog::Entry known_;
 };
 
+// A buffer that shaders fetch like texels. The buffer outlives it.
+class TexelView {
+public:
+    TexelView() = default;
+    TexelView(const Device& device, const Buffer& buffer, VkFormat format);
+
+    VkBufferView get() const { return view_.get(); }
+    // Where the handle itself is: Commands::images().
+    const VkBufferView* place() const { return view_.place(); }
+
+private:
+    Handle<VkBufferView, &vkDestroyBufferView> view_;
+};
+
 struct ImageDescription {
     VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
     std::uint32_t width = 1;   // px

@@ -97,22 +97,31 @@ public:
     void add(VkDescriptorType type, const VkDescriptorImageInfo& info) {
         assert(count_ < kImagesPerSet);
         infos_[count_] = info;
-        writes_[count_] = {
-            .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-            .pNext = nullptr,
-            .dstSet = VK_NULL_HANDLE,
-            .dstBinding = count_,
-            .dstArrayElement = 0,
-            .descriptorCount = 1,
-            .descriptorType = type,
-            .pImageInfo = &infos_[count_],
-            .pBufferInfo = nullptr,
-            .pTexelBufferView = nullptr};
+        add(type).pImageInfo = &infos_[count_];
+        ++count_;
+    }
+    void add(const TexelView& view) {
+        assert(count_ < kImagesPerSet);
+        add(VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER).pTexelBufferView = view.place();
         ++count_;
     }
     std::span<VkWriteDescriptorSet> all() { return std::span(writes_).first(count_); }
 
 private:
+    VkWriteDescriptorSet& add(VkDescriptorType type) {
+        return writes_[count_] = {
+                   .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                   .pNext = nullptr,
+                   .dstSet = VK_NULL_HANDLE,
+                   .dstBinding = count_,
+                   .dstArrayElement = 0,
+                   .descriptorCount = 1,
+                   .descriptorType = type,
+                   .pImageInfo = nullptr,
+                   .pBufferInfo = nullptr,
+                   .pTexelBufferView = nullptr};
+    }
+
     std::uint32_t count_ = 0;
     std::array<VkDescriptorImageInfo, kImagesPerSet> infos_;
     std::array<VkWriteDescriptorSet, kImagesPerSet> writes_;
@@ -128,7 +137,8 @@ VkDescriptorSet DescriptorSets::allocate(VkDescriptorSetLayout layout) {
         constexpr std::array sizes{
             VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, kImages},
             VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kImages},
-            VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kImages}};
+            VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kImages},
+            VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, kImages}};
         const VkDescriptorPoolCreateInfo create{
             .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
             .pNext = nullptr,
@@ -381,10 +391,12 @@ void Commands::images(
         VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout(), pipeline.imagesLayout(), writes.all());
 }
 
-void Commands::images(const ComputePipeline& pipeline, std::span<const SampledImage> sampled) {
+void Commands::images(
+    const ComputePipeline& pipeline, std::span<const SampledImage> sampled,
+    std::span<const TexelView* const> texels) {
     bindSampled(
         VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout(), pipeline.imagesLayout(), sampled,
-        Access::compute_read);
+        Access::compute_read, texels);
 }
 
 void Commands::images(const GraphicsPipeline& pipeline, std::span<const SampledImage> sampled) {
@@ -395,14 +407,16 @@ void Commands::images(const GraphicsPipeline& pipeline, std::span<const SampledI
 
 void Commands::bindSampled(
     VkPipelineBindPoint point, VkPipelineLayout layout, VkDescriptorSetLayout set_layout,
-    std::span<const SampledImage> sampled, Access access) {
-    if (sampled.empty()) return;
+    std::span<const SampledImage> sampled, Access access,
+    std::span<const TexelView* const> texels) {
+    if (sampled.empty() && texels.empty()) return;
     for (const SampledImage& entry : sampled) uses({{*entry.image, access}});
     ImageWrites writes;
     for (const SampledImage& entry : sampled)
         writes.add(
             VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
             {entry.sampler->get(), entry.image->view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
+    for (const TexelView* view : texels) writes.add(*view);
     bindImages(point, layout, set_layout, writes.all());
 }
 

@@ -168,8 +168,11 @@ public:
         const ComputePipeline& pipeline, std::span<const Image* const> sampled,
         std::span<const Image* const> storage);
 
-    // Gives the bound pipeline its images, at bindings 0 ...
-    void images(const ComputePipeline& pipeline, std::span<const SampledImage> sampled);
+    // Gives the bound pipeline its images, at bindings 0 ..., then its texel buffers, which stay
+    // where they are until the commands have run: lavapipe keeps the place of their handles.
+    void images(
+        const ComputePipeline& pipeline, std::span<const SampledImage> sampled,
+        std::span<const TexelView* const> texels = {});
     void images(const GraphicsPipeline& pipeline, std::span<const SampledImage> sampled);
 
     void dispatch(std::uint32_t groups_x, std::uint32_t groups_y = 1);
@@ -200,7 +203,8 @@ private:
         std::span<VkWriteDescriptorSet> writes);
     void bindSampled(
         VkPipelineBindPoint point, VkPipelineLayout layout, VkDescriptorSetLayout set_layout,
-        std::span<const SampledImage> sampled, Access access);
+        std::span<const SampledImage> sampled, Access access,
+        std::span<const TexelView* const> texels = {});
 
     VkCommandBuffer buffer_;
     DescriptorSets& sets_;

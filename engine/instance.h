@@ -42,6 +42,8 @@ public:
     }
 
     Object get() const { return object_; }
+    // Where it is, as long as this lives and nothing is moved into it.
+    const Object* place() const { return &object_; }
 
 private:
     VkDevice device_{};

@@ -189,6 +189,7 @@ PipelineObjects makePipeline(const Device& device, const ComputeDescription& des
         description.combined_images, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
     types.resize(types.size() + description.sampled_images, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE);
     types.resize(types.size() + description.storage_images, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
+    types.resize(types.size() + description.texel_buffers, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER);
     if (!types.empty())
         objects.images = {
             device.get(), makeImageLayout(device, types, VK_SHADER_STAGE_COMPUTE_BIT)};
@@ -345,6 +346,7 @@ std::string keyOf(const Device& device, const ComputeDescription& description) {
     key.add(description.combined_images);
     key.add(description.sampled_images);
     key.add(description.storage_images);
+    key.add(description.texel_buffers);
     return key.bytes();
 }
 

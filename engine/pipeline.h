@@ -44,6 +44,7 @@ struct ComputeDescription {
     std::uint32_t combined_images = 0;
     std::uint32_t sampled_images = 0;
     std::uint32_t storage_images = 0;
+    std::uint32_t texel_buffers = 0;  // after the images
 };
 
 struct PipelineObjects {

@@ -30,6 +30,13 @@ std::size_t pointsPerStrand(const StrandSettings& strands, const StrandPlan& pla
     return std::size_t{plan.segments} * plan.forced_tessellation + 1;
 }
 
+// Where it counts that a point is fetched as a whole, for all invocations at once:
+// docs/performance.md.
+bool readsTexels(const engine::Device& device, std::size_t bytes) {
+    return device.info().type == "cpu" &&
+           bytes / kPointBytes <= device.info().limits.maxTexelBufferElements;
+}
+
 engine::Buffer
 pointsBuffer(const engine::Device& device, std::size_t bytes, const std::string& name) {
     return {
@@ -58,12 +65,13 @@ evaluateStage(const engine::Device& device, const Settings& settings, const Stra
 
 }  // namespace
 
-// Shaders number pieces in 32 bits, of which the last stands for none.
+// Shaders number points in 32 bits, of which the last stands for none.
 void checkPoints(const StrandPlan& plan) {
-    const std::uint64_t pieces = plan.drawnSegments();
-    if (pieces >= std::numeric_limits<std::uint32_t>::max())
+    const std::uint64_t points =
+        plan.strands() * plan.segments * (std::uint64_t{plan.forced_tessellation} + 1);
+    if (points >= std::numeric_limits<std::uint32_t>::max())
         throw engine::Unsupported(
-            "/strands/backend", std::to_string(pieces) + " drawn segments are too many");
+            "/strands/backend", "up to " + std::to_string(points) + " points are too many");
 }
 
 PointsPass::PointsPass(
@@ -89,6 +97,8 @@ PointsPass::PointsPass(
       pieces_(pointsBuffer(device, sizeof(std::uint32_t) * push_.strands, "strands' pieces")),
       bounds_(pointsBuffer(device, sizeof(gpu::HairBounds), "strands' bounds")),
       evaluate_(device, evaluateStage(device, settings, plan)) {
+    if (readsTexels(device, points_.size()))
+        texels_.emplace(device, points_, VK_FORMAT_R32G32B32A32_UINT);
     push_.points = points_.address();
     push_.pieces = pieces_.address();
     push_.bounds = bounds_.address();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
@@ -34,6 +35,8 @@ public:
     const engine::Buffer& points() const { return points_; }  // gpu::PointsPush::points
     const engine::Buffer& pieces() const { return pieces_; }  // gpu::PointsPush::pieces
     const engine::Buffer& bounds() const { return bounds_; }  // gpu::HairBounds, of the camera
+    // The points as texels; absent where nobody would read them so.
+    const engine::TexelView* texels() const { return texels_ ? &*texels_ : nullptr; }
     std::uint32_t strandCount() const { return push_.strands; }
     std::uint64_t bytes() const { return points_.size() + pieces_.size(); }
 
@@ -41,6 +44,7 @@ private:
     gpu::PointsPush push_;  // but for the picture
     std::uint32_t blocks_;  // of strands, one to an invocation
     engine::Buffer points_;
+    std::optional<engine::TexelView> texels_;
     engine::Buffer pieces_;
     engine::Buffer bounds_;
     engine::ComputePipeline evaluate_;

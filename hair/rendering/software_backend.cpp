@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cstddef>
-#include <limits>
 #include <string>
 
 #include "engine/error.h"
@@ -15,10 +13,11 @@ namespace {
 
 using engine::Access;
 
-static_assert(offsetof(gpu::SoftwarePush, width) == 64 && sizeof(gpu::SoftwarePush) == 84);
+static_assert(offsetof(gpu::SoftwarePush, width) == 88 && sizeof(gpu::SoftwarePush) == 112);
 
 constexpr const char* kSoftware = "/strands/backend: software";
 constexpr std::size_t kSampleBytes = 8;  // two words
+constexpr std::uint32_t kCoveredPieces = 64;  // by an invocation, at the most
 
 // Samples are where the device has them.
 std::uint32_t checkedSamples(const engine::Device& device, std::uint32_t samples) {
@@ -55,9 +54,9 @@ bool isPacked(const engine::Device& device) {
     return readsPairs(device) && device.has(engine::Feature::long_atomics);
 }
 
-// A turn for each sample and one for each row of them.
-std::uint32_t coveredBlock(const BackendContext& context) {
-    return strandBlock(context.device, context.strands, context.plan, 2 * gpu::kManySamples);
+// A turn for each piece, and for its place in the list.
+std::uint32_t foundBlock(const BackendContext& context) {
+    return strandBlock(context.device, context.strands, context.plan, 3);
 }
 
 engine::Constants softwareConstants(const BackendContext& context, std::uint32_t block) {
@@ -66,6 +65,11 @@ engine::Constants softwareConstants(const BackendContext& context, std::uint32_t
     constants.emplace_back(gpu::kPixelSamplesConstant, context.output.samples);
     constants.insert(constants.end(), context.output.shading.begin(), context.output.shading.end());
     return constants;
+}
+
+// The points as texels, for stages that have the variant: those with 64-bit atomics.
+const engine::TexelView* texelsOf(const BackendContext& context) {
+    return isPacked(context.device) ? context.points->texels() : nullptr;
 }
 
 std::string shaderOf(const BackendContext& context, const std::string& name, const char* stage) {
@@ -80,6 +84,22 @@ softwareStage(const BackendContext& context, const std::string& name, std::uint3
         .push_size = sizeof(gpu::SoftwarePush)};
 }
 
+// A stage that reads points.
+engine::ComputeDescription
+pointsStage(const BackendContext& context, const std::string& name, std::uint32_t block = 1) {
+    engine::ComputeDescription stage = softwareStage(context, name, block);
+    if (!texelsOf(context)) return stage;
+    stage.shader = "strands/software/" + name + "_texels.comp";
+    stage.texel_buffers = 1;
+    return stage;
+}
+
+engine::ComputeDescription findStage(const BackendContext& context, std::uint32_t block) {
+    engine::ComputeDescription stage = pointsStage(context, "find", block);
+    if (texelsOf(context)) stage.texel_buffers = 2;
+    return stage;
+}
+
 engine::ComputeDescription clearStage(const BackendContext& context) {
     engine::ComputeDescription stage =
         softwareStage(context, context.output.samples > 1 ? "clear_multisample" : "clear");
@@ -88,7 +108,7 @@ engine::ComputeDescription clearStage(const BackendContext& context) {
 }
 
 engine::ComputeDescription shadeStage(const BackendContext& context) {
-    engine::ComputeDescription stage = softwareStage(context, "shade");
+    engine::ComputeDescription stage = pointsStage(context, "shade");
     stage.combined_images = context.output.sampled_images;
     return stage;
 }
@@ -109,20 +129,33 @@ engine::GraphicsDescription showStage(const BackendContext& context) {
 SoftwareBackend::SoftwareBackend(const BackendContext& context)
     : target_(*context.target), points_(*context.points),
       samples_per_pixel_(checkedSamples(context.device, context.output.samples)),
-      blocks_(divideUp(points_.strandCount(), coveredBlock(context))),
-      is_packed_(isPacked(context.device)),
+      block_(foundBlock(context)), blocks_(divideUp(points_.strandCount(), block_)),
+      pieces_per_strand_(context.plan.segments * context.plan.forced_tessellation),
+      is_packed_(isPacked(context.device)), texels_(texelsOf(context)),
       samples_(softwareBuffer(context.device, kSampleBytes * sampleCount(target_), "samples")),
+      counts_(softwareBuffer(context.device, sizeof(gpu::PieceCounts), "counts")),
+      list_(softwareBuffer(
+          context.device, sizeof(std::uint32_t) * points_.strandCount() * pieces_per_strand_,
+          "list")),
       large_(softwareBuffer(
-          context.device, sizeof(std::uint32_t) * (1 + gpu::kMostLargePieces), "large pieces")),
+          context.device, sizeof(std::uint32_t) * gpu::kMostLargePieces, "large pieces")),
       tiles_(softwareBuffer(
           context.device, sizeof(std::uint32_t) * tileCount(target_), "depths of tiles")),
+      windows_(
+          softwareBuffer(context.device, kSampleBytes * tileCount(target_), "depths of windows")),
       clear_(context.device, clearStage(context)),
       find_tiles_(context.device, softwareStage(context, "tiles")),
-      cover_(context.device, softwareStage(context, "cover", coveredBlock(context))),
-      cover_large_(context.device, softwareStage(context, "cover_large")),
+      find_windows_(
+          context.device, {.shader = "strands/software/windows.comp",
+                           .constants = softwareConstants(context, 1),
+                           .push_size = sizeof(gpu::SoftwarePush)}),
+      find_(context.device, findStage(context, block_)),
+      cover_(context.device, pointsStage(context, "cover")),
+      cover_large_(context.device, pointsStage(context, "cover_large")),
       shade_(context.device, shadeStage(context)), show_(context.device, showStage(context)) {
     if (target_.hasRadiance())
         colors_ = softwareBuffer(context.device, kSampleBytes * sampleCount(target_), "colors");
+    if (texels_) window_texels_ = {context.device, windows_, VK_FORMAT_R32G32_UINT};
 }
 
 void SoftwareBackend::check(
@@ -145,13 +178,17 @@ gpu::SoftwarePush SoftwareBackend::push(const StrandPicture& picture) const {
         .samples = 0,
         .colors = 0,
         .bounds = 0,
+        .counts = 0,
+        .list = 0,
         .large = 0,
         .tiles = 0,
+        .windows = 0,
         .width = extent.width,
         .height = extent.height,
         .strands = points_.strandCount(),
         .choice = 0,
-        .part = gpu::kCoverAll};
+        .part = gpu::kCoverFirst,
+        .list_begin = 0};
 }
 
 void SoftwareBackend::clear(engine::Commands& commands, const StrandPicture& picture) const {
@@ -167,39 +204,78 @@ void SoftwareBackend::clear(engine::Commands& commands, const StrandPicture& pic
     target_.endDepthRead(commands);
 }
 
-void SoftwareBackend::coverStrands(
-    engine::Commands& commands, const gpu::SoftwarePush& constants) const {
+gpu::SoftwarePush SoftwareBackend::ofPart(gpu::SoftwarePush constants, std::uint32_t part) const {
     const std::uint32_t first = divideUp(blocks_, gpu::kFirstStrands);
-    const std::uint32_t blocks = constants.part == gpu::kCoverFirst    ? first
-                                 : constants.part == gpu::kCoverOthers ? blocks_ - first
-                                                                       : blocks_;
-    if (blocks == 0) return;
-    commands.uses(
-        {{points_.points(), Access::compute_read},
-         {points_.pieces(), Access::compute_read},
-         {samples_, Access::compute_write},
-         {tiles_, Access::compute_read},
-         {large_, Access::compute_write}});
-    commands.bind(cover_, constants);
-    commands.dispatchInvocations(blocks, gpu::kSoftwareStrandGroup);
+    constants.part = part;
+    constants.list_begin = part == gpu::kCoverFirst ? 0 : first * block_ * pieces_per_strand_;
+    return constants;
 }
 
-void SoftwareBackend::coverLarge(
-    engine::Commands& commands, const gpu::SoftwarePush& constants) const {
+void SoftwareBackend::findPieces(engine::Commands& commands, gpu::SoftwarePush constants) const {
+    const std::uint32_t first = divideUp(blocks_, gpu::kFirstStrands);
+    const std::uint32_t blocks = constants.part == gpu::kCoverFirst ? first : blocks_ - first;
+    if (blocks == 0) return;
+    constants.points = points_.points().address();
+    constants.pieces = points_.pieces().address();
+    constants.bounds = points_.bounds().address();
+    constants.windows = windows_.address();
+    constants.counts = counts_.address();
+    constants.list = list_.address();
     commands.barrier(Access::compute_write, Access::compute_write);
     commands.uses(
         {{points_.points(), Access::compute_read},
          {points_.pieces(), Access::compute_read},
+         {points_.bounds(), Access::compute_read},
+         {windows_, Access::compute_read},
+         {counts_, Access::compute_write},
+         {list_, Access::compute_write}});
+    commands.bind(find_, constants);
+    const std::array texels{texels_, &window_texels_};
+    if (texels_) commands.images(find_, {}, texels);
+    commands.dispatchInvocations(blocks, gpu::kSoftwareStrandGroup);
+}
+
+// An invocation has few pieces, but where every one has costs of its own as many as are sure to be
+// done before lavapipe ends its loops.
+void SoftwareBackend::coverPieces(engine::Commands& commands, gpu::SoftwarePush constants) const {
+    constants.points = points_.points().address();
+    constants.list = list_.address();
+    constants.samples = samples_.address();
+    constants.counts = counts_.address();
+    constants.large = large_.address();
+    commands.barrier(Access::compute_write, Access::compute_write);
+    commands.uses(
+        {{points_.points(), Access::compute_read},
+         {list_, Access::compute_read},
          {samples_, Access::compute_write},
-         {tiles_, Access::compute_read},
+         {counts_, Access::compute_write},
          {large_, Access::compute_write}});
+    commands.bind(cover_, constants);
+    commands.images(cover_, {}, pointTexels());
+    const std::uint32_t pieces = points_.strandCount() * pieces_per_strand_;
+    commands.dispatchInvocations(divideUp(pieces, kCoveredPieces), gpu::kSoftwareStrandGroup);
+}
+
+void SoftwareBackend::coverLarge(engine::Commands& commands, gpu::SoftwarePush constants) const {
+    constants.points = points_.points().address();
+    constants.samples = samples_.address();
+    constants.counts = counts_.address();
+    constants.large = large_.address();
+    commands.barrier(Access::compute_write, Access::compute_write);
+    commands.uses(
+        {{points_.points(), Access::compute_read},
+         {samples_, Access::compute_write},
+         {counts_, Access::compute_read},
+         {large_, Access::compute_read}});
     commands.bind(cover_large_, constants);
+    commands.images(cover_large_, {}, pointTexels());
     commands.dispatch(gpu::kLargeGroups);
 }
 
 void SoftwareBackend::findTiles(engine::Commands& commands, gpu::SoftwarePush constants) const {
-    constants.points = constants.pieces = constants.large = 0;
+    constants.samples = samples_.address();
     constants.bounds = points_.bounds().address();
+    constants.tiles = tiles_.address();
     commands.barrier(Access::compute_write, Access::compute_write);
     commands.uses(
         {{samples_, Access::compute_read},
@@ -207,52 +283,64 @@ void SoftwareBackend::findTiles(engine::Commands& commands, gpu::SoftwarePush co
          {tiles_, Access::compute_write}});
     commands.bind(find_tiles_, constants);
     commands.dispatch(divideUp(constants.height, gpu::kTile));
-    commands.barrier(Access::compute_write, Access::compute_write);
 }
 
+void SoftwareBackend::findWindows(engine::Commands& commands, gpu::SoftwarePush constants) const {
+    constants.bounds = points_.bounds().address();
+    constants.tiles = tiles_.address();
+    constants.windows = windows_.address();
+    commands.barrier(Access::compute_write, Access::compute_write);
+    commands.uses(
+        {{tiles_, Access::compute_read},
+         {points_.bounds(), Access::compute_read},
+         {windows_, Access::compute_write}});
+    commands.bind(find_windows_, constants);
+    commands.dispatch(divideUp(constants.height, gpu::kTile));
+}
+
+// With 64-bit atomics how near a sample's piece is and which are one number; else it is first found
+// how near the nearest is, and then which that are so near is the first.
 void SoftwareBackend::cover(engine::Commands& commands, const StrandPicture& picture) const {
     gpu::SoftwarePush constants = push(picture);
-    constants.points = points_.points().address();
-    constants.pieces = points_.pieces().address();
-    constants.samples = samples_.address();
-    constants.large = large_.address();
-    constants.tiles = tiles_.address();
-    commands.barrier(Access::compute_write, Access::compute_write);
-    constants.part = gpu::kCoverFirst;
-    coverStrands(commands, constants);
+    const gpu::SoftwarePush first = ofPart(constants, gpu::kCoverFirst);
+    const gpu::SoftwarePush others = ofPart(constants, gpu::kCoverOthers);
+    findPieces(commands, first);
+    coverPieces(commands, first);
     findTiles(commands, constants);
-    constants.part = gpu::kCoverOthers;
-    coverStrands(commands, constants);
+    findWindows(commands, constants);
+    findPieces(commands, others);
+    coverPieces(commands, others);
     coverLarge(commands, constants);
     if (is_packed_) return;
     constants.choice = 1;
-    constants.part = gpu::kCoverAll;
-    commands.barrier(Access::compute_write, Access::compute_write);
-    coverStrands(commands, constants);
+    for (const std::uint32_t part : {gpu::kCoverFirst, gpu::kCoverOthers})
+        coverPieces(commands, ofPart(constants, part));
     coverLarge(commands, constants);
+}
+
+std::span<const engine::TexelView* const> SoftwareBackend::pointTexels() const {
+    return texels_ ? std::span(&texels_, 1) : std::span<const engine::TexelView* const>();
 }
 
 void SoftwareBackend::shade(engine::Commands& commands, const StrandPicture& picture) const {
     gpu::SoftwarePush constants = push(picture);
     constants.points = points_.points().address();
-    constants.pieces = points_.pieces().address();
     constants.samples = samples_.address();
     constants.bounds = points_.bounds().address();
     if (target_.hasRadiance()) constants.colors = colors_.address();
     commands.barrier(Access::compute_write, Access::compute_write);
     commands.uses(
         {{points_.points(), Access::compute_read},
-         {points_.pieces(), Access::compute_read},
          {samples_, Access::compute_write},
          {points_.bounds(), Access::compute_read},
          {constants.colors, Access::compute_write}});
     commands.bind(shade_, constants);
-    commands.images(shade_, picture.images);
+    commands.images(shade_, picture.images, pointTexels());
     commands.dispatch(constants.height);
 }
 
 void SoftwareBackend::prepare(engine::Commands& commands, const StrandPicture& picture) const {
-    commands.fill(large_, 0);
+    commands.fill(counts_, 0);
     commands.barrier(Access::transfer_write, Access::compute_write);
     clear(commands, picture);
     cover(commands, picture);

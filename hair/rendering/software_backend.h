@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "engine/buffer_image.h"
@@ -43,22 +44,36 @@ private:
     gpu::SoftwarePush push(const StrandPicture& picture) const;
     void clear(engine::Commands& commands, const StrandPicture& picture) const;
     void cover(engine::Commands& commands, const StrandPicture& picture) const;
-    void coverStrands(engine::Commands& commands, const gpu::SoftwarePush& constants) const;
-    void coverLarge(engine::Commands& commands, const gpu::SoftwarePush& constants) const;
+    gpu::SoftwarePush ofPart(gpu::SoftwarePush constants, std::uint32_t part) const;
+    void findPieces(engine::Commands& commands, gpu::SoftwarePush constants) const;
+    void coverPieces(engine::Commands& commands, gpu::SoftwarePush constants) const;
+    void coverLarge(engine::Commands& commands, gpu::SoftwarePush constants) const;
     void findTiles(engine::Commands& commands, gpu::SoftwarePush constants) const;
+    void findWindows(engine::Commands& commands, gpu::SoftwarePush constants) const;
     void shade(engine::Commands& commands, const StrandPicture& picture) const;
+    // The points of a stage that reads them, as texels.
+    std::span<const engine::TexelView* const> pointTexels() const;
 
     const engine::Target& target_;
     const PointsPass& points_;
     std::uint32_t samples_per_pixel_;
-    std::uint32_t blocks_;  // of strands that an invocation covers
+    std::uint32_t block_;  // strands that an invocation looks at
+    std::uint32_t blocks_;
+    std::uint32_t pieces_per_strand_;
     bool is_packed_;  // with 64-bit integers and atomics
+    const engine::TexelView* texels_;  // the points; null: all is read by address
     engine::Buffer samples_;
     engine::Buffer colors_;  // empty without linear light
-    engine::Buffer large_;  // how many pieces with many samples, and which
+    engine::Buffer counts_;  // gpu::PieceCounts
+    engine::Buffer list_;  // pieces that may be seen, of the first strands and then of the others
+    engine::Buffer large_;  // pieces with many samples
     engine::Buffer tiles_;
+    engine::Buffer windows_;
+    engine::TexelView window_texels_;  // where the points are texels
     engine::ComputePipeline clear_;
     engine::ComputePipeline find_tiles_;
+    engine::ComputePipeline find_windows_;
+    engine::ComputePipeline find_;
     engine::ComputePipeline cover_;
     engine::ComputePipeline cover_large_;
     engine::ComputePipeline shade_;

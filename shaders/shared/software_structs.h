@@ -15,37 +15,46 @@ const uint kMostLargePieces = 65536u;
 const uint kLargeGroups = 256u;
 
 // One strand, or block of strands, of so many is covered first. Of others the pieces are left out
-// that are behind all that each of their tiles shows by then: tiles are squares of so many pixels,
-// and pieces that touch more than so many of them aren't looked at.
+// that are behind all that a window of the picture around them shows by then: a square of so many
+// tiles, which are squares of so many pixels. Those larger than a large window aren't left out.
 const uint kFirstStrands = 8u;
 const uint kTile = 8u;
-const uint kMostTiles = 12u;
+const uint kSmallWindow = 2u;
+const uint kLargeWindow = 4u;
 
-// Which strands are covered.
 const uint kCoverFirst = 0u;
 const uint kCoverOthers = 1u;
-const uint kCoverAll = 2u;
 
-// What a sample shows that shows no strand.
+// Pieces are numbered by their first point. What a sample shows that shows none.
 const uint kNoPiece = 0xffffffffu;
+
+// How many pieces are listed.
+struct PieceCounts {
+    uint seen[2];  // of a part of the strands, that may be seen
+    uint large;  // may be over kMostLargePieces
+};
 
 // Push constants of everything in strands/software.
 struct SoftwarePush {
     Address picture;  // PictureParameters
     Address points;  // PointsPush::points
     Address pieces;  // PointsPush::pieces
-    // uvec2 [pixel][sample]. x: the piece that is seen, [strand][piece], or kNoPiece; shaded: its
-    // color. y: how near it is, or what the scene has there.
+    // uvec2 [pixel][sample]. x: the piece that is seen, or kNoPiece; shaded: its color. y: how near
+    // it is, or what the scene has there.
     Address samples;
     Address colors;  // uvec2 [pixel][sample], half floats; where light is linear
     Address bounds;  // HairBounds
-    Address large;  // uint: how many large pieces there are, and which
+    Address counts;  // PieceCounts
+    Address list;  // uint: pieces that may be seen
+    Address large;  // uint: large pieces
     Address tiles;  // uint [row][column]: how near the farthest sample within the bounds is
+    Address windows;  // uvec2 [row][column]: the same of a small and a large window from a tile on
     uint width;  // of the rendered picture, px
     uint height;  // px
     uint strands;
     uint choice;  // cover.comp: 0 how near, 1 which; show.frag: the sample
-    uint part;  // cover.comp: of the strands
+    uint part;  // find.comp, cover.comp: of the strands
+    uint list_begin;  // of the part's pieces in the list
 };
 
 #endif

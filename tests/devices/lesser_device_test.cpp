@@ -352,8 +352,9 @@ TEST_F(LesserDevice, DrawsEverythingButStrandsWithoutAnyFeature) {
     EXPECT_EQ(pictureOf(settings), there);
 }
 
-// The nearest piece by two 32-bit minima is that by one of 64 bits.
-TEST_F(LesserDevice, CoversTheSameSamplesWithoutLongAtomics) {
+// The nearest piece by two 32-bit minima is that by one of 64 bits; how points are read, and how
+// many strands an invocation has, is of no account.
+TEST_F(LesserDevice, CoversTheSameSamplesByAllVariants) {
     hair::Settings settings = smallCase();
     settings.strands.backend = hair::Backend::software;
     for (const std::uint32_t samples : {1u, 4u}) {
@@ -364,6 +365,12 @@ TEST_F(LesserDevice, CoversTheSameSamplesWithoutLongAtomics) {
         bald.render.hair = false;
         EXPECT_NE(there, pictureOf(bald));
         make(without({Feature::long_atomics}));
+        EXPECT_EQ(pictureOf(settings), there);
+        make(without({Feature::push_descriptors}));
+        EXPECT_EQ(pictureOf(settings), there);
+        make([](DeviceInfo& info) { info.limits.maxTexelBufferElements = 1; });
+        EXPECT_EQ(pictureOf(settings), there);
+        make([](DeviceInfo& info) { info.type = "discrete"; });
         EXPECT_EQ(pictureOf(settings), there);
         make(bare);
         EXPECT_EQ(pictureOf(settings), there);

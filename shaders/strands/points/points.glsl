@@ -47,8 +47,21 @@ void storePoint(Address points, uint index, PackedPoint point) {
     storeVector(points, index, vec4(point.position, uintBitsToFloat(word)));
 }
 
+// Where kPointTexels is defined, points are fetched as texels: a device that takes one element of one
+// invocation at a time from memory, as lavapipe does, has a texel of all of them at once.
+#ifdef kPointTexels
+#extension GL_EXT_samplerless_texture_functions : require
+layout(binding = kPointTexels) uniform utextureBuffer point_texels;
+
+vec4 fetchPoint(Address points, uint index) {
+    return uintBitsToFloat(texelFetch(point_texels, int(index)));
+}
+#else
+vec4 fetchPoint(Address points, uint index) { return loadVector(points, index); }
+#endif
+
 PackedPoint loadPoint(Address points, uint index) {
-    vec4 stored = loadVector(points, index);
+    vec4 stored = fetchPoint(points, index);
     uint word = floatBitsToUint(stored.w);
     return PackedPoint(stored.xyz, unpackDirection(word), unpackWidth(word >> 20));
 }

@@ -81,7 +81,14 @@ PieceQuad pieceQuad(PieceEnd from, PieceEnd to) {
     return quad;
 }
 
-// A piece by its number.
+// The farthest and the nearest depth of a piece.
+vec2 depthRange(PieceQuad quad) {
+    float slack = max(abs(quad.from.side_depth), abs(quad.to.side_depth));
+    return vec2(min(quad.from.depth, quad.to.depth) - slack,
+                max(quad.from.depth, quad.to.depth) + slack);
+}
+
+// A piece by its number, that of its first point.
 struct Piece {
     PieceEnd from;
     PieceEnd to;
@@ -89,12 +96,9 @@ struct Piece {
 };
 
 Piece pieceOf(PictureParameters picture, uint number) {
-    uint strand = number / kPiecesPerStrand;
-    uint pieces = kSplitJoints == 1u ? StrandPieces(push.pieces).at[strand] : 1u;
-    uint first = firstPoint(strand, number % kPiecesPerStrand, pieces);
     Piece piece;
-    piece.from = pieceEnd(picture, loadPoint(push.points, first));
-    piece.to = pieceEnd(picture, loadPoint(push.points, first + 1u));
+    piece.from = pieceEnd(picture, loadPoint(push.points, number));
+    piece.to = pieceEnd(picture, loadPoint(push.points, number + 1u));
     piece.quad = pieceQuad(piece.from, piece.to);
     return piece;
 }

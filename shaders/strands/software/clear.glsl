@@ -17,11 +17,12 @@ float sceneDepth(uvec2 pixel, uint index) {
 }
 
 void main() {
-    HairBounds bounds = Bounds(push.bounds).bounds;
-    uvec2 pixel = uvec2(push.width - bounds.from_right, gl_WorkGroupID.x);
-    if (pixel.y < push.height - bounds.from_bottom || pixel.y >= bounds.bottom) return;
-    for (pixel.x += gl_LocalInvocationID.x; pixel.x < bounds.right;
-         pixel.x += gl_WorkGroupSize.x) {
+    uvec2 low;
+    uvec2 high;
+    hairBounds(low, high);
+    uvec2 pixel = uvec2(low.x, gl_WorkGroupID.x);
+    if (pixel.y < low.y || pixel.y >= high.y) return;
+    for (pixel.x += gl_LocalInvocationID.x; pixel.x < high.x; pixel.x += gl_WorkGroupSize.x) {
         for (uint i = 0u; i < kSamples; ++i) {
             float depth = sceneDepth(pixel, i);
             storePair(push.samples, sampleIndex(pixel, i), uvec2(kNoPiece, nearness(depth)));

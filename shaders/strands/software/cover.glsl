@@ -49,13 +49,6 @@ void makeEdges(PieceQuad quad, inout Cover cover) {
     cover.row_length = 0.5 * abs(area) / max(last - first, 1.0);
 }
 
-// The farthest and the nearest depth of a piece.
-vec2 depthRange(PieceQuad quad) {
-    float slack = max(abs(quad.from.side_depth), abs(quad.to.side_depth));
-    return vec2(min(quad.from.depth, quad.to.depth) - slack,
-                max(quad.from.depth, quad.to.depth) + slack);
-}
-
 // Depth is a plane through the middle line and the mean side.
 void makeDepth(PieceQuad quad, vec2 run, inout Cover cover) {
     vec2 side = 0.5 * (quad.from.side + quad.to.side);

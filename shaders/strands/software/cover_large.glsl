@@ -4,12 +4,11 @@
 layout(local_size_x = kSoftwareStrandGroup) in;
 
 void main() {
-    LargePieces large = LargePieces(push.large);
-    uint count = min(large.count, kMostLargePieces);
+    uint count = min(Counts(push.counts).counts.large, kMostLargePieces);
     if (gl_WorkGroupID.x >= count) return;  // no barrier follows
     PictureParameters picture = PictureReference(push.picture).parameters;
     for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x) {
-        uint piece = large.at[i];
+        uint piece = PieceList(push.large).at[i];
         Cover cover = makeCover(pieceOf(picture, piece).quad);
         coverRows(cover, cover.begin + int(gl_LocalInvocationID.x), int(gl_WorkGroupSize.x), piece);
     }

@@ -4,10 +4,11 @@
 #include "strands/software/software.glsl"
 
 void main() {
-    HairBounds bounds = Bounds(push.bounds).bounds;
+    uvec2 low;
+    uvec2 high;
+    hairBounds(low, high);
     uint corner = uint(gl_VertexIndex) % 3u + uint(gl_VertexIndex) / 3u;  // 0 1 2, 1 2 3
-    uvec2 low = uvec2(push.width - bounds.from_right, push.height - bounds.from_bottom);
-    uvec2 high = max(uvec2(bounds.right, bounds.bottom), low);  // nothing where there is no hair
+    high = max(high, low);  // nothing where there is no hair
     float x = float((corner & 1u) == 0u ? low.x : high.x);
     float y = float((corner & 2u) == 0u ? low.y : high.y);
     gl_Position = vec4(2.0 * vec2(x, y) / vec2(push.width, push.height) - 1.0, 0.0, 1.0);

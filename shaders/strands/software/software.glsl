@@ -12,10 +12,16 @@ layout(constant_id = kStrandBlockConstant) const uint kBlock = 1;  // strands of
 
 layout(push_constant, scalar) uniform Push { SoftwarePush push; };
 
-layout(buffer_reference, scalar) buffer LargePieces {
-    uint count;  // may be over kMostLargePieces
-    uint at[];
-};
+layout(buffer_reference, scalar) buffer Counts { PieceCounts counts; };
+
+layout(buffer_reference, scalar) buffer PieceList { uint at[]; };
+
+// Of the hair on the screen, px.
+void hairBounds(out uvec2 low, out uvec2 high) {
+    HairBounds bounds = Bounds(push.bounds).bounds;
+    low = uvec2(push.width - bounds.from_right, push.height - bounds.from_bottom);
+    high = uvec2(bounds.right, bounds.bottom);
+}
 
 layout(buffer_reference, scalar) buffer TileDepths { uint at[]; };
 

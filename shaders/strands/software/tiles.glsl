@@ -15,9 +15,9 @@ uint farthest(uvec2 begin, uvec2 end) {
 }
 
 void main() {
-    HairBounds bounds = Bounds(push.bounds).bounds;
-    uvec2 low = uvec2(push.width - bounds.from_right, push.height - bounds.from_bottom);
-    uvec2 high = uvec2(bounds.right, bounds.bottom);
+    uvec2 low;
+    uvec2 high;
+    hairBounds(low, high);
     uvec2 tile = uvec2(low.x / kTile, gl_WorkGroupID.x);
     if (tile.y * kTile + kTile <= low.y || tile.y * kTile >= high.y) return;
     for (tile.x += gl_LocalInvocationID.x; tile.x * kTile < high.x; tile.x += gl_WorkGroupSize.x)

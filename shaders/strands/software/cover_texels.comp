@@ -1,0 +1,7 @@
+#version 460
+// The samples of strands, on devices with 64-bit atomics, points as texels.
+#extension GL_GOOGLE_include_directive : require
+#define kPointTexels 0
+#include "strands/software/offer_packed.glsl"
+
+#include "strands/software/cover_strands.glsl"

@@ -1,0 +1,129 @@
+// Lists the pieces of a part of the strands that may be seen, so that what is done for those alone is
+// done by invocations of which none is idle. An invocation has some strands, of which each point is
+// fetched once.
+#include "strands/software/software.glsl"
+
+#include "strands/points/quad.glsl"
+
+layout(local_size_x = kSoftwareStrandGroup) in;
+
+const uint kWord = 32u;
+
+// How near the farthest sample of the windows is that begin with a tile: a small one, a large one.
+#ifdef kWindowTexels
+layout(binding = kWindowTexels) uniform utextureBuffer window_texels;
+
+uvec2 fetchWindows(uvec2 tile) { return texelFetch(window_texels, int(tileIndex(tile))).xy; }
+#else
+uvec2 fetchWindows(uvec2 tile) { return loadPair(push.windows, tileIndex(tile)); }
+#endif
+
+// Of floats, far above it: those that draw the piece are rounded otherwise than its bounds.
+const float kPlaceRounding = 0.01;  // px
+const float kDepthRounding = 1e-5;  // of depth
+
+// What is drawn of a strand at a point is within a sphere as wide as the strand. Bounds of it, which
+// take much less than pieceEnd().
+struct PointBounds {
+    vec2 low;  // px
+    vec2 high;
+    float depth;  // of the nearest
+    float beyond;  // how far the farthest is beyond the near plane, by beyondNear()
+    bool known;  // all of it is in front of the eye, so that the others are bounds
+};
+
+// How far the rows of the camera's transformation reach.
+vec4 rowLengths(mat4 m) {
+    mat4 rows = transpose(m);
+    return vec4(length(rows[0].xyz), length(rows[1].xyz), length(rows[2].xyz), length(rows[3].xyz));
+}
+
+// |(x + dx) / (w + dw) - x / w| <= (|dx| w + |x| |dw|) / (w (w - |dw|)).
+PointBounds pointBounds(mat4 view_projection, vec4 row_lengths, uint index) {
+    vec4 stored = fetchPoint(push.points, index);
+    float radius = 0.5 * unpackWidth(floatBitsToUint(stored.w) >> 20);
+    vec4 clip = view_projection * vec4(stored.xyz, 1.0);
+    vec4 reach = radius * row_lengths;
+    float least_w = clip.w - reach.w;
+    PointBounds bounds;
+    bounds.known = least_w > 1e-4 * clip.w;
+    bounds.beyond = beyondNear(clip) + reach.w + reach.z;
+    float scale = 1.0 / (clip.w * least_w);
+    vec3 middle = clip.xyz * (least_w * scale);
+    vec3 away = (reach.xyz * clip.w + abs(clip.xyz) * reach.w) * scale;
+    vec2 half_size = 0.5 * vec2(push.width, push.height);
+    vec2 place = (middle.xy + 1.0) * half_size;
+    vec2 px = away.xy * half_size + kPlaceRounding;
+    bounds.low = place - px;
+    bounds.high = place + px;
+    bounds.depth = nearer(middle.z, away.z + kDepthRounding * abs(middle.z));
+    return bounds;
+}
+
+// Whether nothing of a piece can be seen: it is beside the picture, or behind what is around it there.
+// `low_tile` and `high_tile` are those of the hair's bounds.
+bool isHidden(PointBounds from, PointBounds to, uvec2 low_tile, uvec2 high_tile) {
+    if (max(from.beyond, to.beyond) <= 0.0) return true;
+    if (!from.known || !to.known) return false;
+    vec2 low = min(from.low, to.low);
+    vec2 high = max(from.high, to.high);
+    vec2 size = vec2(push.width, push.height);
+    if (any(lessThan(high, vec2(0.0))) || any(greaterThanEqual(low, size))) return true;
+    if (push.part == kCoverFirst) return false;
+    uvec2 first = clamp(uvec2(max(low, vec2(0.0))) / kTile, low_tile, high_tile);
+    uvec2 last = clamp(uvec2(min(high, size - 1.0)) / kTile, low_tile, high_tile);
+    uint near = nearness(isNearer(from.depth, to.depth) ? from.depth : to.depth);
+    uint tiles = max(last.x - first.x, last.y - first.y) + 1u;
+    uvec2 windows = fetchWindows(first);
+    return tiles <= kLargeWindow && (tiles <= kSmallWindow ? windows.x : windows.y) < near;
+}
+
+// Lists the pieces of a strand from `begin` on whose bits are set.
+void list(uint strand, uint begin, uint pieces, uint bits) {
+    if (bits == 0u) return;
+    uint place = push.list_begin +
+                 atomicAdd(Counts(push.counts).counts.seen[push.part], uint(bitCount(bits)));
+    for (; bits != 0u; bits &= bits - 1u)
+        PieceList(push.list).at[place++] = firstPoint(strand, begin + uint(findLSB(bits)), pieces);
+}
+
+void findPieces(
+    mat4 view_projection, vec4 row_lengths, uvec2 low_tile, uvec2 high_tile, uint strand,
+    uint pieces) {
+    PointBounds from = pointBounds(view_projection, row_lengths, firstPoint(strand, 0u, pieces));
+    uint count = kSegments * pieces;
+    for (uint begin = 0u; begin < count; begin += kWord) {
+        uint end = min(begin + kWord, count);
+        uint bits = 0u;
+        for (uint i = begin; i < end; ++i) {
+            uint first = firstPoint(strand, i, pieces);
+            if (kSplitJoints == 1u && i > 0u && i % pieces == 0u)
+                from = pointBounds(view_projection, row_lengths, first);
+            PointBounds to = pointBounds(view_projection, row_lengths, first + 1u);
+            bits |= uint(!isHidden(from, to, low_tile, high_tile)) << (i - begin);
+            from = to;
+        }
+        list(strand, begin, pieces, bits);
+    }
+}
+
+void main() {
+    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint block = group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (push.part == kCoverFirst) block *= kFirstStrands;
+    else block += block / (kFirstStrands - 1u) + 1u;
+    uint begin = block * kBlock;
+    uint end = min(begin + kBlock, push.strands);
+    if (begin >= end) return;  // no barrier follows
+    mat4 view_projection = PictureReference(push.picture).parameters.view_projection;
+    vec4 row_lengths = rowLengths(view_projection);
+    uvec2 low_tile;
+    uvec2 high_tile;
+    hairBounds(low_tile, high_tile);
+    low_tile /= kTile;
+    high_tile = (high_tile - 1u) / kTile;
+    for (uint strand = begin; strand < end; ++strand) {
+        uint pieces = StrandPieces(push.pieces).at[strand];
+        if (pieces > 0u) findPieces(view_projection, row_lengths, low_tile, high_tile, strand, pieces);
+    }
+}

@@ -1,0 +1,7 @@
+#version 460
+// The colors of samples, on devices with 64-bit integers, points as texels.
+#extension GL_GOOGLE_include_directive : require
+#define kPointTexels 4
+#include "common/packed_vectors.glsl"
+
+#include "strands/software/shade.glsl"
