@@ -87,9 +87,8 @@ softwareStage(const BackendContext& context, const std::string& name, std::uint3
 // A stage that reads points.
 engine::ComputeDescription
 pointsStage(const BackendContext& context, const std::string& name, std::uint32_t block = 1) {
-    engine::ComputeDescription stage = softwareStage(context, name, block);
-    if (!texelsOf(context)) return stage;
-    stage.shader = "strands/software/" + name + "_texels.comp";
+    if (!texelsOf(context)) return softwareStage(context, name, block);
+    engine::ComputeDescription stage = softwareStage(context, name + "_texels", block);
     stage.texel_buffers = 1;
     return stage;
 }

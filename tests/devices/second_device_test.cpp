@@ -75,7 +75,7 @@ TEST_F(SwiftShader, SkipsStrandsWithTheirReason) {
 TEST_F(SwiftShader, DrawsStrandsAsTheOtherDeviceDoes) {
     if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
     if (hairbench("devices").status != 0) return skipWithout(Need::device, "no other device");
-    for (const std::string backend : {"software", "pulling"}) {
+    for (const std::string backend : {"software", "pulling", "expanded"}) {
         for (const std::string samples : {"1", "4"}) {
             const auto draw = [&](const std::string& name, bool here) {
                 const fs::path picture = folder_.path() / (name + backend + samples + ".png");
