@@ -17,7 +17,7 @@ const uint kLargeGroups = 256u;
 // One strand, or block of strands, of so many is covered first. Of others the pieces are left out
 // that are behind all that a window of the picture around them shows by then: a square of so many
 // tiles, which are squares of so many pixels. Those larger than a large window aren't left out.
-const uint kFirstStrands = 8u;
+const uint kFirstStrands = 16u;
 const uint kTile = 8u;
 const uint kSmallWindow = 2u;
 const uint kLargeWindow = 4u;

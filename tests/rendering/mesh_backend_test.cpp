@@ -138,11 +138,6 @@ protected:
             return skipWithout(Need::mesh, "the device has no task and mesh stages");
     }
 
-    static Settings with(Settings settings, Backend backend) {
-        settings.strands.backend = backend;
-        return settings;
-    }
-
     // It makes the quads that `tessellation` makes, by the same functions: on processors the same
     // picture. A GPU's compiler may round otherwise in another stage, which moves an edge over a
     // sample here and there.
@@ -167,9 +162,7 @@ protected:
     }
 
     fs::path write(const std::string& name, const Settings& settings, const Pixels& pixels) {
-        const fs::path path = folder_.path() / (name + ".png");
-        engine::writePng(path, settings.render.width, settings.render.height, pixels);
-        return path;
+        return writePicture(folder_.path() / (name + ".png"), settings, pixels);
     }
 
     TemporaryFolder folder_;

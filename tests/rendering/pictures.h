@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "benchmarks/measure/case.h"
 #include "engine/frame_loop.h"
+#include "engine/pictures.h"
 #include "hair/rendering/renderer.h"
 #include "tests/rendering/device_hair.h"
 
@@ -34,6 +36,17 @@ inline Settings thesisAtRest() {
     settings.simulation.solver = Solver::none;
     settings.strands.backend = Backend::tessellation;
     return settings;
+}
+
+inline Settings with(Settings settings, Backend backend) {
+    settings.strands.backend = backend;
+    return settings;
+}
+
+inline std::filesystem::path
+writePicture(const std::filesystem::path& path, const Settings& settings, const Pixels& pixels) {
+    engine::writePng(path, settings.render.width, settings.render.height, pixels);
+    return path;
 }
 
 // The first frame of a case.

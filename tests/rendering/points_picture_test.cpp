@@ -41,11 +41,6 @@ std::vector<int> channelDifferences(const Pixels& a, const Pixels& b) {
     return differences;
 }
 
-Settings with(Settings settings, Backend backend) {
-    settings.strands.backend = backend;
-    return settings;
-}
-
 class PointsPicture : public GpuTest {
 protected:
     // The picture after some frames, in which the simulation moves the hair.
@@ -70,9 +65,7 @@ protected:
     }
 
     fs::path write(const std::string& name, const Settings& settings, const Pixels& pixels) {
-        const fs::path path = folder_.path() / (name + ".png");
-        engine::writePng(path, settings.render.width, settings.render.height, pixels);
-        return path;
+        return writePicture(folder_.path() / (name + ".png"), settings, pixels);
     }
 
     TemporaryFolder folder_;
@@ -228,6 +221,29 @@ TEST_F(PointsPicture, HasOnePixel) {
         EXPECT_GE(
             drawn.at(static_cast<std::size_t>(i)),
             std::floor(255.0f * settings.shading.ambient * settings.shading.color[i]));
+}
+
+// A picture wider than many a target, whose hair is seen under 63 to 77 degrees from its middle and
+// stretched to some 700 px.
+TEST_F(PointsPicture, IsThatOfTessellationInAWidePicture) {
+    if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
+    Settings settings = thesisAtRest();
+    settings.render.width = 8192;
+    settings.render.height = 256;
+    settings.camera.position = {0.0f, 0.05f, 0.8f};
+    settings.camera.target = {0.94f, 0.05f, 0.46f};
+    const Pixels expected = drawCase(device(), settings);
+    EXPECT_GT(differingPixels(expected, drawBald(device(), settings)), 8192u * 256u / 50u);
+    const fs::path expected_path = write("wide", settings, expected);
+    std::vector<std::pair<fs::path, fs::path>> pairs;
+    for (const Way& way : kWays)
+        pairs.emplace_back(
+            expected_path,
+            write(way.name, settings, drawCase(device(), with(settings, way.backend))));
+    const std::vector<double> errors = flipErrors(pairs);
+    ASSERT_EQ(errors.size(), kWays.size());
+    for (std::size_t i = 0; i < errors.size(); ++i)
+        EXPECT_LE(errors[i], kWays[i].most_different) << kWays[i].name;
 }
 
 // A straight strand of several pixels' width that nothing hides: every pixel inside is the same.

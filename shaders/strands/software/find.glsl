@@ -32,18 +32,34 @@ struct PointBounds {
     bool known;  // all of it is in front of the eye, so that the others are bounds
 };
 
-// How far the rows of the camera's transformation reach.
-vec4 rowLengths(mat4 m) {
-    mat4 rows = transpose(m);
-    return vec4(length(rows[0].xyz), length(rows[1].xyz), length(rows[2].xyz), length(rows[3].xyz));
+// What is the same for all pieces.
+struct View {
+    mat4 view_projection;
+    vec4 row_lengths;  // of it: how far a step of 1 m reaches in each coordinate
+    uvec2 low_tile;  // of the hair's bounds
+    uvec2 high_tile;
+};
+
+View makeView() {
+    View view;
+    view.view_projection = PictureReference(push.picture).parameters.view_projection;
+    mat4 rows = transpose(view.view_projection);
+    view.row_lengths = vec4(length(rows[0].xyz), length(rows[1].xyz), length(rows[2].xyz),
+                            length(rows[3].xyz));
+    uvec2 low;
+    uvec2 high;
+    hairBounds(low, high);
+    view.low_tile = low / kTile;
+    view.high_tile = (high - 1u) / kTile;
+    return view;
 }
 
 // |(x + dx) / (w + dw) - x / w| <= (|dx| w + |x| |dw|) / (w (w - |dw|)).
-PointBounds pointBounds(mat4 view_projection, vec4 row_lengths, uint index) {
+PointBounds pointBounds(View view, uint index) {
     vec4 stored = fetchPoint(push.points, index);
     float radius = 0.5 * unpackWidth(floatBitsToUint(stored.w) >> 20);
-    vec4 clip = view_projection * vec4(stored.xyz, 1.0);
-    vec4 reach = radius * row_lengths;
+    vec4 clip = view.view_projection * vec4(stored.xyz, 1.0);
+    vec4 reach = radius * view.row_lengths;
     float least_w = clip.w - reach.w;
     PointBounds bounds;
     bounds.known = least_w > 1e-4 * clip.w;
@@ -61,8 +77,7 @@ PointBounds pointBounds(mat4 view_projection, vec4 row_lengths, uint index) {
 }
 
 // Whether nothing of a piece can be seen: it is beside the picture, or behind what is around it there.
-// `low_tile` and `high_tile` are those of the hair's bounds.
-bool isHidden(PointBounds from, PointBounds to, uvec2 low_tile, uvec2 high_tile) {
+bool isHidden(View view, PointBounds from, PointBounds to) {
     if (max(from.beyond, to.beyond) <= 0.0) return true;
     if (!from.known || !to.known) return false;
     vec2 low = min(from.low, to.low);
@@ -70,8 +85,8 @@ bool isHidden(PointBounds from, PointBounds to, uvec2 low_tile, uvec2 high_tile)
     vec2 size = vec2(push.width, push.height);
     if (any(lessThan(high, vec2(0.0))) || any(greaterThanEqual(low, size))) return true;
     if (push.part == kCoverFirst) return false;
-    uvec2 first = clamp(uvec2(max(low, vec2(0.0))) / kTile, low_tile, high_tile);
-    uvec2 last = clamp(uvec2(min(high, size - 1.0)) / kTile, low_tile, high_tile);
+    uvec2 first = clamp(uvec2(max(low, vec2(0.0))) / kTile, view.low_tile, view.high_tile);
+    uvec2 last = clamp(uvec2(min(high, size - 1.0)) / kTile, view.low_tile, view.high_tile);
     uint near = nearness(isNearer(from.depth, to.depth) ? from.depth : to.depth);
     uint tiles = max(last.x - first.x, last.y - first.y) + 1u;
     uvec2 windows = fetchWindows(first);
@@ -87,10 +102,8 @@ void list(uint strand, uint begin, uint pieces, uint bits) {
         PieceList(push.list).at[place++] = firstPoint(strand, begin + uint(findLSB(bits)), pieces);
 }
 
-void findPieces(
-    mat4 view_projection, vec4 row_lengths, uvec2 low_tile, uvec2 high_tile, uint strand,
-    uint pieces) {
-    PointBounds from = pointBounds(view_projection, row_lengths, firstPoint(strand, 0u, pieces));
+void findPieces(View view, uint strand, uint pieces) {
+    PointBounds from = pointBounds(view, firstPoint(strand, 0u, pieces));
     uint count = kSegments * pieces;
     for (uint begin = 0u; begin < count; begin += kWord) {
         uint end = min(begin + kWord, count);
@@ -98,9 +111,9 @@ void findPieces(
         for (uint i = begin; i < end; ++i) {
             uint first = firstPoint(strand, i, pieces);
             if (kSplitJoints == 1u && i > 0u && i % pieces == 0u)
-                from = pointBounds(view_projection, row_lengths, first);
-            PointBounds to = pointBounds(view_projection, row_lengths, first + 1u);
-            bits |= uint(!isHidden(from, to, low_tile, high_tile)) << (i - begin);
+                from = pointBounds(view, first);
+            PointBounds to = pointBounds(view, first + 1u);
+            bits |= uint(!isHidden(view, from, to)) << (i - begin);
             from = to;
         }
         list(strand, begin, pieces, bits);
@@ -115,15 +128,9 @@ void main() {
     uint begin = block * kBlock;
     uint end = min(begin + kBlock, push.strands);
     if (begin >= end) return;  // no barrier follows
-    mat4 view_projection = PictureReference(push.picture).parameters.view_projection;
-    vec4 row_lengths = rowLengths(view_projection);
-    uvec2 low_tile;
-    uvec2 high_tile;
-    hairBounds(low_tile, high_tile);
-    low_tile /= kTile;
-    high_tile = (high_tile - 1u) / kTile;
+    View view = makeView();
     for (uint strand = begin; strand < end; ++strand) {
         uint pieces = StrandPieces(push.pieces).at[strand];
-        if (pieces > 0u) findPieces(view_projection, row_lengths, low_tile, high_tile, strand, pieces);
+        if (pieces > 0u) findPieces(view, strand, pieces);
     }
 }

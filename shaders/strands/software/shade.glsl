@@ -7,26 +7,36 @@
 
 layout(local_size_x = kSoftwarePixelGroup) in;
 
-// The point of a piece that a place on the screen shows, px.
+// The factors of two vectors with corner + x.x first + x.y second = 0.
+vec2 factorsOf(vec2 corner, vec2 first, vec2 second) {
+    float area = cross2(first, second);
+    return vec2(cross2(second, corner), cross2(corner, first)) / (abs(area) < 1e-30 ? 1e-30 : area);
+}
+
+// The point of a piece that a place on the screen shows, px: on one of the two triangles that other
+// back ends draw, from -+ side at its first end to - side at its second, and the rest.
 StrandFragment seenPoint(PictureParameters picture, uint number, vec2 place) {
     Piece piece = pieceOf(picture, number);
-    PieceQuad quad = piece.quad;
-    vec2 run = quad.to.place - quad.from.place;
-    vec2 offset = place - quad.from.place;
-    vec2 mean_side = 0.5 * (quad.from.side + quad.to.side);
-    float area = cross2(run, mean_side);
-    float t = cross2(offset, mean_side) / (abs(area) < 1e-12 ? 1e-12 : area);
-    t = clamp(t, 0.0, 1.0);
-    float side_area = cross2(run, mix(quad.from.side, quad.to.side, t));
-    float across = cross2(run, offset) / (abs(side_area) < 1e-12 ? 1e-12 : side_area);
-    // Along the piece itself, which the screen shows in perspective.
-    t = t * quad.from.w / mix(quad.to.w, quad.from.w, t);
-    t = mix(quad.part.x, quad.part.y, t);
+    // In clip space, with what is seen at the place at 0.
+    vec2 clip = 2.0 * place / vec2(push.width, push.height) - 1.0;
+    vec2 from = piece.from.middle_clip.xy - clip * piece.from.middle_clip.w;
+    vec2 from_side = piece.from.side_clip.xy - clip * piece.from.side_clip.w;
+    vec2 to = piece.to.middle_clip.xy - clip * piece.to.middle_clip.w;
+    vec2 to_side = piece.to.side_clip.xy - clip * piece.to.side_clip.w;
+    vec2 along_and_across =
+        factorsOf(from - from_side, to - to_side - from + from_side, 2.0 * from_side);
+    bool second = along_and_across.x + along_and_across.y > 1.0;
+    if (second)
+        along_and_across =
+            1.0 - factorsOf(to + to_side, from + from_side - to - to_side, -2.0 * to_side);
+    float t = clamp(along_and_across.x, piece.quad.part.x, piece.quad.part.y);
+    vec3 narrowing = piece.from.side - piece.to.side;
 
     StrandFragment fragment;
-    fragment.across = clamp(across, -1.0, 1.0);
-    fragment.position =
-        mix(piece.from.position, piece.to.position, t) + fragment.across * mix(piece.from.side, piece.to.side, t);
+    fragment.across = clamp(2.0 * along_and_across.y - 1.0, -1.0, 1.0);
+    fragment.position = mix(piece.from.position, piece.to.position, t);
+    fragment.position += second ? fragment.across * piece.to.side + (1.0 - t) * narrowing
+                                : fragment.across * piece.from.side + t * narrowing;
     vec3 tangent = mix(piece.from.tangent, piece.to.tangent, t);
     fragment.tangent = tangent * inversesqrt(max(dot(tangent, tangent), 1e-30));
     fragment.to_eye = normalize(picture.eye - fragment.position);
