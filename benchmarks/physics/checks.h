@@ -59,6 +59,10 @@ void checkBendingFrequency(const engine::Device&, hair::Solver, Findings&);
 void checkClampTwist(const engine::Device&, hair::Solver, Findings&);
 // How far a hanging curl leaves its plane.
 void checkBendTwist(const engine::Device&, hair::Solver, Findings&);
+// Where wind holds hanging hair, at any time step.
+void checkDragDeflection(const engine::Device&, hair::Solver, Findings&);
+// The speed at which hair that falls is borne by the air.
+void checkTerminalSpeed(const engine::Device&, hair::Solver, Findings&);
 
 // ---- Against itself -----------------------------------------------------------------------------
 

@@ -196,6 +196,109 @@ double cantileverRatio(double gamma, double natural_turn) {
 
 namespace {
 
+// ---- Drag of air --------------------------------------------------------------------------------
+
+constexpr int kDragSteps = 1000;
+
+struct DraggedRod {
+    double stiffness;  // EI, N m^2
+    double weight;  // N/m
+    double speed;  // m/s
+    const hair::SimulationSettings& settings;
+};
+
+// A section of the rod; `reach` and `drop` are from the tip.
+struct Section {
+    double angle;  // of the tangent from the wind's direction, pi / 2 - theta
+    double curvature = 0.0;  // theta'
+    double shear = 0.0;  // N
+    double tension = 0.0;  // T
+    double reach = 0.0;
+    double drop = 0.0;
+};
+
+Section operator+(const Section& a, const Section& b) {
+    return {a.angle + b.angle,     a.curvature + b.curvature, a.shear + b.shear,
+            a.tension + b.tension, a.reach + b.reach,         a.drop + b.drop};
+}
+
+Section operator*(double h, const Section& a) {
+    return {h * a.angle, h * a.curvature, h * a.shear, h * a.tension, h * a.reach, h * a.drop};
+}
+
+// By the length z from the tip.
+Section slopeAt(const DraggedRod& rod, const Section& at) {
+    const double sine = std::sin(at.angle);
+    const double cosine = std::cos(at.angle);
+    const double across = rod.speed * sine;
+    const double pressed = std::copysign(dragPerLength(rod.settings, std::abs(across)), across);
+    return {
+        .angle = at.curvature,
+        .curvature = at.shear / rod.stiffness,
+        .shear = pressed + at.tension * at.curvature - rod.weight * cosine,
+        .tension = rod.weight * sine - at.shear * at.curvature,
+        .reach = cosine,
+        .drop = sine};
+}
+
+// Runge and Kutta's fourth order from the tip, where the angle is `angle`, to the clamp.
+Section draggedFromTip(const DraggedRod& rod, double length, double angle) {
+    const double h = length / kDragSteps;
+    Section at{.angle = angle};
+    for (int i = 0; i < kDragSteps && std::abs(at.angle) <= kPi; ++i) {
+        const Section k1 = slopeAt(rod, at);
+        const Section k2 = slopeAt(rod, at + h / 2.0 * k1);
+        const Section k3 = slopeAt(rod, at + h / 2.0 * k2);
+        const Section k4 = slopeAt(rod, at + h * k3);
+        at = at + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+    }
+    return at;
+}
+
+}  // namespace
+
+double dragPerLength(const hair::SimulationSettings& settings, double speed) {
+    const double density = settings.wind.air_density;
+    const double diameter = 2.0 * double{settings.material.radius};
+    if (speed == 0.0 || density == 0.0) return 0.0;
+    const double reynolds = density * speed * diameter / double{settings.wind.air_viscosity};
+    const double coefficient = 1.0 + 10.0 * std::pow(reynolds, -2.0 / 3.0);
+    return density / 2.0 * coefficient * diameter * speed * speed;
+}
+
+double terminalSpeed(const hair::SimulationSettings& settings) {
+    const double weight =
+        lineDensity(settings.material) * glm::length(glm::dvec3(settings.gravity));
+    double slow = 0.0;
+    double fast = 100.0;
+    for (int i = 0; i < 100; ++i) {
+        const double speed = (slow + fast) / 2.0;
+        (dragPerLength(settings, speed) > weight ? fast : slow) = speed;
+    }
+    return slow;
+}
+
+// Bisection over the tip's angle from the wind, which is tiny for a long rod without weight: in
+// steps of its logarithm.
+glm::dvec2 draggedTip(const hair::SimulationSettings& settings, double speed, double length) {
+    const DraggedRod rod{
+        .stiffness = bendingStiffness(settings.material),
+        .weight = lineDensity(settings.material) * glm::length(glm::dvec3(settings.gravity)),
+        .speed = speed,
+        .settings = settings};
+    double low = std::log(1e-12);
+    double high = std::log(kPi / 2.0);
+    for (int i = 0; i < 60; ++i) {
+        const double middle = (low + high) / 2.0;
+        const bool beyond = draggedFromTip(rod, length, std::exp(middle)).angle > kPi / 2.0;
+        (beyond ? high : low) = middle;
+    }
+    const Section clamp = draggedFromTip(rod, length, std::exp(low));
+    return {clamp.reach, -clamp.drop};
+}
+
+namespace {
+
 // ---- Frequency of a released strand -------------------------------------------------------------
 
 constexpr int kPeriods = 5;

@@ -54,6 +54,26 @@ std::optional<double> frequencyOf(std::span<const double> samples, double interv
 // Good to 7 digits for gamma up to 10^4.
 double cantileverRatio(double gamma, double natural_turn = 0.0);
 
+// What air does to hair, by the material and the air of the settings.
+
+// Force on a cylinder of a hair's radius that air flows across at `speed` >= 0: 1/2 rho C_D d U^2
+// with C_D = 1 + 10 Re^(-2/3), Re = rho U d / mu: White 1974, Viscous fluid flow. N/m
+double dragPerLength(const hair::SimulationSettings& settings, double speed);
+
+// The speed across a hair at which that is its weight. m/s
+double terminalSpeed(const hair::SimulationSettings& settings);
+
+// The tip of an inextensible rod of that material that hangs from a clamp at the origin, straight
+// down -y but for the wind along +x, m. With theta the angle of the tangent t from the vertical and
+// n across it, the wind's part across is U cos theta; it presses with f = dragPerLength() of it
+// along n, air along the rod does nothing, and the force F = T t + N n through a section bears what
+// hangs below it:
+//   EI theta'' = -N,  N' = -f - T theta' + w sin theta,  T' = N theta' - w cos theta,
+//   theta(0) = 0,  theta'(L) = N(L) = T(L) = 0,
+// w the weight per length. Good to 6 digits where the weight is less than 1,000 EI / L^2: shooting
+// from the tip loses exp(2/3 sqrt(w L^3 / EI)).
+glm::dvec2 draggedTip(const hair::SimulationSettings& settings, double speed, double length);
+
 // Releases a strand that is deflected along `sideways` and measures the frequency
 // with which it swings through five of the periods that theory expects. Absent if it does not
 // swing.

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "hair/reference/wind.h"
+
 namespace hair::reference {
 
 glm::dvec3 sideways(const glm::dvec3& v) {
@@ -38,11 +40,21 @@ glm::dmat3 smallestRotation(const glm::dvec3& from, const glm::dvec3& to) {
 
 double weight(std::size_t vertex) { return vertex == 0 ? 0.0 : 1.0; }
 
+double leftOf(Lightness lightness, std::size_t vertex) {
+    return lightness.empty() ? 1.0 : lightness[vertex];
+}
+
 // Calls `correct(i)` for every segment of a strand in red-black order.
 template <class Correct>
 void redBlack(std::size_t vertices, Correct correct) {
     for (std::size_t first : {std::size_t{1}, std::size_t{2}})
         for (std::size_t i = first; i < vertices; i += 2) correct(i);
+}
+
+double pullOn(double stiffness, double lightness) {
+    if (stiffness == 1.0) return 1.0;
+    const double spring = lightness * stiffness / (1.0 - stiffness);
+    return spring / (1.0 + spring);
 }
 
 glm::dvec3 handAt(const std::vector<PullKey>& path, double time) {
@@ -79,9 +91,9 @@ void integrate(
     }
 }
 
-void pullToRest(Points positions, ConstPoints rest, double stiffness) {
+void pullToRest(Points positions, ConstPoints rest, double stiffness, Lightness lightness) {
     for (std::size_t i = 1; i < positions.size(); ++i)
-        positions[i] += stiffness * (rest[i] - positions[i]);
+        positions[i] += pullOn(stiffness, leftOf(lightness, i)) * (rest[i] - positions[i]);
 }
 
 std::vector<glm::dmat3>
@@ -111,27 +123,29 @@ segmentFrames(ConstPoints positions, ConstPoints rest, const glm::dmat3& root_fr
 }
 
 void pullToShape(
-    Points positions, ConstPoints rest, double stiffness, const glm::dmat3& root_frame) {
+    Points positions, ConstPoints rest, double stiffness, const glm::dmat3& root_frame,
+    Lightness lightness) {
     const auto frames = segmentFrames(positions, rest, root_frame);
     redBlack(positions.size(), [&](std::size_t i) {
         const glm::dvec3 goal = positions[i - 1] + frames[i - 1] * (rest[i] - rest[i - 1]);
         const glm::dvec3 d = goal - positions[i];
         const double sum = weight(i - 1) + weight(i);
-        positions[i - 1] -= weight(i - 1) / sum * stiffness * d;
-        positions[i] += weight(i) / sum * stiffness * d;
+        positions[i - 1] -= leftOf(lightness, i - 1) * weight(i - 1) / sum * stiffness * d;
+        positions[i] += leftOf(lightness, i) * weight(i) / sum * stiffness * d;
     });
 }
 
-void projectLengths(Points positions, ConstPoints rest) {
+void projectLengths(Points positions, ConstPoints rest, Lightness lightness) {
     redBlack(positions.size(), [&](std::size_t i) {
         const double rest_length = glm::length(rest[i] - rest[i - 1]);
         const glm::dvec3 edge = positions[i] - positions[i - 1];
         const double length = glm::length(edge);
         const glm::dvec3 n = length < kShortest ? glm::dvec3{0.0, 1.0, 0.0} : edge / length;
         const double stretch = length - rest_length;
-        const double sum = weight(i - 1) + weight(i);
-        positions[i - 1] += weight(i - 1) / sum * stretch * n;
-        positions[i] -= weight(i) / sum * stretch * n;
+        const double above = leftOf(lightness, i - 1) * weight(i - 1);
+        const double below = leftOf(lightness, i) * weight(i);
+        positions[i - 1] += above / (above + below) * stretch * n;
+        positions[i] -= below / (above + below) * stretch * n;
     });
 }
 
@@ -202,7 +216,12 @@ void stepFtl(
     for (std::size_t i = 1; i < positions.size(); ++i) {
         glm::dvec3 p = start[i] + step.velocity_kept * (start[i] - previous[i]) +
                        h * h * step.accelerations[i];
-        p += step.global_stiffness * (rest[i] - p);
+        double lightness = 1.0;
+        if (!step.drag.empty()) {
+            p = start[i] + h * braked((p - start[i]) / h, step.drag[i], step.air[i], h);
+            lightness = lightnessIn(step.drag[i], h);
+        }
+        p += pullOn(step.global_stiffness, lightness) * (rest[i] - p);
 
         const glm::dvec3 to_follower = p - positions[i - 1];
         const double length = glm::length(to_follower);

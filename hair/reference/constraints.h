@@ -37,8 +37,12 @@ void integrate(
     Points positions, Points previous, ConstPoints accelerations, double velocity_kept,
     double substep);
 
-// Thesis eq. 10.
-void pullToRest(Points positions, ConstPoints rest, double stiffness);
+// What air leaves of the vertices' inverse masses, [vertex]: wind.h. Empty: all of them.
+using Lightness = std::span<const double>;
+
+// Thesis eq. 10: an implicit step of a spring that is c / (1 + c), c the spring's stiffness times
+// the inverse mass.
+void pullToRest(Points positions, ConstPoints rest, double stiffness, Lightness lightness = {});
 
 // Frames of the segments, [vertex]: entry 0 is the root's, entry i >= 1 that of segment i. A frame
 // turns the rest strand's directions into the current one's: R_0 = root_frame, R_1 is R_0 followed
@@ -53,10 +57,10 @@ std::vector<glm::dmat3> segmentFrames(
 // Thesis eq. 11, one red-black iteration with the frames of its start; Han and Harada 2012.
 void pullToShape(
     Points positions, ConstPoints rest, double stiffness,
-    const glm::dmat3& root_frame = glm::dmat3(1.0));
+    const glm::dmat3& root_frame = glm::dmat3(1.0), Lightness lightness = {});
 
 // Thesis eq. 12, one red-black iteration. Vertices that coincide are parted along +y.
-void projectLengths(Points positions, ConstPoints rest);
+void projectLengths(Points positions, ConstPoints rest, Lightness lightness = {});
 
 // Moves every vertex but the root to the surface of each capsule it is inside of, in the list's
 // order and the margin away from it, the shortest way; from a point on the axis along the
@@ -121,6 +125,8 @@ using PushOut = std::function<glm::dvec3(const glm::dvec3& position, const glm::
 
 struct FtlStep {
     ConstPoints accelerations;  // m/s^2
+    std::span<const glm::dmat3> drag{};  // dragRates() of wind.h; empty: no air
+    ConstPoints air{};  // m/s, where there is drag
     double substep = 0.0;  // s
     double velocity_kept = 1.0;
     double global_stiffness = 0.0;

@@ -10,6 +10,7 @@
 #include <glm/matrix.hpp>
 
 #include "hair/reference/constraints.h"
+#include "hair/reference/wind.h"
 
 namespace hair::reference {
 namespace {
@@ -75,21 +76,26 @@ Joint jointAt(const RodState& state, const RodRest& rest, std::size_t i) {
 // A step's unknowns are rotations of the segments; the vertices follow, so that lengths never
 // change. The step minimises
 //   sum over i of  m_i / (2 h^2) |displacement_i|^2 + j_i / (2 h^2) |rotation_i|^2 + U_i,
-// both from the prediction, U_i the energy of joint i. All of this in N m.
+// both from the prediction, U_i the energy of joint i. All of this in N m. Air that brakes gives
+// the prediction the velocities of vertices that nothing else holds, and |d|^2 becomes d (1 + h K)
+// d.
 struct RodSubstep {
     RodState& state;
     const RodRest& rest;
     double substep;
     std::vector<glm::dvec3> displacements;  // of vertices, m
     std::vector<glm::dvec3> rotations;  // of segments, rad
+    std::vector<glm::dmat3> drag;  // of vertices, 1/s
 
     std::size_t size() const { return rest.lengths.size(); }
-    double massOf(std::size_t i) const {
-        if (!state.pins.contains(i)) return rest.masses[i];
-        return kPinMass * std::accumulate(rest.masses.begin(), rest.masses.end(), 0.0);
+    glm::dmat3 massOf(std::size_t i) const {
+        if (!state.pins.contains(i)) return rest.masses[i] * (glm::dmat3(1.0) + substep * drag[i]);
+        return glm::dmat3(kPinMass * std::accumulate(rest.masses.begin(), rest.masses.end(), 0.0));
     }
 
-    void predict(std::span<const glm::dvec3> accelerations, const RodRoot& root, double kept);
+    void predict(
+        std::span<const glm::dvec3> accelerations, const RodRoot& root, double kept,
+        const RodAir* air);
     void iterate();
     // Turns segments by `turns` and moves the vertices along.
     void turn(std::span<const glm::dvec3> turns);
@@ -97,7 +103,14 @@ struct RodSubstep {
 };
 
 void RodSubstep::predict(
-    std::span<const glm::dvec3> accelerations, const RodRoot& root, double velocity_kept) {
+    std::span<const glm::dvec3> accelerations, const RodRoot& root, double velocity_kept,
+    const RodAir* air) {
+    if (air) {
+        std::vector<glm::dvec3> axes;
+        for (const glm::dquat& orientation : state.orientations)
+            axes.push_back(axisOf(orientation));
+        drag = air->rates(tangentsBetween(axes), state.velocities);
+    }
     const glm::dvec3 root_now = root.rotation * rest.points[0] + root.translation;
     state.velocities[0] = (root_now - state.root) / substep;
     state.root = root_now;
@@ -108,6 +121,8 @@ void RodSubstep::predict(
     std::vector<glm::dvec3> turns{glm::dvec3(0.0)};
     for (std::size_t i = 1; i < size(); ++i) {
         state.velocities[i] = velocity_kept * state.velocities[i] + substep * accelerations[i];
+        if (air)
+            state.velocities[i] = braked(state.velocities[i], drag[i], air->velocities[i], substep);
         state.angular_velocities[i] *= velocity_kept;
         const glm::dvec3 edge = rest.lengths[i] * axisOf(state.orientations[i]);
         stretched += state.edges[i] - edge;
@@ -151,7 +166,7 @@ void RodSubstep::iterate() {
     glm::dvec3 force{0.0};  // through the segment on the vertex where it ends
     Below below;
     for (std::size_t i = size() - 1; i > 0; --i) {
-        const double mass = massOf(i) * per_square;
+        const glm::dmat3 mass = massOf(i) * per_square;
         const double inertia = rest.inertias[i] * per_square;
         const glm::dvec3 axis = axisOf(state.orientations[i]);
         const Joint joint = jointAt(state, rest, i);
@@ -160,7 +175,7 @@ void RodSubstep::iterate() {
         // minimum be a saddle.
         force += mass * displacements[i];
         const double tension = -glm::dot(force, axis);
-        below.A += mass * kIdentity;
+        below.A += mass;
         below.a += mass * displacements[i];
         below.C += inertia * kIdentity + std::max(tension, 0.0) * rest.lengths[i] *
                                              (kIdentity - glm::outerProduct(axis, axis));
@@ -364,15 +379,17 @@ RodState rodFrom(
 
 void stepRod(
     RodState& state, const RodRest& rest, std::span<const glm::dvec3> accelerations,
-    const RodRoot& root, double substep, double velocity_kept, std::uint32_t iterations) {
+    const RodRoot& root, double substep, double velocity_kept, std::uint32_t iterations,
+    const RodAir* air) {
     assert(accelerations.size() == rest.lengths.size());
     RodSubstep step{
         .state = state,
         .rest = rest,
         .substep = substep,
         .displacements = std::vector(rest.lengths.size(), glm::dvec3(0.0)),
-        .rotations = std::vector(rest.lengths.size(), glm::dvec3(0.0))};
-    step.predict(accelerations, root, velocity_kept);
+        .rotations = std::vector(rest.lengths.size(), glm::dvec3(0.0)),
+        .drag = std::vector(rest.lengths.size(), glm::dmat3(0.0))};
+    step.predict(accelerations, root, velocity_kept, air);
     for (std::uint32_t i = 0; i < iterations; ++i) step.iterate();
     step.finish();
 }

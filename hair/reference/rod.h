@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <span>
 #include <vector>
@@ -72,11 +73,21 @@ RodState rodFrom(
     const RodRest& rest, std::span<const glm::dvec3> positions,
     std::span<const glm::dvec3> previous, double substep, const RodRoot& root = {});
 
+// Air round a rod. It accelerates vertices by K (U - v), K of the step's start, v of its end.
+struct RodAir {
+    std::span<const glm::dvec3> velocities;  // U, m/s
+    // K of the vertices with these tangents and velocities, 1/s, symmetric and never negative.
+    std::function<std::vector<glm::dmat3>(
+        std::span<const glm::dvec3> tangents, std::span<const glm::dvec3> velocities)>
+        rates;
+};
+
 // One step under these accelerations of the vertices, m/s^2, with the follicle where `root` has it
-// at the step's end. Velocities are multiplied by `velocity_kept` first.
+// at the step's end, and in this air, if any. Velocities are multiplied by `velocity_kept` first.
 void stepRod(
     RodState& state, const RodRest& rest, std::span<const glm::dvec3> accelerations,
-    const RodRoot& root, double substep, double velocity_kept, std::uint32_t iterations);
+    const RodRoot& root, double substep, double velocity_kept, std::uint32_t iterations,
+    const RodAir* air = nullptr);
 
 // Moves the vertices to `positions`, as collisions do: velocities change by as much, and segments
 // turn along. Lengths come back in the next step.

@@ -9,7 +9,6 @@
 
 #include "hair/reference/hair_hair.h"
 #include "hair/reference/rod.h"
-#include "hair/reference/wind.h"
 #include "hair/simulation/solvers.h"
 
 namespace hair::reference {
@@ -56,9 +55,14 @@ void RodSolver::step(const Substep& substep) {
     RodState& state = states_[substep.strand];
     const RodRest& rest = rests_[substep.strand];
     const std::vector<glm::dvec3> before(substep.positions.begin(), substep.positions.end());
+    RodAir air{.velocities = substep.air, .rates = {}};
+    air.rates = [&](ConstPoints tangents, ConstPoints velocities) {
+        return dragRates(tangents, velocities, substep.air, settings_);
+    };
     stepRod(
         state, rest, substep.accelerations, rootOf(substep.frame), step_.sub,
-        keptFactor(settings_, step_), settings_.rod.iterations);
+        keptFactor(settings_, step_), settings_.rod.iterations,
+        substep.air.empty() ? nullptr : &air);
     std::vector<glm::dvec3> positions = state.positions();
     for (std::size_t i = 1; i < positions.size(); ++i)
         positions[i] = substep.push_out(positions[i], before[i]);
@@ -79,6 +83,22 @@ std::vector<glm::dvec3> moved(ConstPoints points, const simulation::RigidMotion&
     std::vector<glm::dvec3> result;
     for (const glm::dvec3& point : points) result.push_back(motion(point));
     return result;
+}
+
+// Velocities as differences of positions.
+std::vector<glm::dvec3> velocitiesOf(const Substep& substep, const Step& step) {
+    std::vector<glm::dvec3> velocities;
+    for (std::size_t i = 0; i < substep.positions.size(); ++i)
+        velocities.push_back((substep.positions[i] - substep.previous[i]) / step.sub);
+    return velocities;
+}
+
+// Of the strand as the substep starts; empty without air that brakes.
+std::vector<glm::dmat3>
+dragOf(const Substep& substep, const SimulationSettings& settings, const Step& step) {
+    if (substep.air.empty()) return {};
+    return dragRates(
+        tangentsAt(substep.positions), velocitiesOf(substep, step), substep.air, settings);
 }
 
 void pushOutAll(const Substep& substep, ConstPoints before) {
@@ -106,22 +126,33 @@ void stepShape(const Substep& substep, const SimulationSettings& settings, const
     const double local = localFactor(settings, step, length / static_cast<double>(vertices - 1));
 
     const std::vector<glm::dvec3> before(positions.begin(), positions.end());
+    const std::vector<glm::dmat3> drag = dragOf(substep, settings, step);
+    std::vector<double> lightness;
+    for (const glm::dmat3& rate : drag) lightness.push_back(lightnessIn(rate, step.sub));
     substep.previous[0] = positions[0];
     positions[0] = rest[0];
     integrate(
         positions, substep.previous, substep.accelerations, keptFactor(settings, step), step.sub);
-    pullToRest(positions, rest, globalFactor(settings, step));
+    for (std::size_t i = 1; i < drag.size(); ++i)
+        positions[i] = before[i] + step.sub * braked(
+                                                  (positions[i] - before[i]) / step.sub, drag[i],
+                                                  substep.air[i], step.sub);
+    pullToRest(positions, rest, globalFactor(settings, step), lightness);
     for (std::uint32_t i = 0; i < settings.local.iterations; ++i)
-        pullToShape(positions, substep.rest, local, root_frame);
-    for (std::uint32_t i = 0; i < settings.length.iterations; ++i) projectLengths(positions, rest);
+        pullToShape(positions, substep.rest, local, root_frame, lightness);
+    for (std::uint32_t i = 0; i < settings.length.iterations; ++i)
+        projectLengths(positions, rest, lightness);
     pushOutAll(substep, before);
 }
 
 // Follow the leader.
 void stepFtl(const Substep& substep, const SimulationSettings& settings, const Step& step) {
+    const std::vector<glm::dmat3> drag = dragOf(substep, settings, step);
     reference::stepFtl(
         substep.positions, substep.previous, moved(substep.rest, substep.frame),
         {.accelerations = substep.accelerations,
+         .drag = drag,
+         .air = substep.air,
          .substep = step.sub,
          .velocity_kept = keptFactor(settings, step),
          .global_stiffness = globalFactor(settings, step),
@@ -191,12 +222,13 @@ void Reference::setState(
              .previous = ofStrand(previous_, strand),
              .rest = ofStrand(rest_, strand),
              .accelerations = {},
+             .air = {},
              .frame = motion_.at(time()),
              .push_out = {}});
 }
 
 void Reference::step() {
-    advance(airAccelerations(settings_), (steps_ + 1) * step_.whole);
+    advance(airNow(settings_), (steps_ + 1) * step_.whole);
     ++steps_;
 }
 
@@ -204,23 +236,24 @@ void Reference::settle() {
     SimulationSettings calm = settings_;
     calm.wind.strength = 0.0f;
     calm.wind.speed = 0.0f;
-    advance(airAccelerations(calm), time());
+    advance(airNow(calm), time());
 }
 
-std::vector<glm::dvec3> Reference::airAccelerations(const SimulationSettings& settings) const {
-    std::vector<glm::dvec3> accelerations;
+Air Reference::airNow(const SimulationSettings& settings) const {
+    Air air;
     for (std::size_t strand = 0; strand < rest_.size() / vertices_; ++strand) {
-        const auto of_strand = reference::airAccelerations(
-            ofStrand(positions_, strand), ofStrand(previous_, strand), settings, seed_,
-            static_cast<std::uint32_t>(strand), step_, time());
-        accelerations.insert(accelerations.end(), of_strand.begin(), of_strand.end());
+        const Air of_strand = airAt(
+            ofStrand(positions_, strand), settings, seed_, static_cast<std::uint32_t>(strand),
+            time());
+        std::ranges::copy(of_strand.accelerations, std::back_inserter(air.accelerations));
+        std::ranges::copy(of_strand.velocities, std::back_inserter(air.velocities));
     }
-    return accelerations;
+    return air;
 }
 
-void Reference::advance(std::span<const glm::dvec3> wind_accelerations, double then) {
+void Reference::advance(const Air& air, double then) {
     if (!solver_) return;
-    std::vector<glm::dvec3> accelerations(wind_accelerations.begin(), wind_accelerations.end());
+    std::vector<glm::dvec3> accelerations = air.accelerations;
     const std::vector<glm::dvec3> contact_accelerations = reference::volumeAccelerations(
         settings_, {.vertices = vertices_,
                     .rest = rest_,
@@ -255,6 +288,7 @@ void Reference::advance(std::span<const glm::dvec3> wind_accelerations, double t
                  .previous = ofStrand(previous_, strand),
                  .rest = ofStrand(rest_, strand),
                  .accelerations = ofStrand(accelerations, strand),
+                 .air = air.velocities.empty() ? ConstPoints{} : ofStrand(air.velocities, strand),
                  .frame = contact.frame,
                  .push_out = contact});
     }

@@ -11,6 +11,7 @@
 
 #include "hair/groom/groom.h"
 #include "hair/reference/constraints.h"
+#include "hair/reference/wind.h"
 #include "hair/settings.h"
 #include "hair/simulation/head_motion.h"
 
@@ -22,7 +23,8 @@ struct Substep {
     Points positions;
     Points previous;  // becomes the positions before the substep, or what the solver makes of them
     ConstPoints rest;  // where the groom was made, m
-    ConstPoints accelerations;  // of gravity and air, m/s^2
+    ConstPoints accelerations;  // of gravity and all that is held for a whole step, m/s^2
+    ConstPoints air;  // its velocity at the vertices, m/s; empty: it does not brake
     simulation::RigidMotion frame;  // of the head at the substep's end
     // Where a vertex comes to lie that the substep has moved from `before` to `position`.
     std::function<glm::dvec3(const glm::dvec3& position, const glm::dvec3& before)> push_out;
@@ -63,10 +65,10 @@ public:
     std::span<const glm::dvec3> previous() const { return previous_; }
 
 private:
-    // What air does to every vertex now, [strand][vertex], m/s^2.
-    std::vector<glm::dvec3> airAccelerations(const SimulationSettings& settings) const;
+    // What air does to every vertex now, [strand][vertex].
+    Air airNow(const SimulationSettings& settings) const;
     // One step, in which the head goes from where it is now to where it is at the time `then`.
-    void advance(std::span<const glm::dvec3> wind_accelerations, double then);
+    void advance(const Air& air, double then);
 
     template <class Points>
     auto ofStrand(Points& points, std::size_t strand) const {

@@ -5,6 +5,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "hair/random.h"
 #include "hair/reference/constraints.h"
@@ -56,14 +57,6 @@ constexpr double kFolded = 1e-3;
 
 glm::dvec3 unit(const glm::dvec3& edge) {
     return glm::length(edge) < kShortest ? glm::dvec3(0.0) : glm::normalize(edge);
-}
-
-glm::dvec3 tangentAt(ConstPoints positions, std::size_t i) {
-    const glm::dvec3 above = unit(positions[i] - positions[i - 1]);
-    glm::dvec3 below{0.0};
-    if (i + 1 < positions.size()) below = unit(positions[i + 1] - positions[i]);
-    if (glm::length(above + below) < kFolded) return above;
-    return glm::normalize(above + below);
 }
 
 }  // namespace
@@ -174,39 +167,61 @@ dragAcceleration(const WindSettings& settings, const MaterialSettings& material,
     return force / (double{material.density} * std::numbers::pi * radius * radius);
 }
 
-// With the drag at the step's end as that at its start times the ratio of the relative velocities,
-// and velocities across the hair,
-//   v' - v = dt (g + drag(|u|) / |u| (U - v')):
-// an equation for v', of which drag is what gravity leaves.
-std::vector<glm::dvec3> dragAccelerations(
-    ConstPoints positions, ConstPoints previous, const SimulationSettings& settings,
-    std::uint32_t seed, const Step& step, double time) {
-    const double dt = step.whole;
-    std::vector<glm::dvec3> accelerations(positions.size(), glm::dvec3(0.0));
-    for (std::size_t i = 1; i < positions.size(); ++i) {
-        const glm::dvec3 t = tangentAt(positions, i);
-        if (t == glm::dvec3(0.0)) continue;
-        const auto across = [&](const glm::dvec3& v) { return glm::cross(glm::cross(t, v), t); };
-        const glm::dvec3 g = across(settings.gravity);
-        const glm::dvec3 v = across((positions[i] - previous[i]) / step.sub);
-        const glm::dvec3 air = across(airVelocity(settings.wind, seed, positions[i], time));
-        const double speed = glm::length(air - v);
-        if (speed == 0.0) continue;
-        const double k = dragAcceleration(settings.wind, settings.material, speed) / speed;
-        const glm::dvec3 end = (v + dt * g + dt * k * air) / (1.0 + dt * k);
-        accelerations[i] = (end - v) / dt - g;
+std::vector<glm::dvec3> tangentsBetween(ConstPoints directions) {
+    std::vector<glm::dvec3> tangents{glm::dvec3(0.0)};
+    for (std::size_t i = 1; i < directions.size(); ++i) {
+        const glm::dvec3 below = i + 1 < directions.size() ? directions[i + 1] : glm::dvec3(0.0);
+        const glm::dvec3 sum = directions[i] + below;
+        tangents.push_back(glm::length(sum) < kFolded ? directions[i] : glm::normalize(sum));
     }
-    return accelerations;
+    return tangents;
 }
 
-std::vector<glm::dvec3> airAccelerations(
-    ConstPoints positions, ConstPoints previous, const SimulationSettings& settings,
-    std::uint32_t seed, std::uint32_t strand, const Step& step, double time) {
-    if (settings.wind.mode == WindMode::drag)
-        return dragAccelerations(positions, previous, settings, seed, step, time);
+std::vector<glm::dvec3> tangentsAt(ConstPoints positions) {
+    std::vector<glm::dvec3> directions{glm::dvec3(0.0)};
+    for (std::size_t i = 1; i < positions.size(); ++i)
+        directions.push_back(unit(positions[i] - positions[i - 1]));
+    return tangentsBetween(directions);
+}
+
+std::vector<glm::dmat3> dragRates(
+    ConstPoints tangents, ConstPoints velocities, ConstPoints air,
+    const SimulationSettings& settings) {
+    std::vector<glm::dmat3> rates(tangents.size(), glm::dmat3(0.0));
+    for (std::size_t i = 1; i < tangents.size(); ++i) {
+        const glm::dvec3& t = tangents[i];
+        if (t == glm::dvec3(0.0)) continue;
+        const double speed = glm::length(glm::cross(t, air[i] - velocities[i]));
+        if (speed == 0.0) continue;
+        const double k = dragAcceleration(settings.wind, settings.material, speed) / speed;
+        rates[i] = k * (glm::dmat3(1.0) - glm::outerProduct(t, t));
+    }
+    return rates;
+}
+
+glm::dvec3
+braked(const glm::dvec3& velocity, const glm::dmat3& rate, const glm::dvec3& air, double h) {
+    return glm::inverse(glm::dmat3(1.0) + h * rate) * (velocity + h * rate * air);
+}
+
+double lightnessIn(const glm::dmat3& rate, double h) {
+    return 1.0 / (1.0 + h * (rate[0][0] + rate[1][1] + rate[2][2]) / 2.0);
+}
+
+Air airAt(
+    ConstPoints positions, const SimulationSettings& settings, std::uint32_t seed,
+    std::uint32_t strand, double time) {
+    Air air;
+    if (settings.wind.mode == WindMode::drag) {
+        air.accelerations.assign(positions.size(), glm::dvec3(0.0));
+        for (const glm::dvec3& point : positions)
+            air.velocities.push_back(airVelocity(settings.wind, seed, point, time));
+        return air;
+    }
     const double wave = std::sin(double{settings.wind.gust_rate} * time);
-    return windAccelerations(
+    air.accelerations = windAccelerations(
         positions, strandWind(settings.wind, windWeights(seed, strand)), wave * wave + 0.5);
+    return air;
 }
 
 }  // namespace hair::reference

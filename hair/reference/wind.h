@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include "hair/reference/constraints.h"
@@ -45,16 +46,36 @@ airVelocity(const WindSettings& settings, std::uint32_t seed, const glm::dvec3& 
 double
 dragAcceleration(const WindSettings& settings, const MaterialSettings& material, double speed);
 
-// The drag's accelerations for one whole step under gravity and drag, where the vertices' velocity
-// is (positions - previous) / step.sub, m/s. The tangent is halfway between those of the segments
-// at the vertex; that of the segment above where these lie on each other.
-std::vector<glm::dvec3> dragAccelerations(
-    ConstPoints positions, ConstPoints previous, const SimulationSettings& settings,
-    std::uint32_t seed, const Step& step, double time);
+// The tangents at the vertices, between segments of these directions, each a unit vector or 0
+// (entry i is of the one that ends in vertex i): halfway between those of the segments at the
+// vertex; that of the segment above where these lie on each other. 0 where neither has one, and at
+// the root.
+std::vector<glm::dvec3> tangentsBetween(ConstPoints directions);
+// The same of a strand at these positions.
+std::vector<glm::dvec3> tangentsAt(ConstPoints positions);
 
-// windAccelerations or dragAccelerations, as the settings' mode says.
-std::vector<glm::dvec3> airAccelerations(
-    ConstPoints positions, ConstPoints previous, const SimulationSettings& settings,
-    std::uint32_t seed, std::uint32_t strand, const Step& step, double time);
+// What air with the velocity U does to vertices with these tangents and velocities v: K of the
+// acceleration K (U - v), 1/s. Symmetric and never negative, since air brakes across hair alone.
+std::vector<glm::dmat3> dragRates(
+    ConstPoints tangents, ConstPoints velocities, ConstPoints air,
+    const SimulationSettings& settings);
+
+// v' = velocity + h K (air - v'), the end of an implicit step h of a free vertex that all else
+// gives this velocity.
+glm::dvec3
+braked(const glm::dvec3& velocity, const glm::dmat3& rate, const glm::dvec3& air, double h);
+
+// What that leaves of what moves the vertex across its tangent afterwards: 1 / (1 + h k), with k
+// the two equal eigenvalues of K.
+double lightnessIn(const glm::dmat3& rate, double h);
+
+// What air does to a strand during a time step.
+struct Air {
+    std::vector<glm::dvec3> accelerations;  // windAccelerations in thesis mode
+    std::vector<glm::dvec3> velocities;  // airVelocity in drag mode; else empty
+};
+Air airAt(
+    ConstPoints positions, const SimulationSettings& settings, std::uint32_t seed,
+    std::uint32_t strand, double time);
 
 }  // namespace hair::reference

@@ -22,7 +22,8 @@ constexpr std::int64_t kPartsPerStep = 720720;  // the least common multiple of 
 static_assert(sizeof(gpu::Bodies) == 32);
 static_assert(sizeof(gpu::GuideParameters) == 96 && offsetof(gpu::GuideParameters, gravity) == 56);
 static_assert(offsetof(gpu::GuideParameters, step) == 68);
-static_assert(sizeof(gpu::SubstepPush) == 92 && offsetof(gpu::SubstepPush, frame_before) == 60);
+static_assert(sizeof(gpu::SubstepPush) == 108 && offsetof(gpu::SubstepPush, frame_before) == 68);
+static_assert(offsetof(gpu::SubstepPush, drag) == 100);
 
 constexpr std::uint32_t kSettleBatch = 64;  // substeps per submission
 
@@ -264,6 +265,7 @@ void Simulation::recordSubsteps(
         return toGpu(motion_.at(from + part * (to - from)));
     };
     const GuideAddresses guides = addresses();
+    const AirAtGuides air = wind_.air();
     GuideAddresses before = addresses(from_copy);
     for (std::uint32_t i = 0; i < step_.count; ++i) {
         // After the forces, or the substep before.
@@ -274,12 +276,16 @@ void Simulation::recordSubsteps(
              {guides.accelerations, Access::compute_read},
              {guides.positions, Access::compute_write},
              {guides.previous, Access::compute_write}});
+        if (air.velocities) commands.uses({{*air.velocities, Access::compute_read}});
         solver_->record(
             commands, {.guides = guides.parameters,
                        .from = before.parameters,
                        .accelerations = guides.accelerations,
+                       .air = air.velocities ? air.velocities->address() : 0,
                        .frame = frameAfter(i + 1),
-                       .frame_before = frameAfter(i)});
+                       .frame_before = frameAfter(i),
+                       .first_strand = 0,
+                       .drag = air.drag});
         before = guides;
     }
     commands.barrier(

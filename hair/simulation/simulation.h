@@ -80,8 +80,8 @@ public:
     BakedField readField(std::size_t index) const { return bodies_.fields()[index].read(*device_); }
     SettledState readSettled() const;
 
-    // The acceleration that air gives every vertex at the current time. Recorded without wind too,
-    // so that frames with and without do the same work.
+    // What air does to every vertex, by the wind of the current time, until it is recorded again.
+    // Recorded without wind too, so that frames with and without do the same work.
     void recordWind(engine::Commands& commands) const;
 
     // Whether hair acts on hair.
@@ -94,9 +94,9 @@ public:
     // Adds the accelerations of hands that pull now. After recordVolume.
     void recordPulls(engine::Commands& commands) const;
 
-    // One time step under gravity and the accelerations recorded last. Positions are then visible
-    // to compute and to the stages before the rasteriser. A frame's first step goes into the other
-    // copy of the guides, those after it into the same.
+    // One time step under gravity and the air and accelerations recorded last. Positions are then
+    // visible to compute and to the stages before the rasteriser. A frame's first step goes into
+    // the other copy of the guides, those after it into the same.
     void recordStep(engine::Commands& commands, Copy into = Copy::other);
 
     // Simulates steps without wind and hands and waits for them; time stands still.

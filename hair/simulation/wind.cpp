@@ -3,13 +3,15 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <span>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <glm/vec4.hpp>
 
 #include "engine/error.h"
-#include "hair/gpu_structs.h"
 #include "hair/simulation/stiffness.h"
 
 namespace hair::simulation {
@@ -18,11 +20,11 @@ namespace {
 using engine::Access;
 
 static_assert(sizeof(gpu::WindPush) == 68 && offsetof(gpu::WindPush, directions) == 16);
-static_assert(sizeof(gpu::DragPush) == 72 && offsetof(gpu::DragPush, cell) == 32);
+static_assert(sizeof(gpu::AirPush) == 72 && offsetof(gpu::AirPush, cell) == 40);
 
 engine::ComputeDescription pipelineOf(WindMode mode) {
     if (mode == WindMode::drag)
-        return {.shader = "simulation/wind_drag.comp", .push_size = sizeof(gpu::DragPush)};
+        return {.shader = "simulation/air.comp", .push_size = sizeof(gpu::AirPush)};
     return {.shader = "simulation/wind.comp", .push_size = sizeof(gpu::WindPush)};
 }
 
@@ -86,18 +88,31 @@ WindPass::WindPass(
     : settings_(settings.wind), material_(settings.material), vertex_count_(vertex_count),
       pipeline_(device, pipelineOf(settings.wind.mode)) {
     checkWind(settings_);
+    if (settings_.mode == WindMode::drag)
+        air_.emplace(engine::makeBuffer(
+            device, std::span<const glm::vec4>(std::vector<glm::vec4>(vertex_count)), "guide air"));
+}
+
+AirAtGuides WindPass::air() const {
+    if (!air_) return {};
+    const DragFactors factors = dragFactors(settings_, material_);
+    return {
+        .velocities = &*air_,
+        .drag = {
+            .inertial = static_cast<float>(factors.inertial),
+            .viscous = static_cast<float>(factors.viscous)}};
 }
 
 void WindPass::record(engine::Commands& commands, const GuideAddresses& guides, double time) const {
     if (settings_.mode == WindMode::drag)
-        recordDrag(commands, guides, settings_.speed, time);
+        recordAir(commands, guides, settings_.speed, time);
     else
         recordThesis(commands, guides, windMagnitude(settings_, time));
 }
 
 void WindPass::recordCalm(engine::Commands& commands, const GuideAddresses& guides) const {
     if (settings_.mode == WindMode::drag)
-        recordDrag(commands, guides, 0.0, 0.0);
+        recordAir(commands, guides, 0.0, 0.0);
     else
         recordThesis(commands, guides, 0.0);
 }
@@ -122,28 +137,26 @@ void WindPass::recordThesis(
 
 // The mean wind has carried the lattice from its start at the world's origin by speed times time:
 // far, so the distance is divided into cells in double.
-void WindPass::recordDrag(
+void WindPass::recordAir(
     engine::Commands& commands, const GuideAddresses& guides, double speed, double time) const {
     const glm::dvec3 wind = speed > 0.0 ? speed * windDirection(settings_) : glm::dvec3(0.0);
     const double cell = settings_.turbulence_scale;
     const glm::dvec3 origin = -time / cell * wind;
     const glm::dvec3 whole = glm::floor(origin);
-    const DragFactors factors = dragFactors(settings_, material_);
     commands.bind(
-        pipeline_, gpu::DragPush{
+        pipeline_, gpu::AirPush{
                        .guides = guides.parameters,
                        .accelerations = guides.accelerations,
+                       .air = air_->address(),
                        .mean_wind = wind,
                        .fluctuation = static_cast<float>(double{settings_.turbulence} * speed),
                        .cell = cellOf(whole),
                        .fraction = origin - whole,
                        .cells_per_metre = static_cast<float>(1.0 / cell),
-                       .octaves = settings_.turbulence_octaves,
-                       .inertial_drag = static_cast<float>(factors.inertial),
-                       .viscous_drag = static_cast<float>(factors.viscous)});
+                       .octaves = settings_.turbulence_octaves});
     commands.uses(
         {{guides.positions, Access::compute_read},
-         {guides.previous, Access::compute_read},
+         {*air_, Access::compute_write},
          {guides.accelerations, Access::compute_write}});
     commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
 }

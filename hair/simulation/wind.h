@@ -2,11 +2,14 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include <glm/vec3.hpp>
 
+#include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/pipeline.h"
+#include "hair/gpu_structs.h"
 #include "hair/settings.h"
 #include "hair/simulation/guide_view.h"
 
@@ -24,18 +27,25 @@ std::array<glm::dvec3, 4> windCone(const WindSettings& settings);
 // Thesis eq. 13 with simulated time instead of the frame's number: sin^2(gust_rate time) + 0.5.
 double windMagnitude(const WindSettings& settings, double time);
 
-// Air with the velocity u across a hair accelerates it by (inertial |u| + viscous |u|^(1/3)) u.
+// gpu::AirDrag in double.
 struct DragFactors {
-    double inertial;  // rho_air / (pi r rho), 1/m
-    double viscous;   // 10 (mu / (rho_air 2 r))^(2/3) of that, m^(-1/3) s^(-2/3)
+    double inertial;
+    double viscous;
 };
 DragFactors dragFactors(const WindSettings& settings, const MaterialSettings& material);
+
+// The air that brakes guides in every substep of a solver: shaders/simulation/air_drag.glsl.
+struct AirAtGuides {
+    const engine::Buffer* velocities = nullptr;  // vec4 [strand][vertex], m/s; null: none brakes
+    gpu::AirDrag drag{};
+};
 
 // Throws Error for wind in a direction without length.
 void checkWind(const WindSettings& settings);
 
-// The acceleration that air gives every guide vertex, into GuideAddresses::accelerations. It is for
-// a whole time step. The caller orders the work before and after.
+// What air does to every guide vertex in a time step: in thesis mode an acceleration, into
+// GuideAddresses::accelerations; in drag mode there is none, and air() is what solvers brake with.
+// The caller orders the work before and after.
 class WindPass {
 public:
     // Throws what checkWind does.
@@ -48,19 +58,24 @@ public:
 
     void record(engine::Commands& commands, const GuideAddresses& guides, double time) const;
 
-    // The acceleration in air that stands still: none in thesis mode; in drag mode air brakes hair.
+    // The same in air that stands still, where in thesis mode nothing acts.
     void recordCalm(engine::Commands& commands, const GuideAddresses& guides) const;
+
+    // Stands still until something is recorded; of no velocities in thesis mode. Valid as long as
+    // the pass.
+    AirAtGuides air() const;
 
 private:
     void
     recordThesis(engine::Commands& commands, const GuideAddresses& guides, double magnitude) const;
-    void recordDrag(
+    void recordAir(
         engine::Commands& commands, const GuideAddresses& guides, double speed, double time) const;
 
     WindSettings settings_;
     MaterialSettings material_;
     std::uint32_t vertex_count_;
     engine::ComputePipeline pipeline_;
+    std::optional<engine::Buffer> air_;  // in drag mode
 };
 
 }  // namespace hair::simulation

@@ -27,7 +27,7 @@ const uint kRodMisfit = 3u;  // by how much its edge is not its length along its
                              // collisions
 
 // Rows of scratch memory, of the strands of a dispatch.
-const uint kRodScratchRows = 8u;
+const uint kRodScratchRows = 9u;
 
 // Parameters of simulation/rod.comp and simulation/rod_adopt.comp.
 struct RodParameters {

@@ -50,9 +50,9 @@ struct Bodies {
     float friction;  // Coulomb's coefficient
 };
 
-// The fixed step of simulated time, and the substeps that a solver takes in it. Accelerations are
-// worked out at a step's start and held until its end; a velocity is a position less the one a
-// substep earlier, over the substep.
+// The fixed step of simulated time, and the substeps that a solver takes in it. Accelerations
+// and the air's velocity are worked out at a step's start and held until its end; a velocity of a
+// vertex is its position less the one a substep earlier, over the substep.
 struct Step {
     float whole;  // s
     float sub;  // s, whole / count
@@ -74,15 +74,23 @@ struct GuideParameters {
     uint seed;
 };
 
+// Air with the velocity u across a hair accelerates it by (inertial |u| + viscous |u|^(1/3)) u.
+struct AirDrag {
+    float inertial;  // rho_air / (pi r rho), 1/m
+    float viscous;  // 10 (mu / (rho_air 2 r))^(2/3) of that, m^(-1/3) s^(-2/3)
+};
+
 // Push constants of a solver's substep.
 struct SubstepPush {
     Address guides;  // GuideParameters: positions and previous positions are written
     Address from;  // GuideParameters of what the substep starts from; may be `guides`
     Address solver;  // the solver's own parameters
     Address accelerations;  // m/s^2, beside gravity; address 0: none
+    Address air;  // the air's velocity at the vertices, m/s; address 0: it does not brake
     RigidFrame frame;  // of the head at the end of the substep
     RigidFrame frame_before;  // of the head at the start of the substep
     uint first_strand;  // of those that this dispatch moves
+    AirDrag drag;
 };
 
 // Push constants of simulation/wind.comp.
@@ -96,10 +104,11 @@ struct WindPush {
 // Purpose of the random numbers that are the seeds of the turbulence's octaves.
 const uint kTurbulencePurpose = 0x54555242u;
 
-// Push constants of simulation/wind_drag.comp.
-struct DragPush {
+// Push constants of simulation/air.comp.
+struct AirPush {
     Address guides;  // GuideParameters
-    Address accelerations;  // m/s^2, written
+    Address accelerations;  // m/s^2, cleared
+    Address air;  // vec4: velocity of the air, m/s, written
     vec3 mean_wind;  // m/s
     float fluctuation;  // r.m.s. of each component, m/s
     // Where the world's origin is now in the lattice of the largest eddies, which moves with the
@@ -108,8 +117,6 @@ struct DragPush {
     vec3 fraction;  // of the cell, [0, 1)
     float cells_per_metre;
     uint octaves;
-    float inertial_drag;  // 1/m, hair/simulation/wind.h
-    float viscous_drag;  // m^(-1/3) s^(-2/3)
 };
 
 // Push constants of simulation/pull_hold.comp and simulation/pull.comp.

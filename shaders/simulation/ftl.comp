@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "common/rigid_frame.glsl"
+#include "simulation/air_drag.glsl"
 #include "simulation/constraints/bodies.glsl"
 #include "simulation/constraints/follow_leader.glsl"
 #include "simulation/constraints/global.glsl"
@@ -45,8 +46,20 @@ void main() {
             vec3 predicted = integrate(
                 before, previous_before.at[i].xyz, acceleration, guides.velocity_kept,
                 guides.step.sub * guides.step.sub);
-            predicted = pullToRest(
-                predicted, toWorld(push.frame, rest.at[i].xyz), params.global_stiffness);
+            float stiffness = params.global_stiffness;
+            if (push.air != kNoAddress) {
+                vec3 below = vec3(0.0);
+                if (i + 1 < root + guides.vertices_per_strand)
+                    below = directionOf(positions_before.at[i + 1].xyz - before);
+                vec3 tangent = tangentBetween(directionOf(before - leader_before), below);
+                vec3 air = Vectors(push.air).at[i].xyz;
+                vec3 u = air - (before - previous_before.at[i].xyz) / guides.step.sub;
+                float brake = brakeOf(push.drag, tangent, u, guides.step.sub);
+                predicted =
+                    before + braked(predicted - before, guides.step.sub * air, tangent, brake);
+                stiffness = pullOn(stiffness, brake);
+            }
+            predicted = pullToRest(predicted, toWorld(push.frame, rest.at[i].xyz), stiffness);
             float rest_length = distance(rest.at[i].xyz, rest.at[i - 1].xyz);
             point.xyz = followLeader(leader, predicted, rest_length);
             correction = point.xyz - predicted;

@@ -5,6 +5,7 @@
 // rod.h for the rod and for where it comes from, rod_structs.h for the units. Before it:
 // common/vectors.glsl or common/packed_vectors.glsl.
 #include "common/rigid_frame.glsl"
+#include "simulation/air_drag.glsl"
 #include "simulation/constraints/bodies.glsl"
 #include "simulation/rod/joint.glsl"
 #include "simulation/rod/state.glsl"
@@ -42,7 +43,7 @@ uint orientationIndex(uint i) {
 
 // Rows of the scratch memory: 0 to 2 the columns of `by_move` with `by_itself` as the last row, 3
 // to 5 those of `by_turn`, 6 the vertex's displacement and 7 the segment's rotation, both since the
-// prediction.
+// prediction; 8 the tangent that air brakes it across, and by how much: air_drag.glsl.
 uint scratchIndex(uint i, uint row) {
     return rodIndex(i, row, kRodScratchRows, rod.most_strands, strand - push.first_strand);
 }
@@ -66,6 +67,17 @@ vec4 orientationAt(uint i) {
         segmentRow(rod.segments, 0, kRodHalfRotation, guides.strand_count, strand));
 }
 
+// How air brakes a vertex that moves so: the tangent, and brakeOf(). Before the prediction turns
+// the segment that ends there, or the one below.
+vec4 brakeAt(uint i, RodMotion motion) {
+    vec3 tangent = axisOf(motion.orientation);
+    if (i + 1 < guides.vertices_per_strand)
+        tangent = tangentBetween(tangent, axisOf(orientationAt(i + 1)));
+    vec3 air = Vectors(push.air).at[root + i].xyz;
+    vec3 u = air - unit / guides.step.sub * motion.velocity;
+    return vec4(tangent, brakeOf(push.drag, tangent, u, guides.step.sub));
+}
+
 // Velocities with the forces of the substep, and where they would take the strand.
 void predict() {
     State positions = State(from.positions);
@@ -83,7 +95,14 @@ void predict() {
         float len = restLength(i);
         vec3 acceleration = guides.gravity;
         if (push.accelerations != kNoAddress) acceleration += Vectors(push.accelerations).at[root + i].xyz;
+        vec4 brake = vec4(0.0);
+        if (push.air != kNoAddress) brake = brakeAt(i, motion);
         motion.velocity = guides.velocity_kept * motion.velocity + scale * acceleration;
+        if (push.air != kNoAddress) {
+            vec3 air = guides.step.sub / unit * Vectors(push.air).at[root + i].xyz;
+            motion.velocity = braked(motion.velocity, air, brake.xyz, brake.w);
+            setScratch(i, 8, brake);
+        }
         motion.angular_velocity *= guides.velocity_kept;
         moved += gainOf(len * axisOf(motion.orientation), motion.angular_velocity);
         motion.orientation = turned(motion.orientation, motion.angular_velocity);
@@ -123,10 +142,18 @@ void eliminate() {
         float inertia = turning_length * turning_length * turning_length / 12.0;
 
         // Tension straightens: Tournier et al. 2015, Stable constrained dynamics.
-        force += mass * displacement;
-        float straightening = segment.rest_length * max(-force.z, 0.0);
+        vec3 held = mass * displacement;
         A += mat3(mass);
-        a += mass * displacement;
+        if (push.air != kNoAddress && !isPinned(i)) {
+            vec4 brake = scratchAt(i, 8);
+            vec3 tangent = from_space * brake.xyz;
+            float heavier = mass * brake.w;
+            A += heavier * (mat3(1.0) - outerProduct(tangent, tangent));
+            held += heavier * (displacement - dot(tangent, displacement) * tangent);
+        }
+        force += held;
+        float straightening = segment.rest_length * max(-force.z, 0.0);
+        a += held;
         C += mat3(inertia);
         C[0][0] += straightening;
         C[1][1] += straightening;

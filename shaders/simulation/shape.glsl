@@ -13,6 +13,7 @@
 
 #include "common/rigid_frame.glsl"
 #include "shared/options.h"
+#include "simulation/air_drag.glsl"
 #include "simulation/constraints/global.glsl"
 #include "simulation/constraints/length.glsl"
 #include "simulation/constraints/local.glsl"
@@ -44,7 +45,7 @@ uint lane;
 uint chunk;
 // Vertex j of the chunk is points[j + 1]; around them lie the last vertex of the chunk before and
 // the first of the chunk after. Segment j joins points[j] and points[j + 1].
-vec4 points[kVerticesPerChunk + 2];  // w: inverse mass
+vec4 points[kVerticesPerChunk + 2];  // w: inverse mass, less where air brakes
 vec4 rest_edges[kVerticesPerChunk + 1];
 vec3 goal_edges[kVerticesPerChunk + 1];
 
@@ -132,6 +133,18 @@ void project(uint j) {
     if (segmentExists(j)) projectLength(points[j], points[j + 1], rest_edges[j].w);
 }
 
+// The tangent at vertex i of the chunk that starts at `first`, where the substep starts from.
+vec3 tangentAt(GuideParameters from, uint first, uint i) {
+    vec3 point = loadVector(from.positions, first + i).xyz;
+    vec3 above = vec3(0.0);
+    vec3 below = vec3(0.0);
+    if (i > 0 || chunk > 0)
+        above = directionOf(point - loadVector(from.positions, first + i - 1).xyz);
+    if (chunk < kLastChunk || i + 1 < kVerticesInLast)
+        below = directionOf(loadVector(from.positions, first + i + 1).xyz - point);
+    return tangentBetween(above, below);
+}
+
 // What this invocation's vertices start the substep from.
 void load(GuideParameters guides, GuideParameters from, ShapeParameters params, uint first) {
     [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j) {
@@ -146,7 +159,18 @@ void load(GuideParameters guides, GuideParameters from, ShapeParameters params, 
         vec3 moved = integrate(
             point.xyz, previous, acceleration, guides.velocity_kept,
             guides.step.sub * guides.step.sub);
-        if (point.w > 0.0) point.xyz = pullToRest(moved, rest, params.global_stiffness);
+        float stiffness = params.global_stiffness;
+        if (push.air != kNoAddress) {
+            vec3 air = loadVector(push.air, first + j).xyz;
+            vec3 tangent = tangentAt(from, first, j);
+            vec3 u = air - (point.xyz - previous) / guides.step.sub;
+            float brake = brakeOf(push.drag, tangent, u, guides.step.sub);
+            moved = point.xyz +
+                    braked(moved - point.xyz, guides.step.sub * air, tangent, brake);
+            point.w /= 1.0 + brake;
+            stiffness = pullOn(stiffness, brake);
+        }
+        if (point.w > 0.0) point.xyz = pullToRest(moved, rest, stiffness);
         if (j == 0 && chunk == 0) point.xyz = rest;
         points[j + 1] = point;
         rest_edges[j] = loadVector(params.rest_edges, first + j);
@@ -203,7 +227,9 @@ void main() {
     }
 
     [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j)
-        if (present && vertexExists(j)) storeVector(guides.positions, first + j, points[j + 1]);
+        if (present && vertexExists(j))
+            storeVector(
+                guides.positions, first + j, vec4(points[j + 1].xyz, sign(points[j + 1].w)));
     if (kCollides) {
         if (!present) end = first;
         float contact = collide(guides, push.frame, push.frame_before, first, end);

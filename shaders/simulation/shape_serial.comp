@@ -6,6 +6,7 @@
 
 #include "common/rigid_frame.glsl"
 #include "shared/options.h"
+#include "simulation/air_drag.glsl"
 #include "simulation/constraints/global.glsl"
 #include "simulation/constraints/length.glsl"
 #include "simulation/constraints/local.glsl"
@@ -33,8 +34,11 @@ void main() {
     State previous = State(guides.previous);
     Vectors rest_edges = Vectors(params.rest_edges);
 
+    vec3 above = vec3(0.0);  // where the substep starts from
+    float inverse_masses[kVerticesPerStrand];
     for (uint v = 0; v < kVerticesPerStrand; ++v) {
         vec4 point = State(from.positions).at[root + v];
+        float inverse_mass = point.w;
         vec3 before = point.xyz;
         vec3 rest = toWorld(push.frame, Vectors(guides.rest_positions).at[root + v].xyz);
         if (v == 0) {
@@ -43,13 +47,30 @@ void main() {
             vec3 acceleration = guides.gravity;
             if (push.accelerations != kNoAddress)
                 acceleration += Vectors(push.accelerations).at[root + v].xyz;
+            vec3 previous_point = State(from.previous).at[root + v].xyz;
             point.xyz = integrate(
-                before, State(from.previous).at[root + v].xyz, acceleration, guides.velocity_kept,
+                before, previous_point, acceleration, guides.velocity_kept,
                 guides.step.sub * guides.step.sub);
-            point.xyz = pullToRest(point.xyz, rest, params.global_stiffness);
+            float stiffness = params.global_stiffness;
+            if (push.air != kNoAddress) {
+                vec3 below = vec3(0.0);
+                if (v + 1 < kVerticesPerStrand)
+                    below = directionOf(State(from.positions).at[root + v + 1].xyz - before);
+                vec3 tangent = tangentBetween(directionOf(before - above), below);
+                vec3 air = Vectors(push.air).at[root + v].xyz;
+                vec3 u = air - (before - previous_point) / guides.step.sub;
+                float brake = brakeOf(push.drag, tangent, u, guides.step.sub);
+                point.xyz =
+                    before + braked(point.xyz - before, guides.step.sub * air, tangent, brake);
+                inverse_mass /= 1.0 + brake;
+                stiffness = pullOn(stiffness, brake);
+            }
+            point.xyz = pullToRest(point.xyz, rest, stiffness);
         }
         positions.at[root + v] = point;
         previous.at[root + v] = vec4(before, 0.0);
+        inverse_masses[v] = inverse_mass;
+        above = before;
     }
 
     float stiffness = Factors(params.local_stiffness).at[strand];
@@ -68,8 +89,8 @@ void main() {
         }
         for (uint first = 1; first <= 2; ++first) {
             for (uint v = first; v < kVerticesPerStrand; v += 2) {
-                vec4 a = positions.at[root + v - 1];
-                vec4 b = positions.at[root + v];
+                vec4 a = vec4(positions.at[root + v - 1].xyz, inverse_masses[v - 1]);
+                vec4 b = vec4(positions.at[root + v].xyz, inverse_masses[v]);
                 pullToShape(a, b, goal_edges[v], stiffness);
                 positions.at[root + v - 1].xyz = a.xyz;
                 positions.at[root + v].xyz = b.xyz;
@@ -79,8 +100,8 @@ void main() {
     for (uint iteration = 0; iteration < params.length_iterations; ++iteration) {
         for (uint first = 1; first <= 2; ++first) {
             for (uint v = first; v < kVerticesPerStrand; v += 2) {
-                vec4 a = positions.at[root + v - 1];
-                vec4 b = positions.at[root + v];
+                vec4 a = vec4(positions.at[root + v - 1].xyz, inverse_masses[v - 1]);
+                vec4 b = vec4(positions.at[root + v].xyz, inverse_masses[v]);
                 projectLength(a, b, rest_edges.at[root + v].w);
                 positions.at[root + v - 1].xyz = a.xyz;
                 positions.at[root + v].xyz = b.xyz;

@@ -97,6 +97,74 @@ TEST(PhysicsTheory, HangsAnElastica) {
     EXPECT_NEAR(cantileverRatio(1e-3) / (1e-3 / 8.0), 1.0, 1e-4);
 }
 
+// Default hair of 70 um in air: drag over weight is 3.9 at 1 m/s and 47 at 5 m/s, as published to
+// two digits.
+TEST(PhysicsTheory, KnowsTheDragOfAThinCylinder) {
+    hair::SimulationSettings settings = freeHair(hair::Solver::rod);
+    settings.material.radius = 35e-6f;
+    const double weight =
+        lineDensity(settings.material) * glm::length(glm::dvec3(settings.gravity));
+    EXPECT_NEAR(dragPerLength(settings, 1.0) / weight, 3.9, 0.05);
+    EXPECT_NEAR(dragPerLength(settings, 5.0) / weight, 47.0, 0.5);
+    EXPECT_EQ(dragPerLength(settings, 0.0), 0.0);
+    EXPECT_NEAR(dragPerLength(settings, terminalSpeed(settings)) / weight, 1.0, 1e-9);
+}
+
+// A beam under an even load has its tip at w = q L^4 / (8 EI). Its slope is 4/3 (w / L) (1 - (1 -
+// s)^3), so that it is shorter by the integral of half the slope's square, 4/7 w^2 / L. The next
+// order in w / L is less than two of its squares.
+TEST(PhysicsTheory, DragsAStiffRodAsABeamUnderAnEvenLoad) {
+    hair::SimulationSettings settings = freeHair(hair::Solver::rod);
+    settings.gravity = {};
+    const double length = 0.01;
+    for (const double speed : {0.05, 0.2, 0.5}) {
+        const double load = dragPerLength(settings, speed);
+        const double beam =
+            load * std::pow(length, 4.0) / (8.0 * bendingStiffness(settings.material));
+        const glm::dvec2 tip = draggedTip(settings, speed, length);
+        const double slope = beam / length;
+        EXPECT_NEAR(tip.x / beam, 1.0, 2.0 * slope * slope + 1e-6) << speed;
+        EXPECT_NEAR(-tip.y / length, 1.0 - 4.0 / 7.0 * slope * slope, 1e-6 + std::pow(slope, 4.0))
+            << speed;
+    }
+}
+
+// A long heavy hair hangs straight, where the wind across it bears the weight across it:
+// f(U cos theta) = w sin theta. At the clamp it bends there within sqrt(EI / T) with T < w L, which
+// is 1 / sqrt(Gamma) of its length; twice that as the bound.
+TEST(PhysicsTheory, DragsALongRodToTheAngleWhereTheWeightIsBorne) {
+    const hair::SimulationSettings settings = freeHair(hair::Solver::rod);
+    const double speed = 1.0;
+    const double weight = lineDensity(settings.material) * kGravity;
+    double low = 0.0;
+    double high = kPi / 2.0;
+    for (int i = 0; i < 60; ++i) {
+        const double angle = (low + high) / 2.0;
+        const bool lifts =
+            dragPerLength(settings, speed * std::cos(angle)) > weight * std::sin(angle);
+        (lifts ? low : high) = angle;
+    }
+    for (const double gamma : {300.0, 1000.0}) {
+        const double length = lengthOf(settings.material, gamma);
+        const glm::dvec2 tip = draggedTip(settings, speed, length);
+        EXPECT_NEAR(std::atan2(tip.x, -tip.y), low, 2.0 * low / std::sqrt(gamma)) << gamma;
+        EXPECT_NEAR(std::hypot(tip.x, tip.y) / length, 1.0, 2.0 / std::sqrt(gamma)) << gamma;
+    }
+}
+
+// Without weight and viscosity only f L^3 / EI counts: a hair twice as long bends as one in twice
+// the length to the power 3/2 of the wind does.
+TEST(PhysicsTheory, DragsRodsOfTheSameRatioOfWindToStiffnessToTheSameShape) {
+    hair::SimulationSettings settings = freeHair(hair::Solver::rod);
+    settings.gravity = {};
+    settings.wind.air_viscosity = 0.0f;
+    const glm::dvec2 small = draggedTip(settings, 4.0 * std::pow(2.0, 1.5), 0.05) / 0.05;
+    const glm::dvec2 large = draggedTip(settings, 4.0, 0.1) / 0.1;
+    EXPECT_NEAR(small.x, large.x, 1e-6);
+    EXPECT_NEAR(small.y, large.y, 1e-6);
+    EXPECT_GT(small.x, 0.5);
+}
+
 // Two steps by hand: x1 = v h + a h^2, x2 = 2 x1 - x0 + a h^2.
 TEST(PhysicsTheory, FliesLikeVerlet) {
     const glm::dvec3 v{1.0, 2.0, 0.0};

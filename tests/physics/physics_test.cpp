@@ -85,6 +85,18 @@ TEST_F(Physics, RodSwingsAtTheFirstBendingFrequency) {
     expectPass(findings);
 }
 
+TEST_F(Physics, RodRestsInWindLikeAnElastica) {
+    Findings findings("drag_deflection", hair::Solver::rod);
+    checkDragDeflection(device(), hair::Solver::rod, findings);
+    expectPass(findings);
+}
+
+TEST_P(EverySolver, IsBorneByAirAtTheTerminalSpeed) {
+    Findings findings("terminal_speed", solver());
+    checkTerminalSpeed(device(), solver(), findings);
+    expectPass(findings);
+}
+
 TEST_P(EverySolver, LosesEnergyToFriction) {
     Findings findings("energy", solver());
     checkEnergy(device(), solver(), findings);

@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "benchmarks/physics/checks.h"
+#include "benchmarks/physics/experiment.h"
+#include "benchmarks/physics/theory.h"
+
+namespace benchmarks::physics {
+namespace {
+
+// ---- Deflection by wind -------------------------------------------------------------------------
+
+// Hanging hairs of several lengths in a steady wind across them. Nothing but the air brings them to
+// rest, so that no friction of the solver's is in what is measured. Only where theory has them
+// rest: in 8 m/s the elastica's steady state is unstable from some length between 5 and 10 cm on,
+// and hair flutters. docs/physics.md has the growth rates.
+
+constexpr std::uint32_t kWindSegments = 64;
+constexpr std::array kWindLengths = {0.05, 0.1, 0.2};  // m
+struct SteadyWind {
+    double speed;  // m/s
+    std::size_t lengths;  // the first of kWindLengths, which come to rest
+};
+constexpr SteadyWind kSteadyWinds[] = {{0.5, 3}, {2.0, 3}, {8.0, 1}};
+// Time steps, 1/s. `rod` takes substeps of 1/480 s in all but the last.
+constexpr std::array kWindRates = {30.0, 60.0, 480.0, 1920.0};
+constexpr double kWindPatience = 20.0;  // s
+constexpr double kWindStill = 1e-6;  // m in a tenth of a second
+constexpr double kDeflectionTolerance = 0.02;  // of the length, promised of `rod`
+constexpr double kRestTolerance = 0.01;  // of the length, between time steps
+
+hair::groom::Groom hangingHairs(std::span<const double> lengths) {
+    hair::groom::Groom groom = straightStrand(kWindSegments, 1.0, {0.0, -1.0, 0.0});
+    const std::vector<glm::vec3> points = std::move(groom.points);
+    groom.strand_count = static_cast<std::uint32_t>(lengths.size());
+    groom.points.clear();
+    for (const double length : lengths)
+        for (const glm::vec3& point : points)
+            groom.points.push_back(static_cast<float>(length) * point);
+    return groom;
+}
+
+hair::SimulationSettings inWind(hair::Solver solver, double speed) {
+    hair::SimulationSettings settings = freeHair(solver);
+    settings.wind.mode = hair::WindMode::drag;
+    settings.wind.speed = static_cast<float>(speed);
+    return settings;
+}
+
+struct InWind {
+    std::vector<glm::dvec3> tips;  // [strand], m from the root
+    bool still;
+};
+
+InWind restInWind(
+    const engine::Device& device, hair::SimulationSettings settings,
+    std::span<const double> lengths, double time_step) {
+    settings.time_step = static_cast<float>(time_step);
+    Experiment experiment(device, hangingHairs(lengths), settings);
+    InWind rest{.tips = {}, .still = experiment.settle(kWindStill, kWindPatience)};
+    const std::vector<glm::dvec3> points = experiment.positions();
+    for (std::size_t tip = kWindSegments; tip < points.size(); tip += kWindSegments + 1)
+        rest.tips.push_back(points[tip] - points[tip - kWindSegments]);
+    return rest;
+}
+
+}  // namespace
+
+void checkDragDeflection(const engine::Device& device, hair::Solver solver, Findings& findings) {
+    const bool elastic = !lack(solver, Need::material);
+    std::vector<std::vector<double>> rows;
+    for (const auto& [speed, count] : kSteadyWinds) {
+        const auto lengths = std::span(kWindLengths).first(count);
+        const hair::SimulationSettings settings = inWind(solver, speed);
+        std::vector<InWind> rests;
+        for (const double rate : kWindRates)
+            rests.push_back(restInWind(device, settings, lengths, 1.0 / rate));
+        const bool still = std::ranges::all_of(rests, &InWind::still);
+        for (std::size_t strand = 0; strand < count; ++strand) {
+            const double length = lengths[strand];
+            const std::vector<Parameter> parameters{
+                {"wind", speed, "m/s"}, {"length", length, "m"}};
+            double apart = 0.0;
+            for (const InWind& rest : rests)
+                apart = worst(
+                    apart, glm::distance(rest.tips[strand], rests.back().tips[strand]) / length);
+            Outcome& invariance = findings.deviation(
+                {"tip's distance between time steps / length", "1", parameters}, apart,
+                elastic ? std::optional(kRestTolerance) : std::nullopt);
+            if (!still && invariance.reason.empty()) invariance.reason = "still moving after 20 s";
+            if (!elastic) continue;
+            const glm::dvec3 expected(draggedTip(settings, speed, length), 0.0);
+            double off = 0.0;
+            for (std::size_t i = 0; i < rests.size(); ++i) {
+                const glm::dvec3& tip = rests[i].tips[strand];
+                off = worst(off, glm::distance(tip, expected) / length);
+                rows.push_back({speed, length, 1.0 / kWindRates[i], tip.x, expected.x});
+            }
+            Outcome& outcome = findings.deviation(
+                {"tip's distance from the elastica / length", "1", parameters}, off,
+                kDeflectionTolerance);
+            if (!still && outcome.reason.empty()) outcome.reason = "still moving after 20 s";
+        }
+    }
+    if (elastic)
+        findings.curve(
+            "deflection of the tip",
+            {{"wind", "m/s"},
+             {"length", "m"},
+             {"time step", "s"},
+             {"measured", "m"},
+             {"theory", "m"}},
+            std::move(rows));
+}
+
+namespace {
+
+// ---- Terminal speed -----------------------------------------------------------------------------
+
+// A level hair on a head that sinks through still air: where the air bears the weight it stays
+// level, whatever its stiffness; slower it droops, faster it rises. That speed is looked for by
+// the secant through the tip's rise relative to the head at two speeds near it.
+
+constexpr std::uint32_t kSinkingSegments = 32;
+constexpr double kSinkingLength = 0.1;  // m
+constexpr double kSinkingInterval = 0.1;  // of keyframes; the head speeds up during the first, s
+constexpr int kSinkingKeyframes = 6;
+constexpr double kSinkingTime = 0.2;  // s
+constexpr double kSinkingBracket = 0.01;  // of the speed, to both sides
+// The secant is off by a fraction of the bracket's square; the rest is rounding of positions.
+constexpr double kSinkingTolerance = 1e-3;
+
+// How far the tip has risen, m.
+double riseOf(const engine::Device& device, hair::Solver solver, double speed) {
+    hair::SimulationSettings settings = inWind(solver, 0.0);
+    for (int i = 0; i < kSinkingKeyframes; ++i)
+        settings.motion.keyframes.push_back(
+            {.time = static_cast<float>(i * kSinkingInterval),
+             .rotation = {},
+             .translation = glm::dvec3(0.0, -speed * i * kSinkingInterval, 0.0)});
+    const hair::groom::Groom groom =
+        straightStrand(kSinkingSegments, kSinkingLength, {1.0, 0.0, 0.0});
+    Experiment experiment(device, groom, settings);
+    experiment.advance(experiment.stepsIn(kSinkingInterval));
+    const glm::dvec3 velocity(0.0, -speed, 0.0);
+    std::vector<glm::dvec3> points;
+    for (const glm::vec3& point : groom.points)
+        points.push_back(glm::dvec3(point) + kSinkingInterval * velocity);
+    experiment.launch(points, std::vector<glm::dvec3>(points.size(), velocity));
+    experiment.advance(experiment.stepsIn(kSinkingTime));
+    const std::vector<glm::dvec3> after = experiment.positions();
+    return after.back().y - after.front().y;
+}
+
+}  // namespace
+
+void checkTerminalSpeed(const engine::Device& device, hair::Solver solver, Findings& findings) {
+    const double expected = terminalSpeed(inWind(solver, 0.0));
+    const double slow = expected * (1.0 - kSinkingBracket);
+    const double fast = expected * (1.0 + kSinkingBracket);
+    const double droops = riseOf(device, solver, slow);
+    const double rises = riseOf(device, solver, fast);
+    const double level = slow - droops * (fast - slow) / (rises - droops);
+    findings.compare(
+        {"speed at which air bears the weight",
+         "m/s",
+         {{"segments", double{kSinkingSegments}, "count"}, {"length", kSinkingLength, "m"}}},
+        level, expected, kSinkingTolerance);
+}
+
+}  // namespace benchmarks::physics
