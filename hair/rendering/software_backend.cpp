@@ -134,8 +134,7 @@ SoftwareBackend::SoftwareBackend(const BackendContext& context)
       samples_(softwareBuffer(context.device, kSampleBytes * sampleCount(target_), "samples")),
       counts_(softwareBuffer(context.device, sizeof(gpu::PieceCounts), "counts")),
       list_(softwareBuffer(
-          context.device, sizeof(std::uint32_t) * points_.strandCount() * pieces_per_strand_,
-          "list")),
+          context.device, sizeof(std::uint32_t) * blocks_ * block_ * pieces_per_strand_, "list")),
       large_(softwareBuffer(
           context.device, sizeof(std::uint32_t) * gpu::kMostLargePieces, "large pieces")),
       tiles_(softwareBuffer(

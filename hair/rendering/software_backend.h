@@ -65,7 +65,9 @@ private:
     engine::Buffer samples_;
     engine::Buffer colors_;  // empty without linear light
     engine::Buffer counts_;  // gpu::PieceCounts
-    engine::Buffer list_;  // pieces that may be seen, of the first strands and then of the others
+    // Pieces that may be seen, of the first strands and then of the others. It has room for whole
+    // blocks: the last one, of fewer strands, may be among the first.
+    engine::Buffer list_;
     engine::Buffer large_;  // pieces with many samples
     engine::Buffer tiles_;
     engine::Buffer windows_;

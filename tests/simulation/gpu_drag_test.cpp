@@ -74,8 +74,8 @@ protected:
 
 // Also when the wind has blown for so long that it has carried more than 2^32 cells past. A place
 // in cells is rounded twice in float, within a metre and a cell, and once in double with the way
-// that the wind has gone. The derivative of four octaves of noise is 24 to 30 in the mean of
-// squares, and their sums are rounded some 16 times.
+// that the wind has gone. The derivative of four octaves of noise is some tens, by the smallest
+// cells, and their sums are rounded some 16 times.
 TEST_F(GpuDrag, BlowsLikeTheReferenceAtAnyTime) {
     const groom::Groom groom = wavyGroom(40, 8);
     for (const float scale : {10.0f, 0.5f, 0.1f})
