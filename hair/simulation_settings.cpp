@@ -26,7 +26,17 @@ const Table& tableOf(const LocalSettings*) {
 const Table& tableOf(const LengthSettings*) {
     using S = LengthSettings;
     static const Table table = tableWith<S>(
-        {number("iterations", &S::iterations, 0, 256, "count", "red-black iterations per step")});
+        {choice(
+             "method", &S::method,
+             {{LengthMethod::tridiagonal, "tridiagonal"}, {LengthMethod::iterate, "iterate"}},
+             "how `shape` keeps lengths. tridiagonal: direct solves along the strand, exact after "
+             "every pass; iterate: the thesis's, one segment after the other, which stretches "
+             "under "
+             "load, the more the more vertices there are"),
+         number(
+             "iterations", &S::iterations, 0, 256, "count",
+             "per step: passes of `tridiagonal`, red-black iterations of `iterate` (the thesis has "
+             "5); 0: lengths are free")});
     return table;
 }
 

@@ -27,9 +27,13 @@ struct LocalSettings {
 
 const Table& tableOf(const LocalSettings*);
 
-// Thesis equation (12); Mueller et al. 2007, Position based dynamics.
+// tridiagonal: all of a strand's segments at once; simulation/constraints/length.glsl. iterate:
+// thesis equation (12), one segment after the other; Mueller et al. 2007, Position based dynamics.
+enum class LengthMethod { tridiagonal, iterate };
+
 struct LengthSettings {
-    std::uint32_t iterations = 5;
+    LengthMethod method = LengthMethod::tridiagonal;
+    std::uint32_t iterations = 2;
 };
 
 const Table& tableOf(const LengthSettings*);

@@ -130,10 +130,6 @@ namespace {
 // the clamp, a thousandth of its length.
 constexpr double kChainGamma = 1e6;
 
-// Enough for 64 segments at steps of a millisecond: their period is then what theory says of 64
-// masses to 0.1 %. check_chains.cpp says why more is worse.
-constexpr std::uint32_t kChainIterations = 64;
-
 struct Lack {
     hair::Solver solver;
     Need need;
@@ -178,7 +174,6 @@ hair::SimulationSettings freeHair(hair::Solver solver) {
 hair::SimulationSettings chain(hair::Solver solver, double length) {
     hair::SimulationSettings settings = freeHair(solver);
     settings.local = {.stiffness = 0.0f, .iterations = 0};
-    settings.length.iterations = kChainIterations;
     const double softer = gammaOf(settings.material, length) / kChainGamma;
     settings.material.youngs_modulus *= static_cast<float>(softer);
     settings.material.shear_modulus *= static_cast<float>(softer);

@@ -149,27 +149,107 @@ void projectLengths(Points positions, ConstPoints rest, Lightness lightness) {
     });
 }
 
+void solveLengths(
+    Points positions, ConstPoints rest, std::uint32_t passes, Lightness lightness,
+    std::span<const Pushed> met) {
+    if (passes == 0) return;
+    const std::size_t count = positions.size();
+    const std::vector<glm::dvec3> predicted(positions.begin(), positions.end());
+    std::vector<glm::dvec3> directions(count, glm::dvec3(0.0));  // of segments
+    const auto metAt = [&](std::size_t i) { return met.empty() ? Pushed{} : met[i]; };
+    // Of a vertex on a body: across it 0.01 of its mass's yielding, along it 1 less 0.99 of the
+    // share that friction holds.
+    const auto light = [&](std::size_t i) {
+        return (1.0 - 0.99 * metAt(i).held) * weight(i) * leftOf(lightness, i);
+    };
+    const auto restLength = [&](std::size_t i) { return glm::distance(rest[i], rest[i - 1]); };
+    // By how much vertex i moves along b for a force along a whose angle has this cosine.
+    const auto yields = [&](std::size_t i, const glm::dvec3& a, const glm::dvec3& b,
+                            double cosine) {
+        if (!metAt(i).touches) return light(i) * cosine;
+        const glm::dvec3 n = metAt(i).normal;
+        const double across = 0.01 * weight(i) * leftOf(lightness, i);
+        return light(i) * cosine - (light(i) - across) * glm::dot(a, n) * glm::dot(n, b);
+    };
+    const auto place = [&](std::size_t i, const glm::dvec3& wanted) {
+        const glm::dvec3 edge = wanted - positions[i - 1];
+        const double length = glm::length(edge);
+        directions[i] = length < kShortest ? glm::dvec3{0.0, 1.0, 0.0} : edge / length;
+        glm::dvec3& d = directions[i];
+        const glm::dvec3 n = metAt(i).normal;
+        double height = metAt(i).height - glm::dot(n, positions[i - 1]);
+        height /= std::fmax(restLength(i), kShortest);
+        if (n != glm::dvec3(0.0) && glm::dot(n, d) < height) {
+            height = std::clamp(height, -1.0, 1.0);
+            const glm::dvec3 across = d - glm::dot(d, n) * n;
+            const double sine = std::sqrt(std::fmax(1.0 - height * height, 0.01));
+            d = glm::normalize(height * n + sine / std::fmax(glm::length(across), 0.05) * across);
+        }
+        if (restLength(i) < kShortest) d = directions[i - 1];
+        positions[i] = positions[i - 1] + restLength(i) * directions[i];
+    };
+    for (std::size_t i = 1; i < count; ++i) place(i, predicted[i]);
+
+    std::vector<double> stretches(count), diagonal(count), beside(count), densities(count + 1);
+    std::vector<glm::dvec3> pulls(count);
+    for (std::uint32_t pass = 0; pass < passes; ++pass) {
+        // The tensions, one row after the other from the tip up: beside[i] is between i and i + 1.
+        for (std::size_t i = 1; i < count; ++i) {
+            const glm::dvec3& d = directions[i];
+            diagonal[i] = yields(i - 1, d, d, 1.0) + yields(i, d, d, 1.0);
+            if (i + 1 < count)
+                beside[i] = -yields(i, d, directions[i + 1], glm::dot(d, directions[i + 1]));
+            stretches[i] = glm::dot(directions[i], predicted[i] - predicted[i - 1]) - restLength(i);
+        }
+        for (std::size_t i = count - 1; i > 1; --i) {
+            const double factor = beside[i - 1] / diagonal[i];
+            diagonal[i - 1] -= factor * beside[i - 1];
+            stretches[i - 1] -= factor * stretches[i];
+        }
+        double tension = 0.0;
+        for (std::size_t i = 1; i < count; ++i) {
+            tension = (stretches[i] - (i > 1 ? beside[i - 1] : 0.0) * tension) / diagonal[i];
+            densities[i] = std::max(
+                tension / std::max(restLength(i), kShortest), -0.2 / (light(i - 1) + light(i)));
+        }
+        // The places, each by those above it.
+        for (std::size_t i = count - 1; i > 0; --i) {
+            diagonal[i] = 1.0 / light(i) + densities[i] + densities[i + 1];
+            pulls[i] = predicted[i] / light(i);
+            if (i + 1 == count) continue;
+            const double factor = densities[i + 1] / diagonal[i + 1];
+            diagonal[i] -= factor * densities[i + 1];
+            pulls[i] += factor * pulls[i + 1];
+        }
+        for (std::size_t i = 1; i < count; ++i)
+            place(i, (pulls[i] + densities[i] * positions[i - 1]) / diagonal[i]);
+    }
+}
+
+CapsuleGap capsuleGap(const glm::dvec3& point, const Collider& collider, double margin) {
+    const glm::dvec3 a = collider.a;
+    const glm::dvec3 axis = glm::dvec3(collider.b) - a;
+    double along = 0.0;
+    if (glm::dot(axis, axis) > 0.0)
+        along = std::clamp(glm::dot(point - a, axis) / glm::dot(axis, axis), 0.0, 1.0);
+    const glm::dvec3 nearest = a + along * axis;
+    const double distance = glm::distance(point, nearest);
+    return {
+        .gap = distance - double{collider.radius} - margin,
+        .normal = distance < kShortest ? sideways(axis) : (point - nearest) / distance};
+}
+
 void pushOut(
     Points positions, ConstPoints before, std::span<const Collider> colliders,
     const CollisionSettings& settings) {
     for (std::size_t i = 1; i < positions.size(); ++i) {
         for (const Collider& capsule : colliders) {
-            const glm::dvec3 a = capsule.a;
-            const glm::dvec3 axis = glm::dvec3(capsule.b) - a;
-            double along = 0.0;
-            if (glm::dot(axis, axis) > 0.0)
-                along =
-                    std::clamp(glm::dot(positions[i] - a, axis) / glm::dot(axis, axis), 0.0, 1.0);
-            const glm::dvec3 nearest = a + along * axis;
-            const double distance = glm::distance(positions[i], nearest);
-            const double radius = double{capsule.radius} + double{settings.margin};
-            if (distance >= radius) continue;
-            const glm::dvec3 normal =
-                distance < kShortest ? sideways(axis) : (positions[i] - nearest) / distance;
-            positions[i] = nearest + radius * normal;
+            const auto [gap, normal] = capsuleGap(positions[i], capsule, double{settings.margin});
+            if (gap >= 0.0) continue;
+            positions[i] -= gap * normal;
             const glm::dvec3 moved = positions[i] - before[i];
             const glm::dvec3 slid = moved - glm::dot(moved, normal) * normal;
-            const double held = double{settings.friction} * (radius - distance);
+            const double held = double{settings.friction} * -gap;
             if (const double length = glm::length(slid); length > 0.0)
                 positions[i] -= std::min(1.0, held / length) * slid;
         }
@@ -230,7 +310,7 @@ void stepFtl(
         const glm::dvec3 projected =
             positions[i - 1] + glm::distance(rest[i], rest[i - 1]) * direction;
         corrections[i] = projected - p;
-        positions[i] = push_out(projected, start[i]);
+        positions[i] = push_out(projected, start[i]).position;
     }
 
     previous[0] = start[0];

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -62,6 +64,21 @@ void pullToShape(
 // Thesis eq. 12, one red-black iteration. Vertices that coincide are parted along +y.
 void projectLengths(Points positions, ConstPoints rest, Lightness lightness = {});
 
+// The nearest positions, in the metric of the masses, whose segments have their rest lengths, by so
+// many passes of simulation/constraints/length.glsl, where the equations are. Zero: as they are.
+// `met`: what bodies did to each vertex; empty: there are none.
+struct Pushed;
+void solveLengths(
+    Points positions, ConstPoints rest, std::uint32_t passes, Lightness lightness = {},
+    std::span<const Pushed> met = {});
+
+// Of a capsule and the margin round it.
+struct CapsuleGap {
+    double gap;  // from it to a point; negative inside
+    glm::dvec3 normal;  // unit, away from the axis
+};
+CapsuleGap capsuleGap(const glm::dvec3& point, const Collider& collider, double margin);
+
 // Moves every vertex but the root to the surface of each capsule it is inside of, in the list's
 // order and the margin away from it, the shortest way; from a point on the axis along the
 // perpendicular described above. Friction then takes back what the vertex moved along the surface
@@ -71,6 +88,18 @@ void pushOut(
     Points positions, ConstPoints before, std::span<const Collider> colliders,
     const CollisionSettings& settings);
 
+// Where bodies leave a vertex: with the tangent plane of the last that it touches, else of the
+// nearest.
+struct Pushed {
+    glm::dvec3 position;
+    glm::dvec3 normal{0.0};  // outward; 0 where there is no body
+    double height = 0.0;  // of the plane along the normal
+    bool touches = false;
+    double held = 0.0;  // share of its motion along the surface that friction takes back
+};
+// For a vertex that has moved from `before` to `position`.
+using PushOut = std::function<Pushed(const glm::dvec3& position, const glm::dvec3& before)>;
+
 // Contact of one vertex with every capsule, one after the other, each in the frame that it moves
 // with: what slides on it is the motion relative to it.
 struct Contact {
@@ -79,19 +108,37 @@ struct Contact {
     simulation::RigidMotion frame_before;  // of the head at its start
 
     // Where the vertex comes to lie that has moved from `before` to `position`.
-    glm::dvec3 operator()(glm::dvec3 position, const glm::dvec3& before) const {
+    Pushed operator()(const glm::dvec3& position, const glm::dvec3& before) const {
+        Pushed pushed{.position = position};
+        double nearest = std::numeric_limits<double>::infinity();
         for (const Collider& collider : settings.colliders) {
             const bool on_head = collider.follows == Follows::head;
             const simulation::RigidMotion now = on_head ? frame : simulation::RigidMotion{};
             const simulation::RigidMotion then = on_head ? frame_before : simulation::RigidMotion{};
+            const CapsuleGap surface = capsuleGap(
+                seenFrom(now, pushed.position), collider, double{settings.collision.margin});
+            if (surface.gap >= nearest) continue;
+            nearest = std::fmax(surface.gap, 0.0);
+            pushed.normal = now.rotation * surface.normal;
+            pushed.height = glm::dot(pushed.normal, pushed.position) - surface.gap;
+            if (surface.gap >= 0.0) continue;
             // pushOut leaves the root alone, so the vertex is a strand's second.
-            glm::dvec3 here[2] = {glm::dvec3(0.0), seenFrom(now, position)};
+            glm::dvec3 here[2] = {glm::dvec3(0.0), seenFrom(now, pushed.position)};
             const glm::dvec3 there[2] = {glm::dvec3(0.0), seenFrom(then, before)};
-            const glm::dvec3 free = here[1];
             pushOut(here, there, std::span(&collider, 1), settings.collision);
-            if (here[1] != free) position = now(here[1]);
+            const glm::dvec3 pushed_from = pushed.position;
+            pushed.position = now(here[1]);
+            glm::dvec3 free[2] = {glm::dvec3(0.0), seenFrom(now, pushed_from)};
+            CollisionSettings frictionless = settings.collision;
+            frictionless.friction = 0.0f;
+            pushOut(free, there, std::span(&collider, 1), frictionless);
+            const glm::dvec3 moved = free[1] - there[1];
+            const double slid =
+                glm::length(moved - glm::dot(moved, surface.normal) * surface.normal);
+            pushed.touches = true;
+            pushed.held = slid > 0.0 ? glm::distance(free[1], here[1]) / slid : 1.0;
         }
-        return position;
+        return pushed;
     }
 
     static glm::dvec3 seenFrom(const simulation::RigidMotion& motion, const glm::dvec3& point) {
@@ -119,9 +166,6 @@ double keptFactor(const SimulationSettings& settings, const Step& step);
 double globalFactor(const SimulationSettings& settings, const Step& step);
 // k_L of thesis eq. 11 for an iteration on a strand with this mean segment length, m.
 double localFactor(const SimulationSettings& settings, const Step& step, double segment_length);
-
-// Where a vertex comes to lie that has moved from `before` to `position`.
-using PushOut = std::function<glm::dvec3(const glm::dvec3& position, const glm::dvec3& before)>;
 
 struct FtlStep {
     ConstPoints accelerations;  // m/s^2

@@ -65,7 +65,7 @@ void RodSolver::step(const Substep& substep) {
         substep.air.empty() ? nullptr : &air);
     std::vector<glm::dvec3> positions = state.positions();
     for (std::size_t i = 1; i < positions.size(); ++i)
-        positions[i] = substep.push_out(positions[i], before[i]);
+        positions[i] = substep.push_out(positions[i], before[i]).position;
     pushRod(state, rest, positions, step_.sub);
     std::ranges::copy(before, substep.previous.begin());
     std::ranges::copy(positions, substep.positions.begin());
@@ -99,11 +99,6 @@ dragOf(const Substep& substep, const SimulationSettings& settings, const Step& s
     if (substep.air.empty()) return {};
     return dragRates(
         tangentsAt(substep.positions), velocitiesOf(substep, step), substep.air, settings);
-}
-
-void pushOutAll(const Substep& substep, ConstPoints before) {
-    for (std::size_t i = 1; i < before.size(); ++i)
-        substep.positions[i] = substep.push_out(substep.positions[i], before[i]);
 }
 
 // `none`: the head carries every vertex.
@@ -140,9 +135,21 @@ void stepShape(const Substep& substep, const SimulationSettings& settings, const
     pullToRest(positions, rest, globalFactor(settings, step), lightness);
     for (std::uint32_t i = 0; i < settings.local.iterations; ++i)
         pullToShape(positions, substep.rest, local, root_frame, lightness);
-    for (std::uint32_t i = 0; i < settings.length.iterations; ++i)
-        projectLengths(positions, rest, lightness);
-    pushOutAll(substep, before);
+    if (settings.length.method == LengthMethod::tridiagonal)
+        solveLengths(positions, rest, settings.length.iterations, lightness);
+    else
+        for (std::uint32_t i = 0; i < settings.length.iterations; ++i)
+            projectLengths(positions, rest, lightness);
+
+    // Bodies come between lengths and lengths: one pass more where the strand touches one.
+    std::vector<Pushed> met(vertices);
+    for (std::size_t i = 1; i < vertices; ++i) {
+        met[i] = substep.push_out(positions[i], before[i]);
+        positions[i] = met[i].position;
+    }
+    if (std::ranges::any_of(met, &Pushed::touches) &&
+        settings.length.method == LengthMethod::tridiagonal && settings.length.iterations > 0)
+        solveLengths(positions, rest, 1, lightness, met);
 }
 
 // Follow the leader.

@@ -27,7 +27,7 @@ struct Substep {
     ConstPoints air;  // its velocity at the vertices, m/s; empty: it does not brake
     simulation::RigidMotion frame;  // of the head at the substep's end
     // Where a vertex comes to lie that the substep has moved from `before` to `position`.
-    std::function<glm::dvec3(const glm::dvec3& position, const glm::dvec3& before)> push_out;
+    PushOut push_out;
 };
 
 // What moves the strands of a Reference, as GuideSolver moves those of a Simulation.

@@ -104,11 +104,13 @@ ShapePlan planShape(
     const engine::DeviceInfo& device, const SimulationSettings& settings,
     std::uint32_t strand_count, std::uint32_t vertices_per_strand) {
     const bool collides = !settings.colliders.empty() || !settings.distance_fields.empty();
+    const bool tridiagonal = settings.length.method == LengthMethod::tridiagonal;
     if (settings.parallelism == Parallelism::serial)
         return {
             .shader = "simulation/shape_serial.comp",
             .constants =
                 {{gpu::kShapeGroupSizeConstant, kGroup},
+                 {gpu::kShapeTridiagonalConstant, tridiagonal},
                  {gpu::kShapeVerticesPerStrandConstant, vertices_per_strand}},
             .collides = collides,
             .strands_per_group = kGroup};
@@ -133,6 +135,7 @@ ShapePlan planShape(
                       : "simulation/shape.comp",
         .constants =
             {{gpu::kShapeGroupSizeConstant, strands * chunks},
+             {gpu::kShapeTridiagonalConstant, tridiagonal},
              {gpu::kShapeVerticesPerStrandConstant, vertices_per_strand},
              {gpu::kShapeVerticesPerChunkConstant, per_chunk}},
         .collides = collides,

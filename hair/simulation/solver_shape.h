@@ -19,7 +19,7 @@ struct ShapePlan {
 };
 
 // The thesis's solver: Verlet, then global, local (Han and Harada 2012) and length constraints
-// (thesis section 3).
+// (thesis section 3), lengths by direct solves unless its iterations are asked for.
 class ShapeSolver : public GuideSolver {
 public:
     // Throws Unsupported for strands with more vertices than the device has invocations in a

@@ -124,6 +124,7 @@ const uint kResolveGroupSide = 8u;
 const uint kShapeGroupSizeConstant = 0u;
 const uint kShapeVerticesPerStrandConstant = 1u;
 const uint kShapeCollidesConstant = 2u;
-const uint kShapeVerticesPerChunkConstant = 3u;
+const uint kShapeTridiagonalConstant = 3u;  // lengths by walkDown() and walkUp()
+const uint kShapeVerticesPerChunkConstant = 4u;
 
 #endif

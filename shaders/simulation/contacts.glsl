@@ -4,25 +4,28 @@
 #include "simulation/constraints/bodies.glsl"
 #include "simulation/guides.glsl"
 
-// Pushes successive vertices of a strand, [first, end), out of bodies and marks contact. The
-// invocation has stored their positions, and in `previous` those before the substep. Returns 1
-// where any touched a body, else 0. A plain loop: collisions are too long to unroll, and come once
-// in a substep.
-float collide(
-    GuideParameters guides, RigidFrame frame, RigidFrame frame_before, uint first, uint end) {
-    float contact = 0.0;
-    for (uint i = first; i < end; ++i) {
-        vec4 point = State(guides.positions).at[i];
-        vec3 before = State(guides.previous).at[i].xyz;
-        bool touched = false;
-        if (point.w > 0.0)
-            point.xyz = pushOutOfBodies(
-                point.xyz, before, guides.bodies, frame, frame_before, touched);
-        if (touched) contact = 1.0;
-        State(guides.positions).at[i] = point;
-        State(guides.previous).at[i].w = contact;
-    }
-    return contact;
+// A vertex among bodies.
+struct Met {
+    vec4 plane;  // bodies.glsl; 0 where there is none
+    float held;  // share of its motion that friction takes back, or kTouchesNone
+};
+
+// Takes a vertex of a strand out of bodies and marks contact: `contact` is 1 where any above
+// touched a body, else 0. The invocation has stored its position, and in `previous` that before the
+// substep.
+Met collide(
+    GuideParameters guides, RigidFrame frame, RigidFrame frame_before, uint vertex,
+    inout float contact) {
+    vec4 point = State(guides.positions).at[vertex];
+    vec3 before = State(guides.previous).at[vertex].xyz;
+    Met met = Met(vec4(0.0), kTouchesNone);
+    if (point.w > 0.0)
+        point.xyz = pushOutOfBodies(
+            point.xyz, before, guides.bodies, frame, frame_before, met.plane, met.held);
+    if (met.held != kTouchesNone) contact = 1.0;
+    State(guides.positions).at[vertex] = point;
+    State(guides.previous).at[vertex].w = contact;
+    return met;
 }
 
 #endif

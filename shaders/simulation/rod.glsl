@@ -238,10 +238,11 @@ void finish() {
         vec3 pushed = vec3(0.0);
         if (!isPinned(i)) {
             vec3 free = root_now + unit * edges;
-            bool touched = false;
+            vec4 plane;
+            float share;
             vec3 held = pushOutOfBodies(
-                free, before, guides.bodies, push.frame, push.frame_before, touched);
-            if (touched) {
+                free, before, guides.bodies, push.frame, push.frame_before, plane, share);
+            if (share != kTouchesNone) {
                 contact = 1.0;
                 pushed = (held - free) / unit;
             }

@@ -27,6 +27,7 @@ layout(local_size_x_id = kShapeGroupSizeConstant) in;
 layout(constant_id = kShapeVerticesPerStrandConstant) const uint kVerticesPerStrand = 8;
 // Whether there are bodies.
 layout(constant_id = kShapeCollidesConstant) const bool kCollides = true;
+layout(constant_id = kShapeTridiagonalConstant) const bool kTridiagonal = true;
 // The number is even where a strand has more than one chunk, so that all segments between chunks
 // are black.
 layout(constant_id = kShapeVerticesPerChunkConstant) const uint kVerticesPerChunk = 8;
@@ -133,6 +134,87 @@ void project(uint j) {
     if (segmentExists(j)) projectLength(points[j], points[j + 1], rest_edges[j].w);
 }
 
+// The lengths' systems. Where a strand has several chunks they walk one after the other, down
+// through rotations[] and firsts[0], up through tangents[] and contacts[].
+LengthRow rows[kVerticesPerChunk];
+
+void walkDownChunk(bool last, bool planes) {
+    LengthsAbove above = aboveAll(points[1].xyz);
+    if (kChunks > 1 && chunk > 0) {
+        vec4 place = rotations[0][lane - kStrandsPerGroup];
+        vec4 direction = rotations[1][lane - kStrandsPerGroup];
+        vec4 surface = firsts[0][lane - kStrandsPerGroup];
+        above = LengthsAbove(
+            place.xyz, direction.xyz, surface.xyz, surface.w, place.w, direction.w);
+    }
+    [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j) {
+        if (!segmentExists(j)) continue;
+        float rest_length = rest_edges[j].w;
+        if (last) {
+            walkPlace(above.place, above.direction, rows[j], points[j + 1], rest_length, planes);
+            points[j + 1].xyz = above.place;
+        } else {
+            walkDown(above, rows[j], points[j], points[j + 1], rest_length, planes);
+        }
+    }
+    if (kChunks == 1) return;
+    rotations[0][lane] = vec4(above.place, above.yield);
+    rotations[1][lane] = vec4(above.direction, above.tension);
+    firsts[0][lane] = vec4(above.normal, above.held);
+}
+
+void walkUpChunk() {
+    LengthsBelow below = LengthsBelow(vec3(0.0), 0.0, 0.0);
+    if (kChunks > 1 && chunk < kLastChunk) {
+        vec4 pull = tangents[lane + kStrandsPerGroup];
+        below = LengthsBelow(pull.xyz, pull.w, contacts[lane + kStrandsPerGroup]);
+    }
+    [[unroll]] for (uint up = 0; up < kVerticesPerChunk; ++up) {
+        uint j = kVerticesPerChunk - 1 - up;
+        if (segmentExists(j))
+            walkUp(below, rows[j], points[j], points[j + 1], rest_edges[j].w);
+    }
+    if (kChunks == 1) return;
+    tangents[lane] = vec4(below.pull, below.hold);
+    contacts[lane] = below.tension;
+}
+
+void walkDownChunks(bool last, bool planes) {
+    for (uint walking = 0; walking < kChunks; ++walking) {
+        if (kChunks == 1 || chunk == walking) walkDownChunk(last, planes);
+        if (kChunks > 1) barrier();
+    }
+}
+
+void walkUpChunks() {
+    for (uint waiting = kChunks; waiting > 0; --waiting) {
+        if (kChunks == 1 || chunk == waiting - 1) walkUpChunk();
+        if (kChunks > 1) barrier();
+    }
+}
+
+// `met`: what bodies did, where `planes`.
+void solveLengths(uint passes, bool planes, Met met[kVerticesPerChunk]) {
+    if (passes == 0) return;
+    meetNeighbours();
+    if (kChunks > 1) barrier();  // firsts[] is used again
+    [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j)
+        rows[j] = lengthRow(
+            points[j + 1], planes ? met[j].plane : vec4(0.0),
+            planes ? heldAcross(met[j].held) : 0.0);
+    for (uint pass = 0; pass < passes; ++pass) {
+        walkDownChunks(false, planes);
+        walkUpChunks();
+    }
+    walkDownChunks(true, planes);
+}
+
+void storePositions(Address positions, uint first) {
+    [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j)
+        if (vertexExists(j))
+            storeVector(positions, first + j, vec4(points[j + 1].xyz, sign(points[j + 1].w)));
+}
+
 // The tangent at vertex i of the chunk that starts at `first`, where the substep starts from.
 vec3 tangentAt(GuideParameters from, uint first, uint i) {
     vec3 point = loadVector(from.positions, first + i).xyz;
@@ -220,21 +302,36 @@ void main() {
         meetNeighbours();
         [[unroll]] for (uint j = 0; j <= kVerticesPerChunk; j += 2) pull(j, stiffness);
     }
-    for (uint iteration = 0; iteration < params.length_iterations; ++iteration) {
-        [[unroll]] for (uint j = 1; j < kVerticesPerChunk; j += 2) project(j);
-        meetNeighbours();
-        [[unroll]] for (uint j = 0; j <= kVerticesPerChunk; j += 2) project(j);
+    if (!kTridiagonal) {
+        for (uint iteration = 0; iteration < params.length_iterations; ++iteration) {
+            [[unroll]] for (uint j = 1; j < kVerticesPerChunk; j += 2) project(j);
+            meetNeighbours();
+            [[unroll]] for (uint j = 0; j <= kVerticesPerChunk; j += 2) project(j);
+        }
     }
 
+    Met met[kVerticesPerChunk];
+    if (kTridiagonal) solveLengths(params.length_iterations, false, met);
+    if (present) storePositions(guides.positions, first);
+    if (!kCollides) return;
+
+    if (!present) end = first;
+    float contact = 0.0;
+    [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j) met[j] = Met(vec4(0.0), kTouchesNone);
+    for (uint i = first; i < end; ++i)  // collisions are too long to unroll
+        met[i - first] = collide(guides, push.frame, push.frame_before, i, contact);
+    if (kChunks > 1) markBelow(guides, contact, first, end);
+
+    // Lengths once more, so that bodies tear no strand. Chunks meet at barriers and go on together.
+    if (!kTridiagonal || params.length_iterations == 0) return;
+    if (kChunks == 1 && contact == 0.0) return;
     [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j)
-        if (present && vertexExists(j))
-            storeVector(
-                guides.positions, first + j, vec4(points[j + 1].xyz, sign(points[j + 1].w)));
-    if (kCollides) {
-        if (!present) end = first;
-        float contact = collide(guides, push.frame, push.frame_before, first, end);
-        if (kChunks > 1) markBelow(guides, contact, first, end);
-    }
+        if (present && vertexExists(j)) {
+            points[j + 1].xyz = loadVector(guides.positions, first + j).xyz;
+            points[j + 1].w *= yieldAlong(met[j].held);
+        }
+    solveLengths(kContactPasses, true, met);
+    if (present) storePositions(guides.positions, first);
 }
 
 #endif

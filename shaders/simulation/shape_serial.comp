@@ -18,6 +18,7 @@
 layout(local_size_x_id = kShapeGroupSizeConstant) in;
 layout(constant_id = kShapeVerticesPerStrandConstant) const uint kVerticesPerStrand = 8;
 layout(constant_id = kShapeCollidesConstant) const bool kCollides = true;
+layout(constant_id = kShapeTridiagonalConstant) const bool kTridiagonal = true;
 
 layout(push_constant, scalar) uniform Push { SubstepPush push; };
 
@@ -97,7 +98,7 @@ void main() {
             }
         }
     }
-    for (uint iteration = 0; iteration < params.length_iterations; ++iteration) {
+    for (uint iteration = 0; !kTridiagonal && iteration < params.length_iterations; ++iteration) {
         for (uint first = 1; first <= 2; ++first) {
             for (uint v = first; v < kVerticesPerStrand; v += 2) {
                 vec4 a = vec4(positions.at[root + v - 1].xyz, inverse_masses[v - 1]);
@@ -109,6 +110,38 @@ void main() {
         }
     }
 
-    if (kCollides)
-        collide(guides, push.frame, push.frame_before, root, root + kVerticesPerStrand);
+    // As in shape.glsl.
+    LengthRow rows[kVerticesPerStrand];
+    for (uint v = 0; v < kVerticesPerStrand; ++v)
+        rows[v] = lengthRow(positions.at[root + v], vec4(0.0), 0.0);
+    bool collided = false;
+    for (uint passes = params.length_iterations;; passes = kContactPasses) {
+        for (uint pass = 0; kTridiagonal && passes > 0 && pass <= passes; ++pass) {
+            bool last = pass == passes;
+            vec4 a = vec4(positions.at[root].xyz, inverse_masses[0]);
+            LengthsAbove above = aboveAll(a.xyz);
+            for (uint v = 1; v < kVerticesPerStrand; ++v) {
+                vec4 b = vec4(positions.at[root + v].xyz, inverse_masses[v]);
+                walkDown(above, rows[v], a, b, rest_edges.at[root + v].w, collided);
+                if (last) positions.at[root + v].xyz = above.place;
+                a = b;
+            }
+            if (last) break;
+            LengthsBelow below = LengthsBelow(vec3(0.0), 0.0, 0.0);
+            for (uint v = kVerticesPerStrand - 1; v > 0; --v) {
+                a = vec4(positions.at[root + v - 1].xyz, inverse_masses[v - 1]);
+                vec4 b = vec4(positions.at[root + v].xyz, inverse_masses[v]);
+                walkUp(below, rows[v], a, b, rest_edges.at[root + v].w);
+            }
+        }
+        if (!kCollides || collided) break;
+        collided = true;
+        float contact = 0.0;
+        for (uint v = 0; v < kVerticesPerStrand; ++v) {
+            Met met = collide(guides, push.frame, push.frame_before, root + v, contact);
+            rows[v] = lengthRow(positions.at[root + v], met.plane, heldAcross(met.held));
+            inverse_masses[v] *= yieldAlong(met.held);
+        }
+        if (!kTridiagonal || passes == 0 || contact == 0.0) break;
+    }
 }

@@ -4,6 +4,7 @@
 
 #include "probes.glsl"
 #include "simulation/constraints/distance_field.glsl"
+#include "simulation/constraints/friction.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -18,6 +19,13 @@ void main() {
 
     DistanceProbe probe = Probes(push.probes).at[index];
     probe.distance = sampleDistance(push.field, probe.position, probe.gradient);
-    probe.pushed = pushOut(probe.position, probe.before, push.field, push.margin, push.friction);
+    vec3 normal;
+    float share;
+    float gap = gapTo(push.field, push.margin, probe.position, normal);
+    probe.pushed = probe.position;
+    if (gap < 0.0)
+        probe.pushed = slideBack(
+            probe.position - gap * normal, probe.before, normal, -gap, push.friction,
+            share);
     Probes(push.probes).at[index] = probe;
 }

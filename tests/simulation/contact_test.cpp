@@ -84,13 +84,17 @@ TEST_F(GpuContact, KeepsHairOutOfAMovingField) {
         settings.motion.pivot = {0.0f, -0.1f, 0.0f};
         settings.distance_fields = {{.mesh = "", .resolution = 32}};
         Simulation simulation(device(), groom, settings, 1, std::span(&sphere, 1));
+        // Where lengths have the last word hair presses into the margin.
+        const double pressed = settings.solver == Solver::shape ? double{kMargin} : 0.0;
         std::ptrdiff_t contacts = 0;
         for (int i = 0; i < 60; ++i) {
             advance(device(), simulation, 1);
             const glm::dvec3 centre = simulation.pose()(glm::dvec3(0.0));
             const auto points = simulation.readPositions();
             for (std::size_t v = 0; v < points.size(); ++v)
-                ASSERT_GT(glm::distance(glm::dvec3(points[v]), centre), kRadius + kMargin - kField)
+                ASSERT_GT(
+                    glm::distance(glm::dvec3(points[v]), centre),
+                    kRadius + kMargin - pressed - kField)
                     << "vertex " << v << " in step " << i;
             contacts += std::ranges::count(simulation.readContacts(), true);
         }

@@ -11,7 +11,9 @@
 namespace hair::simulation {
 namespace {
 
-glm::dvec3 untouched(const glm::dvec3& position, const glm::dvec3&) { return position; }
+reference::Pushed untouched(const glm::dvec3& position, const glm::dvec3&) {
+    return {.position = position};
+}
 
 struct Strand {
     std::vector<glm::dvec3> rest;

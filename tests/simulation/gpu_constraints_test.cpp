@@ -90,10 +90,12 @@ TEST_P(GpuConstraints, PullsToShapeLikeTheReference) {
 
 TEST_P(GpuConstraints, KeepsLengthsLikeTheReference) {
     SimulationSettings settings = atRest();
-    for (const std::uint32_t iterations : {1u, 5u, 100u}) {
-        settings.length.iterations = iterations;
-        expectReference(settings);
-    }
+    for (const LengthMethod method : {LengthMethod::tridiagonal, LengthMethod::iterate})
+        for (const std::uint32_t iterations : {1u, 2u, 5u, 100u}) {
+            SCOPED_TRACE(static_cast<int>(method));
+            settings.length = {.method = method, .iterations = iterations};
+            expectReference(settings);
+        }
 }
 
 TEST_P(GpuConstraints, CollidesLikeTheReference) {

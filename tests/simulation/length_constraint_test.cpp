@@ -83,5 +83,71 @@ TEST(LengthConstraint, PartsVerticesThatCoincide) {
     EXPECT_LT(lengthError(points, rest), 1e-12);
 }
 
+// How far the positions are from being the nearest to `predicted` with their lengths, m: there
+// (predicted - position) / w is what tensions along the segments give, and from the tip up there is
+// one for each segment.
+double notNearest(
+    std::span<const glm::dvec3> points, std::span<const glm::dvec3> predicted,
+    std::span<const double> lightness) {
+    Extremes errors;
+    glm::dvec3 below{0.0};  // tension of the segment below
+    for (std::size_t i = points.size() - 1; i > 0; --i) {
+        const glm::dvec3 needed = (predicted[i] - points[i]) / lightness[i] + below;
+        const glm::dvec3 direction = glm::normalize(points[i] - points[i - 1]);
+        const double tension = glm::dot(needed, direction);
+        errors.add(glm::length(needed - tension * direction));
+        below = tension * direction;
+    }
+    return errors.greatest();
+}
+
+TEST(LengthSolve, LeavesRestAndPinnedRootInPlace) {
+    const groom::Groom groom = wavyGroom(1, 9);
+    const auto rest = toDouble(groom.points);
+    auto points = rest;
+    reference::solveLengths(points, rest, 3);
+    EXPECT_LT(largestDifference(points, rest), 1e-15);
+    points = toDouble(disturbed(groom, 0.02, 2));
+    reference::solveLengths(points, rest, 3);
+    EXPECT_EQ(points[0], rest[0]);
+}
+
+TEST(LengthSolve, KeepsEveryLengthInOnePass) {
+    for (const std::uint32_t vertices : {2u, 3u, 8u, 33u}) {
+        const groom::Groom groom = wavyGroom(1, vertices);
+        const auto rest = toDouble(groom.points);
+        for (const double disturbance : {1e-4, 0.01, 1.0}) {
+            auto points = toDouble(disturbed(groom, static_cast<float>(disturbance), 4));
+            reference::solveLengths(points, rest, 1);
+            EXPECT_LT(lengthError(points, rest), 1e-12) << vertices << ' ' << disturbance;
+        }
+        std::vector<glm::dvec3> nowhere(vertices, rest[0]);
+        reference::solveLengths(nowhere, rest, 1);
+        EXPECT_LT(lengthError(nowhere, rest), 1e-12) << vertices;
+    }
+}
+
+// A stretched straight strand keeps its direction, whatever its masses.
+TEST(LengthSolve, TakesBackStretch) {
+    const std::vector<glm::dvec3> rest{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+    std::vector<glm::dvec3> points{{0, 0, 0}, {3, 0, 0}, {6, 0, 0}};
+    reference::solveLengths(points, rest, 1, std::vector<double>{1.0, 0.25, 1.0});
+    EXPECT_LT(largestDifference(points, rest), 1e-15);
+}
+
+TEST(LengthSolve, FindsTheNearestPlaces) {
+    for (const std::uint32_t vertices : {2u, 3u, 8u, 33u}) {
+        const groom::Groom groom = wavyGroom(1, vertices);
+        const auto rest = toDouble(groom.points);
+        const auto predicted = toDouble(disturbed(groom, 0.002f, 5));
+        std::vector<double> lightness(vertices);
+        for (std::uint32_t i = 0; i < vertices; ++i) lightness[i] = 1.0 / (1.0 + 0.3 * (i % 4));
+        auto points = predicted;
+        reference::solveLengths(points, rest, 200, lightness);
+        EXPECT_LT(lengthError(points, rest), 1e-12) << vertices;
+        EXPECT_LT(notNearest(points, predicted, lightness), 1e-9) << vertices;
+    }
+}
+
 }  // namespace
 }  // namespace hair::simulation

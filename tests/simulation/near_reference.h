@@ -8,6 +8,7 @@
 
 #include "hair/reference/solvers.h"
 #include "tests/simulation/gpu_simulation.h"
+#include "tests/simulation/rounding.h"
 #include "tests/simulation/strands.h"
 
 namespace hair::simulation {
@@ -44,7 +45,7 @@ inline void expectNearReference(
     }
     advance(device, simulation, 100);
     const double spread = largestDifference(rounded.positions(), solver.positions());
-    const double roundings = 2.0 + 2.0 * (settings.local.iterations + settings.length.iterations);
+    const double roundings = 2.0 + 2.0 * pulls(settings, vertices);
     const double error = largestDifference(simulation.readPositions(), solver.positions());
     EXPECT_LT(error, 2.0 * std::sqrt(roundings) * spread) << vertices << " vertices";
     EXPECT_LT(spread, 1e-4 * longestStrand(groom)) << vertices << " vertices";

@@ -23,6 +23,15 @@ struct Rounding {
     double bound() const { return 2.0 * std::sqrt(roundings) * spread; }
 };
 
+// Corrections of a vertex in a step that round. Where a strand is solved or followed as a whole,
+// each vertex has the roundings of all above it; one pass more is for what bodies pushed.
+inline double pulls(const SimulationSettings& settings, std::uint32_t vertices_per_strand) {
+    if (settings.solver == Solver::ftl) return vertices_per_strand;
+    if (settings.length.method == LengthMethod::iterate)
+        return settings.local.iterations + settings.length.iterations;
+    return settings.local.iterations + vertices_per_strand * (settings.length.iterations + 1.0);
+}
+
 inline Rounding roundingAfter(
     int steps, const groom::Groom& groom, const SimulationSettings& settings, std::uint32_t seed) {
     reference::Reference solver(groom, settings, seed);
@@ -37,10 +46,9 @@ inline Rounding roundingAfter(
         rounded.setState(
             positions, std::vector(rounded.previous().begin(), rounded.previous().end()));
     }
-    const double pulls = settings.solver == Solver::ftl
-                             ? groom.vertices_per_strand
-                             : settings.local.iterations + settings.length.iterations;
-    return {largestDifference(rounded.positions(), solver.positions()), 2.0 + 2.0 * pulls};
+    return {
+        largestDifference(rounded.positions(), solver.positions()),
+        2.0 + 2.0 * pulls(settings, groom.vertices_per_strand)};
 }
 
 }  // namespace hair::simulation

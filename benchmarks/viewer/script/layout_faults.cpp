@@ -148,12 +148,13 @@ bool isIn(const DrawnLetter& letter, const engine::UiRect& rect) {
 
 // What a field says begins a padding from its left where it is text, and in the middle where it is
 // a number that fits; at the very left there is too much of it, if it goes on to the right end.
-// Text that was scrolled is cut at the left.
+// Text that was scrolled is cut at the left. Other windows say something where the field is out of
+// sight.
 bool isTooLong(const engine::UiItem& field, const std::vector<DrawnLetter>& letters) {
     const DrawnLetter* first = nullptr;
     float right = field.rect.left;
     for (const DrawnLetter& letter : letters) {
-        if (!isIn(letter, field.rect)) continue;
+        if (!isIn(letter, field.rect) || !isIn(letter, field.clip)) continue;
         if (!first || letter.left < first->left) first = &letter;
         right = std::max(right, letter.right);
     }

@@ -3,7 +3,6 @@
 
 #include "common/extensions.glsl"
 #include "shared/distance_field_structs.h"
-#include "simulation/constraints/friction.glsl"
 
 layout(buffer_reference, scalar) readonly buffer FieldDistances { float at[]; };
 
@@ -44,16 +43,14 @@ float sampleDistance(DistanceField field, vec3 p, out vec3 gradient) {
     return mix(along_y.x, along_y.y, t.z) + gap;
 }
 
-// Moves a vertex that is less than the margin away from the surface, or inside, along the gradient
-// until it is that far; along +y where the gradient has no direction. Friction holds it where it
-// was `before`. All in the field's frame.
-vec3 pushOut(vec3 position, vec3 before, DistanceField field, float margin, float friction) {
+// How far a point is outside of the surface and its margin; negative inside. `normal`: the unit
+// gradient; +y where it has no direction. All in the field's frame.
+float gapTo(DistanceField field, float margin, vec3 position, out vec3 normal) {
     vec3 gradient;
-    float depth = margin - sampleDistance(field, position, gradient);
-    if (depth <= 0.0) return position;
+    float gap = sampleDistance(field, position, gradient) - margin;
     float steepness = length(gradient);
-    vec3 normal = steepness < kFlatField ? vec3(0.0, 1.0, 0.0) : gradient / steepness;
-    return slideBack(position + depth * normal, before, normal, depth, friction);
+    normal = steepness < kFlatField ? vec3(0.0, 1.0, 0.0) : gradient / steepness;
+    return gap;
 }
 
 #endif
