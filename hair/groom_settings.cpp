@@ -161,6 +161,10 @@ const Table& tableOf(const StyleSettings*) {
          group("wave", &S::wave, "plane waves along strands"),
          group("curl", &S::curl, "strands wound into helices"),
          group("frizz", &S::frizz, "random displacement of strands"),
+         number(
+             "clearance", &S::clearance, 0, 0.1, "m",
+             "strands are turned away from the mesh that they grow on where they would come nearer "
+             "to it; 0: they may lead through it"),
          group("cut", &S::cut, "strands cut to a length or at a plane"),
          group("taper", &S::taper, "width of strands from root to tip")});
     return table;

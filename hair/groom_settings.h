@@ -106,6 +106,7 @@ struct StyleSettings {
     WaveSettings wave;
     CurlSettings curl;
     FrizzSettings frizz;
+    float clearance = 0.0f;
     CutSettings cut;
     TaperSettings taper;
 };

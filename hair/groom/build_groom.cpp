@@ -151,7 +151,7 @@ Groom fromFile(
         Groom groom = toGroom(std::move(strands), settings.vertices);
         if (mesh) groom.root_normals = rootNormals(groom, *mesh);
         return withGuides(
-            style(std::move(groom), settings.style, seed), settings.guides, mesh, seed);
+            style(std::move(groom), settings.style, seed, mesh), settings.guides, mesh, seed);
     } catch (const engine::Error& error) {
         throw engine::Error(path.string(), error.what());
     }
@@ -221,7 +221,8 @@ Groom buildGroom(
     if (!mesh) throw engine::Error(path, "guides are to be grown, but there is no mesh");
     try {
         const std::uint32_t guides = settings.guides == 0 ? kThesisGuides : settings.guides;
-        return style(grow(*mesh, settings.grow, directory, guides, seed), settings.style, seed);
+        return style(
+            grow(*mesh, settings.grow, directory, guides, seed), settings.style, seed, mesh);
     } catch (const engine::Error& error) {
         throw engine::Error(path, error.what());
     }

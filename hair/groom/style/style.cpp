@@ -13,6 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/error.h"
+#include "hair/groom/mesh/surface.h"
 #include "hair/groom/style/displace.h"
 #include "hair/random.h"
 
@@ -20,13 +21,92 @@ namespace hair::groom {
 
 // ---- All of it in order -------------------------------------------------------------------------
 
-Groom style(Groom groom, const StyleSettings& settings, std::uint32_t seed) {
+Groom style(Groom groom, const StyleSettings& settings, std::uint32_t seed, const Mesh* mesh) {
     groom = clump(std::move(groom), settings.clump, seed);
     groom = wave(std::move(groom), settings.wave, seed);
     groom = curl(std::move(groom), settings.curl, seed);
     groom = frizz(std::move(groom), settings.frizz, seed);
+    if (settings.clearance > 0.0f) {
+        if (!mesh)
+            throw engine::Error(
+                "/groom/style/clearance: there is no mesh that the strands grow on");
+        groom = keepClear(std::move(groom), *mesh, settings.clearance);
+    }
     groom = cut(std::move(groom), settings.cut);
     return taper(std::move(groom), settings.taper);
+}
+
+// ---- Clearance ----------------------------------------------------------------------------------
+
+namespace {
+
+// The part of a mesh's surface next to a point.
+struct Ground {
+    glm::dvec3 position;
+    glm::dvec3 outward;  // unit, toward the point or, from inside, away from it
+    double gap;  // negative inside
+};
+
+Ground groundUnder(const glm::dvec3& point, const Mesh& mesh, const NearestSurface& surface) {
+    const MeshPoint nearest = surface(point);
+    glm::dvec3 normal(0.0);
+    for (int corner = 0; corner < 3; ++corner)
+        normal += nearest.weights[corner] *
+                  glm::dvec3(mesh.normals[mesh.triangles[nearest.triangle][corner]]);
+    const glm::dvec3 offset = point - nearest.position;
+    const double side = glm::dot(offset, normal) < 0.0 ? -1.0 : 1.0;
+    static constexpr double kOnSurface = 1e-7;  // m
+    return {
+        .position = nearest.position,
+        .outward = nearest.distance < kOnSurface ? glm::normalize(normal)
+                                                 : side / nearest.distance * offset,
+        .gap = side * nearest.distance};
+}
+
+// The unit vector next to `direction` along which so long a segment ends at this height, or as near
+// to it as it can.
+glm::dvec3
+turnedTo(double height, double length, const glm::dvec3& outward, const glm::dvec3& direction) {
+    const double sine = std::clamp(height / length, -1.0, 1.0);
+    const glm::dvec3 across = direction - glm::dot(direction, outward) * outward;
+    if (glm::length(across) < 1e-6) return outward;
+    return sine * outward + std::sqrt(1.0 - sine * sine) * glm::normalize(across);
+}
+
+}  // namespace
+
+Groom keepClear(Groom groom, const Mesh& mesh, double clearance) {
+    static constexpr double kEnough = 0.3;  // of the arc length
+    static constexpr double kTolerance = 1e-6;  // m
+    static constexpr int kTurns = 8;  // of a segment: surfaces are not flat
+    const NearestSurface surface(mesh.positions, mesh.triangles);
+    for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand) {
+        const std::span<const glm::vec3> old = groom.strand(strand);
+        std::vector<glm::vec3> points(old.begin(), old.end());
+        glm::dvec3 place = old[0];
+        double arc = 0.0;
+        bool moved = false;
+        glm::dvec3 above(0.0);  // direction of the segment above
+        for (std::size_t i = 1; i < points.size(); ++i) {
+            const glm::dvec3 edge = glm::dvec3(old[i]) - glm::dvec3(old[i - 1]);
+            const double length = glm::length(edge);
+            arc += length;
+            glm::dvec3 direction = length > 0.0 ? edge / length : edge;
+            const double wanted = std::min(clearance, kEnough * arc);
+            for (int turn = 0; turn < kTurns && length > 0.0; ++turn) {
+                const Ground ground = groundUnder(place + length * direction, mesh, surface);
+                if (ground.gap >= wanted - kTolerance) break;
+                const double height = glm::dot(ground.outward, ground.position - place) + wanted;
+                direction = turnedTo(height, length, ground.outward, direction + above);
+                moved = true;
+            }
+            above = direction;
+            place = moved ? place + length * direction : glm::dvec3(old[i]);
+            points[i] = place;
+        }
+        std::ranges::copy(points, groom.points.begin() + strand * points.size());
+    }
+    return groom;
 }
 
 // ---- Clumps -------------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "hair/groom/groom.h"
+#include "hair/groom/mesh/mesh.h"
 #include "hair/groom_settings.h"
 
 // Styling: pure functions from a groom to a groom. Roots, counts, normals, triangles and the order
@@ -29,6 +30,13 @@ Groom curl(Groom groom, const CurlSettings& settings, std::uint32_t seed);
 // Smooth random displacement, at most `amplitude` in length.
 Groom frizz(Groom groom, const FrizzSettings& settings, std::uint32_t seed);
 
+// Strands are led round the mesh: from the root on, a segment that would end nearer to its surface
+// than `clearance`, or inside, is turned along it, the way that it and the segment above go, and
+// what follows is moved with it. Near the root, at the arc length s, 0.3 s is enough. Segments keep
+// their lengths, and strands that are clear of it every bit. For a mesh that is open, inside is
+// behind the nearest triangle.
+Groom keepClear(Groom groom, const Mesh& mesh, double clearance);
+
 // Strands end at settings.length of arc, and where they first pass the plane; what is left of them
 // is resampled evenly to as many vertices. A strand whose root is beyond the plane, or that would
 // be shorter than a thousandth of its length, keeps that thousandth.
@@ -38,7 +46,9 @@ Groom cut(Groom groom, const CutSettings& settings);
 Groom taper(Groom groom, const TaperSettings& settings);
 
 // Every kind of styling whose settings do something, in the order of the members of StyleSettings.
-Groom style(Groom groom, const StyleSettings& settings, std::uint32_t seed);
+// `mesh` is what the hair grows on, or null. Throws engine::Error if there is none to keep clear
+// of.
+Groom style(Groom groom, const StyleSettings& settings, std::uint32_t seed, const Mesh* mesh);
 
 // TressFX's follow hairs, which its files leave to the loader: after each strand `count` copies of
 // it, moved within a disc of `radius` (file's unit) across its direction at the root. At the tip

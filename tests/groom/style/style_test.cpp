@@ -31,14 +31,14 @@ Groom sample() {
 
 TEST(Style, OfDefaultsLeavesTheGroomToTheBit) {
     const Groom before = sample();
-    const Groom after = style(before, {}, 1);
+    const Groom after = style(before, {}, 1, nullptr);
     ASSERT_EQ(after.points.size(), before.points.size());
     for (std::size_t i = 0; i < before.points.size(); ++i) {
         EXPECT_EQ(after.points[i], before.points[i]);
         EXPECT_EQ(std::signbit(after.points[i].x), std::signbit(before.points[i].x));
     }
     EXPECT_EQ(after.widths, before.widths);
-    EXPECT_EQ(style(verticalStrands(1, 2, 0.1, 0.0), {}, 1).widths, std::vector<float>());
+    EXPECT_EQ(style(verticalStrands(1, 2, 0.1, 0.0), {}, 1, nullptr).widths, std::vector<float>());
 }
 
 TEST(Style, IsItsPartsInTheirOrder) {
@@ -46,14 +46,14 @@ TEST(Style, IsItsPartsInTheirOrder) {
     Groom expected = clump(sample(), s.clump, 5);
     expected = frizz(curl(wave(expected, s.wave, 5), s.curl, 5), s.frizz, 5);
     expected = taper(cut(expected, s.cut), s.taper);
-    const Groom after = style(sample(), s, 5);
+    const Groom after = style(sample(), s, 5, nullptr);
     EXPECT_EQ(after.points, expected.points);
     EXPECT_EQ(after.widths, expected.widths);
 }
 
 TEST(Style, LeavesRootsNormalsAndTriangles) {
     const Groom before = sample();
-    const Groom after = style(before, everything(), 5);
+    const Groom after = style(before, everything(), 5, nullptr);
     EXPECT_EQ(after.strand_count, before.strand_count);
     EXPECT_EQ(after.vertices_per_strand, before.vertices_per_strand);
     EXPECT_EQ(after.root_normals, before.root_normals);
@@ -64,12 +64,13 @@ TEST(Style, LeavesRootsNormalsAndTriangles) {
 }
 
 TEST(Style, TakesStrandsWithoutLengthAndOfTwoVertices) {
-    const Groom awkward = style(awkwardStrands(), everything(), 1);
+    const Groom awkward = style(awkwardStrands(), everything(), 1, nullptr);
     EXPECT_TRUE(allFinite(awkward));
     for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(awkward.points[i], glm::vec3(0.0f));
-    EXPECT_TRUE(allFinite(style(withNormals(awkwardStrands(), {0, 1, 0}), everything(), 1)));
-    EXPECT_TRUE(allFinite(style(verticalStrands(3, 2, 0.2, 0.01), everything(), 1)));
-    EXPECT_EQ(style({.vertices_per_strand = 2}, everything(), 1).strand_count, 0u);
+    EXPECT_TRUE(
+        allFinite(style(withNormals(awkwardStrands(), {0, 1, 0}), everything(), 1, nullptr)));
+    EXPECT_TRUE(allFinite(style(verticalStrands(3, 2, 0.2, 0.01), everything(), 1, nullptr)));
+    EXPECT_EQ(style({.vertices_per_strand = 2}, everything(), 1, nullptr).strand_count, 0u);
 }
 
 TEST(AlongStrand, CountsArcLengthFromTheRoot) {
