@@ -31,8 +31,7 @@ const Table& tableOf(const LengthSettings*) {
              {{LengthMethod::tridiagonal, "tridiagonal"}, {LengthMethod::iterate, "iterate"}},
              "how `shape` keeps lengths. tridiagonal: direct solves along the strand, exact after "
              "every pass; iterate: the thesis's, one segment after the other, which stretches "
-             "under "
-             "load, the more the more vertices there are"),
+             "under load, the more the more vertices there are"),
          number(
              "iterations", &S::iterations, 0, 256, "count",
              "per step: passes of `tridiagonal`, red-black iterations of `iterate` (the thesis has "

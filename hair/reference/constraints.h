@@ -26,6 +26,7 @@ namespace hair::reference {
 
 using Points = std::span<glm::dvec3>;
 using ConstPoints = std::span<const glm::dvec3>;
+struct Pushed;  // below
 
 constexpr double kShortest = 1e-9;  // m, of a segment that has a direction
 
@@ -67,7 +68,6 @@ void projectLengths(Points positions, ConstPoints rest, Lightness lightness = {}
 // The nearest positions, in the metric of the masses, whose segments have their rest lengths, by so
 // many passes of simulation/constraints/length.glsl, where the equations are. Zero: as they are.
 // `met`: what bodies did to each vertex; empty: there are none.
-struct Pushed;
 void solveLengths(
     Points positions, ConstPoints rest, std::uint32_t passes, Lightness lightness = {},
     std::span<const Pushed> met = {});
@@ -125,18 +125,14 @@ struct Contact {
             // pushOut leaves the root alone, so the vertex is a strand's second.
             glm::dvec3 here[2] = {glm::dvec3(0.0), seenFrom(now, pushed.position)};
             const glm::dvec3 there[2] = {glm::dvec3(0.0), seenFrom(then, before)};
+            const glm::dvec3 without_friction = here[1] - surface.gap * surface.normal;
             pushOut(here, there, std::span(&collider, 1), settings.collision);
-            const glm::dvec3 pushed_from = pushed.position;
             pushed.position = now(here[1]);
-            glm::dvec3 free[2] = {glm::dvec3(0.0), seenFrom(now, pushed_from)};
-            CollisionSettings frictionless = settings.collision;
-            frictionless.friction = 0.0f;
-            pushOut(free, there, std::span(&collider, 1), frictionless);
-            const glm::dvec3 moved = free[1] - there[1];
+            pushed.touches = true;
+            const glm::dvec3 moved = without_friction - there[1];
             const double slid =
                 glm::length(moved - glm::dot(moved, surface.normal) * surface.normal);
-            pushed.touches = true;
-            pushed.held = slid > 0.0 ? glm::distance(free[1], here[1]) / slid : 1.0;
+            pushed.held = slid > 0.0 ? glm::distance(without_friction, here[1]) / slid : 1.0;
         }
         return pushed;
     }

@@ -4,12 +4,6 @@
 #include "simulation/constraints/bodies.glsl"
 #include "simulation/guides.glsl"
 
-// A vertex among bodies.
-struct Met {
-    vec4 plane;  // bodies.glsl; 0 where there is none
-    float held;  // share of its motion that friction takes back, or kTouchesNone
-};
-
 // Takes a vertex of a strand out of bodies and marks contact: `contact` is 1 where any above
 // touched a body, else 0. The invocation has stored its position, and in `previous` that before the
 // substep.
@@ -21,7 +15,7 @@ Met collide(
     Met met = Met(vec4(0.0), kTouchesNone);
     if (point.w > 0.0)
         point.xyz = pushOutOfBodies(
-            point.xyz, before, guides.bodies, frame, frame_before, met.plane, met.held);
+            point.xyz, before, guides.bodies, frame, frame_before, met);
     if (met.held != kTouchesNone) contact = 1.0;
     State(guides.positions).at[vertex] = point;
     State(guides.previous).at[vertex].w = contact;

@@ -63,11 +63,10 @@ void main() {
             float rest_length = distance(rest.at[i].xyz, rest.at[i - 1].xyz);
             point.xyz = followLeader(leader, predicted, rest_length);
             correction = point.xyz - predicted;
-            vec4 plane;
-            float share;
+            Met met;
             point.xyz = pushOutOfBodies(
-                point.xyz, before, guides.bodies, push.frame, push.frame_before, plane, share);
-            if (share != kTouchesNone) contact = 1.0;
+                point.xyz, before, guides.bodies, push.frame, push.frame_before, met);
+            if (met.held != kTouchesNone) contact = 1.0;
         }
         positions.at[i] = point;
         // The leader's velocity is what it moved, less a part of how its follower was corrected

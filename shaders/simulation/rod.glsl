@@ -238,11 +238,10 @@ void finish() {
         vec3 pushed = vec3(0.0);
         if (!isPinned(i)) {
             vec3 free = root_now + unit * edges;
-            vec4 plane;
-            float share;
+            Met met;
             vec3 held = pushOutOfBodies(
-                free, before, guides.bodies, push.frame, push.frame_before, plane, share);
-            if (share != kTouchesNone) {
+                free, before, guides.bodies, push.frame, push.frame_before, met);
+            if (met.held != kTouchesNone) {
                 contact = 1.0;
                 pushed = (held - free) / unit;
             }

@@ -14,6 +14,13 @@ const float kFar = 1.0e9;  // m
 
 const float kTouchesNone = -1.0;
 
+// What a vertex has met. `plane`: the tangent plane of the last body that it touches, otherwise of
+// the nearest: dot(plane.xyz, x) >= plane.w outside; 0 where there is no body.
+struct Met {
+    vec4 plane;
+    float held;  // share of its motion along the body that friction takes back, or kTouchesNone
+};
+
 // A vertex in the world and as the head sees it, now and at the start of the substep, and what it
 // has met.
 struct MovingVertex {
@@ -44,12 +51,10 @@ void meet(
 }
 
 // Takes a vertex out of every body, one after the other. `before` is where it was at the start of
-// the substep. Returns where it is then. `plane`: the tangent plane of the last body that it
-// touches, otherwise of the nearest: dot(plane.xyz, x) >= plane.w outside. `held`: the share
-// of its motion along the body that friction takes back, or kTouchesNone.
+// the substep. Returns where it is then.
 vec3 pushOutOfBodies(
     vec3 position, vec3 before, Bodies bodies, RigidFrame frame, RigidFrame frame_before,
-    out vec4 plane, out float held) {
+    out Met met) {
     MovingVertex vertex = MovingVertex(
         position, before, fromWorld(frame, position), fromWorld(frame_before, before), vec4(0.0),
         kFar, 0.0);
@@ -68,8 +73,7 @@ vec3 pushOutOfBodies(
         float gap = gapTo(body.field, bodies.margin, here, normal);
         meet(vertex, gap, normal, bodies.friction, on_head, frame);
     }
-    plane = vertex.plane;
-    held = vertex.gap > 0.0 ? kTouchesNone : vertex.share;
+    met = Met(vertex.plane, vertex.gap > 0.0 ? kTouchesNone : vertex.share);
     return vertex.position;
 }
 
