@@ -7,6 +7,8 @@
 #include <optional>
 #include <span>
 
+#include "engine/recording_memory.h"
+
 namespace engine {
 namespace {
 
@@ -218,22 +220,38 @@ private:
 
 void Passes::beside(std::uint32_t, FunctionRef<void()> record) { record(); }
 
-// A command buffer of a queue family, with its pool and its sets.
-struct FrameLoop::OwnBuffer {
-    OwnBuffer(const Device& device, std::uint32_t family) : sets(device) {
+// A command pool of a queue family that takes its host memory from a place of its own.
+class RecordingPool {
+public:
+    RecordingPool(const Device& device, std::uint32_t family) : device_(device) {
         const VkCommandPoolCreateInfo create{
             .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
             .pNext = nullptr,
             .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
             .queueFamilyIndex = family};
-        VkCommandPool handle{};
         check(
-            vkCreateCommandPool(device.get(), &create, nullptr, &handle), "create a command pool");
-        pool = {device.get(), handle};
+            vkCreateCommandPool(device.get(), &create, memory_.callbacks(), &pool_),
+            "create a command pool");
+    }
+    RecordingPool(const RecordingPool&) = delete;
+    RecordingPool& operator=(const RecordingPool&) = delete;
+    ~RecordingPool() { vkDestroyCommandPool(device_.get(), pool_, memory_.callbacks()); }
+
+    VkCommandPool get() const { return pool_; }
+
+private:
+    const Device& device_;
+    RecordingMemory memory_;
+    VkCommandPool pool_{};
+};
+
+// A command buffer of a queue family, with its pool and its sets.
+struct FrameLoop::OwnBuffer {
+    OwnBuffer(const Device& device, std::uint32_t family) : pool(device, family), sets(device) {
         const VkCommandBufferAllocateInfo allocate{
             .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
             .pNext = nullptr,
-            .commandPool = handle,
+            .commandPool = pool.get(),
             .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
             .commandBufferCount = 1};
         check(
@@ -241,7 +259,7 @@ struct FrameLoop::OwnBuffer {
             "allocate a command buffer");
     }
 
-    Handle<VkCommandPool, &vkDestroyCommandPool> pool;
+    RecordingPool pool;
     VkCommandBuffer buffer{};
     DescriptorSets sets;
 };
