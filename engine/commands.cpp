@@ -399,10 +399,12 @@ void Commands::images(
         Access::compute_read, texels);
 }
 
-void Commands::images(const GraphicsPipeline& pipeline, std::span<const SampledImage> sampled) {
+void Commands::images(
+    const GraphicsPipeline& pipeline, std::span<const SampledImage> sampled,
+    std::span<const TexelView* const> texels) {
     bindSampled(
         VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout(), pipeline.imagesLayout(), sampled,
-        Access::fragment_read);
+        Access::fragment_read, texels);
 }
 
 void Commands::bindSampled(

@@ -173,7 +173,9 @@ public:
     void images(
         const ComputePipeline& pipeline, std::span<const SampledImage> sampled,
         std::span<const TexelView* const> texels = {});
-    void images(const GraphicsPipeline& pipeline, std::span<const SampledImage> sampled);
+    void images(
+        const GraphicsPipeline& pipeline, std::span<const SampledImage> sampled,
+        std::span<const TexelView* const> texels = {});
 
     void dispatch(std::uint32_t groups_x, std::uint32_t groups_y = 1);
     // Where more workgroups are needed than fit in a row, shaders count them row by row, and the

@@ -216,12 +216,12 @@ PipelineObjects makePipeline(const Device& device, const ComputeDescription& des
 
 PipelineObjects makePipeline(const Device& device, const GraphicsDescription& description) {
     PipelineObjects objects;
-    if (description.sampled_images > 0) {
-        const std::vector<VkDescriptorType> types(
-            description.sampled_images, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+    std::vector<VkDescriptorType> types(
+        description.sampled_images, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+    types.resize(types.size() + description.texel_buffers, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER);
+    if (!types.empty())
         objects.images = {
             device.get(), makeImageLayout(device, types, VK_SHADER_STAGE_FRAGMENT_BIT)};
-    }
     objects.push_stages = pushStages(description.shaders);
     objects.layout =
         makeLayout(device, objects.push_stages, description.push_size, objects.images.get());
@@ -369,6 +369,7 @@ std::string keyOf(const Device& device, const GraphicsDescription& description) 
     key.add(description.depth_write);
     key.add(description.discard);
     key.add(description.sampled_images);
+    key.add(description.texel_buffers);
     return key.bytes();
 }
 

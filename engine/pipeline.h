@@ -122,6 +122,7 @@ struct GraphicsDescription {
     bool discard = false;  // primitives, before they are rasterised: no .frag then
     // With their samplers, at bindings 0 .. of the fragment stage.
     std::uint32_t sampled_images = 0;
+    std::uint32_t texel_buffers = 0;  // after the images
 };
 
 // A pipeline of graphics stages. Viewport and scissor are dynamic; the rest of the state is in the

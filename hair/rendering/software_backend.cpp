@@ -17,7 +17,7 @@ static_assert(offsetof(gpu::SoftwarePush, width) == 88 && sizeof(gpu::SoftwarePu
 
 constexpr const char* kSoftware = "/strands/backend: software";
 constexpr std::size_t kSampleBytes = 8;  // two words
-constexpr std::uint32_t kCoveredPieces = 64;  // by an invocation, at the most
+constexpr std::uint32_t kCoveredPieces = 128;  // by an invocation, at the most
 
 // Samples are where the device has them.
 std::uint32_t checkedSamples(const engine::Device& device, std::uint32_t samples) {
@@ -59,17 +59,27 @@ std::uint32_t foundBlock(const BackendContext& context) {
     return strandBlock(context.device, context.strands, context.plan, 3);
 }
 
+// What is the same for all pixels is read once by each invocation: on a processor there are as many
+// as lavapipe runs at a time.
+std::uint32_t pixelGroup(const engine::Device& device) {
+    return device.info().type == "cpu" ? 8 : 32;
+}
+
 engine::Constants softwareConstants(const BackendContext& context, std::uint32_t block) {
     engine::Constants constants = pointsConstants(context.strands, context.plan);
     constants.emplace_back(gpu::kStrandBlockConstant, block);
+    constants.emplace_back(gpu::kPixelGroupConstant, pixelGroup(context.device));
     constants.emplace_back(gpu::kPixelSamplesConstant, context.output.samples);
     constants.insert(constants.end(), context.output.shading.begin(), context.output.shading.end());
     return constants;
 }
 
-// The points as texels, for stages that have the variant: those with 64-bit atomics.
+// The points as texels, for stages that have the variant: those with 64-bit atomics. Null where
+// points or samples are too many for the device to fetch so.
 const engine::TexelView* texelsOf(const BackendContext& context) {
-    return isPacked(context.device) ? context.points->texels() : nullptr;
+    const bool fits =
+        sampleCount(*context.target) <= context.device.info().limits.maxTexelBufferElements;
+    return fits && isPacked(context.device) ? context.points->texels() : nullptr;
 }
 
 std::string shaderOf(const BackendContext& context, const std::string& name, const char* stage) {
@@ -84,18 +94,13 @@ softwareStage(const BackendContext& context, const std::string& name, std::uint3
         .push_size = sizeof(gpu::SoftwarePush)};
 }
 
-// A stage that reads points.
-engine::ComputeDescription
-pointsStage(const BackendContext& context, const std::string& name, std::uint32_t block = 1) {
+// A stage that fetches from so many buffers as texels, where the device reads them so.
+engine::ComputeDescription texelStage(
+    const BackendContext& context, const std::string& name, std::uint32_t buffers,
+    std::uint32_t block = 1) {
     if (!texelsOf(context)) return softwareStage(context, name, block);
     engine::ComputeDescription stage = softwareStage(context, name + "_texels", block);
-    stage.texel_buffers = 1;
-    return stage;
-}
-
-engine::ComputeDescription findStage(const BackendContext& context, std::uint32_t block) {
-    engine::ComputeDescription stage = pointsStage(context, "find", block);
-    if (texelsOf(context)) stage.texel_buffers = 2;
+    stage.texel_buffers = buffers;
     return stage;
 }
 
@@ -107,20 +112,24 @@ engine::ComputeDescription clearStage(const BackendContext& context) {
 }
 
 engine::ComputeDescription shadeStage(const BackendContext& context) {
-    engine::ComputeDescription stage = pointsStage(context, "shade");
+    engine::ComputeDescription stage = texelStage(context, "shade", 2);
     stage.combined_images = context.output.sampled_images;
     return stage;
 }
 
 engine::GraphicsDescription showStage(const BackendContext& context) {
+    const bool has_texels = texelsOf(context) != nullptr;
     return {
-        .shaders = {"strands/software/show.vert", shaderOf(context, "show", ".frag")},
+        .shaders =
+            {"strands/software/show.vert",
+             shaderOf(context, has_texels ? "show_texels" : "show", ".frag")},
         .constants = softwareConstants(context, 1),
         .push_size = sizeof(gpu::SoftwarePush),
         .colors = context.output.colors,
         .depth_format = context.output.depth_format,
         .samples = context.output.samples,
-        .depth_write = context.output.depth_write};
+        .depth_write = context.output.depth_write,
+        .texel_buffers = has_texels ? 1U : 0U};
 }
 
 }  // namespace
@@ -142,18 +151,18 @@ SoftwareBackend::SoftwareBackend(const BackendContext& context)
       windows_(
           softwareBuffer(context.device, kSampleBytes * tileCount(target_), "depths of windows")),
       clear_(context.device, clearStage(context)),
-      find_tiles_(context.device, softwareStage(context, "tiles")),
-      find_windows_(
-          context.device, {.shader = "strands/software/windows.comp",
-                           .constants = softwareConstants(context, 1),
-                           .push_size = sizeof(gpu::SoftwarePush)}),
-      find_(context.device, findStage(context, block_)),
-      cover_(context.device, pointsStage(context, "cover")),
-      cover_large_(context.device, pointsStage(context, "cover_large")),
+      find_tiles_(context.device, texelStage(context, "tiles", 1)),
+      find_windows_(context.device, texelStage(context, "windows", 1)),
+      find_(context.device, texelStage(context, "find", 2, block_)),
+      cover_(context.device, texelStage(context, "cover", 2)),
+      cover_large_(context.device, texelStage(context, "cover_large", 2)),
       shade_(context.device, shadeStage(context)), show_(context.device, showStage(context)) {
     if (target_.hasRadiance())
         colors_ = softwareBuffer(context.device, kSampleBytes * sampleCount(target_), "colors");
-    if (texels_) window_texels_ = {context.device, windows_, VK_FORMAT_R32G32_UINT};
+    if (!texels_) return;
+    sample_texels_ = {context.device, samples_, VK_FORMAT_R32G32_UINT};
+    tile_texels_ = {context.device, tiles_, VK_FORMAT_R32_UINT};
+    window_texels_ = {context.device, windows_, VK_FORMAT_R32G32_UINT};
 }
 
 void SoftwareBackend::check(
@@ -228,8 +237,7 @@ void SoftwareBackend::findPieces(engine::Commands& commands, gpu::SoftwarePush c
          {counts_, Access::compute_write},
          {list_, Access::compute_write}});
     commands.bind(find_, constants);
-    const std::array texels{texels_, &window_texels_};
-    if (texels_) commands.images(find_, {}, texels);
+    if (texels_) commands.images(find_, {}, std::array{texels_, &window_texels_});
     commands.dispatchInvocations(blocks, gpu::kSoftwareStrandGroup);
 }
 
@@ -249,7 +257,7 @@ void SoftwareBackend::coverPieces(engine::Commands& commands, gpu::SoftwarePush 
          {counts_, Access::compute_write},
          {large_, Access::compute_write}});
     commands.bind(cover_, constants);
-    commands.images(cover_, {}, pointTexels());
+    if (texels_) commands.images(cover_, {}, std::array{texels_, &sample_texels_});
     const std::uint32_t pieces = points_.strandCount() * pieces_per_strand_;
     commands.dispatchInvocations(divideUp(pieces, kCoveredPieces), gpu::kSoftwareStrandGroup);
 }
@@ -266,7 +274,7 @@ void SoftwareBackend::coverLarge(engine::Commands& commands, gpu::SoftwarePush c
          {counts_, Access::compute_read},
          {large_, Access::compute_read}});
     commands.bind(cover_large_, constants);
-    commands.images(cover_large_, {}, pointTexels());
+    if (texels_) commands.images(cover_large_, {}, std::array{texels_, &sample_texels_});
     commands.dispatch(gpu::kLargeGroups);
 }
 
@@ -280,6 +288,7 @@ void SoftwareBackend::findTiles(engine::Commands& commands, gpu::SoftwarePush co
          {points_.bounds(), Access::compute_read},
          {tiles_, Access::compute_write}});
     commands.bind(find_tiles_, constants);
+    if (texels_) commands.images(find_tiles_, {}, std::array{&sample_texels_});
     commands.dispatch(divideUp(constants.height, gpu::kTile));
 }
 
@@ -293,6 +302,7 @@ void SoftwareBackend::findWindows(engine::Commands& commands, gpu::SoftwarePush 
          {points_.bounds(), Access::compute_read},
          {windows_, Access::compute_write}});
     commands.bind(find_windows_, constants);
+    if (texels_) commands.images(find_windows_, {}, std::array{&tile_texels_});
     commands.dispatch(divideUp(constants.height, gpu::kTile));
 }
 
@@ -316,10 +326,6 @@ void SoftwareBackend::cover(engine::Commands& commands, const StrandPicture& pic
     coverLarge(commands, constants);
 }
 
-std::span<const engine::TexelView* const> SoftwareBackend::pointTexels() const {
-    return texels_ ? std::span(&texels_, 1) : std::span<const engine::TexelView* const>();
-}
-
 void SoftwareBackend::shade(engine::Commands& commands, const StrandPicture& picture) const {
     gpu::SoftwarePush constants = push(picture);
     constants.points = points_.points().address();
@@ -333,7 +339,10 @@ void SoftwareBackend::shade(engine::Commands& commands, const StrandPicture& pic
          {points_.bounds(), Access::compute_read},
          {constants.colors, Access::compute_write}});
     commands.bind(shade_, constants);
-    commands.images(shade_, picture.images, pointTexels());
+    if (texels_)
+        commands.images(shade_, picture.images, std::array{texels_, &sample_texels_});
+    else
+        commands.images(shade_, picture.images);
     commands.dispatch(constants.height);
 }
 
@@ -358,6 +367,7 @@ void SoftwareBackend::draw(engine::Commands& commands, const StrandPicture& pict
     // One draw for each sample: shading by sample is a feature that not every device has.
     for (constants.choice = 0; constants.choice < samples_per_pixel_; ++constants.choice) {
         commands.bind(show_, constants);
+        if (texels_) commands.images(show_, {}, std::array{&sample_texels_});
         commands.draw({.vertices = 6});
     }
 }

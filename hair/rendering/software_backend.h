@@ -51,8 +51,6 @@ private:
     void findTiles(engine::Commands& commands, gpu::SoftwarePush constants) const;
     void findWindows(engine::Commands& commands, gpu::SoftwarePush constants) const;
     void shade(engine::Commands& commands, const StrandPicture& picture) const;
-    // The points of a stage that reads them, as texels.
-    std::span<const engine::TexelView* const> pointTexels() const;
 
     const engine::Target& target_;
     const PointsPass& points_;
@@ -71,7 +69,10 @@ private:
     engine::Buffer large_;  // pieces with many samples
     engine::Buffer tiles_;
     engine::Buffer windows_;
-    engine::TexelView window_texels_;  // where the points are texels
+    // Where the points are texels.
+    engine::TexelView sample_texels_;
+    engine::TexelView tile_texels_;
+    engine::TexelView window_texels_;
     engine::ComputePipeline clear_;
     engine::ComputePipeline find_tiles_;
     engine::ComputePipeline find_windows_;

@@ -75,6 +75,8 @@ const uint kMostSegmentsConstant = 10u;
 const uint kMostPiecesConstant = 11u;
 // Of that and of strands/pulling.glsl.
 const uint kStrandBlockConstant = 12u;
+// Invocations of a workgroup of what strands/software does pixel by pixel.
+const uint kPixelGroupConstant = 29u;
 
 // Constants of the back end `lines`: strands/lines.vert, strands/fragment.glsl.
 const uint kStrictLinesConstant = 13u;

@@ -3,14 +3,13 @@
 
 // What the strand back end `software` shares with its shaders, strands/software.
 
-// Invocations in a workgroup: of one a strand, and of one a pixel.
+// Invocations in a workgroup of one a strand, or a few pieces.
 const uint kSoftwareStrandGroup = 32u;
-const uint kSoftwarePixelGroup = 32u;
 
 // Pieces that are estimated to cover more samples than this are covered by whole workgroups; those
 // have places for so many. Mesa's lavapipe ends an invocation's loops after 65,535 turns in all, in
 // silence: no invocation may have a large piece for itself.
-const uint kManySamples = 256u;
+const uint kManySamples = 128u;
 const uint kMostLargePieces = 65536u;
 const uint kLargeGroups = 256u;
 
@@ -18,7 +17,7 @@ const uint kLargeGroups = 256u;
 // that are behind all that a window of the picture around them shows by then: a square of so many
 // tiles, which are squares of so many pixels. Those larger than a large window aren't left out.
 const uint kFirstStrands = 16u;
-const uint kTile = 8u;
+const uint kTile = 4u;
 const uint kSmallWindow = 2u;
 const uint kLargeWindow = 4u;
 

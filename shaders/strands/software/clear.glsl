@@ -3,7 +3,7 @@
 #include "common/depth.glsl"
 #include "strands/software/software.glsl"
 
-layout(local_size_x = kSoftwarePixelGroup) in;
+layout(local_size_x_id = kPixelGroupConstant) in;
 
 #ifdef HAIRBENCH_MULTISAMPLE
 layout(binding = 0) uniform texture2DMS scene_depth;

@@ -1,6 +1,9 @@
 // The samples that pieces of strands cover: each keeps the nearest piece, of equally near ones the
 // first. Pieces are drawn by spans across their major axis: each row of samples, or column, meets a
 // thin piece in few. offer() has to be there.
+#ifdef kSampleTexels
+#include "strands/software/seen.glsl"
+#endif
 #include "strands/software/software.glsl"
 
 #include "strands/points/quad.glsl"
@@ -78,6 +81,16 @@ Cover makeCover(PieceQuad quad) {
     return cover;
 }
 
+// Whether it is worth an offer. Others offer meanwhile; whatever the sample had since the last barrier
+// will do, for minima only fall.
+bool mayBeNearer(uint index, uint near) {
+#ifdef kSampleTexels
+    return near <= fetchSample(index).y;
+#else
+    return true;  // a look would cost as much
+#endif
+}
+
 // Offers the samples of every `step`-th row from `row` on. The search for the next sample touches no
 // memory, so that invocations which go together are together where they do.
 void coverRows(Cover cover, int row, int step, uint piece) {
@@ -101,9 +114,10 @@ void coverRows(Cover cover, int row, int step, uint piece) {
         }
         if (!(across < end)) return;
         uvec2 pixel = uvec2(uint(across), uint(row) / kSamples);
-        offer(sampleIndex(cover.columns ? pixel.yx : pixel,
-                          entry(samples, uint(row) % kSamples)),
-              nearness(clamp(depth, cover.depth_range.x, cover.depth_range.y)), piece);
+        uint index = sampleIndex(cover.columns ? pixel.yx : pixel,
+                          entry(samples, uint(row) % kSamples));
+        uint near = nearness(clamp(depth, cover.depth_range.x, cover.depth_range.y));
+        if (mayBeNearer(index, near)) offer(index, near, piece);
         across += 1.0;
         depth += cover.gradient.y;
     }

@@ -1,7 +1,8 @@
 #version 460
-// The samples of strands, on devices with 64-bit atomics, points as texels.
+// The samples of strands, on devices with 64-bit atomics, points and samples as texels.
 #extension GL_GOOGLE_include_directive : require
 #define kPointTexels 0
+#define kSampleTexels 1
 #include "strands/software/offer_packed.glsl"
 
 #include "strands/software/cover_strands.glsl"

@@ -1,11 +1,11 @@
 // The color of each sample that shows a strand. A workgroup a row of pixels.
 #include "shading/strand_shading.glsl"
-#include "strands/software/software.glsl"
+#include "strands/software/seen.glsl"
 
 #include "strands/points/quad.glsl"
 #include "strands/software/samples.glsl"
 
-layout(local_size_x = kSoftwarePixelGroup) in;
+layout(local_size_x_id = kPixelGroupConstant) in;
 
 // The factors of two vectors with corner + x.x first + x.y second = 0.
 vec2 factorsOf(vec2 corner, vec2 first, vec2 second) {
@@ -54,7 +54,7 @@ void main() {
     for (pixel.x += gl_LocalInvocationID.x; pixel.x < high.x; pixel.x += gl_WorkGroupSize.x) {
         for (uint i = 0u; i < kSamples; ++i) {
             uint index = sampleIndex(pixel, i);
-            uvec2 seen = loadPair(push.samples, index);
+            uvec2 seen = fetchSample(index);
             if (seen.x == kNoPiece) continue;
             StrandFragment fragment = seenPoint(picture, seen.x, vec2(pixel) + samplePlace(i));
             vec3 color = shadeStrand(picture, fragment, picture.hair_color);

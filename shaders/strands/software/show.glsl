@@ -1,13 +1,13 @@
 // A sample's color and depth, where it shows a strand.
 #include "common/depth.glsl"
 #include "shading/options.glsl"
-#include "strands/software/software.glsl"
+#include "strands/software/seen.glsl"
 
 layout(location = 0) out vec4 color;
 
 void main() {
     uint index = sampleIndex(uvec2(gl_FragCoord.xy), push.choice);
-    uvec2 seen = loadPair(push.samples, index);
+    uvec2 seen = fetchSample(index);
     if (seen.x == kNoPiece) discard;
     gl_FragDepth = depthOf(seen.y);
     gl_SampleMask[0] = 1 << push.choice;  // 0 of one sample a pixel

@@ -1,15 +1,15 @@
 // How near the farthest sample of each tile is: what is farther is not seen there. A workgroup a row
 // of tiles.
-#include "strands/software/software.glsl"
+#include "strands/software/seen.glsl"
 
-layout(local_size_x = kSoftwarePixelGroup) in;
+layout(local_size_x_id = kPixelGroupConstant) in;
 
 uint farthest(uvec2 begin, uvec2 end) {
     uint far = 0u;
     for (uint y = begin.y; y < end.y; ++y) {
         uint last = sampleIndex(uvec2(end.x, y), 0u);
         for (uint i = sampleIndex(uvec2(begin.x, y), 0u); i < last; ++i)
-            far = max(far, loadPair(push.samples, i).y);
+            far = max(far, fetchSample(i).y);
     }
     return far;
 }

@@ -1,0 +1,6 @@
+#version 460
+// The depth of windows, on devices with 64-bit integers.
+#extension GL_GOOGLE_include_directive : require
+#include "common/packed_vectors.glsl"
+
+#include "strands/software/windows.glsl"
