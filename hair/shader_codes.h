@@ -65,6 +65,11 @@ inline constexpr std::size_t kCount<Randomness> = counted<Randomness>(
     {{Randomness::hashed, gpu::kRandomnessHashed}, {Randomness::thesis, gpu::kRandomnessThesis}});
 
 template <>
+inline constexpr std::size_t kCount<StrandCollision> = counted<StrandCollision>(
+    {{StrandCollision::none, gpu::kStrandCollisionNone},
+     {StrandCollision::push_out, gpu::kStrandCollisionPushOut}});
+
+template <>
 inline constexpr std::size_t kCount<ShadingModel> = counted<ShadingModel>(
     {{ShadingModel::phong, gpu::kModelPhong},
      {ShadingModel::kajiya_kay, gpu::kModelKajiyaKay},

@@ -86,6 +86,11 @@ const Table& tableOf(const StrandSettings*) {
              "a strand is interpolated as single from where one of its guides touches a body to "
              "the tip"),
          choice(
+             "collision", &S::collision,
+             {{StrandCollision::none, "none"}, {StrandCollision::push_out, "push_out"}},
+             "what bodies do to strands where they are drawn; none: nothing, only guides collide; "
+             "push_out: what is inside of one, or within the margin of its surface, is moved out"),
+         choice(
              "randomness", &S::randomness,
              {{Randomness::hashed, "hashed"}, {Randomness::thesis, "thesis"}},
              "where strands are between guides; hashed: different places in every root triangle; "

@@ -22,6 +22,7 @@ enum class Backend {
 const char* backendName(Backend backend);
 
 enum class Interpolation { multi, single, mixed };
+enum class StrandCollision { none, push_out };
 enum class Randomness { hashed, thesis };
 enum class Curve { bspline, bspline_unpinned, catmull_rom };
 enum class Taper { strand, segment };
@@ -55,6 +56,7 @@ struct StrandSettings {
     Interpolation interpolation = Interpolation::multi;
     float blend = 0.5f;
     bool collision_rule = false;
+    StrandCollision collision = StrandCollision::none;
     Randomness randomness = Randomness::hashed;
     std::uint32_t density = 64;
     std::uint32_t tessellation = 4;

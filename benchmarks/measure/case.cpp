@@ -191,6 +191,7 @@ hair::rendering::StrandView Case::viewOf(const hair::rendering::GroomBuffers& bu
     const hair::simulation::GuideView guides = simulation_.guides();
     view.guides = guides.positions;
     view.contacts = guides.contacts;
+    view.bodies = guides.bodies;
     view.head = hair::simulation::toMatrix(simulation_.pose());
     return view;
 }

@@ -517,6 +517,7 @@ engine::Constants strandConstants(const StrandSettings& strands, const StrandPla
         {gpu::kOffsetsConstant, hasOffsets(strands)},
         {gpu::kInterpolationConstant, shaderCode(strands.interpolation)},
         {gpu::kCollisionRuleConstant, strands.collision_rule},
+        {gpu::kStrandCollisionConstant, shaderCode(strands.collision)},
         {gpu::kRandomnessConstant, shaderCode(strands.randomness)},
         {gpu::kLodMorphConstant, plan.morphs}};
 }

@@ -23,6 +23,7 @@ struct StrandView {
                                       // detail keep them; 0: not drawn
     std::uint64_t contacts = 0;  // vec4 [guide][vertex]: w > 0 where in contact with a body and
                                  // at all vertices below; 0: not known
+    std::uint64_t bodies = 0;  // gpu::Bodies: what hair collides with; 0: not known
     std::uint64_t root_pattern = 0;  // vec2 [strand]; 0: root triangles have patterns of their own
     std::uint64_t root_frames = 0;  // gpu::RootFrame [guide]; 0: strands are not offset
     std::uint64_t offsets = 0;  // StrandOffsets::values

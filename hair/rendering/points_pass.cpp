@@ -85,7 +85,7 @@ PointsPass::PointsPass(
           .width = settings.render.width * settings.render.ssaa,
           .height = settings.render.height * settings.render.ssaa,
           .strands = countStrands(plan),
-          .reach = view.offset_reach,
+          .reach = plan.reach,
           .greatest_width = view.greatest_width,
           .culls = culls},
       blocks_(

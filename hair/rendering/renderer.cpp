@@ -61,7 +61,7 @@ strandImages(const StrandTexture& texture, const ShadowPass& shadows) {
 }  // namespace
 
 static_assert(offsetof(gpu::PictureParameters, lights) == 220);
-static_assert(sizeof(gpu::PictureParameters) == 388);
+static_assert(sizeof(gpu::PictureParameters) == 396);
 
 gpu::PictureParameters pictureParameters(
     const Settings& settings, const StrandPlan& plan, const StrandView& view,
@@ -102,6 +102,7 @@ gpu::PictureParameters pictureParameters(
         .bound_strands = view.bound_strands,
         .guide_normals = buffers.guide_normals,
         .contacts = view.contacts,
+        .bodies = view.bodies,
         .root_pattern = view.root_pattern,
         .offsets = view.offsets,
         .offset_profiles = view.offset_profiles,

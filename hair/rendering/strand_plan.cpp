@@ -13,6 +13,9 @@
 namespace hair::rendering {
 namespace {
 
+// A body moves what is inside of it out, however far that is.
+constexpr float kAnywhere = 1e6f;  // m
+
 // Mean over the strands, m.
 double meanWidth(const groom::Groom& groom, const StrandSettings& settings) {
     if (settings.width == WidthSource::groom) {
@@ -116,6 +119,10 @@ planStrands(const StrandView& view, const Settings& settings, std::uint32_t isol
     if (settings.strands.collision_rule && view.contacts == 0)
         throw engine::Error(
             "/strands/collision_rule", "is set, but it is not known where guides touch bodies");
+    const bool pushed = settings.strands.collision == StrandCollision::push_out;
+    if (pushed && view.bodies == 0)
+        throw engine::Error(
+            "/strands/collision", "is push_out, but it is not known what strands collide with");
     const std::uint32_t segments = view.vertices_per_guide - 1;
     StrandSettings strands = settings.strands;
     std::uint32_t triangles = view.triangle_count;
@@ -124,7 +131,7 @@ planStrands(const StrandView& view, const Settings& settings, std::uint32_t isol
         triangles = isoline_limit = 1;
     }
     StrandPlan plan = planStrands(triangles, segments, strands, settings.lod, isoline_limit);
-    plan.reach = view.offset_reach;
+    plan.reach = pushed ? kAnywhere : view.offset_reach;
     plan.greatest_width = view.greatest_width;
     return plan;
 }

@@ -20,6 +20,7 @@ struct GuideView {
     // Device address of vec4 [strand][vertex]; w: 1 where in contact with a body and at all
     // vertices below, else 0.
     std::uint64_t contacts = 0;
+    std::uint64_t bodies = 0;  // device address of the gpu::Bodies that they collide with
     std::uint32_t strand_count = 0;
     std::uint32_t vertices_per_strand = 0;
 };

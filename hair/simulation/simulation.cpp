@@ -248,6 +248,7 @@ GuideView Simulation::guides() const {
     return {
         .positions = positions_[current_].address(),
         .contacts = previous_[current_].address(),
+        .bodies = parameters_.address() + offsetof(gpu::GuideParameters, bodies),
         .strand_count = strand_count_,
         .vertices_per_strand = vertices_per_strand_};
 }

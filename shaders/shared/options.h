@@ -35,6 +35,10 @@ const uint kInterpolationMulti = 0u;
 const uint kInterpolationSingle = 1u;
 const uint kInterpolationMixed = 2u;
 
+// What bodies do to strands where they are drawn (StrandCollision).
+const uint kStrandCollisionNone = 0u;
+const uint kStrandCollisionPushOut = 1u;
+
 // How strands are spread over root triangles (Randomness).
 const uint kRandomnessHashed = 0u;
 const uint kRandomnessThesis = 1u;
@@ -69,6 +73,7 @@ const uint kInterpolationConstant = 6u;
 const uint kCollisionRuleConstant = 7u;
 const uint kRandomnessConstant = 8u;
 const uint kLodMorphConstant = 9u;
+const uint kStrandCollisionConstant = 30u;
 
 // Constants of strands/software: strands/software/software.glsl; of strands/mesh, too.
 const uint kMostSegmentsConstant = 10u;

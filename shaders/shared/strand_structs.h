@@ -49,6 +49,7 @@ struct PictureParameters {
     Address guide_normals;  // vec3 [guide][vertex], across the guide; read where offsets are drawn
     Address contacts;  // vec4 [guide][vertex]: w > 0 where a guide touches a body and below; read
                        // where the collision rule holds
+    Address bodies;  // Bodies; read where they push strands out
     Address root_pattern;  // vec2 [strand], in [0, 1): read where it is that of every triangle
     Address offsets;  // vec3 [profile][1 + sample + 1], m: see hair/rendering/strand_offsets.h
     uint offset_profiles;

@@ -14,6 +14,7 @@ layout(constant_id = kOffsetsConstant) const uint kOffsets = 0;
 layout(constant_id = kInterpolationConstant) const uint kInterpolation = kInterpolationMulti;
 // 1: strands of guides that touch a body follow one of them from there on
 layout(constant_id = kCollisionRuleConstant) const uint kCollisionRule = 0;
+layout(constant_id = kStrandCollisionConstant) const uint kStrandCollision = kStrandCollisionNone;
 layout(constant_id = kRandomnessConstant) const uint kRandomness = kRandomnessHashed;
 // 1: ends of pieces may be off the curve
 layout(constant_id = kLodMorphConstant) const uint kLodMorph = 0;

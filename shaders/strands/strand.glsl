@@ -4,6 +4,7 @@
 
 #include "common/picture.glsl"
 #include "shading/options.glsl"
+#include "strands/collision.glsl"
 #include "strands/curve.glsl"
 #include "strands/interpolation.glsl"
 #include "strands/offsets.glsl"
@@ -113,6 +114,10 @@ StrandPoint drawnPoint(PictureParameters picture, StrandPatch strand_patch, Patc
         point.position = mix(mix(a.position, b.position, part), point.position, lod.morph);
         point.tangent = mix(mix(a.tangent, b.tangent, part), point.tangent, lod.morph);
         point.width = mix(mix(a.width, b.width, part), point.width, lod.morph);
+    }
+    if (kStrandCollision == kStrandCollisionPushOut) {
+        float along_guides = float(strand_patch.segment) + pieceEnd(lod, index);
+        pushOutOfBodies(picture, along_guides, point.position, point.tangent);
     }
     putShown(picture, strand_patch, strand.index, point);
     return point;

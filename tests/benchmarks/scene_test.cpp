@@ -130,8 +130,8 @@ INSTANTIATE_TEST_SUITE_P(Json, SceneError, testing::ValuesIn(kBadJson));
 const BadScene kBadFields[] = {
     {R"({"strands": {"tessalation": 1}})",
      ": /strands/tessalation: unknown key (did you mean \"tessellation\"?); known: backend, "
-     "source, interpolation, blend, collision_rule, randomness, density, tessellation, width, "
-     "root_width, tip_width, curl, variation, offsets, opacity, texture, curve, taper, "
+     "source, interpolation, blend, collision_rule, collision, randomness, density, tessellation, "
+     "width, root_width, tip_width, curl, variation, offsets, opacity, texture, curve, taper, "
      "taper_start, submission"},
     {R"({"sweeep": {}})", ": /sweeep: unknown key (did you mean \"sweep\"?); known: description, "
                           "seed, groom, simulation, strands, "

@@ -11,6 +11,7 @@
 #include <glm/vec4.hpp>
 
 #include "engine/buffer_image.h"
+#include "hair/gpu_structs.h"
 #include "hair/groom/groom.h"
 #include "hair/rendering/groom_buffers.h"
 
@@ -33,7 +34,15 @@ inline std::vector<bool> madeUpContacts(const groom::Groom& groom) {
     return contacts;
 }
 
-// A groom on the device as rendering sees it, at rest and with made-up contacts.
+// A body amid tangledGroom(), which follows the head, and its margin, m.
+inline constexpr gpu::Capsule kMadeUpBody{
+    .a = {-0.05f, 0.02f, 0.0f},
+    .radius = 0.08f,
+    .b = {0.08f, 0.1f, 0.02f},
+    .follows = gpu::kFollowsHead};
+inline constexpr float kMadeUpMargin = 0.03f;
+
+// A groom on the device as rendering sees it, at rest and with made-up contacts and a body.
 class DeviceHair {
 public:
     DeviceHair(
@@ -43,12 +52,16 @@ public:
           guides_(engine::makeBuffer(
               device, std::span<const glm::vec4>(withoutW(groom.points)), "guides")),
           contacts_(engine::makeBuffer(
-              device, std::span<const glm::vec4>(onlyW(madeUpContacts(groom))), "contacts")) {}
+              device, std::span<const glm::vec4>(onlyW(madeUpContacts(groom))), "contacts")),
+          capsule_(engine::makeBuffer(device, std::span(&kMadeUpBody, 1), "capsule")),
+          bodies_(engine::makeBuffer(
+              device, std::span<const gpu::Bodies>(std::vector{bodies()}), "bodies")) {}
 
     StrandView view() const {
         StrandView view = buffers_.view();
         view.guides = guides_.address();
         view.contacts = contacts_.address();
+        view.bodies = bodies_.address();
         return view;
     }
 
@@ -71,9 +84,21 @@ private:
         return result;
     }
 
+    gpu::Bodies bodies() const {
+        return {
+            .capsules = capsule_.address(),
+            .fields = 0,
+            .capsule_count = 1,
+            .field_count = 0,
+            .margin = kMadeUpMargin,
+            .friction = 0.0f};
+    }
+
     GroomBuffers buffers_;
     engine::Buffer guides_;
     engine::Buffer contacts_;
+    engine::Buffer capsule_;
+    engine::Buffer bodies_;
 };
 
 // A groom of one root triangle whose guides have these points.

@@ -26,6 +26,7 @@ const Feature kFeatures[] = {
     {"single", {.interpolation = Interpolation::single}},
     {"mixed", {.interpolation = Interpolation::mixed}},
     {"collision_rule", {.collision_rule = true}},
+    {"push_out", {.collision = StrandCollision::push_out}},
     {"thesis_randomness", {.randomness = Randomness::thesis}},
     {"catmull_rom", {.curve = Curve::catmull_rom}},
     {"taper_start", {.taper_start = 0.5f}},

@@ -7,9 +7,6 @@
 #include "simulation/constraints/friction.glsl"
 #include "simulation/guides.glsl"
 
-layout(buffer_reference, scalar) readonly buffer Capsules { Capsule at[]; };
-layout(buffer_reference, scalar) readonly buffer BodyFields { BodyField at[]; };
-
 const float kFar = 1.0e9;  // m
 
 const float kTouchesNone = -1.0;

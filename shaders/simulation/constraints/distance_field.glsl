@@ -3,8 +3,10 @@
 
 #include "common/extensions.glsl"
 #include "shared/distance_field_structs.h"
+#include "shared/simulation_structs.h"
 
 layout(buffer_reference, scalar) readonly buffer FieldDistances { float at[]; };
+layout(buffer_reference, scalar) readonly buffer BodyFields { BodyField at[]; };
 
 // A shorter gradient is that of surfaces equally near on opposite sides: it has no direction.
 const float kFlatField = 1.0e-3;
@@ -13,7 +15,7 @@ const float kFlatField = 1.0e-3;
 // about. Outside the grid: the value at the nearest point of the grid plus the distance to it, and
 // the gradient of that; no less than the grid's padding.
 float sampleDistance(DistanceField field, vec3 p, out vec3 gradient) {
-    vec3 scaled = (p - field.origin) * field.cells_per_metre;
+    precise vec3 scaled = (p - field.origin) * field.cells_per_metre;
     vec3 last = vec3(field.points - 1u);
     vec3 inside = clamp(scaled, vec3(0.0), last);
     uvec3 corner = min(uvec3(inside), field.points - 2u);
@@ -37,7 +39,7 @@ float sampleDistance(DistanceField field, vec3 p, out vec3 gradient) {
                                             mix(slope_y.x, slope_y.y, t.z),
                                             along_y.y - along_y.x);
 
-    vec3 beyond = field.cell * (scaled - inside);
+    precise vec3 beyond = field.cell * (scaled - inside);  // strands/curve.glsl
     float gap = length(beyond);
     if (gap > 0.0) gradient = mix(gradient, beyond / gap, notEqual(beyond, vec3(0.0)));
     return mix(along_y.x, along_y.y, t.z) + gap;
