@@ -32,8 +32,8 @@ void pushOut(float gap, vec3 normal, float margin, float part, inout vec3 positi
 }
 
 // `along`: guide segments from the root.
-void pushOutOfBodies(PictureParameters picture, float along, inout vec3 position,
-                     inout vec3 tangent) {
+void pushStrandOut(PictureParameters picture, float along, inout vec3 position,
+                   inout vec3 tangent) {
     Bodies bodies = BodiesReference(picture.bodies).bodies;
     float margin = bodies.margin * min(along, 1.0);
     float part = min(along / kPushedWhole, 1.0);

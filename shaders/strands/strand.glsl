@@ -117,7 +117,7 @@ StrandPoint drawnPoint(PictureParameters picture, StrandPatch strand_patch, Patc
     }
     if (kStrandCollision == kStrandCollisionPushOut) {
         float along_guides = float(strand_patch.segment) + pieceEnd(lod, index);
-        pushOutOfBodies(picture, along_guides, point.position, point.tangent);
+        pushStrandOut(picture, along_guides, point.position, point.tangent);
     }
     putShown(picture, strand_patch, strand.index, point);
     return point;

@@ -35,8 +35,8 @@ Nearest nearestOf(const gpu::Capsule& capsule, const glm::dvec3& position) {
     return {glm::length(away) - double{capsule.radius}, glm::normalize(away)};
 }
 
-// How far outside a point is that was `gap` outside, by the field's own description: from the
-// margin on as it was, and below C1 down to a quarter of it.
+// How far outside a point is that was `gap` outside: from the margin on as it was; below, by the
+// exponential that meets that smoothly and stays above a quarter of the margin. docs/grooms.md
 double pressedGap(double gap, double margin) {
     if (gap >= margin) return gap;
     const double least = 0.25 * margin;
@@ -60,7 +60,7 @@ protected:
     }
 
     // Guide segments from the root.
-    static double alongOf(const StrandPoints&, std::size_t record) {
+    static double alongOf(std::size_t record) {
         const std::size_t point = record % (kPieces + 1);
         const std::size_t segment = record / (kPieces + 1) % (kVertices - 1);
         return static_cast<double>(segment) + static_cast<double>(point) / kPieces;
@@ -80,7 +80,7 @@ TEST_F(StrandCollisionTest, PointsAreAsFarOutsideAsIsSaid) {
     for (std::size_t i = 0; i < plain.records.size(); ++i) {
         const glm::dvec3 from(to_head * glm::dvec4(plain.records[i].position, 1.0));
         const glm::dvec3 to(to_head * glm::dvec4(pushed.records[i].position, 1.0));
-        const double along = alongOf(plain, i);
+        const double along = alongOf(i);
         const double margin = kMadeUpMargin * std::min(along, 1.0);
         const Nearest nearest = nearestOf(kMadeUpBody, from);
         const double moved =
