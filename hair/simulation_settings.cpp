@@ -249,6 +249,15 @@ const Table& tableOf(const SimulationSettings*) {
              {{StiffnessScaling::invariant, "invariant"}, {StiffnessScaling::thesis, "thesis"}},
              "invariant: stiffness means the same at any time step, iteration count and segment "
              "length; thesis: the raw factor, applied once per iteration"),
+         choice(
+             "rest", &S::rest, {{RestShape::groom, "groom"}, {RestShape::balanced, "balanced"}},
+             "what guides of `shape` and `rod` are without load. groom: as the groom has them, so "
+             "that they sag under gravity; balanced: such that they hang under gravity as the "
+             "groom has them"),
+         number(
+             "most_stiffening", &S::most_stiffening, 1, 1000, "1",
+             "rest: balanced: greatest factor by which a guide may be stiffened so that it hangs "
+             "stably; one that would need more keeps the groom's shape as its rest shape"),
          group("global", &S::global, "pull toward the rest position"),
          group("local", &S::local, "pull toward the rest shape"),
          group("length", &S::length, "inextensible segments"),

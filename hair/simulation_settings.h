@@ -163,6 +163,9 @@ const Table& tableOf(const PullSettings*);
 enum class Solver { none, shape, ftl, rod };
 enum class Parallelism { automatic, vertex, strand, serial };
 enum class StiffnessScaling { invariant, thesis };
+// What guides are without load. groom: as the groom has them, so that they sag under gravity.
+// balanced: such that they hang under gravity as the groom has them.
+enum class RestShape { groom, balanced };
 
 struct SimulationSettings {
     Solver solver = Solver::shape;
@@ -173,6 +176,8 @@ struct SimulationSettings {
     glm::vec3 gravity{0.0f, -9.8f, 0.0f};
     float friction = 0.05f;
     StiffnessScaling stiffness_scaling = StiffnessScaling::invariant;
+    RestShape rest = RestShape::groom;
+    float most_stiffening = 16.0f;
     GlobalSettings global;
     LocalSettings local;
     LengthSettings length;

@@ -179,12 +179,20 @@ void addCheckCommands(const CommandLine& line) {
             addDeviceOptions(command, options.device);
         });
 
-    CLI::App* const validate =
-        line.app.add_subcommand("validate", "checks scene files and their assets");
-    const auto scenes = std::make_shared<std::vector<std::filesystem::path>>();
-    validate->add_option("scenes", *scenes, "scene files")->required()->type_name("FILE...");
-    validate->callback(
-        [&chosen = line.chosen, scenes] { chosen = [scenes] { return validateScenes(*scenes); }; });
+    addCommand<ValidateOptions>(
+        line, line.app, "validate", "checks scene files and their assets", validateScenes,
+        [](CLI::App& command, ValidateOptions& options) {
+            command.add_option("scenes", options.scenes, "scene files")
+                ->required()
+                ->type_name("FILE...");
+            command.add_flag(
+                "--start", options.start,
+                "settle each scene's hair on the device, its axes apart, and say what is wrong "
+                "with it: stretched, inside a body, still moving, not balanced");
+            command.add_option(
+                "--device", options.device.wanted,
+                "for --start: index or part of the name of the device");
+        });
     line.app.add_subcommand("schema", "prints the JSON Schema of scene files")
         ->callback([&chosen = line.chosen] { chosen = printSchema; });
     line.app.add_subcommand("devices", "lists the Vulkan devices and what they lack")

@@ -136,7 +136,12 @@ int walkLod(const LodOptions& options);
 
 int viewScene(const viewer::ViewOptions& options);
 
-int validateScenes(const std::vector<std::filesystem::path>& scenes);
+struct ValidateOptions {
+    std::vector<std::filesystem::path> scenes;
+    bool start = false;  // look at the hair of each scene on the device
+    engine::DeviceOptions device;  // for that
+};
+int validateScenes(const ValidateOptions& options);
 int printSchema();
 int printDevices();
 

@@ -1,23 +1,55 @@
+#include <cstddef>
 #include <iostream>
+#include <optional>
+#include <vector>
 
 #include "benchmarks/commands/commands.h"
 #include "benchmarks/measure/case.h"
+#include "benchmarks/measure/hair_cache.h"
+#include "benchmarks/measure/start.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/scene/schema.h"
 #include "benchmarks/scene/sweep.h"
 
 namespace benchmarks::commands {
+namespace {
 
-int validateScenes(const std::vector<std::filesystem::path>& scenes) {
+void printStart(const engine::Device& device, scene::Scene& scene, measure::HairCache& cache) {
+    const scene::CaseSpec spec =
+        scene::singleCase(scene, {.scene = scene.directory}, &cache.assets());
+    const measure::Case first(device, spec.settings, scene.directory, &cache);
+    const measure::StartInspection start = measure::inspectStart(first);
+    const report::StartRecord& record = start.record;
+    std::cout << "   " << spec.name << ": " << record.from << ", longest segment "
+              << record.stretch.value << " of its rest length, deepest vertex "
+              << 1e3 * record.depth.value << " mm in a body, fastest " << 1e3 * record.speed.value
+              << " mm/s\n";
+    if (record.stiffened)
+        std::cout << "   balanced: " << *record.stiffened << " guides stiffened, at most "
+                  << *record.stiffest << " times; " << *record.unbalanced
+                  << " could not be balanced\n";
+    for (const std::string& warning : start.warnings)
+        std::cout << "   warning: " << warning << '\n';
+}
+
+}  // namespace
+
+int validateScenes(const ValidateOptions& options) {
     int status = report::kOk;
-    for (const std::filesystem::path& path : scenes) {
+    std::optional<engine::Device> device;
+    if (options.start) device.emplace(options.device);
+    measure::HairCache cache = measure::userHairCache(true);
+    for (const std::filesystem::path& path : options.scenes) {
         if (path.string().ends_with(".schema.json")) continue;  // scenes/*.json names it too
         try {
             std::size_t count = 0;
-            for (scene::Scene& scene : scene::loadScenes(path))
-                count += scene::selectCases(scene, {.scene = path}).size();
+            std::vector<scene::Scene> loaded = scene::loadScenes(path);
+            for (scene::Scene& scene : loaded)
+                count += scene::selectCases(scene, {.scene = path}, &cache.assets()).size();
             std::cout << path.string() << ": ok, " << count
                       << (count == 1 ? " case\n" : " cases\n");
+            if (!device) continue;
+            for (scene::Scene& scene : loaded) printStart(*device, scene, cache);
         } catch (const engine::Error& error) {
             std::cerr << error.what() << '\n';
             status = report::kUsageError;

@@ -83,6 +83,13 @@ public:
     // Where the head is in the last frame.
     hair::simulation::RigidMotion head() const { return simulation_.pose(); }
 
+    const hair::Settings& settings() const { return settings_; }
+
+    // How the guides are in the last frame, and what /simulation/rest made of them. Wait for the
+    // device.
+    hair::simulation::GuideCondition condition() const { return simulation_.condition(); }
+    const hair::simulation::RestBalance* balance() const { return simulation_.balance(); }
+
     // For other pictures of the same hair: `settings` may differ from the case's in how it is lit,
     // seen and drawn, but not in what /groom, /simulation, /seed and /strands make of it.
     hair::rendering::Renderer rendererOf(const hair::Settings& settings) const;

@@ -10,6 +10,7 @@
 #include "benchmarks/measure/metrics.h"
 #include "benchmarks/measure/sampling.h"
 #include "benchmarks/measure/stage.h"
+#include "benchmarks/measure/start.h"
 #include "benchmarks/measure/trust.h"
 #include "benchmarks/report/statistics.h"
 
@@ -151,6 +152,9 @@ std::vector<std::uint8_t> measure(
     result.counts = test_case.counts();
     if (const auto backend = test_case.backend())
         result.backend = {hair::backendName(backend->backend), backend->variant, backend->reason};
+    StartInspection start = inspectStart(test_case);
+    result.start = std::move(start.record);
+    std::ranges::move(start.warnings, std::back_inserter(result.trust.warnings));
     DeviceStage stage(device, test_case, run, hooks);
     std::vector<std::uint8_t> picture = measureFrames(stage, run, hooks, result);
     report::CaseResult counted = stage.takeCounted();

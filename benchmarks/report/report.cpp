@@ -173,6 +173,25 @@ void put(scene::Json& object, const char* name, const BackendRecord& backend) {
     put(made, "reason", backend.reason);
 }
 
+scene::Json toJson(const WorstGuide& worst) {
+    scene::Json object = {{"guide", worst.guide}, {"guides", worst.guides}};
+    put(object, "value", worst.value);
+    return object;
+}
+
+void put(scene::Json& object, const char* name, const std::optional<StartRecord>& start) {
+    if (!start) return;
+    scene::Json& made = object[name] = scene::Json::object();
+    put(made, "from", start->from);
+    put(made, "rest", start->rest);
+    made["stretch"] = toJson(start->stretch);
+    made["depth"] = toJson(start->depth);
+    made["speed"] = toJson(start->speed);
+    put(made, "stiffened", start->stiffened);
+    put(made, "stiffest", start->stiffest);
+    put(made, "unbalanced", start->unbalanced);
+}
+
 void putMeasured(scene::Json& object, const CaseResult& result) {
     scene::Json& metrics = object["metrics"] = scene::Json::object();
     for (const Metric& metric : result.metrics)
@@ -201,6 +220,7 @@ scene::Json toJson(const CaseResult& result) {
     object["status"] = statusName(result.status);
     put(object, "reason", result.reason);
     put(object, "backend", result.backend);
+    put(object, "start", result.start);
     // A case that was throttled throughout has failed, and what was measured says by how much.
     if (result.status == Status::ok || !result.metrics.empty()) putMeasured(object, result);
     return object;

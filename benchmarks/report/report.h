@@ -18,7 +18,7 @@
 // "": empty strings, empty optionals, and numbers that are not finite are left out.
 namespace benchmarks::report {
 
-inline constexpr const char* kReportSchema = "hairbench-report/1.3.0";
+inline constexpr const char* kReportSchema = "hairbench-report/1.4.0";
 
 struct DeviceRecord {
     std::string name;
@@ -129,6 +129,27 @@ struct BackendRecord {
     std::string reason;  // why this one drew them
 };
 
+// What is worst of its kind among the guides.
+struct WorstGuide {
+    double value = 0.0;
+    std::uint32_t guide = 0;
+    std::uint32_t guides = 0;  // beyond what a warning is for
+};
+
+// The hair before the first frame.
+struct StartRecord {
+    std::string from;  // "file", "grown"; "relaxed": simulated for /simulation/settle_steps
+    std::string rest;  // /simulation/rest
+    WorstGuide stretch;  // of a segment, over its rest length
+    WorstGuide depth;  // of a vertex in a body, m; 0: none is inside
+    WorstGuide speed;  // of a vertex, m/s
+    // Where the rest shape is balanced: guides that were stiffened for it, the greatest factor, and
+    // guides that could not be balanced.
+    std::optional<std::uint32_t> stiffened;
+    std::optional<double> stiffest;
+    std::optional<std::uint32_t> unbalanced;
+};
+
 struct CaseResult {
     std::string name;
     std::optional<std::size_t> index;  // in the whole sweep, from 0
@@ -137,6 +158,7 @@ struct CaseResult {
     Status status = Status::ok;
     std::string reason;  // why it was skipped or failed
     BackendRecord backend;
+    std::optional<StartRecord> start;
     // Medians, MAD and the rest are worked out when they are written; those without a finite sample
     // are left out then.
     std::vector<Metric> metrics;

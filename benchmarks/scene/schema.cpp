@@ -56,6 +56,13 @@ Broken windHasDirection(const hair::Settings& s) {
     return {};
 }
 
+Broken solverHasRestShapes(const hair::Settings& s) {
+    if (s.simulation.rest != hair::RestShape::balanced || s.simulation.solver != hair::Solver::ftl)
+        return {};
+    return "is balanced, and /simulation/solver ftl has no rest shape that could be; shape and rod "
+           "have one";
+}
+
 Broken keyframesAscend(const hair::Settings& s) {
     const auto& keys = s.simulation.motion.keyframes;
     const auto late =
@@ -168,6 +175,7 @@ constexpr Rule kRules[] = {
     {"/groom/vertices", strandsHaveTwoEnds},
     {"/groom/grow/parting/to", partingHasLength},
     {"/strands/source", groomHasStrandsOfItsOwn},
+    {"/simulation/rest", solverHasRestShapes},
     {"/simulation/wind/direction", windHasDirection},
     {"/simulation/motion/keyframes", keyframesAscend},
     {"/simulation/pulls", pullKeysAscend},

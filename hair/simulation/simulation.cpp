@@ -31,6 +31,13 @@ engine::BufferDescription stateOf(const engine::Buffer& like, const char* name) 
     return {.size = like.size(), .name = name};
 }
 
+std::vector<glm::vec4> withMargin(std::span<const glm::vec3> points, float margin) {
+    std::vector<glm::vec4> result;
+    result.reserve(points.size());
+    for (const glm::vec3& point : points) result.emplace_back(point, margin);
+    return result;
+}
+
 bool hairActsOnHair(const SimulationSettings& settings) {
     const HairHairSettings& contact = settings.hair_hair;
     return settings.solver != Solver::none && (contact.friction > 0.0f || contact.repulsion > 0.0f);
@@ -60,7 +67,8 @@ Simulation::Simulation(
       seed_(seed), pinned_(groom.points.size()), motion_(settings.motion),
       bodies_(device, settings, field_meshes, made.fields),
       rest_positions_(engine::makeBuffer(
-          device, std::span<const glm::vec4>(withMasses(groom.points)), "guide rest positions")),
+          device, std::span<const glm::vec4>(withMargin(groom.points, settings.collision.margin)),
+          "guide rest positions")),
       positions_{
           engine::Buffer(device, stateOf(rest_positions_, "guide positions")),
           engine::Buffer(device, stateOf(rest_positions_, "guide positions"))},
@@ -83,6 +91,7 @@ Simulation::Simulation(
     start.reserve(groom.points.size());
     for (const glm::vec3& point : groom.points) start.emplace_back(placed(point));
     setState(start, start);
+    if (balance()) balanceRest(start);
     for (const engine::Buffer* buffer : state())
         settled_.emplace_back(device, stateOf(*buffer, "settled state"));
     const auto fits = [](const std::vector<std::byte>& bytes, const engine::Buffer& buffer) {
@@ -102,6 +111,35 @@ Simulation::Simulation(
         commands.fill(accelerations_, 0);
         commands.barrier(engine::Access::transfer_write, engine::Access::anything);
     });
+}
+
+void Simulation::balanceRest(std::span<const glm::vec3> start) {
+    constexpr int kMostCorrections = 64;
+    constexpr float kClear = 1e-5f;  // m: touches nothing, for all roundings
+    auto rest = engine::downloadAs<glm::vec4>(*device_, rest_positions_);
+    const std::vector<gpu::VertexCondition> vertices = inspect();
+    for (std::size_t i = 0; i < rest.size(); ++i)
+        rest[i].w = std::min(rest[i].w, vertices[i].gap - kClear);
+    engine::upload(*device_, std::as_bytes(std::span(rest)), rest_positions_);
+
+    const auto with_bodies = parametersWith(bodies_.parameters());
+    const auto without = parametersWith({});
+    engine::upload(*device_, std::as_bytes(std::span(without)), parameters_);
+    const glm::dquat to_groom = glm::conjugate(pose().rotation);
+    bool corrects = true;
+    for (int i = 0; i < kMostCorrections && corrects; ++i) {
+        setState(start, start);
+        device_->runOnce([&](engine::Commands& commands) {
+            wind_.recordCalm(commands, addresses());
+            recordSubsteps(commands, 1, current_, 0.0, 0.0);
+        });
+        std::vector<glm::vec3> moved;
+        for (std::size_t vertex = 0; const glm::vec3& now : readPositions())
+            moved.emplace_back(to_groom * (glm::dvec3(now) - glm::dvec3(start[vertex++])));
+        corrects = solver_->correctBalance(*device_, moved);
+    }
+    engine::upload(*device_, std::as_bytes(std::span(with_bodies)), parameters_);
+    setState(start, start);
 }
 
 SettledState Simulation::readSettled() const {
@@ -169,7 +207,7 @@ void Simulation::recordStep(engine::Commands& commands, Copy into) {
     const std::uint32_t from = current_;
     ++steps_;
     if (into == Copy::other) current_ = 1 - current_;
-    recordSubsteps(commands, from, start, time());
+    recordSubsteps(commands, step_.count, from, start, time());
 }
 
 void Simulation::settle(std::uint32_t steps) {
@@ -181,7 +219,7 @@ void Simulation::settle(std::uint32_t steps) {
             for (std::uint32_t i = 0; i < batch; ++i) {
                 wind_.recordCalm(commands, addresses());
                 if (hair_hair_) hair_hair_->record(commands, addresses(), pose());
-                recordSubsteps(commands, current_, time(), time());
+                recordSubsteps(commands, step_.count, current_, time(), time());
             }
         });
         steps -= batch;
@@ -244,6 +282,15 @@ std::vector<bool> Simulation::readContacts() const {
     return contacts;
 }
 
+std::vector<gpu::VertexCondition> Simulation::inspect() const {
+    return inspectVertices(
+        *device_, addresses().parameters, toGpu(pose()), strand_count_ * vertices_per_strand_);
+}
+
+GuideCondition Simulation::condition() const {
+    return worstOf(inspect(), vertices_per_strand_, double{step_.sub});
+}
+
 GuideView Simulation::guides() const {
     return {
         .positions = positions_[current_].address(),
@@ -253,14 +300,15 @@ GuideView Simulation::guides() const {
         .vertices_per_strand = vertices_per_strand_};
 }
 
-// The frames of the head divide the time evenly. The first substep takes the guides from one copy
-// to the current one, the others stay there.
+// The first `count` of a step's substeps. The frames of the head divide the step's time evenly. The
+// first substep takes the guides from one copy to the current one, the others stay there.
 //
 // The barriers at the end are there for the next step. They stand here, before anything is drawn of
 // this one, so that the next waits neither for that nor for what comes between: only for pictures
 // of the frame before, which were drawn of the copy that it overwrites.
 void Simulation::recordSubsteps(
-    engine::Commands& commands, std::uint32_t from_copy, double from, double to) const {
+    engine::Commands& commands, std::uint32_t count, std::uint32_t from_copy, double from,
+    double to) const {
     const auto frameAfter = [&](std::uint32_t substep) {
         const double part = static_cast<double>(substep) / step_.count;
         return toGpu(motion_.at(from + part * (to - from)));
@@ -268,7 +316,7 @@ void Simulation::recordSubsteps(
     const GuideAddresses guides = addresses();
     const AirAtGuides air = wind_.air();
     GuideAddresses before = addresses(from_copy);
-    for (std::uint32_t i = 0; i < step_.count; ++i) {
+    for (std::uint32_t i = 0; i < count; ++i) {
         // After the forces, or the substep before.
         commands.barrier(Access::compute_write, Access::compute_write);
         commands.uses(

@@ -16,6 +16,7 @@
 #include "hair/groom/mesh/mesh.h"
 #include "hair/settings.h"
 #include "hair/simulation/bodies.h"
+#include "hair/simulation/condition.h"
 #include "hair/simulation/guide_view.h"
 #include "hair/simulation/hair_hair.h"
 #include "hair/simulation/head_motion.h"
@@ -127,6 +128,11 @@ public:
     // True at vertices in contact with a body and at all below them on the strand.
     std::vector<bool> readContacts() const;
 
+    // How the guides are now. Waits for the device.
+    GuideCondition condition() const;
+    // Where /simulation/rest asks for a balanced rest shape and the solver has one; else null.
+    const RestBalance* balance() const { return solver_ ? solver_->balance() : nullptr; }
+
     // Whether a step records anything: `none` does so only where the head moves.
     bool moves() const { return solver_ != nullptr; }
     double time() const { return static_cast<double>(steps_) * double{step_.whole}; }
@@ -136,9 +142,14 @@ public:
 
 private:
     void recordSubsteps(
-        engine::Commands& commands, std::uint32_t from_copy, double from, double to) const;
+        engine::Commands& commands, std::uint32_t count, std::uint32_t from_copy, double from,
+        double to) const;
     GuideAddresses addresses(std::uint32_t copy) const;
     GuideAddresses addresses() const { return addresses(current_); }
+    std::vector<gpu::VertexCondition> inspect() const;
+    // Lets bodies keep no vertex farther away than it is now, and brings the solver's rest shape
+    // into balance by substeps of guides that should stay at rest.
+    void balanceRest(std::span<const glm::vec3> start);
     PullPass pullPassOf(const SimulationSettings& settings) const;
     std::array<gpu::GuideParameters, 2> parametersWith(const gpu::Bodies& bodies) const;
     std::vector<glm::vec4> withMasses(std::span<const glm::vec3> positions) const;

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/buffer_image.h"
+#include "hair/simulation/rod_balance.h"
 #include "hair/simulation/stiffness.h"
 
 namespace hair::simulation {
@@ -18,6 +20,7 @@ namespace hair::simulation {
 struct RodRest {
     std::vector<glm::vec4> segments;  // [vertex][gpu::kRodSegmentRows][strand]
     std::vector<float> units;  // [strand], m
+    std::optional<RestBalance> balance;
 };
 
 namespace {
@@ -40,7 +43,9 @@ glm::dquat halfOf(glm::dquat rotation) {
 glm::vec4 toGpu(const glm::dquat& q) { return glm::dvec4(q.x, q.y, q.z, q.w); }
 
 struct Strand {
-    std::vector<std::array<glm::vec4, gpu::kRodSegmentRows>> segments;
+    HangingRod rod;  // without weights, in the strand's units
+    std::vector<double> masses;  // [vertex], over that of a segment of a unit's length
+    std::vector<glm::dquat> half_rotations;  // at joints, in entry 0 the follicle's orientation
     double unit;  // m
 };
 
@@ -55,7 +60,7 @@ Strand restOfStrand(std::span<const glm::vec3> points, double bending, double tw
     for (const double length : lengths) unit += length / static_cast<double>(size - 1);
     unit = std::max(unit, kShortestUnit);
 
-    Strand strand{.segments = {}, .unit = unit};
+    Strand strand{.rod = {}, .masses = {}, .half_rotations = {}, .unit = unit};
     glm::dvec3 tangent{0.0, 1.0, 0.0};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     for (std::size_t i = 0; i < size; ++i) {
@@ -72,19 +77,38 @@ Strand restOfStrand(std::span<const glm::vec3> points, double bending, double tw
         const double joint = i < 2 ? lengths[segment] / 2.0 : (lengths[i] + lengths[i - 1]) / 2.0;
         const double stiffness = bending / (std::max(joint, kShortest) * unit * unit * unit);
         const double below = i + 1 < size ? lengths[i + 1] : 0.0;
-        auto& rows = strand.segments.emplace_back();
-        rows[gpu::kRodHalfRotation] =
-            toGpu(i == 0 ? orientation : halfOf(glm::conjugate(above) * orientation));
-        rows[gpu::kRodStiffness] = glm::dvec4(
-            lengths[i] / unit, std::max((lengths[i] + below) / (2.0 * unit), kLeastMass),
-            std::min(stiffness, kMostStiffness), std::min(stiffness * twisting, kMostStiffness));
+        strand.rod.orientations.push_back(orientation);
+        strand.rod.edges.push_back(lengths[i] / unit * tangent);
+        strand.rod.bend_stiffness.push_back(stiffness);
+        strand.rod.twist_stiffness.push_back(stiffness * twisting);
+        strand.masses.push_back(std::max((lengths[i] + below) / (2.0 * unit), kLeastMass));
+        strand.half_rotations.push_back(
+            i == 0 ? orientation : halfOf(glm::conjugate(above) * orientation));
     }
     return strand;
 }
 
+// `pull`: h^2 g, m.
+void balance(
+    Strand& strand, std::uint32_t index, const glm::dvec3& pull, double most_stiffening,
+    RestBalance& result) {
+    for (const double mass : strand.masses) strand.rod.weights.push_back(mass / strand.unit * pull);
+    const std::optional<BalancedRod> balanced = balanceRod(strand.rod, most_stiffening);
+    if (!balanced) {
+        result.unbalanced.push_back(index);
+        return;
+    }
+    result.add(balanced->stiffening);
+    std::ranges::copy(
+        std::span(balanced->half_rotations).subspan(1), strand.half_rotations.begin() + 1);
+    for (double& stiffness : strand.rod.bend_stiffness) stiffness *= balanced->stiffening;
+    for (double& stiffness : strand.rod.twist_stiffness) stiffness *= balanced->stiffening;
+}
+
 RodRest
-restOfRods(const groom::Groom& groom, const MaterialSettings& material, const gpu::Step& step) {
+restOfRods(const groom::Groom& groom, const SimulationSettings& settings, const gpu::Step& step) {
     // I / A = R^2 / 4 and J = 2 I of a round section.
+    const MaterialSettings& material = settings.material;
     const double radius = material.radius;
     const double substep = step.sub;
     const double bending = substep * substep * double{material.youngs_modulus} * radius * radius /
@@ -92,16 +116,25 @@ restOfRods(const groom::Groom& groom, const MaterialSettings& material, const gp
     const double twisting = std::clamp(
         2.0 * double{material.shear_modulus} / double{material.youngs_modulus},
         1.0 / kMostAnisotropy, kMostAnisotropy);
+    const glm::dvec3 pull = substep * substep * gravityOnGroom(settings);
 
     RodRest rest;
+    if (settings.rest == RestShape::balanced) rest.balance.emplace();
     rest.segments.resize(groom.points.size() * gpu::kRodSegmentRows);
     for (std::uint32_t s = 0; s < groom.strand_count; ++s) {
-        const Strand strand = restOfStrand(groom.strand(s), bending, twisting);
+        Strand strand = restOfStrand(groom.strand(s), bending, twisting);
+        if (rest.balance) balance(strand, s, pull, double{settings.most_stiffening}, *rest.balance);
         rest.units.push_back(static_cast<float>(strand.unit));
-        for (std::size_t i = 0; i < strand.segments.size(); ++i)
-            for (std::size_t row = 0; row < gpu::kRodSegmentRows; ++row)
-                rest.segments[(i * gpu::kRodSegmentRows + row) * groom.strand_count + s] =
-                    strand.segments[i][row];
+        for (std::size_t i = 0; i < strand.masses.size(); ++i) {
+            const auto row = [&](std::size_t which) -> glm::vec4& {
+                return rest.segments[(i * gpu::kRodSegmentRows + which) * groom.strand_count + s];
+            };
+            row(gpu::kRodHalfRotation) = toGpu(strand.half_rotations[i]);
+            row(gpu::kRodStiffness) = glm::dvec4(
+                glm::length(strand.rod.edges[i]), strand.masses[i],
+                std::min(strand.rod.bend_stiffness[i], kMostStiffness),
+                std::min(strand.rod.twist_stiffness[i], kMostStiffness));
+        }
     }
     return rest;
 }
@@ -130,12 +163,13 @@ std::uint32_t strandsInDispatch(const engine::DeviceInfo& device, const groom::G
 RodSolver::RodSolver(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const gpu::Step& step)
-    : RodSolver(device, groom, settings, restOfRods(groom, settings.material, step)) {}
+    : RodSolver(device, groom, settings, restOfRods(groom, settings, step)) {}
 
 RodSolver::RodSolver(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const RodRest& rest)
-    : strand_count_(groom.strand_count), most_strands_(strandsInDispatch(device.info(), groom)),
+    : balance_(rest.balance), strand_count_(groom.strand_count),
+      most_strands_(strandsInDispatch(device.info(), groom)),
       segments_(
           engine::makeBuffer(device, std::span<const glm::vec4>(rest.segments), "rod segments")),
       units_(engine::makeBuffer(device, std::span<const float>(rest.units), "rod units")),

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/pipeline.h"
@@ -24,6 +26,7 @@ public:
 
     void record(engine::Commands& commands, gpu::SubstepPush push) const override;
     void recordAdopt(engine::Commands& commands, gpu::SubstepPush push) const override;
+    const RestBalance* balance() const override { return balance_ ? &*balance_ : nullptr; }
     std::vector<const engine::Buffer*> state() const override { return {&motion_}; }
 
 private:
@@ -31,6 +34,7 @@ private:
         const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
         const RodRest& rest);
 
+    std::optional<RestBalance> balance_;
     std::uint32_t strand_count_;
     std::uint32_t most_strands_;  // in a dispatch
     engine::Buffer segments_;

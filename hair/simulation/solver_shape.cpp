@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
+#include <memory>
+#include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -23,45 +27,131 @@ namespace {
 
 // ---- The shape at rest --------------------------------------------------------------------------
 
-// The rest shape as the local constraint (Han and Harada 2012) wants it: xyz is the rest edge that
-// ends in the vertex, seen from the frame that parallel transport carries from segment 1 along the
-// rest strand to the segment before that edge, m; w is the edge's length, m. With Q_i the smallest
-// rotation from the tangent of segment i - 1 to that of segment i, edge i is turned by (Q_(i-1) ...
-// Q_2)^-1. The frame of the moving strand, P_(i-1) ... P_1, then turns it into the goal. Zero at
-// the root. [strand][vertex]
-std::vector<glm::vec4> transportedRestEdges(const groom::Groom& groom) {
-    std::vector<glm::vec4> edges;
-    edges.reserve(groom.points.size());
-    for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand) {
-        const auto points = groom.strand(strand);
-        edges.emplace_back(0.0f);
-        glm::dquat transport{1.0, 0.0, 0.0, 0.0};  // Q_(i-1) ... Q_2
-        glm::dvec3 tangent{0.0, 1.0, 0.0};  // of the last segment that had one
-        for (std::uint32_t i = 1; i < groom.vertices_per_strand; ++i) {
-            const glm::dvec3 edge = glm::dvec3(points[i]) - glm::dvec3(points[i - 1]);
-            const double length = glm::length(edge);
-            const glm::dvec3 next =
-                length < double{gpu::kShortestSegment} ? tangent : edge / length;
-            edges.emplace_back(glm::vec3(glm::conjugate(transport) * edge), length);
-            if (i > 1) transport = glm::normalize(rotationBetween(tangent, next) * transport);
-            tangent = next;
-        }
+// Edges as the local constraint (Han and Harada 2012) wants them: xyz is the edge that ends in the
+// vertex, seen from the frame that parallel transport carries from segment 1 along the strand to
+// the segment before that edge, m; w is the rest length, m. With Q_i the smallest rotation from the
+// tangent of segment i - 1 to that of segment i, edge i is turned by (Q_(i-1) ... Q_2)^-1. The
+// frame of the moving strand, P_(i-1) ... P_1, then turns it into the goal. Zero at the root.
+// Appended, [vertex].
+void addTransportedEdges(
+    std::span<const glm::dvec3> points, std::span<const double> rest_lengths,
+    std::vector<glm::vec4>& edges) {
+    edges.emplace_back(0.0f);
+    glm::dquat transport{1.0, 0.0, 0.0, 0.0};  // Q_(i-1) ... Q_2
+    glm::dvec3 tangent{0.0, 1.0, 0.0};  // of the last segment that had one
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const glm::dvec3 edge = points[i] - points[i - 1];
+        const double length = glm::length(edge);
+        const glm::dvec3 next = length < double{gpu::kShortestSegment} ? tangent : edge / length;
+        edges.emplace_back(glm::vec3(glm::conjugate(transport) * edge), rest_lengths[i]);
+        if (i > 1) transport = glm::normalize(rotationBetween(tangent, next) * transport);
+        tangent = next;
     }
-    return edges;
 }
 
-// Mean rest length of the segments of each strand, m. [strand]
-std::vector<double> meanSegmentLengths(const groom::Groom& groom) {
-    std::vector<double> means;
-    means.reserve(groom.strand_count);
-    for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand) {
-        const auto points = groom.strand(strand);
-        double sum = 0.0;
-        for (std::uint32_t i = 1; i < groom.vertices_per_strand; ++i)
-            sum += glm::length(glm::dvec3(points[i]) - glm::dvec3(points[i - 1]));
-        means.push_back(sum / groom.segmentsPerStrand());
+std::vector<double> lengthsOf(std::span<const glm::dvec3> points) {
+    std::vector<double> lengths{0.0};
+    for (std::size_t i = 1; i < points.size(); ++i)
+        lengths.push_back(glm::distance(points[i], points[i - 1]));
+    return lengths;
+}
+
+// How far weight may take vertices in a substep before the lengths take them back, over the
+// shortest segment: where it takes them past each other, there is more than one way back.
+constexpr double kMostTaken = 0.125;
+
+// How far a substep's weight takes the vertices of a strand that hangs as it is before the lengths
+// take them back. From the tip up, a segment bears of what pulls at its end what goes along it, as
+// a tension that pulls at its start too; the rest is for the pull toward the rest position.
+// Tensions are never negative, and so the balance is stable whatever else is stiff. [vertex], m.
+std::vector<glm::dvec3> takenByWeight(
+    std::span<const glm::dvec3> points, std::span<const double> lengths, const glm::dvec3& weight) {
+    const double shortest = *std::ranges::min_element(lengths.subspan(1));
+    const double most = kMostTaken * shortest;
+    const glm::dvec3 borne = weight * std::min(1.0, most / glm::length(weight));
+    std::vector<glm::dvec3> taken(points.size(), glm::dvec3(0.0));
+    if (!(most > 0.0)) return taken;
+    glm::dvec3 below{0.0};  // the pull of the segment below
+    for (std::size_t i = points.size() - 1; i > 0; --i) {
+        const glm::dvec3 along = (points[i] - points[i - 1]) / lengths[i];
+        const glm::dvec3 tension = std::max(glm::dot(borne + below, along), 0.0) * along;
+        taken[i] = tension - below;
+        below = tension;
     }
-    return means;
+    return taken;
+}
+
+}  // namespace
+
+// What strands of `shape` are drawn to, as they lie on the head at rest. All but `stiffness` is
+// [strand][vertex].
+struct ShapeRest {
+    std::vector<glm::vec4> positions;  // by the global constraint, m
+    std::vector<glm::vec4> edges;  // by the local constraint: addTransportedEdges
+    std::vector<float> stiffness;  // [strand], of the local constraint per iteration
+    // Where the rest shape is balanced: the groom, where the constraints leave its vertices for the
+    // lengths to take them back, and what gravity moves a vertex by that they don't hold, m.
+    std::uint32_t vertices_per_strand = 0;
+    std::vector<glm::dvec3> points;
+    std::vector<glm::dvec3> left;
+    glm::dvec3 weight{0.0};
+    double pull = 0.0;  // of the global constraint in a substep
+    std::optional<RestBalance> balance;
+
+    // Makes positions and edges of all strands.
+    void make();
+};
+
+void ShapeRest::make() {
+    positions.clear();
+    edges.clear();
+    for (std::size_t first = 0; first < points.size(); first += vertices_per_strand) {
+        const auto strand = std::span(points).subspan(first, vertices_per_strand);
+        const auto goals = std::span(left).subspan(first, vertices_per_strand);
+        for (std::size_t i = 0; i < strand.size(); ++i) {
+            glm::dvec3 position = strand[i];
+            if (i > 0 && pull > 0.0) position += (goals[i] - strand[i] - weight) / pull;
+            positions.emplace_back(position, 0.0);
+        }
+        addTransportedEdges(goals, lengthsOf(strand), edges);
+    }
+}
+
+namespace {
+
+std::unique_ptr<ShapeRest>
+restOfShapes(const groom::Groom& groom, const SimulationSettings& settings, const gpu::Step& step) {
+    auto rest = std::make_unique<ShapeRest>();
+    rest->vertices_per_strand = groom.vertices_per_strand;
+    rest->pull = globalStiffness(settings, step);
+    if (settings.rest == RestShape::balanced) {
+        rest->balance.emplace();
+        const double substep = step.sub;
+        if (rest->pull > 0.0)
+            rest->weight = (1.0 - rest->pull) * substep * substep * gravityOnGroom(settings);
+        else
+            for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand)
+                rest->balance->unbalanced.push_back(strand);
+    }
+    // Iterations leave hair stretched by what they are to take back: the pull bears all of it.
+    const bool keeps_lengths =
+        settings.length.method == LengthMethod::tridiagonal && settings.length.iterations > 0;
+    for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand) {
+        std::vector<glm::dvec3> points;
+        for (const glm::vec3& point : groom.strand(strand)) points.emplace_back(point);
+        const std::vector<double> lengths = lengthsOf(points);
+        const double sum = std::accumulate(lengths.begin(), lengths.end(), 0.0);
+        rest->stiffness.push_back(
+            static_cast<float>(localStiffness(settings, step, sum / groom.segmentsPerStrand())));
+        std::ranges::copy(points, std::back_inserter(rest->points));
+        if (keeps_lengths && rest->weight != glm::dvec3(0.0)) {
+            const auto taken = takenByWeight(points, lengths, rest->weight);
+            for (std::size_t i = 0; i < points.size(); ++i) points[i] += taken[i];
+        }
+        std::ranges::copy(points, std::back_inserter(rest->left));
+    }
+    rest->make();
+    return rest;
 }
 
 // ---- Strands by invocations ---------------------------------------------------------------------
@@ -144,15 +234,7 @@ ShapePlan planShape(
 
 // ---- Pipelines and factors ----------------------------------------------------------------------
 
-static_assert(offsetof(gpu::ShapeParameters, length_iterations) == 24);
-
-std::vector<float> localStiffnesses(
-    const groom::Groom& groom, const SimulationSettings& settings, const gpu::Step& step) {
-    std::vector<float> factors;
-    for (const double length : meanSegmentLengths(groom))
-        factors.push_back(static_cast<float>(localStiffness(settings, step, length)));
-    return factors;
-}
+static_assert(offsetof(gpu::ShapeParameters, length_iterations) == 32);
 
 engine::ComputePipeline pipelineOf(const engine::Device& device, const ShapePlan& plan) {
     engine::Constants constants = plan.constants;
@@ -167,16 +249,23 @@ engine::ComputePipeline pipelineOf(const engine::Device& device, const ShapePlan
 ShapeSolver::ShapeSolver(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const gpu::Step& step)
-    : strand_count_(groom.strand_count),
+    : ShapeSolver(device, groom, settings, step, restOfShapes(groom, settings, step)) {}
+
+ShapeSolver::ShapeSolver(
+    const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
+    const gpu::Step& step, std::unique_ptr<ShapeRest> rest)
+    : balancing_(std::move(rest)), balance_(balancing_->balance), strand_count_(groom.strand_count),
       plan_(planShape(device.info(), settings, groom.strand_count, groom.vertices_per_strand)),
+      rest_positions_(engine::makeBuffer(
+          device, std::span<const glm::vec4>(balancing_->positions), "guide goals")),
       rest_edges_(engine::makeBuffer(
-          device, std::span<const glm::vec4>(transportedRestEdges(groom)), "guide rest edges")),
+          device, std::span<const glm::vec4>(balancing_->edges), "guide rest edges")),
       local_stiffness_(engine::makeBuffer(
-          device, std::span<const float>(localStiffnesses(groom, settings, step)),
-          "guide local stiffness")),
+          device, std::span<const float>(balancing_->stiffness), "guide local stiffness")),
       parameters_(engine::makeBuffer(
           device,
           std::span<const gpu::ShapeParameters>(std::array{gpu::ShapeParameters{
+              .rest_positions = rest_positions_.address(),
               .rest_edges = rest_edges_.address(),
               .local_stiffness = local_stiffness_.address(),
               .global_stiffness = static_cast<float>(globalStiffness(settings, step)),
@@ -184,6 +273,27 @@ ShapeSolver::ShapeSolver(
               .length_iterations = settings.length.iterations}}),
           "shape parameters")),
       pipeline_(pipelineOf(device, plan_)) {}
+
+ShapeSolver::~ShapeSolver() = default;
+
+// A vertex that moved is left nearer to where it came from: what the lengths then make of it
+// follows, but for what they take along the strand.
+bool ShapeSolver::correctBalance(const engine::Device& device, std::span<const glm::vec3> moved) {
+    constexpr double kStill = 1e-7;  // m: some roundings of positions
+    double most = 0.0;
+    for (const glm::vec3& each : moved) most = std::max(most, glm::length(glm::dvec3(each)));
+    if (!(most > kStill) || balancing_->weight == glm::dvec3(0.0)) {
+        balancing_.reset();
+        return false;
+    }
+    for (std::size_t i = 0; i < moved.size(); ++i) balancing_->left[i] -= glm::dvec3(moved[i]);
+    balancing_->make();
+    engine::upload(
+        device, std::as_bytes(std::span<const glm::vec4>(balancing_->positions)), rest_positions_);
+    engine::upload(
+        device, std::as_bytes(std::span<const glm::vec4>(balancing_->edges)), rest_edges_);
+    return true;
+}
 
 void ShapeSolver::record(engine::Commands& commands, gpu::SubstepPush push) const {
     push.solver = parameters_.address();

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "engine/instance.h"
@@ -9,6 +12,8 @@
 #include "hair/simulation/solvers.h"
 
 namespace hair::simulation {
+
+struct ShapeRest;
 
 // How the `shape` solver's strands are dealt out to invocations.
 struct ShapePlan {
@@ -28,12 +33,23 @@ public:
         const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
         const gpu::Step& step);
 
+    ~ShapeSolver() override;
+
     void record(engine::Commands& commands, gpu::SubstepPush push) const override;
     void expectBodies(const engine::Device& device) override;
+    const RestBalance* balance() const override { return balance_ ? &*balance_ : nullptr; }
+    bool correctBalance(const engine::Device& device, std::span<const glm::vec3> moved) override;
 
 private:
+    ShapeSolver(
+        const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
+        const gpu::Step& step, std::unique_ptr<ShapeRest> rest);
+
+    std::unique_ptr<ShapeRest> balancing_;  // until it is balanced
+    std::optional<RestBalance> balance_;
     std::uint32_t strand_count_;
     ShapePlan plan_;
+    engine::Buffer rest_positions_;
     engine::Buffer rest_edges_;
     engine::Buffer local_stiffness_;
     engine::Buffer parameters_;

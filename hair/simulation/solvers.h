@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "engine/buffer_image.h"
@@ -11,6 +14,20 @@
 
 // The solvers: what moves guides, and the table of them.
 namespace hair::simulation {
+
+// What /simulation/rest: balanced made of the guides.
+struct RestBalance {
+    std::uint32_t stiffened = 0;  // guides that are stiffer than the settings say
+    double stiffest = 1.0;  // the greatest factor among them
+    std::vector<std::uint32_t>
+        unbalanced;  // guides that keep the groom's shape as their rest shape
+
+    // A guide that is balanced.
+    void add(double stiffening) {
+        if (stiffening > 1.0) ++stiffened;
+        stiffest = std::max(stiffest, stiffening);
+    }
+};
 
 // What moves guides. It reads the positions and previous positions that are behind
 // SubstepPush::from and writes all of those behind SubstepPush::guides, which may be the same, and
@@ -31,6 +48,14 @@ public:
     // From now on there may be bodies, also where the constructor's settings had none. Throws as
     // the constructor.
     virtual void expectBodies(const engine::Device&) {}
+
+    // Where the settings ask for a balanced rest shape and the solver has rest shapes; else null.
+    virtual const RestBalance* balance() const { return nullptr; }
+
+    // Corrects the balanced rest shape by what a substep without bodies moved guides by that were
+    // at rest as the groom has them, [strand][vertex], axes of the groom, m. False: there is nothing left to correct,
+    // and it is not called again.
+    virtual bool correctBalance(const engine::Device&, std::span<const glm::vec3>) { return false; }
 
     // The state of its own, to save and restore.
     virtual std::vector<const engine::Buffer*> state() const { return {}; }

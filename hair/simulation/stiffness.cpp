@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "hair/simulation/head_motion.h"
+
 namespace hair::simulation {
 namespace {
 
@@ -33,6 +35,11 @@ localStiffness(const SimulationSettings& settings, const gpu::Step& step, double
         std::pow(substepRatio(step), 2.0) * std::pow(kReferenceSegment / segment_length, 4.0);
     const double exponent = kReferenceIterations / settings.local.iterations * scale;
     return std::min(-std::expm1(exponent * std::log1p(-k)), kGreatestLocalStiffness);
+}
+
+glm::dvec3 gravityOnGroom(const SimulationSettings& settings) {
+    const RigidMotion head = HeadMotion(settings.motion).at(0.0);
+    return glm::conjugate(head.rotation) * glm::dvec3(settings.gravity);
 }
 
 }  // namespace hair::simulation

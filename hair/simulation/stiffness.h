@@ -75,4 +75,7 @@ double globalStiffness(const SimulationSettings& settings, const gpu::Step& step
 double
 localStiffness(const SimulationSettings& settings, const gpu::Step& step, double segment_length);
 
+// Gravity at the start as the groom sees it on its head, m/s^2.
+glm::dvec3 gravityOnGroom(const SimulationSettings& settings);
+
 }  // namespace hair::simulation

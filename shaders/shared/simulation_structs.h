@@ -46,7 +46,7 @@ struct Bodies {
     Address fields;  // BodyField [field_count]
     uint capsule_count;
     uint field_count;
-    float margin;  // m
+    float margin;  // m; of guides' vertices: GuideParameters::rest_positions
     float friction;  // Coulomb's coefficient
 };
 
@@ -64,7 +64,7 @@ struct GuideParameters {
     Address positions;  // m; w = inverse mass over a vertex's: 0 where pinned (the root), else 1
     Address previous;  // m, one substep earlier; w = 1 at vertices in contact with a body and all
                        // vertices below them on the strand, else 0
-    Address rest_positions;  // m
+    Address rest_positions;  // m; w = margin that bodies keep from the vertex, m
     Bodies bodies;
     vec3 gravity;  // m/s^2
     Step step;
@@ -133,8 +133,23 @@ struct PullPush {
     float implicit;  // 1 / (1 + damping step.whole + stiffness step.whole^2)
 };
 
+// How a vertex is, as simulation/condition.comp finds it.
+struct VertexCondition {
+    float stretch;  // of the segment that ends there, over its rest length; 1 without one
+    float gap;  // to the nearest body, without its margin, negative inside; infinite at roots, m
+    float moved;  // in the last substep, m
+};
+
+// Push constants of simulation/condition.comp.
+struct ConditionPush {
+    Address guides;  // GuideParameters
+    Address conditions;  // VertexCondition [strand][vertex]
+    RigidFrame frame;  // of the head now
+};
+
 // Parameters of simulation/shape.glsl.
 struct ShapeParameters {
+    Address rest_positions;  // where the global constraint pulls to, m
     Address rest_edges;  // hair/simulation/solver_shape.h
     Address local_stiffness;  // float [strand]: factor per iteration
     float global_stiffness;  // factor per substep

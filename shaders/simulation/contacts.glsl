@@ -15,7 +15,7 @@ Met collide(
     Met met = Met(vec4(0.0), kTouchesNone);
     if (point.w > 0.0)
         point.xyz = pushOutOfBodies(
-            point.xyz, before, guides.bodies, frame, frame_before, met);
+            point.xyz, before, bodiesAt(guides, vertex), frame, frame_before, met);
     if (met.held != kTouchesNone) contact = 1.0;
     State(guides.positions).at[vertex] = point;
     State(guides.previous).at[vertex].w = contact;

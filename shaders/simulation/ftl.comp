@@ -65,7 +65,7 @@ void main() {
             correction = point.xyz - predicted;
             Met met;
             point.xyz = pushOutOfBodies(
-                point.xyz, before, guides.bodies, push.frame, push.frame_before, met);
+                point.xyz, before, bodiesAt(guides, i), push.frame, push.frame_before, met);
             if (met.held != kTouchesNone) contact = 1.0;
         }
         positions.at[i] = point;

@@ -240,7 +240,7 @@ void finish() {
             vec3 free = root_now + unit * edges;
             Met met;
             vec3 held = pushOutOfBodies(
-                free, before, guides.bodies, push.frame, push.frame_before, met);
+                free, before, bodiesAt(guides, root + i), push.frame, push.frame_before, met);
             if (met.held != kTouchesNone) {
                 contact = 1.0;
                 pushed = (held - free) / unit;

@@ -234,7 +234,7 @@ void load(GuideParameters guides, GuideParameters from, ShapeParameters params, 
         vec4 point = loadVector(from.positions, first + j);
         vec3 previous = loadVector(from.previous, first + j).xyz;
         storeVector(guides.previous, first + j, vec4(point.xyz, 0.0));
-        vec3 rest = toWorld(push.frame, loadVector(guides.rest_positions, first + j).xyz);
+        vec3 rest = toWorld(push.frame, loadVector(params.rest_positions, first + j).xyz);
         vec3 acceleration = guides.gravity;
         if (push.accelerations != kNoAddress)
             acceleration += loadVector(push.accelerations, first + j).xyz;

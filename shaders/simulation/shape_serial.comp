@@ -41,7 +41,7 @@ void main() {
         vec4 point = State(from.positions).at[root + v];
         float inverse_mass = point.w;
         vec3 before = point.xyz;
-        vec3 rest = toWorld(push.frame, Vectors(guides.rest_positions).at[root + v].xyz);
+        vec3 rest = toWorld(push.frame, Vectors(params.rest_positions).at[root + v].xyz);
         if (v == 0) {
             point.xyz = rest;
         } else if (point.w > 0.0) {

@@ -26,7 +26,7 @@ scene::Json written() { return scene::Json::parse(writtenText(sampleReport())); 
 
 TEST(Report, KeepsTheContractsNames) {
     const scene::Json report = written();
-    EXPECT_EQ(report["schema"], "hairbench-report/1.3.0");
+    EXPECT_EQ(report["schema"], "hairbench-report/1.4.0");
     EXPECT_EQ(
         report["environment"]["device"].dump(),
         R"({"name":"Soft","type":"cpu","driver":"llvmpipe","driver_version":"22.3.6",)"
@@ -56,6 +56,12 @@ TEST(Report, KeepsTheContractsNames) {
     EXPECT_EQ(result["counts"].dump(), R"({"guides":86,"strands":8704})");
     EXPECT_EQ(result["backend"].dump(), R"({"name":"tessellation","reason":"the scene names it"})");
     EXPECT_FALSE(report["cases"][1].contains("backend"));
+    EXPECT_EQ(
+        result["start"].dump(),
+        R"({"from":"relaxed","rest":"balanced","stretch":{"guide":4,"guides":2,"value":1.25},)"
+        R"("depth":{"guide":3,"guides":1},"speed":{"guide":0,"guides":0,"value":0.0},)"
+        R"("stiffened":5,"stiffest":1.5,"unbalanced":0})");
+    EXPECT_FALSE(report["cases"][1].contains("start"));
     EXPECT_EQ(result["trust"].dump(), R"({"pass_sum_over_wall":0.99,"warnings":["clock fell"]})");
     EXPECT_EQ(result["image_hash"], "00000000000000ff");
     EXPECT_EQ(result["picture"], "thesis.pictures/0.png");

@@ -44,6 +44,15 @@ inline report::Report sampleReport() {
              {{"/strands/density", scene::Document(64)},
               {"/strands/backend", scene::Document("tessellation")}},
          .backend = {.name = "tessellation", .reason = "the scene names it"},
+         .start =
+             report::StartRecord{
+                 .from = "relaxed",
+                 .rest = "balanced",
+                 .stretch = {.value = 1.25, .guide = 4, .guides = 2},
+                 .depth = {.value = nan, .guide = 3, .guides = 1},
+                 .stiffened = 5,
+                 .stiffest = 1.5,
+                 .unbalanced = 0},
          .metrics =
              {{report::ofFrame(report::Measured::time),
                {2.0, 4.0, 3.0, nan},

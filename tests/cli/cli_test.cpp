@@ -144,6 +144,25 @@ TEST(Cli, ValidateNamesEveryBadScene) {
     EXPECT_THAT(outcome.output, HasSubstr("bad.json: "));
 }
 
+// All of the hair is in a ball as large as the head.
+TEST(Cli, ValidateSaysWhatIsWrongWithTheHairAtTheStart) {
+    const TemporaryFolder folder;
+    const fs::path scene = folder.write(
+        "inside.json",
+        R"({"base": ")" + shippedScene("rest.json") + R"(", "groom": {"guides": 24},
+            "simulation": {"solver": "none", "colliders": [
+                {"a": [0, 0, 0], "b": [0, 0, 0], "radius": 0.5, "follows": "world"}]}})");
+    const Outcome silent = hairbench("validate '" + scene.string() + "'");
+    EXPECT_EQ(silent.status, 0);
+    EXPECT_THAT(silent.output, Not(HasSubstr("warning")));
+    const Outcome outcome = hairbench("validate --start '" + scene.string() + "'");
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_THAT(
+        outcome.output, HasSubstr("inside: grown, longest segment 1 of its rest length, deepest"));
+    EXPECT_THAT(outcome.output, HasSubstr("warning: hair starts inside a body: guide "));
+    EXPECT_THAT(outcome.output, HasSubstr("; 24 guides deeper than 0.1 mm"));
+}
+
 TEST(Cli, PhysicsRefusesWhatItDoesNotKnow) {
     const Outcome solver = hairbench("physics --solver jelly");
     EXPECT_EQ(solver.status, 2);

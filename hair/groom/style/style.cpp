@@ -26,13 +26,15 @@ Groom style(Groom groom, const StyleSettings& settings, std::uint32_t seed, cons
     groom = wave(std::move(groom), settings.wave, seed);
     groom = curl(std::move(groom), settings.curl, seed);
     groom = frizz(std::move(groom), settings.frizz, seed);
-    if (settings.clearance > 0.0f) {
-        if (!mesh)
-            throw engine::Error(
-                "/groom/style/clearance: there is no mesh that the strands grow on");
-        groom = keepClear(std::move(groom), *mesh, settings.clearance);
-    }
+    if (settings.clearance > 0.0f && !mesh)
+        throw engine::Error("/groom/style/clearance: there is no mesh that the strands grow on");
+    const auto clear = [&] {
+        if (settings.clearance > 0.0f)
+            groom = keepClear(std::move(groom), *mesh, settings.clearance);
+    };
+    clear();
     groom = cut(std::move(groom), settings.cut);
+    clear();  // a shorter strand has its vertices elsewhere
     return taper(std::move(groom), settings.taper);
 }
 
@@ -75,36 +77,90 @@ turnedTo(double height, double length, const glm::dvec3& outward, const glm::dve
 
 }  // namespace
 
-Groom keepClear(Groom groom, const Mesh& mesh, double clearance) {
-    static constexpr double kEnough = 0.3;  // of the arc length
-    static constexpr double kTolerance = 1e-6;  // m
-    static constexpr int kTurns = 8;  // of a segment: surfaces are not flat
-    const NearestSurface surface(mesh.positions, mesh.triangles);
-    for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand) {
-        const std::span<const glm::vec3> old = groom.strand(strand);
-        std::vector<glm::vec3> points(old.begin(), old.end());
-        glm::dvec3 place = old[0];
+namespace {
+
+constexpr double kEnough = 0.3;  // of the arc length
+constexpr double kClearEnough = 1e-6;  // m
+
+// A strand that is kept clear of a mesh.
+struct ClearStrand {
+    const Mesh& mesh;
+    const NearestSurface& surface;
+    std::vector<glm::dvec3> points;
+    std::vector<double> lengths;  // of the segment that ends in the vertex
+    std::vector<double> wanted;  // clearance of the vertex
+
+    ClearStrand(
+        std::span<const glm::vec3> strand, double clearance, const Mesh& on,
+        const NearestSurface& its_surface)
+        : mesh(on), surface(its_surface), points(strand.begin(), strand.end()),
+          lengths(points.size(), 0.0), wanted(points.size(), 0.0) {
         double arc = 0.0;
+        for (std::size_t i = 1; i < points.size(); ++i) {
+            lengths[i] = glm::distance(points[i], points[i - 1]);
+            arc += lengths[i];
+            wanted[i] = std::min(clearance, kEnough * arc);
+        }
+    }
+
+    // Turns one segment after the other until it ends clear, from the root on. Returns whether any
+    // turned.
+    bool turnSegments() {
+        static constexpr int kTurns = 8;  // of a segment: surfaces are not flat
+        const std::vector<glm::dvec3> old = points;
         bool moved = false;
         glm::dvec3 above(0.0);  // direction of the segment above
         for (std::size_t i = 1; i < points.size(); ++i) {
-            const glm::dvec3 edge = glm::dvec3(old[i]) - glm::dvec3(old[i - 1]);
-            const double length = glm::length(edge);
-            arc += length;
-            glm::dvec3 direction = length > 0.0 ? edge / length : edge;
-            const double wanted = std::min(clearance, kEnough * arc);
-            for (int turn = 0; turn < kTurns && length > 0.0; ++turn) {
-                const Ground ground = groundUnder(place + length * direction, mesh, surface);
-                if (ground.gap >= wanted - kTolerance) break;
-                const double height = glm::dot(ground.outward, ground.position - place) + wanted;
-                direction = turnedTo(height, length, ground.outward, direction + above);
+            const glm::dvec3 edge = old[i] - old[i - 1];
+            glm::dvec3 direction = lengths[i] > 0.0 ? edge / lengths[i] : edge;
+            for (int turn = 0; turn < kTurns && lengths[i] > 0.0; ++turn) {
+                const Ground ground =
+                    groundUnder(points[i - 1] + lengths[i] * direction, mesh, surface);
+                if (ground.gap >= wanted[i] - kClearEnough) break;
+                const double height =
+                    glm::dot(ground.outward, ground.position - points[i - 1]) + wanted[i];
+                direction = turnedTo(height, lengths[i], ground.outward, direction + above);
                 moved = true;
             }
             above = direction;
-            place = moved ? place + length * direction : glm::dvec3(old[i]);
-            points[i] = place;
+            if (moved) points[i] = points[i - 1] + lengths[i] * direction;
         }
-        std::ranges::copy(points, groom.points.begin() + strand * points.size());
+        return moved;
+    }
+
+    // Takes out what no turn of a single segment does, under a jaw or behind an ear: vertices are
+    // pushed to their clearance and lengths come back from the root on, in turns.
+    void pushVertices() {
+        static constexpr int kMostPushes = 400;
+        static constexpr double kNear = 1e-4;  // m
+        for (int push = 0; push < kMostPushes; ++push) {
+            bool clear = true;
+            for (std::size_t i = 1; i < points.size(); ++i) {
+                const Ground ground = groundUnder(points[i], mesh, surface);
+                if (ground.gap >= wanted[i] - kNear) continue;
+                clear = false;
+                points[i] = ground.position + wanted[i] * ground.outward;
+            }
+            for (std::size_t i = 1; i < points.size(); ++i) {
+                const glm::dvec3 edge = points[i] - points[i - 1];
+                const double length = glm::length(edge);
+                if (length > 0.0) points[i] = points[i - 1] + lengths[i] / length * edge;
+            }
+            if (clear) return;
+        }
+    }
+};
+
+}  // namespace
+
+Groom keepClear(Groom groom, const Mesh& mesh, double clearance) {
+    const NearestSurface surface(mesh.positions, mesh.triangles);
+    for (std::uint32_t index = 0; index < groom.strand_count; ++index) {
+        ClearStrand strand(groom.strand(index), clearance, mesh, surface);
+        if (!strand.turnSegments()) continue;
+        strand.pushVertices();
+        std::ranges::copy(
+            strand.points, groom.points.begin() + std::size_t{index} * groom.vertices_per_strand);
     }
     return groom;
 }

@@ -47,6 +47,15 @@ void meet(
     vertex.position_on_head = on_head ? pushed : fromWorld(frame, pushed);
 }
 
+// The bodies as a vertex of [strand][vertex] meets them, which may keep less of their margin.
+Bodies bodiesAt(GuideParameters guides, uint vertex) {
+    // Mesa 22's llvmpipe reads x where the last component alone is read: hence the whole vector.
+    vec4 rest = Vectors(guides.rest_positions).at[vertex];
+    Bodies bodies = guides.bodies;
+    bodies.margin = rest.w;
+    return bodies;
+}
+
 // Takes a vertex out of every body, one after the other. `before` is where it was at the start of
 // the substep. Returns where it is then.
 vec3 pushOutOfBodies(

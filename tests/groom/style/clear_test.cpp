@@ -54,6 +54,41 @@ TEST(Clearance, LeadsStrandsRoundTheMesh) {
             EXPECT_EQ(after.strand(s)[i], before.strand(s)[i]) << "it is clear of the ball";
 }
 
+// Two balls side by side, and a strand that hangs into the cleft between them: no turn of a single
+// segment takes it out, for what is clear of one ball is inside the other.
+TEST(Clearance, TakesStrandsOutOfAClosingCleft) {
+    Mesh balls = makeSphere(kRadius, 96, 48);
+    Mesh other = balls;
+    const auto offset = static_cast<std::uint32_t>(balls.positions.size());
+    for (glm::vec3& position : balls.positions) position.x -= 0.101f;
+    for (glm::vec3& position : other.positions) position.x += 0.101f;
+    balls.positions.insert(balls.positions.end(), other.positions.begin(), other.positions.end());
+    balls.normals.insert(balls.normals.end(), other.normals.begin(), other.normals.end());
+    for (const auto& [a, b, c] : other.triangles)
+        balls.triangles.push_back({a + offset, b + offset, c + offset});
+    Groom groom{.strand_count = 1, .vertices_per_strand = 17};
+    for (int i = 0; i < 17; ++i) groom.points.emplace_back(-0.03, 0.07 - 0.006 * i, 0.02);
+    groom.points[0] = {-0.101f, 0.1f, 0.0f};
+    groom.points[1] = {-0.06f, 0.1f, 0.01f};
+
+    const Groom after = keepClear(groom, balls, kClearance);
+    Extremes gaps;
+    Extremes lengths;
+    for (std::size_t i = 1; i < 17; ++i) {
+        const glm::dvec3 point(after.points[i]);
+        gaps.add(
+            std::min(
+                glm::distance(point, glm::dvec3(-0.101, 0.0, 0.0)),
+                glm::distance(point, glm::dvec3(0.101, 0.0, 0.0))) -
+            kRadius);
+        lengths.add(
+            glm::distance(point, glm::dvec3(after.points[i - 1])) -
+            glm::distance(glm::dvec3(groom.points[i]), glm::dvec3(groom.points[i - 1])));
+    }
+    EXPECT_GT(gaps.least(), kClearance - 2.2e-4 - 1e-4);  // of pushes, and of the balls' flat sides
+    EXPECT_LT(std::max(lengths.greatest(), -lengths.least()), 1e-7);
+}
+
 TEST(Clearance, NeedsAMesh) {
     EXPECT_THROW(style(onBall(), {.clearance = 0.004f}, 1, nullptr), engine::Error);
     EXPECT_EQ(style(onBall(), {}, 1, nullptr).points, onBall().points);

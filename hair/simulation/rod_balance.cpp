@@ -1,0 +1,250 @@
+#include "hair/simulation/rod_balance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "hair/simulation/stiffness.h"
+
+namespace hair::simulation {
+namespace {
+
+// ---- A joint ------------------------------------------------------------------------------------
+
+// As simulation/rod/joint.glsl has it, up to kMostBend: a bend by b between the third axes and a
+// twist by t round the axis between them cost -(4 / n^2) K ln cos(n b / 2) + K' t^2 / 2, n = 1, and
+// 2 at the follicle.
+struct JointStiffness {
+    double bend, twist;
+    bool at_follicle;
+};
+
+struct Strain {
+    double bend;  // rad
+    glm::dquat rotation;  // of the second frame, in the first
+};
+
+glm::dquat shortWay(const glm::dquat& q) { return q.w < 0.0 ? -q : q; }
+
+// Half of a rotation, of unit length.
+glm::dquat rootOf(const glm::dquat& rotation) {
+    return glm::normalize(shortWay(rotation) + glm::dquat(1.0, 0.0, 0.0, 0.0));
+}
+
+// The energy's gradient by rotations of the second frame, axes of the first one.
+glm::dvec3 gradientOf(const glm::dquat& strain, const JointStiffness& joint) {
+    const glm::dquat r = shortWay(strain);
+    const double cosine2 = r.w * r.w + r.z * r.z;  // of half the bend, squared
+    const double cosine = cosine2 - r.x * r.x - r.y * r.y;  // of the bend
+    // Sine times cosine of half the bend, along the axis that it grows round, and beside that.
+    const glm::dvec3 across{r.w * r.x - r.z * r.y, r.w * r.y + r.z * r.x, 0.0};
+    const glm::dvec3 beside{across.y, -across.x, 0.0};
+    const double twist = 2.0 * std::atan2(r.z, r.w);
+    return joint.bend * 2.0 / (joint.at_follicle ? cosine : cosine2) * across +
+           joint.twist * twist * (glm::dvec3(0.0, 0.0, 1.0) + beside / cosine2);
+}
+
+// The strain with that gradient: gradientOf() solved for it. Across the axis the gradient is
+// tan(b / 2) (A u + B u'), u the bend's axis and u' = (u.y, -u.x), A = 2 K, at the follicle
+// K tan(b) / tan(b / 2), and B = K' t.
+Strain strainOf(const glm::dvec3& gradient, const JointStiffness& joint) {
+    const double twist = gradient.z / joint.twist;
+    const std::complex<double> across(gradient.x, gradient.y);
+    const double beside = joint.twist * twist;
+    double tangent = 0.0;  // of half the bend
+    double along = 2.0 * joint.bend;
+    if (!joint.at_follicle) {
+        tangent = std::abs(across) / std::hypot(along, beside);
+    } else {
+        // tan(b) = 2 u / (1 - u^2) of u = tan(b / 2): what it has to be grows with u.
+        double low = 0.0, high = 1.0;
+        for (int i = 0; i < 60; ++i) {
+            tangent = (low + high) / 2.0;
+            along = 2.0 * joint.bend / (1.0 - tangent * tangent);
+            (tangent * std::hypot(along, beside) < std::abs(across) ? low : high) = tangent;
+        }
+    }
+    if (std::abs(across) == 0.0)
+        return {0.0, {std::cos(twist / 2.0), 0.0, 0.0, std::sin(twist / 2.0)}};
+    const std::complex<double> axis = across / std::complex<double>(along, -beside);
+    const double bend = 2.0 * std::atan(tangent);
+    const std::complex<double> turned =
+        std::polar(std::sin(bend / 2.0), std::arg(axis) - twist / 2.0);
+    const std::complex<double> kept = std::polar(std::cos(bend / 2.0), twist / 2.0);
+    return {bend, {kept.real(), turned.real(), turned.imag(), kept.imag()}};
+}
+
+// The rest rotation, by halves, at which the joint between these frames has that gradient, axes of
+// space: first h S h = second with the strain S, whose axes are first h. Absent where the joint
+// would have to bend too far.
+std::optional<glm::dquat> halfRotationOf(
+    const glm::dquat& first, const glm::dquat& second, const glm::dvec3& gradient,
+    const JointStiffness& joint) {
+    constexpr int kMostIterations = 200;
+    constexpr double kSolved = 1e-13;
+    const glm::dquat between = glm::conjugate(first) * second;
+    const double most_bend = joint.at_follicle ? kMostBend / 2.0 : kMostBend;
+    glm::dquat half = rootOf(between);
+    double last_change = 1.0;
+    for (int i = 0; i < kMostIterations; ++i) {
+        const Strain strain = strainOf(glm::conjugate(first * half) * gradient, joint);
+        if (!(strain.bend <= most_bend) || !(std::abs(strain.rotation.z) < 0.9))
+            return std::nullopt;
+        // (h S)^2 = between S.
+        const glm::dquat next =
+            shortWay(rootOf(between * strain.rotation) * glm::conjugate(strain.rotation));
+        const double change = glm::length(next - half);
+        if (change < kSolved) return next;
+        // Halfway where the whole way is too far, as it may be where the joint bends much.
+        half = change < 0.7 * last_change ? next : glm::normalize(half + next);
+        last_change = change;
+    }
+    return std::nullopt;
+}
+
+// ---- A rod --------------------------------------------------------------------------------------
+
+glm::dmat3 symmetric(const glm::dmat3& m) { return 0.5 * (m + glm::transpose(m)); }
+
+// Of a symmetric matrix.
+bool isPositive(const glm::dmat3& m) {
+    return m[0][0] > 0.0 && m[0][0] * m[1][1] - m[0][1] * m[1][0] > 0.0 &&
+           glm::determinant(m) > 0.0;
+}
+
+// The gradient's change per rotation of the second frame, axes of space, by central differences: a
+// cube of their step, and roundings over it, are 1e-10 of the stiffness.
+glm::dmat3
+changeOf(const glm::dquat& first, const glm::dquat& second, const JointStiffness& joint) {
+    constexpr double kTurn = 1e-5;
+    glm::dmat3 change;
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 turn{0.0};
+        turn[axis] = kTurn / 2.0;
+        const auto at = [&](double sign) {
+            const glm::dquat turned = glm::normalize(glm::dquat(1.0, sign * turn)) * second;
+            return first * gradientOf(glm::conjugate(first) * turned, joint);
+        };
+        change[axis] = (at(1.0) - at(-1.0)) / (2.0 * kTurn);
+    }
+    return change;
+}
+
+// What the joint resists rotations with when nothing loads it: its stiffness without what the
+// gradient itself adds, as the solver has it.
+glm::dmat3
+unloadedOf(const glm::dquat& first, const glm::dquat& second, const JointStiffness& joint) {
+    const glm::dvec3 axis = first * glm::dvec3(0.0, 0.0, 1.0);
+    const glm::dmat3 along = glm::outerProduct(axis, axis);
+    const glm::dvec3 tangent = second * glm::dvec3(0.0, 0.0, 1.0);
+    const glm::dvec3 across = glm::cross(axis, tangent);  // the bend's sine
+    const double cosine = glm::dot(axis, tangent);
+    const double more =
+        joint.at_follicle ? 1.0 / (cosine * cosine) : 1.0 / ((1.0 + cosine) * (1.0 + cosine));
+    return joint.bend * (glm::dmat3(1.0) - along + more * glm::outerProduct(across, across)) +
+           joint.twist * along;
+}
+
+// The moment of all weights below every joint, and their sum, both round and through its segment:
+// what the joint's gradient is at rest.
+struct Loads {
+    std::vector<glm::dvec3> forces;  // at vertices, of all weights from there on
+    std::vector<glm::dvec3> moments;  // at joints
+};
+
+Loads loadsOf(const HangingRod& rod) {
+    const std::size_t size = rod.edges.size();
+    Loads loads{std::vector(size, glm::dvec3(0.0)), std::vector(size, glm::dvec3(0.0))};
+    glm::dvec3 force{0.0};
+    glm::dvec3 moment{0.0};
+    for (std::size_t i = size - 1; i > 0; --i) {
+        force += rod.weights[i];
+        moment += glm::cross(rod.edges[i], force);
+        loads.forces[i] = force;
+        loads.moments[i] = moment;
+    }
+    return loads;
+}
+
+JointStiffness stiffnessOf(const HangingRod& rod, std::size_t i, double stiffening) {
+    return {stiffening * rod.bend_stiffness[i], stiffening * rod.twist_stiffness[i], i == 1};
+}
+
+std::optional<std::vector<glm::dquat>>
+halfRotations(const HangingRod& rod, const Loads& loads, double stiffening) {
+    std::vector<glm::dquat> halves(rod.edges.size(), glm::dquat(1.0, 0.0, 0.0, 0.0));
+    for (std::size_t i = 1; i < halves.size(); ++i) {
+        const auto half = halfRotationOf(
+            rod.orientations[i - 1], rod.orientations[i], loads.moments[i],
+            stiffnessOf(rod, i, stiffening));
+        if (!half) return std::nullopt;
+        halves[i] = *half;
+    }
+    return halves;
+}
+
+// Whether the energy, of which the segments' rotations are the unknowns, has a minimum there. A
+// potential U of a rotation exp(t) has the second derivative sym(dg/dt), g its gradient; one
+// between two frames has that for both of them and -dg/dt between.
+bool isStable(
+    const HangingRod& rod, const Loads& loads, const std::vector<glm::dquat>& halves,
+    double stiffening) {
+    glm::dmat3 below(0.0);  // what segments below resist this one's rotation with
+    for (std::size_t i = rod.edges.size() - 1; i > 0; --i) {
+        const glm::dquat first = rod.orientations[i - 1] * halves[i];
+        const glm::dquat second = rod.orientations[i] * glm::conjugate(halves[i]);
+        const JointStiffness joint = stiffnessOf(rod, i, stiffening);
+        const glm::dmat3 unloaded = unloadedOf(first, second, joint);
+        const glm::dmat3 change =
+            unloaded + kLoadMargin * (changeOf(first, second, joint) - unloaded);
+        const glm::dmat3 own = symmetric(change);
+
+        const glm::dvec3& edge = rod.edges[i];
+        const glm::dvec3& force = loads.forces[i];
+        const glm::dmat3 geometric =
+            glm::dot(force, edge) * glm::dmat3(1.0) - symmetric(glm::outerProduct(force, edge));
+        const glm::dmat3 pivot = own + below + kLoadMargin * geometric;
+        if (!isPositive(pivot)) return false;
+        below = own - symmetric(change * glm::inverse(pivot) * glm::transpose(change));
+    }
+    return true;
+}
+
+}  // namespace
+
+std::optional<BalancedRod> balanceRod(const HangingRod& rod, double most_stiffening) {
+    const Loads loads = loadsOf(rod);
+    const auto balanced = [&](double stiffening) -> std::optional<BalancedRod> {
+        auto halves = halfRotations(rod, loads, stiffening);
+        if (!halves || !isStable(rod, loads, *halves, stiffening)) return std::nullopt;
+        return BalancedRod{stiffening, std::move(*halves)};
+    };
+    constexpr double kPrecision = 1.05;
+    double low = 1.0;
+    double high = low;
+    std::optional<BalancedRod> found = balanced(low);
+    while (!found && high < most_stiffening) {
+        low = high;
+        high = std::min(2.0 * high, most_stiffening);
+        found = balanced(high);
+    }
+    while (found && high > low * kPrecision) {
+        const double middle = std::sqrt(low * high);
+        if (auto better = balanced(middle)) {
+            found = std::move(better);
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    return found;
+}
+
+}  // namespace hair::simulation

@@ -1,0 +1,48 @@
+#version 460
+// How every vertex is: stretched, inside a body, moving. One invocation per vertex.
+#extension GL_GOOGLE_include_directive : require
+
+#include "simulation/constraints/bodies.glsl"
+
+layout(local_size_x = kGuideGroupSize) in;
+
+layout(push_constant, scalar) uniform Push { ConditionPush push; };
+
+layout(buffer_reference, scalar) writeonly buffer Conditions { VertexCondition at[]; };
+
+float gapToBodies(vec3 position, Bodies bodies) {
+    float nearest = uintBitsToFloat(0x7f800000u);
+    vec3 on_head = fromWorld(push.frame, position);
+    vec3 normal;
+    for (uint i = 0; i < bodies.capsule_count; ++i) {
+        Capsule capsule = Capsules(bodies.capsules).at[i];
+        vec3 here = capsule.follows == kFollowsHead ? on_head : position;
+        nearest = min(nearest, gapTo(capsule, 0.0, here, normal));
+    }
+    for (uint i = 0; i < bodies.field_count; ++i) {
+        BodyField body = BodyFields(bodies.fields).at[i];
+        vec3 here = body.follows == kFollowsHead ? on_head : position;
+        nearest = min(nearest, gapTo(body.field, 0.0, here, normal));
+    }
+    return nearest;
+}
+
+void main() {
+    GuideParameters guides = GuideReference(push.guides).parameters;
+    uint index = workgroupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (index >= guides.strand_count * guides.vertices_per_strand) return;  // no barrier follows
+
+    State positions = State(guides.positions);
+    vec3 position = positions.at[index].xyz;
+    VertexCondition condition = VertexCondition(
+        1.0, uintBitsToFloat(0x7f800000u),
+        distance(position, State(guides.previous).at[index].xyz));
+    if (index % guides.vertices_per_strand > 0u) {
+        Vectors rest = Vectors(guides.rest_positions);
+        float rest_length = distance(rest.at[index].xyz, rest.at[index - 1].xyz);
+        if (rest_length >= kShortestSegment)
+            condition.stretch = distance(position, positions.at[index - 1].xyz) / rest_length;
+        condition.gap = gapToBodies(position, guides.bodies);
+    }
+    Conditions(push.conditions).at[index] = condition;
+}
