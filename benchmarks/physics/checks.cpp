@@ -40,6 +40,7 @@ constexpr Check kChecks[] = {
     {"bend_twist", checkBendTwist},
     {"drag_deflection", checkDragDeflection},
     {"terminal_speed", checkTerminalSpeed},
+    {"contact_momentum", checkContactMomentum},
     {"length", checkLength},
     {"energy", checkEnergy},
     {"step_invariance", checkStepInvariance},

@@ -64,6 +64,9 @@ void checkDragDeflection(const engine::Device&, hair::Solver, Findings&);
 // The speed at which hair that falls is borne by the air.
 void checkTerminalSpeed(const engine::Device&, hair::Solver, Findings&);
 
+// Momentum that contact of hair with hair loses.
+void checkContactMomentum(const engine::Device&, hair::Solver, Findings&);
+
 // ---- Against itself -----------------------------------------------------------------------------
 
 void checkLength(const engine::Device&, hair::Solver, Findings&);

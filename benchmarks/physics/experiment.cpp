@@ -65,13 +65,15 @@ Experiment::Experiment(
       simulation_(device, groom, settings, kSeed) {}
 
 void Experiment::advance(std::uint32_t steps) {
-    const bool wind = hasWind(settings_.wind);
+    // Contact of hair with hair adds to what the air does.
+    const bool wind = hasWind(settings_.wind) || simulation_.hasVolume();
     while (steps > 0) {
         if (engine::interrupted()) throw engine::Interrupted{};
         const std::uint32_t batch = std::min(steps, kBatch);
         device_->runOnce([&](engine::Commands& commands) {
             for (std::uint32_t i = 0; i < batch; ++i) {
                 if (wind) simulation_.recordWind(commands);
+                if (simulation_.hasVolume()) simulation_.recordVolume(commands);
                 simulation_.recordStep(commands);
             }
         });
