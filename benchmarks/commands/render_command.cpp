@@ -6,6 +6,7 @@
 #include "benchmarks/measure/case.h"
 #include "benchmarks/measure/hair_cache.h"
 #include "benchmarks/measure/progress.h"
+#include "benchmarks/measure/start.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/scene/frames.h"
 #include "engine/files.h"
@@ -73,6 +74,8 @@ int renderScene(const RenderOptions& options) {
 
     const engine::Device device(options.scene.device);
     measure::Case picture(device, spec.settings, scene.directory, &cache);
+    for (const std::string& warning : measure::inspectStart(picture).warnings)
+        std::cerr << "hairbench: " << warning << '\n';
     engine::catchInterrupts();
     measure::Progress progress(range.count());
     std::uint32_t written = 0;

@@ -148,8 +148,7 @@ TEST(Cli, ValidateNamesEveryBadScene) {
 TEST(Cli, ValidateSaysWhatIsWrongWithTheHairAtTheStart) {
     const TemporaryFolder folder;
     const fs::path scene = folder.write(
-        "inside.json",
-        R"({"base": ")" + shippedScene("rest.json") + R"(", "groom": {"guides": 24},
+        "inside.json", R"({"base": ")" HAIRBENCH_SCENES_DIR R"(/rest.json", "groom": {"guides": 24},
             "simulation": {"solver": "none", "colliders": [
                 {"a": [0, 0, 0], "b": [0, 0, 0], "radius": 0.5, "follows": "world"}]}})");
     const Outcome silent = hairbench("validate '" + scene.string() + "'");
