@@ -53,8 +53,8 @@ public:
     virtual const RestBalance* balance() const { return nullptr; }
 
     // Corrects the balanced rest shape by what a substep without bodies moved guides by that were
-    // at rest as the groom has them, [strand][vertex], axes of the groom, m. False: there is nothing left to correct,
-    // and it is not called again.
+    // at rest as the groom has them, [strand][vertex], axes of the groom, m. False: there is
+    // nothing left to correct, and it is not called again.
     virtual bool correctBalance(const engine::Device&, std::span<const glm::vec3>) { return false; }
 
     // The state of its own, to save and restore.
