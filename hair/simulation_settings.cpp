@@ -137,7 +137,11 @@ const Table& tableOf(const CollisionSettings*) {
         {number("margin", &S::margin, 0, 1, "m", "distance that guides keep from colliders"),
          number(
              "friction", &S::friction, 0, 10, "1",
-             "Coulomb's coefficient of friction on colliders")});
+             "Coulomb's coefficient of friction on colliders"),
+         toggle(
+             "continuous", &S::continuous,
+             "stop guides where their way in a substep enters a collider, so that fast hair does "
+             "not fly through thin ones; off: look at where they end alone")});
     return table;
 }
 

@@ -107,6 +107,7 @@ const Table& tableOf(const DistanceFieldSettings*);
 struct CollisionSettings {
     float margin = 0.0f;
     float friction = 0.0f;
+    bool continuous = false;
 };
 
 const Table& tableOf(const CollisionSettings*);

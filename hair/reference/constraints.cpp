@@ -239,21 +239,24 @@ CapsuleGap capsuleGap(const glm::dvec3& point, const Collider& collider, double 
         .normal = distance < kShortest ? sideways(axis) : (point - nearest) / distance};
 }
 
-void pushOut(
-    Points positions, ConstPoints before, std::span<const Collider> colliders,
-    const CollisionSettings& settings) {
-    for (std::size_t i = 1; i < positions.size(); ++i) {
-        for (const Collider& capsule : colliders) {
-            const auto [gap, normal] = capsuleGap(positions[i], capsule, double{settings.margin});
-            if (gap >= 0.0) continue;
-            positions[i] -= gap * normal;
-            const glm::dvec3 moved = positions[i] - before[i];
-            const glm::dvec3 slid = moved - glm::dot(moved, normal) * normal;
-            const double held = double{settings.friction} * -gap;
-            if (const double length = glm::length(slid); length > 0.0)
-                positions[i] -= std::min(1.0, held / length) * slid;
+std::optional<std::pair<glm::dvec3, CapsuleGap>>
+entryInto(const Collider& collider, const glm::dvec3& from, const glm::dvec3& to) {
+    constexpr int kParts = 512;  // of the way, to look for a crossing in
+    const auto at = [&](double t) { return capsuleGap(glm::mix(from, to, t), collider, 0.0); };
+    if (at(0.0).gap <= 0.0) return {};
+    // No nearer than the way is long: it can't be reached.
+    if (at(1.0).gap >= glm::distance(from, to)) return {};
+    for (int part = 1; part <= kParts; ++part) {
+        double outside = static_cast<double>(part - 1) / kParts;
+        double inside = static_cast<double>(part) / kParts;
+        if (at(inside).gap > 0.0) continue;
+        for (int i = 0; i < 60; ++i) {
+            const double middle = (outside + inside) / 2.0;
+            (at(middle).gap > 0.0 ? outside : inside) = middle;
         }
+        return std::pair(glm::mix(from, to, inside), at(inside));
     }
+    return {};
 }
 
 // ---- Stiffness at any step ----------------------------------------------------------------------

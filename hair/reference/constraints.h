@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/mat3x3.hpp>
@@ -79,14 +81,10 @@ struct CapsuleGap {
 };
 CapsuleGap capsuleGap(const glm::dvec3& point, const Collider& collider, double margin);
 
-// Moves every vertex but the root to the surface of each capsule it is inside of, in the list's
-// order and the margin away from it, the shortest way; from a point on the axis along the
-// perpendicular described above. Friction then takes back what the vertex moved along the surface
-// since `before`, at most the coefficient times the depth: Macklin et al. 2014, Unified particle
-// physics for real-time applications, eq. 24.
-void pushOut(
-    Points positions, ConstPoints before, std::span<const Collider> colliders,
-    const CollisionSettings& settings);
+// Where the straight way from a point outside of a capsule to another first enters it, margin
+// apart, as the capsule's gap there; absent where it does not, or starts inside.
+std::optional<std::pair<glm::dvec3, CapsuleGap>>
+entryInto(const Collider& collider, const glm::dvec3& from, const glm::dvec3& to);
 
 // Where bodies leave a vertex: with the tangent plane of the last that it touches, else of the
 // nearest.
@@ -100,8 +98,12 @@ struct Pushed {
 // For a vertex that has moved from `before` to `position`.
 using PushOut = std::function<Pushed(const glm::dvec3& position, const glm::dvec3& before)>;
 
-// Contact of one vertex with every capsule, one after the other, each in the frame that it moves
-// with: what slides on it is the motion relative to it.
+// Contact of one vertex with every capsule, in the list's order, each in the frame that it moves
+// with: what slides on it is the motion relative to it. The vertex goes to the capsule's surface,
+// the margin away, the shortest way; from a point on the axis along the perpendicular described
+// above. Where its way leads into the capsule it goes no farther in than the plane at which it
+// enters. Friction takes back what it moved along the surface, at most the coefficient times the
+// depth: Macklin et al. 2014, Unified particle physics for real-time applications, eq. 24.
 struct Contact {
     const SimulationSettings& settings;
     simulation::RigidMotion frame;  // of the head at the end of the substep
@@ -115,24 +117,34 @@ struct Contact {
             const bool on_head = collider.follows == Follows::head;
             const simulation::RigidMotion now = on_head ? frame : simulation::RigidMotion{};
             const simulation::RigidMotion then = on_head ? frame_before : simulation::RigidMotion{};
-            const CapsuleGap surface = capsuleGap(
-                seenFrom(now, pushed.position), collider, double{settings.collision.margin});
+            const double margin = settings.collision.margin;
+            glm::dvec3 here = seenFrom(now, pushed.position);
+            const glm::dvec3 there = seenFrom(then, before);
+            // What comes too fast stays before the plane at which it enters.
+            double held_back = 0.0;
+            const auto entry =
+                settings.collision.continuous ? entryInto(collider, there, here) : std::nullopt;
+            if (entry) {
+                const auto& [place, surface] = *entry;
+                held_back = std::fmax(glm::dot(surface.normal, place - here), 0.0);
+                here += held_back * surface.normal;
+                pushed.position = now(here);
+                if (held_back > 0.0) nearest = std::numeric_limits<double>::infinity();
+            }
+            const CapsuleGap surface = capsuleGap(here, collider, margin);
             if (surface.gap >= nearest) continue;
-            nearest = std::fmax(surface.gap, 0.0);
+            nearest = held_back > 0.0 ? 0.0 : std::fmax(surface.gap, 0.0);
             pushed.normal = now.rotation * surface.normal;
             pushed.height = glm::dot(pushed.normal, pushed.position) - surface.gap;
-            if (surface.gap >= 0.0) continue;
-            // pushOut leaves the root alone, so the vertex is a strand's second.
-            glm::dvec3 here[2] = {glm::dvec3(0.0), seenFrom(now, pushed.position)};
-            const glm::dvec3 there[2] = {glm::dvec3(0.0), seenFrom(then, before)};
-            const glm::dvec3 without_friction = here[1] - surface.gap * surface.normal;
-            pushOut(here, there, std::span(&collider, 1), settings.collision);
-            pushed.position = now(here[1]);
+            if (surface.gap >= 0.0 && held_back == 0.0) continue;
+            const double depth = std::fmax(-surface.gap, 0.0);
+            const glm::dvec3 without_friction = here + depth * surface.normal;
+            const glm::dvec3 moved = without_friction - there;
+            const glm::dvec3 slid = moved - glm::dot(moved, surface.normal) * surface.normal;
+            const double most = double{settings.collision.friction} * (held_back + depth);
+            pushed.held = glm::length(slid) > most ? most / glm::length(slid) : 1.0;
+            pushed.position = now(without_friction - pushed.held * slid);
             pushed.touches = true;
-            const glm::dvec3 moved = without_friction - there[1];
-            const double slid =
-                glm::length(moved - glm::dot(moved, surface.normal) * surface.normal);
-            pushed.held = slid > 0.0 ? glm::distance(without_friction, here[1]) / slid : 1.0;
         }
         return pushed;
     }

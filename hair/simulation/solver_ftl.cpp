@@ -18,7 +18,11 @@ FtlSolver::FtlSolver(
               .global_stiffness = static_cast<float>(globalStiffness(settings, step)),
               .velocity_correction = settings.ftl.velocity_correction}}),
           "ftl parameters")),
-      pipeline_(device, {.shader = "simulation/ftl.comp", .push_size = sizeof(gpu::SubstepPush)}) {}
+      pipeline_(
+          device,
+          {.shader = "simulation/ftl.comp",
+           .constants = {{gpu::kContinuousCollisionConstant, settings.collision.continuous}},
+           .push_size = sizeof(gpu::SubstepPush)}) {}
 
 void FtlSolver::record(engine::Commands& commands, gpu::SubstepPush push) const {
     push.solver = parameters_.address();

@@ -191,6 +191,7 @@ RodSolver::RodSolver(
           device,
           {.shader = device.has(engine::Feature::long_integers) ? "simulation/rod_packed.comp"
                                                                 : "simulation/rod.comp",
+           .constants = {{gpu::kContinuousCollisionConstant, settings.collision.continuous}},
            .push_size = sizeof(gpu::SubstepPush)}),
       adopt_(
           device, {.shader = "simulation/rod_adopt.comp", .push_size = sizeof(gpu::SubstepPush)}) {}

@@ -199,7 +199,8 @@ ShapePlan planShape(
         return {
             .shader = "simulation/shape_serial.comp",
             .constants =
-                {{gpu::kShapeGroupSizeConstant, kGroup},
+                {{gpu::kContinuousCollisionConstant, settings.collision.continuous},
+                 {gpu::kShapeGroupSizeConstant, kGroup},
                  {gpu::kShapeTridiagonalConstant, tridiagonal},
                  {gpu::kShapeVerticesPerStrandConstant, vertices_per_strand}},
             .collides = collides,
@@ -224,7 +225,8 @@ ShapePlan planShape(
                       ? "simulation/shape_packed.comp"
                       : "simulation/shape.comp",
         .constants =
-            {{gpu::kShapeGroupSizeConstant, strands * chunks},
+            {{gpu::kContinuousCollisionConstant, settings.collision.continuous},
+             {gpu::kShapeGroupSizeConstant, strands * chunks},
              {gpu::kShapeTridiagonalConstant, tridiagonal},
              {gpu::kShapeVerticesPerStrandConstant, vertices_per_strand},
              {gpu::kShapeVerticesPerChunkConstant, per_chunk}},

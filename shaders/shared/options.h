@@ -134,4 +134,7 @@ const uint kShapeCollidesConstant = 2u;
 const uint kShapeTridiagonalConstant = 3u;  // lengths by walkDown() and walkUp()
 const uint kShapeVerticesPerChunkConstant = 4u;
 
+// Of every solver: simulation/constraints/bodies.glsl.
+const uint kContinuousCollisionConstant = 5u;
+
 #endif

@@ -14,16 +14,10 @@ float gapToBodies(vec3 position, Bodies bodies) {
     float nearest = uintBitsToFloat(0x7f800000u);
     vec3 on_head = fromWorld(push.frame, position);
     vec3 normal;
-    for (uint i = 0; i < bodies.capsule_count; ++i) {
-        Capsule capsule = Capsules(bodies.capsules).at[i];
-        vec3 here = capsule.follows == kFollowsHead ? on_head : position;
-        nearest = min(nearest, gapTo(capsule, 0.0, here, normal));
-    }
-    for (uint i = 0; i < bodies.field_count; ++i) {
-        BodyField body = BodyFields(bodies.fields).at[i];
-        vec3 here = body.follows == kFollowsHead ? on_head : position;
-        nearest = min(nearest, gapTo(body.field, 0.0, here, normal));
-    }
+    for (uint i = 0; i < bodyCount(bodies); ++i)
+        nearest = min(
+            nearest,
+            gapToBody(bodies, i, 0.0, isOnHead(bodies, i) ? on_head : position, normal));
     return nearest;
 }
 

@@ -1,4 +1,7 @@
 #include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -10,15 +13,14 @@ namespace {
 
 const Collider kCapsule{.a = {0, 0, 0}, .b = {0, 2, 0}, .radius = 0.5f};
 
-// The strand has its root far away; its second vertex is the one that is pushed.
+// Where a vertex that was at `before`, or has not moved, comes to lie.
 glm::dvec3 pushed(
-    const glm::dvec3& point, std::vector<Collider> colliders, const glm::dvec3& before = {},
-    const CollisionSettings& settings = {}) {
-    std::vector<glm::dvec3> points{{100, 0, 0}, point};
-    const std::vector<glm::dvec3> old{{100, 0, 0}, before};
-    reference::pushOut(points, old, colliders, settings);
-    EXPECT_EQ(points[0], glm::dvec3(100, 0, 0));
-    return points[1];
+    const glm::dvec3& point, std::vector<Collider> colliders, std::optional<glm::dvec3> before = {},
+    const CollisionSettings& collision = {}) {
+    SimulationSettings settings;
+    settings.colliders = std::move(colliders);
+    settings.collision = collision;
+    return reference::Contact{settings, {}, {}}(point, before.value_or(point)).position;
 }
 
 void expectPoint(const glm::dvec3& point, const glm::dvec3& expected) {
@@ -74,11 +76,19 @@ TEST(Collision, TakesBackWhatFrictionHolds) {
     expectPoint(pushed({0.25, 1, 0}, {kCapsule}, before, {.friction = 9.0f}), {0.5, 0.8, 0});
 }
 
-TEST(Collision, LeavesARootInsideAlone) {
-    std::vector<glm::dvec3> points{{0.1, 1, 0}, {0.1, 1.1, 0}};
-    reference::pushOut(points, points, std::span(&kCapsule, 1), {});
-    EXPECT_EQ(points[0], glm::dvec3(0.1, 1, 0));
-    EXPECT_NEAR(points[1].x, 0.5, 1e-15);
+// A sphere of radius 0.5 is met 0.3 above its middle at (-0.4, 0.3), where its normal is (-0.8,
+// 0.6): the way's end (2, 0.3) lies 1.92 behind that plane.
+TEST(Collision, StopsAtThePlaneWhereItEnters) {
+    const Collider ball{.a = {0, 0, 0}, .b = {0, 0, 0}, .radius = 0.5f};
+    const glm::dvec3 before{-2, 0.3, 0};
+    const CollisionSettings continuous{.continuous = true};
+    const glm::dvec3 stopped = pushed({2, 0.3, 0}, {ball}, before, continuous);
+    EXPECT_LT(glm::distance(stopped, {2 - 1.92 * 0.8, 0.3 + 1.92 * 0.6, 0}), 1e-12);
+    // One that ends inside is taken to the plane too, and not out at the side that is nearest.
+    EXPECT_LT(pushed({0.4, 0.3, 0}, {ball}, before, continuous).x, 0.0);
+    EXPECT_GT(pushed({0.4, 0.3, 0}, {ball}, before).x, 0.0) << "but where ways don't count";
+    expectPoint(pushed({2, 0.6, 0}, {ball}, glm::dvec3(-2, 0.6, 0), continuous), {2, 0.6, 0});
+    expectPoint(pushed({-0.6, 0.3, 0}, {ball}, before, continuous), {-0.6, 0.3, 0});
 }
 
 }  // namespace

@@ -59,6 +59,50 @@ TEST_F(GpuContact, MarksTheVertexThatTouchesAndAllBelow) {
     }
 }
 
+// A segment's end that is thrown at 20 m/s at a rod of 2 mm, and would be 20 cm behind it after the
+// substep: it stops at the rod, at the margin from it, and slides no farther along it than it came.
+TEST_F(GpuContact, StopsWhatWouldFlyThroughAThinBody) {
+    for (const Way& way : kWays) {
+        SCOPED_TRACE(nameOf(way));
+        SimulationSettings settings = settingsFor(way);
+        settings.gravity = glm::vec3(0.0f);
+        settings.substeps = 1;
+        settings.time_step = 0.01f;
+        settings.friction = 0.0f;
+        settings.global.stiffness = 0.0f;
+        settings.local.stiffness = 0.0f;
+        settings.material.youngs_modulus = 1.0f;  // of `rod`: limp
+        settings.material.shear_modulus = 1.0f;
+        settings.collision = {.margin = 0.001f, .continuous = true};
+        settings.colliders = {
+            {.a = {0.05f, -1.0f, -1.0f}, .b = {0.05f, -1.0f, 1.0f}, .radius = 0.001f},
+            {.a = {0.05f, -0.9f, 0.0f}, .b = {0.05f, -1.1f, 0.0f}, .radius = 0.001f}};
+        const groom::Groom groom = straightGroom(1, 2, 1.0);
+        Simulation simulation(device(), groom, settings, 1);
+        std::vector<glm::vec3> before = groom.points;
+        before[1].x -= 0.2f;
+        simulation.setState(groom.points, before);
+        advance(device(), simulation, 1);
+        const glm::vec3 tip = simulation.readPositions()[1];
+        EXPECT_NEAR(tip.x, 0.05 - 0.002, 2e-4);  // of kTouch, and of the margin's roundness
+        EXPECT_NEAR(tip.y, -1.0, 0.03) << "it swings by 0.2 rad";
+        EXPECT_TRUE(simulation.readContacts()[1]);
+        settings.collision.continuous = false;
+        Simulation careless(device(), groom, settings, 1);
+        careless.setState(groom.points, before);
+        advance(device(), careless, 1);
+        EXPECT_GT(careless.readPositions()[1].x, 0.15f) << "where its way does not count";
+        settings.collision.continuous = true;
+        // What would not have met it flies on.
+        settings.colliders = {
+            {.a = {0.05f, -1.0f, 0.01f}, .b = {0.05f, -1.0f, 1.0f}, .radius = 0.001f}};
+        Simulation free(device(), groom, settings, 1);
+        free.setState(groom.points, before);
+        advance(device(), free, 1);
+        EXPECT_GT(free.readPositions()[1].x, 0.15f);
+    }
+}
+
 // Hair that falls over a ball which nods with the head, and which is the distance field of a mesh
 // of 5,120 triangles: with edges of r / 15 their middles lie 7.4e-4 r inside, which is 5.9e-5 m.
 // Between its points the field is off by at most 3/8 cell^2 / r (its second derivatives are 1 / r
