@@ -14,8 +14,10 @@ int validateScenes(const std::vector<std::filesystem::path>& scenes) {
         if (path.string().ends_with(".schema.json")) continue;  // scenes/*.json names it too
         try {
             std::size_t count = 0;
+            std::vector<std::string> warnings;
             for (scene::Scene& scene : scene::loadScenes(path))
-                count += scene::selectCases(scene, {.scene = path}).size();
+                count += scene::selectCases(scene, {.scene = path}, nullptr, &warnings).size();
+            for (const std::string& warning : warnings) std::cout << "warning: " << warning << '\n';
             std::cout << path.string() << ": ok, " << count
                       << (count == 1 ? " case\n" : " cases\n");
         } catch (const engine::Error& error) {
