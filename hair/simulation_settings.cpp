@@ -121,7 +121,9 @@ const Table& tableOf(const DistanceFieldSettings*) {
     static const Table table = tableWith<S>(
         {fileName(
              "mesh", &S::mesh,
-             "closed mesh, relative to the scene file; empty: the mesh that the hair grows on"),
+             "mesh whose triangles face outward, relative to the scene file; empty: the mesh that "
+             "the "
+             "hair grows on; openings are capped"),
          number(
              "resolution", &S::resolution, 8, 256, "count",
              "cells along the longest side of the mesh"),
@@ -271,7 +273,7 @@ const Table& tableOf(const SimulationSettings*) {
          group("wind", &S::wind, "wind"),
          group("collision", &S::collision, "contact with bodies"),
          list("colliders", &S::colliders, 65536, "capsules that push guides out"),
-         list("distance_fields", &S::distance_fields, 8, "closed meshes that push guides out"),
+         list("distance_fields", &S::distance_fields, 8, "meshes that push guides out"),
          group("hair_hair", &S::hair_hair, "contact of hair with hair, on a grid of density"),
          group("motion", &S::motion, "keyframed motion of the head"),
          list("pulls", &S::pulls, 64, "hands that pull at hair")});

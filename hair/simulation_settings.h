@@ -95,7 +95,7 @@ struct Collider {
 
 const Table& tableOf(const Collider*);
 
-// The signed distance to a closed mesh, sampled on a grid.
+// The signed distance to the body that a mesh bounds, sampled on a grid.
 struct DistanceFieldSettings {
     std::string mesh;
     std::uint32_t resolution = 64;

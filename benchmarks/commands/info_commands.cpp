@@ -43,9 +43,12 @@ int validateScenes(const ValidateOptions& options) {
         if (path.string().ends_with(".schema.json")) continue;  // scenes/*.json names it too
         try {
             std::size_t count = 0;
+            std::vector<std::string> warnings;
             std::vector<scene::Scene> loaded = scene::loadScenes(path);
             for (scene::Scene& scene : loaded)
-                count += scene::selectCases(scene, {.scene = path}, &cache.assets()).size();
+                count +=
+                    scene::selectCases(scene, {.scene = path}, &cache.assets(), &warnings).size();
+            for (const std::string& warning : warnings) std::cout << "warning: " << warning << '\n';
             std::cout << path.string() << ": ok, " << count
                       << (count == 1 ? " case\n" : " cases\n");
             if (!device) continue;

@@ -92,6 +92,8 @@ int renderScene(const RenderOptions& options) {
         return report::kInterrupted;
     }
     progress.clear();
+    for (const std::string& warning : picture.warnings())
+        std::cerr << "hairbench: " << warning << '\n';
     for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
     if (const std::string text = measure::droppedFragments(picture); !text.empty())
         std::cerr << "hairbench: " << text << '\n';

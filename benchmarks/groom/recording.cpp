@@ -2,6 +2,8 @@
 
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "benchmarks/measure/case.h"
 #include "benchmarks/measure/progress.h"
@@ -25,6 +27,7 @@ public:
 
     Recorded everyFrame();
     Recorded lastFrame();
+    std::vector<std::string> warnings() const { return case_.warnings(); }
 
 private:
     // Plays the frames without drawing them; `after` is called with the number of each.
@@ -109,7 +112,10 @@ Recorded recordStrands(
     const engine::Device& device, const scene::Scene& scene, const hair::Settings& settings,
     const RecordingOptions& options, measure::HairCache& cache) {
     Recording recording(device, scene, settings, options, cache);
-    return holdsFrames(options.out) ? recording.everyFrame() : recording.lastFrame();
+    Recorded recorded = holdsFrames(options.out) ? recording.everyFrame() : recording.lastFrame();
+    const std::vector<std::string> warnings = recording.warnings();
+    recorded.warnings.insert(recorded.warnings.begin(), warnings.begin(), warnings.end());
+    return recorded;
 }
 
 }  // namespace benchmarks::groom

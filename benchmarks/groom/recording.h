@@ -28,7 +28,7 @@ bool holdsFrames(const std::filesystem::path& file);
 
 struct Recorded {
     hair::groom::StrandSet strands;  // of the first frame where the file holds all, of the last
-    std::vector<std::string> warnings;  // what the format can't hold
+    std::vector<std::string> warnings;  // of the case, and what the format can't hold
 };
 
 // Plays a scene's frames, with progress and without drawing them, and writes the strands. Throws

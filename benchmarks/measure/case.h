@@ -80,6 +80,8 @@ public:
     // The guides of the last frame, [guide][vertex], m. Waits for the device.
     std::vector<glm::vec3> guides() const { return simulation_.readPositions(); }
     const hair::groom::Groom& groom() const { return groom_; }
+    // What is odd about what the case was given, though it can be played.
+    std::vector<std::string> warnings() const { return simulation_.bodyWarnings(); }
     // Where the head is in the last frame.
     hair::simulation::RigidMotion head() const { return simulation_.pose(); }
 

@@ -131,6 +131,8 @@ private:
 std::string bytesOf(const BakedField& field) {
     std::string bytes;
     append(bytes, field.grid);
+    append(bytes, std::uint64_t{field.warning.size()});
+    bytes += field.warning;
     bytes.append(
         reinterpret_cast<const char*>(field.distances.data()),
         field.distances.size() * sizeof(float));
@@ -140,7 +142,11 @@ std::string bytesOf(const BakedField& field) {
 std::optional<BakedField> fieldOf(std::string_view bytes) {
     Reader reader(bytes);
     BakedField field;
-    if (!reader.read(field.grid)) return std::nullopt;
+    std::uint64_t warning = 0;
+    if (!reader.read(field.grid) || !reader.read(warning) || warning > reader.left())
+        return std::nullopt;
+    field.warning.resize(warning);
+    reader.read(field.warning.data(), warning);
     const glm::u64vec3 points(field.grid.points);
     const std::uint64_t count = reader.left() / sizeof(float);
     if (points.x * points.y * points.z != count || count == 0) return std::nullopt;

@@ -124,6 +124,7 @@ report::CaseResult runCase(
     report::CaseResult result = emptyResult(planned);
     try {
         measure::Case test_case(device, planned.spec.settings, planned.directory, &cache);
+        result.trust.warnings = test_case.warnings();
         const measure::ClockHold clocks(device.info(), run.clocks);
         const auto picture = measure::measure(device, test_case, run, hooks, result);
         if (!run.reference.empty())

@@ -11,32 +11,39 @@
 #include "hair/fields.h"
 #include "hair/groom/build_groom.h"
 #include "hair/groom/files.h"
+#include "hair/groom/mesh/body_mesh.h"
 #include "hair/groom/mesh/import_mesh.h"
-#include "hair/groom/mesh/surface.h"
 #include "hair/rendering/strand_offsets.h"
 
 namespace benchmarks::scene {
 namespace {
 
-void checkFields(
+// Returns what is odd about them.
+std::vector<std::string> checkFields(
     const hair::Settings& settings, const std::optional<hair::groom::Mesh>& grown_on,
     const std::filesystem::path& scene) {
+    const auto pointerTo = [](std::size_t field) {
+        return "/simulation/distance_fields/" + std::to_string(field);
+    };
     const auto refuse = [&](std::size_t field, const std::string& reason) {
-        const std::string pointer = "/simulation/distance_fields/" + std::to_string(field);
-        throw engine::Error(scene.string(), pointer + ": " + reason);
+        throw engine::Error(scene.string(), pointerTo(field) + ": " + reason);
     };
     const auto& fields = settings.simulation.distance_fields;
     for (std::size_t i = 0; i < fields.size(); ++i)
         if (fields[i].mesh.empty() && !grown_on)
             refuse(i, "names no mesh, and neither does /groom/mesh");
     const auto meshes = loadFieldMeshes(settings, grown_on, scene.parent_path());
+    std::vector<std::string> warnings;
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         try {
-            hair::groom::closeMesh(meshes[i]);
+            const std::string warning = hair::groom::bodyWarning(hair::groom::bodyMesh(meshes[i]));
+            if (!warning.empty())
+                warnings.push_back(scene.string() + ": " + pointerTo(i) + ": " + warning);
         } catch (const engine::Error& error) {
             refuse(i, error.what());
         }
     }
+    return warnings;
 }
 
 void checkMeshes(const hair::RenderSettings& render, const std::filesystem::path& scene) {
@@ -162,18 +169,19 @@ hair::rendering::RenderAssets loadRenderAssets(
     return assets;
 }
 
-void checkAssets(const hair::Settings& settings, const std::filesystem::path& scene) {
+std::vector<std::string>
+checkAssets(const hair::Settings& settings, const std::filesystem::path& scene) {
     AssetStore assets;
-    checkAssets(settings, scene, assets);
+    return checkAssets(settings, scene, assets);
 }
 
-void checkAssets(
+std::vector<std::string> checkAssets(
     const hair::Settings& settings, const std::filesystem::path& scene, AssetStore& assets) {
     const std::filesystem::path directory = scene.parent_path();
     assets.trim();
     const std::optional<hair::groom::Mesh>& mesh = assets.mesh(settings, directory);
     const hair::groom::Groom& groom = assets.groom(settings, directory);
-    checkFields(settings, mesh, scene);
+    std::vector<std::string> warnings = checkFields(settings, mesh, scene);
     checkMeshes(settings.render, scene);
     loadRenderAssets(settings, mesh ? &*mesh : nullptr, directory);
     const std::optional<hair::groom::StrandSet> offsets = loadOffsets(settings, directory);
@@ -185,6 +193,7 @@ void checkAssets(
     } catch (const engine::Error& error) {
         throw engine::Error(scene.string(), error.what());
     }
+    return warnings;
 }
 
 }  // namespace benchmarks::scene

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "benchmarks/scene/recent.h"
@@ -57,9 +58,11 @@ hair::rendering::RenderAssets loadRenderAssets(
 
 // Reads and checks all that a case of this scene needs, without a device: the errors of a bad asset
 // before anything runs. Where the fault is in how the scene uses a file, the error is
-// "<scene>: <JSON pointer>: <reason>". What it makes is left in `assets`.
-void checkAssets(
-    const hair::Settings& settings, const std::filesystem::path& scene, AssetStore& assets);
-void checkAssets(const hair::Settings& settings, const std::filesystem::path& scene);
+// "<scene>: <JSON pointer>: <reason>". What it makes is left in `assets`. Returns warnings in the
+// same form: what is odd and can be used.
+std::vector<std::string>
+checkAssets(const hair::Settings& settings, const std::filesystem::path& scene, AssetStore& assets);
+std::vector<std::string>
+checkAssets(const hair::Settings& settings, const std::filesystem::path& scene);
 
 }  // namespace benchmarks::scene

@@ -241,7 +241,9 @@ Json decimal(double number) { return Json::parse(decimalText(number)); }
 
 }  // namespace
 
-std::vector<CaseSpec> selectCases(Scene& scene, const SceneOptions& options, AssetStore* assets) {
+std::vector<CaseSpec> selectCases(
+    Scene& scene, const SceneOptions& options, AssetStore* assets,
+    std::vector<std::string>* warnings) {
     AssetStore own;
     if (options.frames) setField(scene, "/run/frames", *options.frames);
     if (options.warmup) setField(scene, "/run/warmup", *options.warmup);
@@ -264,8 +266,11 @@ std::vector<CaseSpec> selectCases(Scene& scene, const SceneOptions& options, Ass
         for (const auto& mesh : each.settings.render.meshes) files += '\n' + mesh.file;
         for (const auto& field : each.settings.simulation.distance_fields)
             files += '\n' + field.mesh;
-        if (checked.insert(files).second)
-            checkAssets(each.settings, scene.path, assets ? *assets : own);
+        if (!checked.insert(files).second) continue;
+        for (const std::string& warning :
+             checkAssets(each.settings, scene.path, assets ? *assets : own))
+            if (warnings && std::ranges::find(*warnings, warning) == warnings->end())
+                warnings->push_back(warning);
     }
     return cases;
 }

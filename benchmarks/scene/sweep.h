@@ -64,9 +64,11 @@ struct SceneOptions {
 };
 
 // The scene's cases with what the command line changes. Every asset that they name is read once,
-// and meshes and grooms are left in `assets`, which may be null.
-std::vector<CaseSpec>
-selectCases(Scene& scene, const SceneOptions& options, AssetStore* assets = nullptr);
+// and meshes and grooms are left in `assets`. What is odd about assets (checkAssets()) is added to
+// `warnings`, each once. Both may be null.
+std::vector<CaseSpec> selectCases(
+    Scene& scene, const SceneOptions& options, AssetStore* assets = nullptr,
+    std::vector<std::string>* warnings = nullptr);
 
 // The scene's own settings, no axis applied but those of the command line with one value, with what
 // it changes: what commands play that are for one case.

@@ -1,17 +1,22 @@
 #include "hair/simulation/bodies.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <sstream>
 #include <string>
+#include <variant>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "engine/commands.h"
 #include "engine/error.h"
 #include "engine/pipeline.h"
+#include "hair/simulation/open_body.h"
 #include "hair/simulation/stiffness.h"
 
 namespace hair::simulation {
@@ -24,8 +29,8 @@ static_assert(sizeof(gpu::TreeNode) == 32 && offsetof(gpu::TreeNode, upper) == 1
 static_assert(sizeof(gpu::TreeTriangle) == 48 && offsetof(gpu::TreeTriangle, normal) == 36);
 static_assert(sizeof(gpu::TriangleNormals) == 84 && offsetof(gpu::TriangleNormals, corners) == 48);
 static_assert(sizeof(gpu::BlockMiddle) == 8);
-static_assert(sizeof(gpu::BakeDistancePush) == 100 && offsetof(gpu::BakeDistancePush, nodes) == 40);
-static_assert(offsetof(gpu::BakeDistancePush, first_block) == 84);
+static_assert(sizeof(gpu::BakeDistancePush) == 108 && offsetof(gpu::BakeDistancePush, nodes) == 40);
+static_assert(offsetof(gpu::BakeDistancePush, first_block) == 92);
 
 // On lavapipe 12 bake 1.4 times as fast as 4: going through a leaf costs less than finding it.
 // Halving 2^32 triangles down to leaves of these takes fewer than gpu::kTreeDepth levels.
@@ -46,11 +51,11 @@ double largestBuffer(const engine::Device& device) {
 }
 
 gpu::DistanceField gridRound(
-    const engine::Device& device, const groom::ClosedMesh& mesh, std::uint32_t resolution,
+    const engine::Device& device, std::span<const glm::vec3> positions, std::uint32_t resolution,
     float padding) {
-    glm::dvec3 lower(mesh.positions.front());
+    glm::dvec3 lower(positions.front());
     glm::dvec3 upper = lower;
-    for (const glm::vec3& position : mesh.positions) {
+    for (const glm::vec3& position : positions) {
         lower = glm::min(lower, glm::dvec3(position));
         upper = glm::max(upper, glm::dvec3(position));
     }
@@ -69,6 +74,15 @@ gpu::DistanceField gridRound(
         .cells_per_metre = static_cast<float>(1.0 / cell)};
 }
 
+OpenBody openBody(
+    const engine::Device& device, const groom::OpenMesh& mesh, const gpu::DistanceField& grid) {
+    // No more nodes than triangles: leaves hold two at least.
+    const double bytes = static_cast<double>(mesh.triangles.size() * sizeof(gpu::WindingNode));
+    if (bytes > largestBuffer(device))
+        throwTooLarge("the mesh's triangles", bytes, largestBuffer(device));
+    return makeOpenBody(device, mesh, grid);
+}
+
 template <class Value>
 engine::Buffer
 makeBuffer(const engine::Device& device, const std::vector<Value>& values, const char* name) {
@@ -83,13 +97,31 @@ makeBuffer(const engine::Device& device, const std::vector<Value>& values, const
 // origin.
 constexpr float kBandCells = 2.5f;
 
-// A mesh on the device while it is baked.
-struct BakeMesh {
-    engine::Buffer nodes, triangles, normals;
+glm::dvec3 normalOf(const gpu::TreeTriangle& triangle) {
+    const glm::dvec3 a(triangle.corners[0]);
+    return glm::normalize(
+        glm::cross(glm::dvec3(triangle.corners[1]) - a, glm::dvec3(triangle.corners[2]) - a));
+}
 
-    BakeMesh(const engine::Device& device, const groom::ClosedMesh& mesh) {
-        groom::TriangleTree tree =
-            groom::buildTriangleTree(mesh.positions, mesh.triangles, kMostInLeaf);
+// The surface of a body on the device while it is baked.
+struct BakeSurface {
+    engine::Buffer nodes, triangles;
+    std::optional<engine::Buffer> normals, sides;  // one of them
+
+    BakeSurface(const engine::Device& device, const groom::ClosedMesh& mesh)
+        : BakeSurface(device, mesh.positions, mesh.triangles, mesh.normals) {}
+
+    BakeSurface(const engine::Device& device, const OpenBody& body)
+        : BakeSurface(device, body.positions, body.triangles, {}) {
+        sides = makeBuffer(device, body.sides, "sides of a distance field's points");
+    }
+
+private:
+    BakeSurface(
+        const engine::Device& device, std::span<const glm::vec3> positions,
+        std::span<const std::array<std::uint32_t, 3>> faces,
+        std::span<const groom::Pseudonormals> from) {
+        groom::TriangleTree tree = groom::buildTriangleTree(positions, faces, kMostInLeaf);
         std::vector<gpu::TreeNode> boxes;
         for (const groom::TriangleTree::Node& node : tree.nodes) {
             boxes.push_back(
@@ -101,19 +133,22 @@ struct BakeMesh {
         std::vector<gpu::TreeTriangle> corners;
         std::vector<gpu::TriangleNormals> pseudonormals;
         for (const std::uint32_t index : tree.order) {
-            const auto& [a, b, c] = mesh.triangles[index];
-            const groom::Pseudonormals& from = mesh.normals[index];
-            corners.push_back(
-                {.corners = {mesh.positions[a], mesh.positions[b], mesh.positions[c]},
-                 .normal = glm::vec3(from.face)});
+            const auto& [a, b, c] = faces[index];
+            gpu::TreeTriangle& triangle = corners.emplace_back();
+            triangle.corners[0] = positions[a];
+            triangle.corners[1] = positions[b];
+            triangle.corners[2] = positions[c];
+            triangle.normal = glm::vec3(normalOf(triangle));
+            if (from.empty()) continue;
             gpu::TriangleNormals& to = pseudonormals.emplace_back();
-            to.face = glm::vec3(from.face);
-            std::ranges::copy(from.edges, to.edges);
-            std::ranges::copy(from.corners, to.corners);
+            to.face = glm::vec3(from[index].face);
+            std::ranges::copy(from[index].edges, to.edges);
+            std::ranges::copy(from[index].corners, to.corners);
         }
         nodes = makeBuffer(device, boxes, "distance field tree");
         triangles = makeBuffer(device, corners, "distance field triangles");
-        normals = makeBuffer(device, pseudonormals, "distance field pseudonormals");
+        if (!from.empty())
+            normals = makeBuffer(device, pseudonormals, "distance field pseudonormals");
     }
 };
 
@@ -137,6 +172,10 @@ std::vector<gpu::Capsule> capsulesOf(const SimulationSettings& settings) {
     return capsules;
 }
 
+std::string pointerTo(std::size_t field) {
+    return "/simulation/distance_fields/" + std::to_string(field);
+}
+
 std::vector<DistanceField> bake(
     const engine::Device& device, const SimulationSettings& settings,
     std::span<const groom::Mesh> meshes, std::span<const BakedField* const> baked) {
@@ -156,7 +195,7 @@ std::vector<DistanceField> bake(
         } catch (const engine::Unsupported&) {
             throw;
         } catch (const engine::Error& error) {
-            throw engine::Error("/simulation/distance_fields/" + std::to_string(i), error.what());
+            throw engine::Error(pointerTo(i), error.what());
         }
     }
     return fields;
@@ -175,17 +214,21 @@ fieldsOf(const SimulationSettings& settings, const std::vector<DistanceField>& f
 }  // namespace
 
 DistanceField::DistanceField(
-    const engine::Device& device, const groom::Mesh& mesh, std::uint32_t resolution,
-    float padding) {
+    const engine::Device& device, const groom::BodyMesh& mesh, std::uint32_t resolution,
+    float padding)
+    : warning_(groom::bodyWarning(mesh)) {
     assert(resolution > 0 && padding >= 0.0f);
-    const groom::ClosedMesh closed = groom::closeMesh(mesh);
-    parameters_ = gridRound(device, closed, resolution, padding);
+    const auto& positions =
+        std::visit([](const auto& each) -> const auto& { return each.positions; }, mesh);
+    parameters_ = gridRound(device, positions, resolution, padding);
     const glm::uvec3 points = parameters_.points;
     const std::size_t bytes = std::size_t{points.x} * points.y * points.z * sizeof(float);
     distances_ = {device, {.size = bytes, .name = "distance field"}};
     parameters_.distances = distances_.address();
 
-    const BakeMesh triangles(device, closed);
+    const auto* const open = std::get_if<groom::OpenMesh>(&mesh);
+    const BakeSurface surface = open ? BakeSurface(device, openBody(device, *open, parameters_))
+                                     : BakeSurface(device, std::get<groom::ClosedMesh>(mesh));
     const engine::ComputePipeline pipeline(
         device,
         {.shader = "simulation/bake_distance.comp", .push_size = sizeof(gpu::BakeDistancePush)});
@@ -196,10 +239,11 @@ DistanceField::DistanceField(
         {.size = count * sizeof(gpu::BlockMiddle), .name = "middles of a distance field's blocks"});
     gpu::BakeDistancePush push{
         .field = parameters_,
-        .nodes = triangles.nodes.address(),
-        .triangles = triangles.triangles.address(),
-        .normals = triangles.normals.address(),
+        .nodes = surface.nodes.address(),
+        .triangles = surface.triangles.address(),
+        .normals = surface.normals ? surface.normals->address() : 0,
         .middles = middles.address(),
+        .sides = surface.sides ? surface.sides->address() : 0,
         .blocks = blocks,
         .first_block = 0,
         .block_count = count,
@@ -224,12 +268,13 @@ DistanceField::DistanceField(
 DistanceField::DistanceField(const engine::Device& device, const BakedField& baked)
     : parameters_(baked.grid),
       distances_(
-          engine::makeBuffer(device, std::span<const float>(baked.distances), "distance field")) {
+          engine::makeBuffer(device, std::span<const float>(baked.distances), "distance field")),
+      warning_(baked.warning) {
     parameters_.distances = distances_.address();
 }
 
 BakedField DistanceField::read(const engine::Device& device) const {
-    BakedField baked{.grid = parameters_, .distances = {}};
+    BakedField baked{.grid = parameters_, .distances = {}, .warning = warning_};
     baked.grid.distances = 0;
     baked.distances = engine::downloadAs<float>(device, distances_);
     return baked;
@@ -243,6 +288,14 @@ Bodies::Bodies(
           device, std::span<const gpu::BodyField>(fieldsOf(settings, distances_)),
           "distance fields")),
       margin_(settings.collision.margin), friction_(settings.collision.friction) {}
+
+std::vector<std::string> Bodies::warnings() const {
+    std::vector<std::string> warnings;
+    for (std::size_t i = 0; i < distances_.size(); ++i)
+        if (const std::string& warning = distances_[i].warning(); !warning.empty())
+            warnings.push_back(pointerTo(i) + ": " + warning);
+    return warnings;
+}
 
 gpu::Bodies Bodies::parametersWith(const Capsules& capsules) const {
     return {

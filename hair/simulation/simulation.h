@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -76,6 +77,9 @@ public:
         const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
         std::uint32_t seed, std::span<const groom::Mesh> field_meshes = {},
         const MadeBefore& made = {});
+
+    // Bodies::warnings().
+    std::vector<std::string> bodyWarnings() const { return bodies_.warnings(); }
 
     // For MadeBefore. They wait for the device.
     BakedField readField(std::size_t index) const { return bodies_.fields()[index].read(*device_); }

@@ -10,7 +10,7 @@ const uint kTreeDepth = 32u;
 // Grid points along each side of the blocks that they are baked in.
 const uint kBakeBlock = 4u;
 
-// Signed distances to a closed surface at the points of a grid with cubic cells.
+// Signed distances to the surface of a body at the points of a grid with cubic cells.
 struct DistanceField {
     Address distances;  // float [z][y][x], m; negative inside
     vec3 origin;  // where point (0, 0, 0) is, m
@@ -41,8 +41,37 @@ struct TriangleNormals {
 
 // What is nearest to the middle of a block of points.
 struct BlockMiddle {
-    float distance;  // m, signed
+    float distance;  // m, signed where normals tell
     uint triangle;  // of the tree's leaves
+};
+
+// A node of a tree of triangles and their moments over 4 pi (groom::Multipole in
+// hair/groom/mesh/winding_number.h); the root is node 0.
+struct WindingNode {
+    vec3 centre;  // m
+    float reach;  // farther from there the moments are all that counts, m
+    uint first;  // a leaf's first triangle; else the first of two children that lie side by side
+    uint count;  // of a leaf's triangles; 0: not a leaf
+    vec3 dipole;
+    float quadrupole[5];
+    float octupole[10];
+};
+
+struct WindingTriangle {
+    vec3 corners[3];  // m, counter-clockwise seen from outside
+};
+
+// Push constants of simulation/bake_winding.comp.
+struct BakeWindingPush {
+    vec3 origin;  // of the grid, m
+    float cell;  // m
+    uvec3 points;  // along each axis
+    uint first_block;
+    uvec3 blocks;  // along each axis
+    uint block_count;  // of this dispatch
+    Address nodes;  // WindingNode
+    Address triangles;  // WindingTriangle, in the order of the leaves
+    Address windings;  // float [z][y][x]; written
 };
 
 // Push constants of simulation/bake_distance.comp.
@@ -50,8 +79,9 @@ struct BakeDistancePush {
     DistanceField field;  // its distances are written
     Address nodes;  // TreeNode
     Address triangles;  // TreeTriangle, in the order of the leaves
-    Address normals;  // TriangleNormals, in the same order
+    Address normals;  // TriangleNormals, in the same order; not read where there are sides
     Address middles;  // BlockMiddle [block]
+    Address sides;  // float [z][y][x]: -1 inside, 1 outside; 0: the normals tell
     uvec3 blocks;  // along each axis
     uint first_block;
     uint block_count;  // of this dispatch

@@ -1,14 +1,16 @@
 #version 460
-// Signed distances to a closed surface: first of the middles of blocks of grid points, which say
-// where no search is needed and how far others have to go; then of the points, one to an
-// invocation, a workgroup per block. The nearest triangle is found by depth-first search of a tree
-// of boxes, the nearer child first; the sign is that of the pseudonormal of the nearest feature:
-// Baerentzen and Aanaes 2005, Signed distance computation using the angle weighted pseudonormal.
+// Signed distances to a surface: first of the middles of blocks of grid points, which say where no
+// search is needed and how far others have to go; then of the points, one to an invocation, a
+// workgroup per block. The nearest triangle is found by depth-first search of a tree of boxes, the
+// nearer child first. The sign of a closed surface is that of the pseudonormal of the nearest
+// feature (Baerentzen and Aanaes 2005, Signed distance computation using the angle weighted
+// pseudonormal); of others it is known beforehand (bake_winding.comp).
 #extension GL_GOOGLE_include_directive : require
 
 #include "common/extensions.glsl"
 #include "common/nearest_on_triangle.glsl"
 #include "shared/distance_field_structs.h"
+#include "simulation/bake_blocks.glsl"
 
 layout(local_size_x = kBakeBlock * kBakeBlock * kBakeBlock) in;
 
@@ -17,6 +19,7 @@ layout(push_constant, scalar) uniform Push { BakeDistancePush push; };
 layout(buffer_reference, scalar) readonly buffer Nodes { TreeNode at[]; };
 layout(buffer_reference, scalar) readonly buffer Triangles { TreeTriangle at[]; };
 layout(buffer_reference, scalar) readonly buffer Normals { TriangleNormals at[]; };
+layout(buffer_reference, scalar) readonly buffer Sides { float at[]; };
 layout(buffer_reference, scalar) buffer Middles { BlockMiddle at[]; };
 layout(buffer_reference, scalar) writeonly buffer Distances { float at[]; };
 
@@ -32,8 +35,8 @@ vec3 pseudonormal(TriangleNormals normals, uint feature) {
                                      : normals.corners[feature - kCornerFeatures];
 }
 
-// `most` is more than the distance, m. `found` is a nearest triangle.
-float signedDistance(vec3 p, float most, out uint found) {
+// `most` is more than the distance, m. `found` is a nearest triangle. Signed where normals tell.
+float distanceTo(vec3 p, float most, out uint found) {
     Nodes nodes = Nodes(push.nodes);
     Triangles triangles = Triangles(push.triangles);
     Nearest nearest = Nearest(vec3(0.0), most * most, kFaceFeature);
@@ -72,25 +75,14 @@ float signedDistance(vec3 p, float most, out uint found) {
         node_distance = waiting_distance[depth];
     }
 
+    if (push.sides != kNoAddress) return sqrt(nearest.size);
     vec3 normal = pseudonormal(Normals(push.normals).at[found], nearest.feature);
     return dot(nearest.outward, normal) < 0.0 ? -sqrt(nearest.size) : sqrt(nearest.size);
 }
 
-// In Morton order: eight invocations in a row are a cube of points, so that those that run together
-// search nearly the same way.
-uvec3 pointInBlock(uint lane) {
-    uvec3 low = uvec3(lane, lane >> 1, lane >> 2) & 1u;
-    uvec3 high = uvec3(lane >> 3, lane >> 4, lane >> 5) & 1u;
-    return low + 2u * high;
-}
-
-uvec3 placeOf(uint block) {
-    return uvec3(block, block / push.blocks.x, block / push.blocks.x / push.blocks.y) %
-           push.blocks;
-}
-
 vec3 middleOf(uint block) {
-    vec3 place = float(kBakeBlock) * vec3(placeOf(block)) + 0.5 * float(kBakeBlock - 1u);
+    vec3 block_place = vec3(placeOf(block, push.blocks));
+    vec3 place = float(kBakeBlock) * block_place + 0.5 * float(kBakeBlock - 1u);
     return push.field.origin + push.field.cell * place;
 }
 
@@ -98,30 +90,31 @@ void findMiddle(uint lane) {
     if (lane >= push.block_count) return;
     uint block = push.first_block + lane;
     uint triangle;
-    float distance = signedDistance(middleOf(block), 1.0e19, triangle);
+    float distance = distanceTo(middleOf(block), 1.0e19, triangle);
     Middles(push.middles).at[block] = BlockMiddle(distance, triangle);
 }
 
 void findPoint(uint group) {
     uint block = push.first_block + group;
-    uvec3 point = kBakeBlock * placeOf(block) + pointInBlock(gl_LocalInvocationID.x);
+    uvec3 point = kBakeBlock * placeOf(block, push.blocks) + pointInBlock(gl_LocalInvocationID.x);
     if (group >= push.block_count || any(greaterThanEqual(point, push.field.points))) return;
 
     vec3 p = push.field.origin + push.field.cell * vec3(point);
     uint index = point.x + push.field.points.x * (point.y + push.field.points.y * point.z);
     BlockMiddle middle = Middles(push.middles).at[block];
     float reach = 0.5 * sqrt(3.0) * float(kBakeBlock - 1u) * push.field.cell;
+    float side = push.sides != kNoAddress ? Sides(push.sides).at[index] : 1.0;
     float found = middle.distance - reach;  // at most the distance, as far as rounding lets it
-    if (found <= push.band) {
+    if (found <= push.band || side < 0.0) {
         // What is nearest to the middle is not much farther than the nearest. Roundings are less
         // than a quarter of a cell.
         TreeTriangle triangle = Triangles(push.triangles).at[middle.triangle];
         Nearest near = Nearest(vec3(0.0), 3.0e38, kFaceFeature);
         compareTriangle(p, triangle.corners, triangle.normal, near);
         uint nearest;
-        found = signedDistance(p, sqrt(near.size) + 0.25 * push.field.cell, nearest);
+        found = distanceTo(p, sqrt(near.size) + 0.25 * push.field.cell, nearest);
     }
-    Distances(push.field.distances).at[index] = found;
+    Distances(push.field.distances).at[index] = side * found;
 }
 
 void main() {

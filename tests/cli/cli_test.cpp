@@ -162,6 +162,27 @@ TEST(Cli, ValidateSaysWhatIsWrongWithTheHairAtTheStart) {
     EXPECT_THAT(outcome.output, HasSubstr("; 24 guides deeper than 0.1 mm"));
 }
 
+// A tetrahedron without a face.
+constexpr const char* kOpenObj =
+    "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
+
+TEST(Cli, ValidateWarnsOfABodyThatIsNotClosed) {
+    const TemporaryFolder folder;
+    folder.write("open.obj", kOpenObj);
+    const fs::path scene = folder.write(
+        "open.json", R"({"groom": {"grow": {"mesh": ")" HAIRBENCH_SCENES_DIR
+                     R"(/assets/head.glb"}}, "simulation": {"distance_fields": [)"
+                     R"({"mesh": "open.obj"}]}, "sweep": {"/strands/density": [2, 3]}})");
+    const Outcome outcome = hairbench("validate '" + scene.string() + "'");
+    EXPECT_EQ(outcome.status, 0);
+    const std::string warning = "/simulation/distance_fields/0: the surface is not closed: edges "
+                                "with one triangle: 3, the first";
+    const std::size_t at = outcome.output.find(warning);
+    ASSERT_NE(at, std::string::npos) << outcome.output;
+    EXPECT_EQ(outcome.output.find(warning, at + 1), std::string::npos);  // once
+    EXPECT_THAT(outcome.output, HasSubstr("open.json: ok, 2 cases"));
+}
+
 TEST(Cli, PhysicsRefusesWhatItDoesNotKnow) {
     const Outcome solver = hairbench("physics --solver jelly");
     EXPECT_EQ(solver.status, 2);
@@ -282,6 +303,19 @@ TEST_F(CliRun, TakesSettledHairFromDiskOrNotAndHasTheSameHashes) {
             EXPECT_EQ((*report)["cases"][i]["image_hash"], expected["image_hash"]);
             EXPECT_EQ((*report)["cases"][i]["state_hash"], expected["state_hash"]);
         }
+    }
+}
+
+TEST_F(CliRun, ReportsThatABodyIsNotClosed) {
+    const fs::path mesh = folder_.write("open.obj", kOpenObj);
+    const nlohmann::json report =
+        run("open", "--set /simulation/distance_fields='[{\"resolution\":8,\"mesh\":\"" +
+                        mesh.string() + "\"}]' --frames 1 --warmup 2 --max-time 0");
+    for (const nlohmann::json& each : report["cases"]) {
+        ASSERT_EQ(each["status"], "ok");
+        EXPECT_THAT(
+            each["trust"]["warnings"].dump(),
+            HasSubstr("/simulation/distance_fields/0: the surface is not closed: edges with one"));
     }
 }
 

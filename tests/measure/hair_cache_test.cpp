@@ -206,6 +206,29 @@ TEST_F(HairCacheTest, ProgramsWithOtherShadersTakeNothing) {
     EXPECT_EQ(makes(other, settings), 0u);
 }
 
+// A tetrahedron without a face, as far as the head is large.
+TEST_F(HairCacheTest, FieldsKeepWhatIsOddAboutTheirMesh) {
+    hair::Settings settings = settledCase(hair::Solver::shape);
+    const TemporaryFolder meshes;
+    settings.simulation.distance_fields[0].mesh =
+        meshes
+            .write(
+                "open.obj", "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n")
+            .string();
+    const auto warnings = [&](HairCache* cache) {
+        return Case(device(), settings, kScenes, cache).warnings();
+    };
+    const std::vector<std::string> expected = warnings(nullptr);
+    ASSERT_EQ(expected.size(), 1u);
+    EXPECT_EQ(expected[0].find("/simulation/distance_fields/0: the surface is not closed"), 0u);
+    HairCache cache = onDisk();
+    EXPECT_EQ(warnings(&cache), expected);
+    EXPECT_EQ(warnings(&cache), expected);
+    HairCache other = onDisk();
+    EXPECT_EQ(warnings(&other), expected);
+    EXPECT_EQ(other.made(), 0u);
+}
+
 TEST_F(HairCacheTest, DamagedEntriesAreMadeAnew) {
     const hair::Settings settings = settledCase(hair::Solver::shape);
     HairCache first = onDisk();

@@ -100,6 +100,28 @@ inline groom::Mesh makeSphere(const glm::dvec3& centre, double radius, int level
     return mesh;
 }
 
+// A sphere without what is farther than `opening` (rad) from its top, which is up: rings of
+// `around` vertices, `across` of them. Its rim is a regular polygon.
+inline groom::Mesh
+makeOpenSphere(const glm::dvec3& centre, double radius, double opening, int around, int across) {
+    const auto at = [&](int i, int j) {
+        const double turn = 2 * std::numbers::pi * (i % around) / around;
+        const double tilt = opening * j / across;
+        return centre + radius * glm::dvec3(
+                                     std::sin(tilt) * std::sin(turn), std::cos(tilt),
+                                     std::sin(tilt) * std::cos(turn));
+    };
+    groom::Mesh mesh;
+    for (int i = 0; i < around; ++i) {
+        addTriangle(mesh, at(0, 0), at(i, 1), at(i + 1, 1));
+        for (int j = 1; j < across; ++j) {
+            addTriangle(mesh, at(i, j), at(i, j + 1), at(i + 1, j + 1));
+            addTriangle(mesh, at(i, j), at(i + 1, j + 1), at(i + 1, j));
+        }
+    }
+    return mesh;
+}
+
 // Round the y axis.
 inline groom::Mesh makeTorus(double radius, double tube_radius, int around, int across) {
     const auto at = [&](int i, int j) {

@@ -5,11 +5,9 @@
 #include <random>
 #include <string>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "hair/groom/mesh/import_mesh.h"
-#include "tests/error_text.h"
 #include "tests/gpu_fixture.h"
 #include "tests/largest_difference.h"
 #include "tests/simulation/closed_meshes.h"
@@ -203,14 +201,6 @@ TEST_F(DistanceFieldTest, GridIsAsFineAsAskedAndCoversThePadding) {
     EXPECT_EQ(fine.parameters().points, glm::uvec3(21, 13, 10));
     const DistanceField whole(device(), makeBox({0, 0, 0}, {1, 1, 1}), 1, 0.0f);
     EXPECT_EQ(whole.parameters().points, glm::uvec3(2, 2, 2));
-}
-
-TEST_F(DistanceFieldTest, RefusesAnOpenMesh) {
-    groom::Mesh box = makeBox({0, 0, 0}, {1, 1, 1});
-    box.triangles.pop_back();
-    EXPECT_THAT(
-        errorText([&] { DistanceField(device(), box, 8, 0.1f); }),
-        testing::HasSubstr("not closed: edges with one triangle: 3"));
 }
 
 TEST_F(DistanceFieldTest, RefusesAGridThatNoBufferHolds) {

@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <iomanip>
 #include <limits>
-#include <map>
 #include <numeric>
+#include <set>
 #include <span>
 #include <sstream>
+#include <string>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -68,7 +71,7 @@ struct Fault {
     }
 };
 
-void throwFaults(std::span<const Fault> faults, std::span<const glm::vec3> positions) {
+std::string describe(std::span<const Fault> faults, std::span<const glm::vec3> positions) {
     std::ostringstream text;
     text << std::setprecision(9);
     const auto write = [&](const glm::vec3& p) {
@@ -82,8 +85,39 @@ void throwFaults(std::span<const Fault> faults, std::span<const glm::vec3> posit
         text << " to ";
         write(positions[fault.first.second]);
     }
-    if (text.tellp() > 0) throw engine::Error("the surface is not closed", text.str());
+    return text.str();
 }
+
+// Edges by how triangles share them.
+struct SharedEdges {
+    std::vector<std::array<Side, 2>> pairs;  // sides that run along an edge in opposite directions
+    Fault boundary{"edges with one triangle"};
+    Fault opposed{"edges whose two triangles face opposite ways"};
+    Fault branching{"edges with more than two triangles"};
+    std::string faults;  // in words; empty: none
+
+    SharedEdges(std::span<const Triangle> triangles, std::span<const glm::vec3> positions) {
+        const std::vector<EdgeSide> sides = sortedSides(triangles);
+        pairs.reserve(sides.size() / 2);
+        for (std::size_t i = 0; i < sides.size();) {
+            std::size_t end = i + 1;
+            while (end < sides.size() && sides[end].low == sides[i].low &&
+                   sides[end].high == sides[i].high)
+                ++end;
+            if (end - i == 1) {
+                boundary.add(sides[i]);
+            } else if (end - i > 2) {
+                branching.add(sides[i]);
+            } else if (sides[i].upward == sides[i + 1].upward) {
+                opposed.add(sides[i]);
+            } else {
+                pairs.push_back({sides[i].side, sides[i + 1].side});
+            }
+            i = end;
+        }
+        faults = describe(std::array{boundary, opposed, branching}, positions);
+    }
+};
 
 double
 sideLength(const Triangle& triangle, std::uint32_t corner, std::span<const glm::vec3> positions) {
@@ -120,30 +154,9 @@ void turnEdge(
 // many edges are shared otherwise and where the first of them is.
 std::vector<std::array<Side, 2>>
 pairSides(std::span<const Triangle> triangles, std::span<const glm::vec3> positions) {
-    std::array faults{
-        Fault{"edges with one triangle"}, Fault{"edges whose two triangles face opposite ways"},
-        Fault{"edges with more than two triangles"}};
-    const std::vector<EdgeSide> sides = sortedSides(triangles);
-    std::vector<std::array<Side, 2>> pairs;
-    pairs.reserve(sides.size() / 2);
-    for (std::size_t i = 0; i < sides.size();) {
-        std::size_t end = i + 1;
-        while (end < sides.size() && sides[end].low == sides[i].low &&
-               sides[end].high == sides[i].high)
-            ++end;
-        if (end - i == 1) {
-            faults[0].add(sides[i]);
-        } else if (end - i > 2) {
-            faults[2].add(sides[i]);
-        } else if (sides[i].upward == sides[i + 1].upward) {
-            faults[1].add(sides[i]);
-        } else {
-            pairs.push_back({sides[i].side, sides[i + 1].side});
-        }
-        i = end;
-    }
-    throwFaults(faults, positions);
-    return pairs;
+    SharedEdges edges(triangles, positions);
+    if (!edges.faults.empty()) throw engine::Error("the surface is not closed", edges.faults);
+    return std::move(edges.pairs);
 }
 
 // Leaves out triangles with equal corners, and turns the longest edge of those whose corners lie on
@@ -181,17 +194,26 @@ void removeFlatTriangles(std::vector<Triangle>& triangles, std::span<const glm::
     throw engine::Error("the surface has triangles without area that can't be removed");
 }
 
-// ---- Closed mesh --------------------------------------------------------------------------------
+// ---- Welding ------------------------------------------------------------------------------------
 
-glm::dvec3 corner(const ClosedMesh& mesh, std::size_t triangle, std::size_t index) {
-    return glm::dvec3(mesh.positions[mesh.triangles[triangle][index % 3]]);
-}
+struct PositionHash {
+    std::size_t operator()(const std::array<float, 3>& p) const {
+        std::uint64_t hash = 0;
+        for (const float value : p) {
+            hash = (hash ^ std::bit_cast<std::uint32_t>(value + 0.0f)) * 0x9e3779b97f4a7c15u;
+            hash ^= hash >> 32;  // -0 equals 0 and has its hash
+        }
+        return hash;
+    }
+};
 
-ClosedMesh weld(const Mesh& mesh) {
-    ClosedMesh welded;
-    std::map<std::array<float, 3>, std::uint32_t> vertices;
+JoinedMesh weld(const Mesh& mesh) {
+    JoinedMesh welded;
+    std::unordered_map<std::array<float, 3>, std::uint32_t, PositionHash> vertices;
+    vertices.reserve(mesh.positions.size());
+    welded.triangles.reserve(mesh.triangles.size());
     for (const auto& triangle : mesh.triangles) {
-        std::array<std::uint32_t, 3>& joined = welded.triangles.emplace_back();
+        Triangle& joined = welded.triangles.emplace_back();
         for (std::size_t i = 0; i < 3; ++i) {
             const glm::vec3& p = mesh.positions[triangle[i]];
             const auto [at, is_new] = vertices.try_emplace(
@@ -201,6 +223,12 @@ ClosedMesh weld(const Mesh& mesh) {
         }
     }
     return welded;
+}
+
+// ---- Closed mesh --------------------------------------------------------------------------------
+
+glm::dvec3 corner(const ClosedMesh& mesh, std::size_t triangle, std::size_t index) {
+    return glm::dvec3(mesh.positions[mesh.triangles[triangle][index % 3]]);
 }
 
 void checkVolume(const ClosedMesh& mesh) {
@@ -249,12 +277,42 @@ pseudonormals(const ClosedMesh& mesh, std::span<const std::array<Side, 2>> pairs
 }  // namespace
 
 ClosedMesh closeMesh(const Mesh& mesh) {
-    ClosedMesh closed = weld(mesh);
+    JoinedMesh welded = weld(mesh);
+    ClosedMesh closed{
+        .positions = std::move(welded.positions),
+        .triangles = std::move(welded.triangles),
+        .normals = {}};
     removeFlatTriangles(closed.triangles, closed.positions);
     const auto pairs = pairSides(closed.triangles, closed.positions);
     checkVolume(closed);
     closed.normals = pseudonormals(closed, pairs);
     return closed;
+}
+
+JoinedMesh joinMesh(const Mesh& mesh) {
+    JoinedMesh joined = weld(mesh);
+    std::set<Triangle> seen;
+    std::erase_if(joined.triangles, [&](Triangle t) {
+        if (isFlat(t, joined.positions)) return true;
+        std::ranges::rotate(t, std::ranges::min_element(t));
+        const bool is_new = seen.insert(t).second;
+        joined.repeated += !is_new;
+        return !is_new;
+    });
+    return joined;
+}
+
+MeshEdges meshEdges(const JoinedMesh& mesh) {
+    SharedEdges shared(mesh.triangles, mesh.positions);
+    MeshEdges edges{
+        .boundary = shared.boundary.edges,
+        .opposed = shared.opposed.edges,
+        .branching = shared.branching.edges,
+        .faults = std::move(shared.faults)};
+    edges.pairs.reserve(shared.pairs.size());
+    for (const auto& [one, other] : shared.pairs)
+        edges.pairs.push_back({one.triangle, other.triangle});
+    return edges;
 }
 
 namespace {

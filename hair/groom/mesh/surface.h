@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -35,6 +36,28 @@ struct ClosedMesh {
 // engine::Error that says what is wrong and where for a mesh that is not closed, and for one whose
 // inside is out.
 ClosedMesh closeMesh(const Mesh& mesh);
+
+// Any mesh, with each position once and no triangle without area or, with the same corners in the
+// same order round, twice.
+struct JoinedMesh {
+    std::vector<glm::vec3> positions;  // [vertex], m
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::size_t repeated = 0;  // triangles that were left out because they were there
+};
+
+JoinedMesh joinMesh(const Mesh& mesh);
+
+// How a mesh's triangles meet at its edges.
+struct MeshEdges {
+    // Triangles that run along an edge of no other in opposite directions.
+    std::vector<std::array<std::uint32_t, 2>> pairs;
+    std::size_t boundary = 0;  // edges with one triangle
+    std::size_t opposed = 0;  // whose two triangles run along it in one direction
+    std::size_t branching = 0;  // with more than two triangles
+    std::string faults;  // the three in words and where the first of each is; empty: none
+};
+
+MeshEdges meshEdges(const JoinedMesh& mesh);
 
 // A hierarchy of boxes round triangles, for nearest neighbours. Every node is split in two halves
 // with as many triangles, so no path from the root is longer than halving makes it.
