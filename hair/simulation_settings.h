@@ -52,6 +52,14 @@ struct RodSettings {
 
 const Table& tableOf(const RodSettings*);
 
+// Hsu, Wang, Wu and Yuksel 2025, Stable Cosserat rods: hair/reference/stable_cosserat.h.
+struct StableCosseratSettings {
+    std::uint32_t iterations = 8;
+    float stretch_modulus = 1e6f;
+};
+
+const Table& tableOf(const StableCosseratSettings*);
+
 // What one hair is made of. Hair is anisotropic: neither modulus follows from the other.
 struct MaterialSettings {
     float density = 1320.0f;
@@ -160,7 +168,7 @@ struct PullSettings {
 
 const Table& tableOf(const PullSettings*);
 
-enum class Solver { none, shape, ftl, rod };
+enum class Solver { none, shape, ftl, rod, stable_cosserat };
 enum class Parallelism { automatic, vertex, strand, serial };
 enum class StiffnessScaling { invariant, thesis };
 
@@ -178,6 +186,7 @@ struct SimulationSettings {
     LengthSettings length;
     FtlSettings ftl;
     RodSettings rod;
+    StableCosseratSettings stable_cosserat;
     MaterialSettings material;
     WindSettings wind;
     CollisionSettings collision;

@@ -29,7 +29,8 @@ constexpr Way kWays[] = {
     {Solver::shape, Parallelism::strand},
     {Solver::shape, Parallelism::serial},
     {Solver::ftl},
-    {Solver::rod}};
+    {Solver::rod},
+    {Solver::stable_cosserat}};
 
 SimulationSettings settingsFor(const Way& way) {
     SimulationSettings settings;

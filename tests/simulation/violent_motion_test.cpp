@@ -75,6 +75,15 @@ double shapeStretch(const groom::Groom& groom, const SimulationSettings& setting
     return 2.0 * left / (1.0 - left) * way;
 }
 
+// By how much a strand of `stable_cosserat` may be: the kinetic energy of hair that a root which
+// moves by up to `way` in a step can turn round, lambda L (2 v)^2 / 2, all of it in segments that
+// stretch alike, k_ss x^2 / (2 L).
+double elasticStretch(const groom::Groom& groom, const SimulationSettings& settings, double way) {
+    const double sound = std::sqrt(
+        double{settings.stable_cosserat.stretch_modulus} / double{settings.material.density});
+    return 2.0 * way / double{settings.time_step} / sound * longestStrand(groom);
+}
+
 // Whatever solves for lengths directly keeps every one.
 double noStretch(const groom::Groom&, const SimulationSettings&, double) { return 0.0; }
 
@@ -87,7 +96,8 @@ constexpr Row kRows[] = {
     {Solver::shape, {}, noStretch},
     {Solver::shape, {.method = LengthMethod::iterate, .iterations = 5}, shapeStretch},
     {Solver::ftl, {}, noStretch},
-    {Solver::rod, {}, noStretch}};
+    {Solver::rod, {}, noStretch},
+    {Solver::stable_cosserat, {}, elasticStretch}};
 
 // Seven segments, each between two points within 3 m that are rounded.
 constexpr double kRounding = 7 * 2 * 3.0 * 0x1p-24;
