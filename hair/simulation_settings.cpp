@@ -67,6 +67,14 @@ const Table& tableOf(const StableCosseratSettings*) {
     return table;
 }
 
+const Table& tableOf(const PositionBasedRodSettings*) {
+    using S = PositionBasedRodSettings;
+    static const Table table = tableWith<S>({number(
+        "iterations", &S::iterations, 1, 256, "count",
+        "per substep: each corrects every segment and joint once")});
+    return table;
+}
+
 const Table& tableOf(const MaterialSettings*) {
     using S = MaterialSettings;
     static const Table table = tableWith<S>(
@@ -237,10 +245,12 @@ const Table& tableOf(const SimulationSettings*) {
               {Solver::shape, "shape"},
               {Solver::ftl, "ftl"},
               {Solver::rod, "rod"},
-              {Solver::stable_cosserat, "stable_cosserat"}},
+              {Solver::stable_cosserat, "stable_cosserat"},
+              {Solver::position_based_rod, "position_based_rod"}},
              "none: frozen at rest; shape: the thesis's Verlet with shape constraints; ftl: follow "
              "the leader; rod: Cosserat rods with SI material; stable_cosserat: such rods by Hsu "
-             "et al. 2025, positions and orientations by turns"),
+             "et al. 2025, positions and orientations by turns; position_based_rod: such rods by "
+             "Kugelstadt and Schoemer 2016, with XPBD's compliances"),
          choice(
              "parallelism", &S::parallelism,
              {{Parallelism::automatic, "automatic"},
@@ -254,7 +264,8 @@ const Table& tableOf(const SimulationSettings*) {
          number(
              "substeps", &S::substeps, 0, 64, "count",
              "solver steps per time step; 0: one, for rods as many as keep a substep to 1/480 s "
-             "(rod) or 1/960 s"),
+             "(rod), 1/960 s "
+             "(stable_cosserat) or 1/1920 s"),
          number(
              "settle_steps", &S::settle_steps, 0, 100000, "count",
              "steps simulated without wind before the first frame"),
@@ -271,6 +282,7 @@ const Table& tableOf(const SimulationSettings*) {
          group("ftl", &S::ftl, "follow the leader"),
          group("rod", &S::rod, "Cosserat rods"),
          group("stable_cosserat", &S::stable_cosserat, "stable Cosserat rods"),
+         group("position_based_rod", &S::position_based_rod, "position based Cosserat rods"),
          group("material", &S::material, "material of a hair, for rods and the drag of the wind"),
          group("wind", &S::wind, "wind"),
          group("collision", &S::collision, "contact with bodies"),

@@ -60,6 +60,14 @@ struct StableCosseratSettings {
 
 const Table& tableOf(const StableCosseratSettings*);
 
+// Kugelstadt and Schoemer 2016, Position and orientation based Cosserat rods:
+// hair/reference/position_based_rod.h.
+struct PositionBasedRodSettings {
+    std::uint32_t iterations = 4;
+};
+
+const Table& tableOf(const PositionBasedRodSettings*);
+
 // What one hair is made of. Hair is anisotropic: neither modulus follows from the other.
 struct MaterialSettings {
     float density = 1320.0f;
@@ -168,7 +176,7 @@ struct PullSettings {
 
 const Table& tableOf(const PullSettings*);
 
-enum class Solver { none, shape, ftl, rod, stable_cosserat };
+enum class Solver { none, shape, ftl, rod, stable_cosserat, position_based_rod };
 enum class Parallelism { automatic, vertex, strand, serial };
 enum class StiffnessScaling { invariant, thesis };
 
@@ -187,6 +195,7 @@ struct SimulationSettings {
     FtlSettings ftl;
     RodSettings rod;
     StableCosseratSettings stable_cosserat;
+    PositionBasedRodSettings position_based_rod;
     MaterialSettings material;
     WindSettings wind;
     CollisionSettings collision;

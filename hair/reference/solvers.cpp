@@ -9,6 +9,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "hair/reference/hair_hair.h"
+#include "hair/reference/position_based_rod.h"
 #include "hair/reference/rod.h"
 #include "hair/reference/stable_cosserat.h"
 #include "hair/simulation/solvers.h"
@@ -122,12 +123,26 @@ void stepStableCosseratRod(RodState& state, const RodRest& rest, const RodStep& 
         step.air);
 }
 
-void pushStableCosseratRod(
+void pushElasticRod(
     RodState& state, const RodRest&, std::span<const glm::dvec3> positions, double substep) {
     pushVertices(state, positions, substep);
 }
 
-constexpr RodMethod kStableCosserat = {stepStableCosseratRod, pushStableCosseratRod};
+constexpr RodMethod kStableCosserat = {stepStableCosseratRod, pushElasticRod};
+
+void stepPositionBased(RodState& state, const RodRest& rest, const RodStep& step) {
+    const MaterialSettings& material = step.settings.material;
+    const double radius = material.radius;
+    stepPositionBasedRod(
+        state, rest, step.accelerations, step.root,
+        {.substep = step.step.sub,
+         .velocity_kept = keptFactor(step.settings, step.step),
+         .stretch_stiffness = double{material.youngs_modulus} * std::numbers::pi * radius * radius,
+         .iterations = step.settings.position_based_rod.iterations},
+        step.air);
+}
+
+constexpr RodMethod kPositionBased = {stepPositionBased, pushElasticRod};
 
 // ---- Solvers without a state of their own -------------------------------------------------------
 
@@ -258,6 +273,7 @@ constexpr Row kSolvers[] = {
     {hair::Solver::ftl, make<Stateless<stepFtl>>},
     {hair::Solver::rod, makeRods<kInextensible>},
     {hair::Solver::stable_cosserat, makeRods<kStableCosserat>},
+    {hair::Solver::position_based_rod, makeRods<kPositionBased>},
 };
 
 }  // namespace

@@ -147,6 +147,15 @@ RodMethod stableCosseratMethod(const SimulationSettings& settings) {
             double{settings.stable_cosserat.stretch_modulus} / double{settings.material.density}};
 }
 
+RodMethod positionBasedMethod(const SimulationSettings& settings) {
+    return {
+        .shader = "simulation/position_based_rod.comp",
+        .packed_shader = "simulation/position_based_rod_packed.comp",
+        .scratch_rows = gpu::kPositionBasedScratchRows,
+        .iterations = settings.position_based_rod.iterations,
+        .stretching = double{settings.material.youngs_modulus} / double{settings.material.density}};
+}
+
 RodSolver::RodSolver(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const gpu::Step& step, const RodMethod& method)

@@ -26,6 +26,8 @@ struct RodMethod {
 RodMethod rodMethod(const SimulationSettings& settings);
 // `stable_cosserat`: hair/reference/stable_cosserat.h.
 RodMethod stableCosseratMethod(const SimulationSettings& settings);
+// `position_based_rod`: hair/reference/position_based_rod.h.
+RodMethod positionBasedMethod(const SimulationSettings& settings);
 
 // Elastic rods of /simulation/material by one of those methods. Positions are output alone; the
 // state is in orientations, velocities and edges. Strands work in units of their own and positions

@@ -73,6 +73,7 @@ constexpr Row kSolvers[] = {
     {Solver::ftl, kWholeStep, make<FtlSolver>},
     {Solver::rod, 1.0 / 480.0, makeRods<rodMethod>},
     {Solver::stable_cosserat, 1.0 / 960.0, makeRods<stableCosseratMethod>},
+    {Solver::position_based_rod, 1.0 / 1920.0, makeRods<positionBasedMethod>},
 };
 
 const Row& rowOf(Solver solver) {

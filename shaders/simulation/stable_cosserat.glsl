@@ -14,20 +14,10 @@ const uint kCentre = 1u;
 const uint kMoved = 2u;
 const uint kBrake = 3u;
 
-#include "simulation/constraints/bodies.glsl"
+#include "simulation/rod/edges.glsl"
 #include "simulation/rod/orientation.glsl"
-#include "simulation/rod/strand.glsl"
 
-const float kMostSpring = 1.0e15;    // rigid beside any mass; its square is a float
-const float kLeastJoint = 1.0e-12;   // limp beside any mass; its square is a float
-
-vec3 root_moved;
-float stretching;  // stiffness against stretch and shear
-
-uint edgeIndex(uint i) { return motionIndex(i, kRodMisfit, guides.strand_count, strand); }
-
-// A segment's edge at the start of the substep.
-vec3 edgeAt(uint i) { return loadVector(rod.motion, edgeIndex(i)).xyz; }
+const float kLeastJoint = 1.0e-12;  // limp beside any mass; its square is a float
 
 RodSegment segmentAt(uint i) {
     RodSegment segment = loadSegment(rod.segments, i, guides.strand_count, strand);
@@ -36,42 +26,20 @@ RodSegment segmentAt(uint i) {
     return segment;
 }
 
-// Velocities with the forces of the substep, which are displacements as well: time is counted in
-// substeps. Until finish() misfits are whole edges.
+// Displacements by all that does not hold the strand together.
 void predict() {
-    State positions = State(from.positions);
-    root_now = toWorld(push.frame, Vectors(guides.rest_positions).at[root].xyz);
-    vec4 follicle = positions.at[root];
-    root_moved = (root_now - follicle.xyz) / unit;
-    State(guides.previous).at[root] = vec4(follicle.xyz, 0.0);
-    State(guides.positions).at[root] = vec4(root_now, follicle.w);
-    float scale = guides.step.sub * guides.step.sub / unit;
+    takeRoot();
     vec3 edges = vec3(0.0);  // from the root to here
     for (uint i = 1; i < guides.vertices_per_strand; ++i) {
-        RodMotion motion = motionAt(i);
-        vec3 acceleration = guides.gravity;
-        if (push.accelerations != kNoAddress) acceleration += Vectors(push.accelerations).at[root + i].xyz;
-        vec3 moved = guides.velocity_kept * motion.velocity + scale * acceleration;
-        vec4 brake = vec4(0.0);
-        if (push.air != kNoAddress) {
-            brake = brakeAt(i, motion);
-            vec3 air = guides.step.sub / unit * Vectors(push.air).at[root + i].xyz;
-            moved = braked(moved, air, brake.xyz, brake.w);
-        }
-        vec3 edge = restLength(i) * axisOf(motion.orientation) + motion.misfit;
-        edges += edge;
-        if (isPinned(i)) {
-            moved = (positions.at[root + i].xyz - follicle.xyz) / unit - edges;
-            brake = vec4(0.0);
-        }
-        storeVector(rod.motion, edgeIndex(i), vec4(edge, 0.0));
+        vec4 brake;
+        vec3 moved = predictedMove(i, motionAt(i), edges, brake);
         setScratch(i, kPredicted, vec4(moved, 0.0));
         setScratch(i, kMoved, vec4(moved, 0.0));
         setScratch(i, kBrake, brake);
     }
 }
 
-// The weights of solve(), which are the same in every iteration: of springs and masses in series,
+// The weights of solveUp() and sweepDown(), which are the same in every iteration: of springs and masses in series,
 // from the tip up.
 void weigh() {
     float below = 0.0;  // of the spring between a vertex and all that hangs on it
@@ -151,48 +119,8 @@ void sweepDown(bool predicted) {
     }
 }
 
-// Velocities and positions, and collisions, which leave misfits.
-void finish() {
-    State positions = State(guides.positions);
-    vec3 moved_above = root_moved;
-    vec3 pushed_above = vec3(0.0);
-    vec3 edges = vec3(0.0);  // from the root to here, without collisions
-    float contact = 0.0;     // 1 from the first vertex that touches a body
-    for (uint i = 1; i < guides.vertices_per_strand; ++i) {
-        RodMotion motion = motionAt(i);
-        vec3 moved = scratchAt(i, kMoved).xyz;
-        vec3 edge = motion.misfit + (moved - moved_above);
-        edges += edge;
-        vec4 point = State(from.positions).at[root + i];
-        vec3 before = point.xyz;
-        vec3 pushed = vec3(0.0);
-        motion.velocity = vec3(0.0);
-        if (!isPinned(i)) {
-            vec3 free = root_now + unit * edges;
-            Met met;
-            vec3 held = pushOutOfBodies(
-                free, before, guides.bodies, push.frame, push.frame_before, met);
-            if (met.held != kTouchesNone) {
-                contact = 1.0;
-                pushed = (held - free) / unit;
-            }
-            motion.velocity = moved + pushed;
-            point.xyz = held;
-        }
-        positions.at[root + i] = point;
-        motion.angular_velocity = vec3(0.0);
-        motion.misfit = edge + (pushed - pushed_above) -
-                        restLength(i) * axisOf(motion.orientation);
-        setMotion(i, motion);
-        State(guides.previous).at[root + i] = vec4(before, contact);
-        moved_above = moved;
-        pushed_above = pushed;
-    }
-}
-
 void main() {
     if (!takeStrand()) return;  // no barrier follows
-    stretching = min(rod.stretching / (unit * unit), kMostSpring);
     predict();
     weigh();
     sweepDown(true);

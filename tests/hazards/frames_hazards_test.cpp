@@ -116,7 +116,8 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
     at_rest.strands.curl.radius = 0.004f;
     silent("at rest", made(at_rest));
     silent("everything", everything());
-    for (const hair::Solver solver : {hair::Solver::rod, hair::Solver::stable_cosserat}) {
+    for (const hair::Solver solver :
+         {hair::Solver::rod, hair::Solver::stable_cosserat, hair::Solver::position_based_rod}) {
         hair::Settings rods = everything();
         rods.simulation.solver = solver;
         silent("rods, solver " + std::to_string(static_cast<int>(solver)), rods);

@@ -30,7 +30,8 @@ constexpr Way kWays[] = {
     {Solver::shape, Parallelism::serial},
     {Solver::ftl},
     {Solver::rod},
-    {Solver::stable_cosserat}};
+    {Solver::stable_cosserat},
+    {Solver::position_based_rod}};
 
 SimulationSettings settingsFor(const Way& way) {
     SimulationSettings settings;
