@@ -58,24 +58,11 @@ void addFont(float size) {
 
 UiRect rectOf(const ImRect& rect) { return {rect.Min.x, rect.Min.y, rect.Max.x, rect.Max.y}; }
 
-// A child's name is its parent's, a slash, its own and a number that tells it from its namesakes.
-std::string nameOf(const ImGuiWindow& window) {
-    std::string name = window.Name;
-    if (!(window.Flags & ImGuiWindowFlags_ChildWindow)) return name;
-    if (window.Flags & (ImGuiWindowFlags_Popup | ImGuiWindowFlags_Tooltip)) return name;
-    const std::size_t underscore = name.rfind('_');
-    const std::size_t slash = name.rfind('/');
-    if (underscore == std::string::npos || slash == std::string::npos || underscore < slash)
-        return name;
-    const std::string own = name.substr(slash + 1, underscore - slash - 1);
-    return (window.ParentWindow ? nameOf(*window.ParentWindow) : std::string()) + '/' + own;
-}
-
 UiItem itemOf(const ImGuiContext& context, ImGuiID id, const ImRect& rect) {
     const ImGuiWindow& window = *context.CurrentWindow;
     UiItem item;
     item.id = id;
-    item.window = nameOf(window);
+    item.window = windowName(window);
     item.rect = item.whole = rectOf(rect);
     for (const ImGuiWindow* around = &window; around; around = around->ParentWindow)
         item.scrolls |= around->ScrollMax.y > 0.0f;
@@ -89,6 +76,19 @@ UiItem itemOf(const ImGuiContext& context, ImGuiID id, const ImRect& rect) {
 }
 
 }  // namespace
+
+// A child's name is its parent's, a slash, its own and a number that tells it from its namesakes.
+std::string windowName(const ImGuiWindow& window) {
+    std::string name = window.Name;
+    if (!(window.Flags & ImGuiWindowFlags_ChildWindow)) return name;
+    if (window.Flags & (ImGuiWindowFlags_Popup | ImGuiWindowFlags_Tooltip)) return name;
+    const std::size_t underscore = name.rfind('_');
+    const std::size_t slash = name.rfind('/');
+    if (underscore == std::string::npos || slash == std::string::npos || underscore < slash)
+        return name;
+    const std::string own = name.substr(slash + 1, underscore - slash - 1);
+    return (window.ParentWindow ? windowName(*window.ParentWindow) : std::string()) + '/' + own;
+}
 
 // ---- Dear ImGui in a window ---------------------------------------------------------------------
 

@@ -9,6 +9,8 @@
 typedef void* ImTextureID;
 
 // The user interface: Dear ImGui in a window, and the widgets that its last picture had.
+struct ImGuiWindow;
+
 namespace engine {
 
 // Dear ImGui in a window: its context, letters, input and drawing. One at a time. Nothing of it is
@@ -56,6 +58,9 @@ private:
     float scale_ = 1.0f;
     Handle<VkDescriptorPool, &vkDestroyDescriptorPool> descriptors_;
 };
+
+// A window of Dear ImGui as UiItem::window has it.
+std::string windowName(const ImGuiWindow& window);
 
 // A part of the window's picture, px from its top left corner.
 struct UiRect {

@@ -54,13 +54,34 @@ const Table& tableOf(const RodSettings*) {
     return table;
 }
 
+const Table& tableOf(const StableCosseratSettings*) {
+    using S = StableCosseratSettings;
+    static const Table table = tableWith<S>(
+        {number(
+             "iterations", &S::iterations, 1, 256, "count",
+             "per substep: a solve of the positions and a sweep over the orientations each"),
+         number(
+             "stretch_modulus", &S::stretch_modulus, 1, 1e12, "Pa",
+             "in place of youngs_modulus against stretch and shear: the greater, the better "
+             "lengths keep and the more iterations hair takes to move as it should")});
+    return table;
+}
+
+const Table& tableOf(const PositionBasedRodSettings*) {
+    using S = PositionBasedRodSettings;
+    static const Table table = tableWith<S>({number(
+        "iterations", &S::iterations, 1, 256, "count",
+        "per substep: each corrects every segment and joint once")});
+    return table;
+}
+
 const Table& tableOf(const MaterialSettings*) {
     using S = MaterialSettings;
     static const Table table = tableWith<S>(
         {number("density", &S::density, 1, 20000, "kg/m^3", "mass per volume"),
          number(
              "radius", &S::radius, 1e-6, 0.01, "m",
-             "radius of the round cross-section, for the stiffness of `rod` and the drag of the "
+             "radius of the round cross-section, for the stiffness of rods and the drag of the "
              "wind"),
          number("youngs_modulus", &S::youngs_modulus, 1, 1e12, "Pa", "E: resists bending"),
          number("shear_modulus", &S::shear_modulus, 1, 1e12, "Pa", "G: resists twist")});
@@ -229,9 +250,13 @@ const Table& tableOf(const SimulationSettings*) {
              {{Solver::none, "none"},
               {Solver::shape, "shape"},
               {Solver::ftl, "ftl"},
-              {Solver::rod, "rod"}},
+              {Solver::rod, "rod"},
+              {Solver::stable_cosserat, "stable_cosserat"},
+              {Solver::position_based_rod, "position_based_rod"}},
              "none: frozen at rest; shape: the thesis's Verlet with shape constraints; ftl: follow "
-             "the leader; rod: Cosserat rods with SI material"),
+             "the leader; rod: Cosserat rods with SI material; stable_cosserat: such rods by Hsu "
+             "et al. 2025, positions and orientations by turns; position_based_rod: such rods by "
+             "Kugelstadt and Schoemer 2016, with XPBD's compliances"),
          choice(
              "parallelism", &S::parallelism,
              {{Parallelism::automatic, "automatic"},
@@ -244,7 +269,9 @@ const Table& tableOf(const SimulationSettings*) {
          number("time_step", &S::time_step, 0.0005, 0.1, "s", "fixed step of simulated time"),
          number(
              "substeps", &S::substeps, 0, 64, "count",
-             "solver steps per time step; 0: one, for rod as many as keep a substep to 1/480 s"),
+             "solver steps per time step; 0: one, for rods as many as keep a substep to 1/480 s "
+             "(rod), 1/960 s "
+             "(stable_cosserat) or 1/1920 s"),
          number(
              "settle_steps", &S::settle_steps, 0, 100000, "count",
              "steps simulated without wind before the first frame"),
@@ -269,7 +296,9 @@ const Table& tableOf(const SimulationSettings*) {
          group("length", &S::length, "inextensible segments"),
          group("ftl", &S::ftl, "follow the leader"),
          group("rod", &S::rod, "Cosserat rods"),
-         group("material", &S::material, "material of a hair, for `rod` and the drag of the wind"),
+         group("stable_cosserat", &S::stable_cosserat, "stable Cosserat rods"),
+         group("position_based_rod", &S::position_based_rod, "position based Cosserat rods"),
+         group("material", &S::material, "material of a hair, for rods and the drag of the wind"),
          group("wind", &S::wind, "wind"),
          group("collision", &S::collision, "contact with bodies"),
          list("colliders", &S::colliders, 65536, "capsules that push guides out"),

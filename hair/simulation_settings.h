@@ -52,6 +52,22 @@ struct RodSettings {
 
 const Table& tableOf(const RodSettings*);
 
+// Hsu, Wang, Wu and Yuksel 2025, Stable Cosserat rods: hair/reference/stable_cosserat.h.
+struct StableCosseratSettings {
+    std::uint32_t iterations = 8;
+    float stretch_modulus = 1e6f;
+};
+
+const Table& tableOf(const StableCosseratSettings*);
+
+// Kugelstadt and Schoemer 2016, Position and orientation based Cosserat rods:
+// hair/reference/position_based_rod.h.
+struct PositionBasedRodSettings {
+    std::uint32_t iterations = 4;
+};
+
+const Table& tableOf(const PositionBasedRodSettings*);
+
 // What one hair is made of. Hair is anisotropic: neither modulus follows from the other.
 struct MaterialSettings {
     float density = 1320.0f;
@@ -161,7 +177,7 @@ struct PullSettings {
 
 const Table& tableOf(const PullSettings*);
 
-enum class Solver { none, shape, ftl, rod };
+enum class Solver { none, shape, ftl, rod, stable_cosserat, position_based_rod };
 enum class Parallelism { automatic, vertex, strand, serial };
 enum class StiffnessScaling { invariant, thesis };
 // What guides are without load. groom: as the groom has them, so that they sag under gravity.
@@ -184,6 +200,8 @@ struct SimulationSettings {
     LengthSettings length;
     FtlSettings ftl;
     RodSettings rod;
+    StableCosseratSettings stable_cosserat;
+    PositionBasedRodSettings position_based_rod;
     MaterialSettings material;
     WindSettings wind;
     CollisionSettings collision;

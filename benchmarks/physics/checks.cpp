@@ -210,7 +210,7 @@ namespace {
 // Does hair move the same whatever the step, the number of segments and of iterations? Default hair
 // let go from the horizontal; the finest run is the reference.
 
-constexpr double kInvarianceTolerance = 0.02;  // between 1/60 s and 1/480 s, promised of `rod`
+constexpr double kInvarianceTolerance = 0.02;  // between 1/60 s and 1/480 s, promised of rods
 constexpr std::uint32_t kInvarianceSegments = 16;
 
 // Differences from the last run, as a curve and a value each.
@@ -246,7 +246,7 @@ void checkStepInvariance(const engine::Device& device, hair::Solver solver, Find
     }
     reportDifferences(findings, {.name = "time_step", .unit = "s"}, steps, runs);
     std::optional<double> tolerance;
-    if (solver == hair::Solver::rod) tolerance = kInvarianceTolerance;
+    if (!lack(solver, Need::material)) tolerance = kInvarianceTolerance;
     findings.deviation(
         {"difference / length",
          "1",

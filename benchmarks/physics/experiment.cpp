@@ -143,9 +143,17 @@ constexpr Lack kLacks[] = {
      "every segment keeps its length: no vertex flies freely"},
     {hair::Solver::rod, Need::free_vertices,
      "every segment keeps its length: no vertex flies freely"},
+    {hair::Solver::stable_cosserat, Need::free_vertices,
+     "its segments are springs: no vertex flies freely"},
+    {hair::Solver::position_based_rod, Need::free_vertices,
+     "its segments are springs: no vertex flies freely"},
     {hair::Solver::ftl, Need::pinned_tip,
      "it places vertices from the root down and can't hold the tip"},
     {hair::Solver::rod, Need::equal_masses, "it is made of heavy segments: see hanging_chain"},
+    {hair::Solver::stable_cosserat, Need::equal_masses,
+     "it is made of heavy segments: see hanging_chain"},
+    {hair::Solver::position_based_rod, Need::equal_masses,
+     "it is made of heavy segments: see hanging_chain"},
     {hair::Solver::ftl, Need::bending, "it has no bending stiffness"},
     {hair::Solver::ftl, Need::material, "it has no bending stiffness"},
     {hair::Solver::shape, Need::material, "its stiffness is no material's"},
@@ -208,6 +216,8 @@ void setIterations(hair::SimulationSettings& settings, std::uint32_t iterations)
     settings.local.iterations = iterations;
     settings.length.iterations = iterations;
     settings.rod.iterations = iterations;
+    settings.stable_cosserat.iterations = iterations;
+    settings.position_based_rod.iterations = iterations;
 }
 
 // ---- Lively hair --------------------------------------------------------------------------------

@@ -87,8 +87,8 @@ hair::SimulationSettings defaultHair(hair::Solver solver);
 // The hair with nothing but its stiffness and weight: neither friction nor a pull to rest.
 hair::SimulationSettings freeHair(hair::Solver solver);
 
-// A chain: segments keep their length, as well as the solver can, and do not resist bending. `rod`
-// always does; its modulus is so small that strands up to `length` bend by their weight at once.
+// A chain: segments keep their length, as well as the solver can, and do not resist bending. Rods
+// always do; their modulus is so small that strands up to `length` bend by their weight at once.
 hair::SimulationSettings chain(hair::Solver solver, double length);
 
 // Friction that takes exp(-rate) of the velocity in 1 s. `rate` in 1/s.

@@ -56,11 +56,16 @@ Broken windHasDirection(const hair::Settings& s) {
     return {};
 }
 
-Broken solverHasRestShapes(const hair::Settings& s) {
-    if (s.simulation.rest != hair::RestShape::balanced || s.simulation.solver != hair::Solver::ftl)
+Broken solverHasBalancedRest(const hair::Settings& s) {
+    if (s.simulation.rest != hair::RestShape::balanced) return {};
+    switch (s.simulation.solver) {
+    case hair::Solver::none:
+    case hair::Solver::shape:
+    case hair::Solver::rod:
         return {};
-    return "is balanced, and /simulation/solver ftl has no rest shape that could be; shape and rod "
-           "have one";
+    default:
+        return "is balanced, which the solvers shape and rod can be";
+    }
 }
 
 Broken keyframesAscend(const hair::Settings& s) {
@@ -175,7 +180,7 @@ constexpr Rule kRules[] = {
     {"/groom/vertices", strandsHaveTwoEnds},
     {"/groom/grow/parting/to", partingHasLength},
     {"/strands/source", groomHasStrandsOfItsOwn},
-    {"/simulation/rest", solverHasRestShapes},
+    {"/simulation/rest", solverHasBalancedRest},
     {"/simulation/wind/direction", windHasDirection},
     {"/simulation/motion/keyframes", keyframesAscend},
     {"/simulation/pulls", pullKeysAscend},

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cassert>
 #include <iterator>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include "hair/reference/hair_hair.h"
+#include "hair/reference/position_based_rod.h"
 #include "hair/reference/rod.h"
+#include "hair/reference/stable_cosserat.h"
 #include "hair/simulation/solvers.h"
 
 namespace hair::reference {
@@ -16,10 +19,27 @@ namespace {
 
 // ---- Rods ---------------------------------------------------------------------------------------
 
-// The rods of rod.h as a solver of a Reference.
+// What a method for rods needs of a step.
+struct RodStep {
+    std::span<const glm::dvec3> accelerations;
+    RodRoot root;
+    const RodAir* air;
+    const SimulationSettings& settings;
+    const Step& step;
+};
+
+// One step of a strand, and where collisions take it then.
+struct RodMethod {
+    void (*step)(RodState&, const RodRest&, const RodStep&);
+    void (*push)(RodState&, const RodRest&, std::span<const glm::dvec3>, double substep);
+};
+
+// Rods by one of these methods as a solver of a Reference.
 class RodSolver : public Solver {
 public:
-    RodSolver(const groom::Groom& groom, const SimulationSettings& settings, const Step& step);
+    RodSolver(
+        const groom::Groom& groom, const SimulationSettings& settings, const Step& step,
+        const RodMethod& method);
 
     void step(const Substep& substep) override;
     void adopt(const Substep& substep) override;
@@ -27,6 +47,7 @@ public:
 private:
     SimulationSettings settings_;
     Step step_;
+    RodMethod method_;
     std::vector<RodRest> rests_;  // [strand]
     std::vector<RodState> states_;  // [strand]
 };
@@ -36,8 +57,9 @@ RodRoot rootOf(const simulation::RigidMotion& motion) {
 }
 
 RodSolver::RodSolver(
-    const groom::Groom& groom, const SimulationSettings& settings, const Step& step)
-    : settings_(settings), step_(step) {
+    const groom::Groom& groom, const SimulationSettings& settings, const Step& step,
+    const RodMethod& method)
+    : settings_(settings), step_(step), method_(method) {
     const MaterialSettings& material = settings.material;
     for (std::uint32_t i = 0; i < groom.strand_count; ++i) {
         const auto points = groom.strand(i);
@@ -59,14 +81,17 @@ void RodSolver::step(const Substep& substep) {
     air.rates = [&](ConstPoints tangents, ConstPoints velocities) {
         return dragRates(tangents, velocities, substep.air, settings_);
     };
-    stepRod(
-        state, rest, substep.accelerations, rootOf(substep.frame), step_.sub,
-        keptFactor(settings_, step_), settings_.rod.iterations,
-        substep.air.empty() ? nullptr : &air);
+    method_.step(
+        state, rest,
+        {.accelerations = substep.accelerations,
+         .root = rootOf(substep.frame),
+         .air = substep.air.empty() ? nullptr : &air,
+         .settings = settings_,
+         .step = step_});
     std::vector<glm::dvec3> positions = state.positions();
     for (std::size_t i = 1; i < positions.size(); ++i)
         positions[i] = substep.push_out(positions[i], before[i]).position;
-    pushRod(state, rest, positions, step_.sub);
+    method_.push(state, rest, positions, step_.sub);
     std::ranges::copy(before, substep.previous.begin());
     std::ranges::copy(positions, substep.positions.begin());
 }
@@ -76,6 +101,48 @@ void RodSolver::adopt(const Substep& substep) {
         rests_[substep.strand], substep.positions, substep.previous, step_.sub,
         rootOf(substep.frame));
 }
+
+// Inextensible, by Newton's method.
+void stepInextensibleRod(RodState& state, const RodRest& rest, const RodStep& step) {
+    stepRod(
+        state, rest, step.accelerations, step.root, step.step.sub,
+        keptFactor(step.settings, step.step), step.settings.rod.iterations, step.air);
+}
+
+constexpr RodMethod kInextensible = {stepInextensibleRod, pushRod};
+
+void stepStableCosseratRod(RodState& state, const RodRest& rest, const RodStep& step) {
+    const double radius = step.settings.material.radius;
+    const StableCosseratSettings& settings = step.settings.stable_cosserat;
+    stepStableCosserat(
+        state, rest, step.accelerations, step.root,
+        {.substep = step.step.sub,
+         .velocity_kept = keptFactor(step.settings, step.step),
+         .stretch_stiffness = double{settings.stretch_modulus} * std::numbers::pi * radius * radius,
+         .iterations = settings.iterations},
+        step.air);
+}
+
+void pushElasticRod(
+    RodState& state, const RodRest&, std::span<const glm::dvec3> positions, double substep) {
+    pushVertices(state, positions, substep);
+}
+
+constexpr RodMethod kStableCosserat = {stepStableCosseratRod, pushElasticRod};
+
+void stepPositionBased(RodState& state, const RodRest& rest, const RodStep& step) {
+    const MaterialSettings& material = step.settings.material;
+    const double radius = material.radius;
+    stepPositionBasedRod(
+        state, rest, step.accelerations, step.root,
+        {.substep = step.step.sub,
+         .velocity_kept = keptFactor(step.settings, step.step),
+         .stretch_stiffness = double{material.youngs_modulus} * std::numbers::pi * radius * radius,
+         .iterations = step.settings.position_based_rod.iterations},
+        step.air);
+}
+
+constexpr RodMethod kPositionBased = {stepPositionBased, pushElasticRod};
 
 // ---- Solvers without a state of their own -------------------------------------------------------
 
@@ -189,6 +256,12 @@ make(const groom::Groom& groom, const SimulationSettings& settings, const Step& 
     return std::make_unique<Made>(groom, settings, step);
 }
 
+template <const RodMethod& kMethod>
+std::unique_ptr<Solver>
+makeRods(const groom::Groom& groom, const SimulationSettings& settings, const Step& step) {
+    return std::make_unique<RodSolver>(groom, settings, step, kMethod);
+}
+
 struct Row {
     hair::Solver solver;
     std::unique_ptr<Solver> (*make)(const groom::Groom&, const SimulationSettings&, const Step&);
@@ -198,7 +271,9 @@ constexpr Row kSolvers[] = {
     {hair::Solver::none, make<Stateless<stepRest>>},
     {hair::Solver::shape, make<Stateless<stepShape>>},
     {hair::Solver::ftl, make<Stateless<stepFtl>>},
-    {hair::Solver::rod, make<RodSolver>},
+    {hair::Solver::rod, makeRods<kInextensible>},
+    {hair::Solver::stable_cosserat, makeRods<kStableCosserat>},
+    {hair::Solver::position_based_rod, makeRods<kPositionBased>},
 };
 
 }  // namespace

@@ -119,7 +119,9 @@ restOfRods(const groom::Groom& groom, const SimulationSettings& settings, const 
     const glm::dvec3 pull = substep * substep * gravityOnGroom(settings);
 
     RodRest rest;
-    if (settings.rest == RestShape::balanced) rest.balance.emplace();
+    // Balance knows the energy of `rod` alone.
+    if (settings.rest == RestShape::balanced && settings.solver == Solver::rod)
+        rest.balance.emplace();
     rest.segments.resize(groom.points.size() * gpu::kRodSegmentRows);
     for (std::uint32_t s = 0; s < groom.strand_count; ++s) {
         Strand strand = restOfStrand(groom.strand(s), bending, twisting);
@@ -140,43 +142,74 @@ restOfRods(const groom::Groom& groom, const SimulationSettings& settings, const 
 }
 
 static_assert(offsetof(gpu::RodParameters, most_strands) == 32);
+static_assert(offsetof(gpu::RodParameters, stretching) == 40);
 
 // Scratch memory takes at most this part of the device's own. Of the heap's size, not of what is
 // free in it: then the same case has the same dispatches every time.
 constexpr std::uint64_t kScratchShare = 16;
 
-std::size_t scratchOfStrand(const groom::Groom& groom) {
-    return sizeof(glm::vec4) * gpu::kRodScratchRows * groom.vertices_per_strand;
+std::size_t scratchOfStrand(const groom::Groom& groom, std::uint32_t rows) {
+    return sizeof(glm::vec4) * rows * groom.vertices_per_strand;
 }
 
 // Strands in a dispatch: all of them, or whole groups whose scratch memory fits, at least one.
-std::uint32_t strandsInDispatch(const engine::DeviceInfo& device, const groom::Groom& groom) {
+std::uint32_t
+strandsInDispatch(const engine::DeviceInfo& device, const groom::Groom& groom, std::uint32_t rows) {
     const std::uint64_t scratch = std::min<std::uint64_t>(
         device.limits.maxStorageBufferRange, device.local_bytes / kScratchShare);
-    const std::uint64_t groups = scratch / (gpu::kRodGroupSize * scratchOfStrand(groom));
+    const std::uint64_t groups = scratch / (gpu::kRodGroupSize * scratchOfStrand(groom, rows));
     const std::uint64_t most = gpu::kRodGroupSize * std::max<std::uint64_t>(groups, 1);
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(most, groom.strand_count));
 }
 
 }  // namespace
 
-RodSolver::RodSolver(
-    const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
-    const gpu::Step& step)
-    : RodSolver(device, groom, settings, restOfRods(groom, settings, step)) {}
+RodMethod rodMethod(const SimulationSettings& settings) {
+    return {
+        .shader = "simulation/rod.comp",
+        .packed_shader = "simulation/rod_packed.comp",
+        .scratch_rows = gpu::kRodScratchRows,
+        .iterations = settings.rod.iterations};
+}
+
+RodMethod stableCosseratMethod(const SimulationSettings& settings) {
+    return {
+        .shader = "simulation/stable_cosserat.comp",
+        .packed_shader = "simulation/stable_cosserat_packed.comp",
+        .scratch_rows = gpu::kStableCosseratScratchRows,
+        .iterations = settings.stable_cosserat.iterations,
+        .stretching =
+            double{settings.stable_cosserat.stretch_modulus} / double{settings.material.density}};
+}
+
+RodMethod positionBasedMethod(const SimulationSettings& settings) {
+    return {
+        .shader = "simulation/position_based_rod.comp",
+        .packed_shader = "simulation/position_based_rod_packed.comp",
+        .scratch_rows = gpu::kPositionBasedScratchRows,
+        .iterations = settings.position_based_rod.iterations,
+        .stretching = double{settings.material.youngs_modulus} / double{settings.material.density}};
+}
 
 RodSolver::RodSolver(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
-    const RodRest& rest)
+    const gpu::Step& step, const RodMethod& method)
+    : RodSolver(device, groom, settings, step, method, restOfRods(groom, settings, step)) {}
+
+RodSolver::RodSolver(
+    const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
+    const gpu::Step& step, const RodMethod& method, const RodRest& rest)
     : balance_(rest.balance), strand_count_(groom.strand_count),
-      most_strands_(strandsInDispatch(device.info(), groom)),
+      most_strands_(strandsInDispatch(device.info(), groom, method.scratch_rows)),
       segments_(
           engine::makeBuffer(device, std::span<const glm::vec4>(rest.segments), "rod segments")),
       units_(engine::makeBuffer(device, std::span<const float>(rest.units), "rod units")),
       motion_(
           device, {.size = sizeof(glm::vec4) * gpu::kRodMotionRows * groom.points.size(),
                    .name = "rod motion"}),
-      scratch_(device, {.size = scratchOfStrand(groom) * most_strands_, .name = "rod scratch"}),
+      scratch_(
+          device, {.size = scratchOfStrand(groom, method.scratch_rows) * most_strands_,
+                   .name = "rod scratch"}),
       parameters_(engine::makeBuffer(
           device,
           std::span<const gpu::RodParameters>(std::array{gpu::RodParameters{
@@ -185,12 +218,13 @@ RodSolver::RodSolver(
               .motion = motion_.address(),
               .scratch = scratch_.address(),
               .most_strands = most_strands_,
-              .iterations = settings.rod.iterations}}),
+              .iterations = method.iterations,
+              .stretching = static_cast<float>(method.stretching * step.sub * step.sub)}}),
           "rod parameters")),
       step_(
           device,
-          {.shader = device.has(engine::Feature::long_integers) ? "simulation/rod_packed.comp"
-                                                                : "simulation/rod.comp",
+          {.shader =
+               device.has(engine::Feature::long_integers) ? method.packed_shader : method.shader,
            .constants = {{gpu::kContinuousCollisionConstant, settings.collision.continuous}},
            .push_size = sizeof(gpu::SubstepPush)}),
       adopt_(

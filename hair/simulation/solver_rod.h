@@ -14,15 +14,31 @@ namespace hair::simulation {
 
 struct RodRest;
 
-// Elastic rods of /simulation/material, which neither stretch nor shear: see
-// hair/reference/rod.h. Positions are output alone; the state is in orientations and velocities.
-// Strands work in units of their own and positions are sums of edges, so that 32 bits are enough.
-// The first segment leaves the follicle as it does at rest, turned with the head.
+// What one solver of rods does otherwise than another.
+struct RodMethod {
+    const char* shader;  // of a substep
+    const char* packed_shader;  // the same where the device has 64-bit integers
+    std::uint32_t scratch_rows;  // vec4 for each vertex
+    std::uint32_t iterations;
+    double stretching = 0.0;  // modulus of stretch and shear over the density, m^2/s^2
+};
+
+// `rod`: rods which neither stretch nor shear; hair/reference/rod.h.
+RodMethod rodMethod(const SimulationSettings& settings);
+// `stable_cosserat`: hair/reference/stable_cosserat.h.
+RodMethod stableCosseratMethod(const SimulationSettings& settings);
+// `position_based_rod`: hair/reference/position_based_rod.h.
+RodMethod positionBasedMethod(const SimulationSettings& settings);
+
+// Elastic rods of /simulation/material by one of those methods. Positions are output alone; the
+// state is in orientations, velocities and edges. Strands work in units of their own and positions
+// are sums of edges, so that 32 bits are enough. The first segment leaves the follicle as it does
+// at rest, turned with the head.
 class RodSolver : public GuideSolver {
 public:
     RodSolver(
         const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
-        const gpu::Step& step);
+        const gpu::Step& step, const RodMethod& method);
 
     void record(engine::Commands& commands, gpu::SubstepPush push) const override;
     void recordAdopt(engine::Commands& commands, gpu::SubstepPush push) const override;
@@ -32,7 +48,7 @@ public:
 private:
     RodSolver(
         const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
-        const RodRest& rest);
+        const gpu::Step& step, const RodMethod& method, const RodRest& rest);
 
     std::optional<RestBalance> balance_;
     std::uint32_t strand_count_;

@@ -58,13 +58,22 @@ std::unique_ptr<GuideSolver> makeNone(
     return std::make_unique<RestSolver>(device, groom);
 }
 
+template <RodMethod (*kMethod)(const SimulationSettings&)>
+std::unique_ptr<GuideSolver> makeRods(
+    const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
+    const gpu::Step& step) {
+    return std::make_unique<RodSolver>(device, groom, settings, step, kMethod(settings));
+}
+
 constexpr double kWholeStep = std::numeric_limits<double>::infinity();  // however long
 
 constexpr Row kSolvers[] = {
     {Solver::none, kWholeStep, makeNone},
     {Solver::shape, kWholeStep, make<ShapeSolver>},
     {Solver::ftl, kWholeStep, make<FtlSolver>},
-    {Solver::rod, 1.0 / 480.0, make<RodSolver>},
+    {Solver::rod, 1.0 / 480.0, makeRods<rodMethod>},
+    {Solver::stable_cosserat, 1.0 / 960.0, makeRods<stableCosseratMethod>},
+    {Solver::position_based_rod, 1.0 / 1920.0, makeRods<positionBasedMethod>},
 };
 
 const Row& rowOf(Solver solver) {

@@ -1,11 +1,12 @@
 #ifndef HAIRBENCH_ROD_STRUCTS_H
 #define HAIRBENCH_ROD_STRUCTS_H
 
-// What the `rod` solver's host and compute code share. Scalar layout; addresses are device
-// addresses. Each strand is simulated in units of its own, in which 32 bits are accurate: lengths
-// in its mean segment length, masses in the mass of a segment that long, time in substeps. Arrays
-// are of vec4, [vertex][row][strand], so that neighbouring invocations touch neighbouring vectors;
-// segment i ends in vertex i, and entry 0 of what segments have is the follicle's.
+// What the solvers of rods share on host and device: `rod`, `stable_cosserat` and
+// `position_based_rod`. Scalar layout; addresses are device addresses. Each strand is simulated in
+// units of its own, in which 32 bits are accurate: lengths in its mean segment length, masses in
+// the mass of a segment that long, time in substeps. Arrays are of vec4, [vertex][row][strand], so
+// that neighbouring invocations touch neighbouring vectors; segment i ends in vertex i, and entry 0
+// of what segments have is the follicle's.
 
 // Invocations, each with a strand, in a workgroup of simulation/rod.comp and
 // simulation/rod_adopt.comp.
@@ -28,15 +29,19 @@ const uint kRodMisfit = 3u;  // by how much its edge is not its length along its
 
 // Rows of scratch memory, of the strands of a dispatch.
 const uint kRodScratchRows = 9u;
+const uint kStableCosseratScratchRows = 4u;
+const uint kPositionBasedScratchRows = 5u;
 
-// Parameters of simulation/rod.comp and simulation/rod_adopt.comp.
+// Parameters of the solvers of rods and of simulation/rod_adopt.comp.
 struct RodParameters {
     Address segments;  // vec4 [vertex][kRodSegmentRows][strand]
     Address units;  // float [strand], m
     Address motion;  // vec4 [vertex][kRodMotionRows][strand]
-    Address scratch;  // vec4 [vertex][kRodScratchRows][strand of the dispatch]
+    Address scratch;  // vec4 [vertex][the solver's scratch rows][strand of the dispatch]
     uint most_strands;  // of a dispatch
     uint iterations;
+    float stretching;  // modulus of stretch and shear over the density, times the substep squared,
+                       // m^2; `rod` has none
 };
 
 #endif

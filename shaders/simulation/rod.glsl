@@ -4,79 +4,20 @@
 // tip up: Featherstone 1983, The calculation of robot dynamics using articulated-body inertias. See
 // rod.h for the rod and for where it comes from, rod_structs.h for the units. Before it:
 // common/vectors.glsl or common/packed_vectors.glsl.
-#include "common/rigid_frame.glsl"
-#include "simulation/air_drag.glsl"
-#include "simulation/constraints/bodies.glsl"
-#include "simulation/rod/joint.glsl"
-#include "simulation/rod/state.glsl"
-#include "simulation/rod/symmetric.glsl"
-
-layout(local_size_x = kRodGroupSize) in;
-
-layout(push_constant, scalar) uniform Push { SubstepPush push; };
-
-const float kMostTurn = 1.0;  // rad in an iteration; a Newton step from far away can overshoot
-const float kPinMass = 100.0;  // of a pinned vertex, over the strand's: a stiff spring to its place
-const float kLeastLength = 0.1;  // that a segment turns as if it had
-
-GuideParameters guides;
-GuideParameters from;
-RodParameters rod;
-uint strand;
-uint root;    // of the strand's vertices
-float unit;   // m
-vec3 root_now;
-
-float restLength(uint i) {
-    return segmentRow(rod.segments, i, kRodStiffness, guides.strand_count, strand).x;
-}
-
-RodMotion motionAt(uint i) { return loadMotion(rod.motion, i, guides.strand_count, strand); }
-
-void setMotion(uint i, RodMotion motion) {
-    storeMotion(rod.motion, i, guides.strand_count, strand, motion);
-}
-
-uint orientationIndex(uint i) {
-    return motionIndex(i, kRodOrientation, guides.strand_count, strand);
-}
+#include "shared/rod_structs.h"
 
 // Rows of the scratch memory: 0 to 2 the columns of `by_move` with `by_itself` as the last row, 3
 // to 5 those of `by_turn`, 6 the vertex's displacement and 7 the segment's rotation, both since the
 // prediction; 8 the tangent that air brakes it across, and by how much: air_drag.glsl.
-uint scratchIndex(uint i, uint row) {
-    return rodIndex(i, row, kRodScratchRows, rod.most_strands, strand - push.first_strand);
-}
+const uint kScratchRows = kRodScratchRows;
 
-vec4 scratchAt(uint i, uint row) { return loadVector(rod.scratch, scratchIndex(i, row)); }
+#include "simulation/constraints/bodies.glsl"
+#include "simulation/rod/joint.glsl"
+#include "simulation/rod/strand.glsl"
+#include "simulation/rod/symmetric.glsl"
 
-void setScratch(uint i, uint row, vec4 value) {
-    storeVector(rod.scratch, scratchIndex(i, row), value);
-}
-
-// Mesa 22's llvmpipe reads x where the last component alone is read: hence the whole vector.
-bool isPinned(uint i) {
-    vec4 point = State(from.positions).at[root + i];
-    return point.w == 0.0;
-}
-
-vec4 orientationAt(uint i) {
-    if (i > 0) return loadVector(rod.motion, orientationIndex(i));
-    return multiply(
-        push.frame.rotation,
-        segmentRow(rod.segments, 0, kRodHalfRotation, guides.strand_count, strand));
-}
-
-// How air brakes a vertex that moves so: the tangent, and brakeOf(). Before the prediction turns
-// the segment that ends there, or the one below.
-vec4 brakeAt(uint i, RodMotion motion) {
-    vec3 tangent = axisOf(motion.orientation);
-    if (i + 1 < guides.vertices_per_strand)
-        tangent = tangentBetween(tangent, axisOf(orientationAt(i + 1)));
-    vec3 air = Vectors(push.air).at[root + i].xyz;
-    vec3 u = air - unit / guides.step.sub * motion.velocity;
-    return vec4(tangent, brakeOf(push.drag, tangent, u, guides.step.sub));
-}
+const float kMostTurn = 1.0;  // rad in an iteration; a Newton step from far away can overshoot
+const float kPinMass = 100.0;  // of a pinned vertex, over the strand's: a stiff spring to its place
 
 // Velocities with the forces of the substep, and where they would take the strand.
 void predict() {
@@ -266,15 +207,7 @@ void finish() {
 }
 
 void main() {
-    guides = GuideReference(push.guides).parameters;
-    from = GuideReference(push.from).parameters;
-    rod = RodReference(push.solver).parameters;
-    uint lane = workgroupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    strand = push.first_strand + lane;
-    if (lane >= rod.most_strands || strand >= guides.strand_count) return;  // no barrier follows
-
-    root = strand * guides.vertices_per_strand;
-    unit = Factors(rod.units).at[strand];
+    if (!takeStrand()) return;  // no barrier follows
     predict();
     for (uint i = 0; i < rod.iterations; ++i) {
         eliminate();

@@ -187,7 +187,8 @@ TEST(Cli, PhysicsRefusesWhatItDoesNotKnow) {
     const Outcome solver = hairbench("physics --solver jelly");
     EXPECT_EQ(solver.status, 2);
     EXPECT_THAT(solver.output, HasSubstr("unknown solver"));
-    EXPECT_THAT(solver.output, HasSubstr("known: shape, ftl, rod"));
+    EXPECT_THAT(
+        solver.output, HasSubstr("known: shape, ftl, rod, stable_cosserat, position_based_rod"));
     EXPECT_EQ(hairbench("physics --check '['").status, 2);
     EXPECT_EQ(hairbench("physics --check none_at_all").status, 14);
 }
@@ -382,10 +383,10 @@ TEST_F(CliRun, ChecksThePhysicsAndSaysWhatItSkipped) {
     const fs::path out = folder_.path() / "physics.json";
     const Outcome outcome = hairbench("physics --check projectile --out '" + out.string() + "'");
     EXPECT_EQ(outcome.status, 0) << outcome.output;
-    EXPECT_THAT(outcome.output, HasSubstr("1 pass, 0 fail, 0 reported, 2 skipped"));
+    EXPECT_THAT(outcome.output, HasSubstr("1 pass, 0 fail, 0 reported, 4 skipped"));
     const nlohmann::json report = reportOf(out);
     EXPECT_EQ(report["schema"], "hairbench-physics/1.0.0");
-    ASSERT_EQ(report["outcomes"].size(), 3u);
+    ASSERT_EQ(report["outcomes"].size(), 5u);
     EXPECT_EQ(report["outcomes"][0]["solver"], "shape");
     EXPECT_EQ(report["outcomes"][0]["verdict"], "pass");
     const std::string only = "physics --check projectile --solver ftl --out '" + out.string() + "'";

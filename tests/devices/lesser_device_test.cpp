@@ -291,10 +291,21 @@ std::uint64_t bytesOf(const engine::Device& device, const std::string& name) {
 // 100 strands without 64-bit integers, and by dispatches of 64, by the range of a buffer and by a
 // sixteenth of the device's memory, and of 32 where there is room for none: a strand's state knows
 // nothing of the others.
-TEST_F(LesserDevice, RodMovesStrandsTheSameOnAnyDevice) {
-    constexpr std::uint64_t kStrand = 9 * 16 * 9;  // B: nine vec4 for each vertex
+class LesserDeviceRods
+    : public LesserDevice,
+      public testing::WithParamInterface<std::pair<hair::Solver, std::uint32_t>> {};
+
+// With the vec4 of scratch memory that each has for a vertex.
+INSTANTIATE_TEST_SUITE_P(
+    , LesserDeviceRods,
+    testing::Values(
+        std::pair{hair::Solver::rod, 9u}, std::pair{hair::Solver::stable_cosserat, 4u},
+        std::pair{hair::Solver::position_based_rod, 5u}));
+
+TEST_P(LesserDeviceRods, MoveStrandsTheSameOnAnyDevice) {
+    const std::uint64_t bytes = 9 * 16 * GetParam().second;  // B
     hair::SimulationSettings settings = hair::simulation::windy();
-    settings.solver = hair::Solver::rod;
+    settings.solver = GetParam().first;
     const hair::groom::Groom groom = hair::simulation::wavyGroom(100, 9);
     struct State {
         std::vector<glm::vec3> positions;
@@ -303,7 +314,7 @@ TEST_F(LesserDevice, RodMovesStrandsTheSameOnAnyDevice) {
     };
     const auto played = [&](std::uint64_t strands) {
         hair::simulation::Simulation simulation(device(), groom, settings, 3);
-        EXPECT_EQ(bytesOf(device(), "rod scratch"), strands * kStrand);
+        EXPECT_EQ(bytesOf(device(), "rod scratch"), strands * bytes);
         hair::simulation::advance(device(), simulation, 10);
         return State{simulation.readPositions(), simulation.readPrevious()};
     };
@@ -311,9 +322,9 @@ TEST_F(LesserDevice, RodMovesStrandsTheSameOnAnyDevice) {
     EXPECT_NE(whole.positions, groom.points);
     make(without({Feature::long_integers}));
     EXPECT_EQ(played(100), whole);
-    make([](DeviceInfo& info) { info.limits.maxStorageBufferRange = 96 * kStrand - 1; });
+    make([&](DeviceInfo& info) { info.limits.maxStorageBufferRange = 96 * bytes - 1; });
     EXPECT_EQ(played(64), whole);
-    make([](DeviceInfo& info) { info.local_bytes = 16 * 64 * kStrand; });
+    make([&](DeviceInfo& info) { info.local_bytes = 16 * 64 * bytes; });
     EXPECT_EQ(played(64), whole);
     make([](DeviceInfo& info) { info.local_bytes = 0; });
     EXPECT_EQ(played(32), whole);

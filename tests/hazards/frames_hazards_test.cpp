@@ -116,9 +116,12 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
     at_rest.strands.curl.radius = 0.004f;
     silent("at rest", made(at_rest));
     silent("everything", everything());
-    hair::Settings rods = everything();
-    rods.simulation.solver = hair::Solver::rod;
-    silent("rods", rods);
+    for (const hair::Solver solver :
+         {hair::Solver::rod, hair::Solver::stable_cosserat, hair::Solver::position_based_rod}) {
+        hair::Settings rods = everything();
+        rods.simulation.solver = solver;
+        silent("rods, solver " + std::to_string(static_cast<int>(solver)), rods);
+    }
     for (const hair::Backend backend : {hair::Backend::expanded, hair::Backend::software}) {
         for (const std::uint32_t samples : {1u, 4u}) {
             for (const bool has_maps : {false, true}) {

@@ -72,7 +72,8 @@ void expectEqualEnds(const engine::Device& device, hair::Solver solver, float st
 
 TEST_F(FramesInFlight, EndAlikeHoweverManyThereAre) {
     for (const hair::Solver solver :
-         {hair::Solver::shape, hair::Solver::ftl, hair::Solver::rod, hair::Solver::none})
+         {hair::Solver::shape, hair::Solver::ftl, hair::Solver::rod, hair::Solver::stable_cosserat,
+          hair::Solver::position_based_rod, hair::Solver::none})
         expectEqualEnds(device(), solver, 1.0f);
 }
 
@@ -117,7 +118,9 @@ bool mayRunBeside(const engine::Device& device, const hair::Settings& settings) 
 }
 
 TEST_F(FramesInFlight, TheNextSimulationMayRunBesideTheDrawing) {
-    for (const hair::Solver solver : {hair::Solver::shape, hair::Solver::ftl, hair::Solver::rod}) {
+    for (const hair::Solver solver :
+         {hair::Solver::shape, hair::Solver::ftl, hair::Solver::rod, hair::Solver::stable_cosserat,
+          hair::Solver::position_based_rod}) {
         hair::Settings settings = movingHair(solver);
         EXPECT_TRUE(mayRunBeside(device(), settings));
         settings.strands.curl.radius = 0.004f;

@@ -103,7 +103,8 @@ TEST_F(MemoryOfCasesTest, OfEveryPictureFeatureHasAPurpose) {
 
 TEST_F(MemoryOfCasesTest, OfEverySolverHasAPurpose) {
     for (const hair::Solver solver :
-         {hair::Solver::none, hair::Solver::shape, hair::Solver::ftl, hair::Solver::rod}) {
+         {hair::Solver::none, hair::Solver::shape, hair::Solver::ftl, hair::Solver::rod,
+          hair::Solver::stable_cosserat, hair::Solver::position_based_rod}) {
         hair::Settings settings = hair::plainSettings();
         settings.simulation.solver = solver;
         settings.simulation.settle_steps = 2;

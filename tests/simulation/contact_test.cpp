@@ -32,7 +32,9 @@ constexpr Way kWays[] = {
     {Solver::shape, Parallelism::strand},
     {Solver::shape, Parallelism::serial},
     {Solver::ftl},
-    {Solver::rod}};
+    {Solver::rod},
+    {Solver::stable_cosserat},
+    {Solver::position_based_rod}};
 
 SimulationSettings settingsFor(const Way& way) {
     SimulationSettings settings;

@@ -188,8 +188,10 @@ TEST(ReferenceMotion, DoesTheSameInAnyPose) {
         }
         std::vector<glm::dvec3> expected;
         for (const glm::dvec3& point : upright.positions()) expected.push_back(pose(point));
-        // 2^-53 against the 2^-24 of the device, which spreads to less than 1e-4 m.
-        EXPECT_LT(largestDifference(turned.positions(), expected), 1e-12);
+        // 2^-53 against the 2^-24 of the device, which spreads to less than 1e-4 m, and ten times
+        // as far where hair is as limp as a few corrections leave it.
+        const double spread = solver == Solver::position_based_rod ? 1e-11 : 1e-12;
+        EXPECT_LT(largestDifference(turned.positions(), expected), spread);
     }
 }
 

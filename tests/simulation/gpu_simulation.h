@@ -8,7 +8,8 @@
 
 namespace hair::simulation {
 
-inline constexpr Solver kSolvers[] = {Solver::shape, Solver::ftl, Solver::rod};
+inline constexpr Solver kSolvers[] = {
+    Solver::shape, Solver::ftl, Solver::rod, Solver::stable_cosserat, Solver::position_based_rod};
 // Those whose whole state is positions and previous positions; gpu_rod_test.cpp has the rest.
 inline constexpr Solver kSolversOfPositions[] = {Solver::shape, Solver::ftl};
 

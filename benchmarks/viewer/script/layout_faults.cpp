@@ -163,11 +163,12 @@ bool isTooLong(const engine::UiItem& field, const std::vector<DrawnLetter>& lett
            right > field.rect.right - narrowest;
 }
 
+// The letters are those of the window, and say nothing of fields that it lies on.
 void addFields(
-    const engine::UiItems& items, const std::vector<DrawnLetter>& letters,
-    std::vector<std::string>& faults) {
+    const std::string& window, const engine::UiItems& items,
+    const std::vector<DrawnLetter>& letters, std::vector<std::string>& faults) {
     for (const engine::UiItem& item : items.items())
-        if (item.visible && item.inputable && isTooLong(item, letters))
+        if (item.window == window && item.visible && item.inputable && isTooLong(item, letters))
             faults.push_back(item.window + ": what \"" + item.label + "\" says is cut off");
 }
 
@@ -180,7 +181,7 @@ bool isInField(const DrawnLetter& letter, const engine::UiItems& items) {
 void addLetters(
     const ImGuiWindow& window, const engine::UiItems& items, std::vector<std::string>& faults) {
     const std::vector<DrawnLetter> letters = drawnLetters(*window.DrawList);
-    addFields(items, letters, faults);
+    addFields(engine::windowName(window), items, letters, faults);
     for (const DrawnLetter& letter : letters) {
         if (!letter.cut || isInField(letter, items)) continue;
         char text[5] = {};

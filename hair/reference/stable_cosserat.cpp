@@ -1,0 +1,264 @@
+#include "hair/reference/stable_cosserat.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+
+#include "hair/reference/constraints.h"
+#include "hair/reference/wind.h"
+
+namespace hair::reference {
+namespace {
+
+// Lower bound of a segment's length in its spring, over the strand's mean: only coincident points
+// fall below.
+constexpr double kLeastSpringLength = 0.1;
+
+// ---- Quaternions as vectors of four numbers -----------------------------------------------------
+
+glm::dvec4 toVector(const glm::dquat& q) { return {q.x, q.y, q.z, q.w}; }
+glm::dquat toQuaternion(const glm::dvec4& v) { return {v.w, v.x, v.y, v.z}; }
+
+// The matrix of q -> a q b.
+glm::dmat4 sandwich(const glm::dquat& a, const glm::dquat& b) {
+    glm::dmat4 matrix;
+    for (int column = 0; column < 4; ++column) {
+        glm::dvec4 unit(0.0);
+        unit[column] = 1.0;
+        matrix[column] = toVector(a * toQuaternion(unit) * b);
+    }
+    return matrix;
+}
+
+glm::dvec3 thirdAxis(const glm::dquat& q) { return q * glm::dvec3(0.0, 0.0, 1.0); }
+
+// ---- Joints -------------------------------------------------------------------------------------
+
+// What of a joint's stiffness is in the quadratic part of its energy, for the components of r.
+glm::dvec4 excessOf(const RodRest& rest, std::size_t i) {
+    const double greatest = std::max(rest.bend_stiffness[i], rest.twist_stiffness[i]);
+    const double bend = greatest - rest.bend_stiffness[i];
+    return {bend, bend, greatest - rest.twist_stiffness[i], 0.0};
+}
+
+// Minus the gradient of E_bt by r where it is this.
+glm::dvec4 pullAt(const RodRest& rest, std::size_t i, const glm::dvec4& r) {
+    const double greatest = std::max(rest.bend_stiffness[i], rest.twist_stiffness[i]);
+    glm::dvec4 pull = 4.0 * excessOf(rest, i) * r;
+    pull.w = r.w < 0.0 ? -4.0 * greatest : 4.0 * greatest;
+    return pull;
+}
+
+// r of joint i is linear in the orientation of either segment, or in its conjugate.
+glm::dmat4 rOfSecond(const RodRest& rest, std::span<const glm::dquat> orientations, std::size_t i) {
+    return sandwich(
+        glm::conjugate(orientations[i - 1] * rest.half_rotations[i]),
+        glm::conjugate(rest.half_rotations[i]));
+}
+
+glm::dmat4 rOfFirst(const RodRest& rest, std::span<const glm::dquat> orientations, std::size_t i) {
+    const glm::dmat4 conjugate(
+        {-1.0, 0.0, 0.0, 0.0}, {0.0, -1.0, 0.0, 0.0}, {0.0, 0.0, -1.0, 0.0}, {0.0, 0.0, 0.0, 1.0});
+    return sandwich(
+               glm::conjugate(rest.half_rotations[i]),
+               orientations[i] * glm::conjugate(rest.half_rotations[i])) *
+           conjugate;
+}
+
+// ---- A step -------------------------------------------------------------------------------------
+
+struct CosseratStep {
+    RodState& state;
+    const RodRest& rest;
+    const StableCosseratParameters& parameters;
+    std::vector<glm::dvec3> before;  // positions of the vertices, m
+    std::vector<glm::dvec3> predicted;  // y, m
+    std::vector<glm::dvec3> positions;  // m
+    std::vector<glm::dmat3> drag;  // 1/s
+
+    std::size_t size() const { return rest.lengths.size(); }
+    double mean() const {
+        const double total = std::accumulate(rest.lengths.begin(), rest.lengths.end(), 0.0);
+        return std::max(total / static_cast<double>(size() - 1), 1e-6);
+    }
+    // h k, k the two equal eigenvalues of K.
+    double brakeAt(std::size_t i) const {
+        return parameters.substep * (drag[i][0][0] + drag[i][1][1] + drag[i][2][2]) / 2.0;
+    }
+
+    void predict(std::span<const glm::dvec3> accelerations, const RodRoot& root, const RodAir* air);
+    void orient();
+    void place();
+    void finish();
+};
+
+void CosseratStep::predict(
+    std::span<const glm::dvec3> accelerations, const RodRoot& root, const RodAir* air) {
+    const double h = parameters.substep;
+    before = state.positions();
+    if (air) {
+        std::vector<glm::dvec3> axes;
+        for (const glm::dquat& orientation : state.orientations)
+            axes.push_back(thirdAxis(orientation));
+        drag = air->rates(tangentsBetween(axes), state.velocities);
+    }
+    state.root = root.rotation * rest.points[0] + root.translation;
+    state.orientations[0] = root.rotation * rest.orientations[0];
+    predicted = {state.root};
+    for (std::size_t i = 1; i < size(); ++i) {
+        glm::dvec3 velocity = parameters.velocity_kept * state.velocities[i] + h * accelerations[i];
+        if (air) velocity = braked(velocity, drag[i], air->velocities[i], h);
+        const auto pin = state.pins.find(i);
+        if (pin != state.pins.end()) drag[i] = glm::dmat3(0.0);
+        predicted.push_back(pin == state.pins.end() ? before[i] + h * velocity : pin->second);
+    }
+    positions = predicted;
+}
+
+void CosseratStep::orient() {
+    std::vector<glm::dquat>& orientations = state.orientations;
+    for (std::size_t i = 1; i < size(); ++i) {
+        const glm::dvec4 here = toVector(orientations[i]);
+        const glm::dmat4 above = rOfSecond(rest, orientations, i);
+        glm::dvec4 b = glm::transpose(above) * pullAt(rest, i, above * here);
+        if (i + 1 < size()) {
+            const glm::dmat4 below = rOfFirst(rest, orientations, i + 1);
+            b += glm::transpose(below) * pullAt(rest, i + 1, below * here);
+        }
+        if (glm::length(b) == 0.0) continue;
+        orientations[i] = balancedOrientation(
+            toQuaternion(b), parameters.stretch_stiffness * (positions[i] - positions[i - 1]));
+    }
+}
+
+// The tridiagonal system by Gaussian elimination. Air's excess is at the last positions.
+void CosseratStep::place() {
+    const double per_square = 1.0 / (parameters.substep * parameters.substep);
+    std::vector<double> diagonal(size(), 0.0);
+    std::vector<double> beside(size(), 0.0);  // between i - 1 and i
+    std::vector<glm::dvec3> right(size(), glm::dvec3(0.0));
+    const double shortest = kLeastSpringLength * mean();
+    for (std::size_t i = 1; i < size(); ++i) {
+        const double heavier = 1.0 + brakeAt(i);
+        const glm::dvec3 ahead = positions[i] - predicted[i];
+        const glm::dvec3 excess = brakeAt(i) * ahead - parameters.substep * (drag[i] * ahead);
+        diagonal[i] += rest.masses[i] * per_square * heavier;
+        right[i] += rest.masses[i] * per_square * (heavier * predicted[i] + excess);
+        const double spring = parameters.stretch_stiffness / std::max(rest.lengths[i], shortest);
+        const glm::dvec3 edge = rest.lengths[i] * thirdAxis(state.orientations[i]);
+        diagonal[i] += spring;
+        diagonal[i - 1] += spring;
+        beside[i] = -spring;
+        right[i] += spring * edge;
+        right[i - 1] -= spring * edge;
+    }
+    const auto hold = [&](std::size_t i, const glm::dvec3& where) {
+        diagonal[i] = 1.0;
+        right[i] = where;
+        if (i > 0) {
+            right[i - 1] -= beside[i] * where;
+            beside[i] = 0.0;
+        }
+        if (i + 1 < size()) {
+            right[i + 1] -= beside[i + 1] * where;
+            beside[i + 1] = 0.0;
+        }
+    };
+    hold(0, state.root);
+    for (const auto& [i, where] : state.pins) hold(i, where);
+    for (std::size_t i = 1; i < size(); ++i) {
+        const double factor = beside[i] / diagonal[i - 1];
+        diagonal[i] -= factor * beside[i];
+        right[i] -= factor * right[i - 1];
+    }
+    for (std::size_t i = size(); i-- > 0;) {
+        glm::dvec3 rest_of_row = right[i];
+        if (i + 1 < size()) rest_of_row -= beside[i + 1] * positions[i + 1];
+        positions[i] = rest_of_row / diagonal[i];
+    }
+}
+
+void CosseratStep::finish() {
+    for (std::size_t i = 1; i < size(); ++i) {
+        state.velocities[i] = state.pins.contains(i)
+                                  ? glm::dvec3(0.0)
+                                  : (positions[i] - before[i]) / parameters.substep;
+        state.edges[i] = positions[i] - positions[i - 1];
+    }
+}
+
+}  // namespace
+
+void stepStableCosserat(
+    RodState& state, const RodRest& rest, std::span<const glm::dvec3> accelerations,
+    const RodRoot& root, const StableCosseratParameters& parameters, const RodAir* air) {
+    assert(accelerations.size() == rest.lengths.size());
+    CosseratStep step{
+        .state = state,
+        .rest = rest,
+        .parameters = parameters,
+        .before = {},
+        .predicted = {},
+        .positions = {},
+        .drag = std::vector(rest.lengths.size(), glm::dmat3(0.0))};
+    step.predict(accelerations, root, air);
+    step.orient();
+    for (std::uint32_t i = 0; i < parameters.iterations; ++i) {
+        step.place();
+        step.orient();
+    }
+    step.finish();
+}
+
+void pushVertices(RodState& state, std::span<const glm::dvec3> positions, double substep) {
+    const std::vector<glm::dvec3> before = state.positions();
+    for (std::size_t i = 1; i < before.size(); ++i) {
+        state.velocities[i] += (positions[i] - before[i]) / substep;
+        state.edges[i] = positions[i] - positions[i - 1];
+    }
+}
+
+double
+bendTwistEnergy(const RodRest& rest, std::span<const glm::dquat> orientations, std::size_t i) {
+    const glm::dvec4 r = rOfSecond(rest, orientations, i) * toVector(orientations[i]);
+    const double greatest = std::max(rest.bend_stiffness[i], rest.twist_stiffness[i]);
+    return 4.0 * greatest * (1.0 - std::abs(r.w)) - 2.0 * glm::dot(excessOf(rest, i) * r, r);
+}
+
+// The paper's closed form, of which |q| falls with lambda beyond |v|, from infinity; where it is 1
+// is the greatest of all. Newton's method for 1 / |q| = 1 by t = lambda - |v|, kept between bounds.
+// lambda b + v b e3 = t b + (|v| b + v b e3) loses nothing where t is small.
+glm::dquat balancedOrientation(const glm::dquat& b, const glm::dvec3& edge) {
+    const glm::dquat v(0.0, -2.0 * edge);
+    const glm::dquat e3(0.0, 0.0, 0.0, 1.0);
+    const double least = glm::length(v);
+    const glm::dquat aligned = least * b + v * b * e3;
+    const auto at = [&](double t, const glm::dquat& of, const glm::dquat& of_aligned) {
+        return (t * of + of_aligned) / (t * (t + 2.0 * least));
+    };
+    double low = 0.0;
+    double high = glm::length(b);
+    double t = high;
+    glm::dquat q = b;
+    for (int i = 0; i < 100; ++i) {
+        q = at(t, b, aligned);
+        const double size = glm::length(q);
+        (size > 1.0 ? low : high) = t;
+        const glm::dquat slower = at(t, q, least * q + v * q * e3);
+        const double newton = t + size * size * (size - 1.0) / glm::dot(q, slower);
+        const double next = newton > low && newton < high ? newton : (low + high) / 2.0;
+        if (std::abs(size - 1.0) < 1e-14 || next == t) break;
+        t = next;
+    }
+    return glm::normalize(q);
+}
+
+}  // namespace hair::reference

@@ -1,0 +1,154 @@
+// One substep of the `position_based_rod` solver, one invocation per strand: Kugelstadt and
+// Schoemer 2016, Position and orientation based Cosserat rods, with the compliances of Macklin,
+// Mueller and Chentanez 2016, XPBD. hair/reference/position_based_rod.h has the constraints and
+// what of this is the papers'. See rod_structs.h for the units. Before it: common/vectors.glsl or
+// common/packed_vectors.glsl.
+#include "shared/rod_structs.h"
+
+// Rows of the scratch memory: how the vertex moves in the substep; the multipliers of the segment's
+// stretch and shear, and of the bend and twist of the joint where it starts; its orientation at the
+// start of the substep; the tangent that air brakes the vertex across, and by how much.
+const uint kScratchRows = kPositionBasedScratchRows;
+const uint kMoved = 0u;
+const uint kStretchForce = 1u;
+const uint kJointForce = 2u;
+const uint kBefore = 3u;
+const uint kBrake = 4u;
+
+#include "simulation/rod/edges.glsl"
+#include "simulation/rod/symmetric.glsl"
+
+const float kLeastStiffness = 1.0e-15;  // limp beside any mass; its inverse is a float
+
+// Velocities with the forces of the substep, and where they would take the strand.
+void predict() {
+    takeRoot();
+    vec3 edges = vec3(0.0);  // from the root to here
+    for (uint i = 1; i < guides.vertices_per_strand; ++i) {
+        RodMotion motion = motionAt(i);
+        vec4 brake;
+        vec3 moved = predictedMove(i, motion, edges, brake);
+        setScratch(i, kMoved, vec4(moved, 0.0));
+        setScratch(i, kStretchForce, vec4(0.0));
+        setScratch(i, kJointForce, vec4(0.0));
+        setScratch(i, kBefore, motion.orientation);
+        setScratch(i, kBrake, brake);
+        vec4 orientation =
+            turned(motion.orientation, guides.velocity_kept * motion.angular_velocity);
+        storeVector(rod.motion, orientationIndex(i), orientation);
+    }
+}
+
+vec3 movedAt(uint i) { return i > 0 ? scratchAt(i, kMoved).xyz : root_moved; }
+
+// The inverse of a vertex's mass: across the hair, and what is added to that along it, which air
+// does not make heavier.
+vec2 lightnessOf(uint i, vec4 brake) {
+    if (i == 0 || isPinned(i)) return vec2(0.0);
+    float mass = segmentRow(rod.segments, i, kRodStiffness, guides.strand_count, strand).y;
+    float across = 1.0 / (mass * (1.0 + brake.w));
+    return vec2(across, 1.0 / mass - across);
+}
+
+// The inverse of a quarter of a segment's inertia, which is its orientation's mass as four numbers.
+float turningLightness(uint i) {
+    if (i == 0) return 0.0;
+    float len = max(restLength(i), kLeastLength);
+    return 3.0 / (len * len * len);
+}
+
+// Stretch and shear of segment i: edge / length = d3.
+void holdSegment(uint i) {
+    RodSegment segment = loadSegment(rod.segments, i, guides.strand_count, strand);
+    float len = max(segment.rest_length, kLeastLength);
+    vec3 above = movedAt(i - 1);
+    vec3 below = movedAt(i);
+    vec4 brake_above = i > 1 ? scratchAt(i - 1, kBrake) : vec4(0.0);
+    vec4 brake_below = scratchAt(i, kBrake);
+    vec2 light_above = lightnessOf(i - 1, brake_above);
+    vec2 light_below = lightnessOf(i, brake_below);
+    float light_turn = turningLightness(i);
+    vec4 orientation = orientationAt(i);
+    vec3 force = scratchAt(i, kStretchForce).xyz;
+
+    vec3 edge = edgeAt(i) + below - above;
+    vec3 misfit = (edge - segment.rest_length * axisOf(orientation)) / len;
+    float compliance = 1.0 / (max(stretching, kLeastStiffness) * len);
+    vec3 wanted = -(misfit + compliance * force);
+    float even = (light_above.x + light_below.x) / (len * len) + 4.0 * light_turn + compliance;
+    vec3 more;
+    if (push.air == kNoAddress) {
+        more = wanted / even;
+    } else {
+        mat3 yields = mat3(even);
+        yields += light_above.y / (len * len) * outerProduct(brake_above.xyz, brake_above.xyz);
+        yields += light_below.y / (len * len) * outerProduct(brake_below.xyz, brake_below.xyz);
+        more = inverseOfSymmetric(yields) * wanted;
+    }
+    setScratch(i, kStretchForce, vec4(force + more, 0.0));
+    vec3 along_above = dot(brake_above.xyz, more) * brake_above.xyz;
+    vec3 along_below = dot(brake_below.xyz, more) * brake_below.xyz;
+    above -= (light_above.x * more + light_above.y * along_above) / len;
+    below += (light_below.x * more + light_below.y * along_below) / len;
+    if (i > 1) setScratch(i - 1, kMoved, vec4(above, 0.0));
+    setScratch(i, kMoved, vec4(below, 0.0));
+    vec4 turn = multiply(multiply(vec4(more, 0.0), orientation), vec4(0.0, 0.0, 1.0, 0.0));
+    storeVector(
+        rod.motion, orientationIndex(i), normalize(orientation + 2.0 * light_turn * turn));
+}
+
+// Bend and twist of the joint where segment i starts: no rotation from one frame to the other.
+void holdJoint(uint i) {
+    RodSegment segment = loadSegment(rod.segments, i, guides.strand_count, strand);
+    vec4 above = orientationAt(i - 1);
+    vec4 orientation = orientationAt(i);
+    vec4 half_back = conjugate(segment.half_rotation);
+    vec4 first = multiply(above, segment.half_rotation);
+    vec4 second = multiply(orientation, half_back);
+    vec4 r = multiply(conjugate(first), second);
+    float nearer = r.w < 0.0 ? -1.0 : 1.0;
+    vec3 stiffness = 4.0 * vec3(vec2(segment.bend_stiffness), segment.twist_stiffness);
+    vec3 compliance = 1.0 / max(stiffness, vec3(kLeastStiffness));
+    float light_above = turningLightness(i - 1);
+    float light_below = turningLightness(i);
+
+    vec3 force = scratchAt(i, kJointForce).xyz;
+    vec3 more =
+        -(nearer * r.xyz + compliance * force) / (light_above + light_below + compliance);
+    setScratch(i, kJointForce, vec4(force + more, 0.0));
+    vec4 turn = vec4(nearer * more, 0.0);
+    vec4 turned_below = multiply(multiply(first, turn), segment.half_rotation);
+    storeVector(
+        rod.motion, orientationIndex(i), normalize(orientation + light_below * turned_below));
+    if (i > 1) {
+        vec4 turned_above = multiply(multiply(second, conjugate(turn)), half_back);
+        storeVector(
+            rod.motion, orientationIndex(i - 1), normalize(above + light_above * turned_above));
+    }
+}
+
+// Every segment and joint once, every other one downwards and those between upwards by turns.
+void holdAll() {
+    uint count = guides.vertices_per_strand - 1;
+    uint last_odd = count - 1 - count % 2;
+    for (uint k = 0; k < count; ++k) {
+        uint i = 1 + (k % 2 == 0 ? k : last_odd - (k - 1));
+        holdSegment(i);
+        holdJoint(i);
+    }
+}
+
+// The angular velocity that turned the segment in the substep.
+void setTurn(uint i) {
+    vec4 turn = multiply(orientationAt(i), conjugate(scratchAt(i, kBefore)));
+    uint index = motionIndex(i, kRodAngularVelocity, guides.strand_count, strand);
+    storeVector(rod.motion, index, vec4((turn.w < 0.0 ? -2.0 : 2.0) * turn.xyz, 0.0));
+}
+
+void main() {
+    if (!takeStrand()) return;  // no barrier follows
+    predict();
+    for (uint i = 0; i < rod.iterations; ++i) holdAll();
+    for (uint i = 1; i < guides.vertices_per_strand; ++i) setTurn(i);
+    finish();
+}

@@ -1,0 +1,94 @@
+// Rods whose segments stretch and shear, so that vertices and orientations move by themselves. Until
+// finish() the misfits of the strand are whole edges, as the substep found them. Before it:
+// common/vectors.glsl or common/packed_vectors.glsl, kScratchRows, and kMoved, the row of a vertex's
+// displacement in the substep.
+#ifndef HAIRBENCH_SIMULATION_ROD_EDGES_GLSL
+#define HAIRBENCH_SIMULATION_ROD_EDGES_GLSL
+
+#include "simulation/constraints/bodies.glsl"
+#include "simulation/rod/strand.glsl"
+
+const float kMostSpring = 1.0e15;  // rigid beside any mass; its square is a float
+
+vec3 root_moved;
+float stretching;  // stiffness against stretch and shear
+
+uint edgeIndex(uint i) { return motionIndex(i, kRodMisfit, guides.strand_count, strand); }
+
+// A segment's edge at the start of the substep.
+vec3 edgeAt(uint i) { return loadVector(rod.motion, edgeIndex(i)).xyz; }
+
+// The root goes with the head.
+void takeRoot() {
+    stretching = min(rod.stretching / (unit * unit), kMostSpring);
+    root_now = toWorld(push.frame, Vectors(guides.rest_positions).at[root].xyz);
+    vec4 follicle = State(from.positions).at[root];
+    root_moved = (root_now - follicle.xyz) / unit;
+    State(guides.previous).at[root] = vec4(follicle.xyz, 0.0);
+    State(guides.positions).at[root] = vec4(root_now, follicle.w);
+}
+
+// How a vertex moves by all that does not hold the strand together: time is counted in substeps, so
+// that a velocity is a displacement as well. `brake`: how air brakes it, as brakeAt(), not at all
+// where it is pinned. Adds the segment's edge to `edges`, those from the root to here.
+vec3 predictedMove(uint i, RodMotion motion, inout vec3 edges, out vec4 brake) {
+    vec3 acceleration = guides.gravity;
+    if (push.accelerations != kNoAddress) acceleration += Vectors(push.accelerations).at[root + i].xyz;
+    float scale = guides.step.sub * guides.step.sub / unit;
+    vec3 moved = guides.velocity_kept * motion.velocity + scale * acceleration;
+    brake = vec4(0.0);
+    if (push.air != kNoAddress) {
+        brake = brakeAt(i, motion);
+        vec3 air = guides.step.sub / unit * Vectors(push.air).at[root + i].xyz;
+        moved = braked(moved, air, brake.xyz, brake.w);
+    }
+    vec3 edge = restLength(i) * axisOf(motion.orientation) + motion.misfit;
+    storeVector(rod.motion, edgeIndex(i), vec4(edge, 0.0));
+    edges += edge;
+    if (isPinned(i)) {
+        vec3 follicle = root_now - unit * root_moved;
+        moved = (State(from.positions).at[root + i].xyz - follicle) / unit - edges;
+        brake = vec4(0.0);
+    }
+    return moved;
+}
+
+// Velocities and positions, and collisions, which leave misfits.
+void finish() {
+    State positions = State(guides.positions);
+    vec3 moved_above = root_moved;
+    vec3 pushed_above = vec3(0.0);
+    vec3 edges = vec3(0.0);  // from the root to here, without collisions
+    float contact = 0.0;     // 1 from the first vertex that touches a body
+    for (uint i = 1; i < guides.vertices_per_strand; ++i) {
+        RodMotion motion = motionAt(i);
+        vec3 moved = scratchAt(i, kMoved).xyz;
+        vec3 edge = motion.misfit + (moved - moved_above);
+        edges += edge;
+        vec4 point = State(from.positions).at[root + i];
+        vec3 before = point.xyz;
+        vec3 pushed = vec3(0.0);
+        motion.velocity = vec3(0.0);
+        if (!isPinned(i)) {
+            vec3 free = root_now + unit * edges;
+            Met met;
+            vec3 held = pushOutOfBodies(
+                free, before, bodiesAt(guides, root + i), push.frame, push.frame_before, met);
+            if (met.held != kTouchesNone) {
+                contact = 1.0;
+                pushed = (held - free) / unit;
+            }
+            motion.velocity = moved + pushed;
+            point.xyz = held;
+        }
+        positions.at[root + i] = point;
+        motion.misfit = edge + (pushed - pushed_above) -
+                        restLength(i) * axisOf(motion.orientation);
+        setMotion(i, motion);
+        State(guides.previous).at[root + i] = vec4(before, contact);
+        moved_above = moved;
+        pushed_above = pushed;
+    }
+}
+
+#endif

@@ -1,0 +1,86 @@
+// The strand that an invocation of a solver of rods moves. Before it: common/vectors.glsl or
+// common/packed_vectors.glsl, and kScratchRows, the solver's rows of scratch memory.
+#ifndef HAIRBENCH_SIMULATION_ROD_STRAND_GLSL
+#define HAIRBENCH_SIMULATION_ROD_STRAND_GLSL
+
+#include "common/rigid_frame.glsl"
+#include "simulation/air_drag.glsl"
+#include "simulation/rod/state.glsl"
+
+layout(local_size_x = kRodGroupSize) in;
+
+layout(push_constant, scalar) uniform Push { SubstepPush push; };
+
+const float kLeastLength = 0.1;  // that a segment turns as if it had
+
+GuideParameters guides;
+GuideParameters from;
+RodParameters rod;
+uint strand;
+uint root;    // of the strand's vertices
+float unit;   // m
+vec3 root_now;
+
+float restLength(uint i) {
+    return segmentRow(rod.segments, i, kRodStiffness, guides.strand_count, strand).x;
+}
+
+RodMotion motionAt(uint i) { return loadMotion(rod.motion, i, guides.strand_count, strand); }
+
+void setMotion(uint i, RodMotion motion) {
+    storeMotion(rod.motion, i, guides.strand_count, strand, motion);
+}
+
+uint orientationIndex(uint i) {
+    return motionIndex(i, kRodOrientation, guides.strand_count, strand);
+}
+
+uint scratchIndex(uint i, uint row) {
+    return rodIndex(i, row, kScratchRows, rod.most_strands, strand - push.first_strand);
+}
+
+vec4 scratchAt(uint i, uint row) { return loadVector(rod.scratch, scratchIndex(i, row)); }
+
+void setScratch(uint i, uint row, vec4 value) {
+    storeVector(rod.scratch, scratchIndex(i, row), value);
+}
+
+// Mesa 22's llvmpipe reads x where the last component alone is read: hence the whole vector.
+bool isPinned(uint i) {
+    vec4 point = State(from.positions).at[root + i];
+    return point.w == 0.0;
+}
+
+vec4 orientationAt(uint i) {
+    if (i > 0) return loadVector(rod.motion, orientationIndex(i));
+    return multiply(
+        push.frame.rotation,
+        segmentRow(rod.segments, 0, kRodHalfRotation, guides.strand_count, strand));
+}
+
+// How air brakes a vertex that moves so: the tangent, and brakeOf(). Before the prediction turns
+// the segment that ends there, or the one below.
+vec4 brakeAt(uint i, RodMotion motion) {
+    vec3 tangent = axisOf(motion.orientation);
+    if (i + 1 < guides.vertices_per_strand)
+        tangent = tangentBetween(tangent, axisOf(orientationAt(i + 1)));
+    vec3 air = Vectors(push.air).at[root + i].xyz;
+    vec3 u = air - unit / guides.step.sub * motion.velocity;
+    return vec4(tangent, brakeOf(push.drag, tangent, u, guides.step.sub));
+}
+
+// False for an invocation without a strand.
+bool takeStrand() {
+    guides = GuideReference(push.guides).parameters;
+    from = GuideReference(push.from).parameters;
+    rod = RodReference(push.solver).parameters;
+    uint lane = workgroupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    strand = push.first_strand + lane;
+    if (lane >= rod.most_strands || strand >= guides.strand_count) return false;
+
+    root = strand * guides.vertices_per_strand;
+    unit = Factors(rod.units).at[strand];
+    return true;
+}
+
+#endif

@@ -1,0 +1,132 @@
+// One substep of the `stable_cosserat` solver, one invocation per strand: Hsu, Wang, Wu and Yuksel
+// 2025, Stable Cosserat rods. Positions and orientations by turns, each the minimum with the other
+// held; hair/reference/stable_cosserat.h has the energies and what of this is the paper's. See
+// rod_structs.h for the units. Before it: common/vectors.glsl or common/packed_vectors.glsl.
+#include "shared/rod_structs.h"
+
+// Rows of the scratch memory: how a vertex moves in the substep without what holds the strand
+// together, and its weight against that of all below it; where all that hangs on the vertex has its
+// least energy, and its weight against that of the segment above; how the vertex moves; the tangent
+// that air brakes it across, and by how much.
+const uint kScratchRows = kStableCosseratScratchRows;
+const uint kPredicted = 0u;
+const uint kCentre = 1u;
+const uint kMoved = 2u;
+const uint kBrake = 3u;
+
+#include "simulation/rod/edges.glsl"
+#include "simulation/rod/orientation.glsl"
+
+const float kLeastJoint = 1.0e-12;  // limp beside any mass; its square is a float
+
+RodSegment segmentAt(uint i) {
+    RodSegment segment = loadSegment(rod.segments, i, guides.strand_count, strand);
+    segment.bend_stiffness = max(segment.bend_stiffness, kLeastJoint);
+    segment.twist_stiffness = max(segment.twist_stiffness, kLeastJoint);
+    return segment;
+}
+
+// Displacements by all that does not hold the strand together.
+void predict() {
+    takeRoot();
+    vec3 edges = vec3(0.0);  // from the root to here
+    for (uint i = 1; i < guides.vertices_per_strand; ++i) {
+        vec4 brake;
+        vec3 moved = predictedMove(i, motionAt(i), edges, brake);
+        setScratch(i, kPredicted, vec4(moved, 0.0));
+        setScratch(i, kMoved, vec4(moved, 0.0));
+        setScratch(i, kBrake, brake);
+    }
+}
+
+// The weights of solveUp() and sweepDown(), which are the same in every iteration: of springs and masses in series,
+// from the tip up.
+void weigh() {
+    float below = 0.0;  // of the spring between a vertex and all that hangs on it
+    for (uint i = guides.vertices_per_strand - 1; i > 0; --i) {
+        RodSegment segment = segmentAt(i);
+        float spring = min(stretching / max(segment.rest_length, kLeastLength), kMostSpring);
+        vec2 weights = vec2(0.0, 1.0);
+        if (!isPinned(i)) {
+            float mass = segment.mass * (1.0 + scratchAt(i, kBrake).w) + below;
+            weights = vec2(below, mass) / vec2(mass, spring + mass);
+        }
+        setScratch(i, kPredicted, vec4(scratchAt(i, kPredicted).xyz, weights.x));
+        setScratch(i, kCentre, vec4(0.0, 0.0, 0.0, weights.y));
+        below = spring * weights.y;
+    }
+}
+
+// Where a vertex would go by itself. Air makes it heavier across the hair alone: what an equal mass
+// along it would hold back is put right by the last iteration's motion, so that the iteration
+// still lowers the energy.
+vec3 goalAt(uint i, vec3 predicted) {
+    if (push.air == kNoAddress) return predicted;
+    vec4 brake = scratchAt(i, kBrake);
+    vec3 ahead = scratchAt(i, kMoved).xyz - predicted;
+    return predicted + brake.w / (1.0 + brake.w) * dot(brake.xyz, ahead) * brake.xyz;
+}
+
+// The positions for these orientations, first half: from the tip up, the place of a vertex at which
+// all that hangs on it has its least energy.
+void solveUp() {
+    vec3 below = vec3(0.0);
+    for (uint i = guides.vertices_per_strand - 1; i > 0; --i) {
+        vec4 predicted = scratchAt(i, kPredicted);
+        vec3 goal = goalAt(i, predicted.xyz);
+        vec3 centre = goal + predicted.w * (below - goal);
+        setScratch(i, kCentre, vec4(centre, scratchAt(i, kCentre).w));
+        below = centre - (restLength(i) * axisOf(orientationAt(i)) - edgeAt(i));
+    }
+}
+
+// From the root down: the positions, unless they are still the prediction, and with every segment's
+// edge its orientation, its neighbours held.
+void sweepDown(bool predicted) {
+    vec3 moved = root_moved;
+    vec4 above = orientationAt(0);
+    vec4 orientation = orientationAt(1);
+    RodSegment segment = segmentAt(1);
+    for (uint i = 1; i < guides.vertices_per_strand; ++i) {
+        vec3 edge = edgeAt(i);
+        vec3 here = scratchAt(i, kMoved).xyz;
+        if (!predicted) {
+            vec4 centre = scratchAt(i, kCentre);
+            vec3 carried = moved + (segment.rest_length * axisOf(orientation) - edge);
+            here = carried + centre.w * (centre.xyz - carried);
+            setScratch(i, kMoved, vec4(here, 0.0));
+        }
+        edge += here - moved;
+        moved = here;
+
+        vec4 pull = pullFromAbove(
+            above, orientation, segment.half_rotation, segment.bend_stiffness,
+            segment.twist_stiffness);
+        vec4 below = orientation;
+        RodSegment next = segment;
+        if (i + 1 < guides.vertices_per_strand) {
+            below = orientationAt(i + 1);
+            next = segmentAt(i + 1);
+            pull += pullFromBelow(
+                orientation, below, next.half_rotation, next.bend_stiffness,
+                next.twist_stiffness);
+        }
+        if (dot(pull, pull) > 0.0) orientation = balancedOrientation(pull, stretching * edge);
+        storeVector(rod.motion, orientationIndex(i), orientation);
+        above = orientation;
+        orientation = below;
+        segment = next;
+    }
+}
+
+void main() {
+    if (!takeStrand()) return;  // no barrier follows
+    predict();
+    weigh();
+    sweepDown(true);
+    for (uint i = 0; i < rod.iterations; ++i) {
+        solveUp();
+        sweepDown(false);
+    }
+    finish();
+}
