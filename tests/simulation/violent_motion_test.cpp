@@ -105,14 +105,15 @@ struct Row {
     LengthSettings length;
     double (*stretch)(const groom::Groom&, const SimulationSettings&, double way);  // at most, m
     double rest = 1e-4;  // how far from rest it comes to be, over the length
+    bool every_rate = true;  // what cuts every step into many substeps is slow, and plays at one
 };
 constexpr Row kRows[] = {
     {Solver::shape, {}, noStretch},
     {Solver::shape, {.method = LengthMethod::iterate, .iterations = 5}, shapeStretch},
     {Solver::ftl, {}, noStretch},
     {Solver::rod, {}, noStretch},
-    {Solver::stable_cosserat, {}, elasticStretch},
-    {Solver::position_based_rod, {}, positionBasedStretch, 3e-3}};
+    {Solver::stable_cosserat, {}, elasticStretch, 1e-4, false},
+    {Solver::position_based_rod, {}, positionBasedStretch, 3e-3, false}};
 
 // Seven segments, each between two points within 3 m that are rounded.
 constexpr double kRounding = 7 * 2 * 3.0 * 0x1p-24;
@@ -124,6 +125,7 @@ TEST_F(ViolentMotion, LeavesHairWholeAndComesToRest) {
     for (const Row& row : kRows)
         for (const double rate : {30.0, 60.0, 144.0})
             for (const double length : {0.02, 0.15, 0.6}) {
+                if (!row.every_rate && rate != 60.0) continue;
                 SCOPED_TRACE(
                     testing::Message() << "solver " << static_cast<int>(row.solver) << ", " << rate
                                        << " steps/s, " << length << " m");
