@@ -1,4 +1,5 @@
 #include <cstddef>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <vector>
@@ -14,9 +15,10 @@
 namespace benchmarks::commands {
 namespace {
 
-void printStart(const engine::Device& device, scene::Scene& scene, measure::HairCache& cache) {
-    const scene::CaseSpec spec =
-        scene::singleCase(scene, {.scene = scene.directory}, &cache.assets());
+void printStart(
+    const engine::Device& device, const std::filesystem::path& path, scene::Scene& scene,
+    measure::HairCache& cache) {
+    const scene::CaseSpec spec = scene::singleCase(scene, {.scene = path}, &cache.assets());
     const measure::Case first(device, spec.settings, scene.directory, &cache);
     const measure::StartInspection start = measure::inspectStart(first);
     const report::StartRecord& record = start.record;
@@ -52,7 +54,7 @@ int validateScenes(const ValidateOptions& options) {
             std::cout << path.string() << ": ok, " << count
                       << (count == 1 ? " case\n" : " cases\n");
             if (!device) continue;
-            for (scene::Scene& scene : loaded) printStart(*device, scene, cache);
+            for (scene::Scene& scene : loaded) printStart(*device, path, scene, cache);
         } catch (const engine::Error& error) {
             std::cerr << error.what() << '\n';
             status = report::kUsageError;

@@ -11,7 +11,6 @@
 // prediction; 8 the tangent that air brakes it across, and by how much: air_drag.glsl.
 const uint kScratchRows = kRodScratchRows;
 
-#include "simulation/constraints/bodies.glsl"
 #include "simulation/rod/joint.glsl"
 #include "simulation/rod/strand.glsl"
 #include "simulation/rod/symmetric.glsl"
@@ -179,13 +178,7 @@ void finish() {
         vec3 pushed = vec3(0.0);
         if (!isPinned(i)) {
             vec3 free = root_now + unit * edges;
-            Met met;
-            vec3 held = pushOutOfBodies(
-                free, before, bodiesAt(guides, root + i), push.frame, push.frame_before, met);
-            if (met.held != kTouchesNone) {
-                contact = 1.0;
-                pushed = (held - free) / unit;
-            }
+            vec3 held = heldByBodies(i, free, before, contact, pushed);
             motion.velocity += scratchAt(i, 6).xyz + pushed;
             point.xyz = held;
         }

@@ -39,8 +39,8 @@ void predict() {
     }
 }
 
-// The weights of solveUp() and sweepDown(), which are the same in every iteration: of springs and masses in series,
-// from the tip up.
+// The weights of solveUp() and sweepDown(), which are the same in every iteration: of springs and
+// masses in series, from the tip up.
 void weigh() {
     float below = 0.0;  // of the spring between a vertex and all that hangs on it
     for (uint i = guides.vertices_per_strand - 1; i > 0; --i) {

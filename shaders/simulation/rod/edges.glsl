@@ -5,7 +5,6 @@
 #ifndef HAIRBENCH_SIMULATION_ROD_EDGES_GLSL
 #define HAIRBENCH_SIMULATION_ROD_EDGES_GLSL
 
-#include "simulation/constraints/bodies.glsl"
 #include "simulation/rod/strand.glsl"
 
 const float kMostSpring = 1.0e15;  // rigid beside any mass; its square is a float
@@ -71,13 +70,7 @@ void finish() {
         motion.velocity = vec3(0.0);
         if (!isPinned(i)) {
             vec3 free = root_now + unit * edges;
-            Met met;
-            vec3 held = pushOutOfBodies(
-                free, before, bodiesAt(guides, root + i), push.frame, push.frame_before, met);
-            if (met.held != kTouchesNone) {
-                contact = 1.0;
-                pushed = (held - free) / unit;
-            }
+            vec3 held = heldByBodies(i, free, before, contact, pushed);
             motion.velocity = moved + pushed;
             point.xyz = held;
         }

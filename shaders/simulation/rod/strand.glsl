@@ -5,6 +5,7 @@
 
 #include "common/rigid_frame.glsl"
 #include "simulation/air_drag.glsl"
+#include "simulation/constraints/bodies.glsl"
 #include "simulation/rod/state.glsl"
 
 layout(local_size_x = kRodGroupSize) in;
@@ -67,6 +68,19 @@ vec4 brakeAt(uint i, RodMotion motion) {
     vec3 air = Vectors(push.air).at[root + i].xyz;
     vec3 u = air - unit / guides.step.sub * motion.velocity;
     return vec4(tangent, brakeOf(push.drag, tangent, u, guides.step.sub));
+}
+
+// Where bodies leave a vertex that comes to `free`; `pushed` is how far from there, in the strand's
+// unit, and `contact` is 1 from the first vertex on that touches one.
+vec3 heldByBodies(uint i, vec3 free, vec3 before, inout float contact, inout vec3 pushed) {
+    Met met;
+    vec3 held = pushOutOfBodies(
+        free, before, bodiesAt(guides, root + i), push.frame, push.frame_before, met);
+    if (met.held != kTouchesNone) {
+        contact = 1.0;
+        pushed = (held - free) / unit;
+    }
+    return held;
 }
 
 // False for an invocation without a strand.
