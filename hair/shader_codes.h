@@ -77,6 +77,12 @@ inline constexpr std::size_t kCount<ShadingModel> = counted<ShadingModel>(
      {ShadingModel::dual_scattering, gpu::kModelDualScattering}});
 
 template <>
+inline constexpr std::size_t kCount<HairShadows> = counted<HairShadows>(
+    {{HairShadows::none, gpu::kHairShadowsNone},
+     {HairShadows::deep_opacity, gpu::kHairShadowsDeepOpacity},
+     {HairShadows::deep_shadow, gpu::kHairShadowsDeepShadow}});
+
+template <>
 inline constexpr std::size_t kCount<Show> = counted<Show>(
     {{Show::shading, gpu::kShowShading},
      {Show::tangents, gpu::kShowTangents},

@@ -28,6 +28,9 @@ const Table& tableOf(const LightSettings*) {
              "distance at which the light has its color and beyond which it is weaker; 0: the same "
              "at any distance"),
          number("radius", &S::radius, 0, 100, "m", "radius of a sphere light"),
+         number(
+             "angular_radius", &S::angular_radius, 0, 90, "deg",
+             "angular radius of a directional light; the sun's is 0.27"),
          toggle("shadows", &S::shadows, "whether the light casts shadows: /shading/shadows")});
     return table;
 }
@@ -38,8 +41,12 @@ const Table& tableOf(const ShadowSettings*) {
         {toggle("meshes", &S::meshes, "meshes throw shadows on meshes and hair"),
          choice(
              "hair", &S::hair,
-             {{HairShadows::none, "none"}, {HairShadows::deep_opacity, "deep_opacity"}},
-             "what hair throws on hair and meshes; deep_opacity: Yuksel and Keyser 2008"),
+             {{HairShadows::none, "none"},
+              {HairShadows::deep_opacity, "deep_opacity"},
+              {HairShadows::deep_shadow, "deep_shadow"}},
+             "what hair throws on hair and meshes; deep_opacity: Yuksel and Keyser 2008, what "
+             "texels are covered by in the mean; deep_shadow: Lokovic and Veach 2000, what a ray "
+             "through each texel meets"),
          number("resolution", &S::resolution, 64, 4096, "px", "width and height of a light's map"),
          number(
              "layer_depth", &S::layer_depth, 0.0001, 10, "m",
@@ -95,8 +102,13 @@ const Table& tableOf(const ShadingSettings*) {
          number("refractive_index", &S::refractive_index, 1.01, 3, "1", "eta of the fibre"),
          number(
              "density_factor", &S::density_factor, 0, 1, "1",
-             "d_f = d_b of dual_scattering: how much of its surroundings hair fills"),
+             "d of dual_scattering: part of what a strand scatters that meets other strands"),
          list("lights", &S::lights, 16, "the lights"),
+         number(
+             "environment_lights", &S::environment_lights, 0, 48, "count",
+             "wide lights that /render/environment is to hair, each of a part of the directions "
+             "and "
+             "with the shadows of hair; 0: as to a matt surface, times ambient"),
          group("shadows", &S::shadows, "what is between a light and what it lights")});
     return table;
 }

@@ -22,12 +22,13 @@ struct LightSettings {
     float strength = 1.0f;
     float reference_distance = 0.0f;
     float radius = 0.1f;
+    float angular_radius = 0.0f;
     bool shadows = true;
 };
 
 const Table& tableOf(const LightSettings*);
 
-enum class HairShadows { none, deep_opacity };
+enum class HairShadows { none, deep_opacity, deep_shadow };
 
 struct ShadowSettings {
     bool meshes = false;
@@ -58,8 +59,9 @@ struct ShadingSettings {
     float azimuthal_roughness = 0.3f;
     float cuticle_tilt = 2.0f;
     float refractive_index = 1.55f;
-    float density_factor = 0.7f;
+    float density_factor = 0.98f;
     std::vector<LightSettings> lights{LightSettings{}};
+    std::uint32_t environment_lights = 12;
     ShadowSettings shadows;
 };
 

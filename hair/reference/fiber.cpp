@@ -164,19 +164,23 @@ GlobalScattering globalScattering(const FiberAverages& averages, double strands)
 
 glm::dvec3 dualScattering(
     const Fiber& fiber, double density_factor, const glm::dvec3& wo, const glm::dvec3& wi, double h,
-    double strands) {
+    const Surroundings& around) {
     const double theta_i = std::asin(std::clamp(wi.x, -1.0, 1.0));
     const double theta_o = std::asin(std::clamp(wo.x, -1.0, 1.0));
     const double phi = std::atan2(wi.z, wi.y) - std::atan2(wo.z, wo.y);
     const FiberPath path = fiberPath(fiber, theta_o, h);
-    const FiberAverages averages = averageOverFiber(fiber, theta_i);
+    FiberAverages averages = averageOverFiber(fiber, theta_i);
+    averages.forward *= density_factor;
+    averages.backward *= density_factor;
     const LocalScattering local = localScattering(averages);
-    const GlobalScattering global = globalScattering(averages, strands);
+    const GlobalScattering global = globalScattering(averages, around.strands);
+    const glm::dvec3 albedo =
+        (1 - around.ended) * local.albedo + around.returned * averages.forward;
 
     // Twice A_b, as in equation (11), round the direction of the light: (1 + cos phi) / 2 pi
     // instead of 1 / pi in the nearer half turn, which would end in an edge.
     const auto behind = [&](double change, double more_variance, double azimuthal) {
-        return 2.0 * density_factor * azimuthal * local.albedo *
+        return 2.0 * azimuthal * albedo *
                longitudinal(
                    theta_i - change - local.shift, theta_o, local.variance + more_variance);
     };
@@ -193,7 +197,7 @@ glm::dvec3 dualScattering(
                            : 1 / (2 * kPi);
             }) +
         behind(global.shift, global.variance, (1 + 2 / kPi * std::cos(phi)) / (2 * kPi));
-    return global.direct * direct + density_factor * global.forward * scattered;
+    return global.direct * direct + global.forward * scattered;
 }
 
 }  // namespace hair::reference

@@ -42,10 +42,17 @@ struct GlobalScattering {
 
 GlobalScattering globalScattering(const FiberAverages& averages, double strands);
 
+// What is round a fibre, as the light sees it.
+struct Surroundings {
+    double strands = 0;  // mean number before it
+    double ended = 0;  // part of the light that those behind it would let through, there and back
+    double returned = 0;  // what a surface behind those sends back of that part
+};
+
 // f |cos theta_i| of a fibre among others, with what the light loses on its way to it.
-// `density_factor`: d_f = d_b.
+// `density_factor`: part of what a fibre scatters that meets others, d_f = d_b of each scattering.
 glm::dvec3 dualScattering(
     const Fiber& fiber, double density_factor, const glm::dvec3& wo, const glm::dvec3& wi, double h,
-    double strands);
+    const Surroundings& around);
 
 }  // namespace hair::reference

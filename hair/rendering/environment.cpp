@@ -57,13 +57,11 @@ parametersOf(const engine::FloatPixels& light, float turn, std::uint64_t texels)
     return parameters;
 }
 
-}  // namespace
-
-// ---- Irradiance ---------------------------------------------------------------------------------
-
-std::array<glm::dvec3, 9> irradianceHarmonics(const engine::FloatPixels& picture, double turn) {
+// Calls f(direction, light) for each texel: the direction of its middle, unit length, and its
+// radiance times its solid angle.
+template <class Function>
+void forEachTexel(const engine::FloatPixels& picture, double turn, Function f) {
     using std::numbers::pi;
-    std::array<glm::dvec3, 9> sums{};
     const float* texel = picture.rgb.data();
     for (std::uint32_t row = 0; row < picture.height; ++row) {
         const double top = pi * row / picture.height;
@@ -72,15 +70,83 @@ std::array<glm::dvec3, 9> irradianceHarmonics(const engine::FloatPixels& picture
         const double polar = (top + bottom) / 2;
         for (std::uint32_t column = 0; column < picture.width; ++column, texel += 3) {
             const double azimuth = turn + 2 * pi * (0.5 - (column + 0.5) / picture.width);
-            const std::array basis = harmonics(
-                {std::sin(polar) * std::sin(azimuth), std::cos(polar),
-                 std::sin(polar) * std::cos(azimuth)});
-            const glm::dvec3 light = solid_angle * glm::dvec3(texel[0], texel[1], texel[2]);
-            for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += basis[i] * light;
+            const glm::dvec3 direction{
+                std::sin(polar) * std::sin(azimuth), std::cos(polar),
+                std::sin(polar) * std::cos(azimuth)};
+            f(direction, solid_angle * glm::dvec3(texel[0], texel[1], texel[2]));
         }
     }
+}
+
+// Directions that share a sphere about evenly.
+std::vector<glm::dvec3> spread(std::uint32_t count) {
+    std::vector<glm::dvec3> directions;
+    if (count == 12) {
+        const double golden = std::numbers::phi;
+        for (const double a : {-1.0, 1.0}) {
+            for (const double b : {-golden, golden}) {
+                directions.push_back(glm::normalize(glm::dvec3(0.0, a, b)));
+                directions.push_back(glm::normalize(glm::dvec3(a, b, 0.0)));
+                directions.push_back(glm::normalize(glm::dvec3(b, 0.0, a)));
+            }
+        }
+        return directions;
+    }
+    const double turn = 2 * std::numbers::pi * (2 - std::numbers::phi);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double y = 1 - (2.0 * i + 1) / count;
+        const double across = std::sqrt(1 - y * y);
+        directions.emplace_back(across * std::cos(turn * i), y, across * std::sin(turn * i));
+    }
+    return directions;
+}
+
+}  // namespace
+
+// ---- Irradiance ---------------------------------------------------------------------------------
+
+std::array<glm::dvec3, 9> irradianceHarmonics(const engine::FloatPixels& picture, double turn) {
+    std::array<glm::dvec3, 9> sums{};
+    forEachTexel(picture, turn, [&](const glm::dvec3& direction, const glm::dvec3& light) {
+        const std::array basis = harmonics(direction);
+        for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += basis[i] * light;
+    });
     for (std::size_t i = 0; i < sums.size(); ++i) sums[i] *= kLobe[i];
     return sums;
+}
+
+// ---- Lights -------------------------------------------------------------------------------------
+
+std::vector<LightSettings> environmentLights(
+    const engine::FloatPixels& picture, const RenderSettings& render, std::uint32_t count) {
+    const std::vector<glm::dvec3> middles = spread(count);
+    std::vector<glm::dvec3> irradiances(count);
+    const engine::FloatPixels light = soundLight(picture, render.environment_strength);
+    const double turn = glm::radians(double{render.environment_turn});
+    forEachTexel(light, turn, [&](const glm::dvec3& direction, const glm::dvec3& radiance) {
+        const auto nearest = std::ranges::max_element(
+            middles, {}, [&](const glm::dvec3& middle) { return glm::dot(middle, direction); });
+        irradiances[static_cast<std::size_t>(nearest - middles.begin())] += radiance;
+    });
+    // A cap of the part's solid angle, 2 pi (1 - cos r), and as wide again in area: light of one
+    // part and the next joins without a gap between their lobes.
+    const double radius =
+        std::numbers::sqrt2 * std::acos(std::max(1.0 - 2.0 / std::max(count, 1u), -1.0));
+    std::vector<LightSettings> lights;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        // A light's color is irradiance / pi; display RGB up to 1, and the strength.
+        const glm::dvec3 color = irradiances[i] / std::numbers::pi;
+        const double strength = std::max({color.r, color.g, color.b, 1e-12});
+        const glm::dvec3 part = color / strength;
+        const bool is_linear = hasLinearLight(render);
+        lights.push_back(
+            {.type = LightType::directional,
+             .direction = glm::vec3(-middles[i]),
+             .color = glm::vec3(is_linear ? toDisplay(part) : toDisplay(color)),
+             .strength = is_linear ? static_cast<float>(strength) : 1.0f,
+             .angular_radius = static_cast<float>(std::min(glm::degrees(radius), 90.0))});
+    }
+    return lights;
 }
 
 // ---- The pass -----------------------------------------------------------------------------------

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -11,6 +13,7 @@
 #include "engine/pipeline.h"
 #include "hair/rendering/render_assets.h"
 #include "hair/settings.h"
+#include "hair/shading_settings.h"
 
 namespace hair::rendering {
 
@@ -41,5 +44,12 @@ private:
 // Hanrahan 2001, An Efficient Representation for Irradiance Environment Maps (their eq. 3).
 // shaders/environment/radiance.glsl says which way the picture lies round +y.
 std::array<glm::dvec3, 9> irradianceHarmonics(const engine::FloatPixels& picture, double turn);
+
+// So many directional lights that stand for a picture of light: each in the middle of its part of
+// all directions, those that are nearest to it, somewhat wider, and with all light of it. It
+// is turned and scaled as the settings say. Their middles are on a Fibonacci spiral, but 12 are the
+// corners of an icosahedron: means of harmonics up to l = 5 are exact there.
+std::vector<LightSettings> environmentLights(
+    const engine::FloatPixels& picture, const RenderSettings& render, std::uint32_t count);
 
 }  // namespace hair::rendering

@@ -75,7 +75,9 @@ std::vector<gpu::FiberAverage> makeFiberAverages(const ShadingSettings& shading)
     std::vector<gpu::FiberAverage> table;
     for (std::uint32_t i = 0; i < gpu::kFiberAverages; ++i) {
         const double cos_theta = static_cast<double>(i) / (gpu::kFiberAverages - 1);
-        const FiberAverages averages = averageOverFiber(fiber, std::acos(cos_theta));
+        FiberAverages averages = averageOverFiber(fiber, std::acos(cos_theta));
+        averages.forward *= double{shading.density_factor};
+        averages.backward *= double{shading.density_factor};
         const LocalScattering local = localScattering(averages);
         table.push_back(
             {.forward = glm::dvec4(averages.forward, averages.forward_variance),
@@ -202,7 +204,8 @@ LocalScattering localScattering(const FiberAverages& averages) {
             3 * averages.backward_variance + passes_thrice * averages.forward_variance);
     }
     local.shift = means.meanShift();
-    local.variance = means.meanVariance();
+    // Where nothing comes back it is that of one scattering: shaders divide by it.
+    local.variance = means.weight > 0 ? means.meanVariance() : averages.backward_variance;
     return local;
 }
 

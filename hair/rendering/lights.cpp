@@ -24,6 +24,7 @@ gpu::Light makeLight(const RenderSettings& render, const LightSettings& light) {
     if (light.type == LightType::directional) {
         result.type = gpu::kLightDirectional;
         result.to_light = -glm::normalize(light.direction);
+        result.radius = glm::radians(light.angular_radius);
         result.reference_distance = 0.0f;
     }
     if (light.type == LightType::sphere) {
@@ -59,7 +60,9 @@ std::uint32_t lightKinds(const Settings& settings) {
     std::uint32_t kinds = 0;
     for (const gpu::Light& light : makeLights(settings)) {
         if (light.type == gpu::kLightDirectional) kinds |= gpu::kSomeDirectional;
-        if (light.type == gpu::kLightSphere) kinds |= gpu::kSomeSpheres;
+        const bool distant = light.type == gpu::kLightDirectional;
+        if (light.type == gpu::kLightSphere || (distant && light.radius > 0.0f))
+            kinds |= gpu::kSomeSpheres;
         if (light.reference_distance > 0.0f) kinds |= gpu::kSomeWeaken;
     }
     return kinds;

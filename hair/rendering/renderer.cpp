@@ -33,6 +33,22 @@ Settings withBackend(Settings settings, Backend backend) {
     return settings;
 }
 
+// To hair an environment is further lights, where there are any.
+Settings litByEnvironment(Settings settings, const RenderAssets& assets) {
+    const std::uint32_t count = settings.shading.environment_lights;
+    if (!assets.environment || count == 0) return settings;
+    const std::vector<LightSettings> lights =
+        environmentLights(*assets.environment, settings.render, count);
+    settings.shading.lights.insert(settings.shading.lights.end(), lights.begin(), lights.end());
+    return settings;
+}
+
+// To meshes it is none.
+Settings litByHarmonics(Settings settings) {
+    settings.shading.environment_lights = 0;
+    return settings;
+}
+
 engine::TargetDescription rendered(const Settings& settings) {
     engine::TargetDescription description = targetDescription(settings.render);
     description.sampled_depth = readsSceneDepth(settings);
@@ -127,12 +143,14 @@ Renderer::Renderer(
     const RenderAssets& assets, const StrandStages& stages)
     : plan_(planStrands(view, settings, device.info().limits.maxTessellationGenerationLevel)),
       backend_(chooseBackend(device, settings, plan_, stages)),
-      settings_(withBackend(settings, backend_.backend)), target_(device, rendered(settings_)),
+      settings_(litByEnvironment(withBackend(settings, backend_.backend), assets)),
+      target_(device, rendered(settings_)),
       lights_(
           engine::makeBuffer(device, std::span<const gpu::Light>(makeLights(settings_)), "lights")),
       optics_(device, settings_), points_(makePoints(device, settings_, plan_, view)),
       shadows_(device, settings_, plan_, assets, pointerTo(points_)),
-      environment_(device, settings_, assets), meshes_(device, settings_, assets),
+      environment_(device, settings_, assets),
+      meshes_(device, litByHarmonics(withBackend(settings, backend_.backend)), assets),
       texture_(device, settings_.render, assets.strand_texture),
       strand_images_(strandImages(texture_, shadows_)),
       strands_(device, settings_, plan_, target_, view, pointerTo(points_), stages),

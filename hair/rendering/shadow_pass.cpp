@@ -124,13 +124,30 @@ LightView lightView(
     return perspectiveView(light.position, unit(to_centre), bounds.range, widened * slope, texels);
 }
 
+// The mean base colour of the head's triangles, working colours; those of meshes without one.
+glm::vec3 meanColor(const Settings& settings, const RenderAssets& assets) {
+    if (!assets.head || !settings.render.head) return glm::vec3(0.0f);
+    const groom::Mesh& mesh = *assets.head;
+    glm::vec3 sum(0.0f);
+    float areas = 0.0f;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const auto [a, b, c] = mesh.triangles[i];
+        const float area = glm::length(glm::cross(
+            mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]));
+        sum += area *
+               workingColor(settings.render, mesh.materials[mesh.triangle_materials[i]].base_color);
+        areas += area;
+    }
+    return areas > 0.0f ? sum / areas : glm::vec3(0.0f);
+}
+
 // ---- Images and buffers -------------------------------------------------------------------------
 
 // GLSL takes it that what an address points to is aligned to 16 bytes, where nothing else is said.
 constexpr std::size_t kPictureStride = (sizeof(gpu::PictureParameters) + 15) / 16 * 16;
 
-static_assert(offsetof(gpu::ShadowMap, corner) == 80 && sizeof(gpu::ShadowMap) == 104);
-static_assert(offsetof(gpu::ShadowParameters, softness) == 1672);
+static_assert(offsetof(gpu::ShadowMap, corner) == 80 && sizeof(gpu::ShadowMap) == 108);
+static_assert(offsetof(gpu::ShadowParameters, softness) == 6920);
 
 constexpr VkFormat kLayerFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
@@ -292,7 +309,7 @@ ShadowPass::ShadowPass(
           "opacity of hair")),
       sampler_(device, {.filter = VK_FILTER_NEAREST}),
       images_{{&mesh_depths_, &sampler_}, {&hair_depths_, &sampler_}, {&hair_layers_, &sampler_}},
-      written_(lights_.size() * kPictureStride) {
+      mesh_color_(meanColor(settings, assets)), written_(lights_.size() * kPictureStride) {
     seen_.reserve(lights_.size());
     for (std::uint32_t slot = 0; slot < engine::FrameLoop::kMaxSlots; ++slot) {
         parameters_[slot] =
@@ -320,7 +337,7 @@ ShadowPass::ShadowPass(
          .fragment = "shadows/opacity.frag",
          .colors = {{kLayerFormat, engine::Blend::add}},
          .depth_format = VK_FORMAT_UNDEFINED,
-         .sampled_images = 1});
+         .sampled_images = 2});
 }
 
 void ShadowPass::writeParameters(
@@ -330,6 +347,7 @@ void ShadowPass::writeParameters(
     parameters.side = static_cast<float>(atlas_.side);
     parameters.stopped = shadows.stopped;
     parameters.softness = shadows.softness;
+    parameters.mesh_color = mesh_color_;
     // What is sampled round a point lies in the map: the filter, and strands a texel wide.
     const float margin = std::max(shadows.softness, 0.5f) + 1.0f;
     const ShadowBounds bounds = scene_.bounds(view);
@@ -346,12 +364,15 @@ void ShadowPass::writeParameters(
             .texel_near = seen.texel_near,
             .texel_slope = seen.texel_slope,
             .layer_depth = shadows.layer_depth,
+            .ends_at_meshes = mesh_maps_ && shadows.hair == HairShadows::deep_shadow ? 1u : 0u,
             .casters = (mesh_maps_ ? gpu::kMeshesCast : 0u) | (hair_maps_ ? gpu::kHairCasts : 0u)};
         gpu::PictureParameters picture = of;
         picture.view_projection = seen.view_projection;
         picture.eye = seen.eye;
-        picture.pixel_near = seen.texel_near;
-        picture.pixel_slope = seen.texel_slope;
+        // Rays through texels meet strands as thin as they are.
+        const bool widens = shadows.hair != HairShadows::deep_shadow;
+        picture.pixel_near = widens ? seen.texel_near : 0.0f;
+        picture.pixel_slope = widens ? seen.texel_slope : 0.0f;
         if (settings_.render.transparency == Transparency::none) picture.opacity = 1.0f;
         picture.shadows = parameters_[slot].address() + offsetof(gpu::ShadowParameters, maps) +
                           light * sizeof(gpu::ShadowMap);
@@ -380,11 +401,11 @@ void ShadowPass::drawHair(engine::Commands& commands) const {
         return StrandPicture{
             .address = picture.address,
             .parameters = picture.parameters,
-            .images = std::span(images_).subspan(1, images)};
+            .images = std::span(images_).first(images)};
     };
     for (const LightPicture& picture : seen_) {
         depth_->prepare(commands, drawn(picture, 0));
-        opacity_->prepare(commands, drawn(picture, 1));
+        opacity_->prepare(commands, drawn(picture, 2));
     }
     toDraw(commands, hair_depths_, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
     engine::beginRendering(
@@ -401,7 +422,7 @@ void ShadowPass::drawHair(engine::Commands& commands) const {
     engine::beginRendering(commands, std::span(&layers, 1), std::nullopt);
     for (std::uint32_t i = 0; i < seen_.size(); ++i) {
         engine::setArea(commands, atlas_.part(i));
-        opacity_->draw(commands, drawn(seen_[i], 1));
+        opacity_->draw(commands, drawn(seen_[i], 2));
     }
     engine::endRendering(commands);
     toRead(commands, hair_layers_, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);

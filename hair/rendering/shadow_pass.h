@@ -118,6 +118,7 @@ private:
     engine::Image hair_layers_;
     engine::Sampler sampler_;
     std::vector<engine::SampledImage> images_;
+    glm::vec3 mesh_color_;
     // Of the frame that is recorded:
     std::vector<LightPicture> seen_;
     std::vector<std::byte> written_;  // into pictures_

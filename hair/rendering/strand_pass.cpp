@@ -387,6 +387,12 @@ std::unique_ptr<StrandBlend> blendOf(const BlendContext& context, const StrandSt
     return stages.last && discards(stages) ? makeDiscardedBlend() : makeBlend(context);
 }
 
+std::uint32_t environmentCode(const Settings& settings) {
+    if (settings.render.environment.empty()) return gpu::kEnvironmentNone;
+    return settings.shading.environment_lights > 0 ? gpu::kEnvironmentLights
+                                                   : gpu::kEnvironmentHarmonics;
+}
+
 }  // namespace
 
 engine::Constants shadingConstants(const Settings& settings) {
@@ -396,8 +402,8 @@ engine::Constants shadingConstants(const Settings& settings) {
         {gpu::kModelConstant, shaderCode(shading.model)},
         {gpu::kLightCountConstant, static_cast<std::uint32_t>(shading.lights.size())},
         {gpu::kMeshShadowsConstant, shading.shadows.meshes},
-        {gpu::kHairShadowsConstant, shading.shadows.hair != HairShadows::none},
-        {gpu::kEnvironmentConstant, !render.environment.empty()},
+        {gpu::kHairShadowsConstant, shaderCode(shading.shadows.hair)},
+        {gpu::kEnvironmentConstant, environmentCode(settings)},
         {gpu::kLinearLightConstant, hasLinearLight(render)},
         {gpu::kAnalyticCoverageConstant,
          render.coverage == Coverage::analytic && render.show == Show::shading},

@@ -34,10 +34,12 @@ vec3 surfaceNormal() {
 
 // The part of a light that gets to the point. The triangle's own normal is what its depths go by.
 float visiblePart(PictureParameters picture, uint light) {
-    if (kMeshShadows == 0u && kHairShadows == 0u) return 1.0;
+    if (kMeshShadows == 0u && kHairShadows == kHairShadowsNone) return 1.0;
     vec3 flat_normal = cross(dFdx(position), dFdy(position));
     flat_normal /= max(length(flat_normal), 1e-30);
-    return visibility(picture, lightPath(picture, light, position, flat_normal));
+    Receiver receiver =
+        Receiver(position, flat_normal, vec3(0.0), 0.0, passedOpaque(picture));
+    return visibility(lightPath(picture, light, receiver));
 }
 
 // The matt surface in working colours; the thesis has such a head.

@@ -4,6 +4,7 @@
 #define HAIRBENCH_DUAL_SCATTERING_GLSL
 
 #include "shading/fiber_bsdf.glsl"
+#include "shading/lights.glsl"
 
 layout(buffer_reference, scalar) readonly buffer FiberAverages { FiberAverage at[]; };
 
@@ -29,12 +30,14 @@ vec4 azimuthalHalves(HairOptics optics, vec3 distances) {
     return vec4(mix(vec3(0.0), vec3(1.0), wraps) + optics.trimmed * (cdf - begin), 0.5);
 }
 
-// f |cos theta_i| of a fibre whose light has met `strands` others in the mean; what it loses there
-// is in it. Directions and h as in fiberBsdf(). Strands are met independently, so their number has
-// Poisson's distribution: exp(-n) of the light meets none, and exp(-n (1 - a_f)) - exp(-n) gets
-// there through some.
-vec3 dualScattering(PictureParameters picture, HairOptics optics, vec3 to_eye, vec3 to_light,
-                    float h, float strands) {
+// Part of the light from there that a fibre scatters forward, to others.
+vec3 passedForward(HairOptics optics, vec3 to_light) {
+    return fiberAverage(optics, sqrt(max(1.0 - to_light.x * to_light.x, 0.0))).forward.rgb;
+}
+
+// f |cos theta_i| of a fibre whose light has come by `path`, asked for with passedForward(); what it
+// loses there is in it, but for meshes. Directions and h as in fiberBsdf().
+vec3 dualScattering(HairOptics optics, vec3 to_eye, vec3 to_light, float h, LightPath path) {
     FiberView view = fiberView(optics, to_eye, h);
     float sin_i = clamp(to_light.x, -1.0, 1.0);
     float cos_i = sqrt(1.0 - sin_i * sin_i);
@@ -45,14 +48,8 @@ vec3 dualScattering(PictureParameters picture, HairOptics optics, vec3 to_eye, v
     float cos_phi = dot(light, view.eye);
     FiberAverage average = fiberAverage(optics, cos_i);
 
-    // Strands that light has met which meets any and gets here; at least one.
-    float passed = strands * dot(average.forward.rgb, vec3(1.0 / 3.0));
-    float met = passed > 1e-3 ? passed / (1.0 - exp(-passed)) : 1.0;
-    float forward_shift = met * average.shifts.x;
-    float forward_variance = met * average.forward.w;
-    float direct = exp(-strands);
-    vec3 scattered = exp(-strands * (1.0 - average.forward.rgb)) - direct;
-    scattered = optics.density_factor * max(scattered, 0.0);
+    float forward_shift = path.met * average.shifts.x;
+    float forward_variance = path.met * average.forward.w;
 
     // theta_i less its mean changes: by nothing, forward, back there, both.
     vec4 changes =
@@ -67,17 +64,20 @@ vec3 dualScattering(PictureParameters picture, HairOptics optics, vec3 to_eye, v
     vec4 behind = longitudinalLobes(
         sin_o, cos_o, sin_from.zwzw, cos_from.zwzw, local_variances);
     vec2 around = kHalfInversePi * (1.0 + vec2(1.0, 2.0 * kInversePi) * cos_phi);
-    vec2 local = 2.0 * optics.density_factor * behind.xy * around;
+    vec2 local = 2.0 * behind.xy * around;
+    // Where there are m fibres behind, the sum of the paths that turn back once among them has
+    // 1 - a_f^(2 m) of all its terms; a surface behind sends back what comes through them.
+    vec3 albedo = average.local.rgb * (1.0 - path.ended) + average.forward.rgb * path.returned;
 
     vec4 through = longitudinalLobes(
         sin_i, cos_i, view.sin_tilted, view.cos_tilted, optics.variances);
     through *= azimuthalLobes(optics, distances);
-    vec3 sum = direct * (view.attenuations * through + local.x * average.local.rgb);
+    vec3 sum = path.direct * (view.attenuations * through + local.x * albedo);
     vec4 spread = longitudinalLobes(
         sin_from.y, cos_from.y, view.sin_tilted, view.cos_tilted,
         optics.variances + forward_variance);
     spread *= kInversePi * azimuthalHalves(optics, distances);
-    return sum + scattered * (view.attenuations * spread + local.y * average.local.rgb);
+    return sum + path.scattered * (view.attenuations * spread + local.y * albedo);
 }
 
 #endif

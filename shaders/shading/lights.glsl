@@ -33,7 +33,34 @@ LightSample lightAt(Light light, vec3 position) {
     }
     if (hasSpheres() && light.type == kLightSphere)
         result.angular_radius = asin(min(light.radius / max(length(offset), 1e-18), 1.0));
+    if (hasSpheres() && light.type == kLightDirectional) result.angular_radius = light.radius;
     return result;
+}
+
+// What light has met on its way.
+struct LightPath {
+    float meshes;  // part of it that meshes let through, 0 to 1
+    float strands;  // mean number of strands that it meets
+    float direct;  // part that meets none
+    vec3 scattered;  // part that strands let through which it meets
+    float met;  // their mean number, of what they let through; at least 1
+    vec3 ended;  // part that strands behind the point would let through, there and back
+    vec3 returned;  // what meshes behind those send back of that part
+};
+
+const LightPath kFreePath =
+    LightPath(1.0, 0.0, 1.0, vec3(0.0), 1.0, vec3(0.0), vec3(0.0));
+
+// Of light that meets strands independently, so that their number has Poisson's distribution, and
+// of which each lets this part through: exp(-n) meets none, and exp(-n (1 - passed)) - exp(-n) gets
+// there through some.
+LightPath metAtRandom(LightPath path, float strands, vec3 passed) {
+    path.strands = strands;
+    path.direct = exp(-strands);
+    path.scattered = max(exp(-strands * (1.0 - passed)) - path.direct, 0.0);
+    float through = strands * dot(passed, vec3(1.0 / 3.0));
+    path.met = through > 1e-3 ? through / (1.0 - exp(-through)) : 1.0;
+    return path;
 }
 
 Light pictureLight(PictureParameters picture, uint index) {

@@ -8,8 +8,8 @@
 layout(constant_id = kModelConstant) const uint kModel = kModelPhong;
 layout(constant_id = kLightCountConstant) const uint kLightCount = 1;
 layout(constant_id = kMeshShadowsConstant) const uint kMeshShadows = 0;  // 1: meshes throw shadows
-layout(constant_id = kHairShadowsConstant) const uint kHairShadows = 0;  // 1: hair throws shadows
-layout(constant_id = kEnvironmentConstant) const uint kEnvironment = 0;  // 1: light from all around
+layout(constant_id = kHairShadowsConstant) const uint kHairShadows = kHairShadowsNone;
+layout(constant_id = kEnvironmentConstant) const uint kEnvironment = kEnvironmentNone;
 // 1: working colours are linear
 layout(constant_id = kLinearLightConstant) const uint kLinearLight = 0;
 // 1: thin strands fade
@@ -19,5 +19,8 @@ layout(constant_id = kStrandTextureConstant) const uint kStrandTexture = 0;
 layout(constant_id = kShowConstant) const uint kShow = kShowShading;
 // What lights there may be
 layout(constant_id = kLightKindsConstant) const uint kLightKinds = kAllLightKinds;
+
+// Whether fragments read how wide their strand is.
+const bool kNeedsWidth = kAnalyticCoverage != 0u || kHairShadows == kHairShadowsDeepShadow;
 
 #endif

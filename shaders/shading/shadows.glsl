@@ -1,9 +1,11 @@
-// What is between a light and a point: shadow maps of meshes, deep opacity maps of hair.
+// What is between a light and a point: shadow maps of meshes, deep opacity and deep shadow maps of
+// hair.
 #ifndef HAIRBENCH_SHADOWS_GLSL
 #define HAIRBENCH_SHADOWS_GLSL
 
 #include "common/depth.glsl"
 #include "common/picture.glsl"
+#include "shading/lights.glsl"
 #include "shading/options.glsl"
 #include "shadows/layers.glsl"
 
@@ -17,9 +19,13 @@ layout(binding = HAIRBENCH_SHADOW_BINDING) uniform sampler2D mesh_depths;
 layout(binding = HAIRBENCH_SHADOW_BINDING + 1) uniform sampler2D hair_depths;
 layout(binding = HAIRBENCH_SHADOW_BINDING + 2) uniform sampler2D hair_layers;
 
-struct LightPath {
-    float meshes;  // part of the light that meshes let through, 0 to 1
-    float strands;  // mean number of strands that it meets
+// What is asked for: a point of a surface, or of a strand.
+struct Receiver {
+    vec3 position;  // m
+    vec3 normal;  // of a surface, its sign does not matter; 0 for a strand
+    vec3 tangent;  // of a strand, unit length
+    float width;  // m, of a strand
+    vec3 passed;  // part of the light that each strand in between lets through
 };
 
 // A point in a map. Depths of texels round it are taken to lie on a plane through it.
@@ -29,6 +35,12 @@ struct ShadowPoint {
     vec2 slope;  // of depth, per texel
     float most_slope;  // of each part of it
     float bias;  // of depth: what is in front of the point by less than this doesn't shade it
+    vec3 log_passed;  // log of Receiver::passed
+    // Of strands:
+    vec2 line;  // direction in the map, unit length
+    vec2 line_slope;  // of depth along that, per texel
+    float half_width;  // texels
+    float own_depth;  // m: what is in front by less is the strand itself
 };
 
 // Surfaces steeper than this (tangent of the angle to the light) are taken to be as steep: light
@@ -41,6 +53,9 @@ const float kTurned = 0.0873;
 // Strands lie on surfaces whose slope they don't know: one of 63 degrees may rise this much within
 // the filter, times its half width and half a texel.
 const float kStrandBias = 2.0;
+// Widths of a strand by which a ray through a texel may meet the strand itself before the point.
+const float kOwnDepth = 1.0;
+
 
 vec2 planeSlope(ShadowMap map, vec3 clip, vec3 normal, float side) {
     vec3 a = abs(normal.x) > 0.5 ? vec3(-normal.y, normal.x, 0.0) : vec3(0.0, -normal.z, normal.y);
@@ -54,6 +69,55 @@ vec2 planeSlope(ShadowMap map, vec3 clip, vec3 normal, float side) {
     return slope / (abs(area) < 1e-20 ? 1e-20 : area) * 2.0 / side;  // clip space is 2 wide
 }
 
+// How many strands a ray of light through a texel meets before it is beside the point, and behind.
+// The strand itself, where the ray hits it, is none of them.
+struct RayStrands {
+    float before;
+    float behind;
+};
+
+// The ray meets its first strand `ahead` metres before the point.
+RayStrands strandsOnRay(vec4 layers, float ahead, ShadowMap map, ShadowPoint point,
+                        bool hits_itself) {
+    float before = 0.0;
+    if (ahead > point.own_depth) {
+        before = strandsBefore(layers, ahead, map.layer_depth);
+        if (hits_itself) before -= layerPart(ahead, map.layer_depth);
+        before = max(before, 1.0);  // its first one
+    }
+    float all = layers.w - (hits_itself ? 1.0 : 0.0);
+    return RayStrands(before, max(all - before, 0.0));
+}
+
+// What a texel of a deep shadow map adds to a path with this weight: depth is that of the point,
+// moved along its strand to beside the ray.
+void addRay(inout LightPath path, ShadowMap map, ShadowPoint point, ivec2 at, vec2 offset,
+            float depth, float weight) {
+    float along = dot(offset, point.line);
+    float most = point.most_slope * (abs(offset.x) + abs(offset.y));
+    float beside = notBeyondFar(depth + clamp(dot(point.line_slope, offset), -most, most));
+    bool hits_itself = length(offset - along * point.line) < point.half_width;
+    float nearest = texelFetch(hair_depths, at, 0).r;
+    float ahead = viewDepth(map.depth_terms, beside) - viewDepth(map.depth_terms, nearest);
+    RayStrands met =
+        strandsOnRay(texelFetch(hair_layers, at, 0), ahead, map, point, hits_itself);
+    path.strands += weight * met.before;
+    if (met.before == 0.0) {
+        path.direct += weight;
+    } else {
+        vec3 through = weight * exp(met.before * point.log_passed);
+        path.scattered += through;
+        path.met += met.before * dot(through, vec3(1.0));
+    }
+    vec3 ended = weight * exp(2.0 * met.behind * point.log_passed);
+    path.ended += ended;
+    if (kMeshShadows != 0 && (map.casters & kMeshesCast) != 0u) {
+        float surface = texelFetch(mesh_depths, at, 0).r;
+        if (isNearer(surface, float(kFarDepth)) && isNearer(depth, surface))
+            path.returned += ended;
+    }
+}
+
 // The mean over a square of `half_width` texels to each side, texels in part by what is in it: 0.5
 // is bilinear interpolation of what each texel says.
 LightPath filteredPath(ShadowMap map, ShadowPoint point, float half_width) {
@@ -61,23 +125,29 @@ LightPath filteredPath(ShadowMap map, ShadowPoint point, float half_width) {
     vec2 centre = point.texel - whole;  // small, for weights without rounding
     ivec2 first = ivec2(floor(centre - half_width));
     ivec2 last = ivec2(ceil(centre + half_width)) - 1;
-    LightPath path = LightPath(0.0, 0.0);
+    bool meshes_cast = kMeshShadows != 0 && (map.casters & kMeshesCast) != 0u;
+    bool hair_casts = kHairShadows != kHairShadowsNone && (map.casters & kHairCasts) != 0u;
+    LightPath path = LightPath(0.0, 0.0, 0.0, vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
     for (int y = first.y; y <= last.y; ++y) {
         for (int x = first.x; x <= last.x; ++x) {
             vec2 low = vec2(x, y);
             vec2 inside = min(low + 1.0, centre + half_width) - max(low, centre - half_width);
             float weight = inside.x * inside.y / (4.0 * half_width * half_width);
-            vec2 rise = point.slope * (low + 0.5 - centre);
-            vec2 most = point.most_slope * abs(low + 0.5 - centre);
+            vec2 offset = low + 0.5 - centre;
+            vec2 rise = point.slope * offset;
+            vec2 most = point.most_slope * abs(offset);
             vec2 limited = clamp(rise, -most, most);
             float depth = notBeyondFar(point.depth + limited.x + limited.y);
             ivec2 at = ivec2(map.corner) + ivec2(whole) + ivec2(x, y);
-            if (kMeshShadows != 0 && (map.casters & kMeshesCast) != 0u) {
+            if (meshes_cast) {
                 float drawn = texelFetch(mesh_depths, at, 0).r;
                 bool lit = isNearerOrEqual(nearer(depth, point.bias), drawn);
                 path.meshes += lit ? weight : 0.0;
             }
-            if (kHairShadows != 0 && (map.casters & kHairCasts) != 0u) {
+            if (!hair_casts) continue;
+            if (kHairShadows == kHairShadowsDeepShadow) {
+                addRay(path, map, point, at, offset, depth, weight);
+            } else {
                 float nearest = texelFetch(hair_depths, at, 0).r;
                 float behind =
                     viewDepth(map.depth_terms, depth) - viewDepth(map.depth_terms, nearest);
@@ -86,57 +156,78 @@ LightPath filteredPath(ShadowMap map, ShadowPoint point, float half_width) {
             }
         }
     }
-    if (kMeshShadows == 0 || (map.casters & kMeshesCast) == 0u) path.meshes = 1.0;
+    if (!meshes_cast) path.meshes = 1.0;
+    if (!hair_casts) {
+        path.direct = 1.0;
+        path.met = 1.0;
+    } else if (kHairShadows == kHairShadowsDeepShadow) {
+        float through = dot(path.scattered, vec3(1.0));
+        path.met = through > 1e-6 ? max(path.met / through, 1.0) : 1.0;
+    } else {
+        path = metAtRandom(path, path.strands, exp(point.log_passed));
+    }
     return path;
 }
 
-// The path of light to a point of a surface. `normal` is that of the triangle (its sign doesn't
-// matter); 0 for a point of a strand.
-LightPath lightPath(PictureParameters picture, uint light, vec3 position, vec3 normal) {
-    LightPath free = LightPath(1.0, 0.0);
-    if (kMeshShadows == 0 && kHairShadows == 0) return free;
+// The path of light to a point.
+LightPath lightPath(PictureParameters picture, uint light, Receiver receiver) {
+    if (kMeshShadows == 0 && kHairShadows == kHairShadowsNone) return kFreePath;
     ShadowReference shadows = ShadowReference(picture.shadows);
     ShadowMap map = shadows.parameters.maps[light];
-    if (map.casters == 0u) return free;
-    vec4 clip = map.view_projection * vec4(position, 1.0);
-    if (clip.w <= 0.0) return free;  // behind the light's view
+    if (map.casters == 0u) return kFreePath;
+    vec4 clip = map.view_projection * vec4(receiver.position, 1.0);
+    if (clip.w <= 0.0) return kFreePath;  // behind the light's view
+    float w = clip.w;
     clip.xyz /= clip.w;
 
     float side = shadows.parameters.side;
     float half_width = max(shadows.parameters.softness, 0.5);
     // All of the filter lies in the map.
-    if (any(greaterThan(abs(clip.xy), vec2(1.0 - 2.0 * half_width / side)))) return free;
-    if (isNearer(clip.z, float(kNearDepth))) return free;
+    if (any(greaterThan(abs(clip.xy), vec2(1.0 - 2.0 * half_width / side)))) return kFreePath;
+    if (isNearer(clip.z, float(kNearDepth))) return kFreePath;
     float z = viewDepth(map.depth_terms, clip.z);
-    float depth_per_texel =
-        depthPerMetre(map.depth_terms, z) * (map.texel_near + map.texel_slope * z);
+    float texel = map.texel_near + map.texel_slope * z;
+    float depth_per_texel = depthPerMetre(map.depth_terms, z) * texel;
     ShadowPoint point;
     point.texel = (0.5 * clip.xy + 0.5) * side;
     point.depth = clip.z;
     point.slope = vec2(0.0);
     point.most_slope = kSteepest * depth_per_texel;
     point.bias = kStrandBias * (half_width + 0.5) * depth_per_texel;
-    if (normal != vec3(0.0)) {
-        point.slope = planeSlope(map, clip.xyz, normal, side);
+    point.line = vec2(0.0);
+    point.line_slope = vec2(0.0);
+    point.half_width = 0.0;
+    point.own_depth = 0.0;
+    point.log_passed = log(max(receiver.passed, 1e-6));
+    if (receiver.normal != vec3(0.0)) {
+        point.slope = planeSlope(map, clip.xyz, receiver.normal, side);
         vec2 steepness = min(abs(point.slope) / depth_per_texel, vec2(kSteepest));
         float rise = kTurned * (half_width + 0.5) * (1.0 + dot(steepness, steepness));
         point.bias = (kSurfaceBias + rise) * depth_per_texel;
+    } else if (kHairShadows == kHairShadowsDeepShadow) {
+        vec4 along = map.view_projection * vec4(receiver.tangent, 0.0);
+        vec3 per_metre = (along.xyz - clip.xyz * along.w) / w;
+        vec2 texels = 0.5 * side * per_metre.xy;
+        float squared = max(dot(texels, texels), 1e-12);
+        point.line = texels * inversesqrt(squared);
+        point.line_slope = per_metre.z * texels / squared;
+        point.half_width = 0.5 * receiver.width / texel;
+        point.own_depth = kOwnDepth * receiver.width;
     }
-    return filteredPath(map, point, half_width);
+    LightPath path = filteredPath(map, point, half_width);
+    path.returned *= shadows.parameters.mesh_color;
+    return path;
 }
 
-// The path of light to a point of a strand.
-LightPath lightPath(PictureParameters picture, uint light, vec3 position) {
-    return lightPath(picture, light, position, vec3(0.0));
+// Part of the light that each strand in between lets through to opaque shading models: the thesis's
+// and meshes'.
+vec3 passedOpaque(PictureParameters picture) {
+    if (kHairShadows == kHairShadowsNone) return vec3(0.0);
+    return vec3(1.0 - ShadowReference(picture.shadows).parameters.stopped);
 }
 
-// Part of the light that opaque shading models get: thesis's and meshes'. The number of strands is
-// random, of Poisson's distribution, where they lie at random; the mean of (1 - stopped)^number is
-// this.
-float visibility(PictureParameters picture, LightPath path) {
-    if (kHairShadows == 0) return path.meshes;
-    float stopped = ShadowReference(picture.shadows).parameters.stopped;
-    return path.meshes * exp(-stopped * path.strands);
-}
+// Part of the light that reaches a point which was asked for with passedOpaque(). Of strands at
+// random that is exp(-stopped n).
+float visibility(LightPath path) { return path.meshes * (path.direct + path.scattered.g); }
 
 #endif

@@ -20,6 +20,7 @@ struct StrandFragment {
     vec3 to_eye;  // unit length
     float across;  // -1 at one edge, 1 at the other
     float along;  // 0 at the root, 1 at the tip
+    float width;  // m
 };
 
 // Unit vectors: x along the strand, y across it towards the eye, z across both. On a round fibre
@@ -38,9 +39,14 @@ vec3 cylinderNormal(StrandFragment fragment) {
     return x * side + sqrt(1.0 - x * x) * facing;
 }
 
-float visiblePart(PictureParameters picture, uint light, vec3 position) {
-    if (kMeshShadows == 0u && kHairShadows == 0u) return 1.0;
-    return visibility(picture, lightPath(picture, light, position));
+Receiver receiverOf(StrandFragment fragment, vec3 passed) {
+    return Receiver(fragment.position, vec3(0.0), fragment.tangent, fragment.width, passed);
+}
+
+float visiblePart(PictureParameters picture, uint light, StrandFragment fragment) {
+    if (kMeshShadows == 0u && kHairShadows == kHairShadowsNone) return 1.0;
+    vec3 passed = passedOpaque(picture);
+    return visibility(lightPath(picture, light, receiverOf(fragment, passed)));
 }
 
 // A model's two terms of one light, without color.
@@ -74,8 +80,8 @@ vec3 shadeOpaque(PictureParameters picture, StrandFragment fragment, vec3 hair_c
     for (uint i = 0u; i < kLightCount; ++i) {
         LightSample light = lightAt(pictureLight(picture, i), fragment.position);
         Reflected reflected = reflectedLight(picture, fragment, normal, light);
-        float visible = visiblePart(picture, i, fragment.position);
-        float ambient = kEnvironment != 0u ? 0.0 : picture.ambient;
+        float visible = visiblePart(picture, i, fragment);
+        float ambient = kEnvironment != kEnvironmentNone ? 0.0 : picture.ambient;
         vec3 body = hair_color * (ambient + picture.diffuse * (visible * reflected.diffuse));
         sum += (body + picture.specular * (visible * reflected.specular)) * light.color;
     }
@@ -104,16 +110,18 @@ vec3 shadeFiber(PictureParameters picture, StrandFragment fragment) {
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < kLightCount; ++i) {
         LightSample light = lightAt(pictureLight(picture, i), fragment.position);
-        LightPath path = lightPath(picture, i, fragment.position);
         HairOptics seen = widened(optics, light);
         vec3 to_light = light.to_light * frame;
+        vec3 passed = vec3(0.0);
+        if (kModel == kModelDualScattering) passed = passedForward(seen, to_light);
+        LightPath path = lightPath(picture, i, receiverOf(fragment, passed));
         vec3 scattered;
         if (kModel == kModelMarschner) {
-            // What has met a strand is lost: Poisson's share has met none.
-            scattered = fiberScattering(seen, fiberView(seen, to_eye, h), to_light) *
-                        exp(-path.strands);
+            // What has met a strand is lost.
+            scattered =
+                fiberScattering(seen, fiberView(seen, to_eye, h), to_light) * path.direct;
         } else {
-            scattered = dualScattering(picture, seen, to_eye, to_light, h, path.strands);
+            scattered = dualScattering(seen, to_eye, to_light, h, path);
         }
         sum += 3.14159265 * path.meshes * scattered * light.color;
     }
@@ -129,7 +137,7 @@ vec3 shadeStrand(PictureParameters picture, StrandFragment fragment, vec3 hair_c
         sum = shadeFiber(picture, fragment);
         if (kStrandTexture != 0u) sum *= hair_color / max(picture.hair_color, vec3(1e-4));
     }
-    if (kEnvironment != 0u)
+    if (kEnvironment == kEnvironmentHarmonics)
         sum += picture.ambient * hair_color * environmentLight(picture, cylinderNormal(fragment));
     return sum;
 }

@@ -30,4 +30,12 @@ float strandsBefore(vec4 layers, float behind, float layer_depth) {
     return dot(parts, layers - vec4(0.0, layers.xyz));
 }
 
+// How far into its layer a point is, 0 to 1.
+float layerPart(float behind, float layer_depth) {
+    vec4 begins = vec4(0.0, kLayerEnds.xyz);
+    vec4 parts = clamp((behind / layer_depth - begins) / (kLayerEnds - begins), 0.0, 1.0);
+    vec4 inside = vec4(lessThan(parts, vec4(1.0)));
+    return dot(parts * inside, vec4(1.0)) + (inside.w == 0.0 ? 1.0 : 0.0);
+}
+
 #endif

@@ -8,7 +8,7 @@ const uint kLightSphere = 2u;
 // Kinds of lights beside the thesis's, points of the same strength everywhere: bits of kLightKinds
 // in shading/options.glsl.
 const uint kSomeDirectional = 1u;
-const uint kSomeSpheres = 2u;
+const uint kSomeSpheres = 2u;  // or directional ones that are no points
 const uint kSomeWeaken = 4u;  // with distance
 const uint kAllLightKinds = 7u;
 
@@ -17,7 +17,7 @@ struct Light {
     vec3 position;  // m
     uint type;
     vec3 to_light;  // unit length; of directional ones
-    float radius;  // m; 0 but of spheres
+    float radius;  // m, of spheres; rad, of directional ones; else 0
     vec3 color;  // working colours, with the strength
     float reference_distance;  // m; 0 of directional ones
 };

@@ -49,6 +49,16 @@ const uint kModelKajiyaKay = 1u;
 const uint kModelMarschner = 2u;
 const uint kModelDualScattering = 3u;
 
+// What hair throws on hair and meshes (HairShadows).
+const uint kHairShadowsNone = 0u;
+const uint kHairShadowsDeepOpacity = 1u;
+const uint kHairShadowsDeepShadow = 2u;
+
+// What light from all around is to hair; to meshes never the last.
+const uint kEnvironmentNone = 0u;
+const uint kEnvironmentHarmonics = 1u;  // light on a matt surface
+const uint kEnvironmentLights = 2u;  // further lights
+
 // What a picture shows (Show).
 const uint kShowShading = 0u;
 const uint kShowTangents = 1u;

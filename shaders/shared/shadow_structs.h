@@ -1,7 +1,7 @@
 #ifndef HAIRBENCH_SHADOW_STRUCTS_H
 #define HAIRBENCH_SHADOW_STRUCTS_H
 
-const uint kMostLights = 16u;
+const uint kMostLights = 64u;  // those of the scene, then those of an environment
 
 // What throws shadows in a map.
 const uint kMeshesCast = 1u;
@@ -15,6 +15,7 @@ struct ShadowMap {
     float texel_near;  // m: a texel's side at the light; above 0 in parallel projections
     float texel_slope;  // what texel_near grows by per metre along the view
     float layer_depth;  // m: see shadows/layers.glsl
+    uint ends_at_meshes;  // 1: strands behind a mesh are not counted
     uint casters;  // kMeshesCast | kHairCasts; 0: the light throws no shadows
 };
 
@@ -24,6 +25,7 @@ struct ShadowParameters {
     float side;  // of a part of the atlas, texels
     float stopped;  // part of the light that a strand stops
     float softness;  // texels
+    vec3 mesh_color;  // what meshes send back of light, linear; in display RGB where there is none
 };
 
 #endif

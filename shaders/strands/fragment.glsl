@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform Push { StrandPush push; };
 
 layout(location = 0) in vec4 position_and_across;
 layout(location = 1) in vec4 tangent_and_along;
-layout(location = 2) in float half_width;  // m; with analytic coverage. Of lines their coverage
+layout(location = 2) in float half_width;  // m; where kNeedsWidth. Of lines their coverage
 
 // 1: strands are lines a pixel wide
 layout(constant_id = kLinesConstant) const uint kLines = 0;
@@ -31,6 +31,7 @@ SeenStrand seenStrand(PictureParameters picture) {
     seen.fragment.to_eye = normalize(picture.eye - seen.fragment.position);
     seen.fragment.across = position_and_across.w;
     seen.fragment.along = tangent_and_along.w;
+    seen.fragment.width = kNeedsWidth && kLines == 0 ? 2.0 * half_width : picture.root_width;
     seen.coverage = 1.0;
     if (kLines != 0) {
         seen.coverage = half_width;

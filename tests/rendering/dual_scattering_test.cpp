@@ -102,17 +102,17 @@ TEST(DualScattering, IsTheFibersOwnWhereNothingElseIs) {
     const glm::dvec3 wo = direction(0.2, 0);
     const glm::dvec3 wi = direction(-0.3, 1.0);
     EXPECT_EQ(
-        reference::dualScattering(fiber, 0, wo, wi, 0.3, 0),
+        reference::dualScattering(fiber, 0, wo, wi, 0.3, {}),
         reference::scattering(fiber, wo, wi, 0.3));
     // Without density only what meets no strand is left.
     EXPECT_NEAR(
-        reference::dualScattering(fiber, 0, wo, wi, 0.3, 2).g,
+        reference::dualScattering(fiber, 0, wo, wi, 0.3, {.strands = 2}).g,
         std::exp(-2.0) * reference::scattering(fiber, wo, wi, 0.3).g, 1e-12);
     // Hair around it adds, hair before it takes away.
     const double alone = reference::scattering(fiber, wo, wi, 0.3).g;
-    const double among = reference::dualScattering(fiber, 0.7, wo, wi, 0.3, 0).g;
+    const double among = reference::dualScattering(fiber, 0.7, wo, wi, 0.3, {}).g;
     EXPECT_GT(among, alone);
-    EXPECT_LT(reference::dualScattering(fiber, 0.7, wo, wi, 0.3, 20).g, 0.1 * among);
+    EXPECT_LT(reference::dualScattering(fiber, 0.7, wo, wi, 0.3, {.strands = 20}).g, 0.1 * among);
 }
 
 }  // namespace

@@ -152,8 +152,8 @@ TEST(GlobalScattering, SpreadsAsARandomWalk) {
 }
 
 // The mean over the fibre and over its azimuths of what it scatters from light that comes through
-// others, against light followed through them. It is found among the rest by the density factor:
-// the local part that goes with it is even in that.
+// others, against light followed through them. It is what is left without the light that meets
+// none, where nothing is behind the fibre.
 TEST(DualScattering, ScattersWhatComesThroughOthersAsARandomWalk) {
     constexpr std::uint32_t kWalks = 30000;
     constexpr int kAround = 96;
@@ -168,12 +168,12 @@ TEST(DualScattering, ScattersWhatComesThroughOthersAsARandomWalk) {
         double scattered = 0;
         for (std::uint32_t i = 0; i < kAround; ++i) {
             const double h = 2 * random01(2, i, 1) - 1;
-            const auto at = [&](double density, double strands) {
-                return reference::dualScattering(fiber, density, eye(i), wi, h, strands).g;
+            const auto at = [&](double strands) {
+                return reference::dualScattering(
+                           fiber, 1, eye(i), wi, h, {.strands = strands, .ended = 1})
+                    .g;
             };
-            const double local = at(1, 0) - at(0, 0);
-            scattered +=
-                ((at(1, kStrands) - at(-1, kStrands)) / 2 - std::exp(-kStrands) * local) / kAround;
+            scattered += (at(kStrands) - std::exp(-kStrands) * at(0)) / kAround;
         }
         double walked = 0;
         for (std::uint32_t i = 0; i < kWalks; ++i) {

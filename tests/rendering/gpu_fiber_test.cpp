@@ -45,13 +45,16 @@ protected:
         return engine::downloadAs<gpu::FiberProbe>(device(), buffer);
     }
 
-    static gpu::FiberProbe
-    asked(const glm::dvec3& wo, const glm::dvec3& wi, double h, double strands = 0) {
+    static gpu::FiberProbe asked(
+        const glm::dvec3& wo, const glm::dvec3& wi, double h, double strands = 0, double ended = 0,
+        double returned = 0) {
         return {
             .to_eye = wo,
             .h = static_cast<float>(h),
             .to_light = wi,
             .strands = static_cast<float>(strands),
+            .ended = static_cast<float>(ended),
+            .returned = static_cast<float>(returned),
             .bsdf = {},
             .dual_scattering = {}};
     }
@@ -67,7 +70,9 @@ protected:
                 i % 2 == 0
                     ? direction(2 * u(3) - 1, 2 * pi * u(4))
                     : reference::sampleDirection(fiber, wo, h, std::array{u(3), u(4), u(5), u(6)});
-            probes.push_back(asked(wo, wi, h, i % 8 < 2 ? 0 : 12 * u(7) * u(7)));
+            const double ended = i % 5 < 2 ? 0 : u(8);
+            probes.push_back(
+                asked(wo, wi, h, i % 8 < 2 ? 0 : 12 * u(7) * u(7), ended, ended * u(9)));
         }
         return probes;
     }
@@ -132,7 +137,10 @@ TEST_F(GpuFiberTest, AgreesWithTheReferenceOfDualScattering) {
                 answer.dual_scattering,
                 reference::dualScattering(
                     fiber, double{shading.density_factor}, answer.to_eye, answer.to_light,
-                    double{answer.h}, double{answer.strands}),
+                    double{answer.h},
+                    {.strands = double{answer.strands},
+                     .ended = double{answer.ended},
+                     .returned = double{answer.returned}}),
                 5e-3, 1e-4, i);
         }
     }
@@ -179,7 +187,7 @@ TEST_F(GpuFiberTest, AgreesWithThePublishedEquationsOfDualScattering) {
                 answer.dual_scattering,
                 published::dualScattering(
                     fiber, double{shading.density_factor}, view, double{answer.h},
-                    double{answer.strands}),
+                    double{answer.strands}, double{answer.ended}, double{answer.returned}),
                 5e-3, 1e-4, i);
         }
     }

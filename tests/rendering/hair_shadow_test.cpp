@@ -249,5 +249,117 @@ TEST_F(HairShadowTest, BackEndsThrowTheSame) {
     EXPECT_GT(meanStrands(pulled), 0.0);
 }
 
+// ---- Deep shadow maps ---------------------------------------------------------------------------
+
+Settings litByRays(float width) {
+    Settings settings = litFromAbove(width);
+    settings.shading.shadows.hair = HairShadows::deep_shadow;
+    settings.shading.shadows.resolution = 1024;
+    settings.shading.shadows.layer_depth = 0.01f;
+    settings.shading.shadows.softness = 0.0f;
+    return settings;
+}
+
+double meanOf(std::span<const FoundPath> paths, float FoundPath::* value) {
+    double sum = 0.0;
+    for (const FoundPath& path : paths) sum += path.*value;
+    return sum / static_cast<double>(paths.size());
+}
+
+// Fans that lie on each other, of coverage c: a ray meets a strand of each of them or none, however
+// many there are. That is what light does; deep opacity maps have c of each on every ray.
+TEST_F(HairShadowTest, RaysMeetWholeStrands) {
+    const Fans fans{.depths = {0.0f, 0.02f, 0.05f, 0.11f}, .pitch = 0.0015f, .angle = 0.3f};
+    constexpr float kWidth = 0.0004f;
+    const double c = kWidth / fans.pitch;
+    const groom::Groom groom = fansOfStrands(fans);
+    for (const std::uint32_t resolution : {512u, 1024u, 2048u}) {
+        Settings settings = litByRays(kWidth);
+        settings.shading.shadows.resolution = resolution;
+        const DeviceHair hair(device(), groom, settings);
+        const auto found = findPaths(device(), settings, hair.view(), {}, plane(0.15f, 0.03f));
+        // 1,600 rays at least: four standard errors of a part c. Each layer of the map ends behind
+        // one fan, so that counts are whole.
+        const double error = 4 * std::sqrt(c * (1 - c) / 1600);
+        EXPECT_NEAR(meanOf(found, &FoundPath::direct), 1 - c, error) << resolution;
+        EXPECT_NEAR(meanOf(found, &FoundPath::strands), 4 * c, 4 * error) << resolution;
+        for (const FoundPath& path : found) {
+            if (path.direct < 0.99f) {
+                ASSERT_NEAR(path.met, 4.0f, 1e-3f) << resolution;
+            }
+            // Of light that `stopped` halves four times.
+            ASSERT_NEAR(path.visibility, path.direct + (1 - path.direct) / 16, 1e-4f);
+        }
+    }
+}
+
+// Points of strands that lie one behind the other, on rays that meet all of them.
+TEST_F(HairShadowTest, RaysCountStrandsBeforeAndBehind) {
+    constexpr float kWidth = 0.0008f;
+    const Fans fans{.depths = {0.0f, 0.02f, 0.05f, 0.11f}, .pitch = 0.006f};
+    const groom::Groom groom = fansOfStrands(fans);
+    Settings settings = litByRays(kWidth);
+    settings.shading.shadows.resolution = 4096;
+    ASSERT_LT(kTexel / 32, 0.4f * kWidth);  // four texels round a strand's middle are on it
+    const DeviceHair hair(device(), groom, settings);
+    for (std::size_t fan = 0; fan < fans.depths.size(); ++fan) {
+        std::vector<gpu::ShadowProbe> probes;
+        for (int i = -5; i <= 5; ++i)
+            for (int k = -20; k <= 20; ++k)
+                probes.push_back(
+                    {.position =
+                         {static_cast<float>(i) * fans.pitch, 0.0017f * static_cast<float>(k),
+                          -fans.depths[fan]},
+                     .light = 0,
+                     .normal = glm::vec3(0.0f),
+                     .tangent = {0.0f, 1.0f, 0.0f},
+                     .width = kWidth});
+        const auto before = static_cast<float>(fan);
+        const float behind = 3.0f - before;
+        // Rounding of depths: a part of a layer of 10 mm or more.
+        for (const FoundPath& path : findPaths(device(), settings, hair.view(), {}, probes)) {
+            ASSERT_NEAR(path.direct, fan == 0 ? 1.0f : 0.0f, 1e-5f) << fan;
+            ASSERT_NEAR(path.strands, before, 1e-3f) << fan;
+            ASSERT_NEAR(path.ended, std::pow(0.25f, behind), 1e-3f) << fan;
+            ASSERT_EQ(path.returned, 0.0f) << fan;
+        }
+    }
+}
+
+// However it lies to the light and whatever the map's texels are: strands that stand alone are lit,
+// and nothing is behind them.
+TEST_F(HairShadowTest, NoStrandIsInItsOwnShadow) {
+    const Fans fans{.pitch = 0.02f, .angle = 0.3f};
+    const glm::vec3 along(std::sin(fans.angle), std::cos(fans.angle), 0.0f);
+    const glm::vec3 across(along.y, -along.x, 0.0f);
+    const groom::Groom groom = fansOfStrands(fans);
+    for (const std::uint32_t resolution : {64u, 512u, 4096u}) {
+        for (const float slope : {0.0f, 0.5f, 2.0f, 5.0f}) {
+            Settings settings = litByRays(0.0004f);
+            settings.shading.shadows.resolution = resolution;
+            settings.shading.lights[0].direction = glm::normalize(glm::vec3(0.1f, -slope, -1.0f));
+            const DeviceHair hair(device(), groom, settings);
+            std::vector<gpu::ShadowProbe> probes;
+            for (int i = -2; i <= 2; ++i) {
+                for (int k = -50; k <= 50; ++k) {
+                    const glm::vec3 middle = static_cast<float>(i) * fans.pitch * across;
+                    probes.push_back(
+                        {.position = middle + 0.0013f * static_cast<float>(k) * along,
+                         .light = 0,
+                         .normal = glm::vec3(0.0f),
+                         .tangent = along,
+                         .width = 0.0004f});
+                }
+            }
+            // Texels of 64 are wider than half of what is between strands: the next one is met.
+            if (resolution == 64 && slope > 0.0f) continue;
+            for (const FoundPath& path : findPaths(device(), settings, hair.view(), {}, probes)) {
+                ASSERT_NEAR(path.direct, 1.0f, 1e-5f) << resolution << ' ' << slope;
+                ASSERT_GE(path.ended, 0.25f) << resolution << ' ' << slope;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace hair::rendering

@@ -1,6 +1,7 @@
 // Light on matt surfaces under a picture of light from all around.
 #include "hair/rendering/environment.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -12,7 +13,11 @@
 
 #include <gtest/gtest.h>
 
+#include "hair/reference/fiber.h"
+#include "hair/rendering/fiber.h"
+#include "hair/rendering/render_assets.h"
 #include "tests/rendering/environments.h"
+#include "tests/rendering/fiber_rig.h"
 
 namespace hair::rendering {
 namespace {
@@ -80,6 +85,90 @@ TEST(Irradiance, OfACosineLobeIsWithinAPerCent) {
         const double x = glm::dot(n, kTilted);
         EXPECT_NEAR(
             irradianceAt(harmonics, n), 0.25 + x / 3 + 5.0 / 64 * legendre2(x), kQuadrature);
+    }
+}
+
+// ---- As lights ----------------------------------------------------------------------------------
+
+double irradianceOf(const LightSettings& light) {
+    const RenderSettings linear{.tone_map = ToneMap::srgb};
+    return std::numbers::pi * double{light.strength} * workingColor(linear, light.color).g;
+}
+
+// sRGB's curve there and back in single precision.
+constexpr double kColorRounding = 1e-5;
+
+TEST(EnvironmentLights, HaveAllLightOfThePicture) {
+    RenderSettings render{
+        .tone_map = ToneMap::srgb, .environment_strength = 3.0f, .environment_turn = 40.0f};
+    // 1 + 0.6 cos: 4 pi in all; texels' solid angles are exact and their middles off by 1e-4.
+    const auto picture =
+        environmentOf([](const glm::dvec3& d) { return 1 + 0.6 * glm::dot(d, kTilted); });
+    for (const std::uint32_t count : {1u, 7u, 12u, 48u}) {
+        const std::vector<LightSettings> lights = environmentLights(picture, render, count);
+        ASSERT_EQ(lights.size(), count);
+        double sum = 0;
+        for (const LightSettings& light : lights) sum += irradianceOf(light);
+        EXPECT_NEAR(sum, 3 * 4 * std::numbers::pi, 3 * 4 * std::numbers::pi * 2e-4) << count;
+    }
+}
+
+// Twelve are the corners of an icosahedron, with equal parts of an even light up to the texels at
+// the parts' edges: 250 of 2,700 texels a part, of which half are on either side but for their
+// root.
+TEST(EnvironmentLights, OfEvenLightAreEqualAndWiderThanTheirPart) {
+    const auto lights =
+        environmentLights(environmentOf([](auto) { return 0.7; }), {.tone_map = ToneMap::srgb}, 12);
+    double squares[3]{};
+    for (const LightSettings& light : lights) {
+        EXPECT_NEAR(irradianceOf(light), 0.7 * 4 * std::numbers::pi / 12, 0.7 * 0.02);
+        EXPECT_EQ(light.type, LightType::directional);
+        // A cap of a twelfth of the sphere has 1 - cos r = 1/6; of twice its area, nearly.
+        const double radius = std::numbers::sqrt2 * std::acos(5.0 / 6);
+        EXPECT_NEAR(light.angular_radius, radius * 180 / std::numbers::pi, 1e-4);
+        for (int axis = 0; axis < 3; ++axis)
+            squares[axis] += light.direction[axis] * light.direction[axis];
+    }
+    // A spherical design: means of squares are 1/3.
+    for (const double sum : squares) EXPECT_NEAR(sum, 4, 1e-5);
+}
+
+TEST(EnvironmentLights, ComeFromWhereThePictureIsBright) {
+    for (const double degrees : {0.0, 90.0, -130.0}) {
+        const auto lights = environmentLights(
+            environmentOf(
+                [](const glm::dvec3& d) { return glm::dot(d, kTilted) > 0.99 ? 50.0 : 0.0; }),
+            {.tone_map = ToneMap::srgb, .environment_turn = static_cast<float>(degrees)}, 48);
+        const auto brightest = std::ranges::max_element(lights, {}, irradianceOf);
+        const glm::dvec3 axis = turned(kTilted, degrees * std::numbers::pi / 180);
+        // Of 48 directions one is within 20 degrees.
+        EXPECT_GT(glm::dot(-glm::dvec3(brightest->direction), axis), 0.94) << degrees;
+    }
+}
+
+// In even light from all around a white fibre looks as bright as what is round it: the white
+// furnace. Twelve lights of 48 degrees stand for all directions, whose lobes are widened as much.
+TEST(EnvironmentLights, AreAFurnaceForAWhiteFiber) {
+    const auto lights =
+        environmentLights(environmentOf([](auto) { return 1.0; }), {.tone_map = ToneMap::srgb}, 12);
+    for (const float roughness : {0.3f, 0.5f}) {
+        Fiber fiber = makeFiber(whiteFiber(roughness, roughness));
+        const double variance = std::pow(std::acos(5.0 / 6), 2) / 2;  // of a disc along an axis
+        for (double& v : fiber.variances) v += variance;
+        // The logistic distribution's variance is (pi s)^2 / 3.
+        fiber.azimuthal_scale = std::sqrt(
+            std::pow(fiber.azimuthal_scale, 2) + 3 * variance / std::pow(std::numbers::pi, 2));
+        double sum = 0;
+        int count = 0;
+        for (const glm::dvec3& eye : someDirections()) {
+            for (const double h : {-0.75, -0.25, 0.25, 0.75}) {
+                for (const LightSettings& light : lights)
+                    sum += irradianceOf(light) *
+                           reference::scattering(fiber, eye, -glm::dvec3(light.direction), h).g;
+                ++count;
+            }
+        }
+        EXPECT_NEAR(sum / count, 1, 0.05) << roughness;
     }
 }
 

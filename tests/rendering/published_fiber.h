@@ -261,15 +261,20 @@ inline Ways forwardThrough(const Half& forward, double strands) {
 }
 
 // Zinke et al. 2008, (5) to (11): the fibre's own and what its neighbours send back, of the light
-// that nothing stops and of that which others have scattered evenly over a half turn. What comes
-// back is round the light's azimuth as (1 + cos phi) / (2 pi).
-inline glm::dvec3
-dualScattering(const Fiber& fiber, double density, const View& view, double h, double strands) {
-    const Half forward = halfOf(fiber, view.theta_i, kPi);
-    const Half backward = halfOf(fiber, view.theta_i, 0.0);
+// that nothing stops and of that which others have scattered evenly over a half turn; `density` is
+// the part of what each scatters that meets others. What comes back is round the light's azimuth as
+// (1 + cos phi) / (2 pi). Of light behind the fibre `ended` goes out of the hair, and `returned`
+// comes back from what is there.
+inline glm::dvec3 dualScattering(
+    const Fiber& fiber, double density, const View& view, double h, double strands, double ended,
+    double returned) {
+    Half forward = halfOf(fiber, view.theta_i, kPi);
+    Half backward = halfOf(fiber, view.theta_i, 0.0);
+    forward.part *= density;
+    backward.part *= density;
     const Ways back = backThroughNeighbours(forward, backward);
     const auto backwards = [&](double change, double spread, double round) {
-        return 2.0 * density * round * back.part *
+        return 2.0 * round * ((1.0 - ended) * back.part + returned * forward.part) *
                longitudinal(
                    view.theta_i - change - back.shift, view.theta_o, back.variance + spread);
     };
@@ -284,7 +289,7 @@ dualScattering(const Fiber& fiber, double density, const View& view, double h, d
     if (strands > 0.0) {
         const Ways others = forwardThrough(forward, strands);
         const auto n = [&](double angle) { return azimuthal(fiber, angle); };
-        sum += density * others.part *
+        sum += others.part *
                (sumOfLobes(fiber, view, h, others.shift, others.variance, overHalfTurn(n)) +
                 backwards(others.shift, others.variance, overHalfTurn(round)(view.phi)));
     }

@@ -23,6 +23,10 @@ struct FoundPath {
     float meshes;
     float strands;
     float visibility;
+    float direct;
+    float met;
+    float ended;  // green
+    float returned;  // green
     float unused;
 };
 
@@ -30,25 +34,31 @@ struct FoundPath {
 inline std::vector<FoundPath> findPaths(
     const engine::Device& device, const Settings& settings, const StrandView& view,
     const RenderAssets& assets, std::span<const gpu::ShadowProbe> probes) {
-    static_assert(sizeof(gpu::ShadowProbe) == 28 && sizeof(gpu::ShadowProbePush) == 20);
+    static_assert(sizeof(gpu::ShadowProbe) == 44 && sizeof(gpu::ShadowProbePush) == 20);
     constexpr VkFormat kFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
     probe_shaders::addTo(device);
     const engine::GraphicsPipeline pipeline(
         device, {.shaders = {"composite/screen.vert", "probe_shadows.frag"},
                  .constants = shadingConstants(settings),
                  .push_size = sizeof(gpu::ShadowProbePush),
-                 .colors = {{kFormat}},
+                 .colors = {{kFormat}, {kFormat}},
                  .sampled_images = 3});
-    const engine::Image found(
-        device, {.format = kFormat,
-                 .width = static_cast<std::uint32_t>(probes.size()),
-                 .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                 .name = "light paths"});
+    const auto makeImage = [&] {
+        return engine::Image(
+            device, {.format = kFormat,
+                     .width = static_cast<std::uint32_t>(probes.size()),
+                     .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                     .name = "light paths"});
+    };
+    const std::array found{makeImage(), makeImage()};
     const engine::Buffer probe_buffer = engine::makeBuffer(device, probes, "shadow probes");
-    const engine::Buffer read(
-        device, {.size = probes.size() * sizeof(FoundPath),
-                 .usage = engine::Usage::readback,
-                 .name = "light paths"});
+    const auto makeRead = [&] {
+        return engine::Buffer(
+            device, {.size = probes.size() * sizeof(FoundPath) / 2,
+                     .usage = engine::Usage::readback,
+                     .name = "light paths"});
+    };
+    const std::array read{makeRead(), makeRead()};
     std::array<engine::Buffer, engine::FrameLoop::kMaxSlots> pictures;
     for (engine::Buffer& picture : pictures)
         picture = {
@@ -66,11 +76,14 @@ inline std::vector<FoundPath> findPaths(
             pictures[passes.slot()].write(picture);
             shadows.record(passes, meshes, view, picture);
             passes.pass("probe", engine::PassKind::graphics, [&](engine::Commands& commands) {
-                commands.transition(
-                    found, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                    engine::Access::anything, engine::Access::attachment);
-                const engine::Attachment color{&found, engine::Load::clear, {}};
-                engine::beginRendering(commands, std::span(&color, 1), std::nullopt);
+                for (const engine::Image& image : found)
+                    commands.transition(
+                        image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                        engine::Access::anything, engine::Access::attachment);
+                const std::array colors{
+                    engine::Attachment{&found[0], engine::Load::clear, {}},
+                    engine::Attachment{&found[1], engine::Load::clear, {}}};
+                engine::beginRendering(commands, colors, std::nullopt);
                 commands.bind(
                     pipeline, gpu::ShadowProbePush{
                                   .picture = pictures[passes.slot()].address(),
@@ -79,28 +92,41 @@ inline std::vector<FoundPath> findPaths(
                 commands.images(pipeline, shadows.images());
                 commands.draw({.vertices = 3});
                 engine::endRendering(commands);
-                commands.transition(
-                    found, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                    VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, engine::Access::attachment,
-                    engine::Access::transfer_read);
+                for (const engine::Image& image : found)
+                    commands.transition(
+                        image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, engine::Access::attachment,
+                        engine::Access::transfer_read);
                 commands.barrier(engine::Access::anything, engine::Access::transfer_write);
-                commands.copy(found, read);
+                for (std::size_t i = 0; i < found.size(); ++i) commands.copy(found[i], read[i]);
                 commands.barrier(engine::Access::transfer_write, engine::Access::host_read);
             });
         });
     }
     loop.finish();
     std::vector<FoundPath> paths(probes.size());
-    std::memcpy(paths.data(), read.mapped().data(), read.size());
+    for (std::size_t part = 0; part < read.size(); ++part) {
+        const std::size_t bytes = sizeof(FoundPath) / read.size();
+        for (std::size_t i = 0; i < paths.size(); ++i)
+            std::memcpy(
+                reinterpret_cast<std::byte*>(&paths[i]) + part * bytes,
+                read[part].mapped().data() + i * bytes, bytes);
+    }
     return paths;
 }
 
-// Of points of strands.
+// Of points of strands that are as thin as can be, so that no ray meets them.
 inline std::vector<FoundPath> findPaths(
     const engine::Device& device, const Settings& settings, const StrandView& view,
     const RenderAssets& assets, std::span<const glm::vec3> points, std::uint32_t light = 0) {
     std::vector<gpu::ShadowProbe> probes;
-    for (const glm::vec3& point : points) probes.push_back({point, light, glm::vec3(0.0f)});
+    for (const glm::vec3& point : points)
+        probes.push_back(
+            {.position = point,
+             .light = light,
+             .normal = glm::vec3(0.0f),
+             .tangent = glm::vec3(0.0f, 1.0f, 0.0f),
+             .width = 0.0f});
     return findPaths(device, settings, view, assets, probes);
 }
 

@@ -20,9 +20,13 @@ void main() {
     FiberProbe probe = Probes(push.probes).at[index];
     float cos_i = sqrt(max(1.0 - probe.to_light.x * probe.to_light.x, 0.0));
     probe.bsdf = fiberBsdf(optics, probe.to_eye, probe.to_light, probe.h) * cos_i;
-    PictureParameters none;
-    if (optics.averages != kNoAddress)
-        probe.dual_scattering = dualScattering(
-            none, optics, probe.to_eye, probe.to_light, probe.h, probe.strands);
+    if (optics.averages != kNoAddress) {
+        LightPath path =
+            metAtRandom(kFreePath, probe.strands, passedForward(optics, probe.to_light));
+        path.ended = vec3(probe.ended);
+        path.returned = vec3(probe.returned);
+        probe.dual_scattering =
+            dualScattering(optics, probe.to_eye, probe.to_light, probe.h, path);
+    }
     Probes(push.probes).at[index] = probe;
 }

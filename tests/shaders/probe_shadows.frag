@@ -8,16 +8,17 @@
 
 layout(buffer_reference, scalar) readonly buffer Probes { ShadowProbe at[]; };
 layout(push_constant, scalar) uniform Push { ShadowProbePush push; };
-layout(location = 0) out vec4 path;  // meshes, strands, visibility
+layout(location = 0) out vec4 path;  // meshes, strands, visibility, direct
+layout(location = 1) out vec4 behind;  // met, ended, returned
 
 void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;
     // Neighbours of the picture's last pixels are worked out too, and see no probe.
     uint column = min(uint(gl_FragCoord.x), push.count - 1u);
     ShadowProbe probe = Probes(push.probes).at[column];
-    LightPath found =
-        probe.normal == vec3(0.0)
-            ? lightPath(picture, probe.light, probe.position)
-            : lightPath(picture, probe.light, probe.position, probe.normal);
-    path = vec4(found.meshes, found.strands, visibility(picture, found), 0.0);
+    LightPath found = lightPath(
+        picture, probe.light,
+        Receiver(probe.position, probe.normal, probe.tangent, probe.width, passedOpaque(picture)));
+    path = vec4(found.meshes, found.strands, visibility(found), found.direct);
+    behind = vec4(found.met, found.ended.g, found.returned.g, 0.0);
 }

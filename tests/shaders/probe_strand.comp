@@ -8,14 +8,17 @@
 
 // In the place of shading/shadows.glsl, whose images a probe has not.
 #define HAIRBENCH_SHADOWS_GLSL
-struct LightPath {
-    float meshes;
-    float strands;
+#include "shading/lights.glsl"
+struct Receiver {
+    vec3 position;
+    vec3 normal;
+    vec3 tangent;
+    float width;
+    vec3 passed;
 };
-LightPath lightPath(PictureParameters picture, uint light, vec3 position) {
-    return LightPath(1.0, 0.0);
-}
-float visibility(PictureParameters picture, LightPath path) { return path.meshes; }
+LightPath lightPath(PictureParameters picture, uint light, Receiver receiver) { return kFreePath; }
+vec3 passedOpaque(PictureParameters picture) { return vec3(0.0); }
+float visibility(LightPath path) { return path.meshes; }
 
 #include "shading/strand_shading.glsl"
 
@@ -32,7 +35,7 @@ void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;
     StrandProbe probe = Probes(push.probes).at[index];
     StrandFragment fragment =
-        StrandFragment(vec3(0.0), probe.tangent, probe.to_eye, probe.across, 0.5);
+        StrandFragment(vec3(0.0), probe.tangent, probe.to_eye, probe.across, 0.5, 1e-4);
     probe.normal = cylinderNormal(fragment);
     probe.color = shadeStrand(picture, fragment, picture.hair_color);
     Probes(push.probes).at[index] = probe;

@@ -36,6 +36,8 @@ struct FiberProbe {
     float h;
     vec3 to_light;
     float strands;
+    float ended;  // LightPath::ended, of all channels
+    float returned;  // LightPath::returned
     vec3 bsdf;  // f |cos theta_i|; written
     vec3 dual_scattering;  // written
 };
@@ -93,6 +95,8 @@ struct ShadowProbe {
     vec3 position;  // m
     uint light;
     vec3 normal;  // of the surface, unit length; 0: of a strand
+    vec3 tangent;  // of the strand, unit length
+    float width;  // m, of the strand
 };
 
 // Push constants of probe_shadows.frag.
