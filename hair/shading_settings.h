@@ -59,7 +59,7 @@ struct ShadingSettings {
     float azimuthal_roughness = 0.3f;
     float cuticle_tilt = 2.0f;
     float refractive_index = 1.55f;
-    float density_factor = 0.98f;
+    float density_factor = 0.99f;
     std::vector<LightSettings> lights{LightSettings{}};
     std::uint32_t environment_lights = 12;
     ShadowSettings shadows;

@@ -71,7 +71,8 @@ bool hasHairMaps(const Settings& settings);
 void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas);
 
 // What lights see: the depth of meshes, and of hair its depth and opacity in layers (Yuksel and
-// Keyser 2008, Deep opacity maps). Each light that throws shadows has a part of an atlas. Spheres
+// Keyser 2008, Deep opacity maps) or what a ray through each texel meets (Lokovic and Veach 2000,
+// Deep shadow maps). Each light that throws shadows has a part of an atlas. Spheres
 // throw those of points at their centres.
 class ShadowPass {
 public:
