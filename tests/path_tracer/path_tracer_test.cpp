@@ -52,7 +52,7 @@ TEST(PathTracer, SeesWhatOneFiberScatters) {
     TracedScene scene = oneFiber(makeFiber(brownFiber()));
     const glm::dvec3 to_light = glm::normalize(glm::dvec3(0.3, 0.8, 0.4));
     scene.directions = {{-to_light, glm::dvec3(2)}};
-    const TracedPicture picture = PathTracer(scene).trace(farCamera(), 64, 1);
+    const TracedPicture picture = PathTracer(scene).trace(farCamera(), 256, 1);
     // x towards the tip, and the eye at the azimuth 0: y is towards it.
     const glm::dvec3 wo(0, 1, 0);
     const glm::dvec3 wi(to_light.x, to_light.z, -to_light.y);
@@ -103,7 +103,7 @@ TEST(PathTracer, KeepsAllLightInAWhiteFurnace) {
 
 // A sphere of light is as bright as a point where it is small, and the two are sampled differently.
 TEST(PathTracer, HasOneLightFromPointsAndSmallSpheres) {
-    TracedScene scene = tangle(makeFiber(brownFiber()));
+    TracedScene scene = tangle(makeFiber(whiteFiber(0.7f, 0.7f)));
     const glm::dvec3 position(3, 5, 8);
     scene.points = {{position, glm::dvec3(50)}};
     const TracedPicture point = PathTracer(scene).trace(nearCamera(), 32, 1);
