@@ -183,7 +183,7 @@ double entersSphere(const SphereLight& sphere, const Ray& ray, double begin) {
 
 // ---- Boxes --------------------------------------------------------------------------------------
 
-struct Box {
+struct TracedBox {
     glm::dvec3 lower{kNever};
     glm::dvec3 upper{-kNever};
 
@@ -191,7 +191,7 @@ struct Box {
         lower = glm::min(lower, a);
         upper = glm::max(upper, b);
     }
-    void add(const Box& box) { add(box.lower, box.upper); }
+    void add(const TracedBox& box) { add(box.lower, box.upper); }
     glm::dvec3 middle() const { return 0.5 * (lower + upper); }
 
     // Where the ray is in the box first, kNever if not before `end`.
@@ -207,8 +207,8 @@ struct Box {
 };
 
 // A ray may meet the round ends that lie beyond the axis' ends, where the planes slant.
-Box boxOf(const Piece& piece) {
-    Box box;
+TracedBox boxOfPiece(const Piece& piece) {
+    TracedBox box;
     for (const glm::dvec4& end : {piece.a, piece.b}) {
         const glm::dvec3 around(2 * std::max(piece.a.w, piece.b.w));
         box.add(glm::dvec3(end) - around, glm::dvec3(end) + around);
@@ -217,7 +217,7 @@ Box boxOf(const Piece& piece) {
 }
 
 struct Node {
-    Box box;
+    TracedBox box;
     std::uint32_t begin = 0;  // of a leaf's things; of an inner node its second child
     std::uint32_t count = 0;  // 0: an inner node, whose first child is the next node
 };
@@ -227,7 +227,7 @@ constexpr std::uint32_t kLeafThings = 4;
 // Splits things at the median of their middles along the longest side.
 class BoxTree {
 public:
-    explicit BoxTree(std::span<const Box> boxes) : order_(boxes.size()) {
+    explicit BoxTree(std::span<const TracedBox> boxes) : order_(boxes.size()) {
         for (std::uint32_t i = 0; i < order_.size(); ++i) order_[i] = i;
         if (!boxes.empty()) split(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
     }
@@ -260,10 +260,10 @@ public:
     }
 
 private:
-    void split(std::span<const Box> boxes, std::uint32_t begin, std::uint32_t end) {
+    void split(std::span<const TracedBox> boxes, std::uint32_t begin, std::uint32_t end) {
         const auto index = static_cast<std::uint32_t>(nodes_.size());
         Node node;
-        Box middles;
+        TracedBox middles;
         for (std::uint32_t i = begin; i < end; ++i) {
             const glm::dvec3 middle = boxes[order_[i]].middle();
             node.box.add(boxes[order_[i]]);
@@ -367,13 +367,13 @@ private:
         return corners;
     }
 
-    static std::vector<Box> boxes(
+    static std::vector<TracedBox> boxes(
         const TracedScene& scene, std::span<const Piece> pieces, std::span<const Corners> corners) {
-        std::vector<Box> boxes;
+        std::vector<TracedBox> boxes;
         boxes.reserve(pieces.size() + corners.size());
-        for (const Piece& piece : pieces) boxes.push_back(boxOf(piece));
+        for (const Piece& piece : pieces) boxes.push_back(boxOfPiece(piece));
         for (const Corners& its : corners) {
-            Box box;
+            TracedBox box;
             const MattMesh& mesh = scene.meshes[its.mesh];
             for (const std::uint32_t corner : mesh.triangles[its.triangle])
                 box.add(mesh.positions[corner], mesh.positions[corner]);
@@ -418,7 +418,7 @@ FiberAxes axesAt(const Piece& piece, const glm::dvec3& point) {
 }
 
 // Two unit vectors across a third.
-std::array<glm::dvec3, 2> across(const glm::dvec3& axis) {
+std::array<glm::dvec3, 2> axesAcross(const glm::dvec3& axis) {
     const glm::dvec3 other = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 first = glm::normalize(glm::cross(axis, other));
     return {first, glm::cross(axis, first)};
@@ -429,7 +429,7 @@ glm::dvec3 inCone(const glm::dvec3& axis, double least, SplitMix& random) {
     const double cosine = 1 - random.number() * (1 - least);
     const double sine = std::sqrt(std::max(1 - cosine * cosine, 0.0));
     const double angle = 2 * kTracedPi * random.number();
-    const auto [first, second] = across(axis);
+    const auto [first, second] = axesAcross(axis);
     return cosine * axis + sine * (std::cos(angle) * first + std::sin(angle) * second);
 }
 
@@ -563,7 +563,7 @@ private:
         // By the cosine: Malley's method.
         const double radius = std::sqrt(random.number());
         const double angle = 2 * kTracedPi * random.number();
-        const auto [first, second] = across(normal);
+        const auto [first, second] = axesAcross(normal);
         const glm::dvec3 wi = radius * (std::cos(angle) * first + std::sin(angle) * second) +
                               std::sqrt(std::max(1 - radius * radius, 0.0)) * normal;
         carried *= mesh.reflectance;
