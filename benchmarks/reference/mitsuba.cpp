@@ -96,6 +96,11 @@ lightRadiance(const hair::LightSettings& light, const glm::dvec3& color, const g
 
 namespace {
 
+// Files are in cm. Mitsuba moves the origins of rays that leave a surface by 9e-5 (1 + the greatest
+// coordinate) in the file's unit: in metres by 0.1 mm, three times a hair's radius, so that fibres
+// beside each other are missed; in centimetres by 0.01 mm at 0.1 m from the origin.
+constexpr float kUnitsPerMetre = 100;
+
 // ---- XML elements -------------------------------------------------------------------------------
 
 // Elements of a Mitsuba scene, each with its line's end.
@@ -120,15 +125,16 @@ std::string rgb(const char* name, const Vector& linear) {
 
 void writePoint(std::ostream& out, const glm::vec3& position, const glm::dvec3& intensity) {
     out << "<emitter type=\"point\">\n    <point name=\"position\" value=\""
-        << scene::decimalTexts(position, ", ") << "\"/>\n    " << rgb("intensity", intensity)
-        << "</emitter>\n";
+        << scene::decimalTexts(kUnitsPerMetre * position, ", ") << "\"/>\n    "
+        << rgb("intensity", double{kUnitsPerMetre * kUnitsPerMetre} * intensity) << "</emitter>\n";
 }
 
 void writeSphere(std::ostream& out, const hair::LightSettings& light, const glm::dvec3& radiance) {
     out << "<shape type=\"sphere\">\n    <point name=\"center\" value=\""
-        << scene::decimalTexts(light.position, ", ") << "\"/>\n    "
-        << element("float", "radius", light.radius) << "    <emitter type=\"area\">\n        "
-        << rgb("radiance", radiance) << "    </emitter>\n</shape>\n";
+        << scene::decimalTexts(kUnitsPerMetre * light.position, ", ") << "\"/>\n    "
+        << element("float", "radius", kUnitsPerMetre * light.radius)
+        << "    <emitter type=\"area\">\n        " << rgb("radiance", radiance)
+        << "    </emitter>\n</shape>\n";
 }
 
 // Irradiance is pi times the colour.
@@ -192,10 +198,12 @@ void writeCamera(std::ostream& out, const hair::Settings& settings) {
     out << "<sensor type=\"perspective\">\n"
         << "    <string name=\"fov_axis\" value=\"y\"/>\n"
         << "    " << element("float", "fov", camera.field_of_view)  // deg
-        << "    " << element("float", "near_clip", camera.near_plane) << "    "
-        << element("float", "far_clip", camera.far_plane) << "    <transform name=\"to_world\">\n"
-        << "        <lookat origin=\"" << scene::decimalTexts(camera.position, ", ")
-        << "\" target=\"" << scene::decimalTexts(camera.target, ", ") << "\" up=\""
+        << "    " << element("float", "near_clip", kUnitsPerMetre * camera.near_plane) << "    "
+        << element("float", "far_clip", kUnitsPerMetre * camera.far_plane)
+        << "    <transform name=\"to_world\">\n"
+        << "        <lookat origin=\""
+        << scene::decimalTexts(kUnitsPerMetre * camera.position, ", ") << "\" target=\""
+        << scene::decimalTexts(kUnitsPerMetre * camera.target, ", ") << "\" up=\""
         << scene::decimalTexts(camera.up, ", ") << "\"/>\n    </transform>\n"
         << "    <sampler type=\"independent\">\n"
         << "        <integer name=\"sample_count\" value=\"$spp\"/>\n    </sampler>\n"
@@ -280,7 +288,7 @@ void writeMitsubaCurves(std::ostream& out, const hair::groom::StrandSet& strands
             points.emplace_back(glm::dvec3(strands.points[i]), 0.5 * strands.widths.at(i));
         for (glm::dvec4 control : interpolatingControlPoints(points)) {
             control.w = std::max(control.w, 0.0);
-            out << scene::decimalTexts(control, " ") << '\n';
+            out << scene::decimalTexts(double{kUnitsPerMetre} * control, " ") << '\n';
         }
         out << '\n';
     }
@@ -313,8 +321,8 @@ void writeMaterialPly(
         << "\nproperty list uchar int vertex_indices\nend_header\n";
     for (const std::uint32_t vertex : vertices) {
         const glm::dvec3 normal = pose.rotation * glm::dvec3(mesh.normals[vertex]);
-        out << scene::decimalTexts(pose(mesh.positions[vertex]), " ") << ' '
-            << scene::decimalTexts(normal, " ");
+        out << scene::decimalTexts(double{kUnitsPerMetre} * pose(mesh.positions[vertex]), " ")
+            << ' ' << scene::decimalTexts(normal, " ");
         if (has_coordinates)
             out << ' ' << scene::decimalTexts(mesh.texture_coordinates[vertex], " ");
         out << '\n';

@@ -70,7 +70,7 @@ struct MitsubaParts {
 // (Chiang et al. 2016) with the settings' absorption, roughnesses, tilt and index; nothing else of
 // our shading is in it. The background is a light too, of the same radiance from everywhere. Pixels
 // are means over their squares (a box filter), as in our supersampling. Samples a pixel: the
-// parameter `spp`.
+// parameter `spp`. Lengths are in cm.
 void writeMitsubaScene(
     std::ostream& out, const hair::Settings& settings, const MitsubaParts& parts);
 
@@ -89,7 +89,7 @@ lightIntensity(const hair::LightSettings& light, const glm::dvec3& color, const 
 glm::dvec3
 lightRadiance(const hair::LightSettings& light, const glm::dvec3& color, const glm::dvec3& target);
 
-// Files of geometry that Mitsuba 3 reads; lengths in m.
+// Files of geometry that Mitsuba 3 reads; lengths in cm.
 
 // Mitsuba's `bsplinecurve`: a line "x y z radius" for each control point, an empty line after each
 // strand. The curves go through the strands' points and begin and end at them; half the widths are

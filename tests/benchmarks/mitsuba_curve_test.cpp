@@ -61,6 +61,7 @@ TEST(CurveControlPoints, KeepAStraightEvenLineEven) {
     EXPECT_LT(glm::distance(curveAt(control, 3.25), root + 3.25 * step), kRounding);
 }
 
+// What is in the file, in m.
 std::vector<std::vector<glm::dvec4>> written(const hair::groom::StrandSet& strands) {
     std::stringstream file;
     reference::writeMitsubaCurves(file, strands);
@@ -74,6 +75,7 @@ std::vector<std::vector<glm::dvec4>> written(const hair::groom::StrandSet& stran
         glm::dvec4& point = curves.back().emplace_back();
         numbers >> point.x >> point.y >> point.z >> point.w;
         EXPECT_FALSE(numbers.fail()) << line;
+        point /= 100.0;
     }
     curves.pop_back();  // each ends with an empty line
     return curves;

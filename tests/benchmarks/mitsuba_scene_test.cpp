@@ -60,12 +60,12 @@ TEST(MitsubaScene, HasTheSettings) {
     EXPECT_TRUE(isWellFormed(text)) << text;
     for (const char* part :
          {R"(<float name="fov" value="35"/>)", R"(<string name="fov_axis" value="y"/>)",
-          R"(origin="0.25, 0.05, 0.47" target="0, -0.07, 0" up="0, 1, 0")",
+          R"(origin="25, 5, 47" target="0, -7, 0" up="0, 1, 0")",
           R"(<integer name="width" value="320"/>)", R"(<integer name="height" value="240"/>)",
           R"(<rgb name="radiance" value="1, 0, 1"/>)",
-          R"(<point name="position" value="0, -0.07, 2"/>)",
-          // 4 pi
-          R"(<rgb name="intensity" value="12.566371, 12.566371, 0"/>)",
+          R"(<point name="position" value="0, -7, 200"/>)",
+          // 4 pi m^2 in cm^2, as a float: 125663.706
+          R"(<rgb name="intensity" value="125663.7, 125663.7, 0"/>)",
           R"(<string name="filename" value="hair.txt"/>)",
           R"(<string name="filename" value="head_0.ply"/>)",
           R"(<rgb name="reflectance" value="1, 0, 0"/>)"})
@@ -124,9 +124,9 @@ TEST(MitsubaScene, HasEveryKindOfLight) {
     for (const char* part :
          {R"(<emitter type="directional">)", R"(<vector name="direction" value="0, -0.5, 0.25"/>)",
           R"(<rgb name="irradiance" value="3.1415927, 3.1415927, 3.1415927"/>)",
-          R"(<shape type="sphere">)", R"(<point name="center" value="0, 3, 0"/>)",
-          R"(<float name="radius" value="1.5"/>)", R"(<rgb name="radiance" value="4, 4, 4"/>)",
-          R"(<rgb name="intensity" value="12.566371, 12.566371, 12.566371"/>)"})
+          R"(<shape type="sphere">)", R"(<point name="center" value="0, 300, 0"/>)",
+          R"(<float name="radius" value="150"/>)", R"(<rgb name="radiance" value="4, 4, 4"/>)",
+          R"(<rgb name="intensity" value="125663.7, 125663.7, 125663.7"/>)"})
         EXPECT_THAT(text, HasSubstr(part));
 }
 
@@ -197,7 +197,8 @@ TEST(MitsubaMesh, HasTheMaterialsTrianglesWhereTheHeadIs) {
     EXPECT_THAT(text, HasSubstr("element vertex 3\n"));
     EXPECT_THAT(text, HasSubstr("element face 1\n"));
     std::istringstream body(text.substr(text.find("end_header\n") + 11));
-    const double expected[3][6] = {{0, 5, 0, -1, 0, 0}, {0, 5, 1, -1, 0, 0}, {-1, 5, 0, -1, 0, 0}};
+    const double expected[3][6] = {
+        {0, 500, 0, -1, 0, 0}, {0, 500, 100, -1, 0, 0}, {-100, 500, 0, -1, 0, 0}};
     for (const auto& vertex : expected) {
         for (const double coordinate : vertex) {
             double read = 0.0;

@@ -28,6 +28,7 @@ Point readPoint(std::istream& file) {
     Point point{};
     file >> point[0] >> point[1] >> point[2];
     EXPECT_FALSE(file.fail());
+    for (double& coordinate : point) coordinate /= 100;  // the files are in cm
     return point;
 }
 

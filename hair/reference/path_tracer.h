@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "hair/rendering/fiber.h"
+
+// Light among fibres, followed from the eye: a path tracer in double precision over the scattering
+// of fiber.h, independent of those that judge our shading and of the device.
+namespace hair::reference {
+
+// A triangle mesh that is matt: reflectance / pi, on the side that its normals are on.
+struct MattMesh {
+    std::vector<glm::dvec3> positions;
+    std::vector<glm::dvec3> normals;  // unit, interpolated; one a position
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    glm::dvec3 reflectance{0};
+    enum class Sides { front, both } sides = Sides::front;
+};
+
+// Lights; colours are linear RGB.
+struct PointLight {
+    glm::dvec3 position{0};
+    glm::dvec3 intensity{0};  // radiant intensity: irradiance times distance^2
+};
+struct DirectionalLight {
+    glm::dvec3 direction{0};  // unit, in which light goes
+    glm::dvec3 irradiance{0};  // of a plane across it
+};
+// It is seen, and throws shadows.
+struct SphereLight {
+    glm::dvec3 center{0};
+    double radius = 0;
+    glm::dvec3 radiance{0};
+};
+
+struct TracedScene {
+    rendering::Fiber fiber;
+    // Control points of uniform cubic B-splines from root to tip, with radii: round fibres without
+    // caps. A ray meets them from outside; inside one it goes on to the next.
+    std::vector<std::vector<glm::dvec4>> curves;
+    std::vector<MattMesh> meshes;
+    std::vector<PointLight> points;
+    std::vector<DirectionalLight> directions;
+    std::vector<SphereLight> spheres;
+    glm::dvec3 background{0};  // radiance from everywhere
+};
+
+// A pinhole camera; a pixel is the mean over its square.
+struct TracedCamera {
+    glm::dvec3 position{0};
+    glm::dvec3 target{0};
+    glm::dvec3 up{0, 1, 0};
+    double field_of_view = 0;  // vertical, deg
+    std::uint32_t width = 0;  // px
+    std::uint32_t height = 0;
+};
+
+struct TracedPicture {
+    std::vector<glm::dvec3> radiances;  // [row][column], top row first
+    std::vector<glm::dvec3> variances;  // of those means, from their samples' spread
+
+    glm::dvec3 mean() const;
+    glm::dvec3 standardError() const;  // of mean()
+};
+
+// Paths that meet more fibres and meshes than this end.
+inline constexpr int kMostMeetings = 63;
+
+class PathTracer {
+public:
+    explicit PathTracer(const TracedScene& scene);  // which outlives it
+    ~PathTracer();
+
+    // Two threads share the rows. The picture depends on `seed` alone, not on them. A pixel has
+    // at least two `samples`.
+    TracedPicture
+    trace(const TracedCamera& camera, std::uint32_t samples, std::uint64_t seed) const;
+
+private:
+    class Surfaces;
+    class Paths;
+    const TracedScene& scene_;
+    std::unique_ptr<Surfaces> surfaces_;
+};
+
+}  // namespace hair::reference
