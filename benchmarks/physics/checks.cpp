@@ -38,6 +38,7 @@ constexpr Check kChecks[] = {
     {"bending_frequency", checkBendingFrequency},
     {"clamp_twist", checkClampTwist},
     {"bend_twist", checkBendTwist},
+    {"lateral_buckling", checkLateralBuckling},
     {"drag_deflection", checkDragDeflection},
     {"terminal_speed", checkTerminalSpeed},
     {"contact_momentum", checkContactMomentum},

@@ -59,6 +59,8 @@ void checkBendingFrequency(const engine::Device&, hair::Solver, Findings&);
 void checkClampTwist(const engine::Device&, hair::Solver, Findings&);
 // How far a hanging curl leaves its plane.
 void checkBendTwist(const engine::Device&, hair::Solver, Findings&);
+// The length at which a level hair of an elliptic section leaves its plane, and where to.
+void checkLateralBuckling(const engine::Device&, hair::Solver, Findings&);
 // Where wind holds hanging hair, at any time step.
 void checkDragDeflection(const engine::Device&, hair::Solver, Findings&);
 // The speed at which hair that falls is borne by the air.

@@ -42,6 +42,8 @@ struct RodParameters {
     uint iterations;
     float stretching;  // modulus of stretch and shear over the density, times the substep squared,
                        // m^2; `rod` has none
+    float ellipticity;  // of the cross-section: the stiffness round the first axis of a segment's
+                        // frame is a joint's times that, round the second one over that
 };
 
 #endif

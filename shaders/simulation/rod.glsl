@@ -109,7 +109,7 @@ void eliminate() {
         RodJoint joint = bendAndTwist(
             multiply(above, segment.half_rotation),
             multiply(orientation, conjugate(segment.half_rotation)), segment.bend_stiffness,
-            segment.twist_stiffness, i == 1);
+            segment.twist_stiffness, rod.ellipticity, i == 1);
         vec3 torque = from_space * joint.torque;
         mat3 stiffness = symmetric(from_space * joint.stiffness * transpose(from_space));
 
