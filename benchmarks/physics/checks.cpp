@@ -41,6 +41,7 @@ constexpr Check kChecks[] = {
     {"lateral_buckling", checkLateralBuckling},
     {"drag_deflection", checkDragDeflection},
     {"terminal_speed", checkTerminalSpeed},
+    {"stick_slip", checkStickSlip},
     {"contact_momentum", checkContactMomentum},
     {"length", checkLength},
     {"energy", checkEnergy},

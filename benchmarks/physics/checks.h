@@ -66,6 +66,8 @@ void checkDragDeflection(const engine::Device&, hair::Solver, Findings&);
 // The speed at which hair that falls is borne by the air.
 void checkTerminalSpeed(const engine::Device&, hair::Solver, Findings&);
 
+// When a hair that is pressed onto the ground slips.
+void checkStickSlip(const engine::Device&, hair::Solver, Findings&);
 // Momentum that contact of hair with hair loses.
 void checkContactMomentum(const engine::Device&, hair::Solver, Findings&);
 

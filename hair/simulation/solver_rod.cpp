@@ -178,7 +178,8 @@ RodMethod rodMethod(const SimulationSettings& settings) {
     return {
         .shader = "simulation/rod.comp",
         .packed_shader = "simulation/rod_packed.comp",
-        .scratch_rows = gpu::kRodScratchRows,
+        .scratch_rows = gpu::kRodScratchRows +
+                        (settings.collision.warm_start ? gpu::kRodContactScratchRows : 0),
         .iterations = settings.rod.iterations};
 }
 
@@ -237,7 +238,8 @@ RodSolver::RodSolver(
                                                                         : method.shader,
                    .constants =
                        {{gpu::kContinuousCollisionConstant, settings.collision.continuous},
-                        {gpu::kEllipticSectionConstant, settings.material.ellipticity != 1.0f}},
+                        {gpu::kEllipticSectionConstant, settings.material.ellipticity != 1.0f},
+                        {gpu::kWarmStartConstant, settings.collision.warm_start}},
                    .push_size = sizeof(gpu::SubstepPush)}),
       adopt_(
           device, {.shader = "simulation/rod_adopt.comp", .push_size = sizeof(gpu::SubstepPush)}) {}

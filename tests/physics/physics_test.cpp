@@ -91,6 +91,12 @@ TEST_F(Physics, RodBucklesSidewaysWhereKirchhoffsDoes) {
     expectPass(findings);
 }
 
+TEST_F(Physics, RodSticksAndSlipsAsCoulombsCone) {
+    Findings findings("stick_slip", hair::Solver::rod);
+    checkStickSlip(device(), hair::Solver::rod, findings);
+    expectPass(findings);
+}
+
 TEST_F(Physics, RodRestsInWindLikeAnElastica) {
     Findings findings("drag_deflection", hair::Solver::rod);
     checkDragDeflection(device(), hair::Solver::rod, findings);
