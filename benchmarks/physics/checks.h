@@ -57,7 +57,7 @@ void checkConvergence(const engine::Device&, hair::Solver, Findings&);
 void checkBendingFrequency(const engine::Device&, hair::Solver, Findings&);
 // A curl follows its root's turn about its own axis.
 void checkClampTwist(const engine::Device&, hair::Solver, Findings&);
-// How far a hanging curl leaves its plane.
+// How far a hanging curl leaves its plane, and from which curvature on.
 void checkBendTwist(const engine::Device&, hair::Solver, Findings&);
 // The length at which a level hair of an elliptic section leaves its plane, and where to.
 void checkLateralBuckling(const engine::Device&, hair::Solver, Findings&);

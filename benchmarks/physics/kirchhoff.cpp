@@ -212,6 +212,22 @@ std::optional<double> bucklingLength(ClampedRod rod, double most) {
     return std::cbrt(leaving->rod().weight * rod.section.strong / rod.weight);
 }
 
+std::optional<double> leavingTurn(ClampedRod rod, double most) {
+    const auto stays = [&](double turn) {
+        rod.turn = turn;
+        return outOfPlaneStability(rod) > 0.0;
+    };
+    double high = 1.0;
+    while (stays(high))
+        if (++high > most) return {};
+    double low = high - 1.0;
+    for (int i = 0; i < 13; ++i) {
+        const double middle = (low + high) / 2.0;
+        (stays(middle) ? low : high) = middle;
+    }
+    return low;
+}
+
 namespace {
 
 // ---- A rod out of its plane ---------------------------------------------------------------------

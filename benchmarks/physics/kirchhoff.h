@@ -50,6 +50,10 @@ double outOfPlaneStability(const ClampedRod& rod);
 // The least length at which the rod leaves its plane; absent where it stays up to `most`. m
 std::optional<double> bucklingLength(ClampedRod rod, double most);
 
+// The least turn, of those in steps of 1 rad and between them, at which the rod leaves its plane;
+// absent where it stays up to `most`. Good to 1e-4. rad
+std::optional<double> leavingTurn(ClampedRod rod, double most);
+
 // The tip of the rod that has left its plane toward +z, m; absent where it stays.
 std::optional<glm::dvec3> buckledTip(const ClampedRod& rod);
 

@@ -85,6 +85,12 @@ TEST_F(Physics, RodSwingsAtTheFirstBendingFrequency) {
     expectPass(findings);
 }
 
+TEST_F(Physics, RodWindsOutOfItsPlaneWhereKirchhoffsDoes) {
+    Findings findings("bend_twist", hair::Solver::rod);
+    checkBendTwist(device(), hair::Solver::rod, findings);
+    expectPass(findings);
+}
+
 TEST_F(Physics, RodBucklesSidewaysWhereKirchhoffsDoes) {
     Findings findings("lateral_buckling", hair::Solver::rod);
     checkLateralBuckling(device(), hair::Solver::rod, findings);
