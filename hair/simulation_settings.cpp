@@ -83,6 +83,11 @@ const Table& tableOf(const MaterialSettings*) {
              "radius", &S::radius, 1e-6, 0.01, "m",
              "radius of the round cross-section, for the stiffness of rods and the drag of the "
              "wind"),
+         number(
+             "ellipticity", &S::ellipticity, 1, 10, "1",
+             "longer over shorter axis of the cross-section, whose area stays that of `radius`, "
+             "for the stiffness of `rod`: people's hair has 1 to 1.8. The longer axis is upright "
+             "at roots that are level, and goes along strands without twisting"),
          number("youngs_modulus", &S::youngs_modulus, 1, 1e12, "Pa", "E: resists bending"),
          number("shear_modulus", &S::shear_modulus, 1, 1e12, "Pa", "G: resists twist")});
     return table;
@@ -164,7 +169,12 @@ const Table& tableOf(const CollisionSettings*) {
          toggle(
              "continuous", &S::continuous,
              "stop guides where their way in a substep enters a collider, so that fast hair does "
-             "not fly through thin ones; off: look at where they end alone")});
+             "not fly through thin ones; off: look at where they end alone"),
+         toggle(
+             "warm_start", &S::warm_start,
+             "`rod` carries forces of contact from one substep to the next, so that hair presses "
+             "on colliders with the force that its stiffness has, and sticks up to friction times "
+             "that; off: each substep begins without")});
     return table;
 }
 

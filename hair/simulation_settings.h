@@ -72,6 +72,7 @@ const Table& tableOf(const PositionBasedRodSettings*);
 struct MaterialSettings {
     float density = 1320.0f;
     float radius = 37e-6f;
+    float ellipticity = 1.0f;
     float youngs_modulus = 3.9e9f;
     float shear_modulus = 0.6e9f;
 };
@@ -124,6 +125,7 @@ struct CollisionSettings {
     float margin = 0.0f;
     float friction = 0.0f;
     bool continuous = false;
+    bool warm_start = false;
 };
 
 const Table& tableOf(const CollisionSettings*);

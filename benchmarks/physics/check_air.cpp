@@ -38,17 +38,6 @@ constexpr double kWindStill = 1e-6;  // m in a tenth of a second
 constexpr double kDeflectionTolerance = 0.02;  // of the length, promised of `rod`
 constexpr double kRestTolerance = 0.01;  // of the length, between time steps, promised of `rod`
 
-hair::groom::Groom hangingHairs(std::span<const double> lengths) {
-    hair::groom::Groom groom = straightStrand(kWindSegments, 1.0, {0.0, -1.0, 0.0});
-    const std::vector<glm::vec3> points = std::move(groom.points);
-    groom.strand_count = static_cast<std::uint32_t>(lengths.size());
-    groom.points.clear();
-    for (const double length : lengths)
-        for (const glm::vec3& point : points)
-            groom.points.push_back(static_cast<float>(length) * point);
-    return groom;
-}
-
 hair::SimulationSettings inWind(hair::Solver solver, double speed) {
     hair::SimulationSettings settings = freeHair(solver);
     settings.wind.mode = hair::WindMode::drag;
@@ -65,7 +54,8 @@ InWind restInWind(
     const engine::Device& device, hair::SimulationSettings settings,
     std::span<const double> lengths, double time_step) {
     settings.time_step = static_cast<float>(time_step);
-    Experiment experiment(device, hangingHairs(lengths), settings);
+    Experiment experiment(
+        device, straightStrands(kWindSegments, lengths, {0.0, -1.0, 0.0}), settings);
     InWind rest{.tips = {}, .still = experiment.settle(kWindStill, kWindPatience)};
     const std::vector<glm::dvec3> points = experiment.positions();
     for (std::size_t tip = kWindSegments; tip < points.size(); tip += kWindSegments + 1)

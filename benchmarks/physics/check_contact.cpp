@@ -1,11 +1,17 @@
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "benchmarks/physics/checks.h"
 #include "benchmarks/physics/experiment.h"
+#include "benchmarks/physics/kirchhoff.h"
+#include "benchmarks/physics/theory.h"
 #include "hair/simulation/hair_hair.h"
 
 namespace benchmarks::physics {
@@ -101,6 +107,164 @@ void checkContactMomentum(const engine::Device& device, hair::Solver solver, Fin
     findings.deviation(
         {"momentum that repulsion loses / exchanged", "1", {}},
         worstPlacement(device, settings, 0.0));
+}
+
+namespace {
+
+// ---- Stick and slip -----------------------------------------------------------------------------
+
+// The set-up of the stick-slip test of Romero et al. 2021, after Sano, Yamaguchi and Wada 2017: a
+// hair without weight, clamped straight down over the ground, is pressed onto it. It buckles, its
+// tip sticks, and it slips when the ground's forces leave the cone of friction. The ground is a
+// capsule along the direction that the hair buckles in.
+
+constexpr std::uint32_t kPressedSegments = 32;
+constexpr double kPressedLength = 0.05;  // m
+constexpr double kGroundRadius = 0.5;  // m
+constexpr double kGroundLength = 0.2;  // m
+constexpr double kPressingSpeed = 0.12;  // of the length a second; its slowest period is 1/30 s
+// Amplitude of the shape that the hair begins in, rad: Euler's of the column that buckles, for a
+// straight hair does not know which way to go. The ground's force is 0.033 off the vertical then.
+constexpr double kBuckledBy = 0.15;
+// Critical for the slowest mode of the hair between clamp and hinge, 15.4 sqrt(EI / lambda) / L^2.
+constexpr double kPressedFriction = 400.0;  // 1/s
+constexpr float kPressedStep = 1.0f / 480.0f;  // s
+// In the first substep no force holds the tip, which slides by what a substep's square is
+// proportional to: at 1/480 s 1 % of the length, which would be 16 % of the compression at which it
+// slips next.
+constexpr std::uint32_t kPressedSubsteps = 4;
+// What counts as slip, over the length: rounding moves a tip that sticks by less.
+constexpr double kSlipped = 2e-3;
+// Coefficients of friction. From some 0.35 on the hair lies on the ground beside its tip before it
+// slips.
+constexpr double kPressedFrictions[] = {0.1, 0.2, 0.3};
+constexpr double kSticking = 1.0;  // coefficient at which it never slips
+// 32 segments are within 0.3 % of a rod's statics. Slip is seen after a step more, and the
+// compression is measured at it: 5 % of the compression is 2 % of the ratio of the forces.
+constexpr double kSlipTolerance = 0.05;
+constexpr double kPressedTolerance = 0.02;  // of the length
+
+struct Pressed {
+    double compression;
+    double slid;  // how far the tip is from where the first step left it, over the length
+    glm::dvec2 middle;  // as PressedRod has it
+};
+
+// A hair that has just buckled between a clamp at (0, -compression) and its tip on the ground at
+// (0, -1): psi = c (cos k z - cos k), tan k = k, z from the tip. Over its length.
+std::vector<glm::dvec3> buckledColumn() {
+    constexpr double kRoot = 4.493409457909064;
+    std::vector<glm::dvec3> points{{0.0, -1.0, 0.0}};
+    for (std::uint32_t i = 0; i < kPressedSegments; ++i) {
+        const double z = (i + 0.5) / kPressedSegments;
+        const double angle = kBuckledBy * (std::cos(kRoot * z) - std::cos(kRoot));
+        points.push_back(
+            points.back() +
+            glm::dvec3(std::sin(angle), std::cos(angle), 0.0) / double{kPressedSegments});
+    }
+    std::ranges::reverse(points);
+    return points;
+}
+
+// Presses a hair until `ends` says so of how it is, or it is pressed by 0.35 of its length.
+template <class Ends>
+std::vector<Pressed> press(
+    const engine::Device& device, hair::SimulationSettings settings, double friction,
+    const Ends& ends) {
+    std::vector<glm::dvec3> start = buckledColumn();
+    // The tip of a shape to first order is off by the third, and the clamp is over it by that.
+    for (glm::dvec3& point : start) point.x -= start.front().x * (point.y + 1.0);
+    constexpr double kMostCompression = 0.35;
+    const double least = -start.front().y;
+    const double time = (kMostCompression - least) / kPressingSpeed;  // s
+    settings.gravity = {};
+    settings.time_step = kPressedStep;
+    settings.substeps = kPressedSubsteps;
+    settings.friction = frictionOf(kPressedFriction);
+    settings.collision.friction = static_cast<float>(friction);
+    const auto depth = static_cast<float>(-kPressedLength - kGroundRadius);
+    const auto reach = static_cast<float>(kGroundLength / 2.0);
+    settings.colliders = {
+        {.a = {-reach, depth, 0.0f},
+         .b = {reach, depth, 0.0f},
+         .radius = static_cast<float>(kGroundRadius),
+         .follows = hair::Follows::world}};
+    const auto pressedBy = [](double compression) {
+        return glm::dvec3(0.0, -compression * kPressedLength, 0.0);
+    };
+    settings.motion.keyframes = {
+        {.time = 0.0f, .rotation = {}, .translation = pressedBy(least)},
+        {.time = static_cast<float>(time),
+         .rotation = {},
+         .translation = pressedBy(kMostCompression)}};
+    Experiment experiment(
+        device, straightStrand(kPressedSegments, kPressedLength, {0.0, -1.0, 0.0}), settings);
+    for (glm::dvec3& point : start) point *= kPressedLength;
+    experiment.place(start);
+    std::vector<Pressed> states;
+    experiment.advance(1);
+    const glm::dvec3 touched = experiment.positions().back();
+    for (std::uint32_t i = 1; i < experiment.stepsIn(time); ++i) {
+        experiment.advance(1);
+        const std::vector<glm::dvec3> points = experiment.positions();
+        const glm::dvec3 middle = points[kPressedSegments / 2] / kPressedLength;
+        states.push_back(
+            {.compression = -points[0].y / kPressedLength,
+             .slid = glm::distance(points.back(), touched) / kPressedLength,
+             .middle = {std::hypot(middle.x, middle.z), middle.y + 1.0}});
+        if (ends(states.back())) break;
+    }
+    return states;
+}
+
+}  // namespace
+
+void checkStickSlip(const engine::Device& device, hair::Solver solver, Findings& findings) {
+    if (const auto why = lack(solver, Need::material)) return findings.skip(*why);
+    hair::SimulationSettings settings = freeHair(solver);
+    settings.collision.warm_start = solver == hair::Solver::rod;
+    const auto promised = [&](double tolerance) {
+        return solver == hair::Solver::rod ? std::optional(tolerance) : std::nullopt;
+    };
+    constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+    std::vector<std::vector<double>> rows;
+    for (const double friction : kPressedFrictions) {
+        const auto theory = pressedRod(friction);
+        const std::vector<Pressed> states = press(
+            device, settings, friction, [](const Pressed& at) { return !(at.slid < kSlipped); });
+        const bool slipped = !(states.back().slid < kSlipped);
+        Outcome& outcome = findings.compare(
+            {"compression at which it slips", "1", {{"friction", friction, "1"}}},
+            slipped ? states.back().compression : kNothing, theory ? theory->compression : kNothing,
+            promised(kSlipTolerance));
+        if (!slipped) outcome.reason = "it sticks";
+        rows.push_back({friction, outcome.measured, outcome.expected.value_or(kNothing)});
+    }
+    findings.curve(
+        "compression at which it slips", {{"friction", "1"}, {"measured", "1"}, {"theory", "1"}},
+        std::move(rows));
+
+    // With enough friction the same hair goes on along the same branch.
+    const std::vector<Pressed> states =
+        press(device, settings, kSticking, [](const Pressed&) { return false; });
+    double slid = 0.0;
+    for (const Pressed& at : states) slid = worst(slid, at.slid);
+    findings.deviation(
+        {"tip's way / length", "1", {{"friction", kSticking, "1"}}}, slid, promised(kSlipped));
+    for (const double ratio : kPressedFrictions) {
+        const auto theory = pressedRod(ratio);
+        double off = kNothing;
+        for (std::size_t i = 1; theory && i < states.size(); ++i)
+            if (states[i].compression >= theory->compression &&
+                states[i - 1].compression < theory->compression)
+                off = glm::distance(states[i].middle, theory->middle);
+        findings.deviation(
+            {"middle's distance from the elastica / length",
+             "1",
+             {{"compression", theory ? theory->compression : kNothing, "1"}}},
+            off, promised(kPressedTolerance));
+    }
 }
 
 }  // namespace benchmarks::physics

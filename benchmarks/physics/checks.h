@@ -57,13 +57,17 @@ void checkConvergence(const engine::Device&, hair::Solver, Findings&);
 void checkBendingFrequency(const engine::Device&, hair::Solver, Findings&);
 // A curl follows its root's turn about its own axis.
 void checkClampTwist(const engine::Device&, hair::Solver, Findings&);
-// How far a hanging curl leaves its plane.
+// How far a hanging curl leaves its plane, and from which curvature on.
 void checkBendTwist(const engine::Device&, hair::Solver, Findings&);
+// The length at which a level hair of an elliptic section leaves its plane, and where to.
+void checkLateralBuckling(const engine::Device&, hair::Solver, Findings&);
 // Where wind holds hanging hair, at any time step.
 void checkDragDeflection(const engine::Device&, hair::Solver, Findings&);
 // The speed at which hair that falls is borne by the air.
 void checkTerminalSpeed(const engine::Device&, hair::Solver, Findings&);
 
+// When a hair that is pressed onto the ground slips.
+void checkStickSlip(const engine::Device&, hair::Solver, Findings&);
 // Momentum that contact of hair with hair loses.
 void checkContactMomentum(const engine::Device&, hair::Solver, Findings&);
 

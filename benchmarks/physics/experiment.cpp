@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -46,6 +47,18 @@ straightStrand(std::uint32_t segments, double length, const glm::dvec3& directio
     for (std::uint32_t i = 0; i <= segments; ++i)
         points.push_back(length * i / segments * direction);
     return groomOf(points);
+}
+
+hair::groom::Groom straightStrands(
+    std::uint32_t segments, std::span<const double> lengths, const glm::dvec3& direction) {
+    hair::groom::Groom groom = straightStrand(segments, 1.0, direction);
+    const std::vector<glm::vec3> points = std::move(groom.points);
+    groom.strand_count = static_cast<std::uint32_t>(lengths.size());
+    groom.points.clear();
+    for (const double length : lengths)
+        for (const glm::vec3& point : points)
+            groom.points.push_back(static_cast<float>(length) * point);
+    return groom;
 }
 
 hair::groom::Groom curvedStrand(std::uint32_t segments, double length, double curvature) {
@@ -157,6 +170,10 @@ constexpr Lack kLacks[] = {
     {hair::Solver::ftl, Need::bending, "it has no bending stiffness"},
     {hair::Solver::ftl, Need::material, "it has no bending stiffness"},
     {hair::Solver::shape, Need::material, "its stiffness is no material's"},
+    {hair::Solver::shape, Need::sections, "its stiffness is no material's"},
+    {hair::Solver::ftl, Need::sections, "it has no bending stiffness"},
+    {hair::Solver::stable_cosserat, Need::sections, "its cross-sections are round"},
+    {hair::Solver::position_based_rod, Need::sections, "its cross-sections are round"},
     {hair::Solver::ftl, Need::iterations, "it has no iterations"},
 };
 

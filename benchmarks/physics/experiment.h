@@ -21,6 +21,10 @@ namespace benchmarks::physics {
 hair::groom::Groom
 straightStrand(std::uint32_t segments, double length, const glm::dvec3& direction);
 
+// As many strands from the origin along a unit vector, of these lengths. m
+hair::groom::Groom straightStrands(
+    std::uint32_t segments, std::span<const double> lengths, const glm::dvec3& direction);
+
 // A strand that is `length` long and constantly curved (1/m) from -y toward +x. Its vertices lie on
 // the circle.
 hair::groom::Groom curvedStrand(std::uint32_t segments, double length, double curvature);
@@ -108,6 +112,7 @@ enum class Need {
     equal_masses,  // in vertices
     bending,  // stiffness against it
     material,  // bending stiffness by a modulus
+    sections,  // that are not round
     iterations
 };
 

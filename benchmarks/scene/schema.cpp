@@ -68,6 +68,22 @@ Broken solverHasBalancedRest(const hair::Settings& s) {
     }
 }
 
+Broken solverHasEllipticSections(const hair::Settings& s) {
+    switch (s.simulation.solver) {
+    case hair::Solver::stable_cosserat:
+    case hair::Solver::position_based_rod:
+        if (s.simulation.material.ellipticity == 1.0f) return {};
+        return "is not 1, but of the solvers of rods only rod has sections that are not round";
+    default:
+        return {};
+    }
+}
+
+Broken solverCarriesContact(const hair::Settings& s) {
+    if (!s.simulation.collision.warm_start || s.simulation.solver == hair::Solver::rod) return {};
+    return "is on, but of the solvers only rod carries forces of contact";
+}
+
 Broken keyframesAscend(const hair::Settings& s) {
     const auto& keys = s.simulation.motion.keyframes;
     const auto late =
@@ -181,6 +197,8 @@ constexpr Rule kRules[] = {
     {"/groom/grow/parting/to", partingHasLength},
     {"/strands/source", groomHasStrandsOfItsOwn},
     {"/simulation/rest", solverHasBalancedRest},
+    {"/simulation/material/ellipticity", solverHasEllipticSections},
+    {"/simulation/collision/warm_start", solverCarriesContact},
     {"/simulation/wind/direction", windHasDirection},
     {"/simulation/motion/keyframes", keyframesAscend},
     {"/simulation/pulls", pullKeysAscend},

@@ -70,7 +70,7 @@ Joint jointAt(const RodState& state, const RodRest& rest, std::size_t i) {
     return bendAndTwist(
         state.orientations[i - 1] * rest.half_rotations[i],
         state.orientations[i] * glm::conjugate(rest.half_rotations[i]), rest.bend_stiffness[i],
-        rest.twist_stiffness[i], i == 1 ? Clamp::yes : Clamp::no);
+        rest.twist_stiffness[i], i == 1 ? Clamp::yes : Clamp::no, rest.ellipticity);
 }
 
 // A step's unknowns are rotations of the segments; the vertices follow, so that lengths never
@@ -230,7 +230,7 @@ void RodSubstep::finish() {
 
 Joint bendAndTwist(
     const glm::dquat& first, const glm::dquat& second, double bend_stiffness,
-    double twist_stiffness, Clamp clamp) {
+    double twist_stiffness, Clamp clamp, double ellipticity) {
     // The relative rotation: first a twist round the third axis, then a bend by `angle`. Opposite
     // third axes leave w = z = 0; which twist they get is of no account.
     glm::dquat r = glm::conjugate(first) * second;
@@ -258,19 +258,36 @@ Joint bendAndTwist(
     const double fade_slope = fades ? 2.0 * square / (square_there * square_there) : 0.0;
 
     const glm::dvec3 twist_gradient = axis + beside / square;
-    const glm::dvec3 gradient = bend_stiffness * bend.torque * bend_axis +
+    // K(p) of the frame halfway, whose axes are the first frame's after half of the twist, and how
+    // the energy changes with p, which half of a twist adds to and the bend's axis turns with.
+    const double direction = std::atan2(r.y, r.x);
+    const double squeezed = (ellipticity - 1.0 / ellipticity) / 2.0;
+    const double directed = bend_stiffness * ((ellipticity + 1.0 / ellipticity) / 2.0 +
+                                              squeezed * std::cos(2.0 * direction));
+    glm::dvec3 turning(0.0);
+    if (sine > 0.0)
+        turning = -bend_stiffness * squeezed * std::sin(2.0 * direction) * bend.energy *
+                  (axis - beside / (sine * sine));
+    // How the part of the bend grows that goes along the longer axis, at right angles to the first
+    // axis of the frame halfway: its square is what costs more than the shorter axis's.
+    const double along_longer = sine > 0.0 ? std::sqrt(2.0 * bend.energy) / sine : 2.0;
+    const glm::dvec3 stiff =
+        glm::dvec3(std::cos(twist / 2.0), std::sin(twist / 2.0), -0.5 * along_longer * r.y);
+
+    const glm::dvec3 gradient = directed * bend.torque * bend_axis + turning +
                                 twist_stiffness * (twist * fade * twist_gradient -
                                                    0.5 * twist * twist * fade_slope * across);
     // What the small rotations make of it; the torque is exact, and so is where Newton's method
     // goes.
     const glm::dmat3 stiffness =
-        bend_stiffness * (glm::dmat3(1.0) - glm::outerProduct(axis, axis) +
-                          (bend.stiffness - 1.0) * glm::outerProduct(bend_axis, bend_axis)) +
+        bend_stiffness * ((glm::dmat3(1.0) - glm::outerProduct(axis, axis)) / ellipticity +
+                          (ellipticity - 1.0 / ellipticity) * glm::outerProduct(stiff, stiff)) +
+        directed * (bend.stiffness - 1.0) * glm::outerProduct(bend_axis, bend_axis) +
         twist_stiffness * glm::outerProduct(axis, axis);
 
     const glm::dmat3 to_space = glm::mat3_cast(first);
     return {
-        .energy = bend_stiffness * bend.energy + twist_stiffness * fade * twist * twist / 2.0,
+        .energy = directed * bend.energy + twist_stiffness * fade * twist * twist / 2.0,
         .torque = -(to_space * gradient),
         .stiffness = to_space * stiffness * glm::transpose(to_space)};
 }
@@ -306,7 +323,13 @@ RodRest makeRodRest(std::span<const glm::dvec3> points, const RodMaterial& mater
     const double line_density = material.density * area;
     const double second_moment = area * material.radius * material.radius / 4.0;
 
-    RodRest rest{.points = {points.begin(), points.end()}};
+    // The torsion constant of an ellipse, pi a^3 b^3 / (a^2 + b^2).
+    const double longer = material.radius * std::sqrt(material.ellipticity);
+    const double shorter = material.radius / std::sqrt(material.ellipticity);
+    const double torsion =
+        std::numbers::pi * std::pow(longer * shorter, 3.0) / (longer * longer + shorter * shorter);
+
+    RodRest rest{.points = {points.begin(), points.end()}, .ellipticity = material.ellipticity};
     rest.lengths.assign(size, 0.0);
     double total = 0.0;
     for (std::size_t i = 1; i < size; ++i)
@@ -339,7 +362,7 @@ RodRest makeRodRest(std::span<const glm::dvec3> points, const RodMaterial& mater
             line_density * std::max((rest.lengths[i] + below) / 2.0, kLeastMass * mean));
         rest.inertias.push_back(line_density * turning * turning * turning / 12.0);
         rest.bend_stiffness.push_back(material.youngs_modulus * second_moment / short_joint);
-        rest.twist_stiffness.push_back(material.shear_modulus * 2.0 * second_moment / short_joint);
+        rest.twist_stiffness.push_back(material.shear_modulus * torsion / short_joint);
     }
     return rest;
 }

@@ -26,7 +26,8 @@ namespace hair::reference {
 
 struct RodMaterial {
     double density = 1320.0;  // kg/m^3
-    double radius = 37e-6;  // m
+    double radius = 37e-6;  // m, of a circle of the section's area
+    double ellipticity = 1.0;  // longer over shorter axis of the section
     double youngs_modulus = 3.9e9;  // Pa
     double shear_modulus = 0.6e9;  // Pa
 };
@@ -42,6 +43,7 @@ struct RodRest {
     std::vector<double> twist_stiffness;  // of joints, N m/rad
     std::vector<glm::dquat> orientations;  // of segments; the follicle's is the first one's
     std::vector<glm::dquat> half_rotations;  // at joints, half of the way from one to the next
+    double ellipticity = 1.0;  // bends round a frame's first axis are as much stiffer than that
 };
 
 struct RodState {
@@ -114,9 +116,13 @@ enum class Clamp { no, yes };
 // the stiffnesses being those at the single angle. Twisting by t round the axis that is left after
 // the smallest rotation between the third axes costs K t^2 / 2, which fades where the axes are more
 // than 120 degrees apart: there is no such rotation between opposite ones.
+//
+// Of a section with the axes' ratio e K is K (e cos^2 p + sin^2 p / e), p the direction of the
+// bend's axis from the first axis of the frame halfway between the two: the longer of the section's
+// axes is the frame's second.
 Joint bendAndTwist(
     const glm::dquat& first, const glm::dquat& second, double bend_stiffness,
-    double twist_stiffness, Clamp clamp);
+    double twist_stiffness, Clamp clamp, double ellipticity = 1.0);
 
 // The smallest rotation between unit vectors; between opposite ones, round an axis perpendicular to
 // the first and to the coordinate axis it has least of.

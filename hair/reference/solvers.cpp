@@ -67,6 +67,7 @@ RodSolver::RodSolver(
             std::vector<glm::dvec3>(points.begin(), points.end()),
             {.density = material.density,
              .radius = material.radius,
+             .ellipticity = material.ellipticity,
              .youngs_modulus = material.youngs_modulus,
              .shear_modulus = material.shear_modulus}));
         states_.push_back(rodAtRest(rests_.back()));

@@ -20,10 +20,12 @@ namespace {
 
 // As simulation/rod/joint.glsl has it, up to kMostBend: a bend by b between the third axes and a
 // twist by t round the axis between them cost -(4 / n^2) K ln cos(n b / 2) + K' t^2 / 2, n = 1, and
-// 2 at the follicle.
+// 2 at the follicle; of an elliptic section K is K (e cos^2 p + sin^2 p / e), p the direction of
+// the bend's axis in the frame halfway.
 struct JointStiffness {
     double bend, twist;
     bool at_follicle;
+    double ellipticity;
 };
 
 struct Strain {
@@ -47,14 +49,40 @@ glm::dvec3 gradientOf(const glm::dquat& strain, const JointStiffness& joint) {
     const glm::dvec3 across{r.w * r.x - r.z * r.y, r.w * r.y + r.z * r.x, 0.0};
     const glm::dvec3 beside{across.y, -across.x, 0.0};
     const double twist = 2.0 * std::atan2(r.z, r.w);
-    return joint.bend * 2.0 / (joint.at_follicle ? cosine : cosine2) * across +
-           joint.twist * twist * (glm::dvec3(0.0, 0.0, 1.0) + beside / cosine2);
+    const glm::dvec3 axis(0.0, 0.0, 1.0);
+    const glm::dvec3 twisting = joint.twist * twist * (axis + beside / cosine2);
+    const double sine2 = r.x * r.x + r.y * r.y;
+    if (joint.ellipticity == 1.0 || sine2 == 0.0)
+        return joint.bend * 2.0 / (joint.at_follicle ? cosine : cosine2) * across + twisting;
+    const double e = joint.ellipticity;
+    const double directed = joint.bend * (e * r.x * r.x + r.y * r.y / e) / sine2;
+    const double energy = joint.at_follicle ? -std::log1p(-2.0 * sine2) : -2.0 * std::log1p(-sine2);
+    return directed * 2.0 / (joint.at_follicle ? cosine : cosine2) * across + twisting +
+           joint.bend * (1.0 / e - e) * energy * r.x * r.y / sine2 * (axis - beside / sine2);
 }
 
-// The strain with that gradient: gradientOf() solved for it. Across the axis the gradient is
-// tan(b / 2) (A u + B u'), u the bend's axis and u' = (u.y, -u.x), A = 2 K, at the follicle
-// K tan(b) / tan(b / 2), and B = K' t.
-Strain strainOf(const glm::dvec3& gradient, const JointStiffness& joint) {
+// The gradient's change per rotation of the second frame, axes of space, by central differences: a
+// cube of their step, and roundings over it, are 1e-10 of the stiffness.
+glm::dmat3
+changeOf(const glm::dquat& first, const glm::dquat& second, const JointStiffness& joint) {
+    constexpr double kTurn = 1e-5;
+    glm::dmat3 change;
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 turn{0.0};
+        turn[axis] = kTurn / 2.0;
+        const auto at = [&](double sign) {
+            const glm::dquat turned = glm::normalize(glm::dquat(1.0, sign * turn)) * second;
+            return first * gradientOf(glm::conjugate(first) * turned, joint);
+        };
+        change[axis] = (at(1.0) - at(-1.0)) / (2.0 * kTurn);
+    }
+    return change;
+}
+
+// The strain with that gradient, of a round section: gradientOf() solved for it. Across the axis
+// the gradient is tan(b / 2) (A u + B u'), u the bend's axis and u' = (u.y, -u.x), A = 2 K, at the
+// follicle K tan(b) / tan(b / 2), and B = K' t.
+Strain strainOfRound(const glm::dvec3& gradient, const JointStiffness& joint) {
     const double twist = gradient.z / joint.twist;
     const std::complex<double> across(gradient.x, gradient.y);
     const double beside = joint.twist * twist;
@@ -81,6 +109,36 @@ Strain strainOf(const glm::dvec3& gradient, const JointStiffness& joint) {
     return {bend, {kept.real(), turned.real(), turned.imag(), kept.imag()}};
 }
 
+// The strain with that gradient. Of an elliptic section by Newton's method, from that of a round
+// one with the stiffness round each axis for its own part of the gradient. Absent where it would
+// have to bend too far.
+std::optional<Strain> strainOf(const glm::dvec3& gradient, const JointStiffness& joint) {
+    const double most_bend = joint.at_follicle ? kMostBend / 2.0 : kMostBend;
+    const double e = joint.ellipticity;
+    Strain strain = strainOfRound({gradient.x / e, gradient.y * e, gradient.z}, joint);
+    if (e == 1.0) return strain.bend <= most_bend ? std::optional(strain) : std::nullopt;
+
+    constexpr int kMostIterations = 50;
+    constexpr double kMostTurn = 0.2;  // rad, of a step
+    constexpr double kSolved = 1e-12;
+    const glm::dquat none(1.0, 0.0, 0.0, 0.0);
+    if (!(strain.bend <= most_bend)) strain.rotation = none;
+    for (int i = 0; i < kMostIterations; ++i) {
+        const glm::dvec3 missing = gradient - gradientOf(strain.rotation, joint);
+        glm::dvec3 turn = glm::inverse(changeOf(none, strain.rotation, joint)) * missing;
+        const double size = glm::length(turn);
+        if (!(size < 1e9)) return std::nullopt;
+        turn *= kMostTurn / std::max(size, kMostTurn);
+        strain.rotation =
+            shortWay(glm::normalize(glm::normalize(glm::dquat(1.0, turn / 2.0)) * strain.rotation));
+        strain.bend =
+            2.0 * std::asin(std::min(1.0, std::hypot(strain.rotation.x, strain.rotation.y)));
+        if (!(strain.bend <= most_bend)) return std::nullopt;
+        if (size < kSolved) return strain;
+    }
+    return std::nullopt;
+}
+
 // The rest rotation, by halves, at which the joint between these frames has that gradient, axes of
 // space: first h S h = second with the strain S, whose axes are first h. Absent where the joint
 // would have to bend too far.
@@ -90,13 +148,13 @@ std::optional<glm::dquat> halfRotationOf(
     constexpr int kMostIterations = 200;
     constexpr double kSolved = 1e-13;
     const glm::dquat between = glm::conjugate(first) * second;
-    const double most_bend = joint.at_follicle ? kMostBend / 2.0 : kMostBend;
     glm::dquat half = rootOf(between);
     double last_change = 1.0;
     for (int i = 0; i < kMostIterations; ++i) {
-        const Strain strain = strainOf(glm::conjugate(first * half) * gradient, joint);
-        if (!(strain.bend <= most_bend) || !(std::abs(strain.rotation.z) < 0.9))
-            return std::nullopt;
+        const std::optional<Strain> found =
+            strainOf(glm::conjugate(first * half) * gradient, joint);
+        if (!found || !(std::abs(found->rotation.z) < 0.9)) return std::nullopt;
+        const Strain& strain = *found;
         // (h S)^2 = between S.
         const glm::dquat next =
             shortWay(rootOf(between * strain.rotation) * glm::conjugate(strain.rotation));
@@ -119,24 +177,6 @@ bool isPositive(const glm::dmat3& m) {
            glm::determinant(m) > 0.0;
 }
 
-// The gradient's change per rotation of the second frame, axes of space, by central differences: a
-// cube of their step, and roundings over it, are 1e-10 of the stiffness.
-glm::dmat3
-changeOf(const glm::dquat& first, const glm::dquat& second, const JointStiffness& joint) {
-    constexpr double kTurn = 1e-5;
-    glm::dmat3 change;
-    for (int axis = 0; axis < 3; ++axis) {
-        glm::dvec3 turn{0.0};
-        turn[axis] = kTurn / 2.0;
-        const auto at = [&](double sign) {
-            const glm::dquat turned = glm::normalize(glm::dquat(1.0, sign * turn)) * second;
-            return first * gradientOf(glm::conjugate(first) * turned, joint);
-        };
-        change[axis] = (at(1.0) - at(-1.0)) / (2.0 * kTurn);
-    }
-    return change;
-}
-
 // What the joint resists rotations with when nothing loads it: its stiffness without what the
 // gradient itself adds, as the solver has it.
 glm::dmat3
@@ -148,7 +188,20 @@ unloadedOf(const glm::dquat& first, const glm::dquat& second, const JointStiffne
     const double cosine = glm::dot(axis, tangent);
     const double more =
         joint.at_follicle ? 1.0 / (cosine * cosine) : 1.0 / ((1.0 + cosine) * (1.0 + cosine));
-    return joint.bend * (glm::dmat3(1.0) - along + more * glm::outerProduct(across, across)) +
+    if (joint.ellipticity == 1.0)
+        return joint.bend * (glm::dmat3(1.0) - along + more * glm::outerProduct(across, across)) +
+               joint.twist * along;
+    const double e = joint.ellipticity;
+    const glm::dquat r = shortWay(glm::conjugate(first) * second);
+    const double sine2 = std::max(r.x * r.x + r.y * r.y, 1e-30);
+    const double length = std::hypot(r.w, r.z);
+    const double energy = joint.at_follicle ? -std::log1p(-2.0 * sine2) : -2.0 * std::log1p(-sine2);
+    const glm::dvec3 stiff =
+        first * glm::dvec3(r.w / length, r.z / length, -r.y * std::sqrt(energy / (2.0 * sine2)));
+    const double directed = (e * r.x * r.x + r.y * r.y / e) / sine2;
+    return joint.bend *
+               ((glm::dmat3(1.0) - along) / e + (e - 1.0 / e) * glm::outerProduct(stiff, stiff) +
+                directed * more * glm::outerProduct(across, across)) +
            joint.twist * along;
 }
 
@@ -174,7 +227,9 @@ Loads loadsOf(const HangingRod& rod) {
 }
 
 JointStiffness stiffnessOf(const HangingRod& rod, std::size_t i, double stiffening) {
-    return {stiffening * rod.bend_stiffness[i], stiffening * rod.twist_stiffness[i], i == 1};
+    return {
+        stiffening * rod.bend_stiffness[i], stiffening * rod.twist_stiffness[i], i == 1,
+        rod.ellipticity};
 }
 
 std::optional<std::vector<glm::dquat>>

@@ -18,6 +18,7 @@ struct HangingRod {
     std::vector<glm::dvec3> weights;  // on vertices
     std::vector<double> bend_stiffness;  // of joints, torque per angle
     std::vector<double> twist_stiffness;  // of joints, torque per angle
+    double ellipticity = 1.0;  // of the section: gpu::RodParameters
 };
 
 struct BalancedRod {

@@ -31,6 +31,11 @@ constexpr double kShortest = 1e-9;  // m
 constexpr double kShortestUnit = 1e-6;  // m, for strands without length
 constexpr double kLeastMass = 0.01;  // of a vertex, over the mean
 constexpr double kMostStiffness = 1e15;  // rigid beside any inertia; its square is a float
+// An ellipse of the area of a circle has the second moments I e and I / e, I the circle's, and the
+// torsion constant 4 I / (e + 1 / e), e the ratio of its axes: Timoshenko and Goodier 1951, Theory
+// of elasticity. This is 4 / (e + 1 / e).
+double torsionOf(double ellipticity) { return 4.0 / (ellipticity + 1.0 / ellipticity); }
+
 // Bound of the ratio of bending to twisting stiffness and of its inverse, far beyond any material:
 // where the two differ by 10^7, 32 bits lose the lesser one.
 constexpr double kMostAnisotropy = 1e3;
@@ -51,7 +56,8 @@ struct Strand {
 
 // `bending` is h^2 E I / lambda, m^4: over the fourth power of a length, the stiffness of a joint
 // of that length in its own units. `twisting` is G J / (E I).
-Strand restOfStrand(std::span<const glm::vec3> points, double bending, double twisting) {
+Strand restOfStrand(
+    std::span<const glm::vec3> points, double bending, double twisting, double ellipticity) {
     const std::size_t size = points.size();
     std::vector<double> lengths{0.0};
     for (std::size_t i = 1; i < size; ++i)
@@ -60,7 +66,8 @@ Strand restOfStrand(std::span<const glm::vec3> points, double bending, double tw
     for (const double length : lengths) unit += length / static_cast<double>(size - 1);
     unit = std::max(unit, kShortestUnit);
 
-    Strand strand{.rod = {}, .masses = {}, .half_rotations = {}, .unit = unit};
+    Strand strand{
+        .rod = {.ellipticity = ellipticity}, .masses = {}, .half_rotations = {}, .unit = unit};
     glm::dvec3 tangent{0.0, 1.0, 0.0};
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     for (std::size_t i = 0; i < size; ++i) {
@@ -107,14 +114,15 @@ void balance(
 
 RodRest
 restOfRods(const groom::Groom& groom, const SimulationSettings& settings, const gpu::Step& step) {
-    // I / A = R^2 / 4 and J = 2 I of a round section.
+    // I / A = R^2 / 4 of a round section.
     const MaterialSettings& material = settings.material;
     const double radius = material.radius;
     const double substep = step.sub;
     const double bending = substep * substep * double{material.youngs_modulus} * radius * radius /
                            (4.0 * double{material.density});
     const double twisting = std::clamp(
-        2.0 * double{material.shear_modulus} / double{material.youngs_modulus},
+        torsionOf(double{material.ellipticity}) * double{material.shear_modulus} /
+            double{material.youngs_modulus},
         1.0 / kMostAnisotropy, kMostAnisotropy);
     const glm::dvec3 pull = substep * substep * gravityOnGroom(settings);
 
@@ -124,7 +132,8 @@ restOfRods(const groom::Groom& groom, const SimulationSettings& settings, const 
         rest.balance.emplace();
     rest.segments.resize(groom.points.size() * gpu::kRodSegmentRows);
     for (std::uint32_t s = 0; s < groom.strand_count; ++s) {
-        Strand strand = restOfStrand(groom.strand(s), bending, twisting);
+        Strand strand =
+            restOfStrand(groom.strand(s), bending, twisting, double{material.ellipticity});
         if (rest.balance) balance(strand, s, pull, double{settings.most_stiffening}, *rest.balance);
         rest.units.push_back(static_cast<float>(strand.unit));
         for (std::size_t i = 0; i < strand.masses.size(); ++i) {
@@ -143,6 +152,7 @@ restOfRods(const groom::Groom& groom, const SimulationSettings& settings, const 
 
 static_assert(offsetof(gpu::RodParameters, most_strands) == 32);
 static_assert(offsetof(gpu::RodParameters, stretching) == 40);
+static_assert(offsetof(gpu::RodParameters, ellipticity) == 44);
 
 // Scratch memory takes at most this part of the device's own. Of the heap's size, not of what is
 // free in it: then the same case has the same dispatches every time.
@@ -168,7 +178,8 @@ RodMethod rodMethod(const SimulationSettings& settings) {
     return {
         .shader = "simulation/rod.comp",
         .packed_shader = "simulation/rod_packed.comp",
-        .scratch_rows = gpu::kRodScratchRows,
+        .scratch_rows = gpu::kRodScratchRows +
+                        (settings.collision.warm_start ? gpu::kRodContactScratchRows : 0),
         .iterations = settings.rod.iterations};
 }
 
@@ -219,14 +230,17 @@ RodSolver::RodSolver(
               .scratch = scratch_.address(),
               .most_strands = most_strands_,
               .iterations = method.iterations,
-              .stretching = static_cast<float>(method.stretching * step.sub * step.sub)}}),
+              .stretching = static_cast<float>(method.stretching * step.sub * step.sub),
+              .ellipticity = settings.material.ellipticity}}),
           "rod parameters")),
       step_(
-          device,
-          {.shader =
-               device.has(engine::Feature::long_integers) ? method.packed_shader : method.shader,
-           .constants = {{gpu::kContinuousCollisionConstant, settings.collision.continuous}},
-           .push_size = sizeof(gpu::SubstepPush)}),
+          device, {.shader = device.has(engine::Feature::long_integers) ? method.packed_shader
+                                                                        : method.shader,
+                   .constants =
+                       {{gpu::kContinuousCollisionConstant, settings.collision.continuous},
+                        {gpu::kEllipticSectionConstant, settings.material.ellipticity != 1.0f},
+                        {gpu::kWarmStartConstant, settings.collision.warm_start}},
+                   .push_size = sizeof(gpu::SubstepPush)}),
       adopt_(
           device, {.shader = "simulation/rod_adopt.comp", .push_size = sizeof(gpu::SubstepPush)}) {}
 

@@ -147,4 +147,8 @@ const uint kShapeVerticesPerChunkConstant = 4u;
 // Of every solver: simulation/constraints/bodies.glsl.
 const uint kContinuousCollisionConstant = 5u;
 
+// Of the solver `rod`: simulation/rod/joint.glsl and simulation/rod.glsl.
+const uint kEllipticSectionConstant = 6u;
+const uint kWarmStartConstant = 7u;
+
 #endif

@@ -19,7 +19,8 @@ const uint kRodHalfRotation = 0u;  // at rest, half of the way from the segment 
 const uint kRodStiffness = 1u;  // rest length; mass of the vertex where it ends; stiffness of the
                                 // joint where it starts, per radian, against bending and twisting
 
-// Rows of how a segment and the vertex where it ends move; w is unused but in the first.
+// Rows of how a segment and the vertex where it ends move. The last three's w are x, y and z of the
+// force of contact that is carried, by how far it would move the vertex in a substep.
 const uint kRodMotionRows = 4u;
 const uint kRodOrientation = 0u;  // unit quaternion; takes z to the segment's direction
 const uint kRodAngularVelocity = 1u;  // axes of space
@@ -29,6 +30,7 @@ const uint kRodMisfit = 3u;  // by how much its edge is not its length along its
 
 // Rows of scratch memory, of the strands of a dispatch.
 const uint kRodScratchRows = 9u;
+const uint kRodContactScratchRows = 2u;  // more where `rod` carries forces of contact
 const uint kStableCosseratScratchRows = 4u;
 const uint kPositionBasedScratchRows = 5u;
 
@@ -42,6 +44,8 @@ struct RodParameters {
     uint iterations;
     float stretching;  // modulus of stretch and shear over the density, times the substep squared,
                        // m^2; `rod` has none
+    float ellipticity;  // of the cross-section: the stiffness round the first axis of a segment's
+                        // frame is a joint's times that, round the second one over that
 };
 
 #endif

@@ -4,19 +4,32 @@
 // tip up: Featherstone 1983, The calculation of robot dynamics using articulated-body inertias. See
 // rod.h for the rod and for where it comes from, rod_structs.h for the units. Before it:
 // common/vectors.glsl or common/packed_vectors.glsl.
+#include "shared/options.h"
 #include "shared/rod_structs.h"
+
+// Whether forces of contact are carried: simulation/rod/contact.glsl.
+layout(constant_id = kWarmStartConstant) const bool kWarmStart = false;
 
 // Rows of the scratch memory: 0 to 2 the columns of `by_move` with `by_itself` as the last row, 3
 // to 5 those of `by_turn`, 6 the vertex's displacement and 7 the segment's rotation, both since the
-// prediction; 8 the tangent that air brakes it across, and by how much: air_drag.glsl.
-const uint kScratchRows = kRodScratchRows;
+// prediction; 8 the tangent that air brakes it across, and by how much: air_drag.glsl. Where forces
+// of contact are carried, 9 and 10 have what holds it: its Hold.
+const uint kScratchRows = kRodScratchRows + (kWarmStart ? kRodContactScratchRows : 0u);
 
+#include "simulation/rod/contact.glsl"
 #include "simulation/rod/joint.glsl"
 #include "simulation/rod/strand.glsl"
 #include "simulation/rod/symmetric.glsl"
 
 const float kMostTurn = 1.0;  // rad in an iteration; a Newton step from far away can overshoot
 const float kPinMass = 100.0;  // of a pinned vertex, over the strand's: a stiff spring to its place
+
+float pinMass() { return kPinMass * float(guides.vertices_per_strand - 1); }
+
+Hold holdAt(uint i) {
+    vec4 facing = scratchAt(i, 9);
+    return Hold(facing.xyz, facing.w, scratchAt(i, 10).xyz);
+}
 
 // Velocities with the forces of the substep, and where they would take the strand.
 void predict() {
@@ -53,6 +66,14 @@ void predict() {
             motion.velocity = vec3(0.0);
             displacement = (root_now - positions.at[root + i].xyz) / unit + edges;
         }
+        if (kWarmStart) {
+            Hold hold = kNoHold;
+            if (!isPinned(i) && motion.contact != vec3(0.0))
+                hold = holdOf(i, positions.at[root + i].xyz, motion.contact, motion.velocity);
+            if (hold.normal == vec3(0.0)) motion.contact = vec3(0.0);
+            setScratch(i, 9, vec4(hold.normal, hold.what));
+            setScratch(i, 10, vec4(hold.offset, 0.0));
+        }
         setMotion(i, motion);
         setScratch(i, 6, vec4(displacement, 0.0));
         setScratch(i, 7, vec4(0.0));
@@ -77,7 +98,7 @@ void eliminate() {
         mat3 from_space = transpose(matrixOf(orientation));
         vec3 displacement = from_space * scratchAt(i, 6).xyz;
         vec3 rotation = from_space * scratchAt(i, 7).xyz;
-        float mass = isPinned(i) ? kPinMass * float(guides.vertices_per_strand - 1) : segment.mass;
+        float mass = isPinned(i) ? pinMass() : segment.mass;
         float turning_length = max(segment.rest_length, kLeastLength);
         float inertia = turning_length * turning_length * turning_length / 12.0;
 
@@ -90,6 +111,16 @@ void eliminate() {
             float heavier = mass * brake.w;
             A += heavier * (mat3(1.0) - outerProduct(tangent, tangent));
             held += heavier * (displacement - dot(tangent, displacement) * tangent);
+        }
+        if (kWarmStart) {
+            Hold hold = holdAt(i);
+            if (hold.normal != vec3(0.0)) {
+                vec3 contact = motionAt(i).contact;
+                mat3 holds = pinMass() * heldBy(hold, contact);
+                A += from_space * holds * transpose(from_space);
+                held += from_space * (holds * (scratchAt(i, 6).xyz + hold.offset) -
+                                      segment.mass * contact);
+            }
         }
         force += held;
         float straightening = segment.rest_length * max(-force.z, 0.0);
@@ -109,7 +140,7 @@ void eliminate() {
         RodJoint joint = bendAndTwist(
             multiply(above, segment.half_rotation),
             multiply(orientation, conjugate(segment.half_rotation)), segment.bend_stiffness,
-            segment.twist_stiffness, i == 1);
+            segment.twist_stiffness, rod.ellipticity, i == 1);
         vec3 torque = from_space * joint.torque;
         mat3 stiffness = symmetric(from_space * joint.stiffness * transpose(from_space));
 
@@ -180,6 +211,19 @@ void finish() {
             vec3 free = root_now + unit * edges;
             vec3 held = heldByBodies(i, free, before, contact, pushed);
             motion.velocity += scratchAt(i, 6).xyz + pushed;
+            if (kWarmStart) {
+                Hold hold = holdAt(i);
+                if (hold.normal == vec3(0.0)) {
+                    motion.contact = pushed;
+                } else {
+                    float mass =
+                        segmentRow(rod.segments, i, kRodStiffness, guides.strand_count, strand).y;
+                    vec3 off = scratchAt(i, 6).xyz + hold.offset;
+                    vec3 force = motion.contact -
+                                 pinMass() / mass * (heldBy(hold, motion.contact) * off);
+                    motion.contact = withinCone(hold, force, off, guides.bodies.friction);
+                }
+            }
             point.xyz = held;
         }
         positions.at[root + i] = point;

@@ -44,6 +44,7 @@ void main() {
                     2.0 * rotationBetween(normalize(edge_before), tangent).xyz;
         }
         motion.orientation = orientation;
+        motion.contact = vec3(0.0);
         motion.misfit = edge / unit - len * axisOf(orientation);
         storeMotion(rod.motion, i, strands, strand, motion);
     }

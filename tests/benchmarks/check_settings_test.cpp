@@ -101,6 +101,26 @@ TEST(CheckSettings, WantsWindToBlowSomewhere) {
         "/simulation/wind/direction: has no length while /simulation/wind/speed is above 0");
 }
 
+TEST(CheckSettings, WantsSolversThatKnowSectionsAndForcesOfContact) {
+    const auto with = [](hair::Solver solver, float ellipticity, bool warm_start) {
+        return broken([&](hair::Settings& s) {
+            s.simulation.solver = solver;
+            s.simulation.material.ellipticity = ellipticity;
+            s.simulation.collision.warm_start = warm_start;
+        });
+    };
+    EXPECT_EQ(with(hair::Solver::rod, 1.8f, true), "no error");
+    EXPECT_EQ(with(hair::Solver::shape, 1.8f, false), "no error");  // it has no material
+    EXPECT_EQ(
+        with(hair::Solver::stable_cosserat, 1.8f, false),
+        "/simulation/material/ellipticity: is not 1, but of the solvers of rods only rod has "
+        "sections that are not round");
+    EXPECT_EQ(
+        with(hair::Solver::shape, 1.0f, true),
+        "/simulation/collision/warm_start: is on, but of the solvers only rod carries forces of "
+        "contact");
+}
+
 TEST(CheckSettings, WantsKeyframesInOrder) {
     const auto times = [](std::vector<float> all) {
         return broken([&](hair::Settings& s) {

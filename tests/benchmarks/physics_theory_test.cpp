@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "benchmarks/physics/experiment.h"
+#include "benchmarks/physics/kirchhoff.h"
 #include "benchmarks/physics/theory.h"
 
 namespace benchmarks::physics {
@@ -163,6 +164,109 @@ TEST(PhysicsTheory, DragsRodsOfTheSameRatioOfWindToStiffnessToTheSameShape) {
     EXPECT_NEAR(small.x, large.x, 1e-6);
     EXPECT_NEAR(small.y, large.y, 1e-6);
     EXPECT_GT(small.x, 0.5);
+}
+
+// Level, deep and thin: q L^3 = 12.85 sqrt(B C), Timoshenko and Gere 1961, Theory of elastic
+// stability, section 6.3. Bending in the plane a million times as stiff moves that by as little.
+TEST(PhysicsTheory, ADeepCantileverFallsOverWherePrandtlHasIt) {
+    for (const auto& [weak, twisting] : {std::pair{1.0, 1.0}, {2.0, 0.5}, {0.3, 3.0}}) {
+        const ClampedRod rod{
+            .section = {.strong = 1e6, .weak = weak, .twisting = twisting},
+            .weight = 1.0,
+            .length = 0.0,
+            .clamp = kPi / 2.0};
+        const auto length = bucklingLength(rod, 10.0);
+        ASSERT_TRUE(length);
+        EXPECT_NEAR(std::pow(*length, 3.0) / std::sqrt(weak * twisting), 12.85, 0.01);
+    }
+}
+
+// Standing: q L^3 / B = 9/4 j^2 = 7.837, j = 1.8664 the first root of the Bessel function of order
+// -1/3 (Greenhill 1881), whatever resists twisting. Hanging: never.
+TEST(PhysicsTheory, AStandingRodFallsOverWhereGreenhillHasIt) {
+    ClampedRod rod{
+        .section = {.strong = 3.0, .weak = 1.0, .twisting = 0.7},
+        .weight = 1.0,
+        .length = 0.0,
+        .clamp = kPi};
+    const auto length = bucklingLength(rod, 4.0);
+    ASSERT_TRUE(length);
+    EXPECT_NEAR(std::pow(*length, 3.0), 7.837, 0.002);
+    rod.clamp = 0.0;
+    EXPECT_FALSE(bucklingLength(rod, 4.0));
+}
+
+// Beyond the weight w0 at which the linear equations say that it leaves its plane, Kirchhoff's own
+// have a state out of it whose distance grows as the root of what the weight is more: the straight
+// line through two squares begins at w0, but for the second order of 0.02.
+TEST(PhysicsTheory, ABuckledRodBeginsInItsPlane) {
+    hair::MaterialSettings material;
+    for (const float ellipticity : {1.8f, 4.0f}) {
+        material.ellipticity = ellipticity;
+        ClampedRod rod{
+            .section = sectionStiffness(material),
+            .weight = lineDensity(material) * kGravity,
+            .length = 0.0,
+            .clamp = kPi / 2.0};
+        const auto critical = bucklingLength(rod, 0.3);
+        ASSERT_TRUE(critical);
+        const auto square = [&](double weight) {
+            rod.length = *critical * std::cbrt(weight);
+            const auto tip = buckledTip(rod);
+            return tip ? std::pow(tip->z / rod.length, 2.0) : std::nan("");
+        };
+        const double near = square(1.01);
+        const double far = square(1.02);
+        EXPECT_NEAR(1.01 - near * 0.01 / (far - near), 1.0, 1e-3);
+        EXPECT_GT(far, 1e-3);
+        rod.length = 0.99 * *critical;
+        EXPECT_FALSE(buckledTip(rod));
+    }
+    // A round hair never does.
+    material.ellipticity = 1.0f;
+    EXPECT_FALSE(bucklingLength(
+        {.section = sectionStiffness(material),
+         .weight = lineDensity(material) * kGravity,
+         .length = 0.0,
+         .clamp = kPi / 2.0},
+        0.3));
+}
+
+TEST(PhysicsTheory, KnowsTheStiffnessOfARoundAndAFlatSection) {
+    hair::MaterialSettings material;
+    const SectionStiffness round = sectionStiffness(material);
+    const double bending = bendingStiffness(material);
+    EXPECT_NEAR(round.strong / bending, 1.0, 1e-12);
+    EXPECT_NEAR(round.weak / bending, 1.0, 1e-12);
+    // J = 2 I.
+    const double ratio = double{material.shear_modulus} / double{material.youngs_modulus};
+    EXPECT_NEAR(round.twisting / bending, 2.0 * ratio, 1e-12);
+    material.ellipticity = 2.0f;
+    const SectionStiffness flat = sectionStiffness(material);
+    EXPECT_NEAR(flat.strong / bending, 2.0, 1e-12);
+    EXPECT_NEAR(flat.weak / bending, 0.5, 1e-12);
+    EXPECT_NEAR(flat.twisting / bending, 2.0 * ratio * 0.8, 1e-12);
+}
+
+// Euler's column, clamped and hinged: P = k^2, tan k = k, k = 4.49341; near that psi = c (cos k z -
+// cos k) and y(1) = 1 - integral of psi^2 / 2, so that Q / P is -cos k / (1 - cos k) of the tip's
+// angle and its square is 2 cos^2 k / (mean of (cos k z - cos k)^2) of the compression; the mean is
+// 1/2 + sin 2k / 4k - 2 cos k sin k / k + cos^2 k.
+TEST(PhysicsTheory, APressedRodBeginsAsEulersColumn) {
+    constexpr double kRoot = 4.493409457909064;
+    const double cosine = std::cos(kRoot);
+    const double sine = std::sin(kRoot);
+    const double mean =
+        0.5 + std::sin(2.0 * kRoot) / (4.0 * kRoot) - 2.0 * cosine * sine / kRoot + cosine * cosine;
+    const auto pressed = pressedRod(0.01);
+    ASSERT_TRUE(pressed);
+    EXPECT_NEAR(pressed->pressure, kRoot * kRoot, 1e-2);
+    EXPECT_NEAR(pressed->shear / pressed->pressure, 0.01, 1e-9);
+    EXPECT_NEAR(
+        1e-4 / pressed->compression, 2.0 * cosine * cosine / mean, 2e-3 * cosine * cosine / mean);
+    // Farther on it lies on the ground beside the tip.
+    EXPECT_TRUE(pressedRod(0.3));
+    EXPECT_FALSE(pressedRod(0.6));
 }
 
 // Two steps by hand: x1 = v h + a h^2, x2 = 2 x1 - x0 + a h^2.

@@ -85,6 +85,24 @@ TEST_F(Physics, RodSwingsAtTheFirstBendingFrequency) {
     expectPass(findings);
 }
 
+TEST_F(Physics, RodWindsOutOfItsPlaneWhereKirchhoffsDoes) {
+    Findings findings("bend_twist", hair::Solver::rod);
+    checkBendTwist(device(), hair::Solver::rod, findings);
+    expectPass(findings);
+}
+
+TEST_F(Physics, RodBucklesSidewaysWhereKirchhoffsDoes) {
+    Findings findings("lateral_buckling", hair::Solver::rod);
+    checkLateralBuckling(device(), hair::Solver::rod, findings);
+    expectPass(findings);
+}
+
+TEST_F(Physics, RodSticksAndSlipsAsCoulombsCone) {
+    Findings findings("stick_slip", hair::Solver::rod);
+    checkStickSlip(device(), hair::Solver::rod, findings);
+    expectPass(findings);
+}
+
 TEST_F(Physics, RodRestsInWindLikeAnElastica) {
     Findings findings("drag_deflection", hair::Solver::rod);
     checkDragDeflection(device(), hair::Solver::rod, findings);

@@ -120,6 +120,18 @@ TEST_P(EveryGpuRod, TakesTheReferencesSteps) {
             }
 }
 
+// A section that is not round bends and twists as the reference's, at rest and bent by its weight.
+TEST_F(GpuRod, TakesTheReferencesStepsWithAnEllipticSection) {
+    for (const float ellipticity : {1.0f, 1.8f, 6.0f})
+        for (const std::uint32_t vertices : {3u, 17u, 65u}) {
+            SimulationSettings settings = rodSettings();
+            settings.material.ellipticity = ellipticity;
+            const groom::Groom groom = wavyGroom(10, vertices, 0.2 / (vertices - 1.0));
+            EXPECT_LT(departure(groom, settings, 1), 1e-5) << vertices << ' ' << ellipticity;
+            EXPECT_LT(departure(groom, settings, 100), 2e-5) << vertices << ' ' << ellipticity;
+        }
+}
+
 // Half a second with everything that acts on a strand. Rounding moves a vertex that touches a body
 // to where the body's normal is another, and errors add up faster than without.
 TEST_P(EveryGpuRod, FollowsTheHeadAndKeepsOutOfBodiesAsTheReferenceDoes) {

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -14,8 +15,8 @@ const glm::dquat kNoTurn(1.0, 0.0, 0.0, 0.0);
 glm::dquat about(const glm::dvec3& axis, double angle) { return glm::angleAxis(angle, axis); }
 
 // The torque on the second frame is minus the gradient of the energy by its rotation, whatever the
-// two stiffnesses, also where the bend is linear and the twist fades. Central differences of 1e-5
-// rad leave 1e-10 of the third derivative, which is some 1e3 near the fold.
+// two stiffnesses and the section, also where the bend is linear and the twist fades. Central
+// differences of 1e-5 rad leave 1e-10 of the third derivative, which is some 1e3 near the fold.
 TEST(RodJoint, TorqueIsTheGradientOfTheEnergy) {
     std::mt19937 random(5);
     for (const Clamp clamp : {Clamp::no, Clamp::yes})
@@ -28,15 +29,17 @@ TEST(RodJoint, TorqueIsTheGradientOfTheEnergy) {
             const double twist = 2.5 * simulation::randomSigned(random);
             const glm::dquat second =
                 first * about(bend_axis, bend) * about({0.0, 0.0, 1.0}, twist);
-            const Joint joint = bendAndTwist(first, second, 2.0, 0.7, clamp);
+            const double ellipticity = i % 2 == 0 ? 1.0 : 2.5;
+            const auto joined = [&](const glm::dquat& turn) {
+                return bendAndTwist(first, turn * second, 2.0, 0.7, clamp, ellipticity);
+            };
+            const Joint joint = joined(kNoTurn);
             for (int k = 0; k < 3; ++k) {
                 constexpr double kStep = 1e-5;
                 glm::dvec3 axis(0.0);
                 axis[k] = 1.0;
-                const double more =
-                    bendAndTwist(first, about(axis, kStep) * second, 2.0, 0.7, clamp).energy;
-                const double less =
-                    bendAndTwist(first, about(axis, -kStep) * second, 2.0, 0.7, clamp).energy;
+                const double more = joined(about(axis, kStep)).energy;
+                const double less = joined(about(axis, -kStep)).energy;
                 EXPECT_NEAR(joint.torque[k], -(more - less) / (2.0 * kStep), 1e-6)
                     << "bend " << bend << " twist " << twist;
             }
@@ -55,6 +58,24 @@ TEST(RodJoint, BendsAsTheDiscreteElastica) {
             bendAndTwist(kNoTurn, bent, 3.0, 1.0, Clamp::yes).torque.y, -3.0 * std::tan(angle),
             1e-12);
     }
+}
+
+// Second moments of an ellipse of the ratio e are e times and 1 / e of those of the circle of its
+// area. Round an axis between the two a twist would follow; halfway they are e / 2 + 1 / 2 e.
+TEST(RodJoint, BendsAlongTheShorterAxisMoreEasily) {
+    constexpr double kEllipticity = 1.8;
+    for (const double angle : {1e-6, 0.1, 1.0})
+        for (const auto& [axis, factor] :
+             {std::pair{glm::dvec3(1.0, 0.0, 0.0), kEllipticity},
+              {{0.0, 1.0, 0.0}, 1.0 / kEllipticity},
+              {glm::normalize(glm::dvec3(1.0, 1.0, 0.0)),
+               (kEllipticity + 1.0 / kEllipticity) / 2.0}})
+            EXPECT_NEAR(
+                glm::dot(
+                    axis,
+                    bendAndTwist(kNoTurn, about(axis, angle), 3.0, 1.0, Clamp::no, kEllipticity)
+                        .torque),
+                -6.0 * factor * std::tan(angle / 2.0), 1e-12);
 }
 
 TEST(RodJoint, TwistsLinearly) {

@@ -14,14 +14,15 @@ namespace hair::simulation {
 namespace {
 
 // Hair of default material under gravity, in SI units.
-HangingRod hanging(const std::vector<glm::dvec3>& points) {
-    const reference::RodRest rest = reference::makeRodRest(points, {});
+HangingRod hanging(const std::vector<glm::dvec3>& points, double ellipticity = 1.0) {
+    const reference::RodRest rest = reference::makeRodRest(points, {.ellipticity = ellipticity});
     HangingRod rod{
         .orientations = rest.orientations,
         .edges = {},
         .weights = {},
         .bend_stiffness = rest.bend_stiffness,
-        .twist_stiffness = rest.twist_stiffness};
+        .twist_stiffness = rest.twist_stiffness,
+        .ellipticity = ellipticity};
     for (std::size_t i = 0; i < points.size(); ++i) {
         rod.edges.push_back(i > 0 ? points[i] - points[i - 1] : glm::dvec3(0.0));
         rod.weights.emplace_back(0.0, -kEarth * rest.masses[i], 0.0);
@@ -46,7 +47,7 @@ std::vector<glm::dvec3> wavyRod(std::uint32_t seed, int vertices, double segment
 TEST(RodBalance, JointsBearTheWeightBelow) {
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
         const std::vector<glm::dvec3> points = wavyRod(seed, 12, 0.01);
-        const HangingRod rod = hanging(points);
+        const HangingRod rod = hanging(points, seed % 2 == 0 ? 1.0 : 1.8);
         const auto balanced = balanceRod(rod, 64.0);
         ASSERT_TRUE(balanced) << seed;
         ASSERT_EQ(balanced->half_rotations.size(), points.size());
@@ -59,7 +60,7 @@ TEST(RodBalance, JointsBearTheWeightBelow) {
                 rod.orientations[i - 1] * half, rod.orientations[i] * glm::conjugate(half),
                 balanced->stiffening * rod.bend_stiffness[i],
                 balanced->stiffening * rod.twist_stiffness[i],
-                i == 1 ? reference::Clamp::yes : reference::Clamp::no);
+                i == 1 ? reference::Clamp::yes : reference::Clamp::no, rod.ellipticity);
             EXPECT_LT(glm::length(joint.torque + moment), 1e-9 * glm::length(moment) + 1e-20)
                 << seed << ' ' << i;
         }
@@ -85,6 +86,18 @@ TEST(RodBalance, AStandingRodIsStiffenedToGreenhillsBound) {
         EXPECT_LT(balanced->stiffening, 1.01 * 1.05 * least) << gamma;
         EXPECT_FALSE(balanceRod(rod, 0.98 * least)) << gamma;
     }
+}
+
+// It buckles along the shorter axis of an elliptic section, as many times sooner.
+TEST(RodBalance, AFlatStandingRodIsStiffenedAlongItsShorterAxis) {
+    constexpr double kBound = 7.837;
+    constexpr double kEllipticity = 1.8;
+    const auto rod = hanging(straightRod(64, lengthFor(7.0, {}), {0.0, 1.0, 0.0}), kEllipticity);
+    const auto balanced = balanceRod(rod, 16.0);
+    ASSERT_TRUE(balanced);
+    const double least = kLoadMargin * 7.0 * kEllipticity / kBound;
+    EXPECT_GT(balanced->stiffening, 0.99 * least);
+    EXPECT_LT(balanced->stiffening, 1.01 * 1.05 * least);
 }
 
 TEST(RodBalance, AHangingRodNeedsNoStiffening) {

@@ -2,6 +2,10 @@
 #define HAIRBENCH_SIMULATION_ROD_JOINT_GLSL
 
 #include "common/quaternion.glsl"
+#include "shared/options.h"
+
+// Whether cross-sections are ellipses, so that a rod bends round one axis more easily.
+layout(constant_id = kEllipticSectionConstant) const bool kEllipticSection = false;
 
 // What bends and twists a rod, between two frames that coincide at rest: the discrete elastica of
 // Bobenko and Suris 1999, Discrete time Lagrangian mechanics on Lie groups, with the energy
@@ -10,6 +14,9 @@
 // 2 at the follicle, where half of a joint and its mirror image bend twice as much. Where n b is
 // beyond 120 degrees the torque of the bend goes on as a straight line; where b is, the twist
 // fades. No trigonometry where it counts: Vulkan only asks 11 bits of it.
+//
+// Where the section is an ellipse, K is K(p) = K (e cos^2 p + sin^2 p / e), p the direction of the
+// bend's axis in the frame halfway between the two, and e the ellipse's ratio of axes.
 struct RodJoint {
     vec3 torque;     // on the second frame, axes of space; the first gets its opposite
     mat3 stiffness;  // torque per small rotation of the second frame
@@ -26,8 +33,19 @@ float twistAngle(float z, float w, float c) {
     return 8.0 * t * series;
 }
 
+// -ln(1 - x) / x, 0 <= x <= 3/4, by the series of 2 artanh(q) with q = x / (2 - x): off by less
+// than 5e-5, and by rounding at small x.
+float logarithmOver(float x) {
+    float q = x / (2.0 - x);
+    float s = q * q;
+    float series = 1.0 + s * (1.0 / 3.0 + s * (1.0 / 5.0 + s * (1.0 / 7.0 + s * (1.0 / 9.0 + s * (
+        1.0 / 11.0 + s * (1.0 / 13.0 + s / 15.0))))));
+    return 2.0 / (2.0 - x) * series;
+}
+
 RodJoint bendAndTwist(
-    vec4 first, vec4 second, float bend_stiffness, float twist_stiffness, bool at_follicle) {
+    vec4 first, vec4 second, float bend_stiffness, float twist_stiffness, float ellipticity,
+    bool at_follicle) {
     vec4 r = multiply(conjugate(first), second);
     if (r.w < 0.0) r = -r;
     float cosine2 = r.w * r.w + r.z * r.z;  // of half the bend, squared
@@ -42,6 +60,7 @@ RodJoint bendAndTwist(
 
     float torque;  // over K times `across`
     float more;    // what the stiffness round `across` exceeds K by, over K and the square of it
+    float energy = 0.0;  // over K times `sine2`, of an ellipse
     float cosine = cosine2 - sine2;  // of the bend
     bool along_line = at_follicle ? cosine < 0.5 : cosine2 < 0.25;
     if (along_line) {
@@ -50,12 +69,16 @@ RodJoint bendAndTwist(
         float beyond = 2.0 * atan(sqrt(sine2), sqrt(cosine2)) - 2.0943951 / n;
         torque = (3.4641016 / n + 4.0 * beyond) / product;
         more = 3.0 / (product * product);
+        if (kEllipticSection)
+            energy = (2.7725887 / (n * n) + beyond * (3.4641016 / n + 2.0 * beyond)) / sine2;
     } else if (at_follicle) {
         torque = 2.0 / cosine;
         more = 4.0 / (cosine * cosine);
+        if (kEllipticSection) energy = 2.0 * logarithmOver(2.0 * sine2);
     } else {
         torque = 2.0 / cosine2;
         more = 1.0 / (cosine2 * cosine2);
+        if (kEllipticSection) energy = 2.0 * logarithmOver(sine2);
     }
 
     float twist = twistAngle(r.z, r.w, sqrt(cosine2));
@@ -63,9 +86,30 @@ RodJoint bendAndTwist(
     float fade = fades ? 16.0 * cosine2 * cosine2 : 1.0;
     float fade_slope = fades ? 32.0 * cosine2 : 0.0;
     vec3 axis = vec3(0.0, 0.0, 1.0);
-    vec3 gradient = bend_stiffness * torque * across +
+    float directed = bend_stiffness;  // K(p)
+    if (kEllipticSection)
+        directed *= (ellipticity * r.x * r.x + r.y * r.y / ellipticity) / max(sine2, 1.0e-30);
+    vec3 gradient = directed * torque * across +
                     twist_stiffness * (twist * fade * (axis + beside / cosine2) -
                                        0.5 * twist * twist * fade_slope * across);
+
+    if (kEllipticSection) {
+        // The energy's change with p, which grows by half of axis - beside / sine2.
+        gradient += bend_stiffness * (1.0 / ellipticity - ellipticity) * energy * r.x * r.y *
+                    (axis - beside / max(sine2, 1.0e-30));
+        // As much of the bend as goes along the longer axis grows along `stiff`; what bends along
+        // the shorter one resists twists by that.
+        vec3 stiff = rotate(
+            first, vec3(r.w, r.z, 0.0) * inversesqrt(cosine2) - r.y * sqrt(0.5 * energy) * axis);
+        axis = rotate(first, axis);
+        across = rotate(first, across);
+        mat3 along_tangent = outerProduct(axis, axis);
+        return RodJoint(
+            -rotate(first, gradient),
+            bend_stiffness * ((mat3(1.0) - along_tangent) / ellipticity +
+                              (ellipticity - 1.0 / ellipticity) * outerProduct(stiff, stiff)) +
+                directed * more * outerProduct(across, across) + twist_stiffness * along_tangent);
+    }
 
     axis = rotate(first, axis);
     across = rotate(first, across);

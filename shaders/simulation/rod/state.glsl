@@ -23,6 +23,7 @@ struct RodMotion {
     vec3 angular_velocity;
     vec3 velocity;
     vec3 misfit;
+    vec3 contact;  // the force of bodies on the vertex, if that is carried
 };
 
 // Where a row of vertex i is in an array of so many rows a vertex and strands a row.
@@ -45,20 +46,24 @@ uint motionIndex(uint i, uint row, uint strands, uint strand) {
 }
 
 RodMotion loadMotion(Address motion, uint i, uint strands, uint strand) {
+    vec4 orientation = loadVector(motion, motionIndex(i, kRodOrientation, strands, strand));
+    vec4 turns = loadVector(motion, motionIndex(i, kRodAngularVelocity, strands, strand));
+    vec4 moves = loadVector(motion, motionIndex(i, kRodVelocity, strands, strand));
+    vec4 misfit = loadVector(motion, motionIndex(i, kRodMisfit, strands, strand));
     return RodMotion(
-        loadVector(motion, motionIndex(i, kRodOrientation, strands, strand)),
-        loadVector(motion, motionIndex(i, kRodAngularVelocity, strands, strand)).xyz,
-        loadVector(motion, motionIndex(i, kRodVelocity, strands, strand)).xyz,
-        loadVector(motion, motionIndex(i, kRodMisfit, strands, strand)).xyz);
+        orientation, turns.xyz, moves.xyz, misfit.xyz, vec3(turns.w, moves.w, misfit.w));
 }
 
 void storeMotion(Address motion, uint i, uint strands, uint strand, RodMotion moves) {
     storeVector(motion, motionIndex(i, kRodOrientation, strands, strand), moves.orientation);
     storeVector(
         motion, motionIndex(i, kRodAngularVelocity, strands, strand),
-        vec4(moves.angular_velocity, 0.0));
-    storeVector(motion, motionIndex(i, kRodVelocity, strands, strand), vec4(moves.velocity, 0.0));
-    storeVector(motion, motionIndex(i, kRodMisfit, strands, strand), vec4(moves.misfit, 0.0));
+        vec4(moves.angular_velocity, moves.contact.x));
+    storeVector(
+        motion, motionIndex(i, kRodVelocity, strands, strand),
+        vec4(moves.velocity, moves.contact.y));
+    storeVector(
+        motion, motionIndex(i, kRodMisfit, strands, strand), vec4(moves.misfit, moves.contact.z));
 }
 
 // The third axis of the frame that a unit quaternion turns to.

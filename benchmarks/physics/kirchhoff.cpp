@@ -1,0 +1,365 @@
+#include "benchmarks/physics/kirchhoff.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include <glm/ext/quaternion_double.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "benchmarks/physics/theory.h"
+
+namespace benchmarks::physics {
+namespace {
+
+constexpr int kRodSteps = 500;
+
+// Runge and Kutta's fourth order from the tip of a rod of length 1 to its clamp, by the distance z
+// from the tip.
+template <std::size_t kSize, class Slope>
+std::array<double, kSize> integrate(std::array<double, kSize> at, const Slope& slope) {
+    constexpr double h = 1.0 / kRodSteps;
+    using State = std::array<double, kSize>;
+    const auto moved = [](const State& from, double by, const State& along) {
+        State to = from;
+        for (std::size_t i = 0; i < kSize; ++i) to[i] += by * along[i];
+        return to;
+    };
+    for (int i = 0; i < kRodSteps; ++i) {
+        const double z = i * h;
+        const State k1 = slope(z, at);
+        const State k2 = slope(z + h / 2.0, moved(at, h / 2.0, k1));
+        const State k3 = slope(z + h / 2.0, moved(at, h / 2.0, k2));
+        const State k4 = slope(z + h, moved(at, h, k3));
+        for (std::size_t j = 0; j < kSize; ++j)
+            at[j] += h / 6.0 * (k1[j] + 2.0 * k2[j] + 2.0 * k3[j] + k4[j]);
+    }
+    return at;
+}
+
+// The root of a function by Newton's method with a derivative by differences, from nearby. Steps
+// are at most `most` long. Not a number where it is not found.
+template <class Function>
+double rootNear(double at, double most, const Function& function) {
+    constexpr double kStep = 1e-6;
+    for (int i = 0; i < 50; ++i) {
+        const double slope = (function(at + kStep) - function(at - kStep)) / (2.0 * kStep);
+        const double change = std::clamp(-function(at) / slope, -most, most);
+        at += change;
+        if (std::abs(change) < 1e-11) return at;
+    }
+    return std::nan("");
+}
+
+// The same of as many functions of as many variables.
+template <class Vector, class Matrix, class Function>
+std::optional<Vector> rootsNear(Vector at, double most, const Function& function) {
+    constexpr double kStep = 1e-6;
+    for (int i = 0; i < 50; ++i) {
+        Matrix slopes;
+        for (int j = 0; j < Vector::length(); ++j) {
+            Vector more = at;
+            Vector less = at;
+            more[j] += kStep;
+            less[j] -= kStep;
+            slopes[j] = (function(more) - function(less)) / (2.0 * kStep);
+        }
+        Vector change = glm::inverse(slopes) * -function(at);
+        const double size = glm::length(change);
+        if (!(size < 1e9)) return {};
+        change *= most / std::max(size, most);
+        at += change;
+        if (size < 1e-9) return at;
+    }
+    return {};
+}
+
+// ---- A rod in its plane, and small rotations out of it ------------------------------------------
+
+// In units of the length and the strong stiffness.
+struct UnitRod {
+    double weak, twisting;
+    double weight;
+    double clamp;
+    double turn;
+};
+
+UnitRod unitRod(const ClampedRod& rod) {
+    return {
+        .weak = rod.section.weak / rod.section.strong,
+        .twisting = rod.section.twisting / rod.section.strong,
+        .weight = rod.weight * std::pow(rod.length, 3.0) / rod.section.strong,
+        .clamp = rod.clamp,
+        .turn = rod.turn};
+}
+
+// Angle from -y and its change with s, then a2, a3, M2 and M3 of two states that begin at the tip.
+using PlanarState = std::array<double, 10>;
+
+PlanarState fromTip(const UnitRod& rod, double tip) {
+    const auto slope = [&](double z, const PlanarState& at) {
+        const double below = rod.weight * z;
+        const double n2 = below * std::sin(at[0]);
+        const double n3 = below * std::cos(at[0]);
+        const double curvature = at[1];
+        const double moment = curvature - rod.turn;
+        PlanarState change{-curvature, -n2};
+        for (std::size_t first = 2; first < 10; first += 4) {
+            const double a2 = at[first];
+            const double a3 = at[first + 1];
+            const double m2 = at[first + 2];
+            const double m3 = at[first + 3];
+            change[first] = -((m2 - moment * a3) / rod.weak + curvature * a3);
+            change[first + 1] = -((m3 + moment * a2) / rod.twisting - curvature * a2);
+            change[first + 2] = -(curvature * m3 + n3 * a2);
+            change[first + 3] = curvature * m2 + n2 * a2;
+        }
+        return change;
+    };
+    return integrate<10>({tip, rod.turn, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0}, slope);
+}
+
+// The tip's angle of the rod at rest in its plane, from that of a slightly different one.
+double tipNear(const UnitRod& rod, double tip) {
+    return rootNear(tip, 0.2, [&](double angle) { return fromTip(rod, angle)[0] - rod.clamp; });
+}
+
+double stabilityOf(const UnitRod& rod, double tip) {
+    const PlanarState at = fromTip(rod, tip);
+    return at[2] * at[7] - at[3] * at[6];
+}
+
+// Goes along the states in the plane as the weight grows from 0.
+class GrowingWeight {
+public:
+    explicit GrowingWeight(const UnitRod& rod) : rod_(rod), tip_(rod.clamp + rod.turn) {
+        rod_.weight = 0.0;
+    }
+
+    void growTo(double weight) {
+        while (rod_.weight < weight) {
+            rod_.weight = std::min(weight, next());
+            tip_ = tipNear(rod_, tip_);
+        }
+    }
+
+    // A weight that the state in the plane is followed to at once, and within which the rod leaves
+    // its plane at most once: it does at more than 12 sqrt(B C).
+    double next() const {
+        return std::max(
+            1.03 * rod_.weight, rod_.weight + 0.2 * std::sqrt(rod_.weak * rod_.twisting));
+    }
+
+    const UnitRod& rod() const { return rod_; }
+    double tip() const { return tip_; }
+    double stability() const { return stabilityOf(rod_, tip_); }
+
+private:
+    UnitRod rod_;
+    double tip_;
+};
+
+// The state at which the rod leaves its plane, up to the weight that it has.
+std::optional<GrowingWeight> leavingPlane(const UnitRod& rod) {
+    GrowingWeight growing(rod);
+    GrowingWeight before = growing;
+    while (growing.stability() > 0.0) {
+        if (!(growing.rod().weight < rod.weight)) return {};
+        before = growing;
+        growing.growTo(std::min(rod.weight, before.next()));
+    }
+    if (!(growing.stability() <= 0.0)) return {};
+    double high = growing.rod().weight;
+    for (int i = 0; i < 40; ++i) {
+        GrowingWeight middle = before;
+        middle.growTo((before.rod().weight + high) / 2.0);
+        if (middle.stability() > 0.0)
+            before = middle;
+        else
+            high = middle.rod().weight;
+    }
+    return before;
+}
+
+}  // namespace
+
+SectionStiffness sectionStiffness(const hair::MaterialSettings& material) {
+    const double longer = double{material.radius} * std::sqrt(double{material.ellipticity});
+    const double shorter = double{material.radius} / std::sqrt(double{material.ellipticity});
+    const double young = double{material.youngs_modulus};
+    return {
+        .strong = young * kPi * std::pow(longer, 3.0) * shorter / 4.0,
+        .weak = young * kPi * longer * std::pow(shorter, 3.0) / 4.0,
+        .twisting = double{material.shear_modulus} * kPi * std::pow(longer * shorter, 3.0) /
+                    (longer * longer + shorter * shorter)};
+}
+
+double outOfPlaneStability(const ClampedRod& rod) {
+    GrowingWeight growing(unitRod(rod));
+    growing.growTo(unitRod(rod).weight);
+    return growing.stability();
+}
+
+std::optional<double> bucklingLength(ClampedRod rod, double most) {
+    rod.length = most;
+    const auto leaving = leavingPlane(unitRod(rod));
+    if (!leaving) return {};
+    return std::cbrt(leaving->rod().weight * rod.section.strong / rod.weight);
+}
+
+std::optional<double> leavingTurn(ClampedRod rod, double most) {
+    const auto stays = [&](double turn) {
+        rod.turn = turn;
+        return outOfPlaneStability(rod) > 0.0;
+    };
+    double high = 1.0;
+    while (stays(high))
+        if (++high > most) return {};
+    double low = high - 1.0;
+    for (int i = 0; i < 13; ++i) {
+        const double middle = (low + high) / 2.0;
+        (stays(middle) ? low : high) = middle;
+    }
+    return low;
+}
+
+namespace {
+
+// ---- A rod out of its plane ---------------------------------------------------------------------
+
+// Where the clamp is and how it is turned if the tip is at the origin and turned like that, seen
+// from the tip's place. Frames' third axis is the tangent; they bend strongly round the first.
+struct FromTip {
+    glm::dvec3 clamp;
+    glm::dquat frame;
+};
+
+// Position, frame and moment by the distance z from the tip: m' = -t x n, the frame turns with the
+// curvature m.d1 + turn, m.d2 / B, m.d3 / C.
+FromTip spaceFromTip(const UnitRod& rod, const glm::dquat& tip) {
+    using SpaceState = std::array<double, 10>;
+    const auto slope = [&](double z, const SpaceState& at) {
+        const glm::dquat frame = glm::normalize(glm::dquat(at[3], at[4], at[5], at[6]));
+        const glm::dvec3 moment(at[7], at[8], at[9]);
+        const glm::dvec3 tangent = frame * glm::dvec3(0.0, 0.0, 1.0);
+        const glm::dvec3 own = glm::conjugate(frame) * moment;
+        const glm::dvec3 curvature(own.x + rod.turn, own.y / rod.weak, own.z / rod.twisting);
+        const glm::dquat turned = glm::dquat(0.0, -0.5 * (frame * curvature)) * frame;
+        const glm::dvec3 change = glm::cross(tangent, glm::dvec3(0.0, -rod.weight * z, 0.0));
+        return SpaceState{-tangent.x, -tangent.y, -tangent.z, turned.w, turned.x,
+                          turned.y,   turned.z,   change.x,   change.y, change.z};
+    };
+    const SpaceState at =
+        integrate<10>({0.0, 0.0, 0.0, tip.w, tip.x, tip.y, tip.z, 0.0, 0.0, 0.0}, slope);
+    return {{at[0], at[1], at[2]}, glm::normalize(glm::dquat(at[3], at[4], at[5], at[6]))};
+}
+
+// The frame of a section in the plane: its first axis is +z.
+glm::dquat planarFrame(double angle) {
+    const glm::dvec3 tangent(std::sin(angle), -std::cos(angle), 0.0);
+    const glm::dvec3 out(0.0, 0.0, 1.0);
+    return glm::quat_cast(glm::dmat3(out, glm::cross(tangent, out), tangent));
+}
+
+// The rotation by a vector, to second order.
+glm::dquat rotationBy(const glm::dvec3& vector) {
+    return glm::normalize(glm::dquat(1.0, 0.5 * vector));
+}
+
+}  // namespace
+
+std::optional<glm::dvec3> buckledTip(const ClampedRod& rod) {
+    UnitRod unit = unitRod(rod);
+    const double weight = unit.weight;
+    const auto leaving = leavingPlane(unit);
+    if (!leaving) return {};
+    const glm::dquat planar_tip = planarFrame(leaving->tip());
+    const glm::dquat clamp = planarFrame(unit.clamp);
+    // By how much the clamp is turned from where it ought to be.
+    const auto missed = [&](const glm::dvec3& turn, double with_weight) {
+        unit.weight = with_weight;
+        const FromTip end = spaceFromTip(unit, planar_tip * rotationBy(turn));
+        const glm::dquat off = glm::conjugate(clamp) * end.frame;
+        return glm::dvec3(off.x, off.y, off.z) * (off.w < 0.0 ? -2.0 : 2.0);
+    };
+    // Along the branch by the tip's turn round its second axis, the weight being unknown, up to the
+    // rod's own weight.
+    glm::dvec3 at(0.0, 0.0, leaving->rod().weight);  // turns round the other axes, and weight
+    double sideways = 0.0;
+    while (at.z < weight) {
+        sideways += 0.05;
+        if (sideways > 3.0) return {};
+        const auto next = rootsNear<glm::dvec3, glm::dmat3>(
+            at, 0.3, [&](const glm::dvec3& x) { return missed({x.x, sideways, x.y}, x.z); });
+        if (!next) return {};
+        at = *next;
+    }
+    const auto turn = rootsNear<glm::dvec3, glm::dmat3>(
+        {at.x, sideways, at.y}, 0.3, [&](const glm::dvec3& x) { return missed(x, weight); });
+    if (!turn) return {};
+    glm::dvec3 tip = -rod.length * spaceFromTip(unit, planar_tip * rotationBy(*turn)).clamp;
+    tip.z = std::abs(tip.z);
+    return tip;
+}
+
+namespace {
+
+// ---- A rod pressed onto the ground --------------------------------------------------------------
+
+// Angle from the vertical, its slope, x and y at the clamp.
+std::array<double, 4> pressedFromTip(double tip, const glm::dvec2& forces, double length) {
+    const auto slope = [&](double, const std::array<double, 4>& at) {
+        const double bends = forces.x * std::cos(at[0]) - forces.y * std::sin(at[0]);
+        return std::array{
+            length * at[1], length * bends, length * std::sin(at[0]), length * std::cos(at[0])};
+    };
+    return integrate<4>({tip, 0.0, 0.0, 0.0}, slope);
+}
+
+}  // namespace
+
+std::optional<PressedRod> pressedRod(double force_ratio) {
+    // Where the straight rod buckles Q / P is 0.1785 of the tip's angle: psi = c (cos k z - cos k)
+    // with tan k = k.
+    constexpr double kBuckling = 4.493409457909064;
+    glm::dvec2 forces(0.0, kBuckling * kBuckling);
+    glm::dvec2 forces_before = forces;
+    const auto solve = [&](double tip, const glm::dvec2& near) {
+        return rootsNear<glm::dvec2, glm::dmat2>(near, 3.0, [&](const glm::dvec2& x) {
+            const auto clamp = pressedFromTip(tip, x, 1.0);
+            return glm::dvec2(clamp[0], clamp[2]);
+        });
+    };
+    constexpr double kStep = 0.02;  // rad, of the tip's angle
+    double tip = 0.0;
+    while (std::abs(forces.x) < force_ratio * forces.y) {
+        forces_before = forces;
+        tip += kStep;
+        if (tip > kPi / 2.0) return {};
+        const auto next = solve(tip, forces);
+        if (!next) return {};
+        forces = *next;
+    }
+    double low = tip - kStep;
+    for (double high = tip; high - low > 1e-12;) {
+        tip = (low + high) / 2.0;
+        const auto between = solve(tip, forces_before);
+        if (!between) return {};
+        forces = *between;
+        (std::abs(forces.x) < force_ratio * forces.y ? low : high) = tip;
+    }
+    const auto clamp = pressedFromTip(tip, forces, 1.0);
+    const auto middle = pressedFromTip(tip, forces, 0.5);
+    return PressedRod{
+        .compression = 1.0 - clamp[3],
+        .pressure = forces.y,
+        .shear = std::abs(forces.x),
+        .middle = {std::abs(middle[2]), middle[3]}};
+}
+
+}  // namespace benchmarks::physics
