@@ -41,6 +41,7 @@ constexpr Check kChecks[] = {
     {"drag_deflection", checkDragDeflection},
     {"terminal_speed", checkTerminalSpeed},
     {"contact_momentum", checkContactMomentum},
+    {"friction_invariance", checkFrictionInvariance},
     {"length", checkLength},
     {"energy", checkEnergy},
     {"step_invariance", checkStepInvariance},
