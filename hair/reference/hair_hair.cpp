@@ -156,7 +156,9 @@ volumeAccelerations(const SimulationSettings& settings, const VolumeState& state
     const double decay = std::pow(1.0 - contact.friction, 60.0 * step);
     const double exponent = -60.0 * step * std::log(1.0 - contact.friction);
     const double foreseen =
-        contact.friction > 0.0f ? std::min(1.0 - (1.0 - decay) / exponent, 0.75) : 0.0;
+        contact.friction > 0.0f
+            ? std::min(1.0 - (1.0 - decay) / exponent, contact.repulsion > 0.0f ? decay : 0.75)
+            : 0.0;
     std::vector<glm::dvec3> left;
     const double repulsion =
         std::min(double(contact.repulsion), 0.5 * (box.cell / step) * (box.cell / step));

@@ -78,11 +78,13 @@ struct Friction {
 };
 
 // The parts that friction takes in a step, of the differences at its start and of what is added.
-Friction frictionIn(double setting, double step) {
+Friction frictionIn(const HairHairSettings& contact, double step) {
+    const double setting = contact.friction;
     if (setting == 0.0) return {};
     const double rate = -std::log1p(-setting) / kReferenceStep;
     const double settled = -std::expm1(-rate * step);
-    return {.settled = settled, .foreseen = std::min(1.0 - settled / (rate * step), kMostForeseen)};
+    const double most = contact.repulsion > 0.0f ? 1.0 - settled : kMostForeseen;
+    return {.settled = settled, .foreseen = std::min(1.0 - settled / (rate * step), most)};
 }
 
 // The parameters without the addresses.
@@ -91,7 +93,7 @@ parametersOf(const groom::Groom& groom, const SimulationSettings& settings, cons
     const HairHairSettings& contact = settings.hair_hair;
     const VolumeGrid grid = volumeGrid(groom, contact.resolution);
     const double whole = step.whole;
-    const Friction friction = frictionIn(contact.friction, whole);
+    const Friction friction = frictionIn(contact, whole);
     const double fastest = grid.cell / whole;  // m/s, that stays within a cell
     const double repulsion =
         std::min(double{contact.repulsion}, kGreatestRepulsion * fastest * fastest);

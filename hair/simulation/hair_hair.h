@@ -55,7 +55,10 @@ double meanRestDensity(const groom::Groom& groom, const VolumeGrid& grid);
 // fall with 0.72 g at 1/60 s. What is foreseen wrongly, where hair hits something, is put right in
 // the next steps. With a in [0, 1] that friction takes of a mode of d_p, the step's matrix has the
 // determinant f (1 - a) and the trace 1 - a s + f (1 - a), f = 1 - s / (r dt): it is stable for
-// every r and dt. f is used up to 3/4, r dt = 3.9; what slides steadily beyond feels less.
+// every r and dt. f is used up to 3/4, r dt = 3.9; what slides steadily beyond feels less. An
+// explicit spring of the stiffness w^2 / dt^2, as repulsion is, stays stable beside it for w^2 < 2
+// (2 - s) / (1 + f): where there is repulsion f is used up to 1 - s, r dt = 1, so that this is
+// never below 2.
 //
 // Repulsion: the pressure k (m_i - crowded), where it is positive, of a gas with the speed of sound
 // sqrt(k). Its energy E(m_i) has the slope E' = k ln(m_i / crowded); what each strand would have
