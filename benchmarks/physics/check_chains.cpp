@@ -41,7 +41,7 @@ void checkCatenary(const engine::Device& device, hair::Solver solver, Findings& 
     settings.substeps = 1;
     settings.friction = frictionOf(std::sqrt(kGravity / kCatenaryLength) * 2.0);
     Experiment experiment(device, vee(), settings);
-    experiment.pin(kCatenarySegments);
+    experiment.pin(std::array{kCatenarySegments});
     const bool still = experiment.settle(1e-5 * kCatenaryLength, 10.0);
 
     const Catenary catenary(kCatenarySpan, kCatenaryLength);

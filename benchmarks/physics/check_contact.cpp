@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "benchmarks/physics/kirchhoff.h"
 #include "benchmarks/physics/theory.h"
 #include "hair/simulation/hair_hair.h"
+#include "hair/simulation/stiffness.h"
 
 namespace benchmarks::physics {
 namespace {
@@ -217,6 +220,73 @@ std::vector<Pressed> press(
     return states;
 }
 
+// ---- Friction -----------------------------------------------------------------------------------
+
+// Two bundles that lie in each other and slide along themselves. Every cell has as much of either,
+// so that friction with the rate r, exp(-r / 60 s) = 1 - setting, brakes each toward the mean of
+// both: where nothing else acts the difference of their velocities dies as exp(-r t), and where one
+// is held and the other falls, that one falls at 2 g / r. Ends stick out and are left out: what
+// differs there reaches some cells far.
+
+constexpr std::uint32_t kSlidingStrands = 3;  // of a bundle
+constexpr std::uint32_t kSlidingVertices = 65;
+constexpr double kSlidingLength = 0.2;  // m
+constexpr double kSlidingSpeed = 0.05;  // m/s, of each bundle
+constexpr double kSlidingTime = 1.0 / 15.0;  // s
+constexpr float kSlidingFriction = 0.5f;
+constexpr double kSlidingRates[] = {30.0, 60.0, 120.0, 480.0};  // time steps, 1/s
+// Settings of friction at which hair comes down, and its weight: slow, so that it ends where it
+// began but for some cells.
+constexpr float kFallingFrictions[] = {0.5f, 0.8f};
+constexpr double kFallingWeight = 1.0;  // m/s^2
+constexpr double kFallingTime = 0.5;  // s; more than ten times what it takes to come to its speed
+// Floats of 0.1 m are rounded to 4e-9 m, which at 1/480 s is 1e-3 of the least speed; vertices lie
+// less than half a cell apart, and what their splines miss of a constant density is 2e-3.
+constexpr double kSlidingTolerance = 5e-3;
+
+hair::SimulationSettings slidingHair(hair::Solver solver, float friction, double rate) {
+    hair::SimulationSettings settings = freeHair(solver);
+    settings.gravity = glm::vec3(0.0f);
+    settings.local.stiffness = 0.0f;
+    settings.length.iterations = 0;
+    settings.hair_hair.resolution = 64;
+    settings.hair_hair.friction = friction;
+    settings.time_step = static_cast<float>(1.0 / rate);
+    return settings;
+}
+
+hair::groom::Groom slidingGroom() {
+    hair::groom::Groom groom{
+        .strand_count = 2 * kSlidingStrands, .vertices_per_strand = kSlidingVertices};
+    for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand)
+        for (std::uint32_t i = 0; i < kSlidingVertices; ++i)
+            groom.points.emplace_back(
+                0.0, kSlidingLength * (0.5 - static_cast<double>(i) / (kSlidingVertices - 1)), 0.0);
+    return groom;
+}
+
+// Mean velocities of the two bundles' middle thirds along y, over the experiment's next step.
+std::array<double, 2> slidingVelocities(Experiment& experiment) {
+    const std::vector<glm::dvec3> before = experiment.positions();
+    experiment.advance(1);
+    const std::vector<glm::dvec3> after = experiment.positions();
+    std::array<double, 2> velocities{};
+    constexpr std::uint32_t kFirst = kSlidingVertices / 3;
+    constexpr std::uint32_t kLast = kSlidingVertices - kFirst;
+    for (std::uint32_t strand = 0; strand < 2 * kSlidingStrands; ++strand)
+        for (std::uint32_t i = kFirst; i < kLast; ++i) {
+            const std::size_t vertex = std::size_t{strand} * kSlidingVertices + i;
+            velocities[strand / kSlidingStrands] += (after[vertex].y - before[vertex].y) /
+                                                    experiment.timeStep() /
+                                                    (kSlidingStrands * (kLast - kFirst));
+        }
+    return velocities;
+}
+
+double frictionRate(float setting) {
+    return -std::log1p(-double{setting}) / hair::simulation::kReferenceStep;
+}
+
 }  // namespace
 
 void checkStickSlip(const engine::Device& device, hair::Solver solver, Findings& findings) {
@@ -265,6 +335,49 @@ void checkStickSlip(const engine::Device& device, hair::Solver solver, Findings&
              {{"compression", theory ? theory->compression : kNothing, "1"}}},
             off, promised(kPressedTolerance));
     }
+}
+
+void checkFrictionInvariance(
+    const engine::Device& device, hair::Solver solver, Findings& findings) {
+    if (const auto why = lack(solver, Need::free_vertices)) return findings.skip(*why);
+    const hair::groom::Groom groom = slidingGroom();
+    const std::vector<glm::dvec3> points(groom.points.begin(), groom.points.end());
+    const std::size_t half = points.size() / 2;
+    for (const double rate : kSlidingRates) {
+        Experiment experiment(device, groom, slidingHair(solver, kSlidingFriction, rate));
+        std::vector<glm::dvec3> velocities(points.size(), {0.0, kSlidingSpeed, 0.0});
+        for (std::size_t i = half; i < points.size(); ++i) velocities[i] *= -1.0;
+        experiment.launch(points, velocities);
+        // What a vertex moves in the last step is its velocity at that step's end.
+        experiment.advance(experiment.stepsIn(kSlidingTime) - 1);
+        const auto [up, down] = slidingVelocities(experiment);
+        findings.compare(
+            {"difference of velocities that free hair keeps",
+             "1",
+             {{"time step", 1.0 / rate, "s"}}},
+            (up - down) / (2.0 * kSlidingSpeed),
+            std::exp(-frictionRate(kSlidingFriction) * kSlidingTime), kSlidingTolerance);
+    }
+    std::vector<std::uint32_t> held(half);
+    std::iota(held.begin(), held.end(), 0u);
+    for (const float friction : kFallingFrictions)
+        for (const double rate : kSlidingRates)
+            for (const std::uint32_t substeps : {1u, 4u}) {
+                hair::SimulationSettings settings = slidingHair(solver, friction, rate);
+                settings.gravity = {0.0f, static_cast<float>(-kFallingWeight), 0.0f};
+                settings.substeps = substeps;
+                Experiment experiment(device, groom, settings);
+                experiment.pin(held);
+                experiment.advance(experiment.stepsIn(kFallingTime) - 1);
+                findings.compare(
+                    {"speed at which hair slides down held hair",
+                     "m/s",
+                     {{"friction", friction, "1"},
+                      {"time step", 1.0 / rate, "s"},
+                      {"substeps", static_cast<double>(substeps), "1"}}},
+                    -slidingVelocities(experiment)[1],
+                    2.0 * kFallingWeight / frictionRate(friction), kSlidingTolerance);
+            }
 }
 
 }  // namespace benchmarks::physics

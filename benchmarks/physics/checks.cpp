@@ -43,6 +43,7 @@ constexpr Check kChecks[] = {
     {"terminal_speed", checkTerminalSpeed},
     {"stick_slip", checkStickSlip},
     {"contact_momentum", checkContactMomentum},
+    {"friction_invariance", checkFrictionInvariance},
     {"length", checkLength},
     {"energy", checkEnergy},
     {"step_invariance", checkStepInvariance},

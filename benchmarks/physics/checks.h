@@ -70,6 +70,8 @@ void checkTerminalSpeed(const engine::Device&, hair::Solver, Findings&);
 void checkStickSlip(const engine::Device&, hair::Solver, Findings&);
 // Momentum that contact of hair with hair loses.
 void checkContactMomentum(const engine::Device&, hair::Solver, Findings&);
+// How fast hair slides past hair, at any time step.
+void checkFrictionInvariance(const engine::Device&, hair::Solver, Findings&);
 
 // ---- Against itself -----------------------------------------------------------------------------
 

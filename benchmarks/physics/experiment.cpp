@@ -119,7 +119,7 @@ void Experiment::launch(
     simulation_.setState(toFloat(positions), previous);
 }
 
-void Experiment::pin(std::uint32_t vertex) { simulation_.pin(std::span(&vertex, 1)); }
+void Experiment::pin(std::span<const std::uint32_t> vertices) { simulation_.pin(vertices); }
 
 std::vector<glm::dvec3> Experiment::positions() const {
     const std::vector<glm::vec3> points = simulation_.readPositions();

@@ -47,7 +47,7 @@ public:
     void place(std::span<const glm::dvec3> positions);
     // Sets positions and velocities, both of one substep ago. m/s
     void launch(std::span<const glm::dvec3> positions, std::span<const glm::dvec3> velocities);
-    void pin(std::uint32_t vertex);
+    void pin(std::span<const std::uint32_t> vertices);
 
     std::vector<glm::dvec3> positions() const;
 

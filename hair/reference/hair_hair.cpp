@@ -152,7 +152,14 @@ volumeAccelerations(const SimulationSettings& settings, const VolumeState& state
     const Box box = boxOf(state, contact.resolution);
     const std::vector<double> shares = sharesOf(state);
     const double crowded = contact.crowding * meanDensityAtRest(state.rest, box, shares);
-    const double kept = std::pow(1.0 - contact.friction, 60.0 * step);
+    // The exact solution over a step, with what friction does of what else acts.
+    const double decay = std::pow(1.0 - contact.friction, 60.0 * step);
+    const double exponent = -60.0 * step * std::log(1.0 - contact.friction);
+    const double foreseen =
+        contact.friction > 0.0f
+            ? std::min(1.0 - (1.0 - decay) / exponent, contact.repulsion > 0.0f ? decay : 0.75)
+            : 0.0;
+    std::vector<glm::dvec3> left;
     const double repulsion =
         std::min(double(contact.repulsion), 0.5 * (box.cell / step) * (box.cell / step));
 
@@ -195,9 +202,14 @@ volumeAccelerations(const SimulationSettings& settings, const VolumeState& state
             push /= 2.0;
             const double greatest = box.cell / (step * step);
             if (glm::length(push) > greatest) push *= greatest / glm::length(push);
-            accelerations[p] = (1.0 - kept) / step * drag + state.frame.rotation * push;
+            const bool known = state.kept != nullptr && !state.kept->empty();
+            const glm::dvec3 driven = known ? drag - (*state.kept)[p] : glm::dvec3(0.0);
+            const glm::dvec3 braked = (1.0 - decay) * drag + foreseen * driven;
+            left.push_back(drag - braked);
+            accelerations[p] = braked / step + state.frame.rotation * push;
         }
     }
+    if (state.kept != nullptr) *state.kept = left;
     return accelerations;
 }
 

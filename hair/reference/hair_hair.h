@@ -19,6 +19,9 @@ struct VolumeState {
     std::span<const glm::dvec3> previous;    // m, a substep earlier
     Step step;
     simulation::RigidMotion frame;                       // of the head at the end of the step
+    // What friction left of each vertex's difference in the step before, m/s; becomes that of this
+    // one. Empty: there was none. Null: nobody wants to know.
+    std::vector<glm::dvec3>* kept = nullptr;
 };
 
 // What hair gives hair over the next step, [strand][vertex], m/s^2: the equations of

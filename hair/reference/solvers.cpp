@@ -297,6 +297,7 @@ void Reference::setState(
     assert(positions.size() == rest_.size() && previous.size() == rest_.size());
     positions_.assign(positions.begin(), positions.end());
     previous_.assign(previous.begin(), previous.end());
+    friction_kept_.clear();
     if (!solver_) return;
     for (std::size_t strand = 0; strand < rest_.size() / vertices_; ++strand)
         solver_->adopt(
@@ -343,7 +344,8 @@ void Reference::advance(const Air& air, double then) {
                     .positions = positions_,
                     .previous = previous_,
                     .step = step_,
-                    .frame = motion_.at(then)});
+                    .frame = motion_.at(then),
+                    .kept = &friction_kept_});
     for (std::size_t i = 0; i < accelerations.size(); ++i)
         accelerations[i] += glm::dvec3(settings_.gravity) + contact_accelerations[i];
     // While hair settles time stands still, and no hand pulls.

@@ -83,6 +83,7 @@ private:
     std::vector<glm::dvec3> rest_;
     std::vector<glm::dvec3> positions_;
     std::vector<glm::dvec3> previous_;
+    std::vector<glm::dvec3> friction_kept_;  // VolumeState::kept
     std::unique_ptr<Solver> solver_;  // null: nothing moves
     std::uint32_t steps_ = 0;
 };

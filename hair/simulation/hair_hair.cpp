@@ -18,7 +18,7 @@ namespace {
 using engine::Access;
 
 static_assert(sizeof(gpu::VolumeSample) == 32);
-static_assert(sizeof(gpu::VolumeParameters) == 72 && offsetof(gpu::VolumeParameters, origin) == 32);
+static_assert(sizeof(gpu::VolumeParameters) == 88 && offsetof(gpu::VolumeParameters, origin) == 32);
 static_assert(sizeof(gpu::VolumeBlock) == 8);
 static_assert(sizeof(gpu::VolumePush) == 52);
 
@@ -27,6 +27,9 @@ static_assert(sizeof(gpu::VolumePush) == 52);
 constexpr double kReach = 1.1;
 // Cells that repulsion may move a vertex by in a step.
 constexpr double kGreatestPush = 1.0;
+// The greatest part that is foreseen of what friction takes: the exact one is 1 in the limit of
+// great friction, and would never forget.
+constexpr double kMostForeseen = 0.75;
 // The greatest repulsion that is used, over (cell / step)^2.
 constexpr double kGreatestRepulsion = 0.5;
 
@@ -69,13 +72,28 @@ std::vector<float> toFloat(std::span<const double> values) {
     return {values.begin(), values.end()};
 }
 
+struct Friction {
+    double settled = 0.0;
+    double foreseen = 0.0;
+};
+
+// The parts that friction takes in a step, of the differences at its start and of what is added.
+Friction frictionIn(const HairHairSettings& contact, double step) {
+    const double setting = contact.friction;
+    if (setting == 0.0) return {};
+    const double rate = -std::log1p(-setting) / kReferenceStep;
+    const double settled = -std::expm1(-rate * step);
+    const double most = contact.repulsion > 0.0f ? 1.0 - settled : kMostForeseen;
+    return {.settled = settled, .foreseen = std::min(1.0 - settled / (rate * step), most)};
+}
+
 // The parameters without the addresses.
 gpu::VolumeParameters
 parametersOf(const groom::Groom& groom, const SimulationSettings& settings, const gpu::Step& step) {
     const HairHairSettings& contact = settings.hair_hair;
     const VolumeGrid grid = volumeGrid(groom, contact.resolution);
     const double whole = step.whole;
-    const double friction = 1.0 - std::pow(1.0 - double{contact.friction}, whole / kReferenceStep);
+    const Friction friction = frictionIn(contact, whole);
     const double fastest = grid.cell / whole;  // m/s, that stays within a cell
     const double repulsion =
         std::min(double{contact.repulsion}, kGreatestRepulsion * fastest * fastest);
@@ -88,10 +106,13 @@ parametersOf(const groom::Groom& groom, const SimulationSettings& settings, cons
         .cell = static_cast<float>(grid.cell),
         .resolution = grid.resolution,
         .crowded = static_cast<float>(double{contact.crowding} * meanRestDensity(groom, grid)),
-        .friction = static_cast<float>(friction / whole),
+        .settled = static_cast<float>(friction.settled),
+        .foreseen = static_cast<float>(friction.foreseen),
+        .per_step = static_cast<float>(1.0 / whole),
         .repulsion = static_cast<float>(repulsion / grid.cell),
         .greatest_repulsion = static_cast<float>(kGreatestPush * fastest / whole),
-        .borrows = 0};
+        .borrows = 0,
+        .kept = 0};
 }
 
 std::size_t cellCount(std::size_t side) { return gpu::kVolumeGrids * side * side * side; }
@@ -181,6 +202,7 @@ HairHair::HairHair(
           device,
           {.size = blockCount(settings) * sizeof(gpu::VolumeBlock), .name = "volume blocks"}),
       parameters_(device, {.size = sizeof(gpu::VolumeParameters), .name = "volume parameters"}),
+      kept_(device, {.size = vertex_count_ * sizeof(glm::vec4), .name = "volume kept"}),
       sample_(pipeline(device, "simulation/volume_sample.comp")),
       splat_(pipeline(
           device, isPacked(device) ? "simulation/volume_splat_packed.comp"
@@ -192,7 +214,17 @@ HairHair::HairHair(
     parameters.sums = sums_.address();
     parameters.blocks = blocks_.address();
     parameters.borrows = isPacked(device) ? 1 : 0;
+    parameters.kept = kept_.address();
     engine::upload(device, std::as_bytes(std::span(&parameters, 1)), parameters_);
+    forget(device);
+}
+
+void HairHair::forget(const engine::Device& device) {
+    device.runOnce([&](engine::Commands& commands) {
+        commands.barrier(Access::anything, Access::transfer_write);
+        commands.fill(kept_, 0);
+        commands.barrier(Access::transfer_write, Access::anything);
+    });
 }
 
 void HairHair::record(
@@ -231,6 +263,7 @@ void HairHair::record(
         {{samples_, Access::compute_read},
          {blocks_, Access::compute_read},
          {sums_, Access::compute_read},
+         {kept_, Access::compute_write},
          {guides.accelerations, Access::compute_write}});
     commands.dispatchInvocations(vertex_count_, gpu::kGuideGroupSize);
 }

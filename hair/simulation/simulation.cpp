@@ -247,6 +247,7 @@ void Simulation::setState(
     for (const glm::vec3& point : previous) before.emplace_back(point, 0.0f);
     engine::upload(*device_, std::as_bytes(std::span(now)), positions_[current_]);
     engine::upload(*device_, std::as_bytes(std::span(before)), previous_[current_]);
+    if (hair_hair_) hair_hair_->forget(*device_);
     if (!solver_) return;
     device_->runOnce([&](engine::Commands& commands) {
         const gpu::RigidFrame frame = toGpu(pose());
@@ -387,6 +388,7 @@ std::vector<glm::vec4> Simulation::withMasses(std::span<const glm::vec3> positio
 std::vector<const engine::Buffer*> Simulation::state() const {
     std::vector<const engine::Buffer*> buffers{&positions_[current_], &previous_[current_]};
     if (solver_) std::ranges::copy(solver_->state(), std::back_inserter(buffers));
+    if (hair_hair_) buffers.push_back(&hair_hair_->state());
     return buffers;
 }
 

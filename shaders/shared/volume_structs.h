@@ -42,10 +42,14 @@ struct VolumeParameters {
     float cell;        // m
     uint resolution;   // cells a side
     float crowded;     // share per cell from which hair repels hair
-    float friction;    // 1/s
+    float settled;     // part of a difference of velocities that friction takes in a step
+    float foreseen;    // and of what all else adds to the difference in a step
+    float per_step;    // 1 / the time step, 1/s
     float repulsion;   // m/s^2
     float greatest_repulsion;  // m/s^2
     uint borrows;  // 1: the last component of sums lacks 1 where the one before it is negative
+    Address kept;  // vec4 [strand][vertex]: what friction left of the difference in the step
+                   // before, m/s; w = 1 where there was one, else 0
 };
 
 // Push constants of every pass of the grid.

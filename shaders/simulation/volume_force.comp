@@ -76,5 +76,10 @@ void main() {
     vec3 repulsion = volume.repulsion * rotate(push.frame.rotation, pushed);
     float size = length(repulsion);
     if (size > volume.greatest_repulsion) repulsion *= volume.greatest_repulsion / size;
-    State(push.accelerations).at[index].xyz += volume.friction * dragged + repulsion;
+
+    vec4 kept = State(volume.kept).at[index];
+    vec3 driven = kept.w == 0.0 ? vec3(0.0) : dragged - kept.xyz;  // m/s, by all but friction
+    vec3 braked = volume.settled * dragged + volume.foreseen * driven;
+    State(volume.kept).at[index] = vec4(dragged - braked, 1.0);
+    State(push.accelerations).at[index].xyz += volume.per_step * braked + repulsion;
 }

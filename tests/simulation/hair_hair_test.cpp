@@ -78,7 +78,7 @@ constexpr glm::vec3 kOthers(1.5f, -9.81f, 0.25f);
 
 TEST_F(HairOnHair, LeavesALoneStrandAlone) {
     const groom::Groom groom = wavyGroom(1, 16, 0.005);
-    const VolumeRig rig(device(), groom, contact(1.0f, 1.0f, 0.1f));
+    VolumeRig rig(device(), groom, contact(1.0f, 1.0f, 0.1f));
     const auto accelerations =
         rig.accelerations(disturbed(groom, 0.002, 1), disturbed(groom, 0.002, 2), {}, kOthers);
     // Nothing but what the device may round differently in two shaders: 1e-6 of 0.002 m / (1/60
@@ -88,7 +88,7 @@ TEST_F(HairOnHair, LeavesALoneStrandAlone) {
 
 TEST_F(HairOnHair, HasNoFrictionWhereAllMoveAlike) {
     const groom::Groom groom = wavyGroom(60, 9);
-    const VolumeRig rig(device(), groom, contact(1.0f, 0.0f));
+    VolumeRig rig(device(), groom, contact(1.0f, 0.0f));
     const glm::vec3 way(0.02f, -0.01f, 0.005f);  // in a step: 1.4 m/s
     const auto accelerations =
         rig.accelerations(moved(groom.points, way), groom.points, {}, kOthers);
@@ -112,7 +112,7 @@ TEST_F(HairOnHair, LosesThePartOfTheDifferenceThatItIsSetTo) {
             auto previous = moved(one.points, -way);
             const auto other = moved(one.points, way);
             previous.insert(previous.end(), other.begin(), other.end());
-            const VolumeRig rig(device(), groom, settings);
+            VolumeRig rig(device(), groom, settings);
             const auto accelerations = rig.accelerations(groom.points, previous);
             const double velocity = 1e-5 / settings.time_step;
             const double lost = velocity * (1.0 - std::pow(1.0 - double{part}, double{steps}));
@@ -128,7 +128,7 @@ TEST_F(HairOnHair, LosesThePartOfTheDifferenceThatItIsSetTo) {
 TEST_F(HairOnHair, DragsCrossingBundlesTogether) {
     const groom::Groom groom = both(bundle(40, 0.03, {1, 0, 0}), bundle(40, 0.03, {0, 1, 0}));
     const std::size_t half = groom.points.size() / 2;
-    const VolumeRig rig(device(), groom, contact(0.5f, 0.0f));
+    VolumeRig rig(device(), groom, contact(0.5f, 0.0f));
     const glm::vec3 way(0.0f, 0.0f, 1.0f / 60.0f / 60.0f);  // 1/60 m/s
     auto previous = groom.points;
     for (std::size_t i = 0; i < half; ++i) previous[i] -= way;
@@ -149,12 +149,70 @@ TEST_F(HairOnHair, DragsCrossingBundlesTogether) {
     EXPECT_GT(second, 0.0);
 }
 
-// Any velocities: friction at its most takes energy and never turns the whole around.
+// What others give a pair of strands on top of each other is as much in every step: then friction
+// balances it at the rate that the setting has, whatever the step.
+TEST_F(HairOnHair, BearsASteadyDifferenceByItsRate) {
+    const groom::Groom one = straightGroom(1, 6);
+    const groom::Groom groom = both(one, one);
+    for (const float part : {0.05f, 0.5f, 0.8f})
+        for (const float steps : {0.25f, 1.0f, 2.0f}) {
+            SimulationSettings settings = contact(part, 0.0f);
+            settings.time_step = steps / 60.0f;
+            const glm::vec3 way(1e-5f, 0.0f, 0.0f);
+            auto previous = moved(one.points, -way);
+            const auto other = moved(one.points, way);
+            previous.insert(previous.end(), other.begin(), other.end());
+            VolumeRig rig(device(), groom, settings);
+            auto accelerations = rig.accelerations(groom.points, previous);
+            // What a step gets wrong is at most 3/4 of what the one before did.
+            for (int step = 0; step < 40; ++step)
+                accelerations = rig.nextAccelerations(groom.points, previous);
+            const double rate = -60.0 * std::log(1.0 - double{part});
+            const double expected = rate * 1e-5 / settings.time_step;
+            // As in LosesThePartOfTheDifferenceThatItIsSetTo.
+            for (std::size_t i = 0; i < accelerations.size(); ++i)
+                EXPECT_NEAR(accelerations[i].x, i < 6 ? -expected : expected, 0.005 * expected);
+        }
+}
+
+// Steps of any velocities: what is foreseen is as opposite as what is known.
+TEST_F(HairOnHair, KeepsMomentumWhateverItForesees) {
+    const groom::Groom groom = wavyGroom(80, 9);
+    VolumeRig rig(device(), groom, contact(0.6f, 0.0f));
+    rig.accelerations(disturbed(groom, 0.01, 1), disturbed(groom, 0.01, 2));
+    for (unsigned step = 3; step < 9; step += 2) {
+        const auto accelerations =
+            rig.nextAccelerations(disturbed(groom, 0.01, step), disturbed(groom, 0.01, step + 1));
+        const Balance all = balance(groom, accelerations);
+        EXPECT_GT(all.size, 1.0);
+        EXPECT_LT(glm::length(all.sum), kPairRounding * all.size);
+    }
+}
+
+TEST_F(HairOnHair, ForeseesLikeTheReference) {
+    const groom::Groom groom = wavyGroom(67, 9, 0.15 / 9);
+    VolumeRig rig(device(), groom, contact(0.4f, 0.2f, 0.5f));
+    rig.accelerations(disturbed(groom, 0.003, 1), disturbed(groom, 0.003, 2));
+    std::vector<glm::dvec3> kept;
+    rig.expected(disturbed(groom, 0.003, 1), disturbed(groom, 0.003, 2), {}, &kept);
+    const auto positions = disturbed(groom, 0.003, 3);
+    const auto previous = disturbed(groom, 0.003, 4);
+    const auto accelerations = rig.nextAccelerations(positions, previous);
+    const auto expected = rig.expected(positions, previous, {}, &kept);
+    // As in IsLikeTheReference, of two steps.
+    EXPECT_LT(largestDifference(accelerations, expected), 4e-5 * greatestLength(accelerations));
+    EXPECT_GT(
+        largestDifference(expected, rig.expected(positions, previous)),
+        0.1 * greatestLength(accelerations));
+}
+
+// Any velocities: friction at its most takes energy where it has nothing to foresee, and never
+// turns the whole around.
 TEST_F(HairOnHair, FrictionOnlyTakesEnergy) {
     const groom::Groom groom = wavyGroom(80, 9);
     const auto shares = lengthShares(groom);
     for (const float part : {0.3f, 1.0f}) {
-        const VolumeRig rig(device(), groom, contact(part, 0.0f));
+        VolumeRig rig(device(), groom, contact(part, 0.0f));
         const auto positions = disturbed(groom, 0.01, 1);
         const auto previous = disturbed(groom, 0.01, 2);
         const auto accelerations = rig.accelerations(positions, previous);
@@ -175,7 +233,7 @@ TEST_F(HairOnHair, FrictionOnlyTakesEnergy) {
 
 TEST_F(HairOnHair, ExpandsACompressedBundle) {
     const groom::Groom groom = bundle(60, 0.08, {0, 1, 0});
-    const VolumeRig rig(device(), groom, contact(0.0f, 0.3f));
+    VolumeRig rig(device(), groom, contact(0.0f, 0.3f));
     auto compressed = groom.points;
     for (glm::vec3& point : compressed) point *= glm::vec3(0.3f, 1.0f, 0.3f);
     const auto accelerations = rig.accelerations(compressed, compressed);
@@ -194,7 +252,7 @@ TEST_F(HairOnHair, ExpandsACompressedBundle) {
 
 TEST_F(HairOnHair, DoesNotRepelWhereThereIsRoom) {
     const groom::Groom groom = bundle(60, 0.08, {0, 1, 0});
-    const VolumeRig rig(device(), groom, contact(0.0f, 1.0f, 100.0f));
+    VolumeRig rig(device(), groom, contact(0.0f, 1.0f, 100.0f));
     EXPECT_EQ(
         largestDifference(
             rig.accelerations(groom.points, groom.points, {}, kOthers),
@@ -218,7 +276,7 @@ TEST_F(HairOnHair, PushesLikeTheGasItStandsFor) {
     }
     SimulationSettings settings = contact(0.0f, 0.2f, 0.1f);
     settings.hair_hair.resolution = 18;
-    const VolumeRig rig(device(), groom, settings);
+    VolumeRig rig(device(), groom, settings);
     const auto accelerations = rig.accelerations(groom.points, groom.points);
     for (std::size_t i = 0; i < groom.points.size(); i += 2) {
         const glm::dvec3 place = glm::dvec3(groom.points[i]) / half;
@@ -238,7 +296,7 @@ TEST_F(HairOnHair, IsLikeTheReference) {
         for (const SimulationSettings& settings :
              {contact(0.3f, 0.0f), contact(0.0f, 0.3f, 0.5f), contact(1.0f, 1000.0f, 0.2f)}) {
             const groom::Groom groom = wavyGroom(67, vertices, 0.15 / vertices);
-            const VolumeRig rig(device(), groom, settings);
+            VolumeRig rig(device(), groom, settings);
             const auto positions = disturbed(groom, 0.003, 1);
             const auto previous = disturbed(groom, 0.003, 2);
             const RigidMotion frame{
@@ -268,7 +326,7 @@ TEST_F(HairOnHair, SlowHairIsLikeTheReferenceBesideFastHair) {
             i < slow.points.size() ? 1e-3 * randomVector(random) : glm::dvec3(0.0, 10.0, 0.0);
         previous.emplace_back(glm::dvec3(groom.points[i]) - speed / 60.0);
     }
-    const VolumeRig rig(device(), groom, contact(0.3f, 0.0f));
+    VolumeRig rig(device(), groom, contact(0.3f, 0.0f));
     auto accelerations = rig.accelerations(groom.points, previous);
     auto expected = rig.expected(groom.points, previous);
     accelerations.resize(slow.points.size());

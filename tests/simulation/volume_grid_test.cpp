@@ -95,7 +95,7 @@ protected:
 // times.
 TEST_F(GpuVolume, SumsUpShareAndMomentum) {
     const groom::Groom groom = wavyGroom(50, 9);
-    const VolumeRig rig(device(), groom, withFriction());
+    VolumeRig rig(device(), groom, withFriction());
     const auto positions = disturbed(groom, 0.01, 1);
     const auto previous = disturbed(groom, 0.01, 2);
     rig.accelerations(positions, previous);
@@ -133,7 +133,7 @@ double lostMomentum(double vertices) { return 27.0 * vertices * 0x1p-31 + 3e-7; 
 // The worst that can happen: all hair in one cell at the same, great speed.
 TEST_F(GpuVolume, HoldsAllHairInOnePoint) {
     const groom::Groom groom = wavyGroom(2000, 33);
-    const VolumeRig rig(device(), groom, withFriction());
+    VolumeRig rig(device(), groom, withFriction());
     for (const float speed : {1e-3f, 1.0f, 1e6f}) {
         const glm::vec3 moved = glm::vec3(1.0f, -1.0f, 1.0f) * (speed / 60.0f);
         rig.accelerations(
@@ -157,7 +157,7 @@ TEST_F(GpuVolume, HoldsTheGreatestSumThereIs) {
     SimulationSettings settings = withFriction();
     settings.time_step = 0x1p-6f;
     settings.substeps = 1;
-    const VolumeRig rig(device(), groom, settings);
+    VolumeRig rig(device(), groom, settings);
     const VolumeGrid grid = rig.grid();
     const std::size_t side = grid.resolution;
     const glm::vec3 middle(grid.origin + (double(side / 2) + 0.5) * grid.cell);
@@ -192,7 +192,7 @@ TEST_F(GpuVolume, KeepsSlowMomentumBesideFastHair) {
         groom.points.push_back(root);
         groom.points.push_back(root - glm::vec3(0.0f, 0.02f, 0.0f));
     }
-    const VolumeRig rig(device(), groom, withFriction());
+    VolumeRig rig(device(), groom, withFriction());
     const VolumeGrid grid = rig.grid();
     std::mt19937 random(5);
     std::vector<glm::vec3> positions;
@@ -233,7 +233,7 @@ TEST_F(GpuVolume, KeepsSlowMomentumBesideFastHair) {
 // the rounding of places, 1e-7 m of cells of 20 mm.
 TEST_F(GpuVolume, MovesWithTheHead) {
     const groom::Groom groom = wavyGroom(50, 9);
-    const VolumeRig rig(device(), groom, withFriction());
+    VolumeRig rig(device(), groom, withFriction());
     const auto positions = disturbed(groom, 0.01, 1);
     const auto previous = disturbed(groom, 0.01, 2);
     const auto accelerations = rig.accelerations(positions, previous);

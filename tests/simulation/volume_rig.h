@@ -47,9 +47,17 @@ public:
               "guide parameters")),
           hair_hair_(device, groom, settings, stepOf(settings)) {}
 
-    // m/s^2. `previous` is a substep earlier; every vertex has `others` from elsewhere, which
-    // hair on hair is added to.
+    // m/s^2, without a step before. `previous` is a substep earlier; every vertex has `others` from
+    // elsewhere, which hair on hair is added to.
     std::vector<glm::vec3> accelerations(
+        std::span<const glm::vec3> positions, std::span<const glm::vec3> previous,
+        const RigidMotion& frame = {}, const glm::vec3& others = glm::vec3(0.0f)) {
+        hair_hair_.forget(device_);
+        return nextAccelerations(positions, previous, frame, others);
+    }
+
+    // The same after the step of the last ones.
+    std::vector<glm::vec3> nextAccelerations(
         std::span<const glm::vec3> positions, std::span<const glm::vec3> previous,
         const RigidMotion& frame = {}, const glm::vec3& others = glm::vec3(0.0f)) const {
         upload(positions, positions_);
@@ -72,7 +80,7 @@ public:
     // The same by the reference.
     std::vector<glm::dvec3> expected(
         std::span<const glm::vec3> positions, std::span<const glm::vec3> previous,
-        const RigidMotion& frame = {}) const {
+        const RigidMotion& frame = {}, std::vector<glm::dvec3>* kept = nullptr) const {
         const auto rest = toDouble(groom_.points);
         const auto now = toDouble(positions);
         const auto before = toDouble(previous);
@@ -82,7 +90,8 @@ public:
                         .positions = now,
                         .previous = before,
                         .step = reference::inDouble(stepOf(settings_)),
-                        .frame = frame});
+                        .frame = frame,
+                        .kept = kept});
     }
 
     // The grids of the last accelerations(), [grid][z][y][x].
