@@ -13,6 +13,7 @@
 #include "benchmarks/physics/checks.h"
 #include "benchmarks/physics/experiment.h"
 #include "benchmarks/physics/theory.h"
+#include "hair/simulation/stiffness.h"
 
 namespace benchmarks::physics {
 namespace {
@@ -53,6 +54,13 @@ hair::SimulationSettings inWind(hair::Solver solver, double speed) {
     hair::SimulationSettings settings = freeHair(solver);
     settings.wind.mode = hair::WindMode::drag;
     settings.wind.speed = static_cast<float>(speed);
+    // As stiff as the material, so that theory has it rest where it has rods: K = EI / (lambda
+    // l^4), which hair/simulation/stiffness.h has as -4 * 10 ln(1 - k) / (2 h0^2) at segments of
+    // l0.
+    const double square = std::pow(hair::simulation::kReferenceStep, 2.0);
+    const double stiffness = bendingStiffness(settings.material) / lineDensity(settings.material) /
+                             std::pow(hair::simulation::kReferenceSegment, 4.0);
+    settings.local.stiffness = static_cast<float>(-std::expm1(-square * stiffness / 20.0));
     return settings;
 }
 

@@ -287,12 +287,13 @@ double localFactor(const SimulationSettings& settings, const Step& step, double 
 }
 
 double bendFactor(const SimulationSettings& settings, const Step& step, double segment_length) {
-    // Tips of the thesis's level hair: of those below each joint, as a moment and as a force.
+    // How far the tip of the thesis's level hair sags by each joint, as a moment and as a force,
+    // which moves the lower vertex alone, by twice as much, at the root.
     double bending = 0.0;
     double pulling = 0.0;
     for (int below = 1; below <= 7; ++below) {
         bending += below * below * (below + 1) / 2.0;
-        pulling += below * below;
+        pulling += below * below * (below == 7 ? 0.5 : 1.0);
     }
     const double left = std::log(1.0 - std::min(double{settings.local.stiffness}, 0.95));
     if (settings.stiffness_scaling == StiffnessScaling::thesis)

@@ -9,7 +9,7 @@ namespace hair::simulation {
 namespace {
 
 // Of a joint that turns both of its segments, over one that turns the lower: stiffness.h.
-constexpr double kBendOfPull = 3.3;
+constexpr double kBendOfPull = 4.0;
 constexpr double kShortestMean = 1e-5;  // of segments, m: K is a float
 
 double substepRatio(const gpu::Step& step) { return double{step.sub} / kReferenceStep; }

@@ -58,11 +58,12 @@ inline glm::dquat rotationBetween(const glm::dvec3& from, const glm::dvec3& to) 
 //
 // Local with an energy: shaders/simulation/constraints/bend.glsl. The thesis's pull holds a segment
 // by n0 k_L / 2 of its distance from its goal in a reference step, where pulls are small, so that
-// its stiffness is K = -n0 ln(1 - k_L) / (2 h0^2), and of its N segments the one with n vertices
-// below it turns by n g / (K l0). One that turns the segment above back bears a moment instead, and
-// turns by n (n + 1) g / (2 K l0): with 3.3 times the stiffness, the sum of n^2 (n + 1) / 2 over
-// that of n^2 for N = 7, the tip of the thesis's level hair sags as much. A beam's joint has EI / l
-// = m l^2 K with a mass m proportional to l, so K is proportional to 1 / l^4.
+// its stiffness is K = -n0 ln(1 - k_L) / (2 h0^2), twice that at the root, and a segment with n
+// vertices below it turns by n g / (K l0). One that turns the segment above back bears a moment
+// instead, and turns by n (n + 1) g / (2 K l0). With 4 times the stiffness, the sum of
+// n^2 (n + 1) / 2 over that of n^2, half of it at the root, for 7 segments, the tip of the thesis's
+// level hair sags as much. A beam's joint has EI / l = m l^2 K with a mass m proportional to l, so
+// K is proportional to 1 / l^4.
 //
 // Friction leaves a fraction of the velocity per reference step, hence its power dt / h0 per step.
 

@@ -96,13 +96,12 @@ TEST_P(GpuConstraints, BendsLikeTheReference) {
     settings.local.iterations = 10;
     settings.gravity = {1.0f, -9.8f, 3.0f};
     settings.wind.mode = WindMode::drag;
-    for (const float global : {0.0f, 0.01f})
-        for (const float stiffness : {0.001f, 0.3f}) {
-            settings.global.stiffness = global;
-            settings.local.stiffness = stiffness;
-            settings.wind.speed = 100.0f * global;
-            expectReference(settings);
-        }
+    for (const float stiffness : {0.001f, 0.3f}) {
+        settings.global.stiffness = stiffness;
+        settings.local.stiffness = stiffness;
+        settings.wind.speed = 10.0f * stiffness;
+        expectReference(settings);
+    }
 }
 
 TEST_P(GpuConstraints, KeepsLengthsLikeTheReference) {
