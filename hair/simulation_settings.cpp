@@ -43,7 +43,7 @@ const Table& tableOf(const LengthSettings*) {
          number(
              "iterations", &S::iterations, 0, 256, "count",
              "per step: passes of `tridiagonal`, red-black iterations of `iterate` (the thesis has "
-             "5); 0: lengths are free")});
+             "5); 0: lengths are free, but for those that /simulation/local/method energy keeps")});
     return table;
 }
 
