@@ -27,7 +27,7 @@ double stiffnessOf(const SimulationSettings& settings, double segment) {
            std::pow(0.15 / 7.0 / segment, 4.0);
 }
 
-groom::Groom groomOf(const Points& points) {
+groom::Groom oneStrandAt(const Points& points) {
     groom::Groom groom{
         .strand_count = 1, .vertices_per_strand = static_cast<std::uint32_t>(points.size())};
     for (const glm::dvec3& point : points) groom.points.emplace_back(point);
@@ -139,7 +139,7 @@ TEST_P(BendingInWind, HairRestsWhereItsForcesBalanceAtAnyTimeStep) {
         EXPECT_GT(glm::distance(steady.back(), rest.back()), 0.3 * kWindLength) << speed;
         for (const int rate : {30, 60, 120, 240, 480}) {
             settings.time_step = 1.0f / static_cast<float>(rate);
-            Simulation simulation(device(), groomOf(rest), settings, 1);
+            Simulation simulation(device(), oneStrandAt(rest), settings, 1);
             advance(device(), simulation, 5 * rate);
             EXPECT_LT(largestDifference(simulation.readPositions(), steady), 0.001 * kWindLength)
                 << speed << " m/s at 1/" << rate << " s";
@@ -182,7 +182,7 @@ TEST_F(BendingAtRest, CurlsHangWhereTheirEnergyIsLeast) {
             settings.gravity = {3.0f, -9.8f, 1.0f};
             settings.local.stiffness = stiffness;
             settings.time_step = 1.0f / static_cast<float>(rate);
-            Simulation simulation(device(), groomOf(rest), settings, 1);
+            Simulation simulation(device(), oneStrandAt(rest), settings, 1);
             advance(device(), simulation, 8 * rate);
             Points points;
             for (const glm::vec3& point : simulation.readPositions()) points.emplace_back(point);
@@ -232,7 +232,7 @@ TEST(Bending, EnergyNeverGrows) {
                 for (std::size_t i = 1; i < rest.size(); ++i)
                     segment += glm::distance(rest[i], rest[i - 1]) / 11.0;
                 const double k = stiffnessOf(settings, segment);
-                reference::Reference solver(groomOf(rest), settings, 1);
+                reference::Reference solver(oneStrandAt(rest), settings, 1);
                 const auto energy = [&] {
                     Points middle;
                     double kinetic = 0.0;
@@ -272,7 +272,7 @@ TEST(Bending, SagsAsTheThesissHair) {
     std::vector<double> sags;
     for (const LocalMethod method : {LocalMethod::energy, LocalMethod::iterate}) {
         settings.local.method = method;
-        const groom::Groom groom = groomOf(straightRod(7, 0.15));
+        const groom::Groom groom = oneStrandAt(straightRod(7, 0.15));
         reference::Reference solver(groom, settings, 1);
         for (int i = 0; i < 6000; ++i) solver.step();
         sags.push_back(-solver.positions().back().y);
