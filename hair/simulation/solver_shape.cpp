@@ -177,7 +177,7 @@ restOfShapes(const groom::Groom& groom, const SimulationSettings& settings, cons
 constexpr std::uint32_t kGroup = 32;  // invocations to fill with whole strands
 
 // Vertices of an invocation. The shader is unrolled over them: llvmpipe takes about 0.05 s each to
-// compile it, and 0.5 s where bending has an energy.
+// compile it, half as much again where bending has an energy.
 constexpr std::uint32_t kFewest = 2;
 constexpr std::uint32_t kMost = 32;
 constexpr std::uint32_t kOnGpu = 8;  // some 100 registers by count of values; not measured
