@@ -1,9 +1,9 @@
 """Mean radiances of scenes of Mitsuba 3, to hold our own path tracer against:
 mitsuba_means.py SAMPLES DIR ...
 
-Each DIR is what `hairbench export SCENE --mitsuba DIR` wrote. SAMPLES a pixel are traced in 16 parts
-of independent seeds; the standard error is of those. Glossy meshes are taken as matt, as
-trace_folder takes them.
+Each DIR is what `hairbench export SCENE --mitsuba DIR` wrote. SAMPLES a pixel are traced in 16
+parts of independent seeds; the standard error is of those. Glossy meshes are taken as matt, as in
+trace_folder.
 """
 
 import os
