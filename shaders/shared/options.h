@@ -137,4 +137,8 @@ const uint kShapeVerticesPerChunkConstant = 4u;
 // Of every solver: simulation/constraints/bodies.glsl.
 const uint kContinuousCollisionConstant = 5u;
 
+// Constants of simulation/rod.glsl.
+const uint kRodAlphaConstant = 6u;
+const uint kRodDampedConstant = 7u;
+
 #endif
