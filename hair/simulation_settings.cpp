@@ -58,7 +58,15 @@ const Table& tableOf(const FtlSettings*) {
 const Table& tableOf(const RodSettings*) {
     using S = RodSettings;
     static const Table table = tableWith<S>(
-        {number("iterations", &S::iterations, 1, 64, "count", "Newton iterations per substep")});
+        {number("iterations", &S::iterations, 1, 64, "count", "Newton iterations per substep"),
+         choice(
+             "integrator", &S::integrator,
+             {{RodIntegrator::implicit_euler, "implicit_euler"},
+              {RodIntegrator::generalized_alpha, "generalized_alpha"}},
+             "implicit_euler: damps every motion by half of the substep times its squared "
+             "frequency; generalized_alpha: second order in time, so that damping is the "
+             "material's, and implicit Euler for strands whose Newton iterations do not converge, "
+             "that touch a body, or that air brakes")});
     return table;
 }
 
@@ -83,6 +91,25 @@ const Table& tableOf(const PositionBasedRodSettings*) {
     return table;
 }
 
+const Table& tableOf(const AugmentedMassSpringSettings*) {
+    using S = AugmentedMassSpringSettings;
+    static const Table table = tableWith<S>(
+        {number("iterations", &S::iterations, 1, 64, "count", "Newton iterations per substep"),
+         number(
+             "spring_modulus", &S::spring_modulus, 1, 1e12, "Pa",
+             "of the springs along edges, against bending and against torsion: their tension at "
+             "twice the length, over the hair's cross-section"),
+         number(
+             "integrity", &S::integrity, 0, 1e6, "1/s^2",
+             "acceleration toward the rest position by distance from it"),
+         number(
+             "angular_stiffness", &S::angular_stiffness, 0, 1e6, "m^2/s^2",
+             "couple that turns a segment to its rest direction, by radian, segment length and "
+             "mass per length: holds up hair of a length L against gravity g where it is above "
+             "g L")});
+    return table;
+}
+
 const Table& tableOf(const MaterialSettings*) {
     using S = MaterialSettings;
     static const Table table = tableWith<S>(
@@ -97,7 +124,12 @@ const Table& tableOf(const MaterialSettings*) {
              "for the stiffness of `rod`: people's hair has 1 to 1.8. The longer axis is upright "
              "at roots that are level, and goes along strands without twisting"),
          number("youngs_modulus", &S::youngs_modulus, 1, 1e12, "Pa", "E: resists bending"),
-         number("shear_modulus", &S::shear_modulus, 1, 1e12, "Pa", "G: resists twist")});
+         number("shear_modulus", &S::shear_modulus, 1, 1e12, "Pa", "G: resists twist"),
+         number(
+             "damping", &S::damping, 0, 1, "s",
+             "of `rod`: what bends or twists resists as if it were further on by its rate times "
+             "this (Kelvin-Voigt), so that a mode of w rad/s halves in 1.386 / (w^2 damping) "
+             "seconds; an implicit Euler substep has its own length of it at least")});
     return table;
 }
 
@@ -270,11 +302,14 @@ const Table& tableOf(const SimulationSettings*) {
               {Solver::ftl, "ftl"},
               {Solver::rod, "rod"},
               {Solver::stable_cosserat, "stable_cosserat"},
-              {Solver::position_based_rod, "position_based_rod"}},
+              {Solver::position_based_rod, "position_based_rod"},
+              {Solver::augmented_mass_spring, "augmented_mass_spring"}},
              "none: frozen at rest; shape: the thesis's Verlet with shape constraints; ftl: follow "
              "the leader; rod: Cosserat rods with SI material; stable_cosserat: such rods by Hsu "
              "et al. 2025, positions and orientations by turns; position_based_rod: such rods by "
-             "Kugelstadt and Schoemer 2016, with XPBD's compliances"),
+             "Kugelstadt and Schoemer 2016, with XPBD's compliances; augmented_mass_spring: "
+             "springs "
+             "and a ghost of the rest shape, by Amador Herrera et al. 2024"),
          choice(
              "parallelism", &S::parallelism,
              {{Parallelism::automatic, "automatic"},
@@ -288,8 +323,7 @@ const Table& tableOf(const SimulationSettings*) {
          number(
              "substeps", &S::substeps, 0, 64, "count",
              "solver steps per time step; 0: one, for rods as many as keep a substep to 1/480 s "
-             "(rod), 1/960 s "
-             "(stable_cosserat) or 1/1920 s"),
+             "(rod, augmented_mass_spring), 1/960 s (stable_cosserat) or 1/1920 s"),
          number(
              "settle_steps", &S::settle_steps, 0, 100000, "count",
              "steps simulated without wind before the first frame"),
@@ -316,6 +350,7 @@ const Table& tableOf(const SimulationSettings*) {
          group("rod", &S::rod, "Cosserat rods"),
          group("stable_cosserat", &S::stable_cosserat, "stable Cosserat rods"),
          group("position_based_rod", &S::position_based_rod, "position based Cosserat rods"),
+         group("augmented_mass_spring", &S::augmented_mass_spring, "augmented mass-spring model"),
          group("material", &S::material, "material of a hair, for rods and the drag of the wind"),
          group("wind", &S::wind, "wind"),
          group("collision", &S::collision, "contact with bodies"),

@@ -50,8 +50,11 @@ struct FtlSettings {
 const Table& tableOf(const FtlSettings*);
 
 // Inextensible elastic rods, a direct solve per strand: hair/reference/rod.h.
+enum class RodIntegrator { implicit_euler, generalized_alpha };
+
 struct RodSettings {
     std::uint32_t iterations = 2;
+    RodIntegrator integrator = RodIntegrator::implicit_euler;
 };
 
 const Table& tableOf(const RodSettings*);
@@ -72,6 +75,17 @@ struct PositionBasedRodSettings {
 
 const Table& tableOf(const PositionBasedRodSettings*);
 
+// Amador Herrera et al. 2024, Augmented mass-spring model for real-time dense hair simulation:
+// hair/reference/augmented_mass_spring.h.
+struct AugmentedMassSpringSettings {
+    std::uint32_t iterations = 2;
+    float spring_modulus = 1e6f;
+    float integrity = 10.0f;
+    float angular_stiffness = 1.0f;
+};
+
+const Table& tableOf(const AugmentedMassSpringSettings*);
+
 // What one hair is made of. Hair is anisotropic: neither modulus follows from the other.
 struct MaterialSettings {
     float density = 1320.0f;
@@ -79,6 +93,7 @@ struct MaterialSettings {
     float ellipticity = 1.0f;
     float youngs_modulus = 3.9e9f;
     float shear_modulus = 0.6e9f;
+    float damping = 0.0f;
 };
 
 const Table& tableOf(const MaterialSettings*);
@@ -183,7 +198,15 @@ struct PullSettings {
 
 const Table& tableOf(const PullSettings*);
 
-enum class Solver { none, shape, ftl, rod, stable_cosserat, position_based_rod };
+enum class Solver {
+    none,
+    shape,
+    ftl,
+    rod,
+    stable_cosserat,
+    position_based_rod,
+    augmented_mass_spring
+};
 enum class Parallelism { automatic, vertex, strand, serial };
 enum class StiffnessScaling { invariant, thesis };
 // What guides are without load. groom: as the groom has them, so that they sag under gravity.
@@ -208,6 +231,7 @@ struct SimulationSettings {
     RodSettings rod;
     StableCosseratSettings stable_cosserat;
     PositionBasedRodSettings position_based_rod;
+    AugmentedMassSpringSettings augmented_mass_spring;
     MaterialSettings material;
     WindSettings wind;
     CollisionSettings collision;

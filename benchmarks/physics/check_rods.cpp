@@ -1,6 +1,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -264,6 +266,82 @@ void checkBendingFrequency(const engine::Device& device, hair::Solver solver, Fi
          {{"segments", double{kBendingSegments}, "count"}, {"length", kBendingLength, "m"}}},
         frequency.value_or(std::numeric_limits<double>::quiet_NaN()), expected, tolerance);
     if (!frequency) outcome.reason = "it does not swing";
+}
+
+namespace {
+
+// ---- Bending decay ------------------------------------------------------------------------------
+
+// The damping of Kelvin and Voigt takes w^2 damping / 2 per second from a mode of w rad/s. A
+// substep changes that by w^2 substep damping / 4 at most, 0.8 %, and 32 segments swing 0.1 % too
+// slowly.
+constexpr double kDecayTolerance = 0.03;
+constexpr double kHalfLives[] = {0.25, 2.0};  // s
+constexpr float kDecayRates[] = {60.0f, 240.0f, 480.0f};  // steps per second
+constexpr double kDecaySpeed = 0.02;  // of the tip, m/s
+constexpr int kDecaySamples = 12;  // a quarter of a period apart
+
+// 1/s, of what swings freely, by least squares of y[k + 1] = s y[k] - d y[k - 1]: d is
+// exp(-2 rate interval).
+double decayRateOf(std::span<const double> samples, double interval) {
+    double yy = 0.0;
+    double yz = 0.0;
+    double zz = 0.0;
+    double yx = 0.0;
+    double zx = 0.0;
+    for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
+        const double z = -samples[i - 1];
+        yy += samples[i] * samples[i];
+        yz += samples[i] * z;
+        zz += z * z;
+        yx += samples[i] * samples[i + 1];
+        zx += z * samples[i + 1];
+    }
+    return -std::log((yy * zx - yz * yx) / (yy * zz - yz * yz)) / (2.0 * interval);
+}
+
+}  // namespace
+
+void checkBendingDecay(const engine::Device& device, hair::Solver solver, Findings& findings) {
+    if (solver != hair::Solver::rod) return findings.skip("it has no damping of its material");
+    hair::SimulationSettings settings = freeHair(solver);
+    settings.gravity = {};
+    const double frequency =
+        2.0 * kPi *
+        cantileverFrequency(
+            bendingStiffness(settings.material), lineDensity(settings.material), kBendingLength);
+    std::vector<glm::dvec3> velocities;
+    for (std::uint32_t i = 0; i <= kBendingSegments; ++i)
+        velocities.push_back(
+            kDecaySpeed * cantileverShape(static_cast<double>(i) / kBendingSegments) *
+            kBendingSideways);
+    for (const auto& [integrator, name] :
+         {std::pair{hair::RodIntegrator::implicit_euler, "half-life by implicit_euler"},
+          std::pair{hair::RodIntegrator::generalized_alpha, "half-life by generalized_alpha"}})
+        for (const double half_life : kHalfLives)
+            for (const float rate : kDecayRates) {
+                settings.rod.integrator = integrator;
+                settings.time_step = 1.0f / rate;
+                settings.material.damping =
+                    static_cast<float>(2.0 * std::log(2.0) / (frequency * frequency * half_life));
+                Experiment experiment(
+                    device, straightStrand(kBendingSegments, kBendingLength, kBendingAlong),
+                    settings);
+                experiment.launch(experiment.positions(), velocities);
+                const std::uint32_t every = experiment.stepsIn(0.5 * kPi / frequency);
+                std::vector<double> samples;
+                for (int i = 0; i < kDecaySamples; ++i) {
+                    experiment.advance(every);
+                    samples.push_back(experiment.positions().back().y);
+                }
+                findings.compare(
+                    {name,
+                     "s",
+                     {{"damping", settings.material.damping, "s"},
+                      {"time_step", settings.time_step, "s"}}},
+                    std::log(2.0) / decayRateOf(samples, every * experiment.timeStep()), half_life,
+                    kDecayTolerance);
+            }
 }
 
 namespace {

@@ -55,6 +55,8 @@ void checkCantilever(
 void checkConvergence(const engine::Device&, hair::Solver, Findings&);
 // First frequency of a clamped hair without weight.
 void checkBendingFrequency(const engine::Device&, hair::Solver, Findings&);
+// Half-life of that vibration against the material's damping.
+void checkBendingDecay(const engine::Device&, hair::Solver, Findings&);
 // A curl follows its root's turn about its own axis.
 void checkClampTwist(const engine::Device&, hair::Solver, Findings&);
 // How far a hanging curl leaves its plane, and from which curvature on.

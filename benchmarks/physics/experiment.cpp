@@ -160,12 +160,16 @@ constexpr Lack kLacks[] = {
      "its segments are springs: no vertex flies freely"},
     {hair::Solver::position_based_rod, Need::free_vertices,
      "its segments are springs: no vertex flies freely"},
+    {hair::Solver::augmented_mass_spring, Need::free_vertices,
+     "its segments are springs: no vertex flies freely"},
     {hair::Solver::ftl, Need::pinned_tip,
      "it places vertices from the root down and can't hold the tip"},
     {hair::Solver::rod, Need::equal_masses, "it is made of heavy segments: see hanging_chain"},
     {hair::Solver::stable_cosserat, Need::equal_masses,
      "it is made of heavy segments: see hanging_chain"},
     {hair::Solver::position_based_rod, Need::equal_masses,
+     "it is made of heavy segments: see hanging_chain"},
+    {hair::Solver::augmented_mass_spring, Need::equal_masses,
      "it is made of heavy segments: see hanging_chain"},
     {hair::Solver::ftl, Need::bending, "it has no bending stiffness"},
     {hair::Solver::ftl, Need::material, "it has no bending stiffness"},
@@ -174,6 +178,8 @@ constexpr Lack kLacks[] = {
     {hair::Solver::ftl, Need::sections, "it has no bending stiffness"},
     {hair::Solver::stable_cosserat, Need::sections, "its cross-sections are round"},
     {hair::Solver::position_based_rod, Need::sections, "its cross-sections are round"},
+    {hair::Solver::augmented_mass_spring, Need::material, "its stiffness is no material's"},
+    {hair::Solver::augmented_mass_spring, Need::sections, "its stiffness is no material's"},
     {hair::Solver::ftl, Need::iterations, "it has no iterations"},
 };
 
@@ -201,6 +207,8 @@ hair::SimulationSettings freeHair(hair::Solver solver) {
 hair::SimulationSettings chain(hair::Solver solver, double length) {
     hair::SimulationSettings settings = freeHair(solver);
     settings.local = {.stiffness = 0.0f, .iterations = 0};
+    settings.augmented_mass_spring.integrity = 0.0f;
+    settings.augmented_mass_spring.angular_stiffness = 0.0f;
     const double softer = gammaOf(settings.material, length) / kChainGamma;
     settings.material.youngs_modulus *= static_cast<float>(softer);
     settings.material.shear_modulus *= static_cast<float>(softer);
@@ -235,6 +243,7 @@ void setIterations(hair::SimulationSettings& settings, std::uint32_t iterations)
     settings.rod.iterations = iterations;
     settings.stable_cosserat.iterations = iterations;
     settings.position_based_rod.iterations = iterations;
+    settings.augmented_mass_spring.iterations = iterations;
 }
 
 // ---- Lively hair --------------------------------------------------------------------------------

@@ -109,7 +109,8 @@ double energyOf(
     for (std::size_t i = 1; i < count; ++i) {
         points.push_back(0.5 * (before[i] + after[i]));
         const glm::dvec3 velocity = (after[i] - before[i]) / double{settings.time_step};
-        const bool half = rod && i + 1 == count;  // only one segment ends at a rod's tip
+        // Only one segment ends at the tip of what is made of heavy segments.
+        const bool half = lack(settings.solver, Need::equal_masses) && i + 1 == count;
         const double mass = lineDensity(settings.material) * segment * (half ? 0.5 : 1.0);
         energy += mass * (0.5 * glm::dot(velocity, velocity) + kGravity * points[i].y);
     }

@@ -72,6 +72,7 @@ Broken solverHasEllipticSections(const hair::Settings& s) {
     switch (s.simulation.solver) {
     case hair::Solver::stable_cosserat:
     case hair::Solver::position_based_rod:
+    case hair::Solver::augmented_mass_spring:
         if (s.simulation.material.ellipticity == 1.0f) return {};
         return "is not 1, but of the solvers of rods only rod has sections that are not round";
     default:
@@ -80,8 +81,12 @@ Broken solverHasEllipticSections(const hair::Settings& s) {
 }
 
 Broken solverCarriesContact(const hair::Settings& s) {
-    if (!s.simulation.collision.warm_start || s.simulation.solver == hair::Solver::rod) return {};
-    return "is on, but of the solvers only rod carries forces of contact";
+    if (!s.simulation.collision.warm_start) return {};
+    if (s.simulation.solver != hair::Solver::rod)
+        return "is on, but of the solvers only rod carries forces of contact";
+    if (s.simulation.rod.integrator != hair::RodIntegrator::implicit_euler)
+        return "is on, but forces of contact are carried by implicit_euler alone";
+    return {};
 }
 
 Broken keyframesAscend(const hair::Settings& s) {

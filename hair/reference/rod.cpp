@@ -52,6 +52,16 @@ constexpr double kMostTurn = 1.0;
 // A pin is a spring on its vertex, as if the mass of a hundred rods had to come back in one step.
 constexpr double kPinMass = 100.0;
 
+// Of generalised alpha: the share of the forces before in an acceleration as velocities take it,
+// Newmark's two weights, and the share of h^2 for which the forces of the step's end act.
+constexpr double kAlphaForces = 1.0 / 3.0;
+constexpr double kGamma = 5.0 / 6.0;
+constexpr double kBeta = 4.0 / 9.0;
+constexpr double kForceShare = kBeta * (1.0 - kAlphaForces);
+// Over the strand's mean segment: what collisions stretch a segment by that then comes back at once
+// and tells nothing of the acceleration.
+constexpr double kLeastMisfit = 1e-4;
+
 const glm::dmat3 kIdentity(1.0);
 
 // crossMatrix(a) b = a x b.
@@ -79,15 +89,33 @@ Joint jointAt(const RodState& state, const RodRest& rest, std::size_t i) {
 // both from the prediction, U_i the energy of joint i. All of this in N m. Air that brakes gives
 // the prediction the velocities of vertices that nothing else holds, and |d|^2 becomes d (1 + h K)
 // d.
+//
+// Generalised alpha predicts otherwise, by the accelerations before, and lets forces act for
+// kForceShare of h^2. A joint's viscosity is its stiffness against what it turned in the substep.
 struct RodSubstep {
     RodState& state;
     const RodRest& rest;
+    const RodScheme& scheme;
+    bool second_order;
     double substep;
     std::vector<glm::dvec3> displacements;  // of vertices, m
     std::vector<glm::dvec3> rotations;  // of segments, rad
     std::vector<glm::dmat3> drag;  // of vertices, 1/s
+    std::vector<glm::dvec3> predicted_turns;  // of segments, rad; the first is the follicle's turn
+    std::vector<glm::dvec3> loads;  // accelerations of the vertices, m/s^2
+    bool stretched = false;  // by collisions
 
     std::size_t size() const { return rest.lengths.size(); }
+    double forceShare() const { return second_order ? kForceShare : 1.0; }
+    // Of joints, over their stiffness.
+    double viscosity() const {
+        return second_order ? scheme.damping / substep
+                            : std::max(scheme.damping / substep - 1.0, 0.0);
+    }
+    // What accelerations before add to a prediction, m or rad.
+    glm::dvec3 carried(const glm::dvec3& taken, const glm::dvec3& real) const {
+        return substep * substep * ((0.5 - kBeta) * taken + kBeta * kAlphaForces * real);
+    }
     glm::dmat3 massOf(std::size_t i) const {
         if (!state.pins.contains(i)) return rest.masses[i] * (glm::dmat3(1.0) + substep * drag[i]);
         return glm::dmat3(kPinMass * std::accumulate(rest.masses.begin(), rest.masses.end(), 0.0));
@@ -114,19 +142,30 @@ void RodSubstep::predict(
     const glm::dvec3 root_now = root.rotation * rest.points[0] + root.translation;
     state.velocities[0] = (root_now - state.root) / substep;
     state.root = root_now;
-    state.orientations[0] = root.rotation * rest.orientations[0];
+    const glm::dquat follicle = root.rotation * rest.orientations[0];
+    const glm::dquat turned_by = follicle * glm::conjugate(state.orientations[0]);
+    predicted_turns = {
+        (turned_by.w < 0.0 ? -2.0 : 2.0) * glm::dvec3(turned_by.x, turned_by.y, turned_by.z)};
+    state.orientations[0] = follicle;
     // The prediction itself stretches segments: it is what displacements are against.
-    glm::dvec3 stretched{0.0};  // what collisions did, from the root down
+    glm::dvec3 misfits{0.0};  // what collisions did, from the root down
+    const double mean = std::accumulate(rest.lengths.begin(), rest.lengths.end(), 0.0) /
+                        static_cast<double>(size() - 1);
     glm::dvec3 position = state.root;
     std::vector<glm::dvec3> turns{glm::dvec3(0.0)};
     for (std::size_t i = 1; i < size(); ++i) {
-        state.velocities[i] = velocity_kept * state.velocities[i] + substep * accelerations[i];
+        state.velocities[i] *= velocity_kept;
+        if (!second_order) state.velocities[i] += substep * accelerations[i];
         if (air)
             state.velocities[i] = braked(state.velocities[i], drag[i], air->velocities[i], substep);
         state.angular_velocities[i] *= velocity_kept;
         const glm::dvec3 edge = rest.lengths[i] * axisOf(state.orientations[i]);
-        stretched += state.edges[i] - edge;
-        displacements[i] = substep * (state.velocities[0] - state.velocities[i]) - stretched;
+        misfits += state.edges[i] - edge;
+        stretched = stretched || glm::length(state.edges[i] - edge) > kLeastMisfit * mean;
+        displacements[i] = substep * (state.velocities[0] - state.velocities[i]) - misfits;
+        if (second_order)
+            displacements[i] -= carried(state.accelerations[i], state.true_accelerations[i]) +
+                                kForceShare * substep * substep * accelerations[i];
         state.edges[i] = edge;
         position += edge;
         if (const auto pin = state.pins.find(i); pin != state.pins.end()) {
@@ -134,7 +173,12 @@ void RodSubstep::predict(
             displacements[i] = position - pin->second;
         }
         turns.push_back(substep * state.angular_velocities[i]);
+        if (second_order)
+            turns.back() +=
+                carried(state.angular_accelerations[i], state.true_angular_accelerations[i]);
+        predicted_turns.push_back(turns.back());
     }
+    loads.assign(accelerations.begin(), accelerations.end());
     turn(turns);
 }
 
@@ -162,14 +206,19 @@ void RodSubstep::iterate() {
         glm::dvec3 by_itself;
     };
     std::vector<Turn> answers(size());
-    const double per_square = 1.0 / (substep * substep);
+    const double per_square = 1.0 / (forceShare() * substep * substep);
     glm::dvec3 force{0.0};  // through the segment on the vertex where it ends
     Below below;
     for (std::size_t i = size() - 1; i > 0; --i) {
         const glm::dmat3 mass = massOf(i) * per_square;
         const double inertia = rest.inertias[i] * per_square;
         const glm::dvec3 axis = axisOf(state.orientations[i]);
-        const Joint joint = jointAt(state, rest, i);
+        Joint joint = jointAt(state, rest, i);
+        const glm::dvec3 turn_above =
+            i == 1 ? predicted_turns[0] : predicted_turns[i - 1] + rotations[i - 1];
+        const glm::dvec3 bent = predicted_turns[i] + rotations[i] - turn_above;
+        joint.torque -= viscosity() * (joint.stiffness * bent);
+        joint.stiffness *= 1.0 + viscosity();
 
         // Geometric stiffness: tension straightens. Pressure would bend, which is left out lest the
         // minimum be a saddle.
@@ -206,9 +255,11 @@ void RodSubstep::iterate() {
 
     std::vector<glm::dvec3> turns{glm::dvec3(0.0)};
     glm::dvec3 moved{0.0};
+    state.smooth = true;
     for (std::size_t i = 1; i < size(); ++i) {
         const Turn& answer = answers[i];
         glm::dvec3 turn = answer.by_move * moved + answer.by_turn * turns.back() + answer.by_itself;
+        state.smooth = state.smooth && glm::length(turn) <= kSmoothTurn;
         turn *= kMostTurn / std::max(glm::length(turn), kMostTurn);
         moved += glm::cross(turn, state.edges[i]);
         turns.push_back(turn);
@@ -218,9 +269,32 @@ void RodSubstep::iterate() {
 }
 
 void RodSubstep::finish() {
+    const double per_square = 1.0 / (forceShare() * substep * substep);
+    const auto accelerate = [&](glm::dvec3& velocity, glm::dvec3& taken, glm::dvec3& real,
+                                const glm::dvec3& now) {
+        if (second_order) {
+            const glm::dvec3 then = (1.0 - kAlphaForces) * now + kAlphaForces * real;
+            velocity += substep * ((1.0 - kGamma) * taken + kGamma * then);
+            taken = then;
+        } else {
+            taken = now;
+        }
+        real = now;
+    };
+    state.smooth = state.smooth && !stretched;
     for (std::size_t i = 1; i < size(); ++i) {
-        if (!state.pins.contains(i)) state.velocities[i] += displacements[i] / substep;
-        state.angular_velocities[i] += rotations[i] / substep;
+        const bool pinned = state.pins.contains(i);
+        if (!second_order) {
+            if (!pinned) state.velocities[i] += displacements[i] / substep;
+            state.angular_velocities[i] += rotations[i] / substep;
+        }
+        accelerate(
+            state.velocities[i], state.accelerations[i], state.true_accelerations[i],
+            pinned ? glm::dvec3(0.0) : per_square * displacements[i] + loads[i]);
+        if (pinned) state.velocities[i] = state.accelerations[i] = glm::dvec3(0.0);
+        accelerate(
+            state.angular_velocities[i], state.angular_accelerations[i],
+            state.true_angular_accelerations[i], per_square * rotations[i]);
     }
 }
 
@@ -375,6 +449,8 @@ RodState rodAtRest(const RodRest& rest, const RodRoot& root) {
     }
     state.velocities.assign(rest.lengths.size(), glm::dvec3(0.0));
     state.angular_velocities = state.velocities;
+    state.accelerations = state.true_accelerations = state.velocities;
+    state.angular_accelerations = state.true_angular_accelerations = state.velocities;
     return state;
 }
 
@@ -402,25 +478,39 @@ RodState rodFrom(
 
 void stepRod(
     RodState& state, const RodRest& rest, std::span<const glm::dvec3> accelerations,
-    const RodRoot& root, double substep, double velocity_kept, std::uint32_t iterations,
+    const RodRoot& root, double substep, double velocity_kept, const RodScheme& scheme,
     const RodAir* air) {
     assert(accelerations.size() == rest.lengths.size());
     RodSubstep step{
         .state = state,
         .rest = rest,
+        .scheme = scheme,
+        .second_order = scheme.integrator == Integrator::generalized_alpha && state.smooth && !air,
         .substep = substep,
         .displacements = std::vector(rest.lengths.size(), glm::dvec3(0.0)),
         .rotations = std::vector(rest.lengths.size(), glm::dvec3(0.0)),
-        .drag = std::vector(rest.lengths.size(), glm::dmat3(0.0))};
+        .drag = std::vector(rest.lengths.size(), glm::dmat3(0.0)),
+        .predicted_turns = {},
+        .loads = {}};
     step.predict(accelerations, root, velocity_kept, air);
-    for (std::uint32_t i = 0; i < iterations; ++i) step.iterate();
+    for (std::uint32_t i = 0; i < scheme.iterations; ++i) step.iterate();
     step.finish();
+}
+
+void stepRod(
+    RodState& state, const RodRest& rest, std::span<const glm::dvec3> accelerations,
+    const RodRoot& root, double substep, double velocity_kept, std::uint32_t iterations,
+    const RodAir* air) {
+    stepRod(
+        state, rest, accelerations, root, substep, velocity_kept,
+        RodScheme{.iterations = iterations}, air);
 }
 
 void pushRod(
     RodState& state, const RodRest& rest, std::span<const glm::dvec3> positions, double substep) {
     const std::vector<glm::dvec3> before = state.positions();
     for (std::size_t i = 1; i < before.size(); ++i) {
+        state.smooth = state.smooth && positions[i] == before[i];
         state.velocities[i] += (positions[i] - before[i]) / substep;
         const glm::dvec3 edge = positions[i] - positions[i - 1];
         state.edges[i] = edge;

@@ -52,6 +52,11 @@ struct RodState {
     std::vector<glm::dvec3> velocities;
     std::vector<glm::dquat> orientations;
     std::vector<glm::dvec3> angular_velocities;  // rad/s, axes of space
+    // Of Integrator::generalized_alpha: accelerations of vertices and segments, as the velocities
+    // took them and as forces and inertia have them.
+    std::vector<glm::dvec3> accelerations, true_accelerations;  // m/s^2
+    std::vector<glm::dvec3> angular_accelerations, true_angular_accelerations;  // rad/s^2
+    bool smooth = false;  // they are good for a step of second order
     std::map<std::size_t, glm::dvec3> pins;  // vertices beside the root that are held, and where, m
 
     std::vector<glm::dvec3> positions() const;  // m
@@ -84,8 +89,35 @@ struct RodAir {
         rates;
 };
 
+// generalized_alpha: Chung and Hulbert 1993, A time integration algorithm for structural dynamics
+// with improved numerical dissipation, with half of the fastest motions left after a step, in the
+// variables of Arnold and Bruels 2007, Convergence of the generalized-alpha scheme for constrained
+// mechanical systems. Of second order; alpha_m = 0, alpha_f = 1/3, gamma = 5/6, beta = 4/9. Where
+// the last Newton step of a step before turned a segment by more than kSmoothTurn, vertices were
+// pushed since, or there is air, a step is implicit Euler's: a strand that whips gains energy
+// otherwise.
+enum class Integrator { implicit_euler, generalized_alpha };
+
+constexpr double kSmoothTurn = 1e-3;  // rad
+
+// How the step goes, beside what acts on the rod.
+struct RodScheme {
+    std::uint32_t iterations = 2;
+    Integrator integrator = Integrator::implicit_euler;
+    // tau of Kelvin's and Voigt's material, s: a joint's torque is its stiffness times its bend and
+    // twist, and times their rate and tau. Implicit Euler is as if there were the substep of it in
+    // every force, which counts.
+    double damping = 0.0;
+};
+
 // One step under these accelerations of the vertices, m/s^2, with the follicle where `root` has it
 // at the step's end, and in this air, if any. Velocities are multiplied by `velocity_kept` first.
+void stepRod(
+    RodState& state, const RodRest& rest, std::span<const glm::dvec3> accelerations,
+    const RodRoot& root, double substep, double velocity_kept, const RodScheme& scheme,
+    const RodAir* air = nullptr);
+
+// The same by implicit Euler without more damping than that.
 void stepRod(
     RodState& state, const RodRest& rest, std::span<const glm::dvec3> accelerations,
     const RodRoot& root, double substep, double velocity_kept, std::uint32_t iterations,

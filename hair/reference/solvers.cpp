@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "hair/reference/augmented_mass_spring.h"
 #include "hair/reference/bending.h"
 #include "hair/reference/hair_hair.h"
 #include "hair/reference/position_based_rod.h"
@@ -106,9 +107,15 @@ void RodSolver::adopt(const Substep& substep) {
 
 // Inextensible, by Newton's method.
 void stepInextensibleRod(RodState& state, const RodRest& rest, const RodStep& step) {
+    const RodSettings& settings = step.settings.rod;
+    const bool alpha = settings.integrator == RodIntegrator::generalized_alpha;
     stepRod(
         state, rest, step.accelerations, step.root, step.step.sub,
-        keptFactor(step.settings, step.step), step.settings.rod.iterations, step.air);
+        keptFactor(step.settings, step.step),
+        {.iterations = settings.iterations,
+         .integrator = alpha ? Integrator::generalized_alpha : Integrator::implicit_euler,
+         .damping = step.settings.material.damping},
+        step.air);
 }
 
 constexpr RodMethod kInextensible = {stepInextensibleRod, pushRod};
@@ -145,6 +152,24 @@ void stepPositionBased(RodState& state, const RodRest& rest, const RodStep& step
 }
 
 constexpr RodMethod kPositionBased = {stepPositionBased, pushElasticRod};
+
+void stepMassSpring(RodState& state, const RodRest& rest, const RodStep& step) {
+    const MaterialSettings& material = step.settings.material;
+    const AugmentedMassSpringSettings& settings = step.settings.augmented_mass_spring;
+    const double section = std::numbers::pi * double{material.radius} * double{material.radius};
+    stepAugmentedMassSpring(
+        state, rest, step.accelerations, step.root,
+        {.substep = step.step.sub,
+         .velocity_kept = keptFactor(step.settings, step.step),
+         .spring_stiffness = double{settings.spring_modulus} * section,
+         .integrity = settings.integrity,
+         .angular_stiffness =
+             double{settings.angular_stiffness} * double{material.density} * section,
+         .iterations = settings.iterations},
+        step.air);
+}
+
+constexpr RodMethod kMassSpring = {stepMassSpring, pushElasticRod};
 
 // ---- Solvers without a state of their own -------------------------------------------------------
 
@@ -320,6 +345,7 @@ constexpr Row kSolvers[] = {
     {hair::Solver::rod, makeRods<kInextensible>},
     {hair::Solver::stable_cosserat, makeRods<kStableCosserat>},
     {hair::Solver::position_based_rod, makeRods<kPositionBased>},
+    {hair::Solver::augmented_mass_spring, makeRods<kMassSpring>},
 };
 
 }  // namespace

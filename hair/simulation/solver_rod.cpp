@@ -150,9 +150,11 @@ restOfRods(const groom::Groom& groom, const SimulationSettings& settings, const 
     return rest;
 }
 
-static_assert(offsetof(gpu::RodParameters, most_strands) == 32);
-static_assert(offsetof(gpu::RodParameters, stretching) == 40);
-static_assert(offsetof(gpu::RodParameters, ellipticity) == 44);
+static_assert(offsetof(gpu::RodParameters, accelerations) == 32);
+static_assert(offsetof(gpu::RodParameters, most_strands) == 40);
+static_assert(offsetof(gpu::RodParameters, stretching) == 48);
+static_assert(offsetof(gpu::RodParameters, ellipticity) == 52);
+static_assert(offsetof(gpu::RodParameters, damping) == 64);
 
 // Scratch memory takes at most this part of the device's own. Of the heap's size, not of what is
 // free in it: then the same case has the same dispatches every time.
@@ -172,6 +174,14 @@ strandsInDispatch(const engine::DeviceInfo& device, const groom::Groom& groom, s
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(most, groom.strand_count));
 }
 
+std::optional<engine::Buffer>
+accelerationsOf(const engine::Device& device, const groom::Groom& groom, RodIntegrator integrator) {
+    if (integrator == RodIntegrator::implicit_euler) return {};
+    return engine::Buffer(
+        device, {.size = sizeof(glm::vec4) * gpu::kRodAccelerationRows * groom.points.size(),
+                 .name = "rod accelerations"});
+}
+
 }  // namespace
 
 RodMethod rodMethod(const SimulationSettings& settings) {
@@ -180,7 +190,9 @@ RodMethod rodMethod(const SimulationSettings& settings) {
         .packed_shader = "simulation/rod_packed.comp",
         .scratch_rows = gpu::kRodScratchRows +
                         (settings.collision.warm_start ? gpu::kRodContactScratchRows : 0),
-        .iterations = settings.rod.iterations};
+        .iterations = settings.rod.iterations,
+        .integrator = settings.rod.integrator,
+        .damping = settings.material.damping};
 }
 
 RodMethod stableCosseratMethod(const SimulationSettings& settings) {
@@ -202,6 +214,18 @@ RodMethod positionBasedMethod(const SimulationSettings& settings) {
         .stretching = double{settings.material.youngs_modulus} / double{settings.material.density}};
 }
 
+RodMethod augmentedMassSpringMethod(const SimulationSettings& settings) {
+    const AugmentedMassSpringSettings& springs = settings.augmented_mass_spring;
+    return {
+        .shader = "simulation/augmented_mass_spring.comp",
+        .packed_shader = "simulation/augmented_mass_spring_packed.comp",
+        .scratch_rows = gpu::kMassSpringScratchRows,
+        .iterations = springs.iterations,
+        .stretching = double{springs.spring_modulus} / double{settings.material.density},
+        .integrity = springs.integrity,
+        .angular = springs.angular_stiffness};
+}
+
 RodSolver::RodSolver(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const gpu::Step& step, const RodMethod& method)
@@ -218,6 +242,7 @@ RodSolver::RodSolver(
       motion_(
           device, {.size = sizeof(glm::vec4) * gpu::kRodMotionRows * groom.points.size(),
                    .name = "rod motion"}),
+      accelerations_(accelerationsOf(device, groom, method.integrator)),
       scratch_(
           device, {.size = scratchOfStrand(groom, method.scratch_rows) * most_strands_,
                    .name = "rod scratch"}),
@@ -228,10 +253,14 @@ RodSolver::RodSolver(
               .units = units_.address(),
               .motion = motion_.address(),
               .scratch = scratch_.address(),
+              .accelerations = accelerations_ ? accelerations_->address() : 0,
               .most_strands = most_strands_,
               .iterations = method.iterations,
               .stretching = static_cast<float>(method.stretching * step.sub * step.sub),
-              .ellipticity = settings.material.ellipticity}}),
+              .ellipticity = settings.material.ellipticity,
+              .integrity = static_cast<float>(method.integrity * step.sub * step.sub),
+              .angular = static_cast<float>(method.angular * step.sub * step.sub),
+              .damping = static_cast<float>(method.damping / step.sub)}}),
           "rod parameters")),
       step_(
           device, {.shader = device.has(engine::Feature::long_integers) ? method.packed_shader
@@ -239,7 +268,9 @@ RodSolver::RodSolver(
                    .constants =
                        {{gpu::kContinuousCollisionConstant, settings.collision.continuous},
                         {gpu::kEllipticSectionConstant, settings.material.ellipticity != 1.0f},
-                        {gpu::kWarmStartConstant, settings.collision.warm_start}},
+                        {gpu::kWarmStartConstant, settings.collision.warm_start},
+                        {gpu::kRodAlphaConstant, accelerations_.has_value()},
+                        {gpu::kRodDampedConstant, method.damping > 0.0}},
                    .push_size = sizeof(gpu::SubstepPush)}),
       adopt_(
           device, {.shader = "simulation/rod_adopt.comp", .push_size = sizeof(gpu::SubstepPush)}) {}
@@ -252,15 +283,23 @@ void RodSolver::record(engine::Commands& commands, gpu::SubstepPush push) const 
         push.first_strand = first;
         commands.bind(step_, push);
         commands.uses({{motion_, Access::compute_write}, {scratch_, Access::compute_write}});
+        if (accelerations_) commands.uses({{*accelerations_, Access::compute_write}});
         commands.dispatchInvocations(
             std::min(most_strands_, strand_count_ - first), gpu::kRodGroupSize);
     }
+}
+
+std::vector<const engine::Buffer*> RodSolver::state() const {
+    std::vector<const engine::Buffer*> state{&motion_};
+    if (accelerations_) state.push_back(&*accelerations_);
+    return state;
 }
 
 void RodSolver::recordAdopt(engine::Commands& commands, gpu::SubstepPush push) const {
     push.solver = parameters_.address();
     commands.bind(adopt_, push);
     commands.uses({{motion_, Access::compute_write}});
+    if (accelerations_) commands.uses({{*accelerations_, Access::compute_write}});
     commands.dispatchInvocations(strand_count_, gpu::kRodGroupSize);
 }
 

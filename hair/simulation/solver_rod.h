@@ -21,6 +21,10 @@ struct RodMethod {
     std::uint32_t scratch_rows;  // vec4 for each vertex
     std::uint32_t iterations;
     double stretching = 0.0;  // modulus of stretch and shear over the density, m^2/s^2
+    double integrity = 0.0;  // of `augmented_mass_spring`: its settings
+    double angular = 0.0;
+    RodIntegrator integrator = RodIntegrator::implicit_euler;
+    double damping = 0.0;  // of `rod`: the material's, s
 };
 
 // `rod`: rods which neither stretch nor shear; hair/reference/rod.h.
@@ -29,6 +33,9 @@ RodMethod rodMethod(const SimulationSettings& settings);
 RodMethod stableCosseratMethod(const SimulationSettings& settings);
 // `position_based_rod`: hair/reference/position_based_rod.h.
 RodMethod positionBasedMethod(const SimulationSettings& settings);
+// `augmented_mass_spring`: hair/reference/augmented_mass_spring.h. Its orientations follow the
+// edges.
+RodMethod augmentedMassSpringMethod(const SimulationSettings& settings);
 
 // Elastic rods of /simulation/material by one of those methods. Positions are output alone; the
 // state is in orientations, velocities and edges. Strands work in units of their own and positions
@@ -43,7 +50,7 @@ public:
     void record(engine::Commands& commands, gpu::SubstepPush push) const override;
     void recordAdopt(engine::Commands& commands, gpu::SubstepPush push) const override;
     const RestBalance* balance() const override { return balance_ ? &*balance_ : nullptr; }
-    std::vector<const engine::Buffer*> state() const override { return {&motion_}; }
+    std::vector<const engine::Buffer*> state() const override;
 
 private:
     RodSolver(
@@ -56,6 +63,8 @@ private:
     engine::Buffer segments_;
     engine::Buffer units_;
     engine::Buffer motion_;
+    std::optional<engine::Buffer>
+        accelerations_;  // where the method needs those of a substep before
     engine::Buffer scratch_;
     engine::Buffer parameters_;
     engine::ComputePipeline step_;

@@ -74,6 +74,7 @@ constexpr Row kSolvers[] = {
     {Solver::rod, 1.0 / 480.0, makeRods<rodMethod>},
     {Solver::stable_cosserat, 1.0 / 960.0, makeRods<stableCosseratMethod>},
     {Solver::position_based_rod, 1.0 / 1920.0, makeRods<positionBasedMethod>},
+    {Solver::augmented_mass_spring, 1.0 / 480.0, makeRods<augmentedMassSpringMethod>},
 };
 
 const Row& rowOf(Solver solver) {

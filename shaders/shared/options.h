@@ -151,5 +151,7 @@ const uint kContinuousCollisionConstant = 5u;
 // Of the solver `rod`: simulation/rod/joint.glsl and simulation/rod.glsl.
 const uint kEllipticSectionConstant = 6u;
 const uint kWarmStartConstant = 7u;
+const uint kRodAlphaConstant = 8u;
+const uint kRodDampedConstant = 9u;
 
 #endif

@@ -2,8 +2,8 @@
 // that neither stretches nor shears. The unknowns are rotations of the segments; the vertices
 // follow. Each iteration is a Newton step, which eliminates one segment after the other from the
 // tip up: Featherstone 1983, The calculation of robot dynamics using articulated-body inertias. See
-// rod.h for the rod and for where it comes from, rod_structs.h for the units. Before it:
-// common/vectors.glsl or common/packed_vectors.glsl.
+// rod.h for the rod, for generalised alpha and for where they come from, rod_structs.h for the
+// units. Before it: common/vectors.glsl or common/packed_vectors.glsl.
 #include "shared/options.h"
 #include "shared/rod_structs.h"
 
@@ -31,6 +31,55 @@ Hold holdAt(uint i) {
     return Hold(facing.xyz, facing.w, scratchAt(i, 10).xyz);
 }
 
+// Generalised alpha (rod.h): the weights of the accelerations before in a prediction, as the
+// velocities took them and as they were; those in a velocity; and the share of the substep squared
+// for which the forces at its end act.
+const vec2 kCarried = vec2(1.0 / 18.0, 4.0 / 27.0);
+const vec2 kSpeedsUp = vec2(1.0 / 6.0, 5.0 / 6.0);
+const vec2 kTaken = vec2(1.0 / 3.0, 2.0 / 3.0);  // of accelerations before and now in that
+const float kForceShare = 8.0 / 27.0;
+const float kSmoothTurn = 1.0e-3;   // rad
+const float kLeastMisfit = 1.0e-4;  // that tells nothing of accelerations
+
+// Whether accelerations are kept, and whether the material damps: what a constant leaves out costs
+// nothing, where lavapipe works out both sides of a branch.
+layout(constant_id = kRodAlphaConstant) const bool kAlpha = false;
+layout(constant_id = kRodDampedConstant) const bool kDamped = false;
+
+bool second_order;  // this substep
+bool is_smooth;       // so may the next be
+float viscosity;    // of joints, over their stiffness
+
+uint accelerationIndex(uint i, uint row) {
+    return rodIndex(i, row, kRodAccelerationRows, guides.strand_count, strand);
+}
+
+vec3 accelerationAt(uint i, uint row) {
+    return loadVector(rod.accelerations, accelerationIndex(i, row)).xyz;
+}
+
+// What gravity and the substep's accelerations do by themselves.
+vec3 loadAt(uint i) {
+    vec3 acceleration = guides.gravity;
+    if (push.accelerations != kNoAddress) acceleration += Vectors(push.accelerations).at[root + i].xyz;
+    return guides.step.sub * guides.step.sub / unit * acceleration;
+}
+
+void chooseOrder() {
+    second_order = false;
+    if (kAlpha && push.air == kNoAddress)
+        second_order = accelerationAt(0, 0).x == 0.0;
+    viscosity = second_order ? rod.damping : max(rod.damping - 1.0, 0.0);
+    is_smooth = true;
+}
+
+// By how much a segment of this angular velocity, friction included, is predicted to turn.
+vec3 predictedTurn(uint i, vec3 angular_velocity) {
+    if (!kAlpha || !second_order) return angular_velocity;
+    return angular_velocity + kCarried.x * accelerationAt(i, kRodAngularAcceleration) +
+           kCarried.y * accelerationAt(i, kRodTrueAngularAcceleration);
+}
+
 // Velocities with the forces of the substep, and where they would take the strand.
 void predict() {
     State positions = State(from.positions);
@@ -39,29 +88,36 @@ void predict() {
     vec3 root_moved = (root_now - follicle.xyz) / unit;
     State(guides.previous).at[root] = vec4(follicle.xyz, 0.0);
     State(guides.positions).at[root] = vec4(root_now, follicle.w);
-    float scale = guides.step.sub * guides.step.sub / unit;
     vec3 edges = vec3(0.0);    // from the root to here
     vec3 misfits = vec3(0.0);  // from the root to here
     vec3 moved = vec3(0.0);    // by segments that turn
     for (uint i = 1; i < guides.vertices_per_strand; ++i) {
         RodMotion motion = motionAt(i);
         float len = restLength(i);
-        vec3 acceleration = guides.gravity;
-        if (push.accelerations != kNoAddress) acceleration += Vectors(push.accelerations).at[root + i].xyz;
+        vec3 load = loadAt(i);
         vec4 brake = vec4(0.0);
         if (push.air != kNoAddress) brake = brakeAt(i, motion);
-        motion.velocity = guides.velocity_kept * motion.velocity + scale * acceleration;
+        motion.velocity *= guides.velocity_kept;
+        vec3 free = motion.velocity;  // how the vertex moves by itself
+        if (kAlpha && second_order)
+            free += kCarried.x * accelerationAt(i, kRodAcceleration) +
+                    kCarried.y * accelerationAt(i, kRodTrueAcceleration) + kForceShare * load;
+        else
+            motion.velocity += load;
         if (push.air != kNoAddress) {
             vec3 air = guides.step.sub / unit * Vectors(push.air).at[root + i].xyz;
             motion.velocity = braked(motion.velocity, air, brake.xyz, brake.w);
             setScratch(i, 8, brake);
         }
         motion.angular_velocity *= guides.velocity_kept;
-        moved += gainOf(len * axisOf(motion.orientation), motion.angular_velocity);
-        motion.orientation = turned(motion.orientation, motion.angular_velocity);
+        if (!second_order) free = motion.velocity;
+        vec3 turn = predictedTurn(i, motion.angular_velocity);
+        moved += gainOf(len * axisOf(motion.orientation), turn);
+        motion.orientation = turned(motion.orientation, turn);
         misfits += motion.misfit;
+        is_smooth = is_smooth && length(motion.misfit) <= kLeastMisfit;
         edges += len * axisOf(motion.orientation);
-        vec3 displacement = root_moved - misfits + moved - motion.velocity;
+        vec3 displacement = root_moved - misfits + moved - free;
         if (isPinned(i)) {
             motion.velocity = vec3(0.0);
             displacement = (root_now - positions.at[root + i].xyz) / unit + edges;
@@ -80,6 +136,13 @@ void predict() {
     }
 }
 
+// By how much a segment has turned in the substep, as small turns add up.
+vec3 turnSoFar(uint i) {
+    if (i > 0) return predictedTurn(i, motionAt(i).angular_velocity) + scratchAt(i, 7).xyz;
+    vec4 turn = multiply(push.frame.rotation, conjugate(push.frame_before.rotation));
+    return (turn.w < 0.0 ? -2.0 : 2.0) * turn.xyz;
+}
+
 // From the tip up. The least energy of all below a vertex is, of the vertex's further move x and
 // the further turn t of the segment that ends there, x A x / 2 + x B t + t C t / 2 + a x + b t. All
 // in the segment's own axes: under a great tension its bending and twisting differ by more than 32
@@ -92,6 +155,7 @@ void eliminate() {
     vec3 b = vec3(0.0);
     vec3 force = vec3(0.0);  // through the segment on the vertex where it ends
     vec4 orientation = orientationAt(guides.vertices_per_strand - 1);
+    float heaviness = second_order ? 1.0 / kForceShare : 1.0;  // as forces act for less time
     for (uint i = guides.vertices_per_strand - 1; i > 0; --i) {
         RodSegment segment = loadSegment(rod.segments, i, guides.strand_count, strand);
         vec4 above = orientationAt(i - 1);
@@ -99,8 +163,9 @@ void eliminate() {
         vec3 displacement = from_space * scratchAt(i, 6).xyz;
         vec3 rotation = from_space * scratchAt(i, 7).xyz;
         float mass = isPinned(i) ? pinMass() : segment.mass;
+        mass *= heaviness;
         float turning_length = max(segment.rest_length, kLeastLength);
-        float inertia = turning_length * turning_length * turning_length / 12.0;
+        float inertia = heaviness * turning_length * turning_length * turning_length / 12.0;
 
         // Tension straightens: Tournier et al. 2015, Stable constrained dynamics.
         vec3 held = mass * displacement;
@@ -143,6 +208,10 @@ void eliminate() {
             segment.twist_stiffness, rod.ellipticity, i == 1);
         vec3 torque = from_space * joint.torque;
         mat3 stiffness = symmetric(from_space * joint.stiffness * transpose(from_space));
+        if (kDamped && viscosity > 0.0) {
+            torque -= viscosity * (stiffness * (from_space * (turnSoFar(i) - turnSoFar(i - 1))));
+            stiffness *= 1.0 + viscosity;
+        }
 
         mat3 yields = inverseOfSymmetric(C + stiffness);
         mat3 by_move = -yields * transpose(B);
@@ -164,8 +233,9 @@ void eliminate() {
     }
 }
 
-// From the root down: every segment's turn, and where it takes the vertices.
-void turnSegments() {
+// From the root down: every segment's turn, and where it takes the vertices. The greatest turn.
+float turnSegments() {
+    float greatest = 0.0;
     vec3 turn = vec3(0.0);
     vec3 linear = vec3(0.0);  // how far small turns would take the vertex above
     vec3 moved = vec3(0.0);   // and how far they do
@@ -183,6 +253,7 @@ void turnSegments() {
         mat3 to_space = matrixOf(orientation);
         vec3 edge = restLength(i) * to_space[2];
         vec3 own = by_move * (linear * to_space) + by_turn * (turn * to_space) + by_itself;
+        greatest = max(greatest, length(own));
         turn = to_space * own * (kMostTurn / max(length(own), kMostTurn));
         linear += cross(turn, edge);
         moved += gainOf(edge, turn);
@@ -190,6 +261,22 @@ void turnSegments() {
         setScratch(i, 6, vec4(scratchAt(i, 6).xyz + moved, 0.0));
         setScratch(i, 7, vec4(scratchAt(i, 7).xyz + turn, 0.0));
     }
+    return greatest;
+}
+
+// What accelerations add to a velocity, kept in two rows from `row` on; `now` as forces and inertia
+// have them.
+vec3 speedUp(uint i, uint row, vec3 now) {
+    if (!kAlpha) return now;
+    vec3 taken = now;
+    vec3 change = now;
+    if (second_order) {
+        taken = kTaken.x * accelerationAt(i, row + 1) + kTaken.y * now;
+        change = kSpeedsUp.x * accelerationAt(i, row) + kSpeedsUp.y * taken;
+    }
+    storeVector(rod.accelerations, accelerationIndex(i, row), vec4(taken, 0.0));
+    storeVector(rod.accelerations, accelerationIndex(i, row + 1), vec4(now, 0.0));
+    return change;
 }
 
 // Velocities and positions, and collisions: what they move turns segments and leaves misfits.
@@ -205,12 +292,18 @@ void finish() {
         vec4 point = State(from.positions).at[root + i];
         vec3 before = point.xyz;
         edges += len * axis;
-        motion.angular_velocity += scratchAt(i, 7).xyz;
+        float share = second_order ? 1.0 / kForceShare : 1.0;
+        motion.angular_velocity +=
+            speedUp(i, kRodAngularAcceleration, share * scratchAt(i, 7).xyz);
         vec3 pushed = vec3(0.0);
         if (!isPinned(i)) {
             vec3 free = root_now + unit * edges;
             vec3 held = heldByBodies(i, free, before, contact, pushed);
-            motion.velocity += scratchAt(i, 6).xyz + pushed;
+            // Implicit Euler's velocity has the load already.
+            vec3 load = kAlpha ? loadAt(i) : vec3(0.0);
+            vec3 change = speedUp(i, kRodAcceleration, share * scratchAt(i, 6).xyz + load);
+            motion.velocity += (second_order ? change : change - load) + pushed;
+            is_smooth = is_smooth && pushed == vec3(0.0);
             if (kWarmStart) {
                 Hold hold = holdAt(i);
                 if (hold.normal == vec3(0.0)) {
@@ -225,6 +318,9 @@ void finish() {
                 }
             }
             point.xyz = held;
+        } else if (kAlpha) {
+            storeVector(rod.accelerations, accelerationIndex(i, kRodAcceleration), vec4(0.0));
+            storeVector(rod.accelerations, accelerationIndex(i, kRodTrueAcceleration), vec4(0.0));
         }
         positions.at[root + i] = point;
         motion.misfit = vec3(0.0);
@@ -245,10 +341,16 @@ void finish() {
 
 void main() {
     if (!takeStrand()) return;  // no barrier follows
+    chooseOrder();
     predict();
+    float last_turn = 0.0;
     for (uint i = 0; i < rod.iterations; ++i) {
         eliminate();
-        turnSegments();
+        last_turn = turnSegments();
     }
     finish();
+    if (kAlpha) {
+        bool smooth_strand = is_smooth && last_turn <= kSmoothTurn;
+        storeVector(rod.accelerations, accelerationIndex(0, 0), vec4(smooth_strand ? 0.0 : 1.0));
+    }
 }

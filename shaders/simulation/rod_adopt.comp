@@ -48,4 +48,6 @@ void main() {
         motion.misfit = edge / unit - len * axisOf(orientation);
         storeMotion(rod.motion, i, strands, strand, motion);
     }
+    if (rod.accelerations != kNoAddress)
+        storeVector(rod.accelerations, rodIndex(0, 0, kRodAccelerationRows, strands, strand), vec4(1.0));
 }

@@ -188,7 +188,8 @@ TEST(Cli, PhysicsRefusesWhatItDoesNotKnow) {
     EXPECT_EQ(solver.status, 2);
     EXPECT_THAT(solver.output, HasSubstr("unknown solver"));
     EXPECT_THAT(
-        solver.output, HasSubstr("known: shape, ftl, rod, stable_cosserat, position_based_rod"));
+        solver.output, HasSubstr("known: shape, ftl, rod, stable_cosserat, position_based_rod, "
+                                 "augmented_mass_spring"));
     EXPECT_EQ(hairbench("physics --check '['").status, 2);
     EXPECT_EQ(hairbench("physics --check none_at_all").status, 14);
 }

@@ -300,7 +300,8 @@ INSTANTIATE_TEST_SUITE_P(
     , LesserDeviceRods,
     testing::Values(
         std::pair{hair::Solver::rod, 9u}, std::pair{hair::Solver::stable_cosserat, 4u},
-        std::pair{hair::Solver::position_based_rod, 5u}));
+        std::pair{hair::Solver::position_based_rod, 5u},
+        std::pair{hair::Solver::augmented_mass_spring, 13u}));
 
 TEST_P(LesserDeviceRods, MoveStrandsTheSameOnAnyDevice) {
     const std::uint64_t bytes = 9 * 16 * GetParam().second;  // B

@@ -117,7 +117,8 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
     silent("at rest", made(at_rest));
     silent("everything", everything());
     for (const hair::Solver solver :
-         {hair::Solver::rod, hair::Solver::stable_cosserat, hair::Solver::position_based_rod}) {
+         {hair::Solver::rod, hair::Solver::stable_cosserat, hair::Solver::position_based_rod,
+          hair::Solver::augmented_mass_spring}) {
         hair::Settings rods = everything();
         rods.simulation.solver = solver;
         silent("rods, solver " + std::to_string(static_cast<int>(solver)), rods);

@@ -73,7 +73,8 @@ void expectEqualEnds(const engine::Device& device, hair::Solver solver, float st
 TEST_F(FramesInFlight, EndAlikeHoweverManyThereAre) {
     for (const hair::Solver solver :
          {hair::Solver::shape, hair::Solver::ftl, hair::Solver::rod, hair::Solver::stable_cosserat,
-          hair::Solver::position_based_rod, hair::Solver::none})
+          hair::Solver::position_based_rod, hair::Solver::augmented_mass_spring,
+          hair::Solver::none})
         expectEqualEnds(device(), solver, 1.0f);
 }
 
@@ -120,7 +121,7 @@ bool mayRunBeside(const engine::Device& device, const hair::Settings& settings) 
 TEST_F(FramesInFlight, TheNextSimulationMayRunBesideTheDrawing) {
     for (const hair::Solver solver :
          {hair::Solver::shape, hair::Solver::ftl, hair::Solver::rod, hair::Solver::stable_cosserat,
-          hair::Solver::position_based_rod}) {
+          hair::Solver::position_based_rod, hair::Solver::augmented_mass_spring}) {
         hair::Settings settings = movingHair(solver);
         EXPECT_TRUE(mayRunBeside(device(), settings));
         settings.strands.curl.radius = 0.004f;

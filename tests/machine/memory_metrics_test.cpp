@@ -104,7 +104,8 @@ TEST_F(MemoryOfCasesTest, OfEveryPictureFeatureHasAPurpose) {
 TEST_F(MemoryOfCasesTest, OfEverySolverHasAPurpose) {
     for (const hair::Solver solver :
          {hair::Solver::none, hair::Solver::shape, hair::Solver::ftl, hair::Solver::rod,
-          hair::Solver::stable_cosserat, hair::Solver::position_based_rod}) {
+          hair::Solver::stable_cosserat, hair::Solver::position_based_rod,
+          hair::Solver::augmented_mass_spring}) {
         hair::Settings settings = hair::plainSettings();
         settings.simulation.solver = solver;
         settings.simulation.settle_steps = 2;

@@ -102,7 +102,7 @@ TEST_F(HairCacheTest, GivesToTheBitWhatIsMadeWithoutIt) {
     std::size_t made = 2;  // a field, of all solvers, and a state
     for (const hair::Solver solver :
          {hair::Solver::shape, hair::Solver::ftl, hair::Solver::rod, hair::Solver::stable_cosserat,
-          hair::Solver::position_based_rod}) {
+          hair::Solver::position_based_rod, hair::Solver::augmented_mass_spring}) {
         const hair::Settings settings = settledCase(solver);
         const Shown expected = shown(settings, nullptr);
         ASSERT_NE(expected.hashes[0], expected.hashes[1]);  // it moves

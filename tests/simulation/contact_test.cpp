@@ -34,7 +34,8 @@ constexpr Way kWays[] = {
     {Solver::ftl},
     {Solver::rod},
     {Solver::stable_cosserat},
-    {Solver::position_based_rod}};
+    {Solver::position_based_rod},
+    {Solver::augmented_mass_spring}};
 
 SimulationSettings settingsFor(const Way& way) {
     SimulationSettings settings;

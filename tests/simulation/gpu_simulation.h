@@ -9,7 +9,12 @@
 namespace hair::simulation {
 
 inline constexpr Solver kSolvers[] = {
-    Solver::shape, Solver::ftl, Solver::rod, Solver::stable_cosserat, Solver::position_based_rod};
+    Solver::shape,
+    Solver::ftl,
+    Solver::rod,
+    Solver::stable_cosserat,
+    Solver::position_based_rod,
+    Solver::augmented_mass_spring};
 // Those whose whole state is positions and previous positions; gpu_rod_test.cpp has the rest.
 inline constexpr Solver kSolversOfPositions[] = {Solver::shape, Solver::ftl};
 

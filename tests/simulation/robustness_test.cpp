@@ -40,7 +40,8 @@ std::vector<SimulationSettings> extremes() {
           std::pair{Solver::ftl, StiffnessScaling::invariant},
           std::pair{Solver::rod, StiffnessScaling::invariant},
           std::pair{Solver::stable_cosserat, StiffnessScaling::invariant},
-          std::pair{Solver::position_based_rod, StiffnessScaling::invariant}})
+          std::pair{Solver::position_based_rod, StiffnessScaling::invariant},
+          std::pair{Solver::augmented_mass_spring, StiffnessScaling::invariant}})
         for (const float stiffness : {0.0f, 1.0f})
             for (const float step : {0.0005f, 0.1f})
                 for (const float wind : {0.0f, 1500.0f}) {

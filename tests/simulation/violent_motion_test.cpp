@@ -88,13 +88,25 @@ positionBasedStretch(const groom::Groom& groom, const SimulationSettings& settin
         groom, settings.position_based_rod.iterations, way / stepOf(settings).count);
 }
 
-// By how much a strand of `stable_cosserat` may be: the kinetic energy of hair that a root which
-// moves by up to `way` in a step can turn round, lambda L (2 v)^2 / 2, all of it in segments that
-// stretch alike, k_ss x^2 / (2 L).
-double elasticStretch(const groom::Groom& groom, const SimulationSettings& settings, double way) {
-    const double sound = std::sqrt(
-        double{settings.stable_cosserat.stretch_modulus} / double{settings.material.density});
+// By how much a strand of springs along its segments may be: the kinetic energy of hair that a root
+// which moves by up to `way` in a step can turn round, lambda L (2 v)^2 / 2, all of it in segments
+// that stretch alike, E A x^2 / (2 L).
+double elasticStretch(
+    const groom::Groom& groom, const SimulationSettings& settings, double way, float modulus) {
+    const double sound = std::sqrt(double{modulus} / double{settings.material.density});
     return 2.0 * way / double{settings.time_step} / sound * longestStrand(groom);
+}
+
+double
+stableCosseratStretch(const groom::Groom& groom, const SimulationSettings& settings, double way) {
+    return elasticStretch(groom, settings, way, settings.stable_cosserat.stretch_modulus);
+}
+
+// Its springs over two and three segments hold wavy hair back less than straight hair: those along
+// segments alone do in any case.
+double
+massSpringStretch(const groom::Groom& groom, const SimulationSettings& settings, double way) {
+    return elasticStretch(groom, settings, way, settings.augmented_mass_spring.spring_modulus);
 }
 
 // Whatever solves for lengths directly keeps every one.
@@ -112,8 +124,9 @@ constexpr Row kRows[] = {
     {Solver::shape, {.method = LengthMethod::iterate, .iterations = 5}, shapeStretch},
     {Solver::ftl, {}, noStretch},
     {Solver::rod, {}, noStretch},
-    {Solver::stable_cosserat, {}, elasticStretch, 1e-4, false},
-    {Solver::position_based_rod, {}, positionBasedStretch, 3e-3, false}};
+    {Solver::stable_cosserat, {}, stableCosseratStretch, 1e-4, false},
+    {Solver::position_based_rod, {}, positionBasedStretch, 3e-3, false},
+    {Solver::augmented_mass_spring, {}, massSpringStretch, 1e-4, false}};
 
 // Seven segments, each between two points within 3 m that are rounded.
 constexpr double kRounding = 7 * 2 * 3.0 * 0x1p-24;
