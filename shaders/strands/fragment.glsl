@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform Push { StrandPush push; };
 
 layout(location = 0) in vec4 position_and_across;
 layout(location = 1) in vec4 tangent_and_along;
-layout(location = 2) in float half_width;  // m; where kAcrossInMetres. Of lines their coverage
+layout(location = 2) in float half_width;  // m; where quads tell it. Of lines their coverage
 layout(location = 3) flat in uint merged_hairs;  // where they are drawn
 
 // 1: strands are lines a pixel wide
@@ -45,7 +45,7 @@ SeenStrand seenStrand(PictureParameters picture) {
             seen.coverage = pixelCoverage(pixel, offset, half_width);
             seen.fragment.across = pixelAcross(pixel, offset, half_width);
         }
-    } else if (kMergedHairs != 0) {
+    } else if (kMergedHairs != 0 && mergedCount(merged_hairs) > 1.0) {
         float half_strip = max(half_width * mergedSpread(merged_hairs), 1e-12);
         seen.fragment.across = clamp(position_and_across.w / half_strip, -1.0, 1.0);
         if (!toMergedHair(merged_hairs, seen.fragment)) seen.coverage = 0.0;

@@ -13,10 +13,9 @@ void tilt(MergedHair hair, inout StrandFragment fragment) {
         normalize(fragment.tangent + hair.tilt.x * side + hair.tilt.y * facing);
 }
 
-// The strip's place across becomes the hair's. False: it is in a gap, or beyond the hair's ends. A
-// strand that stands for itself alone stays as it is, to the last bit.
+// The strip's place across becomes the hair's. False: it is in a gap, or beyond the hair's ends. Not
+// for strands that stand for themselves alone: they stay as they are, to the last bit.
 bool toMergedHair(uint word, inout StrandFragment fragment) {
-    if (mergedCount(word) == 1.0) return true;
     float place = mergedPlace(word, fragment.across);
     MergedHair hair = mergedHair(word, floor(place), fragment.along);
     float across = acrossMerged(hair, place);

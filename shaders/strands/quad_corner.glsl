@@ -10,9 +10,13 @@
 #include "strands/merged_word.glsl"
 #include "strands/pixel_margin.glsl"
 
-// Across a quad that narrows, only lengths are the same on both of its triangles. Where fragments
-// need no better than a share of the width, that is what they get.
-const bool kAcrossInMetres = kAnalyticCoverage != 0 || kMergedHairs != 0;
+// Whether fragments are told how wide the strand is, and their place across in metres: only lengths
+// are the same on both triangles of a quad that narrows.
+const bool kTellsWidth = kAnalyticCoverage != 0 || kMergedHairs != 0;
+
+bool isAcrossInMetres(uint merged) {
+    return kAnalyticCoverage != 0 || (kMergedHairs != 0 && mergedCount(merged) > 1.0);
+}
 
 // How far the quad's edges are from an end of the line, and where to.
 struct QuadEnd {
@@ -22,8 +26,7 @@ struct QuadEnd {
 
 struct QuadCorner {
     vec4 clip;
-    vec4 position_and_across;  // m; across: -1 at one edge, 1 at the other, or kAcrossInMetres from
-                               // the middle
+    vec4 position_and_across;  // m; across: -1 at one edge, 1 at the other, or m from the middle
     vec4 tangent_and_along;
     float half_width;  // m, of the strand without the gaps between merged hairs
     uint merged;
@@ -44,7 +47,7 @@ QuadCorner quadCorner(PictureParameters picture, LineEnd end, QuadEnd quad, floa
     QuadCorner corner;
     corner.clip = picture.view_projection * vec4(place, 1.0);
     corner.position_and_across =
-        vec4(place, kAcrossInMetres ? across * quad.half_quad : across);
+        vec4(place, isAcrossInMetres(end.merged) ? across * quad.half_quad : across);
     corner.tangent_and_along = vec4(end.tangent, end.along);
     corner.half_width = 0.5 * end.width;
     corner.merged = end.merged;

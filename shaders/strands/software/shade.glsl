@@ -26,8 +26,10 @@ StrandFragment seenPoint(PictureParameters picture, uint number, vec2 place) {
     if (kMergedHairs != 0) {
         PlaceOnStrand on_strand = placeOnStrand(picture, number, seen.t);
         fragment.along = on_strand.along;
-        fragment.across = straightAcross(piece, seen);
-        toMergedHair(on_strand.merged, fragment);
+        if (mergedCount(on_strand.merged) > 1.0) {
+            fragment.across = straightAcross(piece, seen);
+            toMergedHair(on_strand.merged, fragment);
+        }
     }
     return fragment;
 }
