@@ -67,7 +67,7 @@ inline const std::vector<Feature>& features() {
              s.lod.level = 1.6f;
              s.lod.merged = MergedStrands::strip;
          }},
-        {"lod_hairs", [](Settings& s) { s.lod.level = 1.6f; }},
+        {"lod_hairs", [](Settings& s) { s.lod.level = 1.6f; }, "lod"},
         {"msaa", [](Settings& s) { s.render.msaa = 4; }},
         {"ssaa", [](Settings& s) { s.render.ssaa = 2; }},
         {"ssaa4", [](Settings& s) { s.render.ssaa = 4; }},
