@@ -16,7 +16,7 @@ const uint kStrandPointsGroupSize = 64u;
 
 // How many times as wide as without gaps a strand is that stands for many hairs:
 // strands/merged_word.glsl.
-const float kMostMergedSpread = 2.0f;
+const float kMostMergedSpread = 1.5f;
 
 // Everything that a picture's draws read; one per frame in flight.
 struct PictureParameters {
