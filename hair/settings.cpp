@@ -19,8 +19,12 @@ const Table& tableOf(const LodSettings*) {
          number(
              "far_distance", &S::far_distance, 0.001, 1000, "m",
              "distance at which maximum_level is reached"),
-         number(
-             "maximum_level", &S::maximum_level, 0, 8, "1", "level at far_distance and beyond")});
+         number("maximum_level", &S::maximum_level, 0, 8, "1", "level at far_distance and beyond"),
+         choice(
+             "merged", &S::merged,
+             {{MergedStrands::hairs, "hairs"}, {MergedStrands::strip, "strip"}},
+             "what a strand that stands for several is drawn as: hairs: these, side by side with "
+             "gaps; strip: one as wide as all of them (thesis)")});
     return table;
 }
 

@@ -24,12 +24,16 @@ namespace hair {
 // that the covered area is kept (thesis 2.3.8.1).
 enum class LodMode { forced, distance };
 
+// What a strand that stands for many is drawn as: these hairs, with gaps, or one wide strip.
+enum class MergedStrands { hairs, strip };
+
 struct LodSettings {
     LodMode mode = LodMode::forced;
     float level = 0.0f;
     float near_distance = 0.5f;
     float far_distance = 8.0f;
     float maximum_level = 4.0f;
+    MergedStrands merged = MergedStrands::hairs;
 };
 
 const Table& tableOf(const LodSettings*);

@@ -429,7 +429,9 @@ constexpr const char* kLodNotes =
     R"(The hair of one frame stands still; the camera keeps its direction. Error: root mean square of
 the picture with /lod's levels less that of level 0, display values counting from 0 to 1. Popping:
 root mean square of what changes from one place to the next, less what changes at level 0. Coverage: share
-of a square round the hair that it hides, without the head. Times: medians of isolated frames.)";
+of a square round the hair that it hides, without the head. Times: medians of isolated frames.
+With --reference: whole levels, each lit by one directional light that many degrees from the camera, against level
+0 path-traced; popping is what the last 0.05 of the level change.)";
 
 void addPictureCommands(const CommandLine& line) {
     addCommand<viewer::ViewOptions>(
@@ -558,6 +560,14 @@ void addPictureCommands(const CommandLine& line) {
                 ->type_name("FILE");
             command.add_option(
                 "--frame", options.frame, "frame whose hair is drawn, from 0 (default 0)");
+            command.add_flag(
+                "--reference", options.reference,
+                "compare levels with the path-traced level 0, lit from 0, 45, 90 and 180 degrees "
+                "(needs scripts/setup --reference)");
+            command
+                .add_option(
+                    "--samples", options.samples, "samples per pixel of the reference (default 64)")
+                ->check(CLI::Range(1u, 1u << 20));
             command.footer(kLodNotes);
         });
 }

@@ -129,6 +129,8 @@ struct LodOptions {
     double from = 0.5;  // m, distance from /camera/target
     double to = 20.0;
     std::uint32_t steps = 40;
+    bool reference = false;      // compares levels with the path-traced level 0 too
+    std::uint32_t samples = 64;  // of a pixel of that
     std::uint32_t frame = 0;
     std::vector<std::string> command;  // as the report quotes it
 };

@@ -4,6 +4,7 @@
 #include "benchmarks/lod/walk.h"
 #include "benchmarks/measure/hair_cache.h"
 #include "benchmarks/measure/progress.h"
+#include "benchmarks/reference/picture_errors.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/environment.h"
 #include "benchmarks/report/text.h"
@@ -41,6 +42,7 @@ int walkLod(const LodOptions& options) {
     const std::filesystem::path out =
         options.out.empty() ? std::filesystem::path("results/local/lod.json") : options.out;
     engine::checkWritable(out);
+    if (options.reference) reference::checkReferenceTool();
 
     engine::catchInterrupts();
     const engine::Device device(options.scene.device);
@@ -61,6 +63,11 @@ int walkLod(const LodOptions& options) {
             device, hair, settings, path,
             [&](double distance) { progress.begin(report::shortNumber(distance) + " m"); },
             report.steps);
+        progress.clear();
+        if (options.reference)
+            lod::compareWithTruth(
+                device, scene, hair, settings, {.frame = options.frame, .samples = options.samples},
+                cache, report.truth.emplace());
     } catch (const engine::Interrupted&) {
         report.interrupted = true;
     }

@@ -8,13 +8,9 @@
 #include <optional>
 
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/measure/trust.h"
-#include "benchmarks/report/statistics.h"
 #include "benchmarks/report/text.h"
-#include "engine/process.h"
 #include "hair/rendering/strand_plan.h"
 
 namespace benchmarks::lod {
@@ -125,6 +121,7 @@ std::string lodReportText(const LodReport& report) {
     scene::Json& steps = object["steps"] = scene::Json::array();
     for (const LodStep& step : report.steps) steps.push_back(toJson(step));
     if (!report.steps.empty()) object["totals"] = toJson(totalsOf(report.steps));
+    if (report.truth) object["reference"] = truthJson(*report.truth);
     // What drivers and commands say need not be UTF-8.
     return object.dump(2, ' ', false, scene::Json::error_handler_t::replace) + '\n';
 }
@@ -185,6 +182,7 @@ std::string lodTable(const LodReport& report) {
             " %, worst " + percent(totals.worst_coverage_change) + " %\nspeed-up: strands " +
             report::shortNumber(totals.strands_speed_up) + ", frame " +
             report::shortNumber(totals.frame_speed_up) + '\n';
+    if (report.truth) text += truthTable(*report.truth);
     return text;
 }
 
@@ -194,71 +192,6 @@ namespace {
 
 constexpr std::uint32_t kWarmUps = 2;  // frames of a pipeline before it is timed
 constexpr std::uint32_t kRepeats = 5;  // timed frames of a step
-
-hair::Settings atLevelZero(hair::Settings settings) {
-    settings.lod.mode = hair::LodMode::forced;
-    settings.lod.level = 0.0f;
-    return settings;
-}
-
-// White hair alone on black, opaque, 16 samples a pixel: its mean is what the hair hides.
-hair::Settings coverageOf(hair::Settings settings) {
-    settings.shading = {
-        .color = glm::vec3(1.0f), .ambient = 1.0f, .diffuse = 0.0f, .specular = 0.0f};
-    settings.strands.opacity = 1.0f;
-    settings.strands.texture.clear();
-    settings.render = {
-        .width = 256, .height = 256, .ssaa = 4, .background = glm::vec3(0.0f), .head = false};
-    return settings;
-}
-
-// What is drawn of the frozen hair with one set of settings.
-class View {
-public:
-    View(const engine::Device& device, const measure::Case& hair, const hair::Settings& settings)
-        : device_(device), view_(hair.view()), renderer_(hair.rendererOf(settings)),
-          loop_(device, engine::Timing::isolated) {}
-
-    void setCamera(const hair::CameraSettings& camera) { renderer_.setCamera(camera); }
-    std::uint64_t strands() const { return renderer_.plan().strands(); }
-
-    void draw() {
-        engine::checkInterrupted();
-        loop_.frame([&](engine::Passes& passes) { renderer_.record(passes, view_); });
-    }
-
-    // Medians of the frames since the last call.
-    LodTimes times() {
-        const std::vector<engine::FrameRecord> frames = loop_.finish();
-        std::vector<double> walls;
-        for (const engine::FrameRecord& frame : frames) walls.push_back(frame.wall);
-        return {
-            .strands = report::summarize(measure::passTimes(frames, "strands")).median,
-            .frame = report::summarize(walls).median};
-    }
-
-    Picture picture() {
-        loop_.finish();
-        return engine::readOutput(device_, renderer_.target());
-    }
-
-private:
-    const engine::Device& device_;
-    hair::rendering::StrandView view_;
-    hair::rendering::Renderer renderer_;
-    engine::FrameLoop loop_;
-};
-
-// The camera zooms in so that the square is as large as what the hair can't leave: the measure does
-// not get coarser with the distance.
-hair::CameraSettings
-zoomedOn(const hair::rendering::StrandView& view, const hair::CameraSettings& camera) {
-    hair::CameraSettings zoomed = camera;
-    zoomed.target = glm::vec3(view.head * glm::vec4(view.centre, 1.0f));
-    const float sine = view.radius / glm::distance(zoomed.position, zoomed.target);
-    zoomed.field_of_view = std::min(2.0f * glm::degrees(std::asin(std::min(sine, 1.0f))), 120.0f);
-    return zoomed;
-}
 
 }  // namespace
 
@@ -283,10 +216,10 @@ void walk(
     const LodPath& path, const std::function<void(double)>& begin, std::vector<LodStep>& steps) {
     hair::Settings by_distance = settings;
     by_distance.lod.mode = hair::LodMode::distance;
-    View lod(device, hair, by_distance);
-    View full(device, hair, atLevelZero(settings));
-    View lod_cover(device, hair, coverageOf(by_distance));
-    View full_cover(device, hair, coverageOf(atLevelZero(settings)));
+    FrozenView lod(device, hair, by_distance);
+    FrozenView full(device, hair, atLevel(settings, 0.0f));
+    FrozenView lod_cover(device, hair, coverageOf(by_distance));
+    FrozenView full_cover(device, hair, coverageOf(atLevel(settings, 0.0f)));
     const std::vector<glm::vec3> guides = hair.guides();
 
     Picture before;
@@ -295,17 +228,17 @@ void walk(
         begin(distance);
         const hair::CameraSettings camera = cameraAt(settings.camera, distance);
         by_distance.camera = camera;
-        for (View* each : {&lod, &full}) each->setCamera(camera);
-        for (View* each : {&lod_cover, &full_cover}) {
+        for (FrozenView* each : {&lod, &full}) each->setCamera(camera);
+        for (FrozenView* each : {&lod_cover, &full_cover}) {
             each->setCamera(zoomedOn(hair.view(), camera));
             each->draw();
         }
         for (std::uint32_t i = 0; i < kWarmUps; ++i)
-            for (View* each : {&lod, &full}) each->draw();
+            for (FrozenView* each : {&lod, &full}) each->draw();
         lod.times();
         full.times();
         for (std::uint32_t i = 0; i < kRepeats; ++i)  // in turns: a disturbance meets both
-            for (View* each : {&lod, &full}) each->draw();
+            for (FrozenView* each : {&lod, &full}) each->draw();
 
         const hair::rendering::DistanceLod state =
             hair::rendering::distanceLod(hair.groom(), guides, hair.view(), by_distance);

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/lod/frozen_view.h"
+#include "benchmarks/lod/truth.h"
 #include "benchmarks/measure/case.h"
 #include "benchmarks/report/report.h"
 
@@ -16,8 +18,6 @@ namespace benchmarks::lod {
 
 // Differences of pictures of one size, [row][column] RGBA, are over the red, green and blue of all
 // pixels; display values count from 0 to 1.
-
-using Picture = std::vector<std::uint8_t>;
 
 // Root of the mean square difference.
 double rootMeanSquare(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
@@ -32,12 +32,6 @@ double popping(
 double whiteShare(std::span<const std::uint8_t> picture);
 
 inline constexpr const char* kLodSchema = "hairbench-lod/1.0.0";
-
-// Medians of isolated frames, ms.
-struct LodTimes {
-    double strands = 0.0;  // the pass
-    double frame = 0.0;    // from submission to completion
-};
 
 // One place of the camera: level of detail by distance against level 0.
 struct LodStep {
@@ -66,6 +60,7 @@ struct LodReport {
     report::SceneRecord scene;
     std::uint32_t frame = 0;
     std::vector<LodStep> steps;
+    std::optional<LodTruth> truth;  // where it was asked for
     bool interrupted = false;  // stopped by the user: the steps are those that were done
 };
 
@@ -75,7 +70,7 @@ LodTotals totalsOf(const std::vector<LodStep>& steps);
 // Indented JSON. What is not known is absent.
 std::string lodReportText(const LodReport& report);
 
-// For a terminal: a row per step, then the totals.
+// For a terminal: a row per step, the totals, then a row per level and light.
 std::string lodTable(const LodReport& report);
 
 // Away from what the camera looks at, in the direction that it is seen from.

@@ -52,14 +52,14 @@ namespace {
 
 // ---- AMD: sysfs of amdgpu -----------------------------------------------------------------------
 
-struct Levels {
+struct ClockLevels {
     std::optional<double> present;  // MHz
     std::optional<double> greatest;  // MHz
 };
 
 // Lines such as "1: 1500Mhz *".
-Levels readLevels(const std::filesystem::path& path) {
-    Levels levels;
+ClockLevels readLevels(const std::filesystem::path& path) {
+    ClockLevels levels;
     std::ifstream file(path);
     for (std::string line; std::getline(file, line);) {
         const std::size_t colon = line.find(':');
@@ -133,7 +133,7 @@ public:
 
     ClockReading read() override {
         ClockReading reading;
-        const Levels shaders = readLevels(device_ / "pp_dpm_sclk");
+        const ClockLevels shaders = readLevels(device_ / "pp_dpm_sclk");
         reading.clock_mhz = shaders.present;
         reading.base_clock_mhz = shaders.greatest;
         reading.memory_clock_mhz = readLevels(device_ / "pp_dpm_mclk").present;
@@ -195,7 +195,7 @@ using Device = void*;
 using Init = int (*)();
 using Shutdown = int (*)();
 using HandleByAddress = int (*)(const char* address, Device* device);
-using Clock = int (*)(Device device, int clock, unsigned int* megahertz);
+using ClockQuery = int (*)(Device device, int clock, unsigned int* megahertz);
 using Temperature = int (*)(Device device, int sensor, unsigned int* degrees);
 using Reasons = int (*)(Device device, unsigned long long* bits);
 using Power = int (*)(Device device, unsigned int* milliwatts);
@@ -260,9 +260,9 @@ public:
         const auto handle = library_.find<HandleByAddress>("nvmlDeviceGetHandleByPciBusId_v2");
         if (!handle || handle(address_.c_str(), &device_) != kSuccess) return;
         found_ = true;
-        clock_ = library_.find<Clock>("nvmlDeviceGetClockInfo");
-        applications_clock_ = library_.find<Clock>("nvmlDeviceGetApplicationsClock");
-        greatest_clock_ = library_.find<Clock>("nvmlDeviceGetMaxClockInfo");
+        clock_ = library_.find<ClockQuery>("nvmlDeviceGetClockInfo");
+        applications_clock_ = library_.find<ClockQuery>("nvmlDeviceGetApplicationsClock");
+        greatest_clock_ = library_.find<ClockQuery>("nvmlDeviceGetMaxClockInfo");
         temperature_ = library_.find<Temperature>("nvmlDeviceGetTemperature");
         power_ = library_.find<Power>("nvmlDeviceGetPowerUsage");
         load_ = library_.find<Load>("nvmlDeviceGetUtilizationRates");
@@ -336,9 +336,9 @@ private:
     bool started_ = false;
     bool found_ = false;
     Device device_ = nullptr;
-    Clock clock_ = nullptr;
-    Clock applications_clock_ = nullptr;
-    Clock greatest_clock_ = nullptr;
+    ClockQuery clock_ = nullptr;
+    ClockQuery applications_clock_ = nullptr;
+    ClockQuery greatest_clock_ = nullptr;
     Temperature temperature_ = nullptr;
     Reasons reasons_ = nullptr;
     Power power_ = nullptr;

@@ -1,7 +1,7 @@
 """Compares two pictures, PNG or EXR: compare.py REFERENCE PICTURE [DIFFERENCE.png]
 
-Writes figures as JSON to stdout. All are of what a display shows: sRGB, 0 to 1, which linear
-pictures are turned into. Alpha is ignored. DIFFERENCE is FLIP's error map. A failure is one line on
+Writes figures as JSON to stdout. All but the ratio of mean linear light are of what a display
+shows: sRGB, 0 to 1, which linear pictures are turned into. Alpha is ignored. DIFFERENCE is FLIP's error map. A failure is one line on
 stderr.
 """
 
@@ -19,12 +19,14 @@ SSIM_WINDOW = 11  # px: a Gaussian of sigma 1.5 as in Wang et al. 2004
 
 
 def read(path):
+    """What a display shows of the picture, and its mean linear light."""
     try:
         bitmap = mi.Bitmap(path)
     except Exception:
         raise ValueError(f"{path}: can't be read as a picture") from None
     rgb = bitmap.convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, srgb_gamma=True)
-    return np.clip(np.array(rgb), 0.0, 1.0)
+    linear = bitmap.convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, srgb_gamma=False)
+    return np.clip(np.array(rgb), 0.0, 1.0), float(np.mean(np.array(linear), dtype=np.float64))
 
 
 def compare(reference, picture):
@@ -49,13 +51,14 @@ def main():
     mi.set_variant("scalar_rgb")
     mi.set_log_level(mi.LogLevel.Error)
     paths = sys.argv[1:3]
-    reference, picture = map(read, paths)
+    (reference, reference_light), (picture, light) = map(read, paths)
     sizes = [f"{image.shape[1]} x {image.shape[0]} px" for image in (reference, picture)]
     if sizes[0] != sizes[1]:
         raise ValueError(f"{paths[0]} is {sizes[0]}, {paths[1]} is {sizes[1]}")
     if min(reference.shape[:2]) < SSIM_WINDOW:
         raise ValueError(f"{paths[0]}: SSIM needs {SSIM_WINDOW} x {SSIM_WINDOW} px at least")
     figures, error_map = compare(reference, picture)
+    figures["light_ratio"] = light / reference_light if reference_light > 0 else None
     for out in sys.argv[3:]:
         colors = mi.Bitmap((255 * error_map + 0.5).astype(np.uint8), mi.Bitmap.PixelFormat.RGB)
         colors.write(out + ".partial", mi.Bitmap.FileFormat.PNG)

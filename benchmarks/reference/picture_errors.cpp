@@ -73,6 +73,8 @@ PictureErrors comparePictures(
         .ssim = figures.at("ssim"),
         .flip = figures.at("flip")};
     if (const scene::Json& psnr = figures.at("psnr_db"); !psnr.is_null()) errors.psnr = psnr;
+    if (const scene::Json& ratio = figures.at("light_ratio"); !ratio.is_null())
+        errors.light_ratio = ratio;
     return errors;
 }
 

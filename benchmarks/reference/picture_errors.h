@@ -22,6 +22,8 @@ struct PictureErrors {
     std::optional<double> psnr;  // dB; absent where it is infinite
     double ssim = 0.0;
     double flip = 0.0;
+    // Mean linear light of the picture over that of the reference; absent where that is black.
+    std::optional<double> light_ratio;
 };
 
 // Compares two files, PNG or EXR; writes FLIP's error map where `map` is not empty. Throws

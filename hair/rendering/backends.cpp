@@ -519,7 +519,8 @@ engine::Constants strandConstants(const StrandSettings& strands, const StrandPla
         {gpu::kCollisionRuleConstant, strands.collision_rule},
         {gpu::kStrandCollisionConstant, shaderCode(strands.collision)},
         {gpu::kRandomnessConstant, shaderCode(strands.randomness)},
-        {gpu::kLodMorphConstant, plan.morphs}};
+        {gpu::kLodMorphConstant, plan.morphs},
+        {gpu::kMergedHairsConstant, plan.merged_hairs}};
 }
 
 // ---- Watched stages -----------------------------------------------------------------------------

@@ -75,8 +75,7 @@ void checkPoints(const StrandPlan& plan) {
 }
 
 PointsPass::PointsPass(
-    const engine::Device& device, const Settings& settings, const StrandPlan& plan,
-    const StrandView& view, bool culls)
+    const engine::Device& device, const Settings& settings, const StrandPlan& plan, bool culls)
     : push_{
           .picture = 0,
           .points = 0,
@@ -86,7 +85,7 @@ PointsPass::PointsPass(
           .height = settings.render.height * settings.render.ssaa,
           .strands = countStrands(plan),
           .reach = plan.reach,
-          .greatest_width = view.greatest_width,
+          .greatest_width = plan.greatest_width,
           .culls = culls},
       blocks_(
           plan.triangles *

@@ -24,8 +24,7 @@ public:
     // `culls`: strands that the camera can't see get no points; only where no light's map needs
     // them. As checkPoints().
     PointsPass(
-        const engine::Device& device, const Settings& settings, const StrandPlan& plan,
-        const StrandView& view, bool culls);
+        const engine::Device& device, const Settings& settings, const StrandPlan& plan, bool culls);
 
     // `picture` is the address of `parameters`, the camera's.
     void record(

@@ -55,12 +55,10 @@ engine::TargetDescription rendered(const Settings& settings) {
     return description;
 }
 
-std::optional<PointsPass> makePoints(
-    const engine::Device& device, const Settings& settings, const StrandPlan& plan,
-    const StrandView& view) {
+std::optional<PointsPass>
+makePoints(const engine::Device& device, const Settings& settings, const StrandPlan& plan) {
     if (!readsPoints(settings)) return std::nullopt;
-    return std::optional<PointsPass>(
-        std::in_place, device, settings, plan, view, !hasHairMaps(settings));
+    return std::optional<PointsPass>(std::in_place, device, settings, plan, !hasHairMaps(settings));
 }
 
 const PointsPass* pointerTo(const std::optional<PointsPass>& points) {
@@ -147,7 +145,7 @@ Renderer::Renderer(
       target_(device, rendered(settings_)),
       lights_(
           engine::makeBuffer(device, std::span<const gpu::Light>(makeLights(settings_)), "lights")),
-      optics_(device, settings_), points_(makePoints(device, settings_, plan_, view)),
+      optics_(device, settings_), points_(makePoints(device, settings_, plan_)),
       shadows_(device, settings_, plan_, assets, pointerTo(points_)),
       environment_(device, settings_, assets),
       meshes_(device, litByHarmonics(withBackend(settings, backend_.backend)), assets),

@@ -246,12 +246,14 @@ void SoftwareBackend::findPieces(engine::Commands& commands, gpu::SoftwarePush c
 void SoftwareBackend::coverPieces(engine::Commands& commands, gpu::SoftwarePush constants) const {
     constants.points = points_.points().address();
     constants.list = list_.address();
+    constants.pieces = points_.pieces().address();
     constants.samples = samples_.address();
     constants.counts = counts_.address();
     constants.large = large_.address();
     commands.barrier(Access::compute_write, Access::compute_write);
     commands.uses(
         {{points_.points(), Access::compute_read},
+         {points_.pieces(), Access::compute_read},
          {list_, Access::compute_read},
          {samples_, Access::compute_write},
          {counts_, Access::compute_write},
@@ -264,12 +266,14 @@ void SoftwareBackend::coverPieces(engine::Commands& commands, gpu::SoftwarePush 
 
 void SoftwareBackend::coverLarge(engine::Commands& commands, gpu::SoftwarePush constants) const {
     constants.points = points_.points().address();
+    constants.pieces = points_.pieces().address();
     constants.samples = samples_.address();
     constants.counts = counts_.address();
     constants.large = large_.address();
     commands.barrier(Access::compute_write, Access::compute_write);
     commands.uses(
         {{points_.points(), Access::compute_read},
+         {points_.pieces(), Access::compute_read},
          {samples_, Access::compute_write},
          {counts_, Access::compute_read},
          {large_, Access::compute_read}});
@@ -329,12 +333,14 @@ void SoftwareBackend::cover(engine::Commands& commands, const StrandPicture& pic
 void SoftwareBackend::shade(engine::Commands& commands, const StrandPicture& picture) const {
     gpu::SoftwarePush constants = push(picture);
     constants.points = points_.points().address();
+    constants.pieces = points_.pieces().address();
     constants.samples = samples_.address();
     constants.bounds = points_.bounds().address();
     if (target_.hasRadiance()) constants.colors = colors_.address();
     commands.barrier(Access::compute_write, Access::compute_write);
     commands.uses(
         {{points_.points(), Access::compute_read},
+         {points_.pieces(), Access::compute_read},
          {samples_, Access::compute_write},
          {points_.bounds(), Access::compute_read},
          {constants.colors, Access::compute_write}});

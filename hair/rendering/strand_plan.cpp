@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/error.h"
+#include "hair/gpu_structs.h"
 
 namespace hair::rendering {
 namespace {
@@ -44,6 +45,14 @@ std::uint32_t smallestFactor(std::uint32_t number) {
     for (std::uint32_t factor = 2; factor * factor <= number; ++factor)
         if (number % factor == 0) return factor;
     return number;
+}
+
+// Lines have no width to divide, and what is not shading shows whole strands.
+bool drawsMergedHairs(const Settings& settings) {
+    const LodSettings& lod = settings.lod;
+    return lod.merged == MergedStrands::hairs &&
+           (lod.mode == LodMode::distance || lod.level > 0.0f) &&
+           settings.render.show == Show::shading && settings.strands.backend != Backend::lines;
 }
 
 // The number that strands/lod.glsl has, to the last bit.
@@ -132,7 +141,8 @@ planStrands(const StrandView& view, const Settings& settings, std::uint32_t isol
     }
     StrandPlan plan = planStrands(triangles, segments, strands, settings.lod, isoline_limit);
     plan.reach = pushed ? kAnywhere : view.offset_reach;
-    plan.greatest_width = view.greatest_width;
+    plan.merged_hairs = drawsMergedHairs(settings);
+    plan.greatest_width = view.greatest_width * (plan.merged_hairs ? gpu::kMostMergedSpread : 1.0f);
     return plan;
 }
 

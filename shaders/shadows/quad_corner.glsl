@@ -8,6 +8,7 @@
 #include "common/across.glsl"
 #include "common/picture.glsl"
 #include "strands/line_end.glsl"
+#include "strands/merged_word.glsl"
 
 struct QuadEnd {
     vec3 side;  // m
@@ -23,7 +24,8 @@ QuadEnd quadEnd(PictureParameters picture, LineEnd end) {
     // Along the view, not to the eye: a texel spans as much at all points of one depth.
     float depth = (picture.view_projection * vec4(end.position, 1.0)).w;
     float texel = picture.pixel_near + picture.pixel_slope * max(depth, 0.0);
-    float width = max(end.width, texel);
+    // Merged hairs lie apart: what they cover is spread over their strip.
+    float width = max(end.width * mergedSpread(end.merged), texel);
     QuadEnd quad;
     quad.side = sideOfLength(picture.eye - end.position, end.tangent, 0.5 * width);
     quad.coverage = picture.opacity * max(end.width, 0.0) / max(width, 1e-30);

@@ -7,11 +7,16 @@
 const uint kRootPurpose = 0x524f4f54u;    // where strands lie in their root triangle
 const uint kOrderPurpose = 0x4f524452u;   // the order of a groom's strands
 const uint kOffsetPurpose = 0x4f464653u;  // which profile of offsets a strand has
+const uint kMergedPurpose = 0x4d524744u;  // the hairs that a strand of a coarser level stands for
 const uint kColorPurpose = 0x434f4c52u;   // the colors by which a picture tells strands apart
 
 // Invocations in a workgroup of strands/frames.comp and of strands/evaluate.comp.
 const uint kFramesGroupSize = 64u;
 const uint kStrandPointsGroupSize = 64u;
+
+// How many times as wide as without gaps a strand is that stands for many hairs:
+// strands/merged_word.glsl.
+const float kMostMergedSpread = 1.5f;
 
 // Everything that a picture's draws read; one per frame in flight.
 struct PictureParameters {

@@ -5,13 +5,15 @@
 #include "common/picture.glsl"
 #include "shading/strand_shading.glsl"
 #include "strands/coverage.glsl"
+#include "strands/merged_coverage.glsl"
 #include "strands/texture.glsl"
 
 layout(push_constant, scalar) uniform Push { StrandPush push; };
 
 layout(location = 0) in vec4 position_and_across;
 layout(location = 1) in vec4 tangent_and_along;
-layout(location = 2) in float half_width;  // m; where kNeedsWidth. Of lines their coverage
+layout(location = 2) in float half_width;  // m; where quads tell it. Of lines their coverage
+layout(location = 3) flat in uint merged_hairs;  // where they are drawn
 
 // 1: strands are lines a pixel wide
 layout(constant_id = kLinesConstant) const uint kLines = 0;
@@ -20,7 +22,7 @@ layout(constant_id = kLinesConstant) const uint kLines = 0;
 struct SeenStrand {
     StrandFragment fragment;
     vec4 factors;  // of colour and opacity
-    float coverage;  // of the pixel; where it is sampled 1
+    float coverage;  // of the pixel; where it is sampled 1, or in a gap 0
 };
 
 SeenStrand seenStrand(PictureParameters picture) {
@@ -38,8 +40,16 @@ SeenStrand seenStrand(PictureParameters picture) {
     } else if (kAnalyticCoverage != 0) {
         float offset = position_and_across.w;
         PixelFilter pixel = pixelFilter(offset);
-        seen.coverage = pixelCoverage(pixel, offset, half_width);
-        seen.fragment.across = pixelAcross(pixel, offset, half_width);
+        if (kMergedHairs != 0) {
+            seen.coverage = coverMerged(merged_hairs, pixel, offset, half_width, seen.fragment);
+        } else {
+            seen.coverage = pixelCoverage(pixel, offset, half_width);
+            seen.fragment.across = pixelAcross(pixel, offset, half_width);
+        }
+    } else if (kMergedHairs != 0 && mergedCount(merged_hairs) > 1.0) {
+        float half_strip = max(half_width * mergedSpread(merged_hairs), 1e-12);
+        seen.fragment.across = clamp(position_and_across.w / half_strip, -1.0, 1.0);
+        if (!toMergedHair(merged_hairs, seen.fragment)) seen.coverage = 0.0;
     }
     seen.factors = strandTexel(seen.fragment.across, seen.fragment.along);
     return seen;

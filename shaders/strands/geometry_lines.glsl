@@ -9,11 +9,12 @@ layout(triangle_strip, max_vertices = 4) out;
 
 layout(location = 0) in vec4 position_and_width[];  // a negative width drops the line
 layout(location = 1) in vec4 tangent_and_along[];
+layout(location = 2) in uint merged_hairs[];  // where they are drawn
 
 LineEnd lineEnd(int end) {
     vec4 position = position_and_width[end];
     vec4 tangent = tangent_and_along[end];
-    return LineEnd(position.xyz, tangent.xyz, position.w, tangent.w);
+    return LineEnd(position.xyz, tangent.xyz, position.w, tangent.w, merged_hairs[end]);
 }
 
 #endif

@@ -18,5 +18,7 @@ layout(constant_id = kStrandCollisionConstant) const uint kStrandCollision = kSt
 layout(constant_id = kRandomnessConstant) const uint kRandomness = kRandomnessHashed;
 // 1: ends of pieces may be off the curve
 layout(constant_id = kLodMorphConstant) const uint kLodMorph = 0;
+// 1: strands of coarser levels of detail are drawn as the hairs that they stand for
+layout(constant_id = kMergedHairsConstant) const uint kMergedHairs = 0;
 
 #endif

@@ -27,7 +27,8 @@ void main() {
     StrandPoint point =
         pointFromGuides(picture, strand_patch, guides, strand_patch.first_strand + isoline,
                         min(end, strand_patch.lod.pieces));
-    LineEnd line_end = LineEnd(point.position, point.tangent, point.width, point.along);
+    LineEnd line_end =
+        LineEnd(point.position, point.tangent, point.width, point.along, point.merged);
     makeCorner(picture, line_end, quadEnd(picture, line_end), corner == 0u ? -1.0 : 1.0);
     if (isoline >= strandsInPatch(picture, strand_patch)) gl_Position = kNowhere;
 }

@@ -7,7 +7,8 @@
 
 layout(location = 0) out vec4 position_and_across;
 layout(location = 1) out vec4 tangent_and_along_out;
-layout(location = 2) out float half_width;  // where kNeedsWidth
+layout(location = 2) out float half_width;  // where kTellsWidth
+layout(location = 3) flat out uint merged_hairs_out;  // where they are drawn
 // What one back end or pass covers the others cover too, sample by sample.
 invariant gl_Position;
 
@@ -17,7 +18,8 @@ void makeCorner(PictureParameters picture, LineEnd end, QuadEnd quad, float acro
     gl_Position = corner.clip;
     position_and_across = corner.position_and_across;
     tangent_and_along_out = corner.tangent_and_along;
-    if (kNeedsWidth) half_width = corner.half_width;
+    if (kTellsWidth) half_width = corner.half_width;
+    if (kMergedHairs != 0) merged_hairs_out = corner.merged;
 }
 
 #endif

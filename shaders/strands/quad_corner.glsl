@@ -7,7 +7,16 @@
 #include "common/picture.glsl"
 #include "shading/options.glsl"
 #include "strands/line_end.glsl"
+#include "strands/merged_word.glsl"
 #include "strands/pixel_margin.glsl"
+
+// Whether fragments are told how wide the strand is, and their place across in metres: only lengths
+// are the same on both triangles of a quad that narrows.
+const bool kTellsWidth = kNeedsWidth || kMergedHairs != 0;
+
+bool isAcrossInMetres(uint merged) {
+    return kAnalyticCoverage != 0 || (kMergedHairs != 0 && mergedCount(merged) > 1.0);
+}
 
 // How far the quad's edges are from an end of the line, and where to.
 struct QuadEnd {
@@ -17,15 +26,16 @@ struct QuadEnd {
 
 struct QuadCorner {
     vec4 clip;
-    vec4 position_and_across;  // m; across: -1 at one edge, 1 at the other, or with analytic
-                               // coverage m from the middle
+    vec4 position_and_across;  // m; across: -1 at one edge, 1 at the other, or m from the middle
     vec4 tangent_and_along;
-    float half_width;  // m
+    float half_width;  // m, of the strand without the gaps between merged hairs
+    uint merged;
 };
 
 QuadEnd quadEnd(PictureParameters picture, LineEnd end) {
     QuadEnd quad;
     quad.half_quad = 0.5 * end.width;
+    if (kMergedHairs != 0) quad.half_quad *= mergedSpread(end.merged);
     if (kAnalyticCoverage != 0) quad.half_quad += pixelMargin(picture, end.position);
     quad.side = sideOfLength(picture.eye - end.position, end.tangent, quad.half_quad);
     return quad;
@@ -37,9 +47,10 @@ QuadCorner quadCorner(PictureParameters picture, LineEnd end, QuadEnd quad, floa
     QuadCorner corner;
     corner.clip = picture.view_projection * vec4(place, 1.0);
     corner.position_and_across =
-        vec4(place, kAnalyticCoverage != 0 ? across * quad.half_quad : across);
+        vec4(place, isAcrossInMetres(end.merged) ? across * quad.half_quad : across);
     corner.tangent_and_along = vec4(end.tangent, end.along);
     corner.half_width = 0.5 * end.width;
+    corner.merged = end.merged;
     return corner;
 }
 

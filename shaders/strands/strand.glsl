@@ -7,6 +7,7 @@
 #include "strands/collision.glsl"
 #include "strands/curve.glsl"
 #include "strands/interpolation.glsl"
+#include "strands/merged_word.glsl"
 #include "strands/offsets.glsl"
 #include "strands/patch.glsl"
 #include "strands/roots.glsl"
@@ -28,6 +29,7 @@ struct StrandPoint {
     vec3 tangent;   // d position / d t, not normalised
     float width;    // m
     float along;    // 0 at the root, 1 at the tip; or what is shown in its place
+    uint merged;    // strands/merged_word.glsl; where they are drawn
 };
 
 float guideWidth(PictureParameters picture, PatchStrand strand, uint vertex) {
@@ -72,6 +74,11 @@ vec4 curveWeights(float t) {
 
 vec4 curveSlopes(float t) {
     return kCurve == kCurveCatmullRom ? interpolationSlopes(t) : splineSlopes(t);
+}
+
+// The hairs that a strand stands for.
+uint strandMerged(StrandLod lod, uint key, uint index) {
+    return mergedWord(lod.width_scale * strandShare(lod, index), hash(key, index, kMergedPurpose));
 }
 
 // The point at t in [0, 1] of a patch's segment.
@@ -120,6 +127,8 @@ StrandPoint drawnPoint(PictureParameters picture, StrandPatch strand_patch, Patc
         pushStrandOut(picture, along_guides, point.position, point.tangent);
     }
     putShown(picture, strand_patch, strand.index, point);
+    if (kMergedHairs != 0)
+        point.merged = strandMerged(lod, strand_patch.key, strand.index);
     return point;
 }
 

@@ -78,9 +78,9 @@ constexpr Rule kRules[] = {
 constexpr std::string_view kFolders[] = {"engine", "hair", "benchmarks", "tests", "shaders"};
 
 // The folders of benchmarks/, each of which includes only itself and those before it.
-constexpr std::string_view kLayers[] = {"scene",  "report", "measure",   "groom", "physics",
-                                        "lod",    "ablate", "reference", "run",   "gate",
-                                        "doctor", "viewer", "commands"};
+constexpr std::string_view kLayers[] = {"scene",  "report",    "measure", "groom", "physics",
+                                        "ablate", "reference", "lod",     "run",   "gate",
+                                        "doctor", "viewer",    "commands"};
 
 // Where the folder of a file below benchmarks/ stands in kLayers; absent for any other file.
 std::optional<std::ptrdiff_t> layerOf(std::string_view file) {

@@ -25,24 +25,38 @@ lod::LodReport sampleLod() {
         .environment = sampleReport().environment,
         .scene = sampleReport().scene,
         .frame = 60,
-        .steps = {
-            {.distance = 0.5,
-             .full_strands = 8704,
-             .error = 0.0,
-             .coverage = 0.3,
-             .full_coverage = 0.3,
-             .time = {10.0, 20.0},
-             .full_time = {10.0, 20.0}},
-            {.distance = 20.0,
-             .mean_level = 4.0,
-             .strands = 1000,
-             .full_strands = 8704,
-             .error = 0.01,
-             .popping = 0.002,
-             .coverage = 0.09,
-             .full_coverage = 0.1,
-             .time = {2.0, 10.0},
-             .full_time = {14.0, 20.0}}}};
+        .steps =
+            {{.distance = 0.5,
+              .full_strands = 8704,
+              .error = 0.0,
+              .coverage = 0.3,
+              .full_coverage = 0.3,
+              .time = {10.0, 20.0},
+              .full_time = {10.0, 20.0}},
+             {.distance = 20.0,
+              .mean_level = 4.0,
+              .strands = 1000,
+              .full_strands = 8704,
+              .error = 0.01,
+              .popping = 0.002,
+              .coverage = 0.09,
+              .full_coverage = 0.1,
+              .time = {2.0, 10.0},
+              .full_time = {14.0, 20.0}}},
+        .truth = lod::LodTruth{
+            .samples = 64,
+            .levels = {
+                {.level = 0.0,
+                 .strands = 8704,
+                 .coverage = 0.3,
+                 .full_coverage = 0.3,
+                 .lights = {{.angle = 180.0, .flip = 0.2, .rmse = 0.1}}},
+                {.level = 4.0,
+                 .strands = 544,
+                 .coverage = 0.29,
+                 .full_coverage = 0.3,
+                 .popping = 0.01,
+                 .lights = {{.angle = 0.0, .flip = 0.25, .rmse = 0.12, .light_ratio = 0.9}}}}}};
 }
 
 scene::Json written() { return scene::Json::parse(lod::lodReportText(sampleLod())); }
@@ -77,7 +91,8 @@ TEST(LodSchema, FindsWhatIsWrong) {
     const std::string schema = textOf(kSchemaFile);
     for (const char* pointer :
          {"/schema", "/environment/device", "/scene/hash", "/frame", "/steps/0/distance",
-          "/steps/0/time/frame", "/totals/strands_speed_up"}) {
+          "/steps/0/time/frame", "/totals/strands_speed_up", "/reference/samples",
+          "/reference/levels/1/lights/0/flip"}) {
         scene::Json report = written();
         const scene::Json::json_pointer place(pointer);
         report[place.parent_pointer()].erase(place.back());
@@ -88,6 +103,8 @@ TEST(LodSchema, FindsWhatIsWrong) {
         {"/steps/1/strands", -1},
         {"/steps/1/popping", nullptr},
         {"/steps/1/coverage", 1.5},
+        {"/reference/levels/1/popping", nullptr},
+        {"/reference/levels/0/lights/0/light_ratio", -1.0},
         {"/steps/1/distance", 0.0}};
     for (const auto& [pointer, value] : replaced) {
         scene::Json report = written();
@@ -102,6 +119,8 @@ TEST(LodTable, HasALinePerStepAndTheTotals) {
     EXPECT_THAT(table, HasSubstr("20.000"));
     EXPECT_THAT(table, HasSubstr("-10.00"));
     EXPECT_THAT(table, HasSubstr("coverage change: mean -5.00 %, worst -10.00 %"));
+    EXPECT_THAT(table, HasSubstr("against level 0 path-traced with 64 samples a pixel"));
+    EXPECT_THAT(table, HasSubstr("0.900"));
 }
 
 }  // namespace

@@ -62,7 +62,12 @@ inline const std::vector<Feature>& features() {
              s.strands.tip_width = 0.0f;
              s.strands.taper_start = 0.5f;
          }},
-        {"lod", [](Settings& s) { s.lod.level = 1.6f; }},
+        {"lod",
+         [](Settings& s) {
+             s.lod.level = 1.6f;
+             s.lod.merged = MergedStrands::strip;
+         }},
+        {"lod_hairs", [](Settings& s) { s.lod.level = 1.6f; }, "lod"},
         {"msaa", [](Settings& s) { s.render.msaa = 4; }},
         {"ssaa", [](Settings& s) { s.render.ssaa = 2; }},
         {"ssaa4", [](Settings& s) { s.render.ssaa = 4; }},

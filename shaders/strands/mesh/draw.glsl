@@ -76,7 +76,8 @@ void makePoint(PictureParameters picture, StrandBlock block, uint number) {
     // Pieces beyond those that are drawn have no length.
     StrandPoint point = drawnPoint(picture, strand_patch, strand,
                                    min(place - segment * ends, block_strand.lod.pieces));
-    LineEnd end = LineEnd(point.position, point.tangent, point.width, point.along);
+    LineEnd end =
+        LineEnd(point.position, point.tangent, point.width, point.along, point.merged);
     QuadEnd quad = quadEnd(picture, end);
     for (uint side = 0u; side < 2u; ++side) {
         QuadCorner corner = quadCorner(picture, end, quad, side == 0u ? -1.0 : 1.0);

@@ -69,8 +69,12 @@ void main() {
             push.reach + offset + push.greatest_width * strand_patch.lod.width_scale;
         if (isOutside(picture, guides, 0u, kSegments, beyond)) drawn = begin;
     }
-    for (uint index = begin; index < end; ++index)
-        StrandPieces(push.pieces).at[number + index - begin] = index < drawn ? pieces : 0u;
+    for (uint index = begin; index < end; ++index) {
+        uint word = pieces;
+        if (kMergedHairs != 0)
+            word |= strandMerged(strand_patch.lod, strand_patch.key, index) & 0xffff0000u;
+        StrandPieces(push.pieces).at[number + index - begin] = index < drawn ? word : 0u;
+    }
     if (drawn <= begin) return;
 
     RootLift lift = rootLift(picture, strand_patch, guides);
@@ -95,7 +99,9 @@ void main() {
             // The first of other segments is the last of the one before, but where it is split.
             for (uint i = segment == 0u ? 0u : 1u - kSplitJoints; i <= pieces; ++i) {
                 StrandPoint point = drawnPoint(picture, strand_patch, strand, i);
-                PackedPoint kept = PackedPoint(point.position, point.tangent, point.width);
+                float width = point.width;
+                if (kMergedHairs != 0) width *= mergedSpread(point.merged);
+                PackedPoint kept = PackedPoint(point.position, point.tangent, width);
                 storePoint(push.points, first + i, kept);
                 widen(extent, pieceEnd(picture, kept));
             }

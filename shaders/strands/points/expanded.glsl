@@ -4,6 +4,7 @@
 #define HAIRBENCH_EXPANDED_GLSL
 
 #include "common/depth.glsl"
+#include "strands/points/merged.glsl"
 #include "strands/points/points.glsl"
 #include "strands/strand.glsl"
 
@@ -33,7 +34,8 @@ void main() {
     uint place = vertex / 2u % kPointsPerStrand;
     uint strand = vertex / 2u / kPointsPerStrand;
     if (push.seen != kNoAddress) strand = SeenStrands(push.seen).at[strand];
-    uint pieces = StrandPieces(push.pieces).at[strand];
+    uint stored = StrandPieces(push.pieces).at[strand];
+    uint pieces = piecesOf(stored);
     gl_Position = kNowhere;
     if (pieces == 0u) return;
 
@@ -44,8 +46,11 @@ void main() {
         push.points, strand * kPointsPerStrand + segment * (pieces + kSplitJoints) + end);
     float along = (float(segment) + float(end) / float(pieces)) / float(kSegments);
     PictureParameters picture = PictureReference(push.picture).parameters;
-    LineEnd line_end = LineEnd(
-        point.position, point.tangent, point.width, shownAlong(picture, strand, along));
+    uint merged = kMergedHairs != 0 ? storedMerged(picture, strand, stored) : 0u;
+    // Points are as wide as what is drawn, gaps and all.
+    float width = point.width / mergedSpread(merged);
+    LineEnd line_end =
+        LineEnd(point.position, point.tangent, width, shownAlong(picture, strand, along), merged);
     makeCorner(picture, line_end, quadEnd(picture, line_end), corner == 0u ? -1.0 : 1.0);
 }
 

@@ -10,6 +10,11 @@ layout(constant_id = kMostSegmentsConstant) const uint kSegments = 1;  // of a g
 layout(constant_id = kMostPiecesConstant) const uint kMostPieces = 1;  // of a segment
 
 layout(buffer_reference, scalar) buffer StrandPieces { uint at[]; };
+
+// What StrandPieces has of a strand: pieces of a guide segment, and the upper half of its word of
+// strands/merged_word.glsl where these are drawn.
+uint piecesOf(uint word) { return kMergedHairs != 0 ? word & 0xffffu : word; }
+
 layout(buffer_reference, scalar) buffer Bounds { HairBounds bounds; };
 
 // Where the width starts anew in each guide segment, the points between two segments are there

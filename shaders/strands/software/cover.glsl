@@ -6,7 +6,8 @@
 #endif
 #include "strands/software/software.glsl"
 
-#include "strands/points/quad.glsl"
+#include "strands/merged_hairs.glsl"
+#include "strands/software/place.glsl"
 #include "strands/software/samples.glsl"
 
 // A piece's samples, row by row: where it is nearer to level, column by column.
@@ -91,9 +92,17 @@ bool mayBeNearer(uint index, uint near) {
 #endif
 }
 
+// Whether a place on the screen, px, is in a gap between the hairs that the piece's strand stands for.
+bool isGap(PictureParameters picture, uint piece, vec2 place) {
+    Piece covered = pieceOf(picture, piece);
+    PiecePlace seen = piecePlace(covered, place);
+    PlaceOnStrand on_strand = placeOnStrand(picture, piece, seen.t);
+    return isMergedGap(on_strand.merged, straightAcross(covered, seen), on_strand.along);
+}
+
 // Offers the samples of every `step`-th row from `row` on. The search for the next sample touches no
 // memory, so that invocations which go together are together where they do.
-void coverRows(Cover cover, int row, int step, uint piece) {
+void coverRows(PictureParameters picture, Cover cover, int row, int step, uint piece) {
     uint places = cover.columns ? columnPlaces() : rowPlaces();
     uint samples = cover.columns ? columnSamples() : rowSamples();
     float across = 0.0;
@@ -117,7 +126,12 @@ void coverRows(Cover cover, int row, int step, uint piece) {
         uint index = sampleIndex(cover.columns ? pixel.yx : pixel,
                           entry(samples, uint(row) % kSamples));
         uint near = nearness(clamp(depth, cover.depth_range.x, cover.depth_range.y));
-        if (mayBeNearer(index, near)) offer(index, near, piece);
+        bool offered = mayBeNearer(index, near);
+        if (kMergedHairs != 0 && offered) {
+            vec2 sample_place = vec2(across, (float(row) + 0.5) / float(kSamples));
+            offered = !isGap(picture, piece, cover.columns ? sample_place.yx : sample_place);
+        }
+        if (offered) offer(index, near, piece);
         across += 1.0;
         depth += cover.gradient.y;
     }

@@ -10,6 +10,7 @@ void main() {
     for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x) {
         uint piece = PieceList(push.large).at[i];
         Cover cover = makeCover(pieceOf(picture, piece).quad);
-        coverRows(cover, cover.begin + int(gl_LocalInvocationID.x), int(gl_WorkGroupSize.x), piece);
+        coverRows(picture, cover, cover.begin + int(gl_LocalInvocationID.x),
+                  int(gl_WorkGroupSize.x), piece);
     }
 }

@@ -28,6 +28,6 @@ void main() {
         Cover cover = makeCover(quad);
         float samples = float(cover.end - cover.begin) * (1.0 + cover.row_length);
         if (samples <= float(kManySamples) || !isLarge(piece))
-            coverRows(cover, cover.begin, 1, piece);
+            coverRows(picture, cover, cover.begin, 1, piece);
     }
 }

@@ -130,7 +130,7 @@ void main() {
     if (begin >= end) return;  // no barrier follows
     View view = makeView();
     for (uint strand = begin; strand < end; ++strand) {
-        uint pieces = StrandPieces(push.pieces).at[strand];
+        uint pieces = piecesOf(StrandPieces(push.pieces).at[strand]);
         if (pieces > 0u) findPieces(view, strand, pieces);
     }
 }

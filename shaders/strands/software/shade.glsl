@@ -2,46 +2,36 @@
 #include "shading/strand_shading.glsl"
 #include "strands/software/seen.glsl"
 
-#include "strands/points/quad.glsl"
+#include "strands/software/place.glsl"
 #include "strands/software/samples.glsl"
+#include "strands/merged_fragment.glsl"
 
 layout(local_size_x_id = kPixelGroupConstant) in;
 
-// The factors of two vectors with corner + x.x first + x.y second = 0.
-vec2 factorsOf(vec2 corner, vec2 first, vec2 second) {
-    float area = cross2(first, second);
-    return vec2(cross2(second, corner), cross2(corner, first)) / (abs(area) < 1e-30 ? 1e-30 : area);
-}
-
-// The point of a piece that a place on the screen shows, px: on one of the two triangles that other
-// back ends draw, from -+ side at its first end to - side at its second, and the rest.
+// The point of a piece that a place on the screen shows, px.
 StrandFragment seenPoint(PictureParameters picture, uint number, vec2 place) {
     Piece piece = pieceOf(picture, number);
-    // In clip space, with what is seen at the place at 0.
-    vec2 clip = 2.0 * place / vec2(push.width, push.height) - 1.0;
-    vec2 from = piece.from.middle_clip.xy - clip * piece.from.middle_clip.w;
-    vec2 from_side = piece.from.side_clip.xy - clip * piece.from.side_clip.w;
-    vec2 to = piece.to.middle_clip.xy - clip * piece.to.middle_clip.w;
-    vec2 to_side = piece.to.side_clip.xy - clip * piece.to.side_clip.w;
-    vec2 along_and_across =
-        factorsOf(from - from_side, to - to_side - from + from_side, 2.0 * from_side);
-    bool second = along_and_across.x + along_and_across.y > 1.0;
-    if (second)
-        along_and_across =
-            1.0 - factorsOf(to + to_side, from + from_side - to - to_side, -2.0 * to_side);
-    float t = clamp(along_and_across.x, piece.quad.part.x, piece.quad.part.y);
+    PiecePlace seen = piecePlace(piece, place);
     vec3 narrowing = piece.from.side - piece.to.side;
 
     StrandFragment fragment;
-    fragment.across = clamp(2.0 * along_and_across.y - 1.0, -1.0, 1.0);
-    fragment.position = mix(piece.from.position, piece.to.position, t);
-    fragment.position += second ? fragment.across * piece.to.side + (1.0 - t) * narrowing
-                                : fragment.across * piece.from.side + t * narrowing;
-    vec3 tangent = mix(piece.from.tangent, piece.to.tangent, t);
+    fragment.across = seen.across;
+    fragment.position = mix(piece.from.position, piece.to.position, seen.t);
+    fragment.position += seen.second ? fragment.across * piece.to.side + (1.0 - seen.t) * narrowing
+                                : fragment.across * piece.from.side + seen.t * narrowing;
+    vec3 tangent = mix(piece.from.tangent, piece.to.tangent, seen.t);
     fragment.tangent = tangent * inversesqrt(max(dot(tangent, tangent), 1e-30));
     fragment.to_eye = normalize(picture.eye - fragment.position);
     fragment.along = 0.0;  // what a strand's texture would need
     fragment.width = 2.0 * length(mix(piece.from.side, piece.to.side, t));
+    if (kMergedHairs != 0) {
+        PlaceOnStrand on_strand = placeOnStrand(picture, number, seen.t);
+        fragment.along = on_strand.along;
+        if (mergedCount(on_strand.merged) > 1.0) {
+            fragment.across = straightAcross(piece, seen);
+            toMergedHair(on_strand.merged, fragment);
+        }
+    }
     return fragment;
 }
 

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "benchmarks/measure/case.h"
+#include "engine/frame_loop.h"
+#include "hair/rendering/renderer.h"
+
+// Pictures of the hair of one frame, drawn with other settings than its case's.
+namespace benchmarks::lod {
+
+// [row][column] RGBA, display values.
+using Picture = std::vector<std::uint8_t>;
+
+// Medians of isolated frames, ms.
+struct LodTimes {
+    double strands = 0.0;  // the pass
+    double frame = 0.0;    // from submission to completion
+};
+
+// The settings at a forced level of detail.
+hair::Settings atLevel(hair::Settings settings, float level);
+
+// White hair alone on black, opaque, 16 samples a pixel: its mean is what the hair hides.
+hair::Settings coverageOf(hair::Settings settings);
+
+// The camera zooms in so that the square is as large as what the hair can't leave: the measure does
+// not get coarser with the distance.
+hair::CameraSettings
+zoomedOn(const hair::rendering::StrandView& view, const hair::CameraSettings& camera);
+
+// What is drawn of the frozen hair with one set of settings.
+class FrozenView {
+public:
+    FrozenView(
+        const engine::Device& device, const measure::Case& hair, const hair::Settings& settings);
+
+    void setCamera(const hair::CameraSettings& camera) { renderer_.setCamera(camera); }
+    std::uint64_t strands() const { return renderer_.plan().strands(); }
+
+    // Throws Interrupted.
+    void draw();
+
+    // Medians of the frames since the last call.
+    LodTimes times();
+
+    Picture picture();
+
+    // Linear light, [row][column] RGB; the settings have a tone map.
+    std::vector<float> radiance();
+
+private:
+    const engine::Device& device_;
+    hair::rendering::StrandView view_;
+    hair::rendering::Renderer renderer_;
+    engine::FrameLoop loop_;
+};
+
+}  // namespace benchmarks::lod
