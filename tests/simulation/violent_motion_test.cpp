@@ -126,7 +126,9 @@ constexpr Row kRows[] = {
     {Solver::rod, {}, noStretch},
     {Solver::stable_cosserat, {}, stableCosseratStretch, 1e-4, false},
     {Solver::position_based_rod, {}, positionBasedStretch, 3e-3, false},
-    {Solver::augmented_mass_spring, {}, massSpringStretch, 1e-4, false}};
+    // Springs know lengths alone, which the mirror image of a wave has too: long hair may come to
+    // rest in another shape, a wave's width or so away.
+    {Solver::augmented_mass_spring, {}, massSpringStretch, 0.1, false}};
 
 // Seven segments, each between two points within 3 m that are rounded.
 constexpr double kRounding = 7 * 2 * 3.0 * 0x1p-24;
