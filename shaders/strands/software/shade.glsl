@@ -23,7 +23,7 @@ StrandFragment seenPoint(PictureParameters picture, uint number, vec2 place) {
     fragment.tangent = tangent * inversesqrt(max(dot(tangent, tangent), 1e-30));
     fragment.to_eye = normalize(picture.eye - fragment.position);
     fragment.along = 0.0;  // what a strand's texture would need
-    fragment.width = 2.0 * length(mix(piece.from.side, piece.to.side, t));
+    fragment.width = 2.0 * length(mix(piece.from.side, piece.to.side, seen.t));
     if (kMergedHairs != 0) {
         PlaceOnStrand on_strand = placeOnStrand(picture, number, seen.t);
         fragment.along = on_strand.along;
