@@ -19,7 +19,8 @@
 #include "hair/reference/fiber.h"
 
 namespace hair::reference {
-namespace {
+// Not without a name: the class below has members of these types, and files are compiled together.
+inline namespace path_tracer {
 
 constexpr double kTracedPi = std::numbers::pi;
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -294,7 +295,7 @@ private:
     std::vector<Node> nodes_;
 };
 
-}  // namespace
+}  // namespace path_tracer
 
 // ---- What rays meet -----------------------------------------------------------------------------
 

@@ -8,7 +8,7 @@ const uint kRootPurpose = 0x524f4f54u;    // where strands lie in their root tri
 const uint kOrderPurpose = 0x4f524452u;   // the order of a groom's strands
 const uint kOffsetPurpose = 0x4f464653u;  // which profile of offsets a strand has
 const uint kMergedPurpose = 0x4d524744u;  // the hairs that a strand of a coarser level stands for
-const uint kColorPurpose = 0x434f4c52u;   // the colors by which a picture tells strands apart
+const uint kColorPurpose = 0x434f4c52u;  // the colors by which a picture tells strands apart
 
 // Invocations in a workgroup of strands/frames.comp and of strands/evaluate.comp.
 const uint kFramesGroupSize = 64u;
@@ -21,11 +21,11 @@ const float kMostMergedSpread = 1.5f;
 // Everything that a picture's draws read; one per frame in flight.
 struct PictureParameters {
     mat4 view_projection;  // world -> clip, y down; common/depth.glsl
-    mat4 head;             // rigid motion: where mesh and root normals were made -> world
-    vec3 eye;              // m
+    mat4 head;  // rigid motion: where mesh and root normals were made -> world
+    vec3 eye;  // m
     vec3 lod_eye;  // m: where levels of detail are seen from; of a light's picture the camera
-    float lod_near;        // m: level 0 up to here
-    float lod_far;         // m: maximum level from here on
+    float lod_near;  // m: level 0 up to here
+    float lod_far;  // m: maximum level from here on
     float lod_maximum_level;
     float pixel_near;  // m: a rendered pixel's side at the eye; above 0 in parallel projections
     float pixel_slope;  // what pixel_near grows by per metre of distance
@@ -35,7 +35,7 @@ struct PictureParameters {
     float specular;
     float exponent;
     float root_width;  // m
-    float tip_width;   // m
+    float tip_width;  // m
     float taper_start;  // part of the taper with root_width, 0 to 1
     float opacity;  // of strands, 0 to 1
     uint light_count;
@@ -45,7 +45,7 @@ struct PictureParameters {
     Address shadows;  // ShadowParameters; read where there are shadows
     Address environment;  // EnvironmentParameters; read where there is an environment
     Address fragments;  // FragmentLists; read where fragments are listed
-    Address guides;          // vec4 [guide][vertex], m, root first; w is not read
+    Address guides;  // vec4 [guide][vertex], m, root first; w is not read
     Address root_triangles;  // uint [triangle][3], guide indices
     Address root_normals;  // vec3 [guide], unit length, before the head moved; 0: not known, root
                            // triangles are flat

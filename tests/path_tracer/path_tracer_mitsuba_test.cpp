@@ -220,7 +220,7 @@ TEST_P(PathTracerAgainstMitsuba, HasItsMeanLight) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, PathTracerAgainstMitsuba, testing::ValuesIn(kPublished),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& scene) { return std::string(scene.param.name); });
 
 // The program that is installed, and not only what it said once.
 TEST(PathTracerAgainstMitsuba, HasTheMeanLightOfOneThatRunsNow) {
