@@ -392,7 +392,7 @@ private:
 
 // ---- Paths --------------------------------------------------------------------------------------
 
-namespace {
+inline namespace path_tracer {
 
 // Axes at a point of a fibre as fiber.h has them: x towards the tip, y outwards.
 struct FiberAxes {
@@ -434,7 +434,7 @@ glm::dvec3 inCone(const glm::dvec3& axis, double least, SplitMix& random) {
     return cosine * axis + sine * (std::cos(angle) * first + std::sin(angle) * second);
 }
 
-}  // namespace
+}  // namespace path_tracer
 
 class PathTracer::Paths {
 public:
