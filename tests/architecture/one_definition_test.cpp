@@ -465,8 +465,15 @@ std::vector<File> sources() {
     return files;
 }
 
-// With the tests, which link most of the program and put helpers into its namespaces.
-TEST(OneDefinition, HoldsInEverySource) { EXPECT_THAT(doubleDefinitions(sources()), IsEmpty()); }
+// With the tests, which link most of the program and put helpers into its namespaces. Each file
+// that has a main() is a program of its own.
+TEST(OneDefinition, HoldsInEverySource) {
+    std::vector<std::string> doubles = doubleDefinitions(sources());
+    std::erase_if(doubles, [](const std::string& definition) {
+        return definition.starts_with("function main(int,char**): ");
+    });
+    EXPECT_THAT(doubles, IsEmpty());
+}
 
 // What a line of a header begins, by a pattern instead of the reader.
 TEST(OneDefinition, IsReadFromEveryHeader) {
