@@ -114,6 +114,13 @@ inline const std::vector<Feature>& features() {
              s.shading.model = ShadingModel::dual_scattering;
          },
          "marschner"},
+        {"deep_shadow",
+         [](Settings& s) {
+             lit(s);
+             s.shading.model = ShadingModel::dual_scattering;
+             s.shading.shadows.hair = HairShadows::deep_shadow;
+         },
+         "dual_scattering"},
         {"melanin",
          [](Settings& s) {
              lit(s);
