@@ -384,10 +384,10 @@ TEST_F(CliRun, ChecksThePhysicsAndSaysWhatItSkipped) {
     const fs::path out = folder_.path() / "physics.json";
     const Outcome outcome = hairbench("physics --check projectile --out '" + out.string() + "'");
     EXPECT_EQ(outcome.status, 0) << outcome.output;
-    EXPECT_THAT(outcome.output, HasSubstr("1 pass, 0 fail, 0 reported, 4 skipped"));
+    EXPECT_THAT(outcome.output, HasSubstr("1 pass, 0 fail, 0 reported, 5 skipped"));
     const nlohmann::json report = reportOf(out);
     EXPECT_EQ(report["schema"], "hairbench-physics/1.0.0");
-    ASSERT_EQ(report["outcomes"].size(), 5u);
+    ASSERT_EQ(report["outcomes"].size(), 6u);
     EXPECT_EQ(report["outcomes"][0]["solver"], "shape");
     EXPECT_EQ(report["outcomes"][0]["verdict"], "pass");
     const std::string only = "physics --check projectile --solver ftl --out '" + out.string() + "'";

@@ -23,7 +23,7 @@ protected:
             "strands": {"density": 8},
             "shading": {"model": "marschner"},
             "lod": {"maximum_level": 1, "merged": "hairs"},
-            "render": {"width": 48, "height": 36},
+            "render": {"width": 96, "height": 72},
             "sweep": null
         })");
     }
