@@ -18,13 +18,9 @@ struct GlobalSettings {
 
 const Table& tableOf(const GlobalSettings*);
 
-// energy: a couple on both segments of a joint, solved with the lengths in one system:
-// simulation/constraints/bend.glsl. iterate: thesis equation (11), which turns the lower one; Han
-// and Harada 2012, Real-time hair simulation with efficient hair style preservation.
-enum class LocalMethod { energy, iterate };
-
+// Thesis equation (11); Han and Harada 2012, Real-time hair simulation with efficient hair style
+// preservation.
 struct LocalSettings {
-    LocalMethod method = LocalMethod::energy;
     float stiffness = 0.01f;
     std::uint32_t iterations = 10;
 };

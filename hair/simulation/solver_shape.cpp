@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
-#include <limits>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -25,13 +24,6 @@
 
 namespace hair::simulation {
 namespace {
-
-// Whether the local constraint is an energy's. One without stiffness is none, and leaves lengths to
-// their own method.
-bool bends(const SimulationSettings& settings) {
-    return settings.local.method == LocalMethod::energy && settings.local.stiffness > 0.0f &&
-           settings.local.iterations > 0;
-}
 
 // ---- The shape at rest --------------------------------------------------------------------------
 
@@ -71,14 +63,14 @@ constexpr double kMostTaken = 0.125;
 // How far a substep's weight takes the vertices of a strand that hangs as it is before the lengths
 // take them back. From the tip up, a segment bears of what pulls at its end what goes along it, as
 // a tension that pulls at its start too; the rest is for the pull toward the rest position.
-// Tensions are never negative, and so the balance is stable whatever else is stiff. They bear
-// `most` of the weight. [vertex], m.
+// Tensions are never negative, and so the balance is stable whatever else is stiff. [vertex], m.
 std::vector<glm::dvec3> takenByWeight(
-    std::span<const glm::dvec3> points, std::span<const double> lengths, const glm::dvec3& weight,
-    double most) {
+    std::span<const glm::dvec3> points, std::span<const double> lengths, const glm::dvec3& weight) {
+    const double shortest = *std::ranges::min_element(lengths.subspan(1));
+    const double most = kMostTaken * shortest;
     const glm::dvec3 borne = weight * std::min(1.0, most / glm::length(weight));
     std::vector<glm::dvec3> taken(points.size(), glm::dvec3(0.0));
-    if (*std::ranges::min_element(lengths.subspan(1)) == 0.0) return taken;
+    if (!(most > 0.0)) return taken;
     glm::dvec3 below{0.0};  // the pull of the segment below
     for (std::size_t i = points.size() - 1; i > 0; --i) {
         const glm::dvec3 along = (points[i] - points[i - 1]) / lengths[i];
@@ -104,8 +96,6 @@ struct ShapeRest {
     std::vector<glm::dvec3> left;
     glm::dvec3 weight{0.0};
     double pull = 0.0;  // of the global constraint in a substep
-    // The local constraint has an energy: all forces are in balance in one system, and it has none.
-    bool exact = false;
     std::optional<RestBalance> balance;
 
     // Makes positions and edges of all strands.
@@ -123,7 +113,7 @@ void ShapeRest::make() {
             if (i > 0 && pull > 0.0) position += (goals[i] - strand[i] - weight) / pull;
             positions.emplace_back(position, 0.0);
         }
-        addTransportedEdges(exact ? strand : goals, lengthsOf(strand), edges);
+        addTransportedEdges(goals, lengthsOf(strand), edges);
     }
 }
 
@@ -143,27 +133,19 @@ restOfShapes(const groom::Groom& groom, const SimulationSettings& settings, cons
             for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand)
                 rest->balance->unbalanced.push_back(strand);
     }
-    // An energy's system bears any tension. Iterations leave hair stretched by what they are to
-    // take back: the pull bears all of it.
-    rest->exact = bends(settings);
+    // Iterations leave hair stretched by what they are to take back: the pull bears all of it.
     const bool keeps_lengths =
-        rest->exact ||
-        (settings.length.method == LengthMethod::tridiagonal && settings.length.iterations > 0);
+        settings.length.method == LengthMethod::tridiagonal && settings.length.iterations > 0;
     for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand) {
         std::vector<glm::dvec3> points;
         for (const glm::vec3& point : groom.strand(strand)) points.emplace_back(point);
         const std::vector<double> lengths = lengthsOf(points);
         const double sum = std::accumulate(lengths.begin(), lengths.end(), 0.0);
-        const double mean = sum / groom.segmentsPerStrand();
-        rest->stiffness.push_back(static_cast<float>(
-            bends(settings) ? bendStiffness(settings, step, mean)
-                            : localStiffness(settings, step, mean)));
+        rest->stiffness.push_back(
+            static_cast<float>(localStiffness(settings, step, sum / groom.segmentsPerStrand())));
         std::ranges::copy(points, std::back_inserter(rest->points));
         if (keeps_lengths && rest->weight != glm::dvec3(0.0)) {
-            const double most =
-                rest->exact ? std::numeric_limits<double>::infinity()
-                            : kMostTaken * *std::ranges::min_element(std::span(lengths).subspan(1));
-            const auto taken = takenByWeight(points, lengths, rest->weight, most);
+            const auto taken = takenByWeight(points, lengths, rest->weight);
             for (std::size_t i = 0; i < points.size(); ++i) points[i] += taken[i];
         }
         std::ranges::copy(points, std::back_inserter(rest->left));
@@ -177,13 +159,13 @@ restOfShapes(const groom::Groom& groom, const SimulationSettings& settings, cons
 constexpr std::uint32_t kGroup = 32;  // invocations to fill with whole strands
 
 // Vertices of an invocation. The shader is unrolled over them: llvmpipe takes about 0.05 s each to
-// compile it, half as much again where bending has an energy.
+// compile it.
 constexpr std::uint32_t kFewest = 2;
 constexpr std::uint32_t kMost = 32;
 constexpr std::uint32_t kOnGpu = 8;  // some 100 registers by count of values; not measured
 
-// Of shared memory, for each invocation of simulation/shape.glsl: seven vec4 and two floats.
-constexpr std::uint32_t kSharedBytes = 7 * 16 + 2 * 4;
+// Of shared memory, for each invocation of simulation/shape.glsl: seven vec4 and a float.
+constexpr std::uint32_t kSharedBytes = 7 * 16 + 4;
 
 // Invocations that keep a GPU busy: a guess.
 constexpr std::uint32_t kInvocationsToFillGpu = 32768;
@@ -220,7 +202,6 @@ ShapePlan planShape(
                 {{gpu::kContinuousCollisionConstant, settings.collision.continuous},
                  {gpu::kShapeGroupSizeConstant, kGroup},
                  {gpu::kShapeTridiagonalConstant, tridiagonal},
-                 {gpu::kShapeBendsConstant, bends(settings)},
                  {gpu::kShapeVerticesPerStrandConstant, vertices_per_strand}},
             .collides = collides,
             .strands_per_group = kGroup};
@@ -247,7 +228,6 @@ ShapePlan planShape(
             {{gpu::kContinuousCollisionConstant, settings.collision.continuous},
              {gpu::kShapeGroupSizeConstant, strands * chunks},
              {gpu::kShapeTridiagonalConstant, tridiagonal},
-             {gpu::kShapeBendsConstant, bends(settings)},
              {gpu::kShapeVerticesPerStrandConstant, vertices_per_strand},
              {gpu::kShapeVerticesPerChunkConstant, per_chunk}},
         .collides = collides,
@@ -292,8 +272,7 @@ ShapeSolver::ShapeSolver(
               .local_stiffness = local_stiffness_.address(),
               .global_stiffness = static_cast<float>(globalStiffness(settings, step)),
               .local_iterations = settings.local.iterations,
-              .length_iterations = settings.length.iterations,
-              .local_damping = static_cast<float>(bendDamping(step))}}),
+              .length_iterations = settings.length.iterations}}),
           "shape parameters")),
       pipeline_(pipelineOf(device, plan_)) {}
 
@@ -305,7 +284,7 @@ bool ShapeSolver::correctBalance(const engine::Device& device, std::span<const g
     constexpr double kStill = 1e-7;  // m: some roundings of positions
     double most = 0.0;
     for (const glm::vec3& each : moved) most = std::max(most, glm::length(glm::dvec3(each)));
-    if (!(most > kStill) || balancing_->exact || balancing_->weight == glm::dvec3(0.0)) {
+    if (!(most > kStill) || balancing_->weight == glm::dvec3(0.0)) {
         balancing_.reset();
         return false;
     }

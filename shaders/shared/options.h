@@ -143,7 +143,6 @@ const uint kShapeGroupSizeConstant = 0u;
 const uint kShapeVerticesPerStrandConstant = 1u;
 const uint kShapeCollidesConstant = 2u;
 const uint kShapeTridiagonalConstant = 3u;  // lengths by walkDown() and walkUp()
-const uint kShapeBendsConstant = 6u;  // the local constraint by constraints/bend.glsl
 const uint kShapeVerticesPerChunkConstant = 4u;
 
 // Of every solver: simulation/constraints/bodies.glsl.

@@ -7,7 +7,6 @@
 #include "common/rigid_frame.glsl"
 #include "shared/options.h"
 #include "simulation/air_drag.glsl"
-#include "simulation/constraints/bend.glsl"
 #include "simulation/constraints/global.glsl"
 #include "simulation/constraints/length.glsl"
 #include "simulation/constraints/local.glsl"
@@ -20,7 +19,6 @@ layout(local_size_x_id = kShapeGroupSizeConstant) in;
 layout(constant_id = kShapeVerticesPerStrandConstant) const uint kVerticesPerStrand = 8;
 layout(constant_id = kShapeCollidesConstant) const bool kCollides = true;
 layout(constant_id = kShapeTridiagonalConstant) const bool kTridiagonal = true;
-layout(constant_id = kShapeBendsConstant) const bool kBends = true;
 
 layout(push_constant, scalar) uniform Push { SubstepPush push; };
 
@@ -39,18 +37,13 @@ void main() {
 
     vec3 above = vec3(0.0);  // where the substep starts from
     float inverse_masses[kVerticesPerStrand];
-    BendLoad loads[kVerticesPerStrand];
-    vec3 root_moved = vec3(0.0);
-    bool held = false;  // any vertex but the root
     for (uint v = 0; v < kVerticesPerStrand; ++v) {
         vec4 point = State(from.positions).at[root + v];
         float inverse_mass = point.w;
         vec3 before = point.xyz;
         vec3 rest = toWorld(push.frame, Vectors(params.rest_positions).at[root + v].xyz);
-        loads[v] = kNoLoad;
         if (v == 0) {
-            root_moved = rest - before;
-            if (!kBends) point.xyz = rest;
+            point.xyz = rest;
         } else if (point.w > 0.0) {
             vec3 acceleration = guides.gravity;
             if (push.accelerations != kNoAddress)
@@ -59,8 +52,6 @@ void main() {
             point.xyz = integrate(
                 before, previous_point, acceleration, guides.velocity_kept,
                 guides.step.sub * guides.step.sub);
-            loads[v] = freeLoad(
-                point.xyz - before, pullPerMass(params.global_stiffness) * (rest - before));
             float stiffness = params.global_stiffness;
             if (push.air != kNoAddress) {
                 vec3 below = vec3(0.0);
@@ -68,17 +59,14 @@ void main() {
                     below = directionOf(State(from.positions).at[root + v + 1].xyz - before);
                 vec3 tangent = tangentBetween(directionOf(before - above), below);
                 vec3 air = Vectors(push.air).at[root + v].xyz;
-                vec3 velocity = (before - previous_point) / guides.step.sub;
-                float brake = brakeOf(push.drag, tangent, air - velocity, guides.step.sub);
-                addAir(loads[v], tangent, brake, air, velocity, guides.step.sub);
+                vec3 u = air - (before - previous_point) / guides.step.sub;
+                float brake = brakeOf(push.drag, tangent, u, guides.step.sub);
                 point.xyz =
                     before + braked(point.xyz - before, guides.step.sub * air, tangent, brake);
                 inverse_mass /= 1.0 + brake;
                 stiffness = pullOn(stiffness, brake);
             }
-            point.xyz = kBends ? before : pullToRest(point.xyz, rest, stiffness);
-        } else {
-            held = true;
+            point.xyz = pullToRest(point.xyz, rest, stiffness);
         }
         positions.at[root + v] = point;
         previous.at[root + v] = vec4(before, 0.0);
@@ -87,51 +75,10 @@ void main() {
     }
 
     float stiffness = Factors(params.local_stiffness).at[strand];
-    RigidFrame head = push.frame;
-    if (kBends) head = push.frame_before;
-    Transport start = Transport(firstTangent(head, rest_edges.at[root + 1]), head.rotation);
+    Transport start =
+        Transport(firstTangent(push.frame, rest_edges.at[root + 1]), push.frame.rotation);
     vec3 goal_edges[kVerticesPerStrand];
-    if (kBends) {
-        vec3 axes[kVerticesPerStrand];
-        BendJoint joints[kVerticesPerStrand];
-        Transport frame = start;
-        for (uint v = 1; v < kVerticesPerStrand; ++v) {
-            vec4 rest_edge = rest_edges.at[root + v];
-            goal_edges[v] = rotate(frame.rotation, rest_edge.xyz);
-            vec3 tangent = frame.tangent;
-            vec3 edge = positions.at[root + v].xyz - positions.at[root + v - 1].xyz;
-            frame = transport(frame, edge, rest_edge.w);
-            axes[v] = jointAxis(tangent, frame.tangent);
-        }
-        float free_mass = 1.0 + pullPerMass(params.global_stiffness);
-        BendBelow below = nothingBelow();
-        for (uint v = kVerticesPerStrand - 1; v > 0; --v) {
-            float mass = inverse_masses[v] > 0.0 ? free_mass : kHeldMass * kVerticesPerStrand;
-            addVertex(below, loads[v], mass, root_moved);
-            vec3 edge = positions.at[root + v].xyz - positions.at[root + v - 1].xyz;
-            if (hasDirection(edge, rest_edges.at[root + v].w))
-                joints[v] = addJoint(
-                    below, edge, goal_edges[v], axes[v],
-                    stiffness * vec2(1.0, params.local_damping));
-        }
-        vec4 head_turn = multiply(push.frame.rotation, conjugate(push.frame_before.rotation));
-        vec3 upper = positions.at[root].xyz;
-        BendAbove turning = BendAbove(
-            upper + root_moved, root_moved, (head_turn.w < 0.0 ? -2.0 : 2.0) * head_turn.xyz);
-        positions.at[root].xyz = turning.place;
-        for (uint v = 1; v < kVerticesPerStrand; ++v) {
-            vec3 lower = positions.at[root + v].xyz;
-            float rest_length = rest_edges.at[root + v].w;
-            if (hasDirection(lower - upper, rest_length))
-                turnSegment(turning, joints[v], lower - upper, axes[v], rest_length);
-            else if (rest_length >= kShortestSegment)
-                turning.place.y += rest_length;
-            if (inverse_masses[v] > 0.0) positions.at[root + v].xyz = turning.place;
-            upper = lower;
-        }
-    }
-    bool lengths = !kBends || held;  // left to do
-    for (uint iteration = 0; !kBends && iteration < params.local_iterations; ++iteration) {
+    for (uint iteration = 0; iteration < params.local_iterations; ++iteration) {
         Transport frame = start;
         vec3 upper = positions.at[root].xyz;
         for (uint v = 1; v < kVerticesPerStrand; ++v) {
@@ -151,8 +98,7 @@ void main() {
             }
         }
     }
-    for (uint iteration = 0; !kTridiagonal && lengths && iteration < params.length_iterations;
-         ++iteration) {
+    for (uint iteration = 0; !kTridiagonal && iteration < params.length_iterations; ++iteration) {
         for (uint first = 1; first <= 2; ++first) {
             for (uint v = first; v < kVerticesPerStrand; v += 2) {
                 vec4 a = vec4(positions.at[root + v - 1].xyz, inverse_masses[v - 1]);
@@ -170,8 +116,7 @@ void main() {
         rows[v] = lengthRow(positions.at[root + v], vec4(0.0), 0.0);
     bool collided = false;
     for (uint passes = params.length_iterations;; passes = kContactPasses) {
-        bool solves = kTridiagonal && passes > 0 && (lengths || collided);
-        for (uint pass = 0; solves && pass <= passes; ++pass) {
+        for (uint pass = 0; kTridiagonal && passes > 0 && pass <= passes; ++pass) {
             bool last = pass == passes;
             vec4 a = vec4(positions.at[root].xyz, inverse_masses[0]);
             LengthsAbove above = aboveAll(a.xyz);

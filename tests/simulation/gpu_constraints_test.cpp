@@ -83,25 +83,9 @@ TEST_P(GpuConstraints, PullsToShapeLikeTheReference) {
         for (const std::uint32_t iterations : {1u, 2u, 10u})
             for (const float stiffness : {0.01f, 0.3f, 1.0f}) {
                 settings.stiffness_scaling = scaling;
-                settings.local = {
-                    .method = LocalMethod::iterate,
-                    .stiffness = stiffness,
-                    .iterations = iterations};
+                settings.local = {.stiffness = stiffness, .iterations = iterations};
                 expectReference(settings);
             }
-}
-
-TEST_P(GpuConstraints, BendsLikeTheReference) {
-    SimulationSettings settings = atRest();
-    settings.local.iterations = 10;
-    settings.gravity = {1.0f, -9.8f, 3.0f};
-    settings.wind.mode = WindMode::drag;
-    for (const float stiffness : {0.001f, 0.3f}) {
-        settings.global.stiffness = stiffness;
-        settings.local.stiffness = stiffness;
-        settings.wind.speed = 10.0f * stiffness;
-        expectReference(settings);
-    }
 }
 
 TEST_P(GpuConstraints, KeepsLengthsLikeTheReference) {
