@@ -65,6 +65,16 @@ std::uint32_t pixelGroup(const engine::Device& device) {
     return device.info().type == "cpu" ? 8 : 32;
 }
 
+// Whether invocations of `shade` take a pixel each. Lavapipe ends an invocation's loops after
+// 65,535 turns in all, and each light takes turns of its own for each texel of its map; where
+// lights are few an invocation takes many pixels and reads the picture's parameters once.
+bool shadesPixelsApart(const BackendContext& context) {
+    constexpr std::uint32_t kFewLights = 2;
+    return std::ranges::any_of(context.output.shading, [](const engine::Constant& constant) {
+        return constant.id == gpu::kLightCountConstant && constant.bits > kFewLights;
+    });
+}
+
 engine::Constants softwareConstants(const BackendContext& context, std::uint32_t block) {
     engine::Constants constants = pointsConstants(context.strands, context.plan);
     constants.emplace_back(gpu::kStrandBlockConstant, block);
@@ -156,6 +166,10 @@ SoftwareBackend::SoftwareBackend(const BackendContext& context)
       find_(context.device, texelStage(context, "find", 2, block_)),
       cover_(context.device, texelStage(context, "cover", 2)),
       cover_large_(context.device, texelStage(context, "cover_large", 2)),
+      shaded_columns_(
+          shadesPixelsApart(context)
+              ? divideUp(target_.color().extent().width, pixelGroup(context.device))
+              : 1),
       shade_(context.device, shadeStage(context)), show_(context.device, showStage(context)) {
     if (target_.hasRadiance())
         colors_ = softwareBuffer(context.device, kSampleBytes * sampleCount(target_), "colors");
@@ -349,7 +363,7 @@ void SoftwareBackend::shade(engine::Commands& commands, const StrandPicture& pic
         commands.images(shade_, picture.images, std::array{texels_, &sample_texels_});
     else
         commands.images(shade_, picture.images);
-    commands.dispatch(constants.height);
+    commands.dispatch(constants.height, shaded_columns_);
 }
 
 void SoftwareBackend::prepare(engine::Commands& commands, const StrandPicture& picture) const {

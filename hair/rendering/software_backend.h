@@ -79,6 +79,7 @@ private:
     engine::ComputePipeline find_;
     engine::ComputePipeline cover_;
     engine::ComputePipeline cover_large_;
+    std::uint32_t shaded_columns_;  // of workgroups, for each row of pixels
     engine::ComputePipeline shade_;
     engine::GraphicsPipeline show_;
 };

@@ -1,4 +1,4 @@
-// The color of each sample that shows a strand. A workgroup a row of pixels.
+// The color of each sample that shows a strand. A workgroup a row of pixels, or one of several.
 #include "shading/strand_shading.glsl"
 #include "strands/software/seen.glsl"
 
@@ -42,7 +42,9 @@ void main() {
     uvec2 pixel = uvec2(low.x, gl_WorkGroupID.x);
     if (pixel.y < low.y || pixel.y >= high.y) return;
     PictureParameters picture = PictureReference(push.picture).parameters;
-    for (pixel.x += gl_LocalInvocationID.x; pixel.x < high.x; pixel.x += gl_WorkGroupSize.x) {
+    uint stride = gl_NumWorkGroups.y * gl_WorkGroupSize.x;
+    pixel.x += gl_WorkGroupID.y * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    for (; pixel.x < high.x; pixel.x += stride) {
         for (uint i = 0u; i < kSamples; ++i) {
             uint index = sampleIndex(pixel, i);
             uvec2 seen = fetchSample(index);
