@@ -11,7 +11,7 @@ layout(buffer_reference, scalar) readonly buffer Lights { Light lights[]; };
 struct LightSample {
     vec3 to_light;  // unit length
     vec3 color;  // what a white matt surface that faces it shows: irradiance / pi
-    float angular_radius;  // rad; 0 but of spheres
+    float angular_radius;  // rad; 0 but of spheres and discs
 };
 
 bool hasSpheres() { return (kLightKinds & kSomeSpheres) != 0u; }

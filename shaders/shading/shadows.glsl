@@ -56,7 +56,6 @@ const float kStrandBias = 2.0;
 // Widths of a strand by which a ray through a texel may meet the strand itself before the point.
 const float kOwnDepth = 1.0;
 
-
 vec2 planeSlope(ShadowMap map, vec3 clip, vec3 normal, float side) {
     vec3 a = abs(normal.x) > 0.5 ? vec3(-normal.y, normal.x, 0.0) : vec3(0.0, -normal.z, normal.y);
     vec3 b = cross(normal, a);
