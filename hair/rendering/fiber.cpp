@@ -187,15 +187,18 @@ LocalScattering localScattering(const FiberAverages& averages) {
     WeightedMeans means;
     for (int channel = 0; channel < 3; ++channel) {
         const double b = averages.backward[channel];
-        const double passed = square(averages.forward[channel]);
+        const double f = averages.forward[channel];
+        const double passed = f * std::exp(f - 1);  // one fibre, out and in
         const double rest = std::max(1 - passed, 1e-9);
+        const double inner = std::max(1 - f * f, 1e-9);
         const double once = b * passed / rest;
-        const double thrice = b * b * b * passed / (rest * rest * rest);
+        const double thrice = b * b * b * passed / (rest * rest * inner);
         local.albedo[channel] = once + thrice;
-        // Fibres that are passed forward: sum over i of 2 i a^(2 i), over sum of a^(2 i); and the
-        // same for three scatterings backward, whose series is a^2 / (1 - a^2)^3.
-        const double passes_once = 2 / rest;
-        const double passes_thrice = 2 * (1 + 2 * passed) / rest;
+        // Fibres that are passed forward: of i by chance, i f of the light that gets through. So it
+        // is the sum over i of i (1 + f) passed^i, over sum of passed^i; and the same for three
+        // scatterings backward.
+        const double passes_once = (1 + f) / rest;
+        const double passes_thrice = (1 + f) * (1 + passed) / rest + 2 * f * f / inner;
         means.add(
             once, averages.backward_shift + passes_once * averages.forward_shift,
             averages.backward_variance + passes_once * averages.forward_variance);

@@ -94,15 +94,18 @@ struct FiberAverages {
 FiberAverages averageOverFiber(const Fiber& fiber, double theta);
 
 // What light that passes a fibre forward, is scattered backward behind it once or three times and
-// passes it again adds to the fibre's own.
+// passes it again adds to the fibre's own. It leaves by the i fibres before the one that turns it
+// back, which let a_f^i through, but comes by another way, on which it meets i in the mean and by
+// chance: exp(-i (1 - a_f)) gets there. (In the paper both are a_f^i, as if light and eye were in
+// one place; that is a fifth too dark where a_f is 0.6, and a third where it is 0.4.)
 struct LocalScattering {
-    glm::dvec3 albedo{0};  // A_b, equations (13) to (15)
+    glm::dvec3 albedo{0};  // A_b, equations (13) to (15) with that
     double shift = 0;  // mean of theta_i + theta_o, rad
     double variance = 0;  // rad^2
 };
 
-// Shift and variance are the means over the series of (14) and (15), of which the paper's (16) and
-// (17) are approximations.
+// Shift and variance are the means over those series, of which the paper's (16) and (17) are
+// approximations.
 LocalScattering localScattering(const FiberAverages& averages);
 
 }  // namespace hair::rendering

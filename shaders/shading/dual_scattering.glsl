@@ -66,8 +66,10 @@ vec3 dualScattering(HairOptics optics, vec3 to_eye, vec3 to_light, float h, Ligh
     vec2 around = kHalfInversePi * (1.0 + vec2(1.0, 2.0 * kInversePi) * cos_phi);
     vec2 local = 2.0 * behind.xy * around;
     // Where there are m fibres behind, the sum of the paths that turn back once among them has
-    // 1 - a_f^(2 m) of all its terms; a surface behind sends back what comes through them.
-    vec3 albedo = average.local.rgb * (1.0 - path.ended) + average.forward.rgb * path.returned;
+    // 1 - q^m of all its terms, q being what one lets through there and back; a surface behind
+    // sends back what comes through them.
+    vec3 albedo = path.kept *
+                  (average.local.rgb * (1.0 - path.ended) + average.forward.rgb * path.returned);
 
     vec4 through = longitudinalLobes(
         sin_i, cos_i, view.sin_tilted, view.cos_tilted, optics.variances);

@@ -46,10 +46,11 @@ struct LightPath {
     float met;  // their mean number, of what they let through; at least 1
     vec3 ended;  // part that strands behind the point would let through, there and back
     vec3 returned;  // what meshes behind those send back of that part
+    float kept;  // of light that turns back in hair, over that where it comes straight in
 };
 
 const LightPath kFreePath =
-    LightPath(1.0, 0.0, 1.0, vec3(0.0), 1.0, vec3(0.0), vec3(0.0));
+    LightPath(1.0, 0.0, 1.0, vec3(0.0), 1.0, vec3(0.0), vec3(0.0), 1.0);
 
 // Of light that meets strands independently, so that their number has Poisson's distribution, and
 // of which each lets this part through: exp(-n) meets none, and exp(-n (1 - passed)) - exp(-n) gets

@@ -36,6 +36,7 @@ struct ShadowPoint {
     float most_slope;  // of each part of it
     float bias;  // of depth: what is in front of the point by less than this doesn't shade it
     vec3 log_passed;  // log of Receiver::passed
+    vec3 log_turned;  // log of the part that a strand in between lets through there and back
     // Of strands:
     vec2 line;  // direction in the map, unit length
     vec2 line_slope;  // of depth along that, per texel
@@ -55,6 +56,13 @@ const float kTurned = 0.0873;
 const float kStrandBias = 2.0;
 // Widths of a strand by which a ray through a texel may meet the strand itself before the point.
 const float kOwnDepth = 1.0;
+// keptInHair(): the first strands of single texels are in and out by a lock's thickness, so their
+// surface's slope is taken over this, m; where it ends it falls by kEdge times that.
+const float kReach = 0.008;
+const float kEdge = 3.0;
+// Against Mitsuba's light by the cosine, paths among strands are about right at 0.75 as they are.
+const float kStraight = 0.75;
+const float kEyeH = 2.4;  // 1 + 2 mu at mu = 0.7
 
 vec2 planeSlope(ShadowMap map, vec3 clip, vec3 normal, float side) {
     vec3 a = abs(normal.x) > 0.5 ? vec3(-normal.y, normal.x, 0.0) : vec3(0.0, -normal.z, normal.y);
@@ -108,7 +116,7 @@ void addRay(inout LightPath path, ShadowMap map, ShadowPoint point, ivec2 at, ve
         path.scattered += through;
         path.met += met.before * dot(through, vec3(1.0));
     }
-    vec3 ended = weight * exp(2.0 * met.behind * point.log_passed);
+    vec3 ended = weight * exp(met.behind * point.log_turned);
     path.ended += ended;
     if (kMeshShadows != 0 && (map.casters & kMeshesCast) != 0u) {
         float surface = texelFetch(mesh_depths, at, 0).r;
@@ -126,7 +134,7 @@ LightPath filteredPath(ShadowMap map, ShadowPoint point, float half_width) {
     ivec2 last = ivec2(ceil(centre + half_width)) - 1;
     bool meshes_cast = kMeshShadows != 0 && (map.casters & kMeshesCast) != 0u;
     bool hair_casts = kHairShadows != kHairShadowsNone && (map.casters & kHairCasts) != 0u;
-    LightPath path = LightPath(0.0, 0.0, 0.0, vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
+    LightPath path = LightPath(0.0, 0.0, 0.0, vec3(0.0), 0.0, vec3(0.0), vec3(0.0), 1.0);
     for (int y = first.y; y <= last.y; ++y) {
         for (int x = first.x; x <= last.x; ++x) {
             vec2 low = vec2(x, y);
@@ -168,6 +176,37 @@ LightPath filteredPath(ShadowMap map, ShadowPoint point, float half_width) {
     return path;
 }
 
+// Metres along the light's view to the first strand in a texel. Where there is none the surface is
+// as `here` if it ends on skin; else it ends, and falls steeply.
+float firstStrand(ShadowMap map, vec2 texel, float side, float here) {
+    ivec2 at = ivec2(map.corner) + ivec2(clamp(texel, vec2(0.0), vec2(side - 1.0)));
+    float depth = texelFetch(hair_depths, at, 0).r;
+    if (isNearer(depth, float(kFarDepth))) return viewDepth(map.depth_terms, depth);
+    bool skin = kMeshShadows != 0 && (map.casters & kMeshesCast) != 0u &&
+                isNearer(texelFetch(mesh_depths, at, 0).r, float(kFarDepth));
+    return here + (skin ? 0.0 : kEdge * kReach);
+}
+
+// Light that grazes hair leaves it again sooner than light that comes straight in. A deep medium
+// shows H(mu_0) H(mu) times the light of single scattering (Chandrasekhar 1960, Radiative
+// Transfer; mu_0 and mu: cosines of light and eye to its surface), so H(mu_0) H(mu) - 1 times as
+// much of several. This is that over what it is at a cosine of kStraight. H(mu) is 1 + 2 mu, that
+// of no absorption (Hapke 1981, Bidirectional reflectance spectroscopy 1); the eye's is kEyeH.
+// The surface is that of the first strands, with its slope taken over kReach to both sides.
+float keptInHair(ShadowMap map, vec2 texel, float side, float texel_size) {
+    float nearest = texelFetch(hair_depths, ivec2(map.corner) + ivec2(texel), 0).r;
+    if (!isNearer(nearest, float(kFarDepth))) return 1.0;
+    float here = viewDepth(map.depth_terms, nearest);
+    vec2 x = vec2(kReach / texel_size, 0.0);
+    vec2 rise = vec2(firstStrand(map, texel + x.xy, side, here) -
+                         firstStrand(map, texel - x.xy, side, here),
+                     firstStrand(map, texel + x.yx, side, here) -
+                         firstStrand(map, texel - x.yx, side, here));
+    vec2 slope = rise / (2.0 * kReach);
+    float cosine = inversesqrt(1.0 + dot(slope, slope));
+    return ((1.0 + 2.0 * cosine) * kEyeH - 1.0) / ((1.0 + 2.0 * kStraight) * kEyeH - 1.0);
+}
+
 // The path of light to a point.
 LightPath lightPath(PictureParameters picture, uint light, Receiver receiver) {
     if (kMeshShadows == 0 && kHairShadows == kHairShadowsNone) return kFreePath;
@@ -198,6 +237,7 @@ LightPath lightPath(PictureParameters picture, uint light, Receiver receiver) {
     point.half_width = 0.0;
     point.own_depth = 0.0;
     point.log_passed = log(max(receiver.passed, 1e-6));
+    point.log_turned = point.log_passed + receiver.passed - 1.0;  // LocalScattering's
     if (receiver.normal != vec3(0.0)) {
         point.slope = planeSlope(map, clip.xyz, receiver.normal, side);
         vec2 steepness = min(abs(point.slope) / depth_per_texel, vec2(kSteepest));
@@ -215,6 +255,8 @@ LightPath lightPath(PictureParameters picture, uint light, Receiver receiver) {
     }
     LightPath path = filteredPath(map, point, half_width);
     path.returned *= shadows.parameters.mesh_color;
+    if (kHairShadows == kHairShadowsDeepShadow && (map.casters & kHairCasts) != 0u)
+        path.kept = keptInHair(map, point.texel, side, texel);
     return path;
 }
 

@@ -28,7 +28,8 @@ TEST(FiberAverages, AreAllOfTheLightOfAWhiteFiber) {
 }
 
 // Fibres in a row, light that goes forward i times, back, and so on: the paper's double sums term
-// by term. It is the third power of 1 - a_f^2 under a_b^3, not the second.
+// by term, but light first meets a Poisson number of fibres whose mean is i. It is the third power
+// of 1 - a_f^2 under a_b^3 in the paper, not the second.
 TEST(LocalScattering, IsTheSumOverItsPaths) {
     const FiberAverages averages{
         .forward = {0.8, 0.5, 0.3},
@@ -45,18 +46,24 @@ TEST(LocalScattering, IsTheSumOverItsPaths) {
         const double f = averages.forward[c];
         const double b = averages.backward[c];
         double sum = 0;
-        const auto add = [&](int forward, int backward) {
-            const double part = std::pow(f, forward) * std::pow(b, backward);
-            sum += part;
-            weights += part;
-            shifts += part * (forward * 0.02 + backward * -0.05);
-            variances += part * (forward * 0.01 + backward * 0.03);
+        // The first of the fibres by chance, `in` in the mean, and then so many.
+        const auto add = [&](int in, int forward, int backward) {
+            double probability = std::exp(-in);
+            for (int met = 0; met < 3 * in + 40; ++met) {
+                const double part =
+                    probability * std::pow(f, met + forward) * std::pow(b, backward);
+                sum += part;
+                weights += part;
+                shifts += part * ((met + forward) * 0.02 + backward * -0.05);
+                variances += part * ((met + forward) * 0.01 + backward * 0.03);
+                probability *= static_cast<double>(in) / (met + 1);
+            }
         };
-        constexpr int kDeepest = 60;  // 0.8^120 is 2e-12
+        constexpr int kDeepest = 60;  // (0.8 exp(-0.2))^60 is 1e-11
         for (int i = 1; i < kDeepest; ++i) {
-            add(2 * i, 1);
+            add(i, i, 1);
             for (int j = 0; j < i; ++j)
-                for (int k = j + 1; k < kDeepest; ++k) add(i + (i - j - 1) + (k - j - 1) + k, 3);
+                for (int k = j + 1; k < kDeepest; ++k) add(i, (i - j - 1) + (k - j - 1) + k, 3);
         }
         EXPECT_NEAR(local.albedo[c], sum, 1e-6 * sum);
     }
@@ -64,8 +71,9 @@ TEST(LocalScattering, IsTheSumOverItsPaths) {
     EXPECT_NEAR(local.variance, variances / weights, 1e-7);
 }
 
-// What a stack of layers reflects has a closed form: R = b + f^2 R / (1 - b R). The sum of one and
-// three scatterings backward is less, and misses what is of fifth order in b.
+// What a stack of layers reflects has a closed form: R = b + f^2 R / (1 - b R). Of light of which
+// the next layer gets p instead of f, S = b + p f S / (1 - b R). The sum of one and three
+// scatterings backward is less, and misses what is of fifth order in b.
 TEST(LocalScattering, ReflectsNoMoreThanAllLayersDo) {
     for (const float n : kRoughnesses) {
         for (const float eumelanin : {0.0f, 0.1f, 1.0f}) {
@@ -81,13 +89,19 @@ TEST(LocalScattering, ReflectsNoMoreThanAllLayersDo) {
                     const double b = averages.backward[c];
                     // b R^2 - (1 + b^2 - f^2) R + b = 0
                     const double p = 1 + b * b - f * f;
-                    const double all = 2 * b / (p + std::sqrt(std::max(p * p - 4 * b * b, 0.0)));
+                    const double stack = 2 * b / (p + std::sqrt(std::max(p * p - 4 * b * b, 0.0)));
+                    EXPECT_LE(stack, 1 + 1e-6);  // a root of what is 0 for a white fibre
+                    const double q = f * std::exp(f - 1);
+                    const double all = b / (1 - q / (1 - b * stack));
                     const double some = b + local.albedo[c];
                     EXPECT_LE(some, all + 1e-9) << n << ' ' << eumelanin << ' ' << eta;
-                    EXPECT_LE(all, 1 + 1e-6);  // a root of what is 0 for a white fibre
-                    // r_5 of the series of R in b, from r_1 and r_3 as in the paper.
+                    // What is of fifth order in the series of S, from R = r_1 b + r_3 b^3.
                     const double rest = 1 - f * f;
-                    const double missing = 2 * f * f * std::pow(b, 5) / std::pow(rest, 5);
+                    const double r_1 = 1 / rest;
+                    const double r_3 = f * f / std::pow(rest, 3);
+                    const double missing = std::pow(b, 5) * q *
+                                           ((r_3 + r_1 * r_1) / std::pow(1 - q, 2) +
+                                            q * r_1 * r_1 / std::pow(1 - q, 3));
                     if (b < 0.1 * rest) {
                         EXPECT_NEAR(some, all, 1.2 * missing + 1e-12);
                     }

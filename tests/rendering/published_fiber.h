@@ -224,22 +224,26 @@ struct Ways {
 };
 
 // Zinke et al. 2008, (13) to (15): light that goes forward through i fibres, back, and through i
-// again; and all the ways of going back three times, of which (n + 1)(n + 2) / 2 pass n + 1 fibres
-// twice each.
+// again; and all the ways of going back three times. But the first i that it meets are such in the
+// mean, by Poisson's distribution: exp(-i (1 - f)) of it gets there, having met i f. Of three times
+// back, m of the ways pass m fibres in and out and n more twice within.
 inline Ways backThroughNeighbours(const Half& forward, const Half& backward) {
     Ways ways;
     for (int channel = 0; channel < 3; ++channel) {
-        const double passed = std::pow(forward.part[channel], 2.0);
+        const double f = forward.part[channel];
         const double b = backward.part[channel];
-        const auto add = [&](double weight, int forwards, int backwards) {
+        const auto add = [&](double weight, double forwards, int backwards) {
             ways.part[channel] += weight;
             ways.add(
                 weight, forwards * forward.shift + backwards * backward.shift,
                 forwards * forward.variance + backwards * backward.variance);
         };
-        for (int n = 0; n < 2000; ++n) {
-            add(b * std::pow(passed, n + 1), 2 * (n + 1), 1);
-            add(b * b * b * 0.5 * (n + 1) * (n + 2) * std::pow(passed, n + 1), 2 * (n + 1), 3);
+        for (int m = 1; m < 400; ++m) {
+            const double in_and_out = std::exp(-m * (1.0 - f)) * std::pow(f, m);
+            add(b * in_and_out, m * (1.0 + f), 1);
+            double within = 1.0;
+            for (int n = 0; n < 200; ++n, within *= f * f)
+                add(b * b * b * m * in_and_out * within, m * (1.0 + f) + 2.0 * n, 3);
         }
     }
     ways.finish();

@@ -27,7 +27,7 @@ struct FoundPath {
     float met;
     float ended;  // green
     float returned;  // green
-    float unused;
+    float kept;
 };
 
 // Draws the lights' maps in three frames, two of them in flight, and asks about the probes in each.

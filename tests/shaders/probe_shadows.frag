@@ -9,7 +9,7 @@
 layout(buffer_reference, scalar) readonly buffer Probes { ShadowProbe at[]; };
 layout(push_constant, scalar) uniform Push { ShadowProbePush push; };
 layout(location = 0) out vec4 path;  // meshes, strands, visibility, direct
-layout(location = 1) out vec4 behind;  // met, ended, returned
+layout(location = 1) out vec4 behind;  // met, ended, returned, kept
 
 void main() {
     PictureParameters picture = PictureReference(push.picture).parameters;
@@ -20,5 +20,5 @@ void main() {
         picture, probe.light,
         Receiver(probe.position, probe.normal, probe.tangent, probe.width, passedOpaque(picture)));
     path = vec4(found.meshes, found.strands, visibility(found), found.direct);
-    behind = vec4(found.met, found.ended.g, found.returned.g, 0.0);
+    behind = vec4(found.met, found.ended.g, found.returned.g, found.kept);
 }
