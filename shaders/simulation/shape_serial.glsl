@@ -5,6 +5,8 @@
 #ifndef HAIRBENCH_SIMULATION_SHAPE_SERIAL_GLSL
 #define HAIRBENCH_SIMULATION_SHAPE_SERIAL_GLSL
 
+#extension GL_EXT_control_flow_attributes : require
+
 #include "common/rigid_frame.glsl"
 #include "shared/options.h"
 #include "simulation/air_drag.glsl"
@@ -102,6 +104,8 @@ void main() {
     vec3 goal_edges[kVerticesPerStrand];
     bool lengths = true;  // left to do
 #ifdef HAIRBENCH_SHAPE_ENERGY
+    // Loops that Mesa would unroll up to 32 vertices, which takes lavapipe 20 times as long to
+    // compile.
     lengths = held;
     RigidFrame head = push.frame_before;
     Transport start = Transport(firstTangent(head, rest_edges.at[root + 1]), head.rotation);
@@ -110,7 +114,7 @@ void main() {
     float rest_lengths[kVerticesPerStrand];
     BendJoint joints[kVerticesPerStrand];
     Transport frame = start;
-    for (uint v = 1; v < kVerticesPerStrand; ++v) {
+    [[dont_unroll]] for (uint v = 1; v < kVerticesPerStrand; ++v) {
         vec4 rest_edge = rest_edges.at[root + v];
         rest_lengths[v] = rest_edge.w;
         goal_edges[v] = rotate(frame.rotation, rest_edge.xyz);
@@ -121,7 +125,7 @@ void main() {
     }
     float free_mass = 1.0 + pullPerMass(params.global_stiffness);
     BendBelow below = nothingBelow();
-    for (uint v = kVerticesPerStrand - 1; v > 0; --v) {
+    [[dont_unroll]] for (uint v = kVerticesPerStrand - 1; v > 0; --v) {
         float mass = inverse_masses[v] > 0.0 ? free_mass : kHeldMass * kVerticesPerStrand;
         addVertex(below, loads[v], mass, root_moved);
         vec3 edge = positions.at[root + v].xyz - positions.at[root + v - 1].xyz;
@@ -134,7 +138,7 @@ void main() {
     BendAbove turning =
         BendAbove(upper + root_moved, root_moved, (head_turn.w < 0.0 ? -2.0 : 2.0) * head_turn.xyz);
     positions.at[root].xyz = turning.place;
-    for (uint v = 1; v < kVerticesPerStrand; ++v) {
+    [[dont_unroll]] for (uint v = 1; v < kVerticesPerStrand; ++v) {
         vec3 lower = positions.at[root + v].xyz;
         float rest_length = rest_lengths[v];
         if (hasDirection(lower - upper, rest_length))
