@@ -268,7 +268,8 @@ void walkUpChunk() {
     }
     [[unroll]] for (uint up = 0; up < kVerticesPerChunk; ++up) {
         uint j = kVerticesPerChunk - 1 - up;
-        if (segmentExists(j)) walkUp(below, rows[j], points[j], points[j + 1], rest_edges[j].w);
+        if (segmentExists(j))
+            walkUp(below, rows[j], points[j], points[j + 1], rest_edges[j].w);
     }
     if (kChunks == 1) return;
     tangents[lane] = vec4(below.pull, below.hold);
@@ -358,7 +359,8 @@ void load(GuideParameters guides, GuideParameters from, ShapeParameters params, 
             vec3 tangent = tangentAt(from, first, j);
             vec3 u = air - (point.xyz - previous) / guides.step.sub;
             float brake = brakeOf(push.drag, tangent, u, guides.step.sub);
-            moved = point.xyz + braked(moved - point.xyz, guides.step.sub * air, tangent, brake);
+            moved = point.xyz +
+                    braked(moved - point.xyz, guides.step.sub * air, tangent, brake);
             point.w /= 1.0 + brake;
             stiffness = pullOn(stiffness, brake);
         }
@@ -419,16 +421,13 @@ void main() {
     uint first = root + chunk * kVerticesPerChunk;
     uint end = first + (chunk < kLastChunk ? kVerticesPerChunk : kVerticesInLast);
 
-    [[unroll]] for (uint j = 0; j < kVerticesPerChunk + 2; ++j)
-        points[j] = vec4(0.0);
-    [[unroll]] for (uint j = 0; j <= kVerticesPerChunk; ++j)
-        rest_edges[j] = vec4(0.0);
+    [[unroll]] for (uint j = 0; j < kVerticesPerChunk + 2; ++j) points[j] = vec4(0.0);
+    [[unroll]] for (uint j = 0; j <= kVerticesPerChunk; ++j) rest_edges[j] = vec4(0.0);
     float stiffness = 0.0;
     vec3 first_rest_tangent = vec3(0.0);
 #ifdef HAIRBENCH_SHAPE_ENERGY
     RigidFrame head = push.frame_before;  // that the shape is seen from
-    [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j)
-        loads[j] = kNoLoad;
+    [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j) loads[j] = kNoLoad;
     vec3 root_moved = vec3(0.0);
     if (present)
         root_moved = toWorld(push.frame, loadVector(params.rest_positions, root).xyz) -
@@ -457,20 +456,16 @@ void main() {
     // vertices (the root's own among them) first. Both chunks move the segment between them.
     for (uint iteration = 0; iteration < params.local_iterations; ++iteration) {
         findGoalEdges(first_rest_tangent);
-        [[unroll]] for (uint j = 1; j < kVerticesPerChunk; j += 2)
-            pull(j, stiffness);
+        [[unroll]] for (uint j = 1; j < kVerticesPerChunk; j += 2) pull(j, stiffness);
         meetNeighbours();
-        [[unroll]] for (uint j = 0; j <= kVerticesPerChunk; j += 2)
-            pull(j, stiffness);
+        [[unroll]] for (uint j = 0; j <= kVerticesPerChunk; j += 2) pull(j, stiffness);
     }
 #endif
     if (!kTridiagonal && lengths) {
         for (uint iteration = 0; iteration < params.length_iterations; ++iteration) {
-            [[unroll]] for (uint j = 1; j < kVerticesPerChunk; j += 2)
-                project(j);
+            [[unroll]] for (uint j = 1; j < kVerticesPerChunk; j += 2) project(j);
             meetNeighbours();
-            [[unroll]] for (uint j = 0; j <= kVerticesPerChunk; j += 2)
-                project(j);
+            [[unroll]] for (uint j = 0; j <= kVerticesPerChunk; j += 2) project(j);
         }
     }
 
@@ -481,8 +476,7 @@ void main() {
 
     if (!present) end = first;
     float contact = 0.0;
-    [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j)
-        met[j] = Met(vec4(0.0), kTouchesNone);
+    [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j) met[j] = Met(vec4(0.0), kTouchesNone);
     for (uint i = first; i < end; ++i)  // collisions are too long to unroll
         met[i - first] = collide(guides, push.frame, push.frame_before, i, contact);
     if (kChunks > 1) markBelow(guides, contact, first, end);
