@@ -15,11 +15,19 @@ const Table& tableOf(const GlobalSettings*) {
 const Table& tableOf(const LocalSettings*) {
     using S = LocalSettings;
     static const Table table = tableWith<S>(
-        {number(
+        {choice(
+             "method", &S::method,
+             {{LocalMethod::iterate, "iterate"}, {LocalMethod::energy, "energy"}},
+             "how `shape` keeps its shape. iterate: the thesis's, which has no energy and rests "
+             "elsewhere at another time step; energy: joints that bend, in one direct solve with "
+             "the lengths, at rest the same at any time step"),
+         number(
              "stiffness", &S::stiffness, 0, 1, "1",
              "k_L per iteration at 10 iterations, 1/60 s and segments of 21.4285 mm; used up to "
-             "0.95"),
-         number("iterations", &S::iterations, 0, 64, "count", "iterations per step")});
+             "0.95. energy: as stiff as such hair of 7 segments is against its weight"),
+         number(
+             "iterations", &S::iterations, 0, 64, "count",
+             "iterations per step; energy: one solve, 0 switches it off")});
     return table;
 }
 
@@ -35,7 +43,7 @@ const Table& tableOf(const LengthSettings*) {
          number(
              "iterations", &S::iterations, 0, 256, "count",
              "per step: passes of `tridiagonal`, red-black iterations of `iterate` (the thesis has "
-             "5); 0: lengths are free")});
+             "5); 0: lengths are free, but for those that /simulation/local/method energy keeps")});
     return table;
 }
 

@@ -18,9 +18,13 @@ struct GlobalSettings {
 
 const Table& tableOf(const GlobalSettings*);
 
-// Thesis equation (11); Han and Harada 2012, Real-time hair simulation with efficient hair style
-// preservation.
+// iterate: thesis equation (11), which turns the lower segment of a joint; Han and Harada 2012,
+// Real-time hair simulation with efficient hair style preservation. energy: a couple on both
+// segments, solved with the lengths in one system: simulation/constraints/bend.glsl.
+enum class LocalMethod { iterate, energy };
+
 struct LocalSettings {
+    LocalMethod method = LocalMethod::iterate;
     float stiffness = 0.01f;
     std::uint32_t iterations = 10;
 };

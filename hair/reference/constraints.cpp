@@ -286,6 +286,23 @@ double localFactor(const SimulationSettings& settings, const Step& step, double 
     return std::min(1.0 - std::pow(left_by_step, 1.0 / settings.local.iterations), 0.95);
 }
 
+double bendFactor(const SimulationSettings& settings, const Step& step, double segment_length) {
+    // How far the tip of the thesis's level hair sags by each joint, as a moment and as a force,
+    // which moves the lower vertex alone, by twice as much, at the root.
+    double bending = 0.0;
+    double pulling = 0.0;
+    for (int below = 1; below <= 7; ++below) {
+        bending += below * below * (below + 1) / 2.0;
+        pulling += below * below * (below == 7 ? 0.5 : 1.0);
+    }
+    const double left = std::log(1.0 - std::min(double{settings.local.stiffness}, 0.95));
+    if (settings.stiffness_scaling == StiffnessScaling::thesis)
+        return -bending / pulling * settings.local.iterations * left / 2.0;
+    const double steps = step.sub * 60.0;
+    return -bending / pulling * 10.0 * left / 2.0 * steps * steps *
+           std::pow(0.15 / 7.0 / std::fmax(segment_length, 1e-5), 4.0);
+}
+
 // ---- Follow the leader --------------------------------------------------------------------------
 
 void stepFtl(

@@ -175,6 +175,9 @@ double globalFactor(const SimulationSettings& settings, const Step& step);
 // k_L of thesis eq. 11 for an iteration on a strand with this mean segment length, m.
 double localFactor(const SimulationSettings& settings, const Step& step, double segment_length);
 
+// substep^2 K of the local constraint with an energy, of such a strand.
+double bendFactor(const SimulationSettings& settings, const Step& step, double segment_length);
+
 struct FtlStep {
     ConstPoints accelerations;  // m/s^2
     std::span<const glm::dmat3> drag{};  // dragRates() of wind.h; empty: no air

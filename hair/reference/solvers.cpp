@@ -9,6 +9,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "hair/reference/augmented_mass_spring.h"
+#include "hair/reference/bending.h"
 #include "hair/reference/hair_hair.h"
 #include "hair/reference/position_based_rod.h"
 #include "hair/reference/rod.h"
@@ -202,6 +203,43 @@ void stepRest(const Substep& substep, const SimulationSettings&, const Step&) {
     }
 }
 
+// The substep's system of the local constraint with an energy, of all that acts on vertices.
+void bendShape(
+    const Substep& substep, ConstPoints rest, std::span<const glm::dmat3> drag,
+    const SimulationSettings& settings, const Step& step) {
+    const std::size_t vertices = rest.size();
+    double length = 0.0;
+    for (std::size_t i = 1; i < vertices; ++i) length += glm::distance(rest[i], rest[i - 1]);
+    const double k = globalFactor(settings, step);
+    const double spring = k / std::fmax(1.0 - k, 1e-6);
+    BendStep bend{
+        .pushes = std::vector(vertices, glm::dvec3(0.0)),
+        .masses = std::vector(vertices, glm::dmat3(1.0 + spring)),
+        .turning_pushes = std::vector(vertices, glm::dvec3(0.0)),
+        .stiffness = bendFactor(settings, step, length / static_cast<double>(vertices - 1)),
+        .damping = std::fmax(1.0, 1.0 / (60.0 * step.sub)),
+        .frame = glm::mat3_cast(substep.frame_before.rotation),
+        .turn = {},
+        .root = rest[0]};
+    const glm::dquat turn = substep.frame.rotation * glm::conjugate(substep.frame_before.rotation);
+    bend.turn = (turn.w < 0.0 ? -2.0 : 2.0) * glm::dvec3(turn.x, turn.y, turn.z);
+    const double h = step.sub;
+    for (std::size_t i = 1; i < vertices; ++i) {
+        const glm::dvec3 moved = substep.positions[i] - substep.previous[i];
+        bend.pushes[i] = keptFactor(settings, step) * moved + h * h * substep.accelerations[i] +
+                         spring * (rest[i] - substep.positions[i]);
+        if (drag.empty()) continue;
+        bend.masses[i] += h * drag[i];
+        bend.pushes[i] += h * h * (drag[i] * substep.air[i]);
+        const glm::dvec3 tangent = tangentsAt(substep.positions)[i];
+        const glm::dvec3 wind = h * substep.air[i] - moved;
+        bend.turning_pushes[i] = (drag[i][0][0] + drag[i][1][1] + drag[i][2][2]) / 2.0 * h *
+                                 glm::dot(tangent, wind) * tangent;
+    }
+    std::ranges::copy(substep.positions, substep.previous.begin());
+    bendStrand(substep.positions, substep.rest, bend);
+}
+
 // The order of thesis section 3.2, then collisions.
 void stepShape(const Substep& substep, const SimulationSettings& settings, const Step& step) {
     const std::size_t vertices = substep.rest.size();
@@ -216,23 +254,30 @@ void stepShape(const Substep& substep, const SimulationSettings& settings, const
     const std::vector<glm::dvec3> before(positions.begin(), positions.end());
     const std::vector<glm::dmat3> drag = dragOf(substep, settings, step);
     std::vector<double> lightness;
+    const bool bends = settings.local.method == LocalMethod::energy &&
+                       settings.local.stiffness > 0.0f && settings.local.iterations > 0;
     for (const glm::dmat3& rate : drag) lightness.push_back(lightnessIn(rate, step.sub));
-    substep.previous[0] = positions[0];
-    positions[0] = rest[0];
-    integrate(
-        positions, substep.previous, substep.accelerations, keptFactor(settings, step), step.sub);
-    for (std::size_t i = 1; i < drag.size(); ++i)
-        positions[i] = before[i] + step.sub * braked(
-                                                  (positions[i] - before[i]) / step.sub, drag[i],
-                                                  substep.air[i], step.sub);
-    pullToRest(positions, rest, globalFactor(settings, step), lightness);
-    for (std::uint32_t i = 0; i < settings.local.iterations; ++i)
-        pullToShape(positions, substep.rest, local, root_frame, lightness);
-    if (settings.length.method == LengthMethod::tridiagonal)
-        solveLengths(positions, rest, settings.length.iterations, lightness);
-    else
-        for (std::uint32_t i = 0; i < settings.length.iterations; ++i)
-            projectLengths(positions, rest, lightness);
+    if (bends) {
+        bendShape(substep, rest, drag, settings, step);
+    } else {
+        substep.previous[0] = positions[0];
+        positions[0] = rest[0];
+        integrate(
+            positions, substep.previous, substep.accelerations, keptFactor(settings, step),
+            step.sub);
+        for (std::size_t i = 1; i < drag.size(); ++i)
+            positions[i] = before[i] + step.sub * braked(
+                                                      (positions[i] - before[i]) / step.sub,
+                                                      drag[i], substep.air[i], step.sub);
+        pullToRest(positions, rest, globalFactor(settings, step), lightness);
+        for (std::uint32_t i = 0; i < settings.local.iterations; ++i)
+            pullToShape(positions, substep.rest, local, root_frame, lightness);
+        if (settings.length.method == LengthMethod::tridiagonal)
+            solveLengths(positions, rest, settings.length.iterations, lightness);
+        else
+            for (std::uint32_t i = 0; i < settings.length.iterations; ++i)
+                projectLengths(positions, rest, lightness);
+    }
 
     // Bodies come between lengths and lengths: one pass more where the strand touches one.
     std::vector<Pushed> met(vertices);
@@ -334,6 +379,7 @@ void Reference::setState(
              .accelerations = {},
              .air = {},
              .frame = motion_.at(time()),
+             .frame_before = motion_.at(time()),
              .push_out = {}});
 }
 
@@ -401,6 +447,7 @@ void Reference::advance(const Air& air, double then) {
                  .accelerations = ofStrand(accelerations, strand),
                  .air = air.velocities.empty() ? ConstPoints{} : ofStrand(air.velocities, strand),
                  .frame = contact.frame,
+                 .frame_before = contact.frame_before,
                  .push_out = contact});
     }
 }

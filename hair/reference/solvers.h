@@ -26,6 +26,7 @@ struct Substep {
     ConstPoints accelerations;  // of gravity and all that is held for a whole step, m/s^2
     ConstPoints air;  // its velocity at the vertices, m/s; empty: it does not brake
     simulation::RigidMotion frame;  // of the head at the substep's end
+    simulation::RigidMotion frame_before;  // and at its start
     // Where a vertex comes to lie that the substep has moved from `before` to `position`.
     PushOut push_out;
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -24,6 +25,13 @@
 
 namespace hair::simulation {
 namespace {
+
+// Whether the local constraint is an energy's. One without stiffness is none, and leaves lengths to
+// their own method.
+bool bends(const SimulationSettings& settings) {
+    return settings.local.method == LocalMethod::energy && settings.local.stiffness > 0.0f &&
+           settings.local.iterations > 0;
+}
 
 // ---- The shape at rest --------------------------------------------------------------------------
 
@@ -63,14 +71,14 @@ constexpr double kMostTaken = 0.125;
 // How far a substep's weight takes the vertices of a strand that hangs as it is before the lengths
 // take them back. From the tip up, a segment bears of what pulls at its end what goes along it, as
 // a tension that pulls at its start too; the rest is for the pull toward the rest position.
-// Tensions are never negative, and so the balance is stable whatever else is stiff. [vertex], m.
+// Tensions are never negative, and so the balance is stable whatever else is stiff. They bear
+// `most` of the weight. [vertex], m.
 std::vector<glm::dvec3> takenByWeight(
-    std::span<const glm::dvec3> points, std::span<const double> lengths, const glm::dvec3& weight) {
-    const double shortest = *std::ranges::min_element(lengths.subspan(1));
-    const double most = kMostTaken * shortest;
+    std::span<const glm::dvec3> points, std::span<const double> lengths, const glm::dvec3& weight,
+    double most) {
     const glm::dvec3 borne = weight * std::min(1.0, most / glm::length(weight));
     std::vector<glm::dvec3> taken(points.size(), glm::dvec3(0.0));
-    if (!(most > 0.0)) return taken;
+    if (*std::ranges::min_element(lengths.subspan(1)) == 0.0) return taken;
     glm::dvec3 below{0.0};  // the pull of the segment below
     for (std::size_t i = points.size() - 1; i > 0; --i) {
         const glm::dvec3 along = (points[i] - points[i - 1]) / lengths[i];
@@ -96,6 +104,8 @@ struct ShapeRest {
     std::vector<glm::dvec3> left;
     glm::dvec3 weight{0.0};
     double pull = 0.0;  // of the global constraint in a substep
+    // The local constraint has an energy: all forces are in balance in one system, and it has none.
+    bool exact = false;
     std::optional<RestBalance> balance;
 
     // Makes positions and edges of all strands.
@@ -113,7 +123,7 @@ void ShapeRest::make() {
             if (i > 0 && pull > 0.0) position += (goals[i] - strand[i] - weight) / pull;
             positions.emplace_back(position, 0.0);
         }
-        addTransportedEdges(goals, lengthsOf(strand), edges);
+        addTransportedEdges(exact ? strand : goals, lengthsOf(strand), edges);
     }
 }
 
@@ -133,19 +143,27 @@ restOfShapes(const groom::Groom& groom, const SimulationSettings& settings, cons
             for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand)
                 rest->balance->unbalanced.push_back(strand);
     }
-    // Iterations leave hair stretched by what they are to take back: the pull bears all of it.
+    // An energy's system bears any tension. Iterations leave hair stretched by what they are to
+    // take back: the pull bears all of it.
+    rest->exact = bends(settings);
     const bool keeps_lengths =
-        settings.length.method == LengthMethod::tridiagonal && settings.length.iterations > 0;
+        rest->exact ||
+        (settings.length.method == LengthMethod::tridiagonal && settings.length.iterations > 0);
     for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand) {
         std::vector<glm::dvec3> points;
         for (const glm::vec3& point : groom.strand(strand)) points.emplace_back(point);
         const std::vector<double> lengths = lengthsOf(points);
         const double sum = std::accumulate(lengths.begin(), lengths.end(), 0.0);
-        rest->stiffness.push_back(
-            static_cast<float>(localStiffness(settings, step, sum / groom.segmentsPerStrand())));
+        const double mean = sum / groom.segmentsPerStrand();
+        rest->stiffness.push_back(static_cast<float>(
+            bends(settings) ? bendStiffness(settings, step, mean)
+                            : localStiffness(settings, step, mean)));
         std::ranges::copy(points, std::back_inserter(rest->points));
         if (keeps_lengths && rest->weight != glm::dvec3(0.0)) {
-            const auto taken = takenByWeight(points, lengths, rest->weight);
+            const double most =
+                rest->exact ? std::numeric_limits<double>::infinity()
+                            : kMostTaken * *std::ranges::min_element(std::span(lengths).subspan(1));
+            const auto taken = takenByWeight(points, lengths, rest->weight, most);
             for (std::size_t i = 0; i < points.size(); ++i) points[i] += taken[i];
         }
         std::ranges::copy(points, std::back_inserter(rest->left));
@@ -159,13 +177,15 @@ restOfShapes(const groom::Groom& groom, const SimulationSettings& settings, cons
 constexpr std::uint32_t kGroup = 32;  // invocations to fill with whole strands
 
 // Vertices of an invocation. The shader is unrolled over them: llvmpipe takes about 0.05 s each to
-// compile it.
+// compile it, half as much again where bending has an energy.
 constexpr std::uint32_t kFewest = 2;
 constexpr std::uint32_t kMost = 32;
 constexpr std::uint32_t kOnGpu = 8;  // some 100 registers by count of values; not measured
 
-// Of shared memory, for each invocation of simulation/shape.glsl: seven vec4 and a float.
+// Of shared memory, for each invocation of simulation/shape.glsl: seven vec4 and a float, with an
+// energy one more.
 constexpr std::uint32_t kSharedBytes = 7 * 16 + 4;
+constexpr std::uint32_t kSharedBytesOfEnergy = kSharedBytes + 4;
 
 // Invocations that keep a GPU busy: a guess.
 constexpr std::uint32_t kInvocationsToFillGpu = 32768;
@@ -188,6 +208,13 @@ std::uint32_t verticesPerChunk(std::uint32_t vertices, std::uint32_t wanted) {
     return chunks == 1 ? vertices : divideUp(divideUp(vertices, chunks), 2) * 2;
 }
 
+const char* shaderOf(const engine::DeviceInfo& device, const SimulationSettings& settings) {
+    const bool packed = device.features.contains(engine::Feature::long_integers);
+    if (bends(settings))
+        return packed ? "simulation/shape_energy_packed.comp" : "simulation/shape_energy.comp";
+    return packed ? "simulation/shape_packed.comp" : "simulation/shape.comp";
+}
+
 // Throws Unsupported for strands with more vertices than the device has invocations in a workgroup,
 // and shared memory for them, at 32 vertices each.
 ShapePlan planShape(
@@ -197,7 +224,8 @@ ShapePlan planShape(
     const bool tridiagonal = settings.length.method == LengthMethod::tridiagonal;
     if (settings.parallelism == Parallelism::serial)
         return {
-            .shader = "simulation/shape_serial.comp",
+            .shader = bends(settings) ? "simulation/shape_energy_serial.comp"
+                                      : "simulation/shape_serial.comp",
             .constants =
                 {{gpu::kContinuousCollisionConstant, settings.collision.continuous},
                  {gpu::kShapeGroupSizeConstant, kGroup},
@@ -208,7 +236,8 @@ ShapePlan planShape(
 
     const std::uint32_t most_chunks = std::min(
         device.limits.maxComputeWorkGroupInvocations,
-        device.limits.maxComputeSharedMemorySize / kSharedBytes);
+        device.limits.maxComputeSharedMemorySize /
+            (bends(settings) ? kSharedBytesOfEnergy : kSharedBytes));
     if (vertices_per_strand > most_chunks * kMost)
         throw engine::Unsupported(
             "simulation", std::to_string(vertices_per_strand) +
@@ -221,9 +250,7 @@ ShapePlan planShape(
     const std::uint32_t chunks = divideUp(vertices_per_strand, per_chunk);
     const std::uint32_t strands = std::max(1u, std::min(kGroup, most_chunks) / chunks);
     return {
-        .shader = device.features.contains(engine::Feature::long_integers)
-                      ? "simulation/shape_packed.comp"
-                      : "simulation/shape.comp",
+        .shader = shaderOf(device, settings),
         .constants =
             {{gpu::kContinuousCollisionConstant, settings.collision.continuous},
              {gpu::kShapeGroupSizeConstant, strands * chunks},
@@ -272,7 +299,8 @@ ShapeSolver::ShapeSolver(
               .local_stiffness = local_stiffness_.address(),
               .global_stiffness = static_cast<float>(globalStiffness(settings, step)),
               .local_iterations = settings.local.iterations,
-              .length_iterations = settings.length.iterations}}),
+              .length_iterations = settings.length.iterations,
+              .local_damping = static_cast<float>(bendDamping(step))}}),
           "shape parameters")),
       pipeline_(pipelineOf(device, plan_)) {}
 
@@ -284,7 +312,7 @@ bool ShapeSolver::correctBalance(const engine::Device& device, std::span<const g
     constexpr double kStill = 1e-7;  // m: some roundings of positions
     double most = 0.0;
     for (const glm::vec3& each : moved) most = std::max(most, glm::length(glm::dvec3(each)));
-    if (!(most > kStill) || balancing_->weight == glm::dvec3(0.0)) {
+    if (!(most > kStill) || balancing_->exact || balancing_->weight == glm::dvec3(0.0)) {
         balancing_.reset();
         return false;
     }

@@ -1,11 +1,16 @@
 #include "hair/simulation/stiffness.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "hair/simulation/head_motion.h"
 
 namespace hair::simulation {
 namespace {
+
+// Of a joint that turns both of its segments, over one that turns the lower: stiffness.h.
+constexpr double kBendOfPull = 4.0;
+constexpr double kShortestMean = 1e-5;  // of segments, m: K is a float
 
 double substepRatio(const gpu::Step& step) { return double{step.sub} / kReferenceStep; }
 
@@ -36,6 +41,19 @@ localStiffness(const SimulationSettings& settings, const gpu::Step& step, double
     const double exponent = kReferenceIterations / settings.local.iterations * scale;
     return std::min(-std::expm1(exponent * std::log1p(-k)), kGreatestLocalStiffness);
 }
+
+double
+bendStiffness(const SimulationSettings& settings, const gpu::Step& step, double segment_length) {
+    const double k = std::min(double{settings.local.stiffness}, kGreatestLocalStiffness);
+    const double pulls = -std::log1p(-k);
+    if (settings.stiffness_scaling == StiffnessScaling::thesis)
+        return kBendOfPull / 2.0 * settings.local.iterations * pulls;
+    const double scale = std::pow(substepRatio(step), 2.0) *
+                         std::pow(kReferenceSegment / std::max(segment_length, kShortestMean), 4.0);
+    return kBendOfPull / 2.0 * kReferenceIterations * pulls * scale;
+}
+
+double bendDamping(const gpu::Step& step) { return std::max(1.0, 1.0 / substepRatio(step)); }
 
 glm::dvec3 gravityOnGroom(const SimulationSettings& settings) {
     const RigidMotion head = HeadMotion(settings.motion).at(0.0);

@@ -56,6 +56,15 @@ inline glm::dquat rotationBetween(const glm::dvec3& from, const glm::dvec3& to) 
 // leave. A strand's sag then depends on the step by a few percent even at k = 0.2; segments so
 // short that the iterations can't carry a correction along the strand stay too soft.
 //
+// Local with an energy: shaders/simulation/constraints/bend.glsl. The thesis's pull holds a segment
+// by n0 k_L / 2 of its distance from its goal in a reference step, where pulls are small, so that
+// its stiffness is K = -n0 ln(1 - k_L) / (2 h0^2), twice that at the root, and a segment with n
+// vertices below it turns by n g / (K l0). One that turns the segment above back bears a moment
+// instead, and turns by n (n + 1) g / (2 K l0). With 4 times the stiffness, the sum of
+// n^2 (n + 1) / 2 over that of n^2, half of it at the root, for 7 segments, the tip of the thesis's
+// level hair sags as much. A beam's joint has EI / l = m l^2 K with a mass m proportional to l, so
+// K is proportional to 1 / l^4.
+//
 // Friction leaves a fraction of the velocity per reference step, hence its power dt / h0 per step.
 
 inline constexpr double kReferenceStep = 1.0 / 60.0;  // h0, s
@@ -74,6 +83,15 @@ double globalStiffness(const SimulationSettings& settings, const gpu::Step& step
 // mean rest length of the strand's segments, m; a strand without length is as stiff as can be.
 double
 localStiffness(const SimulationSettings& settings, const gpu::Step& step, double segment_length);
+
+// substep^2 times the stiffness over a vertex's mass of the local constraint with an energy,
+// [0, infinity). `segment_length` as above.
+double
+bendStiffness(const SimulationSettings& settings, const gpu::Step& step, double segment_length);
+
+// How many times that is the energy's implicit stiffness: its damping is that of an implicit
+// reference step, however short a substep is.
+double bendDamping(const gpu::Step& step);
 
 // Gravity at the start as the groom sees it on its head, m/s^2.
 glm::dvec3 gravityOnGroom(const SimulationSettings& settings);

@@ -138,7 +138,7 @@ const uint kResolveExposureConstant = 3u;
 // Invocations along each side of a workgroup of post/resolve.glsl and post/develop.glsl.
 const uint kResolveGroupSide = 8u;
 
-// Constants of simulation/shape.glsl and, but for the last, simulation/shape_serial.comp.
+// Constants of simulation/shape.glsl and, but for the last, simulation/shape_serial.glsl.
 const uint kShapeGroupSizeConstant = 0u;
 const uint kShapeVerticesPerStrandConstant = 1u;
 const uint kShapeCollidesConstant = 2u;

@@ -151,10 +151,11 @@ struct ConditionPush {
 struct ShapeParameters {
     Address rest_positions;  // where the global constraint pulls to, m
     Address rest_edges;  // hair/simulation/solver_shape.h
-    Address local_stiffness;  // float [strand]: factor per iteration
+    Address local_stiffness;  // float [strand]: factor per iteration, or substep^2 K of an energy
     float global_stiffness;  // factor per substep
     uint local_iterations;
     uint length_iterations;
+    float local_damping;  // how many times that an energy's implicit stiffness is
 };
 
 // Parameters of simulation/ftl.comp.

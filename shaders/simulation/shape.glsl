@@ -5,7 +5,8 @@
 // differs between chunks is the same in most of a subgroup. A workgroup holds whole strands.
 // Invocations past the last strand work on zeros and store nothing, so that all of them reach every
 // barrier; where a strand is one chunk there is none.
-// loadVector() and storeVector() come before it.
+// loadVector() and storeVector() come before it, and HAIRBENCH_SHAPE_ENERGY where the local
+// constraint has an energy, which is solved together with the lengths.
 #ifndef HAIRBENCH_SIMULATION_SHAPE_GLSL
 #define HAIRBENCH_SIMULATION_SHAPE_GLSL
 
@@ -14,6 +15,9 @@
 #include "common/rigid_frame.glsl"
 #include "shared/options.h"
 #include "simulation/air_drag.glsl"
+#ifdef HAIRBENCH_SHAPE_ENERGY
+#include "simulation/constraints/bend.glsl"
+#endif
 #include "simulation/constraints/global.glsl"
 #include "simulation/constraints/length.glsl"
 #include "simulation/constraints/local.glsl"
@@ -44,11 +48,18 @@ const uint kVerticesInLast = kVerticesPerStrand - kLastChunk * kVerticesPerChunk
 
 uint lane;
 uint chunk;
+vec4 head_rotation;  // that the shape is seen from
 // Vertex j of the chunk is points[j + 1]; around them lie the last vertex of the chunk before and
 // the first of the chunk after. Segment j joins points[j] and points[j + 1].
 vec4 points[kVerticesPerChunk + 2];  // w: inverse mass, less where air brakes
 vec4 rest_edges[kVerticesPerChunk + 1];
 vec3 goal_edges[kVerticesPerChunk + 1];
+#ifdef HAIRBENCH_SHAPE_ENERGY
+// What acts on vertices, the joints at segments' starts, and their axes.
+BendLoad loads[kVerticesPerChunk];
+BendJoint joints[kVerticesPerChunk];
+vec3 axes[kVerticesPerChunk];
+#endif
 
 // What chunks exchange. Halves are used in turn, so that one barrier is enough.
 shared vec4 firsts[2][gl_WorkGroupSize.x];
@@ -56,6 +67,9 @@ shared vec4 lasts[2][gl_WorkGroupSize.x];
 shared vec4 rotations[2][gl_WorkGroupSize.x];
 shared float contacts[gl_WorkGroupSize.x];
 shared vec4 tangents[gl_WorkGroupSize.x];  // w: 0 where the chunk has no direction
+#ifdef HAIRBENCH_SHAPE_ENERGY
+shared float forces[gl_WorkGroupSize.x];
+#endif
 uint turn = 0;
 
 bool vertexExists(uint j) { return j < kVerticesInLast || chunk < kLastChunk; }
@@ -104,17 +118,23 @@ vec4 rotationBefore(vec4 own) {
         if (chunk >= reach)
             before = multiply(before, rotations[latest][lane - reach * kStrandsPerGroup]);
     }
-    return renormalize(multiply(before, push.frame.rotation));
+    return renormalize(multiply(before, head_rotation));
 }
 
 // The rest edges in the frames of the segments before them.
 void findGoalEdges(vec3 first_rest_tangent) {
     vec4 rotations_in_chunk[kVerticesPerChunk + 1];
-    Transport frame = Transport(
-        tangentBefore(first_rest_tangent), kChunks == 1 ? push.frame.rotation : kNoRotation);
+    Transport frame =
+        Transport(tangentBefore(first_rest_tangent), kChunks == 1 ? head_rotation : kNoRotation);
     [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j) {
         rotations_in_chunk[j] = frame.rotation;
+#ifdef HAIRBENCH_SHAPE_ENERGY
+        vec3 tangent = frame.tangent;
         if (segmentExists(j)) frame = transport(frame, edge(j), rest_edges[j].w);
+        axes[j] = jointAxis(tangent, frame.tangent);
+#else
+        if (segmentExists(j)) frame = transport(frame, edge(j), rest_edges[j].w);
+#endif
     }
     rotations_in_chunk[kVerticesPerChunk] = frame.rotation;
     vec4 before = kNoRotation;
@@ -134,6 +154,83 @@ void project(uint j) {
     if (segmentExists(j)) projectLength(points[j], points[j + 1], rest_edges[j].w);
 }
 
+#ifdef HAIRBENCH_SHAPE_ENERGY
+// The energy's system. Where a strand has several chunks they walk one after the other, and hand on
+// what they know through all that is shared.
+void bendUpChunk(vec2 stiffness, float free_mass, vec3 root_moved) {
+    BendBelow below = nothingBelow();
+    if (kChunks > 1 && chunk < kLastChunk) {
+        uint next = lane + kStrandsPerGroup;
+        vec4 a = rotations[0][next];
+        vec4 b = rotations[1][next];
+        vec4 c = firsts[0][next];
+        vec4 d = firsts[1][next];
+        vec4 e = lasts[0][next];
+        vec4 f = lasts[1][next];
+        vec4 g = tangents[next];
+        below = BendBelow(
+            Symmetric(a.xyz, b.xyz), mat3(c.xyz, d.xyz, e.xyz), Symmetric(f.xyz, g.xyz),
+            vec3(a.w, b.w, c.w), vec3(d.w, e.w, f.w), vec3(g.w, contacts[next], forces[next]));
+    }
+    [[unroll]] for (uint up = 0; up < kVerticesPerChunk; ++up) {
+        uint j = kVerticesPerChunk - 1 - up;
+        if (!segmentExists(j)) continue;
+        float mass = points[j + 1].w > 0.0 ? free_mass : kHeldMass * kVerticesPerStrand;
+        addVertex(below, loads[j], mass, root_moved);
+        if (hasDirection(edge(j), rest_edges[j].w))
+            joints[j] = addJoint(below, edge(j), goal_edges[j], axes[j], stiffness);
+    }
+    if (kChunks == 1) return;
+    rotations[0][lane] = vec4(below.moving.diagonal, below.push.x);
+    rotations[1][lane] = vec4(below.moving.beside, below.push.y);
+    firsts[0][lane] = vec4(below.coupling[0], below.push.z);
+    firsts[1][lane] = vec4(below.coupling[1], below.couple.x);
+    lasts[0][lane] = vec4(below.coupling[2], below.couple.y);
+    lasts[1][lane] = vec4(below.turning.diagonal, below.couple.z);
+    tangents[lane] = vec4(below.turning.beside, below.force.x);
+    contacts[lane] = below.force.y;
+    forces[lane] = below.force.z;
+}
+
+void bendDownChunk(vec3 root_moved) {
+    vec4 head_turn = multiply(push.frame.rotation, conjugate(push.frame_before.rotation));
+    BendAbove above = BendAbove(
+        points[1].xyz + root_moved, root_moved, (head_turn.w < 0.0 ? -2.0 : 2.0) * head_turn.xyz);
+    if (kChunks > 1 && chunk > 0)
+        above = BendAbove(
+            rotations[0][lane - kStrandsPerGroup].xyz, rotations[1][lane - kStrandsPerGroup].xyz,
+            firsts[0][lane - kStrandsPerGroup].xyz);
+    vec3 before = points[0].xyz;
+    [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j) {
+        vec3 point = points[j + 1].xyz;
+        vec3 edge_before = point - before;
+        before = point;
+        float rest_length = rest_edges[j].w;
+        if (segmentExists(j) && hasDirection(edge_before, rest_length))
+            turnSegment(above, joints[j], edge_before, axes[j], rest_length);
+        else if (segmentExists(j) && rest_length >= kShortestSegment)
+            above.place.y += rest_length;
+        points[j + 1].xyz = above.place;
+    }
+    if (kChunks == 1) return;
+    rotations[0][lane] = vec4(above.place, 0.0);
+    rotations[1][lane] = vec4(above.moved, 0.0);
+    firsts[0][lane] = vec4(above.turned, 0.0);
+}
+
+void bend(vec2 stiffness, float free_mass, vec3 root_moved) {
+    if (kChunks > 1) barrier();  // all that is shared is used again
+    for (uint waiting = kChunks; waiting > 0; --waiting) {
+        if (kChunks == 1 || chunk == waiting - 1) bendUpChunk(stiffness, free_mass, root_moved);
+        if (kChunks > 1) barrier();
+    }
+    for (uint walking = 0; walking < kChunks; ++walking) {
+        if (kChunks == 1 || chunk == walking) bendDownChunk(root_moved);
+        if (kChunks > 1) barrier();
+    }
+}
+#endif
+
 // The lengths' systems. Where a strand has several chunks they walk one after the other, down
 // through rotations[] and firsts[0], up through tangents[] and contacts[].
 LengthRow rows[kVerticesPerChunk];
@@ -144,8 +241,8 @@ void walkDownChunk(bool last, bool planes) {
         vec4 place = rotations[0][lane - kStrandsPerGroup];
         vec4 direction = rotations[1][lane - kStrandsPerGroup];
         vec4 surface = firsts[0][lane - kStrandsPerGroup];
-        above = LengthsAbove(
-            place.xyz, direction.xyz, surface.xyz, surface.w, place.w, direction.w);
+        above =
+            LengthsAbove(place.xyz, direction.xyz, surface.xyz, surface.w, place.w, direction.w);
     }
     [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j) {
         if (!segmentExists(j)) continue;
@@ -241,6 +338,21 @@ void load(GuideParameters guides, GuideParameters from, ShapeParameters params, 
         vec3 moved = integrate(
             point.xyz, previous, acceleration, guides.velocity_kept,
             guides.step.sub * guides.step.sub);
+#ifdef HAIRBENCH_SHAPE_ENERGY
+        loads[j] = kNoLoad;
+        if (point.w > 0.0) {
+            loads[j] = freeLoad(
+                moved - point.xyz, pullPerMass(params.global_stiffness) * (rest - point.xyz));
+            if (push.air != kNoAddress) {
+                vec3 air = loadVector(push.air, first + j).xyz;
+                vec3 tangent = tangentAt(from, first, j);
+                vec3 velocity = (point.xyz - previous) / guides.step.sub;
+                float brake = brakeOf(push.drag, tangent, air - velocity, guides.step.sub);
+                addAir(loads[j], tangent, brake, air, velocity, guides.step.sub);
+                point.w /= 1.0 + brake;
+            }
+        }
+#else
         float stiffness = params.global_stiffness;
         if (push.air != kNoAddress) {
             vec3 air = loadVector(push.air, first + j).xyz;
@@ -254,12 +366,38 @@ void load(GuideParameters guides, GuideParameters from, ShapeParameters params, 
         }
         if (point.w > 0.0) point.xyz = pullToRest(moved, rest, stiffness);
         if (j == 0 && chunk == 0) point.xyz = rest;
+#endif
         points[j + 1] = point;
         rest_edges[j] = loadVector(params.rest_edges, first + j);
     }
     if (chunk < kLastChunk)
         rest_edges[kVerticesPerChunk] = loadVector(params.rest_edges, first + kVerticesPerChunk);
 }
+
+#ifdef HAIRBENCH_SHAPE_ENERGY
+bool isHeld(uint j) { return vertexExists(j) && points[j + 1].w == 0.0 && (j > 0 || chunk > 0); }
+
+// Whether any vertex but roots is held, of all strands that meet at barriers. By what is shared
+// alone: Mesa 22.3.6's lavapipe runs loops for lanes past the workgroup's end as well, and where
+// those go round more often their subgroup meets the others at the wrong barrier.
+bool anyHeld(bool present) {
+    float held = 0.0;
+    [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j)
+        if (present && isHeld(j)) held = 1.0;
+    if (kChunks == 1) return held > 0.0;
+    contacts[lane] = held;
+    barrier();
+    bool any = false;
+    for (uint i = 0; i < gl_WorkGroupSize.x; ++i) any = any || contacts[i] > 0.0;
+    barrier();
+    return any;
+}
+
+void holdInPlace(GuideParameters from, uint first) {
+    [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j)
+        if (isHeld(j)) points[j + 1].xyz = loadVector(from.positions, first + j).xyz;
+}
+#endif
 
 // Vertices below one in contact are marked too, also where that is in a chunk before.
 void markBelow(GuideParameters guides, float contact, uint first, uint end) {
@@ -287,22 +425,43 @@ void main() {
     [[unroll]] for (uint j = 0; j <= kVerticesPerChunk; ++j) rest_edges[j] = vec4(0.0);
     float stiffness = 0.0;
     vec3 first_rest_tangent = vec3(0.0);
+#ifdef HAIRBENCH_SHAPE_ENERGY
+    RigidFrame head = push.frame_before;  // that the shape is seen from
+    [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j) loads[j] = kNoLoad;
+    vec3 root_moved = vec3(0.0);
+    if (present)
+        root_moved = toWorld(push.frame, loadVector(params.rest_positions, root).xyz) -
+                     loadVector(GuideReference(push.from).parameters.positions, root).xyz;
+#else
+    RigidFrame head = push.frame;
+#endif
+    head_rotation = head.rotation;
     if (present) {
         load(guides, GuideReference(push.from).parameters, params, first);
         stiffness = Factors(params.local_stiffness).at[strand];
-        first_rest_tangent = firstTangent(push.frame, Vectors(params.rest_edges).at[root + 1]);
+        first_rest_tangent = firstTangent(head, Vectors(params.rest_edges).at[root + 1]);
     }
 
+    meetNeighbours();
+    bool lengths = true;  // left to do
+#ifdef HAIRBENCH_SHAPE_ENERGY
+    findGoalEdges(first_rest_tangent);
+    bend(
+        stiffness * vec2(1.0, params.local_damping), 1.0 + pullPerMass(params.global_stiffness),
+        root_moved);
+    lengths = anyHeld(present);
+    if (lengths && present) holdInPlace(GuideReference(push.from).parameters, first);
+#else
     // Red-black: segments that share no vertex move at the same time, those that end in odd
     // vertices (the root's own among them) first. Both chunks move the segment between them.
-    meetNeighbours();
     for (uint iteration = 0; iteration < params.local_iterations; ++iteration) {
         findGoalEdges(first_rest_tangent);
         [[unroll]] for (uint j = 1; j < kVerticesPerChunk; j += 2) pull(j, stiffness);
         meetNeighbours();
         [[unroll]] for (uint j = 0; j <= kVerticesPerChunk; j += 2) pull(j, stiffness);
     }
-    if (!kTridiagonal) {
+#endif
+    if (!kTridiagonal && lengths) {
         for (uint iteration = 0; iteration < params.length_iterations; ++iteration) {
             [[unroll]] for (uint j = 1; j < kVerticesPerChunk; j += 2) project(j);
             meetNeighbours();
@@ -311,7 +470,7 @@ void main() {
     }
 
     Met met[kVerticesPerChunk];
-    if (kTridiagonal) solveLengths(params.length_iterations, false, met);
+    if (kTridiagonal && lengths) solveLengths(params.length_iterations, false, met);
     if (present) storePositions(guides.positions, first);
     if (!kCollides) return;
 

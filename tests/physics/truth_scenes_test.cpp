@@ -122,6 +122,29 @@ TEST_F(TruthScenes, FlatHairBucklesSideways) {
     }
 }
 
+// Asked for: 1 % of the length after 5 s, and no flutter. tests/simulation/bending_test.cpp has
+// where that is.
+TEST_F(TruthScenes, WindHoldsShapesHairInOnePlaceAtAnyTimeStep) {
+    std::vector<glm::dvec3> rest;
+    for (const float rate : {60.0f, 120.0f, 240.0f, 480.0f}) {
+        TruthScene scene(device(), "shape_in_wind", 1.0f / rate);
+        ASSERT_EQ(scene.groom().strand_count, 2u);
+        const auto points = [&] {
+            std::vector<glm::dvec3> both = scene.strand(0);
+            for (const glm::dvec3& point : scene.strand(1)) both.push_back(point);
+            return both;
+        };
+        scene.play(4.9);
+        const auto before = points();
+        EXPECT_GT(before[7].x, 0.5 * scene.length(0)) << "wind blows at it";
+        scene.play(0.1);
+        const auto after = points();
+        if (rest.empty()) rest = after;
+        EXPECT_LT(largestDifference(after, before), 0.001 * scene.length(0)) << rate;
+        EXPECT_LT(largestDifference(after, rest), 0.01 * scene.length(0)) << rate;
+    }
+}
+
 // The tip's mean place over the time that is looked at; crossings of it make the frequency.
 double frequencyOfTip(TruthScene& scene, double seconds, int axis) {
     std::vector<double> samples;

@@ -1,0 +1,222 @@
+#ifndef HAIRBENCH_CONSTRAINT_BEND_GLSL
+#define HAIRBENCH_CONSTRAINT_BEND_GLSL
+
+#extension GL_EXT_control_flow_attributes : require
+
+#include "shared/distance_field_structs.h"
+#include "shared/simulation_structs.h"
+
+// The local constraint as an energy. Segment e_i is drawn to its rest edge in the frame that
+// parallel transport carries to the segment above,
+//     E = sum 1/2 K |e_i - R_(i-1) e0_i|^2,
+// on a strand that neither stretches nor, since parallel transport does not turn about the strand,
+// twists. Every term depends on how a segment is turned against the one above alone, so all that it
+// does is a couple, c_i = K e_i x R_(i-1) e0_i on that segment and -c_i on the frame above, which
+// leads it up the strand. (Thesis eq. 11 turns the segment and not the one above: no energy has
+// that for its gradient.)
+//
+// A substep of length h is one linear system. Segments turn by w_i, so that vertices move by
+// d_i = d_(i-1) + w_i x e_i, and joints turn by w_i - w_(i-1), which is perpendicular to the axis
+// s_i between both segments: of smallest rotations from one tangent to the next, that is what keeps
+// them smallest. The substep minimises
+//     sum 1/2 d M d - b d + 1/2 k_i |w_i - w_(i-1)|^2 - h^2 c_i (w_i - w_(i-1))
+//         + 1/2 T_i l_i |w_i across e_i|^2
+// with all forces of its start: b has h^2 times the sum of the accelerations and what the vertex
+// would move by without any, M the mass and what air and the pull toward the rest position add to
+// it, and T_i, the tension, straightens (Tournier et al. 2015, Stable constrained dynamics). Where
+// d = 0 solves it forces and couples are in balance, whatever h, the stiffness and the tension's
+// estimate are. k_i = h max(h, h0) K l_i^2 is implicit damping by rotation of the joints alone,
+// with the time constant of h0 = 1/60 s: at that step it is implicit Euler's, at shorter ones hair
+// is damped as much in a second.
+//
+// Lengths are exact: a segment is turned. The unknowns are eliminated from the tip up: Featherstone
+// 1983, The calculation of robot dynamics using articulated-body inertias.
+
+const float kMostTurned = 1.0;  // rad in a substep
+// Of a vertex that is held, for each of the strand's: the place is put right by the lengths.
+const float kHeldMass = 100.0;
+const float kLeastSize = 1.0e-37;  // of a determinant
+
+// A symmetric matrix: its diagonal, and the entries yz, xz, xy.
+struct Symmetric {
+    vec3 diagonal;
+    vec3 beside;
+};
+
+vec3 times(Symmetric m, vec3 v) {
+    return m.diagonal * v + m.beside.zxy * v.yzx + m.beside.yzx * v.zxy;
+}
+
+Symmetric plus(Symmetric a, Symmetric b) {
+    return Symmetric(a.diagonal + b.diagonal, a.beside + b.beside);
+}
+
+Symmetric scaled(float factor, Symmetric m) {
+    return Symmetric(factor * m.diagonal, factor * m.beside);
+}
+
+// a b^T + b a^T.
+Symmetric symmetricProduct(vec3 a, vec3 b) {
+    return Symmetric(2.0 * a * b, a.yzx * b.zxy + a.zxy * b.yzx);
+}
+
+// factor v v^T.
+Symmetric squareOf(float factor, vec3 v) {
+    return Symmetric(factor * v * v, factor * v.yzx * v.zxy);
+}
+
+// factor (1 - v v^T) for a unit vector.
+Symmetric acrossOf(float factor, vec3 v) {
+    Symmetric square = squareOf(-factor, v);
+    return Symmetric(square.diagonal + factor, square.beside);
+}
+
+// m + transpose(m).
+Symmetric twiceSymmetric(mat3 m) {
+    return Symmetric(
+        2.0 * vec3(m[0].x, m[1].y, m[2].z),
+        vec3(m[1].z + m[2].y, m[2].x + m[0].z, m[0].y + m[1].x));
+}
+
+// The least of all below a vertex as a function of how it moves (d) and the segment that ends there
+// turns (w): d moving d / 2 + d coupling w + w turning w / 2 - push d - couple w. `force` is the
+// sum of what pulls at the vertices, times h^2.
+struct BendBelow {
+    Symmetric moving;
+    mat3 coupling;
+    Symmetric turning;
+    vec3 push;
+    vec3 couple;
+    vec3 force;
+};
+
+BendBelow nothingBelow() {
+    Symmetric none = Symmetric(vec3(0.0), vec3(0.0));
+    return BendBelow(none, mat3(0.0), none, vec3(0.0), vec3(0.0), vec3(0.0));
+}
+
+// How the segment below a joint turns: kept w + past (axis w) - by_move d + by_itself, with d and w
+// of the vertex and the segment above.
+struct BendJoint {
+    Symmetric kept;
+    mat3 by_move;
+    vec3 by_itself;
+    vec3 past;  // what turns about the axis goes past the joint
+};
+
+// A vertex in a substep.
+struct BendLoad {
+    vec3 push;     // b, m
+    float along;   // what air would pull along the strand if it did, which turns with it, m
+    vec3 tangent;  // across which air brakes it
+    float brake;
+};
+
+const BendLoad kNoLoad = BendLoad(vec3(0.0), 0.0, vec3(0.0), 0.0);
+
+// `moved`: where all but the pull toward the rest position and air would take the vertex; `pull`:
+// that pull's acceleration times h^2.
+BendLoad freeLoad(vec3 moved, vec3 pull) { return BendLoad(moved + pull, 0.0, vec3(0.0), 0.0); }
+
+// Drag with the coefficient of the substep's start and the velocity of its end: air_drag.glsl. It
+// stays across a strand that turns, which is as if along it there were a force of air as well.
+void addAir(
+    inout BendLoad load, vec3 tangent, float brake, vec3 air, vec3 velocity, float substep) {
+    load.push += brake * substep * (air - dot(tangent, air) * tangent);
+    load.along = brake * substep * dot(tangent, air - velocity);
+    load.tangent = tangent;
+    load.brake = brake;
+}
+
+// `mass`: over a vertex's own, without air. `root_moved`: how far the root moves.
+void addVertex(inout BendBelow below, BendLoad load, float mass, vec3 root_moved) {
+    Symmetric heavy = acrossOf(load.brake, load.tangent);
+    heavy.diagonal += mass;
+    below.moving = plus(below.moving, heavy);
+    below.push += load.push;
+    below.force += load.push + load.along * load.tangent - times(heavy, root_moved);
+}
+
+// Goes on to the vertex above: `edge` is the segment's, `goal` what it is drawn to, `axis` that of
+// its joint. `stiffness`: h^2 K, and k / l^2.
+BendJoint addJoint(inout BendBelow below, vec3 edge, vec3 goal, vec3 axis, vec2 stiffness) {
+    float square = dot(edge, edge);
+    float len = sqrt(square);
+    vec3 direction = edge / len;
+    below.turning =
+        plus(below.turning, acrossOf(len * max(dot(below.force, direction), 0.0), direction));
+
+    // From the vertex at the segment's end to that at its start: d = d_above - edge x w.
+    mat3 lever =
+        mat3(vec3(0.0, edge.z, -edge.y), vec3(-edge.z, 0.0, edge.x), vec3(edge.y, -edge.x, 0.0));
+    mat3 coupling = below.coupling;
+    [[unroll]] for (uint k = 0; k < 3; ++k) coupling[k] -= times(below.moving, lever[k]);
+    mat3 raised;
+    [[unroll]] for (uint k = 0; k < 3; ++k) raised[k] = cross(edge, 0.5 * (below.coupling[k] + coupling[k]));
+    Symmetric turning = plus(below.turning, twiceSymmetric(raised));
+    vec3 couple = below.couple + cross(edge, below.push);
+
+    // The inverse of k + turning among rotations across the axis: [s] H [s]^T / (s adj(H) s).
+    float joint = stiffness.y * square;
+    Symmetric held = Symmetric(turning.diagonal + joint, turning.beside);
+    vec3 d = held.diagonal;
+    vec3 o = held.beside;
+    Symmetric cofactors = Symmetric(d.yzx * d.zxy - o * o, o.yzx * o.zxy - d * o);
+    float size = dot(axis, times(cofactors, axis));
+    mat3 turned = mat3(
+        times(held, vec3(0.0, -axis.z, axis.y)), times(held, vec3(axis.z, 0.0, -axis.x)),
+        times(held, vec3(-axis.y, axis.x, 0.0)));
+    [[unroll]] for (uint k = 0; k < 3; ++k) turned[k] = cross(axis, turned[k]) / max(size, kLeastSize);
+    Symmetric yields = Symmetric(
+        vec3(turned[0].x, turned[1].y, turned[2].z), vec3(turned[1].z, turned[0].z, turned[0].y));
+
+    vec3 moment = stiffness.x * cross(edge, goal);
+    vec3 drive = couple + moment;
+    vec3 about = times(turning, axis);
+    vec3 past = axis - times(yields, about);
+    mat3 by_turn = transpose(coupling);
+    mat3 by_move =
+        mat3(times(yields, by_turn[0]), times(yields, by_turn[1]), times(yields, by_turn[2]));
+    BendJoint answer = BendJoint(scaled(joint, yields), by_move, times(yields, drive), past);
+
+    // What is left for the vertex above.
+    below.moving.diagonal -=
+        vec3(dot(by_move[0], by_turn[0]), dot(by_move[1], by_turn[1]), dot(by_move[2], by_turn[2]));
+    below.moving.beside -=
+        vec3(dot(by_move[1], by_turn[2]), dot(by_move[0], by_turn[2]), dot(by_move[0], by_turn[1]));
+    below.push -= drive * by_move;
+    below.coupling = joint * transpose(by_move) + outerProduct(coupling * past, axis);
+    below.couple = joint * answer.by_itself + dot(past, drive) * axis - moment;
+    below.turning = plus(
+        plus(acrossOf(joint, axis), scaled(-joint, answer.kept)),
+        plus(symmetricProduct(joint * (axis - past), axis), squareOf(dot(past, about), axis)));
+    return answer;
+}
+
+// What a walk down the strand hands on.
+struct BendAbove {
+    vec3 place;
+    vec3 moved;  // d
+    vec3 turned;  // w
+};
+
+// Takes the vertex where its segment turns to.
+void turnSegment(inout BendAbove above, BendJoint joint, vec3 edge, vec3 axis, float rest_length) {
+    vec3 by_move = joint.by_move * above.moved;
+    above.turned = times(joint.kept, above.turned) - by_move + joint.by_itself +
+                   dot(axis, above.turned) * joint.past;
+    above.moved += cross(above.turned, edge);
+    // Of second order, so that a hair that nothing holds goes on as it turned.
+    vec3 turn = above.turned / max(length(above.turned) / kMostTurned, 1.0);
+    vec3 gain = cross(turn, edge);
+    above.place += rest_length * normalize(edge + gain + 0.5 * cross(turn, gain));
+}
+
+// The axis of the joint between unit tangents: along the lower one where they are opposite.
+vec3 jointAxis(vec3 above, vec3 below) {
+    vec3 sum = above + below;
+    float len = length(sum);
+    return len < 1.0e-3 ? below : sum / len;
+}
+
+#endif
