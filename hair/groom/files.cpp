@@ -7,8 +7,10 @@
 #include "hair/groom/formats/cyhair.h"
 #include "hair/groom/formats/gltf.h"
 #include "hair/groom/formats/hgl.h"
+#include "hair/groom/formats/npy.h"
 #include "hair/groom/formats/obj.h"
 #include "hair/groom/formats/ply.h"
+#include "hair/groom/formats/strand_lists.h"
 #include "hair/groom/formats/tfx.h"
 #include "hair/groom/formats/usd_export.h"
 #include "hair/groom/formats/usd_import.h"
@@ -20,8 +22,9 @@ namespace fs = std::filesystem;
 using namespace std::string_view_literals;
 
 constexpr StrandExporter kExporters[] = {
-    {".hair", exportHair}, {".hgl", exportHgl},   {".tfx", exportTfx}, {".obj", exportObj},
-    {".ply", exportPly},   {".gltf", exportGltf}, {".glb", exportGlb}, {".usda", exportUsda},
+    {".hair", exportHair},     {".hgl", exportHgl},   {".tfx", exportTfx}, {".obj", exportObj},
+    {".ply", exportPly},       {".gltf", exportGltf}, {".glb", exportGlb}, {".usda", exportUsda},
+    {".data", exportHairData}, {".npy", exportNpy},   {".npz", exportNpz},
 };
 
 constexpr std::array kHair{".hair"sv};
@@ -32,6 +35,11 @@ constexpr std::array kObj{".obj"sv};
 constexpr std::array kGlb{".glb"sv};
 constexpr std::array kGltf{".gltf"sv};
 constexpr std::array kUsd{".usd"sv, ".usda"sv, ".usdc"sv, ".usdz"sv};
+
+constexpr std::array kData{".data"sv};
+constexpr std::array kNpy{".npy"sv};
+constexpr std::array kNpz{".npz"sv};
+constexpr std::array kBin{".bin"sv};
 
 constexpr auto kTfxVersion = "\0\0\x80\x40"sv;  // 4.0f
 
@@ -45,6 +53,11 @@ constexpr StrandImporter kImporters[] = {
     {"binary glTF", kGlb, "glTF", importGltfStrands},
     // Has three magics, but its library goes by the extension.
     {"USD", kUsd, "", importUsd, false},
+    {"USC-HairSalon's strands", kData, "", importHairData},
+    {"NumPy's array", kNpy, "\x93NUMPY", importNpy},
+    // .usdz is a zip archive, too.
+    {"NumPy's archive", kNpz, "", importNpz},
+    {"CT2Hair's strands", kBin, "", importCt2Hair},
 };
 
 const StrandImporter& importerOf(const fs::path& path, engine::OpenFile& file) {
@@ -116,7 +129,7 @@ const StrandImporter& strandImporterOf(const fs::path& path) {
     return importerOf(path, file);
 }
 
-StrandSet importStrands(const fs::path& path) {
+StrandSet importStrands(const fs::path& path, std::uint32_t points_per_strand) {
     engine::OpenFile file(path);
     const StrandImporter& importer = importerOf(path, file);
     // The bytes are not filled with zeros first: grooms have hundreds of megabytes.
@@ -125,7 +138,8 @@ StrandSet importStrands(const fs::path& path) {
     const std::span bytes(storage.get(), size);
     file.read(bytes);
     try {
-        return importer.read({.bytes = std::as_bytes(bytes), .path = path});
+        return importer.read(
+            {.bytes = std::as_bytes(bytes), .path = path, .points_per_strand = points_per_strand});
     } catch (const engine::Error& error) {
         throw engine::Error(path.string(), error.what());
     }

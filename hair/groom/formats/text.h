@@ -18,7 +18,17 @@ namespace hair::groom {
 std::string commentLines(std::string_view comment, std::string_view keyword);
 
 // What strands may have beside their points.
-enum class Part { widths, transparencies, colors, root_uvs, root_triangles, unit, comment };
+enum class Part {
+    widths,
+    transparencies,
+    colors,
+    root_uvs,
+    groups,
+    guides,
+    root_triangles,
+    unit,
+    comment
+};
 
 // A sentence for each part that the strands have and the format has no place for. To be opaque
 // everywhere is not to have transparencies.

@@ -14,6 +14,10 @@ namespace fs = std::filesystem;
 
 // Every valid file of the corpus and how many strands it has.
 const std::map<std::string, std::uint32_t> kStrands{
+    {"bin/short_and_nan.bin", 1},
+    {"bin/two_strands.bin", 2},
+    {"data/empty_strand.data", 2},
+    {"data/three_strands.data", 3},
     {"gltf/lines.gltf", 3},
     {"gltf/strips.gltf", 3},
     {"gltf/trimesh_head_and_lines.glb", 3},
@@ -25,6 +29,11 @@ const std::map<std::string, std::uint32_t> kStrands{
     {"hgl/no_triangles.hgl", 2},
     {"hgl/one_guide.hgl", 1},
     {"hgl/three_guides.hgl", 3},
+    {"npy/doubles_fortran.npy", 1},
+    {"npy/two_strands.npy", 2},
+    {"npz/difflocks.npz", 2},
+    {"npz/difflocks_deflated.npz", 2},
+    {"npz/groups_and_guides.npz", 2},
     {"obj/segments.obj", 3},
     {"obj/vtk_lines.obj", 3},
     {"ply/plyfile_edges_ascii.ply", 3},

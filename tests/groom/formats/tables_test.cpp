@@ -67,7 +67,7 @@ TEST(ImportStrands, ListsWhatItKnows) {
     EXPECT_EQ(
         fileError(path), path.string() +
                              ": unknown format of strands \".abc\"; known are .hair, .tfx, .hgl, "
-                             ".ply, .obj, .gltf, .glb, .usd, .usda, .usdc, .usdz");
+                             ".ply, .obj, .gltf, .glb, .usd, .usda, .usdc, .usdz, .data, .npy, .npz, .bin");
 }
 
 TEST(ExportStrands, WritesWholeFilesOrNone) {
@@ -88,7 +88,7 @@ TEST(ExportStrands, ListsWhatItKnows) {
     EXPECT_EQ(
         errorText([] { exportStrands(kTwoStrands, "a.usdc"); }),
         "a.usdc: strands can't be written as \".usdc\"; known are .hair, .hgl, .tfx, .obj, .ply, "
-        ".gltf, .glb, .usda");
+        ".gltf, .glb, .usda, .data, .npy, .npz");
 }
 
 TEST(ExportStrands, ReturnsTheWarnings) {
