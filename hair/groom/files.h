@@ -77,7 +77,8 @@ std::span<const StrandImporter> strandImporters();
 std::string readExtensions();
 
 // The row that reads a file: that of its first bytes where they are a format's, otherwise that of
-// its extension, in any case. Throws engine::Error "path: reason".
+// its extension, in any case. Throws engine::Error "path: reason", which says of some files that
+// are not read what they are and what to do.
 const StrandImporter& strandImporterOf(const std::filesystem::path& path);
 
 // `points_per_strand`: what the file may leave out, see StrandFile. A format that states it itself

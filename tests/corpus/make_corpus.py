@@ -65,6 +65,29 @@ def tfx_files():
         floats([(k / 8, 0.5) for k in range(8)]),
         floats([0.01, 0.02]),
         floats([(k / 8, 0.5, 0.25, 1 - k / 16) for k in range(8)])])
+    yield from tfx_of_older_versions()
+
+
+def tfx3(strands, vertices, arrays):
+    """TressFX 3.1: header of 296 bytes with the offset of each of six arrays, None where absent."""
+    offsets, body = [], b""
+    for array in arrays:
+        offsets.append(296 + len(body) if array is not None else 0)
+        body += array or b""
+    return struct.pack("<f4I124x6I128x", 3.0, strands, vertices, 4, 0, *offsets) + body
+
+
+def tfx_of_older_versions():
+    yield "version_3.tfx", tfx3(2, 4, [
+        floats(UNIFORM), floats([0.01, 0.02]), floats([(0.25, 0.75), (0.5, 0.5)]), None, None,
+        floats([(k / 8, 0.5) for k in range(8)])])
+    text = ["version 2.0", "scale 1.0", "rotation 0 0 0", "translation 0 0 0",
+            "bothEndsImmovable 0", "maxNumVerticesInStrand 4", "numFollowHairsPerGuideHair 4",
+            "maxRadiusAroundGuideHair 0.5", "numStrands 2", "is sorted 1"]
+    for strand in range(2):
+        text.append(f"strand {strand} numVerts 4 texcoord 0.5 0.000000")
+        text += [f"{x:g} {y:g} {z:g}" for x, y, z in UNIFORM[4 * strand:4 * strand + 4]]
+    yield "version_2.tfx", ("\n".join(text) + "\n").encode()
 
 
 def hgl(strands, segments, points, triangles):

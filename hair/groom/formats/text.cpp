@@ -88,6 +88,14 @@ std::vector<std::string> leftOut(const StrandSet& strands, std::initializer_list
 
 // ---- Words --------------------------------------------------------------------------------------
 
+std::string_view TextLines::take() {
+    ++number_;
+    std::string_view line = rest_.substr(0, rest_.find('\n'));
+    rest_.remove_prefix(std::min(rest_.size(), line.size() + 1));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+}
+
 std::string_view takeWord(std::string_view& line) {
     std::size_t start = 0;
     while (start < line.size() && isSpace(line[start])) ++start;

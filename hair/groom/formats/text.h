@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
@@ -36,6 +37,21 @@ std::vector<std::string> leftOut(const StrandSet& strands, std::initializer_list
 
 // Lines of text files, word by word. Numbers are spelt in C's notation whatever the locale, a '+'
 // before them allowed.
+
+// The lines of a text without their ends, which may be of Unix or of Windows.
+class TextLines {
+public:
+    explicit TextLines(std::string_view text) : rest_(text) {}
+
+    bool atEnd() const { return rest_.empty(); }
+    std::size_t number() const { return number_; }  // of the line taken last
+    std::size_t bytesLeft() const { return rest_.size(); }
+    std::string_view take();  // empty at the end
+
+private:
+    std::string_view rest_;
+    std::size_t number_ = 0;
+};
 
 // Takes the next word, up to white space, off the beginning of `line`; empty at its end.
 std::string_view takeWord(std::string_view& line);

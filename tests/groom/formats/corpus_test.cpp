@@ -44,6 +44,8 @@ const std::map<std::string, std::uint32_t> kStrands{
     {"ply/plyfile_strands_little.ply", 3},
     {"tfx/all_arrays.tfx", 2},
     {"tfx/positions_only.tfx", 2},
+    {"tfx/version_2.tfx", 2},
+    {"tfx/version_3.tfx", 2},
     {"usd/bezier.usda", 2},
     {"usd/linear.usda", 3},
 };
