@@ -5,6 +5,7 @@
 
 #include "engine/error.h"
 #include "hair/groom/formats/cyhair.h"
+#include "hair/groom/formats/embree_xml.h"
 #include "hair/groom/formats/gltf.h"
 #include "hair/groom/formats/hgl.h"
 #include "hair/groom/formats/npy.h"
@@ -39,6 +40,7 @@ constexpr std::array kUsd{".usd"sv, ".usda"sv, ".usdc"sv, ".usdz"sv};
 constexpr std::array kData{".data"sv};
 constexpr std::array kNpy{".npy"sv};
 constexpr std::array kNpz{".npz"sv};
+constexpr std::array kXml{".xml"sv};
 constexpr std::array kBin{".bin"sv};
 
 constexpr auto kTfxVersion = "\0\0\x80\x40"sv;   // 4.0f
@@ -60,6 +62,7 @@ constexpr StrandImporter kImporters[] = {
     {"NumPy's array", kNpy, "\x93NUMPY", importNpy},
     // .usdz is a zip archive, too.
     {"NumPy's archive", kNpz, "", importNpz},
+    {"Embree's scene", kXml, "", importEmbreeXml},
     {"CT2Hair's strands", kBin, "", importCt2Hair},
 };
 

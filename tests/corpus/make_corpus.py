@@ -236,6 +236,30 @@ def npz_files():
         "guides.npy": npy("|b1", (2,), b"\1\0")})
 
 
+def xml_files():
+    """Scenes of Embree's tutorials."""
+    rows = "\n".join(f"{x:g} {y:g} {z:g} 0.25" for x, y, z in POINTS)
+    yield "linear.xml", f"""<?xml version="1.0"?>
+<scene>
+  <!-- three strands of segments -->
+  <Curves basis="linear" type="flat">
+    <positions>
+{rows}
+    </positions>
+    <indices>0 1 2 4 6 7</indices>
+  </Curves>
+  <TriangleMesh/>
+</scene>
+""".encode()
+    rows = " ".join(f"{x:g} {y:g} {z:g} 0.5" for x, y, z in UNIFORM)
+    yield "cubic.xml", f"""<scene><Group>
+<Transform><AffineSpace>1 0 0 2  0 1 0 0  0 0 1 0</AffineSpace>
+<BezierHair><positions>{rows}</positions><indices>0 0 4 1</indices></BezierHair></Transform>
+<Curves basis='bspline' type='round'><positions>{rows}</positions><indices>0 1 4</indices>
+<curveid>0 0 1</curveid></Curves></Group></scene>
+""".encode()
+
+
 # What a reader must not believe: counts that ask for gigabytes, products that wrap in 32 bits,
 # arrays that lie on each other.
 def hostile_hair_files():
@@ -266,6 +290,8 @@ def hostile_list_files(extension):
 def hostile_npy_files():
     # 2^22 cubed times 4 is 0 in 64 bits.
     yield "shape_wraps.npy", npy("<f4", (2**22, 2**22, 2**22), b"")
+    header = b"{'descr': '<f4', 'fortran_order': False, 'shape': (2"  # libFuzzer's
+    yield "shape_without_end.npy", b"\x93NUMPY\1\0" + struct.pack("<H", len(header)) + header
     yield "no_sizes.npy", npy("<f4", (), b"\0\0\0\0")
 
 
@@ -281,7 +307,7 @@ def main():
     families = {
         "hair": hair_files, "tfx": tfx_files, "hgl": hgl_files, "gltf": gltf_files,
         "usd": usd_files, "obj": obj_files, "data": data_files, "bin": bin_files,
-        "npy": npy_files, "npz": npz_files,
+        "npy": npy_files, "npz": npz_files, "xml": xml_files,
         "findings/hair": hostile_hair_files, "findings/tfx": hostile_tfx_files,
         "findings/hgl": hostile_hgl_files,
         "findings/npy": hostile_npy_files, "findings/npz": hostile_npz_files,

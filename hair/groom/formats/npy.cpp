@@ -153,7 +153,8 @@ private:
         std::vector<std::uint64_t> shape;
         expect("(");
         while (!skip(")")) {
-            const std::size_t end = text_.find_first_not_of("0123456789", at_);
+            const std::size_t end =
+                std::min(text_.find_first_not_of("0123456789", at_), text_.size());
             const auto size = integerFrom(text_.substr(at_, end - at_));
             if (!size) fail("a size is expected");
             if (shape.size() == kMostDimensions) fail("more than 32 dimensions");

@@ -48,6 +48,8 @@ const std::map<std::string, std::uint32_t> kStrands{
     {"tfx/version_3.tfx", 2},
     {"usd/bezier.usda", 2},
     {"usd/linear.usda", 3},
+    {"xml/cubic.xml", 4},
+    {"xml/linear.xml", 3},
 };
 
 // Files in the folders of formats, relative to `folder`; not what lies in it itself.

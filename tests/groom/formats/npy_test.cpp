@@ -221,6 +221,7 @@ TEST(Npy, RefusesOtherHeaders) {
         "{'descr': '<f4', 'fortran_order': 0, 'shape': (2, 2, 3)}",
         "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2, -3)}",
         "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2, 3)",
+        "{'descr': '<f4', 'fortran_order': False, 'shape': (2",
         "{'descr': '<f4', 'fortran_order': False, 'shape': (2 2, 3)}",
         "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2, 99999999999999999999)}",
         "{'descr': [('x', '<f4')], 'fortran_order': False, 'shape': (2, 2, 3)}",

@@ -68,7 +68,7 @@ TEST(ImportStrands, ListsWhatItKnows) {
         fileError(path),
         path.string() +
             ": unknown format of strands \".abc\"; known are .hair, .tfx, .hgl, "
-            ".ply, .obj, .gltf, .glb, .usd, .usda, .usdc, .usdz, .data, .npy, .npz, .bin");
+            ".ply, .obj, .gltf, .glb, .usd, .usda, .usdc, .usdz, .data, .npy, .npz, .xml, .bin");
 }
 
 // The first bytes are those that the formats' own descriptions state.
