@@ -194,6 +194,10 @@ const Table& tableOf(const GroomSettings*) {
                                          "), relative to the scene file; empty: guides are grown";
     static const Table table = tableWith<S>(
         {fileName("file", &S::file, file_help.c_str()),
+         number(
+             "points_per_strand", &S::points_per_strand, 0, 65536, "count",
+             "points of each strand of a PLY file that has points alone, strand after strand; 0: "
+             "the file says which points make a strand"),
          fileName(
              "mesh", &S::mesh,
              "mesh that the strands of the file grow on; empty: none, they float. Grown guides "

@@ -127,6 +127,7 @@ const Table& tableOf(const FilePlacementSettings*);
 
 struct GroomSettings {
     std::string file;
+    std::uint32_t points_per_strand = 0;
     std::string mesh;
     FilePlacementSettings placement;
     std::uint32_t vertices = 0;

@@ -207,6 +207,14 @@ Without --scale lengths stay as they are, but that .hgl is always in metres: wha
 unit is applied. .hgl gets root triangles if IN has none. What a format can't hold is said on
 stderr. OUT may be IN; it is replaced when all is written, and an interrupt leaves it alone.)";
 
+void addPointsPerStrand(CLI::App& command, std::uint32_t& points) {
+    command
+        .add_option(
+            "--points-per-strand", points,
+            "points of each strand of a PLY file that has points alone, strand after strand")
+        ->check(CLI::Range(1, 65536));
+}
+
 void addGroomCommands(const CommandLine& line) {
     CLI::App* const groom = line.app.add_subcommand("groom", "inspects and converts files of hair");
     groom->require_subcommand(1);
@@ -224,6 +232,7 @@ void addGroomCommands(const CommandLine& line) {
                     "--scale", options.scale,
                     "metres in the file's unit (default what the file states, or a guess)")
                 ->check(CLI::PositiveNumber);
+            addPointsPerStrand(command, options.points_per_strand);
             command.add_flag("--json", options.json, "print JSON");
         });
     addCommand<groom::ConvertOptions>(
@@ -232,6 +241,7 @@ void addGroomCommands(const CommandLine& line) {
         [](CLI::App& command, groom::ConvertOptions& options) {
             command.add_option("in", options.in, "file of hair")->required()->type_name("IN");
             command.add_option("out", options.out, "file to write")->required()->type_name("OUT");
+            addPointsPerStrand(command, options.points_per_strand);
             command
                 .add_option(
                     "--scale", options.scale,

@@ -88,6 +88,7 @@ struct GroomInfoOptions {
     std::filesystem::path file;
     std::filesystem::path mesh;  // that the hair grows on; empty: none
     std::optional<double> scale;  // metres in the file's unit
+    std::uint32_t points_per_strand = 0;  // where the file doesn't say it
     bool json = false;
 };
 int inspectGroom(const GroomInfoOptions& options);

@@ -13,7 +13,8 @@ namespace benchmarks::commands {
 int inspectGroom(const GroomInfoOptions& options) {
     std::optional<hair::groom::Mesh> mesh;
     if (!options.mesh.empty()) mesh = hair::groom::importMesh(options.mesh);
-    const hair::groom::StrandSet strands = hair::groom::importStrands(options.file);
+    const hair::groom::StrandSet strands =
+        hair::groom::importStrands(options.file, options.points_per_strand);
     hair::groom::StrandFindings findings =
         hair::groom::inspect(strands, mesh ? &*mesh : nullptr, options.scale);
     if (options.scale) {

@@ -14,6 +14,7 @@ struct ConvertOptions {
     std::filesystem::path in;
     std::filesystem::path out;
     std::filesystem::path mesh;  // for root triangles; empty: from the roots alone
+    std::uint32_t points_per_strand = 0;  // of IN, where it doesn't say it
     std::optional<double> scale;  // metres in IN's unit; OUT is then in metres
     std::uint32_t followers = 0;  // for each strand
     double follower_radius = 0.0;  // of the disc that they are in, in IN's unit

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -174,6 +175,14 @@ findOddities(const hair::groom::StrandSet& strands, const hair::groom::StrandFin
 
 namespace {
 
+std::size_t countGroups(const hair::groom::StrandSet& strands) {
+    return std::set(strands.groups.begin(), strands.groups.end()).size();
+}
+
+std::size_t countGuides(const hair::groom::StrandSet& strands) {
+    return static_cast<std::size_t>(std::ranges::count(strands.guides, 1));
+}
+
 // ---- JSON ---------------------------------------------------------------------------------------
 
 // JSON has no NaN and no infinity.
@@ -251,6 +260,8 @@ std::string groomInfoJson(const GroomInfo& info) {
         {"transparencies", whereKnown(info.strands.transparencies)},
         {"colors", whereKnown(info.strands.colors)},
         {"root_uvs", !info.strands.root_uvs.empty()},
+        {"groups", countGroups(info.strands)},
+        {"guides", countGuides(info.strands)},
         {"root_triangles", info.strands.root_triangles.size()}};
     object["single_point_strands"] = found.single_point_strands;
     object["zero_length_strands"] = found.zero_length_strands;
@@ -349,6 +360,10 @@ std::string attributes(const hair::groom::StrandSet& strands, double metres_per_
                             ' ' + report::plainNumber(color.z);
                  }));
     text += line("root UVs", strands.root_uvs.empty() ? "none" : "for each strand");
+    text +=
+        line("groups", strands.groups.empty() ? "none" : report::countText(countGroups(strands)));
+    text += line(
+        "guides", strands.guides.empty() ? "not stated" : report::countText(countGuides(strands)));
     const std::size_t triangles = strands.root_triangles.size();
     return text + line("root triangles", triangles == 0 ? "none" : report::countText(triangles));
 }

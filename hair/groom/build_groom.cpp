@@ -145,7 +145,7 @@ Groom withGuides(Groom dense, std::uint32_t count, const Mesh* mesh, std::uint32
 Groom fromFile(
     const GroomSettings& settings, const Mesh* mesh, const std::filesystem::path& path,
     std::uint32_t seed) {
-    StrandSet strands = importStrands(path);
+    StrandSet strands = importStrands(path, settings.points_per_strand);
     try {
         place(strands, settings.placement);
         Groom groom = toGroom(std::move(strands), settings.vertices);

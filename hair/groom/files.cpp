@@ -5,10 +5,13 @@
 
 #include "engine/error.h"
 #include "hair/groom/formats/cyhair.h"
+#include "hair/groom/formats/embree_xml.h"
 #include "hair/groom/formats/gltf.h"
 #include "hair/groom/formats/hgl.h"
+#include "hair/groom/formats/npy.h"
 #include "hair/groom/formats/obj.h"
 #include "hair/groom/formats/ply.h"
+#include "hair/groom/formats/strand_lists.h"
 #include "hair/groom/formats/tfx.h"
 #include "hair/groom/formats/usd_export.h"
 #include "hair/groom/formats/usd_import.h"
@@ -20,8 +23,9 @@ namespace fs = std::filesystem;
 using namespace std::string_view_literals;
 
 constexpr StrandExporter kExporters[] = {
-    {".hair", exportHair}, {".hgl", exportHgl},   {".tfx", exportTfx}, {".obj", exportObj},
-    {".ply", exportPly},   {".gltf", exportGltf}, {".glb", exportGlb}, {".usda", exportUsda},
+    {".hair", exportHair},     {".hgl", exportHgl},   {".tfx", exportTfx}, {".obj", exportObj},
+    {".ply", exportPly},       {".gltf", exportGltf}, {".glb", exportGlb}, {".usda", exportUsda},
+    {".data", exportHairData}, {".npy", exportNpy},   {".npz", exportNpz},
 };
 
 constexpr std::array kHair{".hair"sv};
@@ -33,11 +37,20 @@ constexpr std::array kGlb{".glb"sv};
 constexpr std::array kGltf{".gltf"sv};
 constexpr std::array kUsd{".usd"sv, ".usda"sv, ".usdc"sv, ".usdz"sv};
 
-constexpr auto kTfxVersion = "\0\0\x80\x40"sv;  // 4.0f
+constexpr std::array kData{".data"sv};
+constexpr std::array kNpy{".npy"sv};
+constexpr std::array kNpz{".npz"sv};
+constexpr std::array kXml{".xml"sv};
+constexpr std::array kBin{".bin"sv};
+
+constexpr auto kTfxVersion = "\0\0\x80\x40"sv;   // 4.0f
+constexpr auto kTfx3Version = "\0\0\x40\x40"sv;  // 3.0f
 
 constexpr StrandImporter kImporters[] = {
     {"Cem Yuksel's HAIR", kHair, "HAIR", importHair},
     {"TressFX", kTfx, kTfxVersion, importTfx},
+    {"TressFX of version 3", kTfx, kTfx3Version, importTfx},
+    {"TressFX of version 2", kTfx, "version ", importTfx},
     {"thesis guides", kHgl, "", importHgl},
     {"PLY", kPly, "ply", importPly},
     {"OBJ", kObj, "", importObj},
@@ -45,18 +58,77 @@ constexpr StrandImporter kImporters[] = {
     {"binary glTF", kGlb, "glTF", importGltfStrands},
     // Has three magics, but its library goes by the extension.
     {"USD", kUsd, "", importUsd, false},
+    {"USC-HairSalon's strands", kData, "", importHairData},
+    {"NumPy's array", kNpy, "\x93NUMPY", importNpy},
+    // .usdz is a zip archive, too.
+    {"NumPy's archive", kNpz, "", importNpz},
+    {"Embree's scene", kXml, "", importEmbreeXml},
+    {"CT2Hair's strands", kBin, "", importCt2Hair},
 };
 
+// Files that are not read, but known by their first bytes: what they are and what to do with them.
+struct OtherFormat {
+    std::string_view magic;
+    std::string_view name;
+    std::string_view advice;
+    std::array<std::string_view, 4> may_be{};  // extensions of what is read and begins so, too
+};
+
+constexpr std::string_view kToUsd = "import it in Blender and export its curves as USD";
+constexpr std::string_view kFromMaya = "export its curves as USD from Maya";
+constexpr std::string_view kUnpack = "unpack it and give what is in it";
+
+constexpr OtherFormat kOtherFormats[] = {
+    {"Ogawa", "an Alembic file (Ogawa)", kToUsd},
+    {"\x89HDF\r\n\x1a\n", "an HDF5 file, such as an Alembic of before 2013", kToUsd},
+    {"Kaydara FBX Binary", "an FBX file", kToUsd},
+    {"BLENDER", "a Blender file", "export its curves as USD from Blender"},
+    {"\x28\xb5\x2f\xfd", "a file compressed by Zstandard, as Blender's are",
+     "export its curves as USD from Blender, or decompress it"},
+    {"//Maya ASCII", "a Maya scene (ASCII)", kFromMaya},
+    {"FOR4", "a Maya scene or cache (binary)", kFromMaya},
+    {"FOR8", "a Maya scene or cache (binary)", kFromMaya},
+    {"PK\x03\x04", "a zip archive", kUnpack, {".npz", ".usdz"}},
+    {"#usda", "a USD file", "name it .usda", {".usd", ".usda", ".usdc"}},
+    {"PXR-USDC", "a USD file", "name it .usdc", {".usd", ".usda", ".usdc"}},
+    {"\x1f\x8b\x08", "a file compressed by gzip", kUnpack},
+    {"\x80\x04\x95", "a Python pickle", "write its arrays by numpy.savez"},
+};
+
+// The row of a file that begins so; null where none does.
+const OtherFormat* otherFormatOf(std::string_view head, std::string_view extension) {
+    for (const OtherFormat& other : kOtherFormats) {
+        const bool may_be_ours = !extension.empty() &&  // as the names that a row doesn't have are
+                                 std::ranges::find(other.may_be, extension) != other.may_be.end();
+        if (head.starts_with(other.magic) && !may_be_ours) return &other;
+    }
+    return nullptr;
+}
+
+// Throws for a file that begins as another format's do. A count may begin with three bytes of any
+// kind; where the extension is ours only four or more of them say that it is none.
+void refuseOther(
+    const fs::path& path, std::string_view head, std::string_view extension, bool is_ours) {
+    const OtherFormat* const other = otherFormatOf(head, extension);
+    if (!other || (is_ours && other->magic.size() < 4)) return;
+    throw engine::Error(
+        path.string(), std::string(other->name) + ", which is not read: " +
+                           std::string(other->advice) + "; known are " + readExtensions());
+}
+
 const StrandImporter& importerOf(const fs::path& path, engine::OpenFile& file) {
-    std::array<char, 8> bytes{};  // longer than every magic
+    std::array<char, 32> bytes{};  // longer than every magic
     file.read(std::span(bytes).first(std::min<std::uintmax_t>(file.size(), bytes.size())));
     const std::string_view head(bytes.data(), bytes.size());
     const std::string extension = lowerCaseExtension(path);
     for (const StrandImporter& importer : kImporters)
         if (!importer.magic.empty() && head.starts_with(importer.magic)) return importer;
-    for (const StrandImporter& importer : kImporters)
-        if (std::ranges::find(importer.extensions, extension) != importer.extensions.end())
-            return importer;
+    const auto by_extension = std::ranges::find_if(kImporters, [&](const StrandImporter& importer) {
+        return std::ranges::find(importer.extensions, extension) != importer.extensions.end();
+    });
+    const bool is_ours = by_extension != std::end(kImporters);
+    refuseOther(path, head, extension, is_ours);
+    if (is_ours) return *by_extension;
     throw engine::Error(
         path.string(),
         "unknown format of strands \"" + extension + "\"; known are " + readExtensions());
@@ -105,9 +177,13 @@ std::span<const StrandImporter> strandImporters() { return kImporters; }
 
 std::string readExtensions() {
     std::string all;
-    for (const StrandImporter& importer : kImporters)
+    std::string_view before;
+    for (const StrandImporter& importer : kImporters) {
+        if (importer.extensions.front() == before) continue;  // a format's versions follow it
+        before = importer.extensions.front();
         for (const std::string_view extension : importer.extensions)
             all.append(all.empty() ? "" : ", ").append(extension);
+    }
     return all;
 }
 
@@ -116,7 +192,7 @@ const StrandImporter& strandImporterOf(const fs::path& path) {
     return importerOf(path, file);
 }
 
-StrandSet importStrands(const fs::path& path) {
+StrandSet importStrands(const fs::path& path, std::uint32_t points_per_strand) {
     engine::OpenFile file(path);
     const StrandImporter& importer = importerOf(path, file);
     // The bytes are not filled with zeros first: grooms have hundreds of megabytes.
@@ -125,7 +201,8 @@ StrandSet importStrands(const fs::path& path) {
     const std::span bytes(storage.get(), size);
     file.read(bytes);
     try {
-        return importer.read({.bytes = std::as_bytes(bytes), .path = path});
+        return importer.read(
+            {.bytes = std::as_bytes(bytes), .path = path, .points_per_strand = points_per_strand});
     } catch (const engine::Error& error) {
         throw engine::Error(path.string(), error.what());
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <ostream>
 #include <span>
@@ -54,6 +55,8 @@ inline std::string lowerCaseExtension(const std::filesystem::path& path) {
 struct StrandFile {
     std::span<const std::byte> bytes;
     std::filesystem::path path;
+    // Of formats that can leave it out, such as a PLY of points alone; 0: not known.
+    std::uint32_t points_per_strand = 0;
 };
 
 // A reader of strands. Its errors begin with the place in the file, "byte N" or "line N", and don't
@@ -74,10 +77,12 @@ std::span<const StrandImporter> strandImporters();
 std::string readExtensions();
 
 // The row that reads a file: that of its first bytes where they are a format's, otherwise that of
-// its extension, in any case. Throws engine::Error "path: reason".
+// its extension, in any case. Throws engine::Error "path: reason", which says of some files that
+// are not read what they are and what to do.
 const StrandImporter& strandImporterOf(const std::filesystem::path& path);
 
-// Throws engine::Error "path: place: reason".
-StrandSet importStrands(const std::filesystem::path& path);
+// `points_per_strand`: what the file may leave out, see StrandFile. A format that states it itself
+// takes no notice. Throws engine::Error "path: place: reason".
+StrandSet importStrands(const std::filesystem::path& path, std::uint32_t points_per_strand = 0);
 
 }  // namespace hair::groom

@@ -67,6 +67,8 @@ struct StrandSet {
     PointAttribute<float> transparencies;  // 0 opaque to 1
     PointAttribute<glm::vec3> colors;  // RGB, 0 to 1, as in the file
     std::vector<glm::vec2> root_uvs;  // [strand], texture coordinates of the mesh at the root
+    std::vector<std::int32_t> groups;  // [strand], number of the group that it belongs to
+    std::vector<std::uint8_t> guides;  // [strand], 1 for those that the file calls guides, or 0
     std::vector<std::array<std::uint32_t, 3>> root_triangles;  // strand indices
     std::optional<double> metres_per_unit;  // where the format or the file states it
     std::string comment;  // what the file says of itself

@@ -93,4 +93,19 @@ TEST_F(GroomCli, InfoOfAFileThatIsNotHairIsOneLineWithStatus2) {
     }
 }
 
+TEST_F(GroomCli, TakesPointsPerStrandOfAPlyOfPoints) {
+    folder_.write(
+        "points.ply",
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+        "property float z\nend_header\n0 0 0\n0 1 0\n1 0 0\n1 1 0\n");
+    const Outcome without = info("points.ply");
+    EXPECT_NE(without.status, 0);
+    EXPECT_THAT(without.output, HasSubstr("--points-per-strand"));
+    const Outcome outcome = info("points.ply", "--points-per-strand 2");
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_THAT(outcome.output, ContainsRegex("points +4, 2 a strand\n"));
+    EXPECT_THAT(outcome.output, ContainsRegex("groups +none\n *guides +not stated\n"));
+    EXPECT_EQ(json("points.ply", "--points-per-strand 4")["strands"], 1);
+}
+
 }  // namespace

@@ -8,6 +8,7 @@ import json
 import os
 import struct
 import sys
+import zlib
 
 # Three strands, of 4, 2 and 3 points; powers of two, so that every decimal is exact.
 POINTS = [
@@ -64,6 +65,29 @@ def tfx_files():
         floats([(k / 8, 0.5) for k in range(8)]),
         floats([0.01, 0.02]),
         floats([(k / 8, 0.5, 0.25, 1 - k / 16) for k in range(8)])])
+    yield from tfx_of_older_versions()
+
+
+def tfx3(strands, vertices, arrays):
+    """TressFX 3.1: header of 296 bytes with the offset of each of six arrays, None where absent."""
+    offsets, body = [], b""
+    for array in arrays:
+        offsets.append(296 + len(body) if array is not None else 0)
+        body += array or b""
+    return struct.pack("<f4I124x6I128x", 3.0, strands, vertices, 4, 0, *offsets) + body
+
+
+def tfx_of_older_versions():
+    yield "version_3.tfx", tfx3(2, 4, [
+        floats(UNIFORM), floats([0.01, 0.02]), floats([(0.25, 0.75), (0.5, 0.5)]), None, None,
+        floats([(k / 8, 0.5) for k in range(8)])])
+    text = ["version 2.0", "scale 1.0", "rotation 0 0 0", "translation 0 0 0",
+            "bothEndsImmovable 0", "maxNumVerticesInStrand 4", "numFollowHairsPerGuideHair 4",
+            "maxRadiusAroundGuideHair 0.5", "numStrands 2", "is sorted 1"]
+    for strand in range(2):
+        text.append(f"strand {strand} numVerts 4 texcoord 0.5 0.000000")
+        text += [f"{x:g} {y:g} {z:g}" for x, y, z in UNIFORM[4 * strand:4 * strand + 4]]
+    yield "version_2.tfx", ("\n".join(text) + "\n").encode()
 
 
 def hgl(strands, segments, points, triangles):
@@ -147,6 +171,95 @@ def obj_files():
     yield "segments.obj", f"# as editors write curves\no hair\n{vertices}{pairs}".encode()
 
 
+def listed(sizes, points, beside=()):
+    """USC-HairSalon's .data, or CT2Hair's .bin where each point has numbers beside it."""
+    body, first = struct.pack("<i", len(sizes)), 0
+    for size in sizes:
+        rows = [tuple(p) + tuple(beside) for p in points[first:first + size]]
+        body += struct.pack("<i", size) + floats(rows)
+        first += size
+    return body
+
+
+def data_files():
+    yield "three_strands.data", listed(SIZES, POINTS)
+    yield "empty_strand.data", listed([4, 0, 5], POINTS)
+
+
+def bin_files():
+    yield "two_strands.bin", listed([5, 5], POINTS + POINTS[:1], (0, 1, 0, 0))
+    nan = [(float("nan"), 0, 0)]
+    yield "short_and_nan.bin", listed([3, 5, 6], POINTS[:8] + POINTS[:5] + nan, (0, 0, 0, 0))
+
+
+def npy(kind, shape, numbers, fortran=False):
+    """NumPy's array, version 1.0, without the padding that it need not have."""
+    header = f"{{'descr': '{kind}', 'fortran_order': {fortran}, 'shape': {shape}}}".encode()
+    return b"\x93NUMPY\1\0" + struct.pack("<H", len(header)) + header + numbers
+
+
+def npy_files():
+    yield "two_strands.npy", npy("<f4", (2, 4, 3), floats(UNIFORM))
+    doubles = [c for column in zip(*UNIFORM) for c in column]  # one strand: points run faster
+    yield "doubles_fortran.npy", npy(
+        "<f8", (1, 8, 3), struct.pack("<24d", *doubles), fortran=True)
+
+
+def npz(method, members):
+    """A zip archive: local headers with contents, the directory, its end."""
+    body, directory = b"", b""
+    for name, content in members.items():
+        packer = zlib.compressobj(9, zlib.DEFLATED, -15)
+        packed = content if method == 0 else packer.compress(content) + packer.flush()
+        common = struct.pack(
+            "<5H3I2H", 20, 0, method, 0, 33, zlib.crc32(content), len(packed), len(content),
+            len(name), 0)
+        directory += b"PK\1\2" + struct.pack("<H", 20) + common
+        directory += struct.pack("<3H2I", 0, 0, 0, 0, len(body)) + name.encode()
+        body += b"PK\3\4" + common + name.encode() + packed
+    end = struct.pack(
+        "<4H2IH", 0, 0, len(members), len(members), len(directory), len(body), 0)
+    return body + directory + b"PK\5\6" + end
+
+
+def npz_files():
+    members = {
+        "positions.npy": npy("<f4", (2, 4, 3), floats(UNIFORM)),
+        "root_uv.npy": npy("<f4", (2, 2), floats([(0.25, 0.75), (0.5, 0.5)])),
+        "root_normal.npy": npy("<f4", (2, 3), floats([(0, 1, 0), (0, 1, 0)]))}
+    yield "difflocks.npz", npz(0, members)
+    yield "difflocks_deflated.npz", npz(8, members)
+    yield "groups_and_guides.npz", npz(8, {
+        "strands.npy": members["positions.npy"],
+        "widths.npy": npy("<f8", (2, 4), struct.pack("<8d", *[0.5] * 8)),
+        "groups.npy": npy("<i8", (2,), struct.pack("<2q", 3, -4)),
+        "guides.npy": npy("|b1", (2,), b"\1\0")})
+
+
+def xml_files():
+    """Scenes of Embree's tutorials."""
+    rows = "\n".join(f"{x:g} {y:g} {z:g} 0.25" for x, y, z in POINTS)
+    yield "linear.xml", f"""<?xml version="1.0"?>
+<scene>
+  <!-- three strands of segments -->
+  <Curves basis="linear" type="flat">
+    <positions>
+{rows}
+    </positions>
+    <indices>0 1 2 4 6 7</indices>
+  </Curves>
+  <TriangleMesh/>
+</scene>
+""".encode()
+    rows = " ".join(f"{x:g} {y:g} {z:g} 0.5" for x, y, z in UNIFORM)
+    yield "cubic.xml", f"""<scene><Group>
+<Transform><AffineSpace>1 0 0 2  0 1 0 0  0 0 1 0</AffineSpace>
+<BezierHair><positions>{rows}</positions><indices>0 0 4 1</indices></BezierHair></Transform>
+<Curves basis='bspline' type='round'><positions>{rows}</positions><indices>0 1 4</indices>
+<curveid>0 0 1</curveid></Curves></Group></scene>
+""".encode()
+
+
 # What a reader must not believe: counts that ask for gigabytes, products that wrap in 32 bits,
 # arrays that lie on each other.
 def hostile_hair_files():
@@ -169,13 +282,37 @@ def hostile_hgl_files():
     yield "negative_counts.hgl", struct.pack("<3i", -1, -1, -1)
 
 
+def hostile_list_files(extension):
+    yield f"two_billion_strands.{extension}", struct.pack("<2i", 2**31 - 1, 2**31 - 1)
+    yield f"negative_points.{extension}", struct.pack("<2i", 1, -1)
+
+
+def hostile_npy_files():
+    # 2^22 cubed times 4 is 0 in 64 bits.
+    yield "shape_wraps.npy", npy("<f4", (2**22, 2**22, 2**22), b"")
+    header = b"{'descr': '<f4', 'fortran_order': False, 'shape': (2"  # libFuzzer's
+    yield "shape_without_end.npy", b"\x93NUMPY\1\0" + struct.pack("<H", len(header)) + header
+    yield "no_sizes.npy", npy("<f4", (), b"\0\0\0\0")
+
+
+def hostile_npz_files():
+    bomb = npz(8, {"positions.npy": npy("<f4", (2, 4, 3), floats(UNIFORM))})
+    size = bomb.index(b"PK\1\2") + 24
+    yield "four_billion_bytes.npz", bomb[:size] + b"\xfe\xff\xff\xff" + bomb[size + 4:]
+    yield "nothing.npz", npz(0, {})
+
+
 def main():
     folder = sys.argv[1] if len(sys.argv) > 1 else os.path.dirname(os.path.abspath(__file__))
     families = {
         "hair": hair_files, "tfx": tfx_files, "hgl": hgl_files, "gltf": gltf_files,
-        "usd": usd_files, "obj": obj_files,
+        "usd": usd_files, "obj": obj_files, "data": data_files, "bin": bin_files,
+        "npy": npy_files, "npz": npz_files, "xml": xml_files,
         "findings/hair": hostile_hair_files, "findings/tfx": hostile_tfx_files,
-        "findings/hgl": hostile_hgl_files}
+        "findings/hgl": hostile_hgl_files,
+        "findings/npy": hostile_npy_files, "findings/npz": hostile_npz_files,
+        "findings/data": lambda: hostile_list_files("data"),
+        "findings/bin": lambda: hostile_list_files("bin")}
     for name, files in families.items():
         os.makedirs(os.path.join(folder, name), exist_ok=True)
         for file, content in files():

@@ -196,30 +196,9 @@ private:
     bool last_is_segment_ = false;  // the last element was of two points, in this group
 };
 
-// A file's lines, without their ends, which may be of Unix or of Windows.
-class Lines {
-public:
-    explicit Lines(std::string_view text) : rest_(text) {}
-
-    bool atEnd() const { return rest_.empty(); }
-    std::size_t number() const { return number_; }  // of the line taken last
-
-    std::string_view take() {
-        ++number_;
-        std::string_view line = rest_.substr(0, rest_.find('\n'));
-        rest_.remove_prefix(std::min(rest_.size(), line.size() + 1));
-        if (line.ends_with('\r')) line.remove_suffix(1);
-        return line;
-    }
-
-private:
-    std::string_view rest_;
-    std::size_t number_ = 0;
-};
-
-std::string takeComment(Lines& lines) {
+std::string takeComment(TextLines& lines) {
     std::string comment;
-    for (Lines next = lines; !next.atEnd(); lines = next) {
+    for (TextLines next = lines; !next.atEnd(); lines = next) {
         std::string_view line = next.take();
         if (!line.starts_with('#')) break;
         line.remove_prefix(line.starts_with("# ") ? 2 : 1);
@@ -235,7 +214,7 @@ std::string_view withoutComment(std::string_view statement) {
 bool isContinued(std::string_view line) { return line.ends_with('\\'); }
 
 // The lines that a backslash before each line's end makes one of; `line` is the first.
-std::string joinContinued(std::string_view line, Lines& lines) {
+std::string joinContinued(std::string_view line, TextLines& lines) {
     std::string joined;
     while (isContinued(line) && !lines.atEnd()) {
         joined.append(line.substr(0, line.size() - 1)).append(" ");
@@ -281,7 +260,7 @@ std::vector<std::string> exportObj(const StrandSet& strands, std::ostream& out) 
 }
 
 StrandSet importObj(const StrandFile& file) {
-    Lines lines({reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size()});
+    TextLines lines({reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size()});
     ObjReader reader;
     reader.setComment(takeComment(lines));
     while (!lines.atEnd()) {

@@ -564,18 +564,22 @@ bool isEdge(const PlyElement& element) {
     throw engine::Error(
         "line " + std::to_string(header.lines),
         "the file has no strands: expected an element 'edge' with integers vertex1 and vertex2, or "
-        "one 'strand', 'polyline' or 'line' with a list vertex_indices");
+        "one 'strand', 'polyline' or 'line' with a list vertex_indices; where the points of a "
+        "strand "
+        "follow one another, say how many (--points-per-strand, /groom/points_per_strand)");
 }
 
-const PlyElement& strandElement(const PlyHeader& header) {
+// The element that says which vertices make a strand; null where so many after another do.
+const PlyElement* strandElement(const PlyHeader& header, std::uint32_t points_per_strand) {
     for (const std::string_view name : kListElements) {
         const PlyElement* element = header.find(name);
-        if (element && indexList(*element)) return *element;
+        if (element && indexList(*element)) return element;
     }
     const PlyElement* edges = header.find("edge");
-    if (edges && isEdge(*edges)) return *edges;
+    if (edges && isEdge(*edges) && (edges->count > 0 || points_per_strand == 0)) return edges;
+    if (points_per_strand > 0) return nullptr;  // faces are of a mesh beside the hair
     const PlyElement* faces = header.find(kFaces);
-    if (faces && indexList(*faces)) return *faces;
+    if (faces && indexList(*faces)) return faces;
     failWithoutStrands(header);
 }
 
@@ -583,16 +587,18 @@ const PlyElement& strandElement(const PlyHeader& header) {
 template <class Source>
 class Body {
 public:
-    Body(const PlyHeader& header, Source source)
-        : header_(header), strands_(strandElement(header)), source_(source) {}
+    Body(const PlyHeader& header, std::uint32_t points_per_strand, Source source)
+        : header_(header), points_per_strand_(points_per_strand),
+          strands_(strandElement(header, points_per_strand)), source_(source) {}
 
     StrandSet read() {
         vertex_count_ = plyVertices(header_).count;
+        if (!strands_) expectWholeStrands();
         for (const PlyElement& element : header_.elements) {
             source_.expect(element);
             if (element.name == "vertex") {
                 readPlyVertices(source_, element, set_);
-            } else if (&element != &strands_) {
+            } else if (&element != strands_) {
                 source_.skip(element);
                 warnOf(element.count, element);
             } else {
@@ -604,13 +610,26 @@ public:
             lines_ = chainEdges(
                 edges_, vertex_count_, [this](std::size_t edge) { return placeOf(edge); });
         }
-        if (lines_.ends.empty()) failWithoutStrands(header_);
-        arrangePoints(set_, std::move(lines_));
+        if (!strands_) {
+            set_.ends = uniformEnds(
+                static_cast<std::uint32_t>(vertex_count_ / points_per_strand_), points_per_strand_);
+        } else {
+            if (lines_.ends.empty()) failWithoutStrands(header_);
+            arrangePoints(set_, std::move(lines_));
+        }
         set_.comment = header_.comment;
         return std::move(set_);
     }
 
 private:
+    void expectWholeStrands() const {
+        if (vertex_count_ > 0 && vertex_count_ % points_per_strand_ == 0) return;
+        throw engine::Error(
+            "line " + std::to_string(header_.lines),
+            std::to_string(vertex_count_) + " vertices are no whole number of strands of " +
+                std::to_string(points_per_strand_) + " points");
+    }
+
     void warnOf(std::uint64_t count, const PlyElement& element) {
         if (count == 0) return;
         set_.warnings.push_back(
@@ -701,7 +720,8 @@ private:
     }
 
     const PlyHeader& header_;
-    const PlyElement& strands_;
+    std::uint32_t points_per_strand_;
+    const PlyElement* strands_;  // null: so many vertices after another make a strand
     Source source_;
     std::uint64_t vertex_count_ = 0;
     std::vector<Edge> edges_;
@@ -769,13 +789,14 @@ StrandSet importPly(const StrandFile& file) {
     const std::string_view text(
         reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size());
     const PlyHeader header = readPlyHeader(text);
+    const std::uint32_t points = file.points_per_strand;
     switch (header.format) {
     case PlyFormat::ascii:
-        return Body(header, PlyText(text.substr(header.size), header.lines)).read();
+        return Body(header, points, PlyText(text.substr(header.size), header.lines)).read();
     case PlyFormat::little_endian:
-        return Body(header, PlyBytes<std::endian::little>(file.bytes, header.size)).read();
+        return Body(header, points, PlyBytes<std::endian::little>(file.bytes, header.size)).read();
     default:
-        return Body(header, PlyBytes<std::endian::big>(file.bytes, header.size)).read();
+        return Body(header, points, PlyBytes<std::endian::big>(file.bytes, header.size)).read();
     }
 }
 

@@ -17,6 +17,8 @@
 //   - the lists `vertex_indices` or `vertex_index` of an element `strand`, `polyline` or `line`,
 //     root first,
 //   - chains of the element `edge` (vertex1, vertex2), see polylines.h,
+//   - as many vertices after one another as StrandFile::points_per_strand says, which is what
+//     reconstructions of hair from pictures write,
 //   - the lists of two vertices of the element `face`, as which assimp writes lines: edges.
 // Everything else is skipped with a warning.
 namespace hair::groom {

@@ -24,6 +24,10 @@ constexpr Row kRows[] = {
     {Part::colors, "the colours are left out", [](const StrandSet& s) { return s.colors.known(); }},
     {Part::root_uvs, "the texture coordinates of the roots are left out",
      [](const StrandSet& s) { return !s.root_uvs.empty(); }},
+    {Part::groups, "the groups that strands belong to are left out",
+     [](const StrandSet& s) { return !s.groups.empty(); }},
+    {Part::guides, "which strands are guides is left out",
+     [](const StrandSet& s) { return !s.guides.empty(); }},
     {Part::root_triangles, "the root triangles are left out",
      [](const StrandSet& s) { return !s.root_triangles.empty(); }},
     {Part::unit, "the unit of length is left out",
@@ -83,6 +87,14 @@ std::vector<std::string> leftOut(const StrandSet& strands, std::initializer_list
 }
 
 // ---- Words --------------------------------------------------------------------------------------
+
+std::string_view TextLines::take() {
+    ++number_;
+    std::string_view line = rest_.substr(0, rest_.find('\n'));
+    rest_.remove_prefix(std::min(rest_.size(), line.size() + 1));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+}
 
 std::string_view takeWord(std::string_view& line) {
     std::size_t start = 0;

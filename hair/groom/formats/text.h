@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
@@ -18,7 +19,17 @@ namespace hair::groom {
 std::string commentLines(std::string_view comment, std::string_view keyword);
 
 // What strands may have beside their points.
-enum class Part { widths, transparencies, colors, root_uvs, root_triangles, unit, comment };
+enum class Part {
+    widths,
+    transparencies,
+    colors,
+    root_uvs,
+    groups,
+    guides,
+    root_triangles,
+    unit,
+    comment
+};
 
 // A sentence for each part that the strands have and the format has no place for. To be opaque
 // everywhere is not to have transparencies.
@@ -26,6 +37,21 @@ std::vector<std::string> leftOut(const StrandSet& strands, std::initializer_list
 
 // Lines of text files, word by word. Numbers are spelt in C's notation whatever the locale, a '+'
 // before them allowed.
+
+// The lines of a text without their ends, which may be of Unix or of Windows.
+class TextLines {
+public:
+    explicit TextLines(std::string_view text) : rest_(text) {}
+
+    bool atEnd() const { return rest_.empty(); }
+    std::size_t number() const { return number_; }  // of the line taken last
+    std::size_t bytesLeft() const { return rest_.size(); }
+    std::string_view take();  // empty at the end
+
+private:
+    std::string_view rest_;
+    std::size_t number_ = 0;
+};
 
 // Takes the next word, up to white space, off the beginning of `line`; empty at its end.
 std::string_view takeWord(std::string_view& line);

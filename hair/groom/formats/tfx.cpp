@@ -3,13 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
+#include <span>
+#include <string_view>
 #include <utility>
 
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "engine/error.h"
 #include "hair/groom/formats/binary_file.h"
 #include "hair/groom/formats/text.h"
 
@@ -34,6 +40,30 @@ struct TfxHeader {
     std::array<std::uint32_t, 32> reserved{};
 };
 static_assert(sizeof(TfxHeader) == 160 && offsetof(TfxHeader, vertex_colors) == 28);
+
+// Where a version's header has what TfxHeader has, and what else differs.
+struct TfxForm {
+    std::uint64_t header_size;
+    std::uint64_t position_size;  // bytes of one, xyz first
+    std::uint64_t positions;
+    std::uint64_t strand_uvs;
+    std::uint64_t vertex_uvs;
+    std::uint64_t strand_thickness;
+    std::uint64_t vertex_colors;
+};
+
+constexpr TfxForm kTfx4{
+    sizeof(TfxHeader),
+    sizeof(glm::vec4),
+    offsetof(TfxHeader, positions),
+    offsetof(TfxHeader, strand_uvs),
+    offsetof(TfxHeader, vertex_uvs),
+    offsetof(TfxHeader, strand_thickness),
+    offsetof(TfxHeader, vertex_colors)};
+constexpr TfxForm kTfx3{296, sizeof(glm::vec3), 144, 152, 164, 148, 156};
+constexpr std::uint64_t kTfx3Followers = 12;
+constexpr std::uint64_t kTfx3BothEndsFixed = 16;
+constexpr std::uint64_t kTfx3GuideStrands = 160;
 
 // ---- Writing ------------------------------------------------------------------------------------
 
@@ -120,15 +150,35 @@ void writeAt(
 
 // ---- Reading ------------------------------------------------------------------------------------
 
-TfxHeader readHeader(std::span<const std::byte> bytes) {
-    if (bytes.size() < sizeof(TfxHeader)) {
+// The form of the file's version.
+const TfxForm& formOf(std::span<const std::byte> bytes) {
+    const bool has_version = bytes.size() >= sizeof(float);
+    const float version = has_version ? valueAt<float>(bytes, 0) : TfxHeader::kVersion;
+    const bool is_old = version >= 3.0f && version < 4.0f;
+    if (version != TfxHeader::kVersion && !is_old) {
+        failAt(
+            0, "version " + std::to_string(version) +
+                   ", only 3, 4.0 and texts that begin with \"version\" are read");
+    }
+    const TfxForm& form = is_old ? kTfx3 : kTfx4;
+    if (bytes.size() < form.header_size) {
         failAt(
             bytes.size(),
-            "truncated: the header alone is " + std::to_string(sizeof(TfxHeader)) + " bytes");
+            "truncated: the header alone is " + std::to_string(form.header_size) + " bytes");
     }
-    const auto header = valueAt<TfxHeader>(bytes, 0);
-    if (header.version != TfxHeader::kVersion)
-        failAt(0, "version " + std::to_string(header.version) + ", only 4.0 is read");
+    return form;
+}
+
+TfxHeader readHeader(std::span<const std::byte> bytes, const TfxForm& form) {
+    const auto offsetAt = [&](std::uint64_t byte) { return valueAt<std::uint32_t>(bytes, byte); };
+    const TfxHeader header{
+        .strands = offsetAt(offsetof(TfxHeader, strands)),
+        .vertices_per_strand = offsetAt(offsetof(TfxHeader, vertices_per_strand)),
+        .positions = offsetAt(form.positions),
+        .strand_uvs = offsetAt(form.strand_uvs),
+        .vertex_uvs = offsetAt(form.vertex_uvs),
+        .strand_thickness = offsetAt(form.strand_thickness),
+        .vertex_colors = offsetAt(form.vertex_colors)};
     if (header.strands == 0) failAt(4, "0 strands, at least 1 is needed");
     if (header.vertices_per_strand < 2) {
         failAt(
@@ -138,7 +188,7 @@ TfxHeader readHeader(std::span<const std::byte> bytes) {
     const std::uint64_t vertices = std::uint64_t{header.strands} * header.vertices_per_strand;
     if (vertices > std::numeric_limits<std::uint32_t>::max())
         failAt(4, std::to_string(vertices) + " vertices, at most 2^32 - 1 are read");
-    if (header.positions == 0) failAt(12, "there are no positions");
+    if (header.positions == 0) failAt(form.positions, "there are no positions");
     return header;
 }
 
@@ -151,25 +201,24 @@ struct Array {
 };
 
 // The arrays that are there. They have at most 2^32 vertices of 16 bytes: ends fit in 64 bits.
-std::vector<Array> arraysOf(const TfxHeader& header) {
+std::vector<Array> arraysOf(const TfxHeader& header, const TfxForm& form) {
     const std::uint64_t strands = header.strands;
     const std::uint64_t vertices = strands * header.vertices_per_strand;
     std::vector<Array> arrays{
-        {"positions", offsetof(TfxHeader, positions), header.positions, 16 * vertices},
-        {"strand UVs", offsetof(TfxHeader, strand_uvs), header.strand_uvs, 8 * strands},
-        {"vertex UVs", offsetof(TfxHeader, vertex_uvs), header.vertex_uvs, 8 * vertices},
-        {"strand thickness", offsetof(TfxHeader, strand_thickness), header.strand_thickness,
-         4 * strands},
-        {"vertex colours", offsetof(TfxHeader, vertex_colors), header.vertex_colors, 16 * vertices},
+        {"positions", form.positions, header.positions, form.position_size * vertices},
+        {"strand UVs", form.strand_uvs, header.strand_uvs, 8 * strands},
+        {"vertex UVs", form.vertex_uvs, header.vertex_uvs, 8 * vertices},
+        {"strand thickness", form.strand_thickness, header.strand_thickness, 4 * strands},
+        {"vertex colours", form.vertex_colors, header.vertex_colors, 16 * vertices},
     };
     std::erase_if(arrays, [](const Array& array) { return array.start == 0; });
     return arrays;
 }
 
-void checkPlaces(std::vector<Array> arrays, std::uint64_t size) {
+void checkPlaces(std::vector<Array> arrays, std::uint64_t header_size, std::uint64_t size) {
     std::ranges::stable_sort(arrays, {}, &Array::start);
     std::string before = "header";
-    std::uint64_t end = sizeof(TfxHeader);
+    std::uint64_t end = header_size;
     for (const Array& array : arrays) {
         const std::string at = std::string(array.name) + " at byte " + std::to_string(array.start);
         if (array.start % sizeof(float) != 0)
@@ -227,6 +276,26 @@ PointAttribute<float> readWidths(const TfxHeader& header, std::span<const std::b
     return compact(std::move(values));
 }
 
+void readPositions3(const TfxHeader& header, std::span<const std::byte> bytes, StrandSet& strands) {
+    strands.points = arrayAt<glm::vec3>(
+        bytes, header.positions, std::uint64_t{header.strands} * header.vertices_per_strand);
+    requireFinite(strands.points, header.positions, "position");
+}
+
+// What TressFX itself does with strands of its versions 2 and 3.
+void warnOfFollowers(std::int64_t followers, bool both_ends_fixed, StrandSet& strands) {
+    if (followers > 0) {
+        const std::string count = std::to_string(followers);
+        strands.warnings.push_back(
+            "the " + count +
+            " followers that TressFX makes round each strand are left out: hairbench groom convert "
+            "--followers " +
+            count + " makes such");
+    }
+    if (both_ends_fixed)
+        strands.warnings.emplace_back("that both ends of strands are fixed is left out");
+}
+
 void readColors(const TfxHeader& header, std::span<const std::byte> bytes, StrandSet& strands) {
     if (header.vertex_colors == 0) return;
     const auto colors = arrayAt<glm::vec4>(bytes, header.vertex_colors, strands.points.size());
@@ -237,6 +306,154 @@ void readColors(const TfxHeader& header, std::span<const std::byte> bytes, Stran
         colors, transparencies.begin(), [](const glm::vec4& color) { return 1.0f - color.a; });
     strands.transparencies = compact(std::move(transparencies));
 }
+
+// ---- The text of version 2 ----------------------------------------------------------------------
+
+// Lines of a keyword with its values, up to the number of strands; then each strand's line and its
+// points.
+class TfxText {
+public:
+    explicit TfxText(std::string_view text) : lines_(text) {}
+
+    StrandSet read() {
+        readHeader();
+        for (std::int64_t i = 0; i < strands_; ++i) readStrand(i);
+        while (!lines_.atEnd()) {
+            std::string_view line = lines_.take();
+            if (const auto word = takeWord(line); !word.empty())
+                fail(inQuotes(word) + " after the last strand");
+        }
+        warnOfFollowers(followers_, both_ends_fixed_, set_);
+        return std::move(set_);
+    }
+
+private:
+    [[noreturn]] void fail(const std::string& reason) const {
+        throw engine::Error("line " + std::to_string(lines_.number()), reason);
+    }
+
+    void takeLine() {
+        if (lines_.atEnd()) {
+            lines_.take();
+            fail("truncated: the file ends here");
+        }
+        line_ = lines_.take();
+    }
+
+    void expectEnd() {
+        if (const auto word = takeWord(line_); !word.empty())
+            fail(inQuotes(word) + " is one value too many");
+    }
+
+    std::int64_t takeCount(std::string_view name, std::int64_t least) {
+        const std::string_view word = takeWord(line_);
+        const auto count = integerFrom(word);
+        if (!count || *count < least || *count > std::numeric_limits<std::uint32_t>::max())
+            fail(inQuotes(word) + " is no " + std::string(name));
+        return *count;
+    }
+
+    float takeFloat() {
+        const std::string_view word = takeWord(line_);
+        const auto number = floatFrom(word);
+        if (!number || !std::isfinite(*number)) fail(inQuotes(word) + " is no finite number");
+        return *number;
+    }
+
+    // How a file's transform is applied is stated nowhere; all known files have none.
+    void expectIdentity(std::string_view keyword, int count, float identity) {
+        for (int i = 0; i < count; ++i) {
+            if (takeFloat() == identity) continue;
+            fail(
+                "a " + std::string(keyword) +
+                ", which is not read: have the points at their places, without a transform");
+        }
+    }
+
+    void readHeader() {
+        while (strands_ == 0) {
+            takeLine();
+            const std::string_view keyword = takeWord(line_);
+            if (keyword == "version") {
+                const std::string_view version = takeWord(line_);
+                if (floatFrom(version) != 2.0f)
+                    fail("version " + inQuotes(version) + ", only 2.0 is read as text");
+            } else if (keyword == "scale") {
+                expectIdentity(keyword, 1, 1.0f);
+            } else if (keyword == "rotation" || keyword == "translation") {
+                expectIdentity(keyword, 3, 0.0f);
+            } else if (keyword == "bothEndsImmovable") {
+                both_ends_fixed_ = takeCount("flag", 0) != 0;
+            } else if (keyword == "maxNumVerticesInStrand") {
+                most_vertices_ = takeCount("number of vertices", 1);
+            } else if (keyword == "numFollowHairsPerGuideHair") {
+                followers_ = takeCount("number of followers", 0);
+            } else if (keyword == "maxRadiusAroundGuideHair") {
+                takeFloat();
+            } else if (keyword == "numStrands") {
+                strands_ = takeCount("number of strands, 1 at least", 1);
+            } else {
+                fail("unknown keyword " + inQuotes(keyword) + " before 'numStrands'");
+            }
+            expectEnd();
+        }
+        // A line and a point of each strand take more bytes than this.
+        constexpr std::size_t kLeastStrand = sizeof("strand 0 numVerts 1 0 0 0");
+        if (static_cast<std::size_t>(strands_) > lines_.bytesLeft() / kLeastStrand + 1)
+            fail("truncated: " + std::to_string(strands_) + " strands are expected");
+    }
+
+    void expectWord(std::string_view expected) {
+        const std::string_view word = takeWord(line_);
+        if (word != expected) fail(inQuotes(word) + ", expected " + inQuotes(expected));
+    }
+
+    // "strand 0 numVerts 16 texcoord 0.5 0.5", with a line for each vertex.
+    void readStrand(std::int64_t number) {
+        takeLine();
+        std::string_view keyword = takeWord(line_);
+        if (number == 0 && keyword == "is") {
+            expectWord("sorted");
+            takeCount("flag", 0);
+            expectEnd();
+            takeLine();
+            keyword = takeWord(line_);
+        }
+        if (keyword != "strand") fail(inQuotes(keyword) + ", expected 'strand'");
+        if (takeCount("number of a strand", 0) != number)
+            fail("strand " + std::to_string(number) + " is expected here");
+        expectWord("numVerts");
+        const std::int64_t vertices = takeCount("number of vertices, 1 at least", 1);
+        if (vertices > most_vertices_)
+            fail("more vertices than maxNumVerticesInStrand, " + std::to_string(most_vertices_));
+        if (const auto word = takeWord(line_); !word.empty()) {
+            if (word != "texcoord") fail(inQuotes(word) + ", expected 'texcoord'");
+            const float u = takeFloat();
+            set_.root_uvs.emplace_back(u, takeFloat());
+            expectEnd();
+        }
+        if (!set_.root_uvs.empty() && std::ssize(set_.root_uvs) != number + 1)
+            fail("all strands have a texcoord, or none");
+        for (std::int64_t i = 0; i < vertices; ++i) {
+            takeLine();
+            const float x = takeFloat();
+            const float y = takeFloat();
+            set_.points.emplace_back(x, y, takeFloat());
+            expectEnd();
+        }
+        if (set_.points.size() > std::numeric_limits<std::uint32_t>::max())
+            fail("the strands have 2^32 points, or more");
+        set_.ends.push_back(static_cast<std::uint32_t>(set_.points.size()));
+    }
+
+    TextLines lines_;
+    std::string_view line_;  // what is left of the line
+    std::int64_t strands_ = 0;
+    std::int64_t most_vertices_ = std::numeric_limits<std::uint32_t>::max();
+    std::int64_t followers_ = 0;
+    bool both_ends_fixed_ = false;
+    StrandSet set_;
+};
 
 }  // namespace
 
@@ -281,10 +498,30 @@ std::vector<std::string> exportTfx(const StrandSet& strands, std::ostream& out) 
 }
 
 StrandSet importTfx(const StrandFile& file) {
-    const TfxHeader header = readHeader(file.bytes);
-    checkPlaces(arraysOf(header), file.bytes.size());
+    const std::string_view text(
+        reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size());
+    if (text.starts_with("version")) return TfxText(text).read();
+    const TfxForm& form = formOf(file.bytes);
+    const TfxHeader header = readHeader(file.bytes, form);
+    std::vector<Array> arrays = arraysOf(header, form);
+    const bool is_old = &form == &kTfx3;
+    const auto guides = is_old ? valueAt<std::uint32_t>(file.bytes, kTfx3GuideStrands) : 0;
+    if (guides != 0)
+        arrays.push_back(
+            {"guide strands", kTfx3GuideStrands, guides, std::uint64_t{4} * header.strands});
+    checkPlaces(std::move(arrays), form.header_size, file.bytes.size());
     StrandSet strands{.ends = uniformEnds(header.strands, header.vertices_per_strand)};
-    readPositions(header, file.bytes, strands);
+    if (is_old) {
+        readPositions3(header, file.bytes, strands);
+        warnOfFollowers(
+            valueAt<std::uint32_t>(file.bytes, kTfx3Followers),
+            // AMD's exporter writes one byte, and whatever lies in the three after it.
+            valueAt<std::uint8_t>(file.bytes, kTfx3BothEndsFixed) != 0, strands);
+        if (guides != 0)
+            strands.warnings.emplace_back("the numbers of strands' guides are left out");
+    } else {
+        readPositions(header, file.bytes, strands);
+    }
     strands.widths = readWidths(header, file.bytes);
     readColors(header, file.bytes, strands);
     if (header.strand_uvs != 0) {

@@ -1,7 +1,8 @@
-"""Writes the curves of a stage of Universal Scene Description to stdout, as usd_stream.h says.
+"""Writes the curves of a stage of Universal Scene Description to stdout, as usd_import.h says.
 
 Every BasisCurves prim is read, in the stage's order, instances too, in world space, +Y up, in the
-stage's unit. Linear curves are their points; cubic ones are sampled (usd_cubic.py). Animated ones
+stage's unit. What USD has no place for is read as Unreal Engine names it: primvars:groom_group_id,
+groom_guide, and where the curves have none themselves groom_width, groom_color, groom_root_uv. Linear curves are their points; cubic ones are sampled (usd_cubic.py). Animated ones
 are taken at the default time, or else at their points' first sample. What can't be read ends the
 program with one line on stderr.
 """
@@ -60,7 +61,17 @@ class Reader:
             self.warnings.append(f"{', '.join(sorted(left_out))}: left out")
         if not UsdGeom.StageHasAuthoredMetersPerUnit(self.stage):
             self.warnings.append("the stage states no unit: taken as cm, as USD says")
-        self.metres_per_unit = UsdGeom.GetStageMetersPerUnit(self.stage)
+        self.metres_per_unit = self._metres_per_unit()
+
+    def _metres_per_unit(self):
+        try:
+            return UsdGeom.GetStageMetersPerUnit(self.stage)
+        except Tf.ErrorException:  # no double
+            unit = self.stage.GetMetadata(UsdGeom.Tokens.metersPerUnit)
+        if isinstance(unit, bool) or not isinstance(unit, (int, float)):
+            raise Refused(f"metersPerUnit is no number: {unit!r}")
+        # Of a float the decimal that was meant: 0.01, not 0.009999999776.
+        return float(str(np.float32(unit)))
 
     def _warn_of_samples(self, prim):
         count = UsdGeom.BasisCurves(prim).GetPointsAttr().GetNumTimeSamples()
@@ -76,6 +87,12 @@ class Reader:
     def part(self, name):
         """Of all prims together, or nothing unless all have it."""
         parts = [prim.parts[name] for prim in self.prims]
+        if name == "guides" and any(part is not None for part in parts):
+            # Guides are often curves of their own, and the others say nothing of it.
+            return [
+                np.zeros(prim.sizes.size, np.uint8) if part is None else part
+                for part, prim in zip(parts, self.prims)
+            ]
         if any(part is None for part in parts):
             if any(part is not None for part in parts):
                 self.warnings.append(f"{name}: left out, since some of the curves have none")
@@ -83,8 +100,10 @@ class Reader:
         if name == "root_triangles":
             first = np.cumsum([0] + [prim.sizes.size for prim in self.prims])
             return [part + offset for part, offset in zip(parts, first)]
-        if name == "root_uvs" or all(np.array_equal(part, parts[0][:1]) for part in parts):
-            return parts if name == "root_uvs" else parts[:1]
+        if name in ("root_uvs", "groups"):
+            return parts
+        if all(np.array_equal(part, parts[0][:1]) for part in parts):
+            return parts[:1]
         return [
             np.repeat(part, prim.sizes.sum(), axis=0) if len(part) == 1 else part
             for part, prim in zip(parts, self.prims)
@@ -128,11 +147,13 @@ def main():
         joined(reader.part("colors"), "<f4"),
         joined(reader.part("root_uvs"), "<f4"),
         joined(reader.part("root_triangles"), "<u4"),
+        joined(reader.part("groups"), "<i4"),
+        joined(reader.part("guides"), "u1"),
     ]
     texts = [reader.comment, "\n".join(reader.warnings)]
     texts = [np.frombuffer(text.encode(), np.uint8) for text in texts]
     sizes = [len(array) for array in arrays + texts]
-    stream.write(struct.pack("<8sd9Q", b"HBCURVES", reader.metres_per_unit, *sizes))
+    stream.write(struct.pack("<8sd11Q", b"HBCURVES", reader.metres_per_unit, *sizes))
     for array in arrays + texts:
         stream.write(memoryview(array).cast("B") if array.size else b"")
     stream.close()

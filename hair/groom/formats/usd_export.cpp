@@ -113,6 +113,16 @@ beginUsdaCurves(UsdaText& text, const StrandSet& strands, const std::optional<Us
             text, "texCoord2f[] primvars:st", std::span<const glm::vec2>(strands.root_uvs),
             "uniform");
     }
+    if (!strands.groups.empty()) {
+        attribute(
+            text, "int[] primvars:groom_group_id", std::span<const std::int32_t>(strands.groups),
+            "uniform");
+    }
+    if (!strands.guides.empty()) {
+        const std::vector<std::int32_t> guides(strands.guides.begin(), strands.guides.end());
+        attribute(
+            text, "int[] primvars:groom_guide", std::span<const std::int32_t>(guides), "uniform");
+    }
     if (!strands.root_triangles.empty()) {
         attribute(
             text, "custom int3[] hairbench:rootTriangles",
@@ -152,6 +162,8 @@ void UsdaText::decimal(Number number) {
 }
 
 void UsdaText::value(std::uint32_t number) { decimal(number); }
+
+void UsdaText::value(std::int32_t number) { decimal(number); }
 
 void UsdaText::value(float number) {
     // Decimals are read as doubles, which are then rounded to floats. Of all floats' shortest

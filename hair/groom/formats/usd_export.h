@@ -30,6 +30,7 @@ public:
     void string(std::string_view text);  // quoted, UTF-8
 
     void value(std::uint32_t number);
+    void value(std::int32_t number);
     void value(float number);
     void value(double number);
     void value(const glm::vec2& values) { tuple(std::array{values.x, values.y}); }

@@ -2,6 +2,8 @@
 
 #include <cerrno>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <csignal>
 #include <cstdlib>
 #include <limits>
@@ -168,13 +170,15 @@ constexpr Section kSections[] = {
     {&UsdStreamHeader::colors, sizeof(glm::vec3)},
     {&UsdStreamHeader::root_uvs, sizeof(glm::vec2)},
     {&UsdStreamHeader::root_triangles, sizeof(std::array<std::uint32_t, 3>)},
+    {&UsdStreamHeader::groups, sizeof(std::int32_t)},
+    {&UsdStreamHeader::guides, 1},
     {&UsdStreamHeader::comment, 1},
     {&UsdStreamHeader::warnings, 1},
 };
 
 UsdStreamHeader readHeader(std::span<const std::byte> bytes) {
     if (bytes.size() < sizeof(UsdStreamHeader)) {
-        failAt(bytes.size(), "truncated: the header is 88 bytes");
+        failAt(bytes.size(), "truncated: the header is 104 bytes");
     }
     const auto header = valueAt<UsdStreamHeader>(bytes, 0);
     if (header.magic != UsdStreamHeader::kMagic) failAt(0, "no \"HBCURVES\"");
@@ -338,10 +342,20 @@ StrandSet readUsdStream(std::span<const std::byte> bytes) {
     set.colors = sections.takeAttribute<glm::vec3>("color");
     set.root_uvs = sections.takeFinite<glm::vec2>("root uv");
     if (!set.root_uvs.empty() && set.root_uvs.size() != set.ends.size()) {
-        failAt(56, "root uvs for some of the strands");
+        failAt(offsetof(UsdStreamHeader, root_uvs), "root uvs for some of the strands");
     }
     set.root_triangles = sections.take<std::array<std::uint32_t, 3>>();
     requireStrands(set.root_triangles, header.strands, sections.start());
+    const auto expectEach = [&](std::size_t count, std::uint64_t byte, const char* what) {
+        if (count != 0 && count != set.ends.size())
+            failAt(byte, std::string(what) + " for some of the strands");
+    };
+    set.groups = sections.take<std::int32_t>();
+    expectEach(set.groups.size(), offsetof(UsdStreamHeader, groups), "groups");
+    set.guides = sections.take<std::uint8_t>();
+    expectEach(set.guides.size(), offsetof(UsdStreamHeader, guides), "guides");
+    for (std::size_t i = 0; i < set.guides.size(); ++i)
+        if (set.guides[i] > 1) failAt(sections.start() + i, "a guide that is neither 0 nor 1");
     set.comment = sections.takeText();
     set.warnings = linesOf(sections.takeText());
     return set;

@@ -46,10 +46,12 @@ struct UsdStreamHeader {
     std::uint64_t colors;  // float32[3]; 0, 1 (everywhere) or a value for each point
     std::uint64_t root_uvs;  // float32[2]; 0 or one for each strand
     std::uint64_t root_triangles;  // uint32[3]
+    std::uint64_t groups;  // int32; 0 or one for each strand
+    std::uint64_t guides;  // uint8; 0 or one for each strand, 0 or 1
     std::uint64_t comment;  // bytes of UTF-8
     std::uint64_t warnings;  // bytes of UTF-8, a line for each
 };
-static_assert(sizeof(UsdStreamHeader) == 88);
+static_assert(sizeof(UsdStreamHeader) == 104);
 
 // Refuses what is not exactly such a stream. Throws engine::Error "byte N: reason".
 StrandSet readUsdStream(std::span<const std::byte> bytes);

@@ -28,16 +28,19 @@ class LinearCurves:
 
 def rows(values, dtype, components):
     """One row for each value. `components`: how many there are, if there is no value to tell."""
-    values = np.asarray(values, dtype)
+    values = np.atleast_1d(np.asarray(values, dtype))  # a constant may be no array
     return values.reshape(len(values), -1 if len(values) else components)
 
 
 class Prim:
     """One prim's curves: `sizes` (points of each), `points`, and `parts` by name, each with one
-    row, or one for each point; root_uvs: for each curve; root_triangles: any number."""
+    row, or one for each point; root_uvs, groups, guides: for each curve; root_triangles: any
+    number."""
 
     def __init__(self, prim, xforms):
         self.path = prim.GetPath()
+        self.root_uv_name = None  # of the primvar that they are from
+        self.has_groom_width = False
         self.curves = UsdGeom.BasisCurves(prim)
         self.time = Usd.TimeCode.Default()
         points = self.curves.GetPointsAttr()
@@ -51,9 +54,11 @@ class Prim:
         scale = np.cbrt(abs(np.linalg.det(world[:3, :3])))
         self.parts = {
             "widths": self._widths(1.0 if abs(scale - 1) < 1e-9 else scale),
-            "colors": self._per_point("displayColor", 3),
+            "colors": self._colors(),
             "transparencies": self._transparencies(),
             "root_uvs": self._root_uvs(),
+            "groups": self._per_strand("groom_group_id"),
+            "guides": self._guides(),
             "root_triangles": self._root_triangles(),
         }
 
@@ -130,6 +135,9 @@ class Prim:
     def _widths(self, scale):
         widths = self._per_point("widths", 1)
         if widths is None:
+            widths = self._per_point("groom_width", 1)
+            self.has_groom_width = widths is not None
+        if widths is None:
             return None
         # Between control vertices a curve may be under the least of them.
         if isinstance(self.topology, CubicCurves):
@@ -144,12 +152,39 @@ class Prim:
             return None
         return np.float32(1) - np.clip(opacities, 0, 1).astype(np.float32)
 
+    def _colors(self):
+        colors = self._per_point("displayColor", 3)
+        return self._per_point("groom_color", 3) if colors is None else colors
+
     def _root_uvs(self):
-        primvar = UsdGeom.PrimvarsAPI(self.curves).GetPrimvar("st")
+        for name in ("st", "groom_root_uv"):
+            primvar = UsdGeom.PrimvarsAPI(self.curves).GetPrimvar(name)
+            values = primvar.ComputeFlattened(self.time) if primvar else None
+            if values is not None and primvar.GetInterpolation() == "uniform":
+                self.root_uv_name = name
+                return self._checked("primvars:" + name, values, self.sizes.size, 2)
+        return None
+
+    def _per_strand(self, name):
+        """Integers, one for each curve or one for all of the prim; a parent may have that."""
+        primvar = UsdGeom.PrimvarsAPI(self.curves).FindPrimvarWithInheritance(name)
         values = primvar.ComputeFlattened(self.time) if primvar else None
-        if values is None or primvar.GetInterpolation() != "uniform":
+        if values is None:
             return None
-        return self._checked("primvars:st", values, self.sizes.size, 2)
+        values = np.atleast_1d(values)  # a constant may be no array
+        if values.dtype.kind not in "iub":
+            self.refuse(f"primvars:{name}: integers are needed")
+        count = self.sizes.size if primvar.GetInterpolation() == "uniform" else 1
+        if values.shape != (count,):
+            self.refuse(f"primvars:{name}: {values.size} numbers, {count} are needed")
+        values = values.astype(np.int64)
+        if (np.abs(values) > np.iinfo(np.int32).max).any():
+            self.refuse(f"primvars:{name}: a number is no int")
+        return np.broadcast_to(values.astype(np.int32), (self.sizes.size,))
+
+    def _guides(self):
+        guides = self._per_strand("groom_guide")
+        return None if guides is None else (guides != 0).astype(np.uint8)
 
     def _root_triangles(self):
         attribute = self.curves.GetPrim().GetAttribute("hairbench:rootTriangles")
@@ -163,9 +198,13 @@ class Prim:
 
     def left_out(self):
         """Names of what the prim has beside."""
-        known = {"displayColor", "displayOpacity", "widths"}
+        known = {"displayColor", "displayOpacity", "widths", "groom_group_id", "groom_guide"}
         if self.parts["root_uvs"] is not None:
-            known.add("st")
+            known.add(self.root_uv_name)
+        if self.has_groom_width:
+            known.add("groom_width")
+        if "displayColor" not in self._primvar_names():
+            known.add("groom_color")
         names = {"primvars:" + name for name in self._primvar_names() - known}
         for name in ("normals", "velocities", "accelerations"):
             if self.curves.GetPrim().GetAttribute(name).HasAuthoredValue():

@@ -380,11 +380,14 @@ StrandSet pickStrands(const StrandSet& strands, std::span<const std::uint32_t> i
     picked.transparencies = {
         strands.transparencies.everywhere, pick(strands.transparencies.values)};
     picked.colors = {strands.colors.everywhere, pick(strands.colors.values)};
-    if (!strands.root_uvs.empty()) {
-        picked.root_uvs.reserve(indices.size());
-        for (const std::uint32_t strand : indices)
-            picked.root_uvs.push_back(strands.root_uvs[strand]);
-    }
+    const auto pickEach = [&](const auto& values, auto& chosen) {
+        if (values.empty()) return;
+        chosen.reserve(indices.size());
+        for (const std::uint32_t strand : indices) chosen.push_back(values[strand]);
+    };
+    pickEach(strands.root_uvs, picked.root_uvs);
+    pickEach(strands.groups, picked.groups);
+    pickEach(strands.guides, picked.guides);
     return picked;
 }
 
@@ -432,6 +435,7 @@ StrandSet addFollowers(
     StrandSet all = pickStrands(strands, sources);
     for (std::uint32_t i = 0; i < all.strandCount(); ++i) {
         if (i % times == 0) continue;
+        if (!all.guides.empty()) all.guides[i] = 0;
         const glm::dvec3 offset = randomInDisc(strands.strand(sources[i]), radius, i, seed);
         for (std::uint32_t k = 0; k < all.size(i); ++k) {
             const double share = k == 0 ? 0.0 : double(k) / (all.size(i) - 1);

@@ -39,6 +39,12 @@ inline std::string brokenPromise(const StrandSet& set) {
     if (!isRight(set.colors, end)) return "colours are finite, one for each point";
     if (!set.root_uvs.empty() && set.root_uvs.size() != set.ends.size())
         return "there is a texture coordinate for each strand";
+    if (!set.groups.empty() && set.groups.size() != set.ends.size())
+        return "there is a group for each strand";
+    if (!set.guides.empty() && set.guides.size() != set.ends.size())
+        return "it is said of each strand whether it is a guide";
+    for (const std::uint8_t guide : set.guides)
+        if (guide > 1) return "a strand is a guide or not";
     for (const glm::vec2& uv : set.root_uvs)
         if (!isFinite(uv)) return "texture coordinates are finite";
     for (const auto& triangle : set.root_triangles)

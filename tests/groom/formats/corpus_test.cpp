@@ -14,6 +14,10 @@ namespace fs = std::filesystem;
 
 // Every valid file of the corpus and how many strands it has.
 const std::map<std::string, std::uint32_t> kStrands{
+    {"bin/short_and_nan.bin", 1},
+    {"bin/two_strands.bin", 2},
+    {"data/empty_strand.data", 2},
+    {"data/three_strands.data", 3},
     {"gltf/lines.gltf", 3},
     {"gltf/strips.gltf", 3},
     {"gltf/trimesh_head_and_lines.glb", 3},
@@ -25,6 +29,11 @@ const std::map<std::string, std::uint32_t> kStrands{
     {"hgl/no_triangles.hgl", 2},
     {"hgl/one_guide.hgl", 1},
     {"hgl/three_guides.hgl", 3},
+    {"npy/doubles_fortran.npy", 1},
+    {"npy/two_strands.npy", 2},
+    {"npz/difflocks.npz", 2},
+    {"npz/difflocks_deflated.npz", 2},
+    {"npz/groups_and_guides.npz", 2},
     {"obj/segments.obj", 3},
     {"obj/vtk_lines.obj", 3},
     {"ply/plyfile_edges_ascii.ply", 3},
@@ -35,8 +44,12 @@ const std::map<std::string, std::uint32_t> kStrands{
     {"ply/plyfile_strands_little.ply", 3},
     {"tfx/all_arrays.tfx", 2},
     {"tfx/positions_only.tfx", 2},
+    {"tfx/version_2.tfx", 2},
+    {"tfx/version_3.tfx", 2},
     {"usd/bezier.usda", 2},
     {"usd/linear.usda", 3},
+    {"xml/cubic.xml", 4},
+    {"xml/linear.xml", 3},
 };
 
 // Files in the folders of formats, relative to `folder`; not what lies in it itself.

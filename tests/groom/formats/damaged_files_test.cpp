@@ -3,6 +3,7 @@
 #include "hair/groom/formats/gltf.h"
 #include "hair/groom/formats/obj.h"
 #include "hair/groom/formats/ply.h"
+#include "hair/groom/formats/strand_lists.h"
 #include "tests/groom/formats/broken_promise.h"
 #include "tests/groom/formats/strand_files.h"
 
@@ -56,6 +57,7 @@ TEST_P(DamagedFile, IsReadOrRefusedWithAnyByteChanged) {
 INSTANTIATE_TEST_SUITE_P(
     Formats, DamagedFile,
     testing::Values(
+        Format{"data", importHairData, exportHairData, true},
         Format{"ply", importPly, exportPly, true}, Format{"obj", importObj, exportObj, false},
         Format{"gltf", importGltfStrands, exportGltf, true},
         Format{"glb", importGltfStrands, exportGlb, true}),

@@ -40,7 +40,7 @@ if stage.HasAuthoredTimeCodeRange():
     print(f"{stage.GetTimeCodesPerSecond()!r}, {stage.GetFramesPerSecond()!r} per second")
 dump(curves.GetCurveVertexCountsAttr())
 dump(curves.GetWidthsAttr(), curves.GetWidthsInterpolation())
-for name in ("displayColor", "displayOpacity", "st"):
+for name in ("displayColor", "displayOpacity", "st", "groom_group_id", "groom_guide"):
     primvar = api.GetPrimvar(name)
     dump(primvar.GetAttr(), primvar.GetInterpolation() if primvar else "")
 dump(prim.GetAttribute("hairbench:rootTriangles"))

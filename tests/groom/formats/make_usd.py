@@ -3,6 +3,7 @@
 import os
 import sys
 
+import numpy as np
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdUtils, Vt
 
 os.chdir(sys.argv[1])
@@ -130,6 +131,58 @@ def mixed():
     stage.Save()
 
 
+def primvar(prim, name, kind, interpolation, values):
+    api = UsdGeom.PrimvarsAPI(prim)
+    api.CreatePrimvar(name, getattr(Sdf.ValueTypeNames, kind), interpolation).Set(values)
+
+
+def groom():
+    """What Unreal Engine names: guides as curves of their own, a group that a parent has."""
+    stage = new_stage("groom.usda")
+    primvar(UsdGeom.Xform.Define(stage, "/groom"), "groom_group_id", "IntArray", "constant", [7])
+    strands = curves(stage, "/groom/strands", "linear", [2, 3], points(5))
+    primvar(strands, "groom_root_uv", "Float2Array", "uniform", [(0.1, 0.2), (0.3, 0.4)])
+    primvar(strands, "groom_width", "FloatArray", "vertex", [1, 2, 3, 4, 5])
+    primvar(strands, "groom_color", "Color3fArray", "uniform", [(1, 0, 0), (0, 1, 0)])
+    primvar(strands, "groom_roughness", "FloatArray", "constant", [0.5])
+    guides = curves(stage, "/groom/guides", "linear", [2], points(2, 5))
+    primvar(guides, "groom_guide", "Int", "constant", 1)
+    primvar(guides, "groom_group_id", "IntArray", "uniform", [-3])
+    primvar(guides, "groom_root_uv", "TexCoord2fArray", "uniform", [(0.5, 0.6)])
+    primvar(guides, "groom_width", "Float", "constant", 9.0)
+    primvar(guides, "groom_color", "Color3fArray", "constant", [(0, 0, 1)])
+    stage.Save()
+
+
+def groups_of_floats():
+    stage = new_stage("groups_of_floats.usda")
+    prim = curves(stage, "/wig/hair", "linear", [4], points(4))
+    primvar(prim, "groom_group_id", "FloatArray", "uniform", [0.5])
+    stage.Save()
+    stage = new_stage("groups_of_some.usda")
+    prim = curves(stage, "/wig/hair", "linear", [2, 2], points(4))
+    primvar(prim, "groom_group_id", "IntArray", "uniform", [1])
+    stage.Save()
+
+
+def float_units():
+    """The unit as a float, which usd-core itself never writes: the type of its value, a double that
+    a float holds, is another in the file's bytes."""
+    for name, unit in ("float_unit", 0.5), ("float_centimetre", 0.5):
+        stage = new_stage(f"{name}.usdc", unit=unit)
+        curves(stage, "/hair", "linear", [2], points(2))
+        stage.Save()
+        with open(f"{name}.usdc", "rb") as file:
+            content = file.read()
+        double, float_type = 9, 8
+        value = np.float32(unit).tobytes() + bytes([0, 0, double, 0x40])
+        assert content.count(value) == 1
+        wanted = np.float32(0.01 if name == "float_centimetre" else unit)
+        with open(f"{name}.usdc", "wb") as file:
+            file.write(content.replace(
+                value, wanted.tobytes() + bytes([0, 0, float_type, 0x40])))
+
+
 def refused():
     nan = float("nan")
     ok = points(4)
@@ -186,4 +239,7 @@ z_up()
 cubics()
 animated()
 mixed()
+groom()
+groups_of_floats()
+float_units()
 refused()

@@ -258,5 +258,49 @@ TEST(ExportPly, SaysWhatItLeavesOut) {
             HasSubstr("texture coordinates"), HasSubstr("root triangles"), HasSubstr("unit")));
 }
 
+StrandSet readPlyOf(std::uint32_t points_per_strand, const std::string& text) {
+    return importPly(
+        {.bytes = std::as_bytes(std::span(text)), .points_per_strand = points_per_strand});
+}
+
+std::string errorOfPlyOf(std::uint32_t points_per_strand, const std::string& text) {
+    return errorText([&] { readPlyOf(points_per_strand, text); });
+}
+
+// What reconstructions from pictures write: points alone, strand after strand.
+TEST(ImportPly, MakesStrandsOfSoManyPointsEach) {
+    const std::string points_alone = ascii(vertexElement(), kVertexRows);
+    const StrandSet strand = readPlyOf(5, points_alone);
+    EXPECT_THAT(strand.ends, ElementsAre(5));
+    EXPECT_EQ(strand.points[4], glm::vec3(4, 1, 0));
+    EXPECT_THAT(readPlyOf(1, points_alone).ends, ElementsAre(1, 2, 3, 4, 5));
+    EXPECT_EQ(
+        errorOfPlyOf(2, points_alone),
+        "line 7: 5 vertices are no whole number of strands of 2 points");
+    EXPECT_THAT(
+        errorOfPly(points_alone),
+        AllOf(StartsWith("line 7: the file has no strands"), HasSubstr("--points-per-strand")));
+    EXPECT_THAT(
+        errorOfPlyOf(
+            5, ascii(
+                   "element vertex 0\nproperty float x\nproperty float y\n"
+                   "property float z\n",
+                   "")),
+        HasSubstr("no whole number"));
+}
+
+// The file's own strands come first, and what is a mesh beside the points is none.
+TEST(ImportPly, TakesTheNumberOfPointsWhereTheFileHasNoStrandsAlone) {
+    expectTheStrands(
+        readPlyOf(5, ascii(vertexElement() + kEdges, kVertexRows + "1 2\n0 1\n3 4\n")));
+    const StrandSet beside_faces = readPlyOf(
+        5, ascii(
+               vertexElement() + "element edge 0\nproperty int vertex1\nproperty int vertex2\n"
+                                 "element face 1\nproperty list uchar int vertex_indices\n",
+               kVertexRows + "3 0 1 2\n"));
+    EXPECT_THAT(beside_faces.ends, ElementsAre(5));
+    EXPECT_THAT(beside_faces.warnings, ElementsAre("1 of element 'face' are left out"));
+}
+
 }  // namespace
 }  // namespace hair::groom

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 
 #include "tests/groom/formats/strand_files.h"
+#include "tests/python.h"
+#include "tests/required.h"
 
 // From format to format through files: strands, their order, points and widths come back to the
 // last bit wherever the formats on the way hold them.
@@ -86,6 +88,31 @@ TEST(RoundTrip, KeepsRootTrianglesInHgl) {
     StrandSet strands = uniformStrands();
     strands.root_triangles = {{0, 1, 1}, {1, 0, 0}};
     EXPECT_EQ(through(folder, strands, ".hgl .hgl").root_triangles, strands.root_triangles);
+}
+
+TEST(RoundTrip, KeepsPointsThroughListsAndArrays) {
+    const TemporaryFolder folder;
+    StrandSet ragged = hardStrands();
+    ragged.widths = {};
+    expectCameBack(through(folder, hardStrands(), ".data .hair .data .ply .data"), ragged);
+    StrandSet uniform = uniformStrands();
+    expectCameBack(through(folder, uniform, ".npz .hair .npz .tfx .npz"), uniform);
+    uniform.widths = {};
+    expectCameBack(through(folder, uniformStrands(), ".npy .data .npz .npy"), uniform);
+}
+
+TEST(RoundTrip, KeepsGroupsGuidesAndRootUvs) {
+    if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
+    const TemporaryFolder folder;
+    StrandSet strands = uniformStrands();
+    strands.root_uvs = {{0.1f, 0.2f}, {1.0f / 3.0f, -0.0f}};
+    strands.groups = {-7, 8};
+    strands.guides = {0, 1};
+    const StrandSet back = through(folder, strands, ".npz .usda .npz");
+    expectCameBack(back, strands);
+    expectBitEqual(back.root_uvs, strands.root_uvs);
+    EXPECT_EQ(back.groups, strands.groups);
+    EXPECT_EQ(back.guides, strands.guides);
 }
 
 }  // namespace

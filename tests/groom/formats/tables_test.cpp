@@ -65,9 +65,41 @@ TEST(ImportStrands, ListsWhatItKnows) {
     const TemporaryFolder folder;
     const auto path = folder.write("hair.abc", "unknown");
     EXPECT_EQ(
-        fileError(path), path.string() +
-                             ": unknown format of strands \".abc\"; known are .hair, .tfx, .hgl, "
-                             ".ply, .obj, .gltf, .glb, .usd, .usda, .usdc, .usdz");
+        fileError(path),
+        path.string() +
+            ": unknown format of strands \".abc\"; known are .hair, .tfx, .hgl, "
+            ".ply, .obj, .gltf, .glb, .usd, .usda, .usdc, .usdz, .data, .npy, .npz, .xml, .bin");
+}
+
+// The first bytes are those that the formats' own descriptions state.
+TEST(ImportStrands, NamesWhatItDoesNotRead) {
+    using namespace std::string_literals;
+    const TemporaryFolder folder;
+    const std::pair<std::string, const char*> kOthers[] = {
+        {"Ogawa\xff\0\1"s, "an Alembic file (Ogawa), which is not read: import it in Blender"},
+        {"\x89HDF\r\n\x1a\n"s, "an HDF5 file"},
+        {"Kaydara FBX Binary  \0\x1a\0"s, "an FBX file"},
+        {"BLENDER-v405"s, "a Blender file, which is not read: export"},
+        {"\x28\xb5\x2f\xfd"s, "compressed by Zstandard"},
+        {"//Maya ASCII 2024 scene\n"s, "a Maya scene (ASCII)"},
+        {"FOR4\0\0\0\x28"s
+         "CACH"s,
+         "a Maya scene or cache"},
+        {"PK\3\4\x14\0"s, "a zip archive, which is not read: unpack it"},
+        {"#usda 1.0\n"s, "a USD file, which is not read: name it .usda"},
+        {"PXR-USDC"s, "name it .usdc"}};
+    for (const auto& [bytes, reason] : kOthers) {
+        for (const char* name : {"a.abc", "a.hair", "a.data", "a"}) {
+            const auto path = folder.write(name, bytes);
+            EXPECT_THAT(fileError(path), AllOf(StartsWith(path.string() + ": "), HasSubstr(reason)))
+                << name;
+        }
+    }
+    EXPECT_THAT(fileError(folder.write("a.tgz", "\x1f\x8b\x08\x01")), HasSubstr("by gzip"));
+    EXPECT_THAT(fileError(folder.write("a.pkl", "\x80\x04\x95")), HasSubstr("Python pickle"));
+    // 559,903 strands of HairSalon begin as a file of gzip does, and an archive of NumPy is a zip.
+    EXPECT_EQ(strandImporterOf(folder.write("a.data", "\x1f\x8b\x08")).extensions[0], ".data");
+    EXPECT_EQ(strandImporterOf(folder.write("a.npz", "PK\3\4")).extensions[0], ".npz");
 }
 
 TEST(ExportStrands, WritesWholeFilesOrNone) {
@@ -88,7 +120,7 @@ TEST(ExportStrands, ListsWhatItKnows) {
     EXPECT_EQ(
         errorText([] { exportStrands(kTwoStrands, "a.usdc"); }),
         "a.usdc: strands can't be written as \".usdc\"; known are .hair, .hgl, .tfx, .obj, .ply, "
-        ".gltf, .glb, .usda");
+        ".gltf, .glb, .usda, .data, .npy, .npz");
 }
 
 TEST(ExportStrands, ReturnsTheWarnings) {

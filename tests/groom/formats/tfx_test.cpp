@@ -113,7 +113,7 @@ TEST(ImportTfx, RefusesEveryTruncation) {
 
 TEST(ImportTfx, RefusesWrongHeaders) {
     const std::string bytes = fullFile();
-    for (const float version : {0.0f, 3.0f, 4.5f, -4.0f, kNotFinite[0]})
+    for (const float version : {0.0f, 2.5f, 4.5f, -4.0f, kNotFinite[0]})
         EXPECT_THAT(errorOfTfx(patched(bytes, 0, version)), StartsWith("byte 0: version "))
             << version;
     for (const std::size_t count : {4u, 8u}) {
@@ -214,6 +214,124 @@ TEST(ExportTfx, SaysWhatItLeavesOut) {
     EXPECT_EQ(back.colors.everywhere, glm::vec3(1.0f));
     EXPECT_EQ(back.transparencies.values.back(), 0.75f);
     EXPECT_EQ(errorText([] { writeText(exportTfx, {}); }), "there are no strands");
+}
+
+// ---- Version 3 ----------------------------------------------------------------------------------
+
+// Two strands of three vertices, byte by byte as AMD's header of TressFX 3.1 has it; arrays in the
+// header's order from byte 296 on.
+std::string tfx3File() {
+    Bytes bytes;
+    bytes.f32(3.0).u32(2).u32(3).u32(0).u32(0).zeros(31 * 4);
+    bytes.u32(296).u32(368).u32(376).u32(392).u32(0).u32(0).zeros(32 * 4);
+    for (int i = 0; i < 6; ++i) bytes.f32(i, 0.1 * i, -i);
+    bytes.f32(0.001, 0.002);
+    bytes.f32(0, 1, 0.3, 0.7);
+    for (int i = 0; i < 6; ++i) bytes.f32(0.125 * i, 0.5, 0.25, 1);
+    return bytes.str();
+}
+
+TEST(ImportTfx3, ReadsEveryArray) {
+    ASSERT_EQ(tfx3File().size(), 488u);
+    const StrandSet strands = readTfx(tfx3File());
+    EXPECT_THAT(strands.ends, ElementsAre(3, 6));
+    for (int i = 0; i < 6; ++i)
+        EXPECT_EQ(strands.points[i], glm::vec3(i, static_cast<float>(0.1 * i), -i));
+    EXPECT_THAT(strands.widths.values, ElementsAre(0.001f, 0.001f, 0.001f, 0.002f, 0.002f, 0.002f));
+    EXPECT_THAT(strands.root_uvs, ElementsAre(glm::vec2(0, 1), glm::vec2(0.3f, 0.7f)));
+    ASSERT_EQ(strands.colors.values.size(), 6u);
+    EXPECT_EQ(strands.colors.values[5], glm::vec3(0.625f, 0.5f, 0.25f));
+    EXPECT_EQ(strands.transparencies.everywhere, 0.0f);
+    EXPECT_THAT(strands.warnings, IsEmpty());
+}
+
+// AMD's exporter writes a flag of one byte, and the three after it are whatever they are.
+TEST(ImportTfx3, WarnsOfFollowersFixedEndsAndGuides) {
+    std::string bytes = patched(patched(tfx3File(), 12, 4u), 16, 0xcccccc01u);
+    bytes = patched(bytes, 160, static_cast<std::uint32_t>(bytes.size())) + std::string(8, '\0');
+    EXPECT_THAT(
+        readTfx(bytes).warnings,
+        ElementsAre(
+            HasSubstr("the 4 followers"), HasSubstr("both ends"), HasSubstr("strands' guides")));
+    EXPECT_THAT(readTfx(patched(tfx3File(), 16, 0xcccccc00u)).warnings, IsEmpty());
+}
+
+TEST(ImportTfx3, RefusesWrongCountsAndOffsetsAndTruncation) {
+    const std::string whole = tfx3File();
+    for (std::size_t size = 0; size < whole.size(); ++size)
+        EXPECT_THAT(
+            errorOfTfx(whole.substr(0, size)), testing::MatchesRegex("byte [0-9]+: .*truncated.*"))
+            << size;
+    for (const std::size_t at : {4u, 8u, 144u, 148u, 152u, 156u, 160u, 164u}) {
+        for (const std::uint32_t wrong : {5u, 295u, 300u, 0x7fffffffu, 0xfffffffcu})
+            EXPECT_THAT(errorOfTfx(patched(whole, at, wrong)), StartsWith("byte "))
+                << at << ' ' << wrong;
+    }
+    EXPECT_EQ(errorOfTfx(patched(whole, 144, 0u)), "byte 144: there are no positions");
+    EXPECT_EQ(errorOfTfx(patched(whole, 4, 0u)), "byte 4: 0 strands, at least 1 is needed");
+    for (const float wrong : kNotFinite)
+        EXPECT_THAT(errorOfTfx(patched(whole, 308, wrong)), StartsWith("byte 308: position 1 "));
+}
+
+// ---- Version 2 ----------------------------------------------------------------------------------
+
+// The lines of files that TressFX 2 came with.
+const std::string kTfx2Header =
+    "version 2.0\nscale 1.0\nrotation 0 0 0\ntranslation 0 0 0\nbothEndsImmovable 0\n"
+    "maxNumVerticesInStrand 16\nnumFollowHairsPerGuideHair 4\nmaxRadiusAroundGuideHair 0.5\n"
+    "numStrands 2\nis sorted 1\n";
+const std::string kTfx2Strands =
+    "strand 0 numVerts 3 texcoord 0.000000 000000\n0 0 0\n0 1 0\n0 2 5e-1\n"
+    "strand 1 numVerts 2 texcoord 0.5 0.25\n4 0 0\n4 1 0\n";
+
+TEST(ImportTfx2, ReadsText) {
+    const StrandSet strands = readTfx(kTfx2Header + kTfx2Strands);
+    expectTheStrands(strands);
+    EXPECT_THAT(strands.root_uvs, ElementsAre(glm::vec2(0, 0), glm::vec2(0.5f, 0.25f)));
+    EXPECT_THAT(strands.warnings, ElementsAre(HasSubstr("--followers 4")));
+    // Of Windows, and with the lines that may be left out.
+    std::string windows = "version 2.0\r\nnumStrands 1\r\nstrand 0 numVerts 1\r\n1 2 3\r\n\r\n";
+    EXPECT_THAT(readTfx(windows).points, ElementsAre(glm::vec3(1, 2, 3)));
+}
+
+TEST(ImportTfx2, IsKnownByItsFirstBytes) {
+    const TemporaryFolder folder;
+    expectTheStrands(importStrands(folder.write("strands.txt", kTfx2Header + kTfx2Strands)));
+    EXPECT_EQ(strandImporterOf(folder.file("strands.txt")).name, "TressFX of version 2");
+    folder.write("strands.tfx", tfx3File());
+    EXPECT_EQ(strandImporterOf(folder.file("strands.tfx")).name, "TressFX of version 3");
+}
+
+TEST(ImportTfx2, NamesTheLineOfWhatIsWrong) {
+    const auto error = [](std::string from, std::string to) {
+        std::string text = kTfx2Header + kTfx2Strands;
+        text.replace(text.find(from), from.size(), to);
+        return errorOfTfx(text);
+    };
+    EXPECT_EQ(error("2.0", "1.0"), "line 1: version '1.0', only 2.0 is read as text");
+    EXPECT_THAT(error("scale 1.0", "scale 2"), StartsWith("line 2: a scale, which is not read"));
+    EXPECT_THAT(error("rotation 0", "rotation 90"), StartsWith("line 3: a rotation"));
+    EXPECT_THAT(error("bothEnds", "someEnds"), StartsWith("line 5: unknown keyword"));
+    EXPECT_THAT(error("16", "2"), StartsWith("line 11: more vertices than"));
+    EXPECT_THAT(error("numStrands 2", "numStrands 0"), StartsWith("line 9: '0' is no number"));
+    EXPECT_THAT(
+        error("numStrands 2", "numStrands 4000000000"),
+        "line 9: truncated: 4000000000 strands are expected");
+    EXPECT_EQ(error("strand 1 ", "strand 2 "), "line 15: strand 1 is expected here");
+    EXPECT_THAT(error("numVerts 3", "numVerts 4"), StartsWith("line 15: 'strand' is no finite"));
+    EXPECT_THAT(error("numVerts 3", "numVerts 2"), StartsWith("line 14: '0', expected 'strand'"));
+    EXPECT_THAT(error(" texcoord 0.5 0.25", ""), StartsWith("line 15: all strands"));
+    EXPECT_THAT(error("5e-1", "nan"), "line 14: 'nan' is no finite number");
+    EXPECT_THAT(error("0 1 0\n", "0 1\n"), StartsWith("line 13: '' is no finite number"));
+    EXPECT_THAT(error("0 1 0\n", "0 1 0 0\n"), "line 13: '0' is one value too many");
+    EXPECT_THAT(error("4 1 0\n", "4 1 0\nmore"), "line 18: 'more' after the last strand");
+}
+
+TEST(ImportTfx2, IsRefusedWhereverItEnds) {
+    const std::string whole = kTfx2Header + kTfx2Strands;
+    // Without the last line's end it is whole, and so it is where a number is cut.
+    for (std::size_t size = 7; size + 2 < whole.size(); ++size)
+        EXPECT_THAT(errorOfTfx(whole.substr(0, size)), StartsWith("line ")) << size;
 }
 
 }  // namespace

@@ -56,6 +56,8 @@ StrandSet everything() {
     set.points[1] = {16777216.0f, -1e20f, 0.1f};
     set.root_uvs = {{0.1f, 0.2f}, {0.3f, 0.4f}, {1.0f, 0.0f}};
     set.root_triangles = {{0, 1, 2}, {2, 1, 0}};
+    set.groups = {-2147483647, 5, 2147483647};
+    set.guides = {0, 1, 0};
     set.metres_per_unit = 0.01;
     set.comment = "a \"quoted\" \\ comment\n\u00e4\t\x7f";
     return set;
@@ -99,6 +101,10 @@ TEST_F(UsdExportTest, WritesAllThatStrandsHaveToTheLastBit) {
         opacities.push_back(1.0f - transparency);
     EXPECT_THAT(text, HasSubstr("primvars:displayOpacity float[] vertex:" + bits(opacities)));
     EXPECT_THAT(text, HasSubstr("primvars:st texCoord2f[] uniform:" + bits(set.root_uvs)));
+    EXPECT_THAT(
+        text, HasSubstr("primvars:groom_group_id int[] uniform: 80000001 00000005 7fffffff\n"));
+    EXPECT_THAT(
+        text, HasSubstr("primvars:groom_guide int[] uniform: 00000000 00000001 00000000\n"));
     EXPECT_THAT(text, HasSubstr("hairbench:rootTriangles int3[]:" + bits(set.root_triangles)));
     EXPECT_THAT(text, HasSubstr("points point3f[]:" + bits(set.points)));
 }
@@ -138,6 +144,8 @@ TEST_F(UsdExportTest, ReadsBackEqual) {
     EXPECT_EQ(bits(back.transparencies.values), bits(set.transparencies.values));
     EXPECT_EQ(back.root_uvs, set.root_uvs);
     EXPECT_EQ(back.root_triangles, set.root_triangles);
+    EXPECT_EQ(back.groups, set.groups);
+    EXPECT_EQ(back.guides, set.guides);
     EXPECT_EQ(back.metres_per_unit, set.metres_per_unit);
     EXPECT_EQ(back.comment, set.comment);
 }

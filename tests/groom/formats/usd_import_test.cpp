@@ -127,6 +127,8 @@ TEST_F(UsdImportTest, RefusesNamingThePrim) {
         {"nan_width.usda", "/wig/hair: widths (constant): value 0 is not finite"},
         {"triangles.usda",
          "/wig/hair: hairbench:rootTriangles: three strands of its own are needed"},
+        {"groups_of_floats.usda", "/wig/hair: primvars:groom_group_id: integers are needed"},
+        {"groups_of_some.usda", "/wig/hair: primvars:groom_group_id: 1 numbers, 2 are needed"},
         {"syntax.usda", "line 2:13: Expected }"},
         {"words.usda", ""},
         {"short.usdc", ""},
@@ -159,6 +161,27 @@ TEST(UsdImport, SaysWhatItNeeds) {
         errorText([] { importUsd({.bytes = {}, .path = "a.usda"}); }),
         HasSubstr("needs the project's Python environment: run scripts/setup --python"));
     before ? setenv("HAIRBENCH_PYTHON", saved.c_str(), 1) : unsetenv("HAIRBENCH_PYTHON");
+}
+
+// Constants, arrays or not, of the curves or of their parent; the colours are of points, or curves.
+TEST_F(UsdImportTest, ReadsWhatUnrealEngineNames) {
+    const StrandSet set = read("groom.usda");
+    EXPECT_THAT(set.ends, ElementsAre(2u, 5u, 7u));
+    EXPECT_THAT(set.groups, ElementsAre(7, 7, -3));
+    EXPECT_THAT(set.guides, ElementsAre(0, 0, 1));
+    EXPECT_THAT(
+        set.root_uvs,
+        ElementsAre(glm::vec2(0.1f, 0.2f), glm::vec2(0.3f, 0.4f), glm::vec2(0.5f, 0.6f)));
+    EXPECT_THAT(set.widths.values, ElementsAre(1, 2, 3, 4, 5, 9, 9));
+    ASSERT_EQ(set.colors.values.size(), 7u);
+    EXPECT_EQ(set.colors.at(2), glm::vec3(0, 1, 0));
+    EXPECT_EQ(set.colors.at(6), glm::vec3(0, 0, 1));
+    EXPECT_THAT(set.warnings, ElementsAre("primvars:groom_roughness: left out"));
+}
+
+TEST_F(UsdImportTest, ReadsUnitsThatAreStoredAsFloats) {
+    EXPECT_EQ(read("float_unit.usdc").metres_per_unit, 0.5);
+    EXPECT_EQ(read("float_centimetre.usdc").metres_per_unit, 0.01);
 }
 
 }  // namespace

@@ -32,11 +32,13 @@ constexpr UsdStreamHeader kHeader{
     .colors = 3,
     .root_uvs = 2,
     .root_triangles = 1,
+    .groups = 2,
+    .guides = 2,
     .comment = 4,
     .warnings = 7};
 
 // Where the arrays begin.
-constexpr std::size_t kSizes = 88;
+constexpr std::size_t kSizes = 104;
 constexpr std::size_t kPointStream = kSizes + 8;
 constexpr std::size_t kWidths = kPointStream + 36;
 constexpr std::size_t kTriangles = kWidths + 12 + 4 + 36 + 16;
@@ -51,6 +53,8 @@ std::vector<std::byte> stream() {
     for (int k = 0; k < 9; ++k) append(bytes, static_cast<float>(-k));
     append(bytes, std::array{0.1f, 0.2f, 0.3f, 0.4f});
     append(bytes, std::array{0u, 1u, 0u});
+    append(bytes, std::array{-7, 8});
+    append(bytes, std::array<std::uint8_t, 2>{1, 0});
     for (const char c : std::string("hairone\ntwo")) append(bytes, c);
     return bytes;
 }
@@ -77,6 +81,8 @@ TEST(UsdStream, HoldsAllThatStrandsHave) {
     EXPECT_EQ(set.colors.at(2), glm::vec3(-6, -7, -8));
     EXPECT_THAT(set.root_uvs, ElementsAre(glm::vec2(0.1f, 0.2f), glm::vec2(0.3f, 0.4f)));
     EXPECT_THAT(set.root_triangles, ElementsAre(std::array{0u, 1u, 0u}));
+    EXPECT_THAT(set.groups, ElementsAre(-7, 8));
+    EXPECT_THAT(set.guides, ElementsAre(1, 0));
     EXPECT_EQ(set.metres_per_unit, 0.01);
     EXPECT_EQ(set.comment, "hair");
     EXPECT_THAT(set.warnings, ElementsAre("one", "two"));
@@ -93,7 +99,7 @@ TEST(UsdStream, RefusesEveryTruncationAndTrailingBytes) {
 }
 
 TEST(UsdStream, RefusesEveryOtherCount) {
-    for (std::size_t i = 0; i < 9; ++i) {
+    for (std::size_t i = 0; i < 11; ++i) {
         std::uint64_t count = 0;
         std::memcpy(&count, stream().data() + 16 + 8 * i, sizeof count);
         for (const std::uint64_t wrong :
@@ -112,15 +118,17 @@ TEST(UsdStream, RefusesNumbersThatMakeNoSense) {
     EXPECT_THAT(refusal(with(8, 0.0)), StartsWith("byte 8: "));
     EXPECT_THAT(refusal(with(8, -1.0)), StartsWith("byte 8: "));
     EXPECT_THAT(refusal(with(8, std::numeric_limits<double>::infinity())), StartsWith("byte 8: "));
-    EXPECT_THAT(refusal(with(kSizes, std::array{0u, 3u})), StartsWith("byte 88: "));
-    EXPECT_THAT(refusal(with(kSizes, std::array{1u, 3u})), StartsWith("byte 92: "));
-    EXPECT_THAT(refusal(with(kSizes, std::array{2u, ~0u})), StartsWith("byte 92: "));
+    EXPECT_THAT(refusal(with(kSizes, std::array{0u, 3u})), StartsWith("byte 104: "));
+    EXPECT_THAT(refusal(with(kSizes, std::array{1u, 3u})), StartsWith("byte 108: "));
+    EXPECT_THAT(refusal(with(kSizes, std::array{2u, ~0u})), StartsWith("byte 108: "));
     EXPECT_THAT(refusal(with(kSizes, std::array{1u, 1u})), StartsWith("byte 24: "));
     EXPECT_THAT(
-        refusal(with(kPointStream + 16, kNan)), StartsWith("byte 112: point 1 is not finite"));
-    EXPECT_THAT(refusal(with(kWidths + 8, kInfinity)), StartsWith("byte 140: width 2"));
-    EXPECT_THAT(refusal(with(kWidths, -1.0f)), StartsWith("byte 132: width 0 is negative"));
-    EXPECT_THAT(refusal(with(kTriangles + 4, 2u)), StartsWith("byte 200: strand 2"));
+        refusal(with(kPointStream + 16, kNan)), StartsWith("byte 128: point 1 is not finite"));
+    EXPECT_THAT(refusal(with(kWidths + 8, kInfinity)), StartsWith("byte 156: width 2"));
+    EXPECT_THAT(refusal(with(kWidths, -1.0f)), StartsWith("byte 148: width 0 is negative"));
+    EXPECT_THAT(refusal(with(kTriangles + 4, 2u)), StartsWith("byte 216: strand 2"));
+    EXPECT_THAT(
+        refusal(with(kTriangles + 12 + 8, std::uint8_t{2})), StartsWith("byte 236: a guide"));
 }
 
 }  // namespace

@@ -85,5 +85,12 @@ TEST(Followers, AreNotMadeWhereTheyAreTooMany) {
     EXPECT_THAT(errorText(add), testing::HasSubstr("more than 2^32 - 1"));
 }
 
+// A follower belongs to its strand's group, and guides nothing.
+TEST(AddFollowers, AreInTheGroupAndNoGuides) {
+    const StrandSet after = addFollowers(sampleStrandSet(), 1, 0.1f, 1.0f, 1);
+    EXPECT_EQ(after.groups, (std::vector<std::int32_t>{4, 4, -5, -5, 6, 6}));
+    EXPECT_EQ(after.guides, (std::vector<std::uint8_t>{1, 0, 0, 0, 1, 0}));
+}
+
 }  // namespace
 }  // namespace hair::groom

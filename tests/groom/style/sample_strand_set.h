@@ -14,6 +14,8 @@ inline StrandSet sampleStrandSet() {
     for (const float gray : {0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f})
         strands.colors.values.emplace_back(gray);
     strands.root_uvs = {{0.1f, 1}, {0.2f, 2}, {0.3f, 3}};
+    strands.groups = {4, -5, 6};
+    strands.guides = {1, 0, 1};
     strands.root_triangles = {{0, 1, 2}};
     strands.metres_per_unit = 0.01;
     strands.comment = "sample";

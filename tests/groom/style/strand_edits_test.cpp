@@ -18,6 +18,8 @@ TEST(PickStrands, TakesAllThatTheyHave) {
     EXPECT_EQ(picked.colors.values[0], glm::vec3(0.6f));
     EXPECT_EQ(picked.colors.values[2], glm::vec3(0.2f));
     EXPECT_EQ(picked.root_uvs, (std::vector<glm::vec2>{{0.3f, 3}, {0.1f, 1}, {0.3f, 3}}));
+    EXPECT_EQ(picked.groups, (std::vector<std::int32_t>{6, 4, 6}));
+    EXPECT_EQ(picked.guides, (std::vector<std::uint8_t>{1, 1, 1}));
     EXPECT_TRUE(picked.root_triangles.empty());
     EXPECT_EQ(picked.metres_per_unit, 0.01);
     EXPECT_EQ(picked.comment, "sample");

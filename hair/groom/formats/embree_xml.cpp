@@ -1,0 +1,512 @@
+#include "hair/groom/formats/embree_xml.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "engine/error.h"
+#include "engine/files.h"
+#include "hair/groom/formats/binary_file.h"
+#include "hair/groom/formats/text.h"
+
+namespace hair::groom {
+namespace {
+
+// ---- XML ----------------------------------------------------------------------------------------
+
+[[noreturn]] void failAtLine(std::size_t line, const std::string& reason) {
+    throw engine::Error("line " + std::to_string(line), reason);
+}
+
+struct XmlElement {
+    std::string_view name;
+    std::size_t line = 0;
+    std::vector<std::pair<std::string_view, std::string_view>> attributes;
+    std::string_view text;  // before the first child
+    std::size_t text_line = 0;
+    std::vector<XmlElement> children;
+
+    std::string_view attribute(std::string_view wanted) const {
+        for (const auto& [name_of, value] : attributes)
+            if (name_of == wanted) return value;
+        return {};
+    }
+    const XmlElement* child(std::string_view wanted) const {
+        const auto at = std::ranges::find(children, wanted, &XmlElement::name);
+        return at == children.end() ? nullptr : &*at;
+    }
+};
+
+// Reads what such scenes have of XML: elements with attributes, text, comments and a declaration.
+class XmlReader {
+public:
+    explicit XmlReader(std::string_view text) : rest_(text) {}
+
+    XmlElement read() {
+        skipBlank();
+        if (rest_.starts_with("<?")) takeThrough("?>");
+        skipBlank();
+        XmlElement root = takeElement(0);
+        skipBlank();
+        if (!rest_.empty()) fail("the scene has ended");
+        return root;
+    }
+
+private:
+    static constexpr int kMostNested = 64;
+    static constexpr std::string_view kBlank = " \t\r\n";
+    static constexpr std::string_view kNameEnd = " \t\r\n=/<>\"'";
+
+    [[noreturn]] void fail(const std::string& reason) const { failAtLine(line_, reason); }
+
+    std::string_view take(std::size_t size) {
+        const std::string_view taken = rest_.substr(0, size);
+        line_ += static_cast<std::size_t>(std::ranges::count(taken, '\n'));
+        rest_.remove_prefix(taken.size());
+        return taken;
+    }
+
+    // Up to and with the mark.
+    std::string_view takeThrough(std::string_view mark) {
+        const std::size_t at = rest_.find(mark);
+        if (at == std::string_view::npos) fail("truncated: " + inQuotes(mark) + " is expected");
+        const std::string_view before = take(at);
+        take(mark.size());
+        return before;
+    }
+
+    void skipSpace() { take(std::min(rest_.find_first_not_of(kBlank), rest_.size())); }
+
+    // White space and comments.
+    void skipBlank() {
+        skipSpace();
+        while (rest_.starts_with("<!--")) {
+            takeThrough("-->");
+            skipSpace();
+        }
+    }
+
+    void expect(std::string_view mark) {
+        if (!rest_.starts_with(mark)) {
+            if (rest_.empty()) fail("truncated: " + inQuotes(mark) + " is expected");
+            fail(inQuotes(mark) + " is expected");
+        }
+        take(mark.size());
+    }
+
+    std::string_view takeName() {
+        const std::string_view name = take(std::min(rest_.find_first_of(kNameEnd), rest_.size()));
+        if (name.empty()) fail(rest_.empty() ? "truncated: a name is expected" : "no name");
+        return name;
+    }
+
+    void takeAttributes(XmlElement& element) {
+        for (skipSpace(); !rest_.starts_with('>') && !rest_.starts_with("/>"); skipSpace()) {
+            const std::string_view name = takeName();
+            skipSpace();
+            expect("=");
+            skipSpace();
+            const std::string_view quote = rest_.starts_with('\'') ? "'" : "\"";
+            expect(quote);
+            element.attributes.emplace_back(name, takeThrough(quote));
+        }
+    }
+
+    XmlElement takeElement(int depth) {
+        if (depth > kMostNested) fail("more than 64 elements within another");
+        expect("<");
+        XmlElement element;
+        element.line = line_;
+        element.name = takeName();
+        takeAttributes(element);
+        if (rest_.starts_with("/>")) {
+            take(2);
+            return element;
+        }
+        expect(">");
+        element.text_line = line_;
+        element.text = take(std::min(rest_.find('<'), rest_.size()));
+        for (;;) {
+            skipBlank();
+            if (rest_.starts_with("</")) break;
+            if (!rest_.empty() && !rest_.starts_with('<'))
+                fail("text after an element, or comment");
+            element.children.push_back(takeElement(depth + 1));
+        }
+        take(2);
+        if (takeName() != element.name)
+            fail("the end of " + inQuotes(element.name) + " is expected");
+        skipSpace();
+        expect(">");
+        return element;
+    }
+
+    std::string_view rest_;
+    std::size_t line_ = 1;
+};
+
+// ---- Arrays -------------------------------------------------------------------------------------
+
+// The arrays of a scene, which lie in it or in the file of bytes beside it.
+class EmbreeArrays {
+public:
+    explicit EmbreeArrays(std::filesystem::path path) : path_(std::move(path)) {}
+
+    std::vector<glm::vec4> vectors(const XmlElement& element) {
+        std::vector<glm::vec4> vectors;
+        if (isBeside(element)) {
+            vectors = beside<glm::vec4>(element);
+            const auto wrong = firstNotFinite(
+                {reinterpret_cast<const float*>(vectors.data()), 4 * vectors.size()});
+            if (wrong)
+                failAtLine(
+                    element.line, "number " + std::to_string(*wrong) + " of " +
+                                      inQuotes(element.name) + " is not finite");
+            return vectors;
+        }
+        const std::vector<float> numbers = floats(element);
+        if (numbers.size() % 4 != 0)
+            failAtLine(
+                element.line, inQuotes(element.name) + " has no whole number of x y z radius");
+        vectors.resize(numbers.size() / 4);
+        if (!numbers.empty())
+            std::memcpy(vectors.data(), numbers.data(), numbers.size() * sizeof(float));
+        return vectors;
+    }
+
+    std::vector<float> floats(const XmlElement& element) const {
+        std::vector<float> numbers;
+        eachWord(element, [&](std::string_view word, std::size_t line) {
+            const auto number = floatFrom(word);
+            if (!number || !std::isfinite(*number))
+                failAtLine(line, inQuotes(word) + " is no finite number");
+            numbers.push_back(*number);
+        });
+        return numbers;
+    }
+
+    // `each`: how many of them an entry of the array has, for its `size`.
+    std::vector<std::uint32_t> integers(const XmlElement& element, std::size_t each) {
+        if (isBeside(element)) return beside<std::uint32_t>(element, each);
+        std::vector<std::uint32_t> numbers;
+        eachWord(element, [&](std::string_view word, std::size_t line) {
+            const auto number = integerFrom(word);
+            if (!number || *number < 0 || *number > std::numeric_limits<std::uint32_t>::max())
+                failAtLine(line, inQuotes(word) + " is no index");
+            numbers.push_back(static_cast<std::uint32_t>(*number));
+        });
+        return numbers;
+    }
+
+private:
+    static bool isBeside(const XmlElement& element) { return !element.attribute("ofs").empty(); }
+
+    template <class Visit>
+    static void eachWord(const XmlElement& element, const Visit& visit) {
+        TextLines lines(element.text);
+        while (!lines.atEnd()) {
+            std::string_view line = lines.take();
+            for (std::string_view word = takeWord(line); !word.empty(); word = takeWord(line))
+                visit(word, element.text_line + lines.number() - 1);
+        }
+    }
+
+    static std::uint64_t count(const XmlElement& element, std::string_view attribute) {
+        const std::string_view text = element.attribute(attribute);
+        const auto number = integerFrom(text);
+        if (!number || *number < 0)
+            failAtLine(element.line, inQuotes(attribute) + " is " + inQuotes(text) + ", no number");
+        return static_cast<std::uint64_t>(*number);
+    }
+
+    template <class Value>
+    std::vector<Value> beside(const XmlElement& element, std::size_t each = 1) {
+        const std::uint64_t start = count(element, "ofs");
+        const std::uint64_t size = count(element, "size");
+        const auto bytes = std::as_bytes(std::span(fileBeside(element)));
+        if (start > bytes.size() || size > (bytes.size() - start) / sizeof(Value) / each)
+            failAtLine(
+                element.line, "truncated: the file of bytes beside the scene has " +
+                                  std::to_string(bytes.size()) + " of them");
+        return arrayAt<Value>(bytes, start, size * each);
+    }
+
+    const std::string& fileBeside(const XmlElement& element) {
+        if (bytes_) return *bytes_;
+        if (path_.empty())
+            failAtLine(element.line, inQuotes(element.name) + " lies in a file beside the scene");
+        std::filesystem::path beside = path_;
+        beside.replace_extension(".bin");
+        if (!std::filesystem::exists(beside)) beside = path_.string() + ".bin";
+        return bytes_.emplace(engine::readFile(beside));
+    }
+
+    std::filesystem::path path_;
+    std::optional<std::string> bytes_;  // of the file beside it, once it is asked for
+};
+
+// ---- Curves -------------------------------------------------------------------------------------
+
+// Weights of four control vertices by powers of t: [vertex][t^0 to t^3].
+using CurveBasis = std::array<std::array<double, 4>, 4>;
+
+constexpr CurveBasis kBezierBasis{
+    {{1.0, -3.0, 3.0, -1.0}, {0.0, 3.0, -6.0, 3.0}, {0.0, 0.0, 3.0, -3.0}, {0.0, 0.0, 0.0, 1.0}}};
+constexpr CurveBasis kBsplineBasis{
+    {{1.0 / 6, -0.5, 0.5, -1.0 / 6},
+     {4.0 / 6, 0.0, -1.0, 0.5},
+     {1.0 / 6, 0.5, 0.5, -0.5},
+     {0.0, 0.0, 0.0, 1.0 / 6}}};
+constexpr CurveBasis kCatmullRomBasis{
+    {{0.0, -0.5, 1.0, -0.5}, {1.0, 0.0, -2.5, 1.5}, {0.0, 0.5, 2.0, -1.5}, {0.0, 0.0, -0.5, 0.5}}};
+
+struct EmbreeBasis {
+    std::string_view name;
+    const CurveBasis* weights;  // null: linear
+    std::uint32_t vertices;  // of a segment
+    std::uint32_t step;  // vertices from a segment to the next of its curve
+};
+
+constexpr std::array kEmbreeBases{
+    EmbreeBasis{"linear", nullptr, 2, 1}, EmbreeBasis{"bezier", &kBezierBasis, 4, 3},
+    EmbreeBasis{"bspline", &kBsplineBasis, 4, 1},
+    EmbreeBasis{"catmull_rom", &kCatmullRomBasis, 4, 1}};
+
+struct EmbreeCurvesRow {
+    std::string_view element;
+    std::string_view basis;  // empty: an attribute has it
+    bool has_pairs = false;  // an index has the curve's number beside it
+};
+
+constexpr std::array kEmbreeCurves{
+    EmbreeCurvesRow{"Curves", ""},
+    EmbreeCurvesRow{"LineSegments", "linear"},
+    EmbreeCurvesRow{"RoundLineSegments", "linear"},
+    EmbreeCurvesRow{"ConeSegments", "linear"},
+    EmbreeCurvesRow{"BSplineHair", "bspline"},
+    EmbreeCurvesRow{"BSplineCurves", "bspline"},
+    EmbreeCurvesRow{"Hair", "bezier", true},
+    EmbreeCurvesRow{"BezierHair", "bezier", true},
+    EmbreeCurvesRow{"BezierCurves", "bezier", true}};
+
+// Segments of one strand: the first control vertex and how many there are.
+struct EmbreeStrand {
+    std::uint32_t first;
+    std::uint32_t segments;
+};
+
+struct AffineSpace {
+    glm::dmat3 linear{1.0};
+    glm::dvec3 translation{0.0};
+
+    bool isIdentity() const { return linear == glm::dmat3(1.0) && translation == glm::dvec3(0.0); }
+};
+
+class EmbreeScene {
+public:
+    explicit EmbreeScene(const StrandFile& file) : arrays_(file.path) {}
+
+    StrandSet read(const XmlElement& root) {
+        if (root.name != "scene")
+            failAtLine(root.line, inQuotes(root.name) + ", expected a scene of Embree, 'scene'");
+        for (const XmlElement& child : root.children) readNode(child, {});
+        if (set_.ends.empty()) failAtLine(root.line, "the scene has no curves");
+        if (!left_out_.empty()) {
+            std::string names;
+            for (const std::string_view name : left_out_)
+                names.append(names.empty() ? "" : ", ").append(inQuotes(name));
+            set_.warnings.push_back("the scene's " + names + " are left out");
+        }
+        return std::move(set_);
+    }
+
+private:
+    void readNode(const XmlElement& element, const AffineSpace& space) {
+        if (element.name == "Group") {
+            for (const XmlElement& child : element.children) readNode(child, space);
+        } else if (element.name == "Transform") {
+            readTransform(element, space);
+        } else if (const auto row =
+                       std::ranges::find(kEmbreeCurves, element.name, &EmbreeCurvesRow::element);
+                   row != kEmbreeCurves.end()) {
+            readCurves(element, *row, space);
+        } else {
+            left_out_.insert(element.name);
+        }
+    }
+
+    void readTransform(const XmlElement& element, const AffineSpace& space) {
+        const bool has_matrix =
+            !element.children.empty() && element.children.front().name == "AffineSpace" &&
+            element.children.front().attributes.empty() && element.attribute("time_steps").empty();
+        const std::vector<float> numbers =
+            has_matrix ? arrays_.floats(element.children.front()) : std::vector<float>();
+        if (numbers.size() != 12)
+            failAtLine(
+                element.line, "a transform that is no AffineSpace of 12 numbers is not read");
+        AffineSpace own;
+        for (int row = 0; row < 3; ++row) {
+            for (int column = 0; column < 3; ++column)
+                own.linear[column][row] = numbers[static_cast<std::size_t>(4 * row + column)];
+            own.translation[row] = numbers[static_cast<std::size_t>(4 * row + 3)];
+        }
+        const AffineSpace all{
+            space.linear * own.linear, space.linear * own.translation + space.translation};
+        for (const XmlElement& child : std::span(element.children).subspan(1)) readNode(child, all);
+    }
+
+    const EmbreeBasis& basisOf(const XmlElement& element, const EmbreeCurvesRow& row) const {
+        const std::string_view name = row.basis.empty() ? element.attribute("basis") : row.basis;
+        const auto basis = std::ranges::find(kEmbreeBases, name, &EmbreeBasis::name);
+        if (basis != kEmbreeBases.end()) return *basis;
+        failAtLine(
+            element.line, "curves of basis " + inQuotes(name) +
+                              ", expected linear, bezier, bspline or catmull_rom");
+    }
+
+    std::vector<glm::vec4> positionsOf(const XmlElement& element) {
+        const XmlElement* positions = element.child("positions");
+        const XmlElement* animated = element.child("animated_positions");
+        if (animated && !animated->children.empty()) {
+            positions = &animated->children.front();
+            left_out_.insert("animated_positions");
+        }
+        if (element.child("positions2")) left_out_.insert("positions2");
+        if (!positions) failAtLine(element.line, inQuotes(element.name) + " without positions");
+        std::vector<glm::vec4> vectors = arrays_.vectors(*positions);
+        for (std::size_t i = 0; i < vectors.size(); ++i)
+            if (vectors[i].w < 0.0f)
+                failAtLine(positions->line, "radius " + std::to_string(i) + " is negative");
+        return vectors;
+    }
+
+    // Segments that follow one another, in one curve where curves have numbers.
+    std::vector<EmbreeStrand> strandsOf(
+        const XmlElement& element, const EmbreeBasis& basis, bool has_pairs, std::size_t vertices) {
+        const XmlElement* const indices = element.child("indices");
+        if (!indices) failAtLine(element.line, inQuotes(element.name) + " without indices");
+        const std::size_t each = has_pairs ? 2 : 1;
+        const std::vector<std::uint32_t> numbers = arrays_.integers(*indices, each);
+        if (numbers.size() % each != 0)
+            failAtLine(indices->line, "an index without the number of its curve");
+        std::vector<std::uint32_t> curves;
+        if (const XmlElement* const ids = element.child("curveid")) {
+            curves = arrays_.integers(*ids, 1);
+            if (curves.size() != numbers.size())
+                failAtLine(
+                    ids->line, std::to_string(curves.size()) + " numbers of curves, there are " +
+                                   std::to_string(numbers.size()) + " segments");
+        }
+        std::vector<EmbreeStrand> strands;
+        for (std::size_t i = 0; i < numbers.size(); i += each) {
+            const std::uint64_t first = numbers[i];
+            if (first + basis.vertices > vertices)
+                failAtLine(
+                    indices->line, "a segment of vertices " + std::to_string(first) + " to " +
+                                       std::to_string(first + basis.vertices - 1) + ", there are " +
+                                       std::to_string(vertices));
+            const bool same_curve = i > 0 && (has_pairs        ? numbers[i + 1] == numbers[i - 1]
+                                              : curves.empty() ? true
+                                                               : curves[i] == curves[i - 1]);
+            const bool follows =
+                same_curve && first == std::uint64_t{numbers[i - each]} + basis.step;
+            if (follows) {
+                ++strands.back().segments;
+            } else {
+                strands.push_back({numbers[i], 1});
+            }
+        }
+        return strands;
+    }
+
+    void
+    readCurves(const XmlElement& element, const EmbreeCurvesRow& row, const AffineSpace& space) {
+        const EmbreeBasis& basis = basisOf(element, row);
+        const std::vector<glm::vec4> positions = positionsOf(element);
+        const std::vector<EmbreeStrand> strands =
+            strandsOf(element, basis, row.has_pairs, positions.size());
+        std::uint32_t pieces = 1;  // between the ends of a segment
+        for (const EmbreeStrand& strand : strands) {
+            if (!basis.weights) break;
+            const std::uint32_t vertices = basis.vertices + (strand.segments - 1) * basis.step;
+            pieces = std::max(pieces, (vertices - 1 + strand.segments - 1) / strand.segments);
+        }
+        std::uint64_t points = set_.points.size();
+        for (const EmbreeStrand& strand : strands)
+            points += std::uint64_t{strand.segments} * pieces + 1;
+        if (points > std::numeric_limits<std::uint32_t>::max())
+            failAtLine(element.line, "the strands have 2^32 points, or more");
+        for (const EmbreeStrand& strand : strands) {
+            for (std::uint32_t i = 0; i < strand.segments; ++i) {
+                const auto corners = std::span(positions).subspan(
+                    strand.first + std::size_t{i} * basis.step, basis.vertices);
+                for (std::uint32_t k = 0; k < pieces; ++k)
+                    add(element, pointOf(basis, corners, double(k) / pieces), space);
+                if (i + 1 == strand.segments) add(element, pointOf(basis, corners, 1.0), space);
+            }
+            set_.ends.push_back(static_cast<std::uint32_t>(set_.points.size()));
+        }
+    }
+
+    // A segment's place and radius at t from 0 to 1. Of a linear one these are its ends.
+    static glm::dvec4
+    pointOf(const EmbreeBasis& basis, std::span<const glm::vec4> corners, double t) {
+        if (!basis.weights) return corners[t == 0.0 ? 0 : 1];
+        glm::dvec4 point(0.0);
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const auto& power = (*basis.weights)[i];
+            const double weight = power[0] + t * (power[1] + t * (power[2] + t * power[3]));
+            point += weight * glm::dvec4(corners[i]);
+        }
+        return point;
+    }
+
+    void add(const XmlElement& element, const glm::dvec4& point, const AffineSpace& space) {
+        glm::dvec3 place(point);
+        // Between control vertices a curve's radius may be under the least of them.
+        double width = 2.0 * std::max(point.w, 0.0);
+        if (!space.isIdentity()) {
+            place = space.linear * place + space.translation;
+            // Of a scale that differs by direction, the geometric mean.
+            width *= std::cbrt(std::abs(glm::determinant(space.linear)));
+        }
+        const glm::vec3 rounded(place);
+        const auto rounded_width = static_cast<float>(width);
+        for (const float number : {rounded.x, rounded.y, rounded.z, rounded_width})
+            if (!std::isfinite(number))
+                failAtLine(element.line, "a point or width is over what floats hold");
+        set_.points.push_back(rounded);
+        set_.widths.values.push_back(rounded_width);
+    }
+
+    EmbreeArrays arrays_;
+    std::set<std::string_view> left_out_;
+    StrandSet set_;
+};
+
+}  // namespace
+
+StrandSet importEmbreeXml(const StrandFile& file) {
+    const XmlElement root =
+        XmlReader({reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size()}).read();
+    return EmbreeScene(file).read(root);
+}
+
+}  // namespace hair::groom

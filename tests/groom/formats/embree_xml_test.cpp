@@ -1,0 +1,162 @@
+#include <gmock/gmock.h>
+
+#include "hair/groom/formats/embree_xml.h"
+#include "tests/groom/formats/broken_promise.h"
+#include "tests/groom/formats/bytes.h"
+#include "tests/groom/formats/strand_files.h"
+
+namespace hair::groom {
+namespace {
+
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+// The strands of expectTheStrands(), of radius 0.25.
+const std::string kLinear =
+    "<?xml version=\"1.0\"?>\n<!-- hair -->\n<scene>\n<Curves basis=\"linear\" type='flat'>\n"
+    "<positions>\n0 0 0 0.25\n0 1 0 0.25\n0 2 0.5 0.25\n4 0 0 0.25\n4 1 0 0.25\n</positions>\n"
+    "<indices>0 1 3</indices>\n</Curves>\n</scene>\n";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.replace(at, from.size(), to);
+}
+
+std::string
+curves(const std::string& basis, const std::string& positions, const std::string& indices) {
+    return "<scene><Curves basis=\"" + basis + "\" type=\"round\"><positions>" + positions +
+           "</positions><indices>" + indices + "</indices></Curves></scene>";
+}
+
+StrandSet readXml(const std::string& text) { return readText(importEmbreeXml, text); }
+std::string errorOfXml(const std::string& text) { return readError(importEmbreeXml, text); }
+
+TEST(EmbreeXml, ReadsLinearCurves) {
+    const StrandSet set = readXml(kLinear);
+    expectTheStrands(set);
+    EXPECT_THAT(set.widths.values, Each(0.5f));
+    EXPECT_THAT(set.warnings, IsEmpty());
+    EXPECT_EQ(brokenPromise(set), "");
+    for (const char* older : {"LineSegments", "RoundLineSegments", "ConeSegments"}) {
+        std::string text = replaced(kLinear, "Curves basis=\"linear\" type='flat'", older);
+        expectTheStrands(readXml(replaced(text, "/Curves", std::string("/") + older)));
+    }
+}
+
+// Two curves whose vertices follow one another are one, but for their numbers.
+TEST(EmbreeXml, TellsCurvesApartByTheirNumbers) {
+    const std::string joined = replaced(kLinear, "0 1 3", "0 1 2 3");
+    EXPECT_THAT(readXml(joined).ends, ElementsAre(5));
+    const std::string numbered =
+        replaced(joined, "</indices>", "</indices><curveid>7 7 8 8</curveid>");
+    EXPECT_THAT(readXml(numbered).ends, ElementsAre(3, 6));
+    EXPECT_THAT(
+        errorOfXml(replaced(numbered, "8 8", "8")), StartsWith("line 12: 3 numbers of curves"));
+}
+
+// Bernstein's polynomials at 1/3: 8, 12, 6 and 1 of 27.
+TEST(EmbreeXml, SamplesBezierCurves) {
+    const StrandSet set = readXml(curves("bezier", "0 0 0 1  0 27 0 1  27 27 0 1  27 0 0 0", "0"));
+    EXPECT_THAT(set.ends, ElementsAre(4));
+    EXPECT_EQ(set.points[0], glm::vec3(0));
+    EXPECT_NEAR(set.points[1].x, 6 + 1, 1e-5);  // floats of 2^4 are 1e-6 apart
+    EXPECT_NEAR(set.points[1].y, 12 + 6, 1e-5);
+    EXPECT_NEAR(set.widths.at(1), 2.0 * 26 / 27, 1e-6);
+    EXPECT_EQ(set.points[3], glm::vec3(27, 0, 0));
+    EXPECT_EQ(set.widths.at(3), 0.0f);
+    // Hair has the curve's number beside each index; the second segment shares a vertex.
+    const std::string pairs =
+        "<scene><BezierHair><positions>0 0 0 1 1 0 0 1 2 0 0 1 3 0 0 1 4 0 0 1 5 0 0 1 6 0 0 1"
+        "</positions><indices>0 5 3 5</indices></BezierHair></scene>";
+    const StrandSet line = readXml(pairs);
+    EXPECT_THAT(line.ends, ElementsAre(7));
+    for (int k = 0; k < 7; ++k) EXPECT_NEAR(line.points[k].x, k, 1e-6) << k;
+    EXPECT_THAT(readXml(replaced(pairs, "0 5 3 5", "0 5 3 6")).ends, ElementsAre(4, 8));
+}
+
+// Both bases have linear precision: evenly spaced on a line, from the second vertex to the last but
+// one. Catmull and Rom's passes through them in any case.
+TEST(EmbreeXml, SamplesSplines) {
+    const std::string even = "0 0 0 1 2 0 0 1 4 0 0 1 6 0 0 1 8 0 0 1";
+    for (const char* basis : {"bspline", "catmull_rom"}) {
+        const StrandSet set = readXml(curves(basis, even, "0 1"));
+        // Two segments of five vertices: two pieces each.
+        EXPECT_THAT(set.ends, ElementsAre(5)) << basis;
+        for (int k = 0; k < 5; ++k) EXPECT_NEAR(set.points[k].x, 2 + k, 1e-6) << basis << k;
+        EXPECT_THAT(set.widths.values, Each(testing::FloatEq(2.0f))) << basis;
+    }
+    const StrandSet bent = readXml(curves("catmull_rom", "0 0 0 1 1 5 0 1 2 -3 7 1 9 9 9 1", "0"));
+    EXPECT_EQ(bent.points.front(), glm::vec3(1, 5, 0));
+    EXPECT_EQ(bent.points.back(), glm::vec3(2, -3, 7));
+}
+
+// x y z to 2 z, 2 x, 2 y and by (1, 2, 3): lengths twice as long.
+TEST(EmbreeXml, FollowsGroupsAndTransforms) {
+    std::string text = replaced(
+        kLinear, "<scene>",
+        "<scene><PointLight/><Group><Transform><AffineSpace>0 0 2 1 2 0 0 2 0 2 0 3</AffineSpace>");
+    text = replaced(text, "</scene>", "</Transform></Group></scene>");
+    const StrandSet set = readXml(text);
+    EXPECT_EQ(set.points[2], glm::vec3(2 * 0.5f + 1, 2, 2 * 2 + 3));
+    EXPECT_EQ(set.points[3], glm::vec3(1, 2 * 4 + 2, 3));
+    for (const float width : set.widths.values) EXPECT_FLOAT_EQ(width, 1.0f);  // by a cube root
+    EXPECT_THAT(set.warnings, ElementsAre("the scene's 'PointLight' are left out"));
+    EXPECT_THAT(
+        errorOfXml(replaced(text, "<AffineSpace>", "<AffineSpace scale=\"1 2 3\">")),
+        HasSubstr("AffineSpace of 12 numbers"));
+}
+
+TEST(EmbreeXml, ReadsArraysOfTheFileBesideIt) {
+    const TemporaryFolder folder;
+    Bytes bytes;
+    bytes.zeros(8);
+    bytes.f32(0, 0, 0, 0.25).f32(0, 1, 0, 0.25).f32(0, 2, 0.5, 0.25);
+    bytes.f32(4, 0, 0, 0.25).f32(4, 1, 0, 0.25).u32(0).u32(1).u32(3);
+    folder.write("scene.bin", bytes.str());
+    const std::string text =
+        "<scene><Curves basis=\"linear\" type=\"flat\"><positions ofs=\"8\" size=\"5\"/>"
+        "<indices ofs=\"88\" size=\"3\"/></Curves></scene>";
+    const StrandSet set = importStrands(folder.write("scene.xml", text));
+    expectTheStrands(set);
+    EXPECT_THAT(set.widths.values, Each(0.5f));
+    for (const char* wrong : {"\"6\"", "\"4294967295\"", "\"1152921504606846976\""})
+        EXPECT_THAT(
+            errorText(
+                [&] { importStrands(folder.write("scene.xml", replaced(text, "\"5\"", wrong))); }),
+            HasSubstr("line 1: "))
+            << wrong;
+    EXPECT_THAT(errorOfXml(text), HasSubstr("lies in a file beside the scene"));
+}
+
+TEST(EmbreeXml, NamesTheLineOfWhatIsWrong) {
+    const auto error = [](const std::string& from, const std::string& to) {
+        return errorOfXml(replaced(kLinear, from, to));
+    };
+    EXPECT_EQ(error("4 1 0", "4 one 0"), "line 10: 'one' is no finite number");
+    EXPECT_EQ(error("4 1 0", "4 nan 0"), "line 10: 'nan' is no finite number");
+    EXPECT_THAT(error("4 1 0", "4 1"), StartsWith("line 5: 'positions' has no whole number"));
+    EXPECT_THAT(error("0 1 0 0.25", "0 1 0 -1"), StartsWith("line 5: radius 1 is negative"));
+    EXPECT_EQ(error("0 1 3", "0 1 4"), "line 12: a segment of vertices 4 to 5, there are 5");
+    EXPECT_EQ(error("0 1 3", "0 1 -3"), "line 12: '-3' is no index");
+    EXPECT_EQ(error("0 1 3", ""), "line 3: the scene has no curves");
+    EXPECT_THAT(
+        error("\"linear\"", "\"hermite\""), StartsWith("line 4: curves of basis 'hermite'"));
+    EXPECT_THAT(error("</Curves>", "</Kurves>"), StartsWith("line 13: the end of 'Curves'"));
+    EXPECT_THAT(errorOfXml("<BGFscene></BGFscene>"), StartsWith("line 1: 'BGFscene'"));
+    EXPECT_THAT(errorOfXml(kLinear + "<scene/>"), StartsWith("line 15: the scene has ended"));
+    std::string nested;
+    for (int i = 0; i < 100; ++i) nested += "<Group>";
+    EXPECT_THAT(errorOfXml(nested), HasSubstr("more than 64"));
+}
+
+TEST(EmbreeXml, IsRefusedWhereverItEnds) {
+    for (std::size_t size = 0; size + 1 < kLinear.size(); ++size)
+        EXPECT_THAT(errorOfXml(kLinear.substr(0, size)), StartsWith("line ")) << size;
+}
+
+}  // namespace
+}  // namespace hair::groom
