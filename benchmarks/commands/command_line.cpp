@@ -207,8 +207,15 @@ Without --scale lengths stay as they are, but that .hgl is always in metres: wha
 unit is applied. .hgl gets root triangles if IN has none. What a format can't hold is said on
 stderr. OUT may be IN; it is replaced when all is written, and an interrupt leaves it alone.)";
 
+constexpr const char* kCompareGroomsNotes =
+    R"(Samples, evenly along the strands of one file, are held against the polylines of the other. Precision
+is the share of B that is found in A, recall that of A found in B. Strand consistency is the greatest
+share of a strand of A that is found in one strand of B, mean over strands. docs/groom_compare.md
+defines all that is printed.)";
+
 void addGroomCommands(const CommandLine& line) {
-    CLI::App* const groom = line.app.add_subcommand("groom", "inspects and converts files of hair");
+    CLI::App* const groom =
+        line.app.add_subcommand("groom", "inspects, compares and converts files of hair");
     groom->require_subcommand(1);
     addCommand<GroomInfoOptions>(
         line, *groom, "info", "says what is in a file of hair and what is odd about it",
@@ -267,6 +274,52 @@ void addGroomCommands(const CommandLine& line) {
                 "--seed", options.seed,
                 "seed of the followers and of the choice of guides (default 1)");
             command.footer(kConvertNotes);
+        });
+    addCommand<CompareGroomsOptions>(
+        line, *groom, "compare", "says how alike two files of hair are, by the measures of papers",
+        compareGrooms, [](CLI::App& command, CompareGroomsOptions& options) {
+            command.add_option("a", options.first, "file of hair: the reference")
+                ->required()
+                ->type_name("A");
+            command.add_option("b", options.second, "file of hair")->required()->type_name("B");
+            command
+                .add_option(
+                    "--mesh", options.mesh,
+                    "head, in metres, to say how much of either is inside it")
+                ->type_name("FILE");
+            command
+                .add_option(
+                    "--scale-a", options.first_scale,
+                    "metres in A's unit (default what the file states, or a guess)")
+                ->check(CLI::PositiveNumber);
+            command.add_option("--scale-b", options.second_scale, "metres in B's unit")
+                ->check(CLI::PositiveNumber);
+            addRepeated(
+                command, "--threshold", options.thresholds,
+                "when a point counts as found: distance in mm and angle in degrees; repeatable "
+                "(default 2/20, 3/30, 4/40)")
+                ->type_name("MM/DEGREES");
+            command
+                .add_option(
+                    "--spacing", options.spacing,
+                    "greatest distance of samples along strands, mm (default 2)")
+                ->check(CLI::PositiveNumber);
+            command
+                .add_option(
+                    "--curvature-step", options.curvature_step,
+                    "arc that curvature is taken over, mm (default 5)")
+                ->check(CLI::PositiveNumber);
+            command.add_option(
+                "--consistency-samples", options.consistency_samples,
+                "samples of a strand that its consistency is made of (default 16); 0: all");
+            command.add_flag(
+                "--undirected", options.undirected,
+                "strands that run opposite ways are alike: B does not know root from tip");
+            command.add_option(
+                "--threads", options.threads, "threads (default as many as there are processors)");
+            command.add_flag("--json", options.json, "print JSON");
+            command.add_option("-o,--out", options.out, "write JSON to a file")->type_name("FILE");
+            command.footer(kCompareGroomsNotes);
         });
 }
 

@@ -94,6 +94,23 @@ int inspectGroom(const GroomInfoOptions& options);
 
 int convertGroom(const groom::ConvertOptions& options);
 
+struct CompareGroomsOptions {
+    std::filesystem::path first;  // the reference
+    std::filesystem::path second;
+    std::filesystem::path mesh;  // of a head; empty: none
+    std::optional<double> first_scale;  // metres in the file's unit
+    std::optional<double> second_scale;
+    std::vector<std::string> thresholds;  // "MM/DEGREES"; empty: the usual ones
+    double spacing = 2.0;  // mm
+    double curvature_step = 5.0;  // mm
+    std::uint32_t consistency_samples = 16;  // of a strand; 0: all
+    std::uint32_t threads = 0;  // 0: as many as the machine has
+    bool undirected = false;  // root and tip are not told apart
+    bool json = false;
+    std::filesystem::path out;  // JSON; empty: none
+};
+int compareGrooms(const CompareGroomsOptions& options);
+
 struct SimulateOptions {
     scene::SceneOptions scene;
     groom::RecordingOptions recording;
