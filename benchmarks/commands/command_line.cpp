@@ -213,9 +213,97 @@ is the share of B that is found in A, recall that of A found in B. Strand consis
 share of a strand of A that is found in one strand of B, mean over strands. docs/groom_compare.md
 defines all that is printed.)";
 
+constexpr const char* kFilterNotes =
+    R"(A strand is left out by the first test that it fails; how many each test leaves out is printed. Root
+triangles stay whose strands all stay. OUT is in IN's unit.)";
+
+constexpr const char* kSmoothNotes =
+    R"(The directions along each strand diffuse by that length of arc, and the strand is put together again
+from its root with the lengths of its segments: waves of a length w become smaller by
+1 / (1 + (2 pi MM / w)^2), and hair no shorter. Tips move. OUT is in IN's unit.)";
+
+constexpr const char* kFixNotes =
+    R"(Strands of one point, without length and equal to one before them are left out, so are points at the
+place of the one before them; strands of more than 256 points get 256. With --mesh strands move whole
+until their root is on the mesh, unless it is farther than --farthest-root, and points deeper than 1 mm
+inside it are put onto it, which changes lengths. With --scale OUT is in metres. What is left to a
+person: widths, roots that several strands share, a mesh that is not closed, a unit that is not stated.
+Files whose numbers are not finite are not read at all.)";
+
+void addEditedFiles(CLI::App& command, EditGroomOptions& options) {
+    command.add_option("in", options.in, "file of hair")->required()->type_name("IN");
+    command.add_option("out", options.out, "file to write; it may be IN")
+        ->required()
+        ->type_name("OUT");
+    command
+        .add_option(
+            "--scale", options.scale,
+            "metres in IN's unit (default what the file states, or a guess)")
+        ->check(CLI::PositiveNumber);
+}
+
+template <class Value>
+void addPositive(
+    CLI::App& command, const std::string& name, Value& value, const std::string& description) {
+    command.add_option(name, value, description)->check(CLI::PositiveNumber);
+}
+
+void addGroomEdits(const CommandLine& line, CLI::App& groom) {
+    addCommand<EditGroomOptions>(
+        line, groom, "filter", "leaves strands out of a file of hair", filterGroom,
+        [](CLI::App& command, EditGroomOptions& options) {
+            addEditedFiles(command, options);
+            addPositive(command, "--shortest", options.shortest, "leave out shorter strands, mm");
+            addPositive(command, "--longest", options.longest, "leave out longer strands, mm");
+            addPositive(
+                command, "--fewest-points", options.fewest_points,
+                "leave out strands of fewer points");
+            addPositive(
+                command, "--most-points", options.most_points, "leave out strands of more points");
+            command.add_option("--mesh", options.mesh, "head, in metres")->type_name("FILE");
+            addPositive(
+                command, "--farthest-root", options.farthest_root,
+                "leave out strands whose root is farther from the mesh, mm");
+            addPositive(
+                command, "--deepest", options.deepest,
+                "leave out strands with a point deeper inside the mesh, mm");
+            command.footer(kFilterNotes);
+        });
+    addCommand<EditGroomOptions>(
+        line, groom, "smooth", "smooths the strands of a file of hair", smoothGroom,
+        [](CLI::App& command, EditGroomOptions& options) {
+            addEditedFiles(command, options);
+            command.add_option("--length", options.smooth_length, "arc to smooth over, mm")
+                ->required()
+                ->check(CLI::PositiveNumber);
+            command.footer(kSmoothNotes);
+        });
+    addCommand<EditGroomOptions>(
+        line, groom, "resample", "spaces the points of strands evenly by arc length", resampleGroom,
+        [](CLI::App& command, EditGroomOptions& options) {
+            addEditedFiles(command, options);
+            command.add_option("--vertices", options.vertices, "points per strand (2 to 65536)")
+                ->check(CLI::Range(2u, 65536u));
+            addPositive(
+                command, "--spacing", options.spacing,
+                "distance of points, as near to it as goes, mm");
+        });
+    addCommand<EditGroomOptions>(
+        line, groom, "fix", "mends what 'groom info' finds, and says what it did", fixGroom,
+        [](CLI::App& command, EditGroomOptions& options) {
+            addEditedFiles(command, options);
+            command.add_option("--mesh", options.mesh, "head that the hair grows on, in metres")
+                ->type_name("FILE");
+            addPositive(
+                command, "--farthest-root", options.farthest_root,
+                "roots that are farther off the mesh stay, mm (default 10)");
+            command.footer(kFixNotes);
+        });
+}
+
 void addGroomCommands(const CommandLine& line) {
     CLI::App* const groom =
-        line.app.add_subcommand("groom", "inspects, compares and converts files of hair");
+        line.app.add_subcommand("groom", "inspects, compares, converts and edits files of hair");
     groom->require_subcommand(1);
     addCommand<GroomInfoOptions>(
         line, *groom, "info", "says what is in a file of hair and what is odd about it",
@@ -321,6 +409,7 @@ void addGroomCommands(const CommandLine& line) {
             command.add_option("-o,--out", options.out, "write JSON to a file")->type_name("FILE");
             command.footer(kCompareGroomsNotes);
         });
+    addGroomEdits(line, *groom);
 }
 
 // ---- run, gate, ablate, doctor ------------------------------------------------------------------

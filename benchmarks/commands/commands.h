@@ -94,6 +94,28 @@ int inspectGroom(const GroomInfoOptions& options);
 
 int convertGroom(const groom::ConvertOptions& options);
 
+// Edits of a file of hair; each command reads some of them.
+struct EditGroomOptions {
+    std::filesystem::path in;
+    std::filesystem::path out;
+    std::filesystem::path mesh;  // of a head, in metres; empty: none
+    std::optional<double> scale;  // metres in IN's unit
+    // Lengths in mm.
+    std::optional<double> shortest;
+    std::optional<double> longest;
+    std::optional<std::uint32_t> fewest_points;
+    std::optional<std::uint32_t> most_points;
+    std::optional<double> farthest_root;
+    std::optional<double> deepest;
+    double smooth_length = 0.0;
+    std::optional<std::uint32_t> vertices;
+    std::optional<double> spacing;
+};
+int filterGroom(const EditGroomOptions& options);
+int smoothGroom(const EditGroomOptions& options);
+int resampleGroom(const EditGroomOptions& options);
+int fixGroom(const EditGroomOptions& options);
+
 struct CompareGroomsOptions {
     std::filesystem::path first;  // the reference
     std::filesystem::path second;

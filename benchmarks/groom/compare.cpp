@@ -145,6 +145,11 @@ std::string tableText(const std::vector<report::Column>& columns) {
     return text;
 }
 
+// Less than a picometre is what sums and squares round to.
+std::string distanceText(double metres) {
+    return metres < 1e-12 ? "0 m" : report::lengthText(metres);
+}
+
 std::string percentText(double share) { return report::shortNumber(100.0 * share) + " %"; }
 
 std::string fileText(char name, const ComparedFile& file, const SampledStrands& sampled) {
@@ -192,13 +197,12 @@ std::string distancesText(const hair::groom::StrandComparison& found) {
                                  each.maximum};
         columns[0].cells.emplace_back(name);
         for (std::size_t i = 0; i < std::size(values); ++i)
-            columns[i + 1].cells.push_back(report::lengthText(values[i]));
+            columns[i + 1].cells.push_back(distanceText(values[i]));
     };
     add("  A to B", found.first_to_second);
     add("  B to A", found.second_to_first);
-    return tableText(columns) + "  Chamfer distance " + report::lengthText(chamfer(found)) +
-           " (mean of both means), Hausdorff distance " + report::lengthText(hausdorff(found)) +
-           '\n';
+    return tableText(columns) + "  Chamfer distance " + distanceText(chamfer(found)) +
+           " (mean of both means), Hausdorff distance " + distanceText(hausdorff(found)) + '\n';
 }
 
 std::string distributionsText(const hair::groom::StrandComparison& found) {
@@ -219,7 +223,7 @@ std::string distributionsText(const hair::groom::StrandComparison& found) {
             columns[i + 1].cells.push_back(text(values[i]));
         columns.back().cells.push_back(report::shortNumber(each.histogram_distance) + " of 2");
     };
-    add("  length", found.lengths, report::lengthText);
+    add("  length", found.lengths, distanceText);
     add("  curvature", found.curvatures,
         [](double value) { return report::shortNumber(value) + " /m"; });
     return tableText(columns);

@@ -52,13 +52,6 @@ void forEachStrand(std::uint32_t strands, std::uint32_t threads, MakeWork&& make
 
 // ---- Samples ------------------------------------------------------------------------------------
 
-double arcLength(std::span<const glm::vec3> points) {
-    double length = 0.0;
-    for (std::size_t k = 1; k < points.size(); ++k)
-        length += glm::distance(glm::dvec3(points[k - 1]), glm::dvec3(points[k]));
-    return length;
-}
-
 // A place on a strand and the unit vector along it there, towards the tip.
 struct StrandSample {
     glm::dvec3 point;
@@ -99,7 +92,7 @@ private:
 // The strands of a groom that have a length.
 struct MeasuredStrands {
     const StrandSet& set;
-    std::vector<std::uint32_t> strands;  // indices
+    std::vector<std::uint32_t> strands;  // indices, in an order of their own
     std::vector<double> lengths;  // m
     std::vector<std::size_t> first_samples;  // [strand + 1]
 
@@ -113,26 +106,39 @@ constexpr double kSpacingSlack = 1e-6;
 
 // What is wrong with strands is the error of the groom of that name.
 MeasuredStrands measureStrands(const StrandSet& set, double spacing, const char* name) {
-    MeasuredStrands measured{.set = set};
-    measured.first_samples.push_back(0);
+    std::vector<double> lengths(set.strandCount());
+    std::vector<std::uint32_t> with_length;
+    std::vector<glm::vec3> middles;
+    std::vector<std::array<std::uint32_t, 3>> places;  // triangles of one corner
     for (std::uint32_t i = 0; i < set.strandCount(); ++i) {
-        const double length = arcLength(set.strand(i));
-        if (!std::isfinite(length) || !std::isfinite(glm::length(glm::dvec3(set.strand(i)[0]))))
+        lengths[i] = arcLength(set.strand(i));
+        if (!std::isfinite(lengths[i]) || !std::isfinite(glm::length(glm::dvec3(set.strand(i)[0]))))
             throw engine::Error(
                 name, "strand " + std::to_string(i) + " has coordinates that are not finite");
-        if (length == 0.0) continue;
-        measured.strands.push_back(i);
-        measured.lengths.push_back(length);
-        const double samples = std::max(1.0, std::ceil(length / spacing * (1.0 - kSpacingSlack)));
-        if (samples > 1e9)
+        if (lengths[i] / spacing > 1e9)
             throw engine::Error(
                 name, "strand " + std::to_string(i) +
                           " would have more than a billion samples: is it in metres?");
-        measured.first_samples.push_back(
-            measured.first_samples.back() + static_cast<std::size_t>(samples));
+        if (lengths[i] == 0.0) continue;
+        const auto place = static_cast<std::uint32_t>(with_length.size());
+        places.push_back({place, place, place});
+        with_length.push_back(i);
+        middles.push_back(set.strand(i)[set.size(i) / 2]);
     }
-    if (measured.strands.empty())
-        throw engine::Error(name, "it has no strand with a length to compare");
+    if (with_length.empty()) throw engine::Error(name, "it has no strand with a length to compare");
+
+    // Neighbours in space one after the other: they look at the same part of the other groom.
+    MeasuredStrands measured{.set = set};
+    measured.first_samples.push_back(0);
+    for (const std::uint32_t place : buildTriangleTree(middles, places, 1).order) {
+        const double length = lengths[with_length[place]];
+        measured.strands.push_back(with_length[place]);
+        measured.lengths.push_back(length);
+        measured.first_samples.push_back(
+            measured.first_samples.back() +
+            static_cast<std::size_t>(
+                std::max(1.0, std::ceil(length / spacing * (1.0 - kSpacingSlack)))));
+    }
     return measured;
 }
 
@@ -208,13 +214,18 @@ public:
         }
     }
 
-    // The squared distance from the nearest segment.
-    double nearest(const glm::dvec3& point) const {
-        double least = std::numeric_limits<double>::infinity();
+    struct Nearest {
+        double square = std::numeric_limits<double>::infinity();  // of the distance
+        const Segment* segment = nullptr;
+    };
+
+    // The nearest segment, or none where it is not nearer than `bound`.
+    Nearest nearest(const glm::dvec3& point, double bound) const {
         struct Waiting {
             std::uint32_t node;
             double square;
         };
+        Nearest best{.square = bound * bound};
         std::array<Waiting, kMostWaiting> waiting;
         std::size_t count = 0;
         const auto wait = [&](std::uint32_t node) {
@@ -223,17 +234,20 @@ public:
         wait(0);
         while (count > 0) {
             const Waiting next = waiting[--count];
-            if (next.square >= least) continue;
+            if (next.square >= best.square) continue;
             const TriangleTree::Node& node = tree_.nodes[next.node];
-            for (std::size_t i = 0; i < node.count; ++i)
-                least = std::min(least, squareDistanceOf(point, segments_[node.first + i]));
+            for (std::size_t i = 0; i < node.count; ++i) {
+                const Segment& segment = segments_[node.first + i];
+                const double square = squareDistanceOf(point, segment);
+                if (square < best.square) best = {square, &segment};
+            }
             if (node.count > 0) continue;
             wait(node.first);
             wait(node.first + 1);
             if (waiting[count - 2].square < waiting[count - 1].square)
                 std::swap(waiting[count - 2], waiting[count - 1]);
         }
-        return least;
+        return best;
     }
 
 private:
@@ -335,14 +349,21 @@ public:
     }
 
     void operator()(std::uint32_t strand) {
+        // No distance is more than the one before it and the way from there.
+        glm::dvec3 before(0.0);
+        double bound = std::numeric_limits<double>::infinity();
         forEachSample(strands_, strand, [&](std::size_t k, const StrandSample& sample) {
-            const double square = tree_.nearest(sample.point);
-            found_.distances[strands_.first_samples[strand] + k] =
-                static_cast<float>(std::sqrt(square));
-            if (square > reach_) return;
+            const double way = glm::distance(sample.point, before);
+            auto nearest = tree_.nearest(sample.point, (bound + way) * (1.0 + 1e-9));
+            if (!nearest.segment)  // both are 0, or rounding
+                nearest = tree_.nearest(sample.point, std::numeric_limits<double>::infinity());
+            before = sample.point;
+            bound = std::sqrt(nearest.square);
+            found_.distances[strands_.first_samples[strand] + k] = static_cast<float>(bound);
+            if (nearest.square > reach_) return;
             const bool counts = kind_ == MatchedStrands::counted && isCounted(strand, k);
             match(
-                sample, counts ? MatchedStrands::counted : MatchedStrands::any,
+                sample, nearest, counts ? MatchedStrands::counted : MatchedStrands::any,
                 static_cast<std::uint32_t>(k + 1));
             for (std::size_t i = 0; i < limits_.size(); ++i)
                 found_.matched[i][strand] += is_matched_[i] ? 1u : 0u;
@@ -362,23 +383,26 @@ private:
         return k == (2 * run + 1) * samples / (2 * counted);
     }
 
-    void match(const StrandSample& sample, MatchedStrands kind, std::uint32_t number) {
+    // The nearest segment mostly matches.
+    void match(
+        const StrandSample& sample, const SegmentTree::Nearest& nearest, MatchedStrands kind,
+        std::uint32_t number) {
         is_matched_.assign(limits_.size(), false);
         std::size_t left = limits_.size();  // that nothing is found for
-        tree_.forEachNear(
-            sample.point, reach_, [&](const SegmentTree::Segment& other, double square) {
-                if (square > reach_) return true;
-                const glm::dvec3 along = glm::dvec3(other.to) - glm::dvec3(other.from);
-                double cosine = glm::dot(sample.tangent, along) / glm::length(along);
-                if (directions_ == StrandDirections::either_way) cosine = std::abs(cosine);
-                for (std::size_t i = 0; i < limits_.size(); ++i) {
-                    if (square > limits_[i].square || cosine < limits_[i].cosine) continue;
-                    left -= is_matched_[i] ? 0 : 1;
-                    is_matched_[i] = true;
-                    if (kind == MatchedStrands::counted) matches_.find(other.strand, i, number);
-                }
-                return left > 0 || kind == MatchedStrands::counted;
-            });
+        const auto goOn = [&](const SegmentTree::Segment& other, double square) {
+            if (square > reach_) return true;
+            const glm::dvec3 along = glm::dvec3(other.to) - glm::dvec3(other.from);
+            double cosine = glm::dot(sample.tangent, along) / glm::length(along);
+            if (directions_ == StrandDirections::either_way) cosine = std::abs(cosine);
+            for (std::size_t i = 0; i < limits_.size(); ++i) {
+                if (square > limits_[i].square || cosine < limits_[i].cosine) continue;
+                left -= is_matched_[i] ? 0 : 1;
+                is_matched_[i] = true;
+                if (kind == MatchedStrands::counted) matches_.find(other.strand, i, number);
+            }
+            return left > 0 || kind == MatchedStrands::counted;
+        };
+        if (goOn(*nearest.segment, nearest.square)) tree_.forEachNear(sample.point, reach_, goOn);
     }
 
     const MeasuredStrands& strands_;
@@ -401,7 +425,7 @@ Found findIn(
     double farthest = 0.0;
     for (const MatchThreshold& each : settings.thresholds)
         farthest = std::max(farthest, each.distance);
-    const SegmentTree tree(others, std::max(farthest, kShortestBox));
+    const SegmentTree tree(others, std::max(2.0 * farthest, kShortestBox));
     Found found{.distances = std::vector<float>(strands.first_samples.back())};
     found.matched.assign(settings.thresholds.size(), std::vector<std::uint32_t>(strands.count()));
     found.together = found.matched;

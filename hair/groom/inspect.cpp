@@ -45,15 +45,15 @@ struct Entry {
     auto operator<=>(const Entry&) const = default;
 };
 
-// How many of `count` rows of points are equal to one before them. Takes 16 bytes for each.
-std::uint32_t countDuplicates(
+// Those of `count` rows of points that are equal to one before them. Takes 16 bytes for each.
+std::vector<std::uint32_t> findDuplicates(
     std::uint32_t count, const std::function<std::span<const glm::vec3>(std::uint32_t)>& row) {
     std::vector<Entry> entries;
     entries.reserve(count);
     for (std::uint32_t i = 0; i < count; ++i) entries.push_back({hashOf(row(i)), i});
     std::ranges::sort(entries);
 
-    std::uint32_t duplicates = 0;
+    std::vector<std::uint32_t> duplicates;
     std::vector<std::uint32_t> unlike;  // rows with one hash: all but always one
     for (std::size_t i = 0; i < entries.size(); ++i) {
         if (i == 0 || entries[i].hash != entries[i - 1].hash) unlike.clear();
@@ -62,7 +62,7 @@ std::uint32_t countDuplicates(
             return std::ranges::equal(points, row(other));
         };
         if (std::ranges::any_of(unlike, equals)) {
-            ++duplicates;
+            duplicates.push_back(entries[i].row);
         } else {
             unlike.push_back(entries[i].row);
         }
@@ -267,6 +267,24 @@ Spread spreadOf(std::vector<float>& numbers) {
                 static_cast<double>(numbers.size())};
 }
 
+// ---- Lengths ------------------------------------------------------------------------------------
+
+double arcLength(std::span<const glm::vec3> points) {
+    double length = 0.0;
+    for (std::size_t k = 1; k < points.size(); ++k)
+        length += glm::distance(glm::dvec3(points[k - 1]), glm::dvec3(points[k]));
+    return length;
+}
+
+// ---- Duplicate strands --------------------------------------------------------------------------
+
+std::vector<std::uint32_t> duplicateStrands(const StrandSet& strands) {
+    std::vector<std::uint32_t> duplicates =
+        findDuplicates(strands.strandCount(), [&](std::uint32_t i) { return strands.strand(i); });
+    std::ranges::sort(duplicates);
+    return duplicates;
+}
+
 // ---- Findings -----------------------------------------------------------------------------------
 
 StrandFindings
@@ -276,10 +294,11 @@ inspect(const StrandSet& strands, const Mesh* mesh, std::optional<double> metres
     inspectLengths(strands, findings);
     inspectBox(strands, findings);
     inspectWidths(strands, findings);
-    findings.duplicate_strands =
-        countDuplicates(strands.strandCount(), [&](std::uint32_t i) { return strands.strand(i); });
-    findings.duplicate_roots = countDuplicates(
-        strands.strandCount(), [&](std::uint32_t i) { return strands.strand(i).first(1); });
+    findings.duplicate_strands = static_cast<std::uint32_t>(duplicateStrands(strands).size());
+    findings.duplicate_roots =
+        static_cast<std::uint32_t>(findDuplicates(strands.strandCount(), [&](std::uint32_t i) {
+                                       return strands.strand(i).first(1);
+                                   }).size());
 
     const Unit unit = strands.metres_per_unit
                           ? statedUnit(*strands.metres_per_unit)

@@ -71,6 +71,12 @@ struct StrandFindings {
 StrandFindings
 inspect(const StrandSet& strands, const Mesh* mesh, std::optional<double> metres_per_unit);
 
+// The length of a polyline.
+double arcLength(std::span<const glm::vec3> points);
+
+// Strands that are equal to one before them, point for point, ascending.
+std::vector<std::uint32_t> duplicateStrands(const StrandSet& strands);
+
 struct Unit {
     std::string name;  // "m", "cm", "mm" or "inch"; a stated one may be another: "0.5 m"
     double metres;  // its length
