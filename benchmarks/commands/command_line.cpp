@@ -207,16 +207,113 @@ Without --scale lengths stay as they are, but that .hgl is always in metres: wha
 unit is applied. .hgl gets root triangles if IN has none. What a format can't hold is said on
 stderr. OUT may be IN; it is replaced when all is written, and an interrupt leaves it alone.)";
 
-void addPointsPerStrand(CLI::App& command, std::uint32_t& points) {
+void addPointsPerStrand(
+    CLI::App& command, std::uint32_t& points, const std::string& name = "--points-per-strand") {
     command
         .add_option(
-            "--points-per-strand", points,
+            name, points,
             "points of each strand of a PLY file that has points alone, strand after strand")
         ->check(CLI::Range(1, 65536));
 }
 
+constexpr const char* kCompareGroomsNotes =
+    R"(Samples, evenly along the strands of one file, are held against the polylines of the other. Precision
+is the share of B that is found in A, recall that of A found in B. Strand consistency is the greatest
+share of a strand of A that is found in one strand of B, mean over strands. docs/groom_compare.md
+defines all that is printed.)";
+
+constexpr const char* kFilterNotes =
+    R"(A strand is left out by the first test that it fails; how many each test leaves out is printed. Root
+triangles stay whose strands all stay. OUT is in IN's unit.)";
+
+constexpr const char* kSmoothNotes =
+    R"(The directions along each strand diffuse by that length of arc, and the strand is put together again
+from its root with the lengths of its segments: waves of a length w become smaller by
+1 / (1 + (2 pi MM / w)^2), and hair no shorter. Tips move. OUT is in IN's unit.)";
+
+constexpr const char* kFixNotes =
+    R"(Strands of one point, without length and equal to one before them are left out, so are points at the
+place of the one before them; strands of more than 256 points get 256. With --mesh strands move whole
+until their root is on the mesh, unless it is farther than --farthest-root, and points deeper than 1 mm
+inside it are put onto it, which changes lengths. With --scale OUT is in metres. What is left to a
+person: widths, roots that several strands share, a mesh that is not closed, a unit that is not stated.
+Files whose numbers are not finite are not read at all.)";
+
+void addEditedFiles(CLI::App& command, EditGroomOptions& options) {
+    command.add_option("in", options.in, "file of hair")->required()->type_name("IN");
+    command.add_option("out", options.out, "file to write; it may be IN")
+        ->required()
+        ->type_name("OUT");
+    command
+        .add_option(
+            "--scale", options.scale,
+            "metres in IN's unit (default what the file states, or a guess)")
+        ->check(CLI::PositiveNumber);
+    addPointsPerStrand(command, options.points_per_strand);
+}
+
+template <class Value>
+void addPositive(
+    CLI::App& command, const std::string& name, Value& value, const std::string& description) {
+    command.add_option(name, value, description)->check(CLI::PositiveNumber);
+}
+
+void addGroomEdits(const CommandLine& line, CLI::App& groom) {
+    addCommand<EditGroomOptions>(
+        line, groom, "filter", "leaves strands out of a file of hair", filterGroom,
+        [](CLI::App& command, EditGroomOptions& options) {
+            addEditedFiles(command, options);
+            addPositive(command, "--shortest", options.shortest, "leave out shorter strands, mm");
+            addPositive(command, "--longest", options.longest, "leave out longer strands, mm");
+            addPositive(
+                command, "--fewest-points", options.fewest_points,
+                "leave out strands of fewer points");
+            addPositive(
+                command, "--most-points", options.most_points, "leave out strands of more points");
+            command.add_option("--mesh", options.mesh, "head, in metres")->type_name("FILE");
+            addPositive(
+                command, "--farthest-root", options.farthest_root,
+                "leave out strands whose root is farther from the mesh, mm");
+            addPositive(
+                command, "--deepest", options.deepest,
+                "leave out strands with a point deeper inside the mesh, mm");
+            command.footer(kFilterNotes);
+        });
+    addCommand<EditGroomOptions>(
+        line, groom, "smooth", "smooths the strands of a file of hair", smoothGroom,
+        [](CLI::App& command, EditGroomOptions& options) {
+            addEditedFiles(command, options);
+            command.add_option("--length", options.smooth_length, "arc to smooth over, mm")
+                ->required()
+                ->check(CLI::PositiveNumber);
+            command.footer(kSmoothNotes);
+        });
+    addCommand<EditGroomOptions>(
+        line, groom, "resample", "spaces the points of strands evenly by arc length", resampleGroom,
+        [](CLI::App& command, EditGroomOptions& options) {
+            addEditedFiles(command, options);
+            command.add_option("--vertices", options.vertices, "points per strand (2 to 65536)")
+                ->check(CLI::Range(2u, 65536u));
+            addPositive(
+                command, "--spacing", options.spacing,
+                "distance of points, as near to it as goes, mm");
+        });
+    addCommand<EditGroomOptions>(
+        line, groom, "fix", "mends what 'groom info' finds, and says what it did", fixGroom,
+        [](CLI::App& command, EditGroomOptions& options) {
+            addEditedFiles(command, options);
+            command.add_option("--mesh", options.mesh, "head that the hair grows on, in metres")
+                ->type_name("FILE");
+            addPositive(
+                command, "--farthest-root", options.farthest_root,
+                "roots that are farther off the mesh stay, mm (default 10)");
+            command.footer(kFixNotes);
+        });
+}
+
 void addGroomCommands(const CommandLine& line) {
-    CLI::App* const groom = line.app.add_subcommand("groom", "inspects and converts files of hair");
+    CLI::App* const groom =
+        line.app.add_subcommand("groom", "inspects, compares, converts and edits files of hair");
     groom->require_subcommand(1);
     addCommand<GroomInfoOptions>(
         line, *groom, "info", "says what is in a file of hair and what is odd about it",
@@ -278,6 +375,55 @@ void addGroomCommands(const CommandLine& line) {
                 "seed of the followers and of the choice of guides (default 1)");
             command.footer(kConvertNotes);
         });
+    addCommand<CompareGroomsOptions>(
+        line, *groom, "compare", "says how alike two files of hair are, by the measures of papers",
+        compareGrooms, [](CLI::App& command, CompareGroomsOptions& options) {
+            command.add_option("a", options.first, "file of hair: the reference")
+                ->required()
+                ->type_name("A");
+            command.add_option("b", options.second, "file of hair")->required()->type_name("B");
+            command
+                .add_option(
+                    "--mesh", options.mesh,
+                    "head, in metres, to say how much of either is inside it")
+                ->type_name("FILE");
+            command
+                .add_option(
+                    "--scale-a", options.first_scale,
+                    "metres in A's unit (default what the file states, or a guess)")
+                ->check(CLI::PositiveNumber);
+            command.add_option("--scale-b", options.second_scale, "metres in B's unit")
+                ->check(CLI::PositiveNumber);
+            addPointsPerStrand(command, options.first_points_per_strand, "--points-per-strand-a");
+            addPointsPerStrand(command, options.second_points_per_strand, "--points-per-strand-b");
+            addRepeated(
+                command, "--threshold", options.thresholds,
+                "when a point counts as found: distance in mm and angle in degrees; repeatable "
+                "(default 2/20, 3/30, 4/40)")
+                ->type_name("MM/DEGREES");
+            command
+                .add_option(
+                    "--spacing", options.spacing,
+                    "greatest distance of samples along strands, mm (default 2)")
+                ->check(CLI::PositiveNumber);
+            command
+                .add_option(
+                    "--curvature-step", options.curvature_step,
+                    "arc that curvature is taken over, mm (default 5)")
+                ->check(CLI::PositiveNumber);
+            command.add_option(
+                "--consistency-samples", options.consistency_samples,
+                "samples of a strand that its consistency is made of (default 16); 0: all");
+            command.add_flag(
+                "--undirected", options.undirected,
+                "strands that run opposite ways are alike: B does not know root from tip");
+            command.add_option(
+                "--threads", options.threads, "threads (default as many as there are processors)");
+            command.add_flag("--json", options.json, "print JSON");
+            command.add_option("-o,--out", options.out, "write JSON to a file")->type_name("FILE");
+            command.footer(kCompareGroomsNotes);
+        });
+    addGroomEdits(line, *groom);
 }
 
 // ---- run, gate, ablate, doctor ------------------------------------------------------------------

@@ -95,6 +95,48 @@ int inspectGroom(const GroomInfoOptions& options);
 
 int convertGroom(const groom::ConvertOptions& options);
 
+// Edits of a file of hair; each command reads some of them.
+struct EditGroomOptions {
+    std::filesystem::path in;
+    std::filesystem::path out;
+    std::filesystem::path mesh;  // of a head, in metres; empty: none
+    std::optional<double> scale;  // metres in IN's unit
+    std::uint32_t points_per_strand = 0;  // of IN, where it doesn't say it
+    // Lengths in mm.
+    std::optional<double> shortest;
+    std::optional<double> longest;
+    std::optional<std::uint32_t> fewest_points;
+    std::optional<std::uint32_t> most_points;
+    std::optional<double> farthest_root;
+    std::optional<double> deepest;
+    double smooth_length = 0.0;
+    std::optional<std::uint32_t> vertices;
+    std::optional<double> spacing;
+};
+int filterGroom(const EditGroomOptions& options);
+int smoothGroom(const EditGroomOptions& options);
+int resampleGroom(const EditGroomOptions& options);
+int fixGroom(const EditGroomOptions& options);
+
+struct CompareGroomsOptions {
+    std::filesystem::path first;  // the reference
+    std::filesystem::path second;
+    std::filesystem::path mesh;  // of a head; empty: none
+    std::optional<double> first_scale;  // metres in the file's unit
+    std::optional<double> second_scale;
+    std::uint32_t first_points_per_strand = 0;  // where the file doesn't say it
+    std::uint32_t second_points_per_strand = 0;
+    std::vector<std::string> thresholds;  // "MM/DEGREES"; empty: the usual ones
+    double spacing = 2.0;  // mm
+    double curvature_step = 5.0;  // mm
+    std::uint32_t consistency_samples = 16;  // of a strand; 0: all
+    std::uint32_t threads = 0;  // 0: as many as the machine has
+    bool undirected = false;  // root and tip are not told apart
+    bool json = false;
+    std::filesystem::path out;  // JSON; empty: none
+};
+int compareGrooms(const CompareGroomsOptions& options);
+
 struct SimulateOptions {
     scene::SceneOptions scene;
     groom::RecordingOptions recording;

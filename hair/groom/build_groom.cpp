@@ -88,11 +88,12 @@ void append(std::vector<Value>& to, const std::vector<Value>& from, std::span<co
 
 // The places of all strands, in order, a strand at a time.
 template <class Visit>
-void forEachPlace(const StrandSet& strands, std::uint32_t vertices, Visit&& visit) {
-    std::vector<Place> places(vertices);
+void forEachPlace(const StrandSet& strands, std::span<const std::uint32_t> sizes, Visit&& visit) {
+    std::vector<Place> places;
     for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
-        if (strands.size(i) == vertices) {
-            for (std::uint32_t k = 0; k < vertices; ++k) places[k] = {strands.first(i) + k, 0.0};
+        places.resize(sizes[i]);
+        if (strands.size(i) == sizes[i]) {
+            for (std::uint32_t k = 0; k < sizes[i]; ++k) places[k] = {strands.first(i) + k, 0.0};
         } else {
             spaceEvenly(strands.strand(i), strands.first(i), places);
         }
@@ -164,12 +165,20 @@ Groom fromFile(
 StrandSet resample(StrandSet strands, std::uint32_t vertices) {
     assert(vertices >= 2);
     if (strands.ends.empty() || commonSize(strands) == vertices) return strands;
-    const std::size_t count = std::size_t{strands.strandCount()} * vertices;
-    if (count > std::numeric_limits<std::uint32_t>::max())
+    return resample(
+        std::move(strands), std::vector<std::uint32_t>(strands.strandCount(), vertices));
+}
+
+StrandSet resample(StrandSet strands, std::span<const std::uint32_t> sizes) {
+    assert(sizes.size() == strands.strandCount());
+    const std::size_t count = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
+    if (count > std::numeric_limits<std::uint32_t>::max()) {
+        const auto [least, most] = std::ranges::minmax(sizes);
         throw engine::Error(
-            std::to_string(strands.strandCount()) + " strands of " + std::to_string(vertices) +
-                " points",
+            std::to_string(strands.strandCount()) + " strands of " +
+                (least == most ? "" : "up to ") + std::to_string(most) + " points",
             "more than 2^32 - 1 points in all");
+    }
 
     std::vector<glm::vec3> points;
     decltype(strands.widths.values) widths;
@@ -179,13 +188,13 @@ StrandSet resample(StrandSet strands, std::uint32_t vertices) {
     widths.reserve(strands.widths.values.empty() ? 0 : count);
     transparencies.reserve(strands.transparencies.values.empty() ? 0 : count);
     colors.reserve(strands.colors.values.empty() ? 0 : count);
-    forEachPlace(strands, vertices, [&](std::span<const Place> places) {
+    forEachPlace(strands, sizes, [&](std::span<const Place> places) {
         append(points, strands.points, places);
         append(widths, strands.widths.values, places);
         append(transparencies, strands.transparencies.values, places);
         append(colors, strands.colors.values, places);
     });
-    for (std::uint32_t i = 0; i < strands.strandCount(); ++i) strands.ends[i] = (i + 1) * vertices;
+    std::partial_sum(sizes.begin(), sizes.end(), strands.ends.begin());
     strands.points = std::move(points);
     strands.widths.values = std::move(widths);
     strands.transparencies.values = std::move(transparencies);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 
 #include "hair/groom/groom.h"
 #include "hair/groom/mesh/mesh.h"
@@ -24,6 +25,9 @@ Groom buildGroom(
 // already keeps them as they are. A strand of one point, or without length, stays at its place.
 // Throws engine::Error if that makes 2^32 points or more.
 StrandSet resample(StrandSet strands, std::uint32_t vertices);
+
+// The same with a number of points for each strand, at least 2 or what it has.
+StrandSet resample(StrandSet strands, std::span<const std::uint32_t> sizes);
 
 // Guides of the strands, with their widths and root triangles, resampled to `vertices` points; 0:
 // as many as their longest list has, 2 to 256. Takes lengths as metres.

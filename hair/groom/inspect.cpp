@@ -9,11 +9,13 @@
 #include <numeric>
 #include <span>
 #include <sstream>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "engine/error.h"
+#include "hair/groom/mesh/depth.h"
 #include "hair/groom/mesh/surface.h"
 
 namespace hair::groom {
@@ -43,15 +45,15 @@ struct Entry {
     auto operator<=>(const Entry&) const = default;
 };
 
-// How many of `count` rows of points are equal to one before them. Takes 16 bytes for each.
-std::uint32_t countDuplicates(
+// Those of `count` rows of points that are equal to one before them. Takes 16 bytes for each.
+std::vector<std::uint32_t> findDuplicates(
     std::uint32_t count, const std::function<std::span<const glm::vec3>(std::uint32_t)>& row) {
     std::vector<Entry> entries;
     entries.reserve(count);
     for (std::uint32_t i = 0; i < count; ++i) entries.push_back({hashOf(row(i)), i});
     std::ranges::sort(entries);
 
-    std::uint32_t duplicates = 0;
+    std::vector<std::uint32_t> duplicates;
     std::vector<std::uint32_t> unlike;  // rows with one hash: all but always one
     for (std::size_t i = 0; i < entries.size(); ++i) {
         if (i == 0 || entries[i].hash != entries[i - 1].hash) unlike.clear();
@@ -60,7 +62,7 @@ std::uint32_t countDuplicates(
             return std::ranges::equal(points, row(other));
         };
         if (std::ranges::any_of(unlike, equals)) {
-            ++duplicates;
+            duplicates.push_back(entries[i].row);
         } else {
             unlike.push_back(entries[i].row);
         }
@@ -125,83 +127,9 @@ Unit guessUnit(double root_extent, double median_length) {
 
 // ---- Strands on a mesh --------------------------------------------------------------------------
 
-// What counts as on the surface, m. Triangles stray from the round head that they stand for: by
-// e^2 / 8 r with edges of e = 2 cm on a head of r = 10 cm, a coarse one, by 0.5 mm. Hair is as wide
-// as 0.1 mm, and off by more than a millimetre shows.
-constexpr double kTolerance = 1e-3;
-
-// The outward direction at a point of a closed mesh.
-const glm::dvec3& pseudonormal(const ClosedMesh& mesh, const MeshPoint& at) {
-    const Pseudonormals& normals = mesh.normals[at.triangle];
-    for (std::size_t k = 0; k < 3; ++k) {
-        const auto corner = static_cast<int>(k);
-        if (at.weights[corner] == 1.0) return normals.corners[k];
-        if (at.weights[corner] == 0.0 && at.weights[(corner + 1) % 3] > 0.0 &&
-            at.weights[(corner + 2) % 3] > 0.0)
-            return normals.edges[(k + 1) % 3];
-    }
-    return normals.face;
-}
-
-// How deep points are inside a closed mesh. Most of a groom is well outside: cells of a grid that
-// have no part of the mesh in them, once found to be outside, answer for all points in them.
-class Depths {
-public:
-    explicit Depths(const ClosedMesh& mesh)
-        : mesh_(mesh), surface_(mesh.positions, mesh.triangles),
-          outside_(std::size_t{kCells} * kCells * kCells, Answer::unknown) {
-        low_ = glm::dvec3(std::numeric_limits<double>::max());
-        high_ = -low_;
-        for (const glm::vec3& position : mesh.positions) {
-            low_ = glm::min(low_, glm::dvec3(position));
-            high_ = glm::max(high_, glm::dvec3(position));
-        }
-        cell_ = (high_ - low_) / double{kCells};
-    }
-
-    // The depth of a point, m; 0 outside.
-    double operator()(const glm::dvec3& point) {
-        if (glm::any(glm::lessThan(point, low_)) || glm::any(glm::greaterThan(point, high_)))
-            return 0.0;
-        const glm::ivec3 cell =
-            glm::min(glm::ivec3((point - low_) / cell_), glm::ivec3(kCells - 1));
-        if (isOutside(cell)) return 0.0;
-        return std::max(-signedDistance(point), 0.0);
-    }
-
-private:
-    enum class Answer : std::uint8_t { unknown, outside, neither };
-    static constexpr int kCells = 64;  // along each side of the mesh's box
-
-    double signedDistance(const glm::dvec3& point) const {
-        const MeshPoint at = surface_(point);
-        const bool is_inside = glm::dot(point - at.position, pseudonormal(mesh_, at)) < 0.0;
-        return is_inside ? -at.distance : at.distance;
-    }
-
-    bool isOutside(const glm::ivec3& cell) {
-        Answer& answer =
-            outside_[static_cast<std::size_t>((cell.z * kCells + cell.y) * kCells + cell.x)];
-        if (answer == Answer::unknown) {
-            const glm::dvec3 centre = low_ + (glm::dvec3(cell) + 0.5) * cell_;
-            // A hair's breadth more than half the diagonal, for points on the cell's corners.
-            const double reach = 0.5001 * glm::length(cell_);
-            answer = signedDistance(centre) > reach ? Answer::outside : Answer::neither;
-        }
-        return answer == Answer::outside;
-    }
-
-    const ClosedMesh& mesh_;
-    NearestSurface surface_;
-    glm::dvec3 low_;
-    glm::dvec3 high_;
-    glm::dvec3 cell_;
-    std::vector<Answer> outside_;  // [z][y][x]
-};
-
 void inspectInside(
-    const StrandSet& strands, const ClosedMesh& mesh, double scale, MeshFindings& findings) {
-    Depths depthOf(mesh);
+    const StrandSet& strands, ClosedMesh mesh, double scale, MeshFindings& findings) {
+    DepthInside depthOf(std::move(mesh));
     std::uint32_t strands_inside = 0;
     std::size_t points_inside = 0;
     double deepest = 0.0;
@@ -210,7 +138,7 @@ void inspectInside(
         for (const glm::vec3& point : strands.strand(i)) {
             const double depth = depthOf(glm::dvec3(point) * scale);
             deepest = std::max(deepest, depth);
-            if (depth > kTolerance) ++inside;
+            if (depth > kSurfaceTolerance) ++inside;
         }
         points_inside += inside;
         if (inside > 0) ++strands_inside;
@@ -222,14 +150,14 @@ void inspectInside(
 
 // The mesh, in metres, has a triangle at least.
 MeshFindings inspectOnMesh(const StrandSet& strands, const Mesh& mesh, double metres_per_unit) {
-    MeshFindings findings{.tolerance = kTolerance};
+    MeshFindings findings{.tolerance = kSurfaceTolerance};
     const NearestSurface surface(mesh.positions, mesh.triangles);
     std::vector<float> distances;
     distances.reserve(strands.strandCount());
     for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
         const glm::dvec3 root = glm::dvec3(strands.strand(i)[0]) * metres_per_unit;
         const double distance = surface(root).distance;
-        if (distance > kTolerance) ++findings.roots_off_surface;
+        if (distance > kSurfaceTolerance) ++findings.roots_off_surface;
         distances.push_back(static_cast<float>(distance));
     }
     findings.root_distances = spreadOf(distances);
@@ -317,17 +245,18 @@ Unit statedUnit(double metres) {
 
 // ---- Spreads ------------------------------------------------------------------------------------
 
+double quantileOf(std::span<float> numbers, double share) {
+    const double rank = share * static_cast<double>(numbers.size() - 1);
+    const auto below = numbers.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::ranges::nth_element(numbers, below);
+    const double fraction = rank - std::floor(rank);
+    if (fraction == 0.0) return double{*below};
+    return std::lerp(double{*below}, double{*std::min_element(below + 1, numbers.end())}, fraction);
+}
+
 Spread spreadOf(std::vector<float>& numbers) {
     if (numbers.empty()) return {};
-    const auto quantile = [&](double share) {
-        const double rank = share * static_cast<double>(numbers.size() - 1);
-        const auto below = numbers.begin() + static_cast<std::ptrdiff_t>(rank);
-        std::ranges::nth_element(numbers, below);
-        const double fraction = rank - std::floor(rank);
-        if (fraction == 0.0) return double{*below};
-        return std::lerp(
-            double{*below}, double{*std::min_element(below + 1, numbers.end())}, fraction);
-    };
+    const auto quantile = [&](double share) { return quantileOf(numbers, share); };
     return {
         .minimum = quantile(0.0),
         .quartile1 = quantile(0.25),
@@ -336,6 +265,24 @@ Spread spreadOf(std::vector<float>& numbers) {
         .maximum = quantile(1.0),
         .mean = std::accumulate(numbers.begin(), numbers.end(), 0.0) /
                 static_cast<double>(numbers.size())};
+}
+
+// ---- Lengths ------------------------------------------------------------------------------------
+
+double arcLength(std::span<const glm::vec3> points) {
+    double length = 0.0;
+    for (std::size_t k = 1; k < points.size(); ++k)
+        length += glm::distance(glm::dvec3(points[k - 1]), glm::dvec3(points[k]));
+    return length;
+}
+
+// ---- Duplicate strands --------------------------------------------------------------------------
+
+std::vector<std::uint32_t> duplicateStrands(const StrandSet& strands) {
+    std::vector<std::uint32_t> duplicates =
+        findDuplicates(strands.strandCount(), [&](std::uint32_t i) { return strands.strand(i); });
+    std::ranges::sort(duplicates);
+    return duplicates;
 }
 
 // ---- Findings -----------------------------------------------------------------------------------
@@ -347,10 +294,11 @@ inspect(const StrandSet& strands, const Mesh* mesh, std::optional<double> metres
     inspectLengths(strands, findings);
     inspectBox(strands, findings);
     inspectWidths(strands, findings);
-    findings.duplicate_strands =
-        countDuplicates(strands.strandCount(), [&](std::uint32_t i) { return strands.strand(i); });
-    findings.duplicate_roots = countDuplicates(
-        strands.strandCount(), [&](std::uint32_t i) { return strands.strand(i).first(1); });
+    findings.duplicate_strands = static_cast<std::uint32_t>(duplicateStrands(strands).size());
+    findings.duplicate_roots =
+        static_cast<std::uint32_t>(findDuplicates(strands.strandCount(), [&](std::uint32_t i) {
+                                       return strands.strand(i).first(1);
+                                   }).size());
 
     const Unit unit = strands.metres_per_unit
                           ? statedUnit(*strands.metres_per_unit)

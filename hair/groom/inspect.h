@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,16 +25,21 @@ struct Spread {
     double mean = 0.0;
 };
 
+// What counts as on the surface, m. Triangles stray from the round head that they stand for: by
+// e^2 / 8 r with edges of e = 2 cm on a head of r = 10 cm, a coarse one, by 0.5 mm. Hair is as wide
+// as 0.1 mm, and off by more than a millimetre shows.
+inline constexpr double kSurfaceTolerance = 1e-3;
+
 // How strands lie on the mesh that they grow on; distances in metres.
 struct MeshFindings {
-    Spread root_distances;                // of roots from the surface, unsigned
+    Spread root_distances;  // of roots from the surface, unsigned
     std::uint32_t roots_off_surface = 0;  // further than `tolerance`
-    double tolerance = 0.0;               // m
+    double tolerance = 0.0;  // m
     // Absent where the mesh is not closed: then nothing is inside it.
     std::optional<std::uint32_t> strands_inside;  // with a vertex deeper than `tolerance`
-    std::optional<std::size_t> points_inside;     // deeper than `tolerance`
-    std::optional<double> deepest;                // m
-    std::string not_closed;                       // why the three are absent
+    std::optional<std::size_t> points_inside;  // deeper than `tolerance`
+    std::optional<double> deepest;  // m
+    std::string not_closed;  // why the three are absent
 };
 
 // What is in a groom and what is odd about it. Lengths are in the file's unit.
@@ -50,8 +56,8 @@ struct StrandFindings {
     std::uint32_t single_point_strands = 0;
     std::size_t zero_length_segments = 0;
     std::uint32_t zero_length_strands = 0;  // of two points or more
-    std::uint32_t duplicate_strands = 0;    // equal to one before them, point for point
-    std::uint32_t duplicate_roots = 0;      // at the root of one before them
+    std::uint32_t duplicate_strands = 0;  // equal to one before them, point for point
+    std::uint32_t duplicate_roots = 0;  // at the root of one before them
 
     std::string unit;  // "m", "cm", "mm" or "inch", or a stated one of another length: "0.5 m"
     bool unit_stated = false;
@@ -65,17 +71,27 @@ struct StrandFindings {
 StrandFindings
 inspect(const StrandSet& strands, const Mesh* mesh, std::optional<double> metres_per_unit);
 
+// The length of a polyline.
+double arcLength(std::span<const glm::vec3> points);
+
+// Strands that are equal to one before them, point for point, ascending.
+std::vector<std::uint32_t> duplicateStrands(const StrandSet& strands);
+
 struct Unit {
     std::string name;  // "m", "cm", "mm" or "inch"; a stated one may be another: "0.5 m"
-    double metres;     // its length
+    double metres;  // its length
     std::string reason;  // a sentence
 };
 
 Unit statedUnit(double metres);
 
-// Quartiles lie between two of the numbers where their rank isn't whole (Hyndman and Fan 1996,
-// Sample quantiles in statistical packages, definition 7). All 0 without numbers. Leaves them in
-// another order: a copy of them all would be too much.
+// The number that a share (0 to 1) of them is below, between two of them where its rank isn't whole
+// (Hyndman and Fan 1996, Sample quantiles in statistical packages, definition 7). At least one
+// number; leaves them in another order: a copy of them all would be too much.
+double quantileOf(std::span<float> numbers, double share);
+
+// Quartiles as quantileOf() has them; also leaves the numbers in another order. All 0 without
+// numbers.
 Spread spreadOf(std::vector<float>& numbers);
 
 }  // namespace hair::groom

@@ -1,0 +1,303 @@
+#include "hair/groom/edit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <sstream>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "engine/error.h"
+#include "hair/groom/build_groom.h"
+#include "hair/groom/inspect.h"
+#include "hair/groom/mesh/depth.h"
+#include "hair/groom/style/style.h"
+
+namespace hair::groom {
+namespace {
+
+constexpr std::uint32_t kMostPointsOfAGuide = 256;
+
+std::string millimetres(double metres) {
+    std::ostringstream text;
+    text << 1000.0 * metres << " mm";
+    return text.str();
+}
+
+// ---- Leaving out --------------------------------------------------------------------------------
+
+// The strands of these ascending indices, with the root triangles that are left of them.
+StrandSet keepStrands(const StrandSet& strands, std::span<const std::uint32_t> kept) {
+    if (kept.empty()) throw engine::Error("no strand is left");
+    if (kept.size() == strands.strandCount()) return strands;
+    StrandSet left = pickStrands(strands, kept);
+    for (const auto& triangle : strands.root_triangles) {
+        std::array<std::uint32_t, 3> corners{};
+        std::size_t found = 0;
+        for (const std::uint32_t strand : triangle) {
+            const auto at = std::ranges::lower_bound(kept, strand);
+            if (at == kept.end() || *at != strand) break;
+            corners[found++] = static_cast<std::uint32_t>(at - kept.begin());
+        }
+        if (found == 3) left.root_triangles.push_back(corners);
+    }
+    return left;
+}
+
+// A reason to leave a strand out.
+struct StrandTest {
+    std::string what;
+    std::function<bool(std::uint32_t strand)> fails;
+};
+
+EditedStrands leaveOut(const StrandSet& strands, const std::vector<StrandTest>& tests) {
+    EditedStrands edited;
+    for (const StrandTest& test : tests) edited.notes.push_back({"left out: " + test.what, 0});
+    std::vector<std::uint32_t> kept;
+    for (std::uint32_t strand = 0; strand < strands.strandCount(); ++strand) {
+        const auto failed =
+            std::ranges::find_if(tests, [&](const StrandTest& test) { return test.fails(strand); });
+        if (failed == tests.end()) {
+            kept.push_back(strand);
+        } else {
+            ++edited.notes[static_cast<std::size_t>(failed - tests.begin())].count;
+        }
+    }
+    edited.strands = keepStrands(strands, kept);
+    return edited;
+}
+
+// ---- Points -------------------------------------------------------------------------------------
+
+template <class Value>
+void keepPoints(std::vector<Value>& values, const std::vector<bool>& kept) {
+    if (values.empty()) return;
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (kept[i]) values[next++] = values[i];
+    values.resize(next);
+}
+
+// Without points at the place of the one before them; returns how many those were.
+std::uint64_t dropRepeatedPoints(StrandSet& strands) {
+    std::vector<bool> kept(strands.points.size(), true);
+    std::uint64_t dropped = 0;
+    std::uint32_t first = 0;
+    for (std::uint32_t& end : strands.ends) {
+        const std::uint32_t before = first;
+        for (std::uint32_t i = before + 1; i < end; ++i) {
+            if (strands.points[i] != strands.points[i - 1]) continue;
+            kept[i] = false;
+            ++dropped;
+        }
+        first = end;
+        end = static_cast<std::uint32_t>(std::count(
+            kept.begin() + std::ptrdiff_t{before}, kept.begin() + std::ptrdiff_t{end}, true));
+    }
+    std::partial_sum(strands.ends.begin(), strands.ends.end(), strands.ends.begin());
+    keepPoints(strands.points, kept);
+    keepPoints(strands.widths.values, kept);
+    keepPoints(strands.transparencies.values, kept);
+    keepPoints(strands.colors.values, kept);
+    return dropped;
+}
+
+// ---- On a mesh ----------------------------------------------------------------------------------
+
+std::span<glm::vec3> pointsOf(StrandSet& strands, std::uint32_t strand) {
+    return std::span(strands.points).subspan(strands.first(strand), strands.size(strand));
+}
+
+void putOnMesh(
+    EditedStrands& edited, const BodyMesh& mesh, double metres_per_unit, double farthest_root) {
+    DepthInside depthOf(mesh);
+    std::uint64_t moved = 0;
+    std::uint64_t too_far = 0;
+    std::uint64_t pushed = 0;
+    std::uint64_t pushed_strands = 0;
+    for (std::uint32_t strand = 0; strand < edited.strands.strandCount(); ++strand) {
+        const std::span<glm::vec3> points = pointsOf(edited.strands, strand);
+        const glm::dvec3 root = glm::dvec3(points[0]) * metres_per_unit;
+        const MeshPoint at = depthOf.nearest(root);
+        if (at.distance > farthest_root) {
+            ++too_far;
+        } else if (at.distance > kSurfaceTolerance) {
+            const glm::dvec3 way = (at.position - root) / metres_per_unit;
+            for (glm::vec3& point : points) point = glm::vec3(glm::dvec3(point) + way);
+            ++moved;
+        }
+        std::uint64_t here = 0;
+        for (glm::vec3& point : points.subspan(1)) {
+            const glm::dvec3 metres = glm::dvec3(point) * metres_per_unit;
+            if (depthOf(metres) <= kSurfaceTolerance) continue;
+            point = glm::vec3(depthOf.nearest(metres).position / metres_per_unit);
+            ++here;
+        }
+        pushed += here;
+        pushed_strands += here > 0 ? 1 : 0;
+    }
+    edited.notes.push_back(
+        {"moved: strands whose root was more than " + millimetres(kSurfaceTolerance) +
+             " off the mesh",
+         moved});
+    edited.notes.push_back(
+        {"left as they are: strands whose root is more than " + millimetres(farthest_root) +
+             " off the mesh",
+         too_far});
+    edited.notes.push_back(
+        {"put onto the mesh: points deeper than " + millimetres(kSurfaceTolerance) +
+             " inside, of " + std::to_string(pushed_strands) + " strands",
+         pushed});
+}
+
+}  // namespace
+
+// ---- Filter -------------------------------------------------------------------------------------
+
+EditedStrands filterStrands(
+    const StrandSet& strands, const FilterSettings& settings, const BodyMesh* mesh,
+    double metres_per_unit) {
+    if ((settings.farthest_root || settings.deepest) && !mesh)
+        throw engine::Error("there is no mesh to hold roots and points against");
+    std::optional<DepthInside> depth;
+    if (mesh) depth.emplace(*mesh);
+    const auto metresOf = [&](const glm::vec3& point) {
+        return glm::dvec3(point) * metres_per_unit;
+    };
+    const auto lengthOf = [&](std::uint32_t i) {
+        return arcLength(strands.strand(i)) * metres_per_unit;
+    };
+    std::vector<StrandTest> tests;
+    if (settings.shortest)
+        tests.push_back({"shorter than " + millimetres(*settings.shortest), [&](std::uint32_t i) {
+                             return lengthOf(i) < *settings.shortest;
+                         }});
+    if (settings.longest)
+        tests.push_back({"longer than " + millimetres(*settings.longest), [&](std::uint32_t i) {
+                             return lengthOf(i) > *settings.longest;
+                         }});
+    if (settings.fewest_points)
+        tests.push_back(
+            {"of fewer than " + std::to_string(*settings.fewest_points) + " points",
+             [&](std::uint32_t i) { return strands.size(i) < *settings.fewest_points; }});
+    if (settings.most_points)
+        tests.push_back(
+            {"of more than " + std::to_string(*settings.most_points) + " points",
+             [&](std::uint32_t i) { return strands.size(i) > *settings.most_points; }});
+    if (settings.farthest_root)
+        tests.push_back(
+            {"with the root more than " + millimetres(*settings.farthest_root) + " off the mesh",
+             [&](std::uint32_t i) {
+                 return depth->nearest(metresOf(strands.strand(i)[0])).distance >
+                        *settings.farthest_root;
+             }});
+    if (settings.deepest)
+        tests.push_back(
+            {"with a point more than " + millimetres(*settings.deepest) + " inside the mesh",
+             [&](std::uint32_t i) {
+                 return std::ranges::any_of(strands.strand(i), [&](const glm::vec3& point) {
+                     return (*depth)(metresOf(point)) > *settings.deepest;
+                 });
+             }});
+    return leaveOut(strands, tests);
+}
+
+// ---- Smooth -------------------------------------------------------------------------------------
+
+StrandSet smoothStrands(StrandSet strands, double length) {
+    std::vector<std::size_t> segments;  // of a strand, that have a length
+    std::vector<double> lengths;
+    std::vector<glm::dvec3> directions;
+    std::vector<double> above;  // the diagonal, of the eliminated matrix
+    for (std::uint32_t strand = 0; strand < strands.strandCount(); ++strand) {
+        const std::span<glm::vec3> points = pointsOf(strands, strand);
+        segments.clear();
+        lengths.clear();
+        directions.clear();
+        for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+            const glm::dvec3 along = glm::dvec3(points[k + 1]) - glm::dvec3(points[k]);
+            const double segment = glm::length(along);
+            if (segment == 0.0) continue;
+            segments.push_back(k);
+            lengths.push_back(segment);
+            directions.push_back(along / segment);
+        }
+        const std::size_t count = lengths.size();
+        if (count < 2) continue;
+        const std::vector<glm::dvec3> rough = directions;
+
+        // Thomas's algorithm. Between neighbours i and i + 1 flows length^2 over the way from one
+        // middle to the next.
+        const auto flow = [&](std::size_t i) {
+            return length * length / (0.5 * (lengths[i] + lengths[i + 1]));
+        };
+        above.assign(count, 0.0);
+        for (std::size_t i = 0; i < count; ++i) {
+            const double before = i > 0 ? flow(i - 1) : 0.0;
+            const double after = i + 1 < count ? flow(i) : 0.0;
+            const double diagonal =
+                lengths[i] + before + after + (i > 0 ? before * above[i - 1] : 0.0);
+            above[i] = -after / diagonal;
+            const glm::dvec3 carried = i > 0 ? before * directions[i - 1] : glm::dvec3(0.0);
+            directions[i] = (lengths[i] * directions[i] + carried) / diagonal;
+        }
+        for (std::size_t i = count - 1; i-- > 0;) directions[i] -= above[i] * directions[i + 1];
+
+        glm::dvec3 place(points[0]);
+        std::size_t next = 0;
+        for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+            if (next < count && segments[next] == k) {
+                const double size = glm::length(directions[next]);
+                // Directions that cancel out leave none: the strand keeps its own there.
+                const glm::dvec3 along = size > 1e-12 ? directions[next] / size : rough[next];
+                place += lengths[next++] * along;
+            }
+            points[k + 1] = glm::vec3(place);
+        }
+    }
+    return strands;
+}
+
+// ---- Resample -----------------------------------------------------------------------------------
+
+StrandSet resampleBySpacing(StrandSet strands, double spacing) {
+    std::vector<std::uint32_t> sizes(strands.strandCount());
+    for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
+        const double length = arcLength(strands.strand(i));
+        const double pieces = std::clamp(std::round(length / spacing), 1.0, 4e9);
+        sizes[i] = length > 0.0 ? static_cast<std::uint32_t>(pieces) + 1 : strands.size(i);
+    }
+    return resample(std::move(strands), sizes);
+}
+
+// ---- Fix ----------------------------------------------------------------------------------------
+
+EditedStrands fixStrands(
+    const StrandSet& strands, const BodyMesh* mesh, double metres_per_unit, double farthest_root) {
+    const std::vector<std::uint32_t> duplicates = duplicateStrands(strands);
+    EditedStrands edited = leaveOut(
+        strands,
+        {{"strands of a single point", [&](std::uint32_t i) { return strands.size(i) == 1; }},
+         {"strands without length",
+          [&](std::uint32_t i) { return arcLength(strands.strand(i)) == 0.0; }},
+         {"strands equal to one before them",
+          [&](std::uint32_t i) { return std::ranges::binary_search(duplicates, i); }}});
+    edited.notes.push_back(
+        {"left out: points at the place of the one before", dropRepeatedPoints(edited.strands)});
+
+    std::vector<std::uint32_t> sizes;
+    std::uint64_t longer = 0;
+    for (std::uint32_t i = 0; i < edited.strands.strandCount(); ++i) {
+        longer += edited.strands.size(i) > kMostPointsOfAGuide ? 1 : 0;
+        sizes.push_back(std::min(edited.strands.size(i), kMostPointsOfAGuide));
+    }
+    if (longer > 0) edited.strands = resample(std::move(edited.strands), sizes);
+    edited.notes.push_back({"resampled to 256 points: strands of more", longer});
+    if (mesh) putOnMesh(edited, *mesh, metres_per_unit, farthest_root);
+    return edited;
+}
+
+}  // namespace hair::groom

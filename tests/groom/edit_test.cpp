@@ -1,0 +1,248 @@
+#include "hair/groom/edit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gmock/gmock.h>
+
+#include "hair/groom/inspect.h"
+#include "hair/groom/mesh/body_mesh.h"
+#include "tests/error_text.h"
+#include "tests/groom/style/sample_strand_set.h"
+#include "tests/simulation/closed_meshes.h"
+
+namespace hair::groom {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+StrandSet strandSet(const std::vector<std::vector<glm::vec3>>& strands) {
+    StrandSet set;
+    for (const auto& points : strands) {
+        set.points.insert(set.points.end(), points.begin(), points.end());
+        set.ends.push_back(static_cast<std::uint32_t>(set.points.size()));
+    }
+    return set;
+}
+
+std::vector<std::uint64_t> countsOf(const EditedStrands& edited) {
+    std::vector<std::uint64_t> counts;
+    for (const EditNote& note : edited.notes) counts.push_back(note.count);
+    return counts;
+}
+
+// ---- Filter -------------------------------------------------------------------------------------
+
+// In centimetres: 1, 2, 3 and 4 long, of 2, 3, 2 and 2 points.
+StrandSet fourLengths() {
+    StrandSet set = strandSet(
+        {{{0, 0, 0}, {0, 1, 0}},
+         {{1, 0, 0}, {1, 1, 0}, {1, 2, 0}},
+         {{2, 0, 0}, {2, 3, 0}},
+         {{3, 0, 0}, {3, 4, 0}}});
+    set.root_triangles = {{0, 1, 2}, {1, 2, 3}};
+    return set;
+}
+
+TEST(FilterStrands, LeavesOutByTheFirstTestThatAStrandFails) {
+    FilterSettings settings;
+    settings.shortest = 0.015;
+    settings.longest = 0.035;
+    settings.most_points = 2;
+    const EditedStrands edited = filterStrands(fourLengths(), settings, nullptr, 0.01);
+    EXPECT_THAT(countsOf(edited), ElementsAre(1, 1, 1));
+    EXPECT_THAT(edited.notes[0].what, HasSubstr("shorter than 15 mm"));
+    EXPECT_THAT(edited.strands.points, ElementsAre(glm::vec3(2, 0, 0), glm::vec3(2, 3, 0)));
+    EXPECT_TRUE(edited.strands.root_triangles.empty());
+}
+
+TEST(FilterStrands, KeepsTrianglesWhoseStrandsStay) {
+    FilterSettings settings;
+    settings.shortest = 0.015;
+    const EditedStrands edited = filterStrands(fourLengths(), settings, nullptr, 0.01);
+    EXPECT_EQ(edited.strands.strandCount(), 3u);
+    EXPECT_THAT(edited.strands.root_triangles, ElementsAre(std::array<std::uint32_t, 3>{0, 1, 2}));
+}
+
+TEST(FilterStrands, HoldsStrandsAgainstAMesh) {
+    const BodyMesh ball = bodyMesh(simulation::makeSphere(glm::dvec3(0.0), 0.1, 4));
+    const StrandSet strands = strandSet(
+        {{{0, 0.1f, 0}, {0, 0.2f, 0}},  // good
+         {{0, 0.105f, 0}, {0, 0.2f, 0}},  // 5 mm off
+         {{0, 0.1f, 0}, {0, 0.08f, 0}}});  // 20 mm inside
+    FilterSettings settings;
+    settings.farthest_root = 0.002;
+    settings.deepest = 0.015;
+    const EditedStrands edited = filterStrands(strands, settings, &ball, 1.0);
+    EXPECT_THAT(countsOf(edited), ElementsAre(1, 1));
+    EXPECT_EQ(edited.strands.strandCount(), 1u);
+    EXPECT_EQ(edited.strands.points[1], glm::vec3(0, 0.2f, 0));
+    EXPECT_THAT(
+        errorText([&] { filterStrands(strands, settings, nullptr, 1.0); }), HasSubstr("no mesh"));
+}
+
+TEST(FilterStrands, RefusesToLeaveNothing) {
+    FilterSettings settings;
+    settings.shortest = 1.0;
+    EXPECT_EQ(
+        errorText([&] { filterStrands(fourLengths(), settings, nullptr, 0.01); }),
+        "no strand is left");
+    EXPECT_EQ(
+        errorText([&] { filterStrands(StrandSet{}, {}, nullptr, 1.0); }), "no strand is left");
+}
+
+// ---- Smooth -------------------------------------------------------------------------------------
+
+TEST(SmoothStrands, KeepsStraightStrandsRootsAndSegments) {
+    const StrandSet straight = strandSet({{{1, 2, 3}, {1, 2, 5}, {1, 2, 6}, {1, 2, 10}}});
+    EXPECT_EQ(smoothStrands(straight, 3.0).points, straight.points);
+    const StrandSet bent = strandSet({{{1, 2, 3}, {2, 2, 3}, {2, 4, 3}, {2, 4, 3}, {2, 4, 4}}});
+    const StrandSet smooth = smoothStrands(bent, 0.7);
+    EXPECT_EQ(smooth.points[0], bent.points[0]);
+    for (std::size_t k = 1; k < 5; ++k)
+        EXPECT_NEAR(
+            glm::distance(smooth.points[k - 1], smooth.points[k]),
+            glm::distance(bent.points[k - 1], bent.points[k]), 2e-6)  // ten roundings of floats
+            << k;
+    EXPECT_EQ(smooth.points[2], smooth.points[3]);
+}
+
+// Two segments of the lengths 1 and directions x and y. With the flow length^2 / 1 = 1 between them
+// (2 -1; -1 2) t = (x, y): t = ((2, 1) / 3, (1, 2) / 3).
+TEST(SmoothStrands, SolvesTheDiffusionOfTwoDirections) {
+    const StrandSet smooth = smoothStrands(strandSet({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}}), 1.0);
+    const double root = std::sqrt(5.0);
+    EXPECT_NEAR(smooth.points[1].x, 2.0 / root, 1e-7);
+    EXPECT_NEAR(smooth.points[1].y, 1.0 / root, 1e-7);
+    EXPECT_NEAR(smooth.points[2].x, 3.0 / root, 2e-7);
+    EXPECT_NEAR(smooth.points[2].y, 3.0 / root, 2e-7);
+}
+
+// A wave of small slope along x, ten periods: slopes in the middle become smaller by
+// 1 / (1 + k^2 length^2), whatever the points' distance.
+TEST(SmoothStrands, DampsWavesByTheirLength) {
+    for (const int points_per_wave : {50, 100}) {
+        constexpr double kSlope = 1e-2;
+        const double wave_number = 2.0 * std::numbers::pi;  // of waves of length 1
+        std::vector<glm::vec3> wave;
+        for (int i = 0; i <= 10 * points_per_wave; ++i) {
+            const double x = static_cast<double>(i) / points_per_wave;
+            wave.emplace_back(x, kSlope / wave_number * std::sin(wave_number * x), 0.0);
+        }
+        const double length = 0.2;
+        const StrandSet smooth = smoothStrands(strandSet({wave}), length);
+        double steepest = 0.0;
+        for (int i = 4 * points_per_wave; i < 6 * points_per_wave; ++i) {
+            const glm::dvec3 along = glm::dvec3(smooth.points[static_cast<std::size_t>(i) + 1]) -
+                                     glm::dvec3(smooth.points[static_cast<std::size_t>(i)]);
+            steepest = std::max(steepest, std::abs(along.y / along.x));
+        }
+        const double wanted = kSlope / (1.0 + std::pow(wave_number * length, 2));
+        // Finite volumes: (k h)^2 / 12 with 50 points a wave is 0.13 %; floats round slopes by 1e-6
+        // over a segment of 0.01 m at x = 5, of 4e-3.
+        EXPECT_NEAR(steepest / wanted, 1.0, 0.01) << points_per_wave;
+    }
+}
+
+TEST(SmoothStrands, KeepsCirclesAwayFromTheirEnds) {
+    std::vector<glm::vec3> circle;
+    for (int degree = 0; degree <= 720; ++degree) {
+        const double turn = degree * std::numbers::pi / 180.0;
+        circle.emplace_back(std::cos(turn), std::sin(turn), 0.0);
+    }
+    const StrandSet smooth = smoothStrands(strandSet({circle}), 0.2);
+    // Twenty lengths from either end nothing of them is left: exp(-20). The chord turns by a
+    // degree.
+    for (std::size_t k = 230; k < 490; ++k) {
+        const glm::dvec3 a = smooth.points[k - 1];
+        const glm::dvec3 b = smooth.points[k];
+        const glm::dvec3 c = smooth.points[k + 1];
+        const double turn = std::acos(glm::dot(glm::normalize(b - a), glm::normalize(c - b)));
+        EXPECT_NEAR(turn * 180.0 / std::numbers::pi, 1.0, 0.01) << k;
+    }
+}
+
+// ---- Resample -----------------------------------------------------------------------------------
+
+TEST(ResampleBySpacing, SpacesEachStrandAsNearAsItGoes) {
+    StrandSet set = strandSet({{{0, 0, 0}, {4, 0, 0}}, {{0, 1, 0}, {0.3f, 1, 0}}, {{5, 5, 5}}});
+    set.widths.values = {2, 6, 1, 1, 7};
+    const StrandSet even = resampleBySpacing(set, 1.3);
+    EXPECT_EQ(even.ends, (std::vector<std::uint32_t>{4, 6, 7}));
+    EXPECT_THAT(
+        even.points, ElementsAre(
+                         glm::vec3(0, 0, 0), glm::vec3(static_cast<float>(4.0 / 3.0), 0, 0),
+                         glm::vec3(static_cast<float>(8.0 / 3.0), 0, 0), glm::vec3(4, 0, 0),
+                         glm::vec3(0, 1, 0), glm::vec3(0.3f, 1, 0), glm::vec3(5, 5, 5)));
+    EXPECT_FLOAT_EQ(even.widths.values[1], 2.0f + 4.0f / 3.0f);
+    EXPECT_EQ(even.widths.values.back(), 7.0f);
+}
+
+// ---- Fix ----------------------------------------------------------------------------------------
+
+TEST(FixStrands, LeavesOutWhatShowsNothing) {
+    StrandSet set = strandSet(
+        {{{9, 9, 9}},
+         {{0, 0, 0}, {0, 1, 0}},
+         {{1, 1, 1}, {1, 1, 1}},
+         {{2, 0, 0}, {2, 0, 0}, {2, 1, 0}, {2, 1, 0}, {2, 2, 0}},
+         {{0, 0, 0}, {0, 1, 0}}});
+    set.widths.values = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+    set.root_triangles = {{1, 3, 3}, {1, 2, 3}};
+    const EditedStrands edited = fixStrands(set, nullptr, 1.0, 0.01);
+    EXPECT_THAT(countsOf(edited), ElementsAre(1, 1, 1, 2, 0));
+    EXPECT_EQ(edited.strands.ends, (std::vector<std::uint32_t>{2, 5}));
+    EXPECT_THAT(
+        edited.strands.points, ElementsAre(
+                                   glm::vec3(0, 0, 0), glm::vec3(0, 1, 0), glm::vec3(2, 0, 0),
+                                   glm::vec3(2, 1, 0), glm::vec3(2, 2, 0)));
+    EXPECT_EQ(edited.strands.widths.values, (std::vector<float>{2, 3, 6, 8, 10}));
+    EXPECT_THAT(edited.strands.root_triangles, ElementsAre(std::array<std::uint32_t, 3>{0, 1, 1}));
+    // What is mended isn't found again.
+    const StrandFindings found = inspect(edited.strands, nullptr, {});
+    EXPECT_EQ(found.single_point_strands, 0u);
+    EXPECT_EQ(found.zero_length_strands, 0u);
+    EXPECT_EQ(found.zero_length_segments, 0u);
+    EXPECT_EQ(found.duplicate_strands, 0u);
+    EXPECT_THAT(countsOf(fixStrands(edited.strands, nullptr, 1.0, 0.01)), testing::Each(0));
+}
+
+TEST(FixStrands, ResamplesStrandsThatAreTooLongForGuides) {
+    std::vector<glm::vec3> many;
+    for (int i = 0; i < 300; ++i) many.emplace_back(0.01f * static_cast<float>(i), 0.0f, 0.0f);
+    const EditedStrands edited =
+        fixStrands(strandSet({many, {{0, 1, 0}, {1, 1, 0}}}), nullptr, 1.0, 0.01);
+    EXPECT_EQ(edited.strands.ends, (std::vector<std::uint32_t>{256, 258}));
+    EXPECT_EQ(edited.strands.points[255], many.back());
+    EXPECT_EQ(edited.notes.back().count, 1u);
+}
+
+TEST(FixStrands, PutsStrandsOntoAMesh) {
+    const Mesh sphere = simulation::makeSphere(glm::dvec3(0.0), 0.1, 4);
+    const BodyMesh ball = bodyMesh(sphere);
+    // In centimetres, as the strands are; the first is 5 mm off, the second 50 mm.
+    const StrandSet strands = strandSet(
+        {{{0, 10.5f, 0}, {0, 12, 0}},
+         {{15, 0, 0}, {16, 0, 0}},
+         {{0, 0, 10}, {0, 0, 9}, {0, 0, 11}}});
+    const EditedStrands edited = fixStrands(strands, &ball, 0.01, 0.01);
+    EXPECT_THAT(countsOf(edited), ElementsAre(0, 0, 0, 0, 0, 1, 1, 1));
+    // The sphere's triangles are up to 0.2 mm inside the ball.
+    EXPECT_NEAR(edited.strands.points[0].y, 10.0, 0.02);
+    EXPECT_NEAR(edited.strands.points[1].y - edited.strands.points[0].y, 1.5, 1e-5);
+    EXPECT_EQ(edited.strands.points[2], strands.points[2]);
+    EXPECT_NEAR(edited.strands.points[5].z, 10.0, 0.02);
+    EXPECT_EQ(edited.strands.points[6], strands.points[6]);
+    EXPECT_NEAR(arcLength(edited.strands.strand(2)), 1.0, 0.05);
+    const StrandFindings found = inspect(edited.strands, &sphere, 0.01);
+    EXPECT_EQ(found.mesh->roots_off_surface, 1u);
+    EXPECT_EQ(found.mesh->strands_inside, 0u);
+}
+
+}  // namespace
+}  // namespace hair::groom
