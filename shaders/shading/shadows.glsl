@@ -60,8 +60,8 @@ const float kOwnDepth = 1.0;
 // surface's slope is taken over this, m; where it ends it falls by kEdge times that.
 const float kReach = 0.008;
 const float kEdge = 3.0;
-// Against Mitsuba's light by the cosine, paths among strands are about right at 0.75 as they are.
-const float kStraight = 0.75;
+// Against Mitsuba's light by the cosine, paths among strands are about right at 0.8 as they are.
+const float kStraight = 0.8;
 const float kEyeH = 2.4;  // 1 + 2 mu at mu = 0.7
 
 vec2 planeSlope(ShadowMap map, vec3 clip, vec3 normal, float side) {
@@ -176,15 +176,17 @@ LightPath filteredPath(ShadowMap map, ShadowPoint point, float half_width) {
     return path;
 }
 
-// Metres along the light's view to the first strand in a texel. Where there is none the surface is
-// as `here` if it ends on skin; else it ends, and falls steeply.
+// Metres along the light's view to the first strand in a texel. Where skin is before it the hair
+// ends on that, and its surface counts as one that goes on at `here`; where there is neither it
+// falls steeply.
 float firstStrand(ShadowMap map, vec2 texel, float side, float here) {
     ivec2 at = ivec2(map.corner) + ivec2(clamp(texel, vec2(0.0), vec2(side - 1.0)));
     float depth = texelFetch(hair_depths, at, 0).r;
-    if (isNearer(depth, float(kFarDepth))) return viewDepth(map.depth_terms, depth);
-    bool skin = kMeshShadows != 0 && (map.casters & kMeshesCast) != 0u &&
-                isNearer(texelFetch(mesh_depths, at, 0).r, float(kFarDepth));
-    return here + (skin ? 0.0 : kEdge * kReach);
+    if (kMeshShadows != 0 && (map.casters & kMeshesCast) != 0u &&
+        isNearer(texelFetch(mesh_depths, at, 0).r, depth))
+        return here;
+    return isNearer(depth, float(kFarDepth)) ? viewDepth(map.depth_terms, depth)
+                                             : here + kEdge * kReach;
 }
 
 // Light that grazes hair leaves it again sooner than light that comes straight in. A deep medium
