@@ -23,7 +23,7 @@ struct MatchThreshold {
     double angle;  // degrees
 };
 
-// Nam et al. 2019, Strand-accurate multi-view hair capture, and who compares with it.
+// Sklyarova et al. 2023, Neural Haircut, and who compares with it.
 inline constexpr std::array kUsualThresholds{
     MatchThreshold{2e-3, 20.0}, MatchThreshold{3e-3, 30.0}, MatchThreshold{4e-3, 40.0}};
 
