@@ -20,7 +20,7 @@ namespace {
 using testing::HasSubstr;
 
 // Coordinates are floats of up to 0.2 m: half a unit in their last place is 7.5e-9 m.
-constexpr double kRounding = 2e-8;
+constexpr double kDistanceRounding = 2e-8;
 
 StrandSet strandsOf(const std::vector<std::vector<glm::vec3>>& strands) {
     StrandSet set;
@@ -45,14 +45,14 @@ TEST(CompareStrands, MeasuresTheDistanceOfParallelStrands) {
     const auto found =
         compared(strandsOf({upright(0, 0.1f)}), strandsOf({upright(0, 0.1f, 0.0025f)}));
     EXPECT_EQ(found.first.samples, 50u);  // 2 mm apart
-    EXPECT_NEAR(found.first.length, 0.1, kRounding);
+    EXPECT_NEAR(found.first.length, 0.1, kDistanceRounding);
     EXPECT_FALSE(found.equal);
     for (const DistanceFindings& each : {found.first_to_second, found.second_to_first}) {
-        EXPECT_NEAR(each.mean, 2.5e-3, kRounding);
+        EXPECT_NEAR(each.mean, 2.5e-3, kDistanceRounding);
         EXPECT_NEAR(each.mean_square, 6.25e-6, 1e-10);
-        EXPECT_NEAR(each.median, 2.5e-3, kRounding);
-        EXPECT_NEAR(each.percentile99, 2.5e-3, kRounding);
-        EXPECT_NEAR(each.maximum, 2.5e-3, kRounding);
+        EXPECT_NEAR(each.median, 2.5e-3, kDistanceRounding);
+        EXPECT_NEAR(each.percentile99, 2.5e-3, kDistanceRounding);
+        EXPECT_NEAR(each.maximum, 2.5e-3, kDistanceRounding);
     }
     ASSERT_EQ(found.scores.size(), 3u);
     for (const MatchScores& each : found.scores) {
@@ -82,7 +82,7 @@ TEST(CompareStrands, TellsRootFromTipUnlessItMayNot) {
     const StrandSet up = strandsOf({upright(0, 0.1f)});
     const StrandSet down = strandsOf({upright(0.1f, 0)});
     EXPECT_EQ(compared(up, down).scores[2].f1, 0.0);
-    EXPECT_LT(compared(up, down).first_to_second.maximum, kRounding);
+    EXPECT_LT(compared(up, down).first_to_second.maximum, kDistanceRounding);
     CompareSettings settings;
     settings.directions = StrandDirections::either_way;
     EXPECT_EQ(compared(up, down, settings).scores[0].f1, 1.0);
@@ -136,12 +136,12 @@ TEST(CompareStrands, CountsEveryStrandOnceInConsistency) {
 // Of 100 mm the first 50.25: then 25 samples at 0.75, 2.75 ... 48.75 mm from its end.
 TEST(CompareStrands, TellsBothWaysApart) {
     const auto found = compared(strandsOf({upright(0, 0.1f)}), strandsOf({upright(0, 0.05025f)}));
-    EXPECT_NEAR(found.first_to_second.mean, 12.375e-3, kRounding);
-    EXPECT_NEAR(found.first_to_second.median, 0.375e-3, kRounding);
-    EXPECT_NEAR(found.first_to_second.maximum, 48.75e-3, kRounding);
+    EXPECT_NEAR(found.first_to_second.mean, 12.375e-3, kDistanceRounding);
+    EXPECT_NEAR(found.first_to_second.median, 0.375e-3, kDistanceRounding);
+    EXPECT_NEAR(found.first_to_second.maximum, 48.75e-3, kDistanceRounding);
     // Rank 0.9 * 49 = 44.1: a tenth of the way from the 20th of those to the next.
-    EXPECT_NEAR(found.first_to_second.percentile90, 38.95e-3, kRounding);
-    EXPECT_LT(found.second_to_first.maximum, kRounding);
+    EXPECT_NEAR(found.first_to_second.percentile90, 38.95e-3, kDistanceRounding);
+    EXPECT_LT(found.second_to_first.maximum, kDistanceRounding);
     const double recalls[] = {26.0 / 50, 27.0 / 50, 27.0 / 50};
     for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_EQ(found.scores[i].precision, 1.0);
@@ -156,7 +156,7 @@ TEST(CompareStrands, DoesNotDependOnVertices) {
         dense.emplace_back(0.0f, 0.1f * static_cast<float>(k) / 64.0f, 0.0f);
     const auto found = compared(strandsOf({upright(0, 0.1f)}), strandsOf({dense}));
     EXPECT_EQ(found.scores[0].f1, 1.0);
-    EXPECT_LT(found.first_to_second.maximum, kRounding);
+    EXPECT_LT(found.first_to_second.maximum, kDistanceRounding);
     EXPECT_LT(found.curvatures.earth_movers_distance, 1e-3);  // a radius of a kilometre
 }
 
@@ -165,12 +165,12 @@ TEST(CompareStrands, MovesLengthsOntoEachOther) {
         strandsOf({upright(0, 0.01f), upright(0, 0.02f, 1), upright(0, 0.03f, 2)});
     const StrandSet longer =
         strandsOf({upright(0, 0.02f), upright(0, 0.03f, 1), upright(0, 0.04f, 2)});
-    EXPECT_NEAR(compared(three, longer).lengths.earth_movers_distance, 0.01, kRounding);
+    EXPECT_NEAR(compared(three, longer).lengths.earth_movers_distance, 0.01, kDistanceRounding);
     // A half and two thirds are 30 mm long, the others 10 mm.
     const auto found = compared(
         strandsOf({upright(0, 0.01f), upright(0, 0.03f, 1)}),
         strandsOf({upright(0, 0.01f), upright(0, 0.03f, 1), upright(0, 0.03f, 2)}));
-    EXPECT_NEAR(found.lengths.earth_movers_distance, 0.02 / 6.0, kRounding);
+    EXPECT_NEAR(found.lengths.earth_movers_distance, 0.02 / 6.0, kDistanceRounding);
     EXPECT_NEAR(found.lengths.histogram_distance, 2.0 / 6.0, 1e-12);
 }
 
@@ -219,7 +219,7 @@ TEST(CompareStrands, LeavesOutWhatHasNoLength) {
     EXPECT_EQ(found.first.without_length, 2u);
     EXPECT_EQ(found.scores[0].f1, 1.0);
     EXPECT_EQ(found.scores[0].strand_consistency, 1.0);
-    EXPECT_LT(found.first_to_second.maximum, kRounding);
+    EXPECT_LT(found.first_to_second.maximum, kDistanceRounding);
 }
 
 TEST(CompareStrands, IsTheSameWithAnyNumberOfThreads) {
