@@ -30,7 +30,8 @@ TEST(Scene, SeparatesSettingsFromTheReadersMembers) {
         "s.json",
         R"({"$schema": "x", "seed": 7, "sweep": {"/strands/density": [64.0, 16], "/render/msaa": [1]}})"));
     EXPECT_EQ(scene.document.text(), R"({"seed":7})");
-    EXPECT_THAT(scene.resolved.text(), HasSubstr(R"("seed":7,"groom":{"file":"","mesh":"",)"));
+    EXPECT_THAT(
+        scene.resolved.text(), HasSubstr(R"("seed":7,"groom":{"file":"","points_per_strand":0,)"));
     EXPECT_THAT(scene.resolved.text(), Not(HasSubstr("sweep")));
     EXPECT_EQ(scene.settings.seed, 7u);
     ASSERT_EQ(scene.axes.size(), 2u);
