@@ -382,13 +382,11 @@ void findOnHead(
         if (deep > hair::groom::kSurfaceTolerance) ++inside;
         deepest = std::max(deepest, deep);
     }
-    const bool can_be_mended = guess.hair.rotation() == guess.head.rotation();
+    const bool can_be_mended = guess.hair.rotation() == glm::dmat3(1.0);
     const std::string mend =
-        can_be_mended
-            ? "hairbench groom fix HAIR OUT --scale " +
-                  report::plainNumber(guess.hair.metres_per_unit) + " --mesh HEAD"
-            : std::string("turn it with the head's axes where the hair is made, then hairbench "
-                          "groom fix HAIR OUT --mesh HEAD");
+        (can_be_mended ? "" : "turn the hair to +y up where it is made, then ") +
+        ("hairbench groom fix HAIR OUT --scale " + report::plainNumber(guess.hair.metres_per_unit) +
+         " --mesh HEAD");
     if (off > 0)
         scene.warnings.push_back(
             shareText(off, count) + " of the roots are more than 1 mm off the head, up to " +
@@ -397,8 +395,7 @@ void findOnHead(
         scene.warnings.push_back(
             shareText(inside, count) +
             " of the strands are deeper than 1 mm inside the head, up to " +
-            report::lengthText(deepest) + "; " + mend +
-            " puts their points onto it, groom filter --deepest leaves them out");
+            report::lengthText(deepest) + "; to have their points on it: " + mend);
 }
 
 void findPlacement(const LayGuess& guess, GroomScene& scene) {
