@@ -33,6 +33,7 @@ constexpr const char* kExamples = R"(Examples:
   hairbench render scenes/strong_wind.json -o out/%04d.png --frames 0:240
   hairbench validate scenes/*.json
   hairbench groom info hair.hair --mesh head.glb
+  hairbench groom scene hair.hair --head head.glb -o hair.json
   hairbench groom convert hair.hair guides.hgl --guides 200 --vertices 16 --scale 0.01
   hairbench simulate scenes/nod.json --frames 60 --export nod.usda
   hairbench reference scenes/strong_wind.json -o truth.exr --samples 256
@@ -222,6 +223,11 @@ is the share of B that is found in A, recall that of A found in B. Strand consis
 share of a strand of A that is found in one strand of B, mean over strands. docs/groom_compare.md
 defines all that is printed.)";
 
+constexpr const char* kGroomSceneNotes =
+    R"(Units and axes that files do not state are those in which the most roots lie on the head; the share,
+that of the second best and every other choice are printed. A head that is not in metres with +y up is
+copied beside SCENE as .head.obj, in those, without its materials. Then: hairbench render SCENE -o x.png)";
+
 constexpr const char* kFilterNotes =
     R"(A strand is left out by the first test that it fails; how many each test leaves out is printed. Root
 triangles stay whose strands all stay. OUT is in IN's unit.)";
@@ -331,6 +337,27 @@ void addGroomCommands(const CommandLine& line) {
                 ->check(CLI::PositiveNumber);
             addPointsPerStrand(command, options.points_per_strand);
             command.add_flag("--json", options.json, "print JSON");
+        });
+    addCommand<GroomSceneOptions>(
+        line, *groom, "scene", "makes a scene of a file of hair and a head", makeGroomScene,
+        [](CLI::App& command, GroomSceneOptions& options) {
+            command.add_option("file", options.hair, "file of hair")->required()->type_name("FILE");
+            command
+                .add_option("--head", options.head, "mesh that the hair grows on and collides with")
+                ->type_name("HEAD");
+            command.add_option("-o,--out", options.out, "scene file to write (.json)")
+                ->required()
+                ->type_name("SCENE");
+            command
+                .add_option(
+                    "--scale", options.scale,
+                    "metres in FILE's unit (default what the file states, or a guess)")
+                ->check(CLI::PositiveNumber);
+            command.add_option("--up", options.up, "axis that is up in FILE (default a guess)")
+                ->check(CLI::IsMember({"x", "y", "z"}));
+            addPointsPerStrand(command, options.points_per_strand);
+            command.add_flag("--force", options.force, "replace SCENE if it is there");
+            command.footer(kGroomSceneNotes);
         });
     addCommand<groom::ConvertOptions>(
         line, *groom, "convert",

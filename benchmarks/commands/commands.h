@@ -93,6 +93,17 @@ struct GroomInfoOptions {
 };
 int inspectGroom(const GroomInfoOptions& options);
 
+struct GroomSceneOptions {
+    std::filesystem::path hair;
+    std::filesystem::path head;  // mesh that the hair grows on; empty: none
+    std::filesystem::path out;
+    std::optional<double> scale;  // metres in the unit of the file of hair
+    std::string up;  // axis that is up there: "x", "y" or "z"; empty: guessed
+    std::uint32_t points_per_strand = 0;  // where the file doesn't say it
+    bool force = false;  // replace files that are there
+};
+int makeGroomScene(const GroomSceneOptions& options);
+
 int convertGroom(const groom::ConvertOptions& options);
 
 // Edits of a file of hair; each command reads some of them.

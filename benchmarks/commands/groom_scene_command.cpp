@@ -1,0 +1,129 @@
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/commands/commands.h"
+#include "benchmarks/groom/groom_scene.h"
+#include "benchmarks/groom/placement.h"
+#include "benchmarks/report/change.h"
+#include "benchmarks/report/text.h"
+#include "benchmarks/scene/json.h"
+#include "benchmarks/scene/schema.h"
+#include "benchmarks/scene/settings_json.h"
+#include "engine/error.h"
+#include "engine/files.h"
+#include "hair/groom/files.h"
+#include "hair/groom/mesh/import_mesh.h"
+
+namespace benchmarks::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+// "hair.json" -> "hair.head.obj"
+fs::path convertedHead(const fs::path& scene) {
+    fs::path path = scene;
+    return path.replace_extension(".head.obj");
+}
+
+void refuseToReplace(const fs::path& path, const GroomSceneOptions& options) {
+    if (!options.force && fs::exists(path))
+        throw engine::Error(path.string(), "is there already; --force replaces it");
+}
+
+// As a scene at `scene` names a file.
+std::string namedFrom(const fs::path& scene, const fs::path& file) {
+    const fs::path folder = fs::absolute(scene).parent_path();
+    return fs::absolute(file).lexically_proximate(folder.lexically_normal()).generic_string();
+}
+
+bool formatStatesAxes(const fs::path& head) {
+    const std::string extension = hair::groom::lowerCaseExtension(head);
+    return extension == ".glb" || extension == ".gltf" || extension == ".dae";
+}
+
+void say(const std::string& what, const std::string& text) {
+    std::cout << what << ": " << text << std::endl;  // work may follow
+}
+
+// What the scene has of the head.
+struct SceneHead {
+    std::optional<hair::groom::Mesh> mesh;  // metres, +y up
+    fs::path file;  // the head's own, or a converted copy
+};
+
+SceneHead headOf(
+    const GroomSceneOptions& options, std::optional<hair::groom::Mesh> mesh,
+    const groom::LayGuess& guess) {
+    if (!mesh) return {};
+    say("head", groom::layText(guess.head) + ". " + guess.head_reason);
+    if (guess.head.changesNothing()) return {.mesh = std::move(mesh), .file = options.head};
+    const fs::path copy = convertedHead(options.out);
+    refuseToReplace(copy, options);
+    mesh = groom::placed(*std::move(mesh), guess.head);
+    engine::writeFileAtomically(copy, [&](std::ostream& out) { groom::writeObj(*mesh, out); });
+    say("wrote", copy.string() + ": the head in metres, +y up, without its materials");
+    return {.mesh = std::move(mesh), .file = copy};
+}
+
+std::string descriptionOf(const GroomSceneOptions& options, const groom::LayGuess& guess) {
+    std::string text = "Hair of " + options.hair.filename().string() + ", " +
+                       groom::layText(guess.hair) + ": " + guess.hair_reason;
+    if (!options.head.empty())
+        text += " Head of " + options.head.filename().string() + ", " + groom::layText(guess.head) +
+                ".";
+    return text;
+}
+
+int axisNamed(const std::string& name) { return name == "x" ? 0 : name == "y" ? 1 : 2; }
+
+}  // namespace
+
+int makeGroomScene(const GroomSceneOptions& options) {
+    refuseToReplace(options.out, options);
+    hair::groom::StrandSet strands =
+        hair::groom::importStrands(options.hair, options.points_per_strand);
+    if (strands.strandCount() == 0)
+        throw engine::Error(options.hair.string(), "there are no strands");
+    std::optional<hair::groom::Mesh> mesh;
+    if (!options.head.empty()) mesh = hair::groom::importMesh(options.head);
+    engine::checkWritable(options.out);
+    say("read", options.hair.string() + ", " + report::countText(strands.strandCount(), "strand") +
+                    ", " + report::countText(strands.points.size(), "point"));
+
+    groom::LayHints hints{.head_is_stated = formatStatesAxes(options.head)};
+    hints.metres_per_unit = options.scale;
+    if (!options.up.empty()) hints.up = axisNamed(options.up);
+    const groom::LayGuess guess = groom::guessLay(strands, mesh ? &*mesh : nullptr, hints);
+    say("hair", groom::layText(guess.hair) + ". " + guess.hair_reason);
+    const SceneHead head = headOf(options, std::move(mesh), guess);
+
+    const double stated = strands.metres_per_unit.value_or(1.0);
+    std::vector<std::string> warnings = strands.warnings;
+    strands = groom::placed(std::move(strands), guess.hair);
+    groom::GroomScene made = groom::sceneOf(strands, head.mesh ? &*head.mesh : nullptr, guess);
+    hair::Settings& settings = made.settings;
+    settings.description = descriptionOf(options, guess);
+    settings.groom.file = namedFrom(options.out, options.hair);
+    settings.groom.points_per_strand = options.points_per_strand;
+    settings.groom.placement.scale = static_cast<float>(guess.hair.metres_per_unit / stated);
+    if (head.mesh) settings.groom.mesh = namedFrom(options.out, head.file);
+    scene::checkSettings(settings);
+
+    for (const groom::SceneChoice& choice : made.choices) say(choice.name, choice.reason);
+    warnings.insert(warnings.end(), made.warnings.begin(), made.warnings.end());
+    for (const std::string& warning : warnings)
+        std::cerr << "hairbench: " << options.hair.string() << ": " << warning << '\n';
+    engine::writeFileAtomically(options.out, scene::changedFields(settings).dump(2) + '\n');
+    say("wrote",
+        options.out.string() + "; hairbench render " + options.out.string() + " -o picture.png");
+    return report::kOk;
+}
+
+}  // namespace benchmarks::commands

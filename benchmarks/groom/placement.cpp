@@ -1,0 +1,339 @@
+#include "benchmarks/groom/placement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "benchmarks/report/text.h"
+#include "hair/groom/inspect.h"
+#include "hair/groom/mesh/surface.h"
+
+namespace benchmarks::groom {
+namespace {
+
+constexpr std::array kUnits{1.0, 0.01, 0.001, 0.0254};  // m
+constexpr std::array kTurns{0, 90, 180, 270};  // deg
+
+const char* axisName(int axis) { return std::array{"x", "y", "z"}[static_cast<std::size_t>(axis)]; }
+
+glm::dmat3 turned(double degrees, const glm::dvec3& axis) {
+    return glm::dmat3(glm::rotate(glm::dmat4(1.0), glm::radians(degrees), axis));
+}
+
+// A quarter turn that takes an axis to +y.
+glm::dmat3 uprightOf(int up) {
+    if (up == 0) return turned(90.0, {0.0, 0.0, 1.0});
+    if (up == 2) return turned(-90.0, {1.0, 0.0, 0.0});
+    return glm::dmat3(1.0);
+}
+
+// ---- The head by itself -------------------------------------------------------------------------
+
+struct Box {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()};
+    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+
+    void add(const glm::dvec3& point) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+    glm::dvec3 centre() const { return 0.5 * (low + high); }
+    double longestSide() const {
+        const glm::dvec3 size = high - low;
+        return std::max({size.x, size.y, size.z});
+    }
+};
+
+Box boxOf(const hair::groom::Mesh& mesh) {
+    Box box;
+    for (const glm::vec3& position : mesh.positions) box.add(position);
+    return box;
+}
+
+// A head is 0.2 to 0.3 m high, a bust 0.5 m, a whole figure 1.8 m. The scatter is a factor: it
+// leaves a figure in metres, and a head alone in any unit, where they are.
+constexpr double kHeadSize = 0.35;
+constexpr double kHeadScatter = 1.8;
+constexpr double kSmallestHead = 0.12;
+constexpr double kLargestHead = 2.5;
+
+bool isSizeOfHead(double metres) { return metres >= kSmallestHead && metres <= kLargestHead; }
+
+double headUnit(double size) {
+    const auto misfit = [size](double metres) {
+        return std::abs(std::log(size * metres / kHeadSize) / std::log(kHeadScatter));
+    };
+    return *std::ranges::min_element(kUnits, {}, misfit);
+}
+
+// ---- Roots on the head --------------------------------------------------------------------------
+
+constexpr std::uint32_t kMostSamples = 500;
+
+// Some strands, evenly among all.
+std::vector<std::uint32_t> sampled(const hair::groom::StrandSet& strands) {
+    std::vector<std::uint32_t> samples(std::min(strands.strandCount(), kMostSamples));
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        samples[i] =
+            static_cast<std::uint32_t>(std::uint64_t{i} * strands.strandCount() / samples.size());
+    return samples;
+}
+
+class Roots {
+public:
+    Roots(const hair::groom::StrandSet& strands, const hair::groom::Mesh& head)
+        : surface_(head.positions, head.triangles), head_(boxOf(head)) {
+        for (const std::uint32_t i : sampled(strands)) roots_.push_back(strands.strand(i)[0]);
+    }
+
+    const Box& head() const { return head_; }
+
+    // Attempts that place the hair alike on the head have the same fit to the bit.
+    RootFit fit(const Lay& hair, const Lay& head) {
+        const glm::dmat3 rotation = glm::transpose(head.rotation()) * hair.rotation();
+        std::array<double, 10> key{hair.metres_per_unit / head.metres_per_unit};
+        for (int i = 0; i < 9; ++i)
+            key[static_cast<std::size_t>(i) + 1] = std::round(rotation[i / 3][i % 3]);
+        const auto [entry, is_new] = fits_.try_emplace(key);
+        if (is_new) entry->second = measured(rotation, hair, head);
+        return entry->second;
+    }
+
+    // How far the roots' middle is above that of the head, in units of the head's size.
+    double above(const Lay& hair, const Lay& head) const {
+        glm::dvec3 middle(0.0);
+        for (const glm::vec3& root : roots_)
+            middle += hair(root) / static_cast<double>(roots_.size());
+        const glm::dvec3 centre = head(glm::vec3(head_.centre()));
+        return (middle - centre).y / (head.metres_per_unit * head_.longestSide());
+    }
+
+private:
+    RootFit measured(const glm::dmat3& rotation, const Lay& hair, const Lay& head) const {
+        std::vector<float> distances;
+        distances.reserve(roots_.size());
+        std::size_t near = 0;
+        for (const glm::vec3& root : roots_) {
+            const glm::dvec3 point =
+                rotation * (hair.metres_per_unit / head.metres_per_unit * glm::dvec3(root));
+            const double distance = surface_(point).distance * head.metres_per_unit;
+            if (distance <= kFitTolerance) ++near;
+            distances.push_back(static_cast<float>(distance));
+        }
+        return {
+            .share = static_cast<double>(near) / static_cast<double>(roots_.size()),
+            .median = hair::groom::quantileOf(distances, 0.5)};
+    }
+
+    hair::groom::NearestSurface surface_;  // of the head as its file has it
+    Box head_;
+    std::vector<glm::vec3> roots_;
+    std::map<std::array<double, 10>, RootFit> fits_;
+};
+
+// ---- Hair by itself -----------------------------------------------------------------------------
+
+// Up in the file of hair, with how much more speaks for it than for the next axis: strands leave
+// the scalp along its normal, which is up in the mean, and hang down from there.
+std::pair<int, double> upOf(const hair::groom::StrandSet& strands) {
+    glm::dvec3 leaves(0.0);
+    glm::dvec3 hangs(0.0);
+    for (const std::uint32_t i : sampled(strands)) {
+        const auto points = strands.strand(i);
+        const glm::dvec3 root = points.front();
+        const auto apart =
+            std::ranges::find_if(points, [&](const glm::vec3& p) { return glm::dvec3(p) != root; });
+        if (apart == points.end()) continue;
+        leaves += glm::normalize(glm::dvec3(*apart) - root);
+        const glm::dvec3 tip = glm::dvec3(points.back()) - root;
+        if (glm::length(tip) > 0.0) hangs -= glm::normalize(tip);
+    }
+    std::array<std::pair<double, int>, 3> scores;
+    for (int axis = 0; axis < 3; ++axis)
+        scores[static_cast<std::size_t>(axis)] = {
+            (leaves[axis] + std::max(0.0, hangs[axis])) /
+                std::max(1.0, static_cast<double>(std::min(strands.strandCount(), kMostSamples))),
+            axis};
+    std::ranges::sort(scores, std::greater());
+    return {scores[0].second, scores[0].first - scores[1].first};
+}
+
+// ---- The guess ----------------------------------------------------------------------------------
+
+// Less of the roots on the head than this, and no attempt tells anything.
+constexpr double kLeastShare = 0.3;
+// Attempts are as good as one another within this.
+constexpr double kEqualShare = 0.02;
+constexpr double kEqualMedian = 5e-4;  // m
+
+std::string percent(double share) { return report::shortNumber(100.0 * share) + " %"; }
+
+std::string fitText(const RootFit& fit) {
+    return percent(fit.share) + " of the roots are within " + report::lengthText(kFitTolerance) +
+           " of the head, the median one " + report::lengthText(fit.median) + " from it";
+}
+
+bool placesAlike(const LayAttempt& a, const LayAttempt& b) {
+    const auto relative = [](const LayAttempt& attempt) {
+        return glm::transpose(attempt.head.rotation()) * attempt.hair.rotation();
+    };
+    if (a.hair.metres_per_unit != b.hair.metres_per_unit) return false;
+    const glm::dmat3 difference = relative(a) - relative(b);
+    double most = 0.0;
+    for (int i = 0; i < 9; ++i) most = std::max(most, std::abs(difference[i / 3][i % 3]));
+    return most < 0.5;
+}
+
+// How much an attempt supposes: that hair and head differ is more than that both are unusual.
+int suppositions(const LayAttempt& attempt) {
+    return 4 * (attempt.hair.turn != attempt.head.turn) + 4 * (attempt.hair.up != attempt.head.up) +
+           2 * (attempt.hair.metres_per_unit != attempt.head.metres_per_unit) +
+           (attempt.head.up != 1);
+}
+
+std::vector<LayAttempt> attemptsOf(
+    Roots& roots, double head_metres, const std::vector<double>& units, const LayHints& hints) {
+    std::vector<LayAttempt> attempts;
+    for (int head_up = 0; head_up < 3; ++head_up) {
+        if (hints.head_is_stated && head_up != 1) continue;
+        const Lay head{.metres_per_unit = head_metres, .up = head_up};
+        for (int up = 0; up < 3; ++up) {
+            if (hints.up && up != *hints.up) continue;
+            for (const int turn : kTurns)
+                for (const double unit : units) {
+                    const Lay hair{.metres_per_unit = unit, .up = up, .turn = turn};
+                    attempts.push_back({hair, head, roots.fit(hair, head)});
+                }
+        }
+    }
+    return attempts;
+}
+
+const LayAttempt& bestOf(const std::vector<LayAttempt>& attempts, const Roots& roots) {
+    const LayAttempt* first = attempts.data();
+    for (const LayAttempt& each : attempts)
+        if (std::tuple(-each.fit.share, each.fit.median) <
+            std::tuple(-first->fit.share, first->fit.median))
+            first = &each;
+    const LayAttempt* best = nullptr;
+    std::tuple<double, int> least{};
+    for (const LayAttempt& each : attempts) {
+        if (each.fit.share < first->fit.share - kEqualShare ||
+            each.fit.median > first->fit.median + kEqualMedian)
+            continue;
+        // In steps of a tenth of the head's size: less is not a matter of what is up.
+        const std::tuple worth{
+            -std::round(10.0 * roots.above(each.hair, each.head)), suppositions(each)};
+        if (best && worth >= least) continue;
+        least = worth;
+        best = &each;
+    }
+    return *best;
+}
+
+// Hair and head each by itself.
+void guessApart(
+    const hair::groom::StrandSet& strands, const hair::groom::StrandFindings& findings,
+    const LayHints& hints, LayGuess& guess) {
+    guess.hair.metres_per_unit = hints.metres_per_unit.value_or(findings.metres_per_unit);
+    guess.hair_reason =
+        hints.metres_per_unit ? "The unit is stated by --scale." : findings.unit_reason;
+    if (hints.up) {
+        guess.hair.up = *hints.up;
+        guess.hair_reason += std::string(" +") + axisName(*hints.up) + " is up by --up.";
+        return;
+    }
+    const auto [up, lead] = upOf(strands);
+    guess.hair.up = up;
+    guess.hair_reason += std::string(" +") + axisName(up) +
+                         " is up, where strands leave the scalp to and hang down from, by " +
+                         report::shortNumber(lead) + " of their length before the next axis.";
+}
+
+}  // namespace
+
+glm::dmat3 Lay::rotation() const { return turned(double(turn), {0.0, 1.0, 0.0}) * uprightOf(up); }
+
+glm::vec3 Lay::eulerAngles() const {
+    const glm::dmat3 m = rotation();  // [column][row] of Rz Ry Rx
+    const auto degrees = [](double sine, double cosine) {
+        return static_cast<float>(std::round(glm::degrees(std::atan2(sine, cosine))));
+    };
+    const double sine = -m[0][2];
+    if (std::abs(sine) < 0.5) return {degrees(m[1][2], m[2][2]), 0.0f, degrees(m[0][1], m[0][0])};
+    // A quarter turn about y: the one about x can be none.
+    return {0.0f, sine > 0.0 ? 90.0f : -90.0f, degrees(-m[1][0], m[1][1])};
+}
+
+std::string layText(const Lay& lay) {
+    std::string text = "in " + hair::groom::statedUnit(lay.metres_per_unit).name + ", +" +
+                       axisName(lay.up) + " up";
+    if (lay.turn != 0) text += ", turned by " + std::to_string(lay.turn) + " degrees about it";
+    return text;
+}
+
+LayGuess guessLay(
+    const hair::groom::StrandSet& strands, const hair::groom::Mesh* head, const LayHints& hints) {
+    const hair::groom::StrandFindings findings = hair::groom::inspect(strands, nullptr, {});
+    LayGuess guess;
+    if (!head) {
+        guessApart(strands, findings, hints, guess);
+        return guess;
+    }
+
+    Roots roots(strands, *head);
+    const double size = roots.head().longestSide();
+    const bool is_stated = hints.head_is_stated && isSizeOfHead(size);
+    guess.head.metres_per_unit = is_stated ? 1.0 : headUnit(size);
+    guess.head_reason =
+        is_stated
+            ? "Its format states metres and +y up."
+            : "Its longest side is " + report::shortNumber(size * guess.head.metres_per_unit) +
+                  " m in " + hair::groom::statedUnit(guess.head.metres_per_unit).name +
+                  " (a head is 0.2 m to 0.3 m high, a bust 0.5 m).";
+
+    std::vector<double> units(kUnits.begin(), kUnits.end());
+    if (hints.metres_per_unit) {
+        units = {*hints.metres_per_unit};
+    } else if (strands.metres_per_unit) {
+        units = {*strands.metres_per_unit};
+    }
+    const std::vector<LayAttempt> attempts =
+        attemptsOf(roots, guess.head.metres_per_unit, units, hints);
+    guess.best = bestOf(attempts, roots);
+    for (const LayAttempt& each : attempts) {
+        if (placesAlike(each, *guess.best)) continue;
+        if (!guess.runner_up ||
+            std::tuple(-each.fit.share, each.fit.median) <
+                std::tuple(-guess.runner_up->fit.share, guess.runner_up->fit.median))
+            guess.runner_up = each;
+    }
+    guess.fits = guess.best->fit.share >= kLeastShare;
+    if (!guess.fits) {
+        guessApart(strands, findings, hints, guess);
+        if (!hints.head_is_stated) guess.head.up = guess.hair.up;
+        return guess;
+    }
+    guess.hair = guess.best->hair;
+    guess.head = guess.best->head;
+    guess.hair_reason = fitText(guess.best->fit) + ".";
+    if (guess.runner_up)
+        guess.hair_reason += " Second best, " + layText(guess.runner_up->hair) + ": " +
+                             percent(guess.runner_up->fit.share) + ", " +
+                             report::lengthText(guess.runner_up->fit.median) + ".";
+    return guess;
+}
+
+}  // namespace benchmarks::groom
