@@ -356,7 +356,15 @@ void addGroomCommands(const CommandLine& line) {
             command.add_option("--up", options.up, "axis that is up in FILE (default a guess)")
                 ->check(CLI::IsMember({"x", "y", "z"}));
             addPointsPerStrand(command, options.points_per_strand);
-            command.add_flag("--force", options.force, "replace SCENE if it is there");
+            command
+                .add_option(
+                    "--sheet", options.sheet,
+                    "draw the scene from the front, its left, the back and its right (.png)")
+                ->type_name("PNG");
+            command.add_option(
+                "--device", options.device.wanted,
+                "for --sheet: index or part of the name of the device");
+            command.add_flag("--force", options.force, "replace files that are there");
             command.footer(kGroomSceneNotes);
         });
     addCommand<groom::ConvertOptions>(

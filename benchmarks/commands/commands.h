@@ -100,6 +100,8 @@ struct GroomSceneOptions {
     std::optional<double> scale;  // metres in the unit of the file of hair
     std::string up;  // axis that is up there: "x", "y" or "z"; empty: guessed
     std::uint32_t points_per_strand = 0;  // where the file doesn't say it
+    std::filesystem::path sheet;  // PNG of four views; empty: none
+    engine::DeviceOptions device;  // for that
     bool force = false;  // replace files that are there
 };
 int makeGroomScene(const GroomSceneOptions& options);

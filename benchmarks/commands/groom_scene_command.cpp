@@ -1,23 +1,31 @@
-#include <cmath>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <optional>
 #include <ostream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/commands/commands.h"
 #include "benchmarks/groom/groom_scene.h"
 #include "benchmarks/groom/placement.h"
+#include "benchmarks/measure/case.h"
+#include "benchmarks/measure/hair_cache.h"
+#include "benchmarks/measure/start.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/text.h"
 #include "benchmarks/scene/json.h"
 #include "benchmarks/scene/schema.h"
 #include "benchmarks/scene/settings_json.h"
+#include "benchmarks/scene/sweep.h"
 #include "engine/error.h"
 #include "engine/files.h"
+#include "engine/pictures.h"
 #include "hair/groom/files.h"
 #include "hair/groom/mesh/import_mesh.h"
 
@@ -48,7 +56,7 @@ bool formatStatesAxes(const fs::path& head) {
     return extension == ".glb" || extension == ".gltf" || extension == ".dae";
 }
 
-void say(const std::string& what, const std::string& text) {
+void tell(const std::string& what, const std::string& text) {
     std::cout << what << ": " << text << std::endl;  // work may follow
 }
 
@@ -62,13 +70,13 @@ SceneHead headOf(
     const GroomSceneOptions& options, std::optional<hair::groom::Mesh> mesh,
     const groom::LayGuess& guess) {
     if (!mesh) return {};
-    say("head", groom::layText(guess.head) + ". " + guess.head_reason);
+    tell("head", groom::layText(guess.head) + ". " + guess.head_reason);
     if (guess.head.changesNothing()) return {.mesh = std::move(mesh), .file = options.head};
     const fs::path copy = convertedHead(options.out);
     refuseToReplace(copy, options);
     mesh = groom::placed(*std::move(mesh), guess.head);
     engine::writeFileAtomically(copy, [&](std::ostream& out) { groom::writeObj(*mesh, out); });
-    say("wrote", copy.string() + ": the head in metres, +y up, without its materials");
+    tell("wrote", copy.string() + ": the head in metres, +y up, without its materials");
     return {.mesh = std::move(mesh), .file = copy};
 }
 
@@ -81,12 +89,49 @@ std::string descriptionOf(const GroomSceneOptions& options, const groom::LayGues
     return text;
 }
 
+constexpr std::uint32_t kViewSize = 320;  // px
+
+// The scene's first frame from each of the views, side by side.
+void drawSheet(const GroomSceneOptions& options, const std::vector<hair::CameraSettings>& views) {
+    scene::Scene scene = scene::loadScene(options.out);
+    measure::HairCache cache = measure::userHairCache(true);
+    hair::Settings settings =
+        scene::singleCase(scene, {.scene = options.out}, &cache.assets()).settings;
+    settings.render.width = settings.render.height = kViewSize;
+    const engine::Device device(options.device);
+    measure::Case picture(device, settings, scene.directory, &cache);
+    for (const std::string& warning : measure::inspectStart(picture).warnings)
+        std::cerr << "hairbench: " << warning << '\n';
+
+    engine::FrameLoop loop(device, engine::Timing::isolated);
+    loop.frame([&](engine::Passes& passes) { picture.simulate(passes); });
+    const auto width = static_cast<std::uint32_t>(kViewSize * views.size());
+    constexpr std::size_t kRow = std::size_t{kViewSize} * 4;  // B
+    std::vector<std::uint8_t> sheet(kRow * views.size() * kViewSize);
+    for (std::size_t view = 0; view < views.size(); ++view) {
+        picture.setCamera(views[view]);
+        loop.frame([&](engine::Passes& passes) { picture.draw(passes); });
+        const std::vector<std::uint8_t> pixels = picture.picture();
+        for (std::size_t row = 0; row < kViewSize; ++row)
+            std::copy_n(
+                pixels.begin() + static_cast<std::ptrdiff_t>(row * kRow), kRow,
+                sheet.begin() + static_cast<std::ptrdiff_t>((row * views.size() + view) * kRow));
+    }
+    engine::writePng(options.sheet, width, kViewSize, sheet);
+    tell("wrote", options.sheet.string() + ": front, left, back and right");
+}
+
 int axisNamed(const std::string& name) { return name == "x" ? 0 : name == "y" ? 1 : 2; }
 
 }  // namespace
 
 int makeGroomScene(const GroomSceneOptions& options) {
     refuseToReplace(options.out, options);
+    if (!options.sheet.empty()) {
+        if (hair::groom::lowerCaseExtension(options.sheet) != ".png")
+            throw engine::Error(options.sheet.string(), "a sheet is a .png");
+        refuseToReplace(options.sheet, options);
+    }
     hair::groom::StrandSet strands =
         hair::groom::importStrands(options.hair, options.points_per_strand);
     if (strands.strandCount() == 0)
@@ -94,14 +139,15 @@ int makeGroomScene(const GroomSceneOptions& options) {
     std::optional<hair::groom::Mesh> mesh;
     if (!options.head.empty()) mesh = hair::groom::importMesh(options.head);
     engine::checkWritable(options.out);
-    say("read", options.hair.string() + ", " + report::countText(strands.strandCount(), "strand") +
+    tell(
+        "read", options.hair.string() + ", " + report::countText(strands.strandCount(), "strand") +
                     ", " + report::countText(strands.points.size(), "point"));
 
     groom::LayHints hints{.head_is_stated = formatStatesAxes(options.head)};
     hints.metres_per_unit = options.scale;
     if (!options.up.empty()) hints.up = axisNamed(options.up);
     const groom::LayGuess guess = groom::guessLay(strands, mesh ? &*mesh : nullptr, hints);
-    say("hair", groom::layText(guess.hair) + ". " + guess.hair_reason);
+    tell("hair", groom::layText(guess.hair) + ". " + guess.hair_reason);
     const SceneHead head = headOf(options, std::move(mesh), guess);
 
     const double stated = strands.metres_per_unit.value_or(1.0);
@@ -116,13 +162,15 @@ int makeGroomScene(const GroomSceneOptions& options) {
     if (head.mesh) settings.groom.mesh = namedFrom(options.out, head.file);
     scene::checkSettings(settings);
 
-    for (const groom::SceneChoice& choice : made.choices) say(choice.name, choice.reason);
+    for (const groom::SceneChoice& choice : made.choices) tell(choice.name, choice.reason);
     warnings.insert(warnings.end(), made.warnings.begin(), made.warnings.end());
     for (const std::string& warning : warnings)
         std::cerr << "hairbench: " << options.hair.string() << ": " << warning << '\n';
     engine::writeFileAtomically(options.out, scene::changedFields(settings).dump(2) + '\n');
-    say("wrote",
+    tell(
+        "wrote",
         options.out.string() + "; hairbench render " + options.out.string() + " -o picture.png");
+    if (!options.sheet.empty()) drawSheet(options, made.views);
     return report::kOk;
 }
 

@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -102,7 +103,7 @@ VertexChoice vertexChoice(const StrandSet& strands) {
     return choice;
 }
 
-void chooseGuides(const StrandSet& strands, GroomScene& scene) {
+void chooseStrands(const StrandSet& strands, GroomScene& scene) {
     hair::Settings& settings = scene.settings;
     const std::uint32_t count = strands.strandCount();
     settings.groom.guides = guideCount(count);
@@ -281,21 +282,11 @@ std::vector<glm::dvec3> shownPoints(const StrandSet& strands, const Mesh* head) 
     return points;
 }
 
-// From the front quarter, as near as shows all.
-void chooseView(const StrandSet& strands, const Mesh* head, GroomScene& scene) {
-    constexpr double kFieldOfView = 30.0;  // deg
-    constexpr double kAside = 30.0;  // deg
-    constexpr double kAbove = 8.0;  // deg
-    constexpr double kFilled = 0.88;  // of the picture
-    const Front front = frontOf(strands, head);
-    const glm::dvec3 up(0.0, 1.0, 0.0);
-    const glm::dvec3 aside = glm::cross(up, front.direction);
-    const glm::dvec3 level =
-        std::cos(glm::radians(kAside)) * front.direction + std::sin(glm::radians(kAside)) * aside;
-    const glm::dvec3 toward =
-        std::cos(glm::radians(kAbove)) * level + std::sin(glm::radians(kAbove)) * up;
+constexpr double kFieldOfView = 30.0;  // deg
+constexpr double kFilled = 0.88;  // of a picture
 
-    const std::vector<glm::dvec3> points = shownPoints(strands, head);
+// As near as shows all points, from the direction `toward` the eye, unit length and not upright.
+hair::CameraSettings cameraFrom(const std::vector<glm::dvec3>& points, const glm::dvec3& toward) {
     glm::dvec3 low = points.front();
     glm::dvec3 high = low;
     for (const glm::dvec3& point : points) {
@@ -303,7 +294,7 @@ void chooseView(const StrandSet& strands, const Mesh* head, GroomScene& scene) {
         high = glm::max(high, point);
     }
     const glm::dvec3 centre = 0.5 * (low + high);
-    const glm::dvec3 right = glm::normalize(glm::cross(up, toward));
+    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), toward));
     const glm::dvec3 upward = glm::cross(toward, right);
     const double slope = kFilled * std::tan(glm::radians(0.5 * kFieldOfView));
     double distance = 0.0;
@@ -313,11 +304,27 @@ void chooseView(const StrandSet& strands, const Mesh* head, GroomScene& scene) {
             std::max(std::abs(glm::dot(from, right)), std::abs(glm::dot(from, upward)));
         distance = std::max(distance, glm::dot(from, toward) + off / slope);
     }
+    return {
+        .position = rounded(centre + distance * toward),
+        .target = rounded(centre),
+        .field_of_view = static_cast<float>(kFieldOfView)};
+}
+
+void chooseView(const StrandSet& strands, const Mesh* head, GroomScene& scene) {
+    constexpr double kAside = 30.0;  // deg
+    constexpr double kAbove = 8.0;  // deg
+    const Front front = frontOf(strands, head);
+    const glm::dvec3 up(0.0, 1.0, 0.0);
+    const glm::dvec3 aside = glm::cross(up, front.direction);  // where the head's left is
+    const glm::dvec3 level =
+        std::cos(glm::radians(kAside)) * front.direction + std::sin(glm::radians(kAside)) * aside;
+    const std::vector<glm::dvec3> points = shownPoints(strands, head);
+    for (const glm::dvec3& toward : {front.direction, aside, -front.direction, -aside})
+        scene.views.push_back(cameraFrom(points, toward));
 
     hair::Settings& settings = scene.settings;
-    settings.camera.position = rounded(centre + distance * toward);
-    settings.camera.target = rounded(centre);
-    settings.camera.field_of_view = static_cast<float>(kFieldOfView);
+    settings.camera = cameraFrom(
+        points, std::cos(glm::radians(kAbove)) * level + std::sin(glm::radians(kAbove)) * up);
     settings.render.width = settings.render.height = 960;
     settings.render.ssaa = 2;
     settings.render.tone_map = hair::ToneMap::agx;
@@ -328,13 +335,13 @@ void chooseView(const StrandSet& strands, const Mesh* head, GroomScene& scene) {
     hair::ShadingSettings& shading = settings.shading;
     shading.model = hair::ShadingModel::dual_scattering;
     shading.shadows = {.meshes = true, .hair = hair::HairShadows::deep_shadow};
-    const glm::dvec3 side = aside;
+    const glm::dvec3 centre = settings.camera.target;
     shading.lights = {
-        {.position = rounded(centre + 3.0 * front.direction + 3.0 * up + 2.0 * side),
+        {.position = rounded(centre + 3.0 * front.direction + 3.0 * up + 2.0 * aside),
          .strength = 2.2f},
-        {.position = rounded(centre + 2.0 * front.direction + 0.5 * up - 3.0 * side),
+        {.position = rounded(centre + 2.0 * front.direction + 0.5 * up - 3.0 * aside),
          .strength = 0.8f},
-        {.position = rounded(centre - 3.0 * front.direction + 3.0 * up - 1.0 * side),
+        {.position = rounded(centre - 3.0 * front.direction + 3.0 * up - 1.0 * aside),
          .strength = 1.2f}};
     scene.choices.push_back(
         {"light",
@@ -467,7 +474,7 @@ GroomScene sceneOf(const StrandSet& strands, const Mesh* head, const LayGuess& g
     placement.rotation = guess.hair.eulerAngles();
     findPlacement(guess, scene);
     findLengths(strands, scene);
-    chooseGuides(strands, scene);
+    chooseStrands(strands, scene);
     chooseSimulation(head, scene);
     if (head) findOnHead(strands, *head, guess, scene);
     chooseWidths(strands, scene);

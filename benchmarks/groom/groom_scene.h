@@ -23,6 +23,7 @@ struct GroomScene {
     hair::Settings
         settings;  // without /groom/file and /groom/mesh, which depend on the scene's place
     std::vector<SceneChoice> choices;
+    std::vector<hair::CameraSettings> views;  // from the front, its left, the back, its right
     std::vector<std::string> warnings;  // what is odd, with figures, and what to do
 };
 

@@ -212,4 +212,15 @@ TEST_F(GroomSceneCli, RendersAFrameWithHairInIt) {
     EXPECT_GT(nlohmann::json::parse(difference.output)["rmse"], 0.03) << difference.output;
 }
 
+TEST_F(GroomSceneCli, DrawsASheetOfFourViews) {
+    folder_.write("mine.hair", hairOnHead({}));
+    const Outcome outcome = scene("--sheet " + quoted("sheet.png"));
+    if (outcome.status == 77) GTEST_SKIP() << outcome.output;
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    // PNG: after a signature of 8 bytes and 8 of the header chunk's name and length, big-endian.
+    EXPECT_EQ(
+        textOf(folder_.file("sheet.png")).substr(16, 8), std::string("\0\0\5\0\0\0\1\x40", 8));
+    EXPECT_EQ(scene("--force --sheet " + quoted("sheet.jpg")).status, 2);
+}
+
 }  // namespace
