@@ -25,19 +25,19 @@ struct FileLay {
     bool z_up = false;
 };
 
-struct Point {
+struct HeadPoint {
     double x, y, z;  // m, +y up, front +z
 };
 
 // An ellipsoid as wide, high and deep as a head, no two of its axes alike.
-Point onHead(double elevation, double azimuth, double factor = 1.0) {
+HeadPoint onHead(double elevation, double azimuth, double factor = 1.0) {
     const double level = std::abs(elevation) < 1.57 ? std::cos(elevation) : 0.0;  // at the poles
     return {
         factor * 0.075 * level * std::sin(azimuth), factor * 0.115 * std::sin(elevation),
         factor * 0.095 * level * std::cos(azimuth)};
 }
 
-std::vector<double> inFile(const Point& p, const FileLay& lay) {
+std::vector<double> inFile(const HeadPoint& p, const FileLay& lay) {
     if (lay.z_up) return {p.x / lay.metres, -p.z / lay.metres, p.y / lay.metres};
     return {p.x / lay.metres, p.y / lay.metres, p.z / lay.metres};
 }
@@ -69,7 +69,7 @@ std::string headObj(const FileLay& lay, bool open = false) {
 }
 
 // 480 strands that stand off the upper and hind part of the head as far as that is thick.
-std::string hairOnHead(const FileLay& lay, const Point& moved = {0, 0, 0}) {
+std::string hairOnHead(const FileLay& lay, const HeadPoint& moved = {0, 0, 0}) {
     HairFile file{.thickness = static_cast<float>(80e-6 / lay.metres)};
     for (int ring = 0; ring < 12; ++ring)
         for (int k = 0; k < 40; ++k) {
@@ -78,7 +78,7 @@ std::string hairOnHead(const FileLay& lay, const Point& moved = {0, 0, 0}) {
             const double azimuth = std::numbers::pi * (1.0 + 1.4 * (k / 39.0 - 0.5));
             file.segments.push_back(5);
             for (int vertex = 0; vertex < 6; ++vertex) {
-                const Point p = onHead(elevation, azimuth, 1.0 + 0.2 * vertex);
+                const HeadPoint p = onHead(elevation, azimuth, 1.0 + 0.2 * vertex);
                 for (const double c : inFile({p.x + moved.x, p.y + moved.y, p.z + moved.z}, lay))
                     file.points.push_back(static_cast<float>(c));
             }
