@@ -43,6 +43,24 @@ TEST_F(GroomEditCli, ResamplesByNumberAndBySpacing) {
     EXPECT_EQ(json("out.hair")["points"], 3 + 3 + 5 + 7);
 }
 
+TEST_F(GroomEditCli, TakesPointsPerStrandOfAPlyOfPoints) {
+    folder_.write(
+        "points.ply",
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+        "property float z\nend_header\n0 0 0\n0 1 0\n1 0 0\n1 1 0\n");
+    EXPECT_NE(edit("resample", "points.ply", "--vertices 5").status, 0);
+    EXPECT_EQ(edit("resample", "points.ply", "--vertices 5 --points-per-strand 2").status, 0);
+    EXPECT_EQ(json("out.hair")["points"], 2 * 5);
+
+    const Outcome compared = hairbench(
+        "groom compare " + quoted("points.ply") + " " + quoted("points.ply") +
+        " --scale-a 0.1 --scale-b 0.1 --points-per-strand-a 2 --points-per-strand-b 4");
+    EXPECT_EQ(compared.status, 0);
+    EXPECT_THAT(
+        compared.output,
+        AllOf(ContainsRegex("A .*, 2 strands, "), ContainsRegex("B .*, 1 strand, ")));
+}
+
 TEST_F(GroomEditCli, SmoothsBendsAndKeepsLengths) {
     HairFile bend{.segments = {4}, .points = {0, 0, 0, 5, 0, 0, 10, 0, 0, 10, 5, 0, 10, 10, 0}};
     folder_.write("bend.hair", bend.text());
