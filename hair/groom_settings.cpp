@@ -51,6 +51,10 @@ const Table& tableOf(const GrowSettings*) {
              {{RootPlacement::poisson_disc, "poisson_disc"}, {RootPlacement::random, "random"}},
              "poisson_disc: roots keep a distance from each other; random: independent, uniform in "
              "area"),
+         number(
+             "strands", &S::strands, 0, 1000000, "count",
+             "strands to grow and style, of which /groom/guides become guides, as of a file's; "
+             "/strands/source: groom draws them all; 0: guides alone are grown"),
          number("vertices", &S::vertices, 2, 256, "count", "vertices per guide, root included"),
          number("length", &S::length, 0.001, 2, "m", "length of a guide"),
          fileName(
@@ -80,7 +84,14 @@ const Table& tableOf(const ClumpSettings*) {
              "strength", &S::strength, 0, 1, "1",
              "how far a tip is drawn to its clump's centre strand; 1 is all the way"),
          number(
+             "variation", &S::variation, 0, 1, "1",
+             "a strand's strength is smaller by a random fraction up to this"),
+         number(
              "spacing", &S::spacing, 0.0001, 10, "m", "distance between the roots of two clumps"),
+         number(
+             "levels", &S::levels, 1, 6, "count",
+             "clumps within clumps: each level's are half as far apart as those of the one before, "
+             "and are drawn together first"),
          number(
              "start", &S::start, 0, 1, "1", "fraction of the length up to which nothing moves")});
     return table;
@@ -96,6 +107,13 @@ const Table& tableOf(const WaveSettings*) {
              "phase_variation", &S::phase_variation, 0, 1, "1",
              "random phase of a strand, up to this part of a wave"),
          number(
+             "spacing", &S::spacing, 0, 10, "m",
+             "strands have the phase of the nearest root of some that are so far apart; 0: each "
+             "its own"),
+         number(
+             "drift", &S::drift, 0, 10, "1",
+             "waves by which the phase wanders, at most, to either side along a strand"),
+         number(
              "start", &S::start, 0, 1, "1",
              "fraction of the length over which the amplitude grows from 0")});
     return table;
@@ -109,6 +127,13 @@ const Table& tableOf(const CurlSettings*) {
          number(
              "phase_variation", &S::phase_variation, 0, 1, "1",
              "random phase of a strand, up to this part of a turn"),
+         number(
+             "spacing", &S::spacing, 0, 10, "m",
+             "strands have the phase of the nearest root of some that are so far apart; 0: each "
+             "its own"),
+         number(
+             "drift", &S::drift, 0, 10, "1",
+             "turns by which the phase wanders, at most, to either side along a strand"),
          number(
              "start", &S::start, 0, 1, "1",
              "fraction of the length over which the radius grows from 0")});
@@ -125,6 +150,18 @@ const Table& tableOf(const FrizzSettings*) {
          number(
              "start", &S::start, 0, 1, "1",
              "fraction of the length over which the amplitude grows from 0")});
+    return table;
+}
+
+const Table& tableOf(const FlyawaySettings*) {
+    using S = FlyawaySettings;
+    static const Table table = tableWith<S>(
+        {number("share", &S::share, 0, 1, "1", "part of the strands that lie apart"),
+         number(
+             "reach", &S::reach, 0, 1, "m",
+             "how far their tips are moved, by up to this; each goes its own smooth way"),
+         number(
+             "start", &S::start, 0, 1, "1", "fraction of the length up to which nothing moves")});
     return table;
 }
 
@@ -161,6 +198,7 @@ const Table& tableOf(const StyleSettings*) {
          group("wave", &S::wave, "plane waves along strands"),
          group("curl", &S::curl, "strands wound into helices"),
          group("frizz", &S::frizz, "random displacement of strands"),
+         group("flyaways", &S::flyaways, "single strands that lie apart from the others"),
          number(
              "clearance", &S::clearance, 0, 0.1, "m",
              "strands are turned away from the mesh that they grow on where they would come nearer "
@@ -209,10 +247,11 @@ const Table& tableOf(const GroomSettings*) {
              "its longest strand has"),
          number(
              "guides", &S::guides, 0, 1000000, "count",
-             "guides to grow, or to choose from the file; 0: all of the file's strands, or 86 "
-             "grown ones"),
+             "guides to grow, or to choose from the file or from grown strands; 0: all of the "
+             "file's "
+             "strands, or 86 grown ones"),
          group("grow", &S::grow, "guides grown on a scalp"),
-         group("style", &S::style, "styling of the guides")});
+         group("style", &S::style, "styling of what is grown or read")});
     return table;
 }
 

@@ -37,6 +37,7 @@ struct GrowSettings {
     std::string scalp = "scalp";
     std::string mask;
     RootPlacement placement = RootPlacement::poisson_disc;
+    std::uint32_t strands = 0;
     std::uint32_t vertices = 8;
     float length = 0.15f;
     std::string length_map;
@@ -53,7 +54,9 @@ const Table& tableOf(const GrowSettings*);
 
 struct ClumpSettings {
     float strength = 0.0f;
+    float variation = 0.0f;
     float spacing = 0.02f;
+    std::uint32_t levels = 1;
     float start = 0.1f;
 };
 
@@ -63,6 +66,8 @@ struct WaveSettings {
     float amplitude = 0.0f;
     float frequency = 20.0f;
     float phase_variation = 0.0f;
+    float spacing = 0.0f;
+    float drift = 0.0f;
     float start = 0.2f;
 };
 
@@ -72,6 +77,8 @@ struct CurlSettings {
     float radius = 0.0f;
     float frequency = 40.0f;
     float phase_variation = 0.0f;
+    float spacing = 0.0f;
+    float drift = 0.0f;
     float start = 0.2f;
 };
 
@@ -84,6 +91,15 @@ struct FrizzSettings {
 };
 
 const Table& tableOf(const FrizzSettings*);
+
+// Single strands that lie apart from the others.
+struct FlyawaySettings {
+    float share = 0.0f;
+    float reach = 0.015f;
+    float start = 0.3f;
+};
+
+const Table& tableOf(const FlyawaySettings*);
 
 struct CutSettings {
     float length = 0.0f;
@@ -106,6 +122,7 @@ struct StyleSettings {
     WaveSettings wave;
     CurlSettings curl;
     FrizzSettings frizz;
+    FlyawaySettings flyaways;
     float clearance = 0.0f;
     CutSettings cut;
     TaperSettings taper;

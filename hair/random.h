@@ -40,6 +40,12 @@ inline constexpr std::uint32_t follower_radius = 14;
 inline constexpr std::uint32_t offset_phase = 15;
 inline constexpr std::uint32_t offset_frequency = 16;
 inline constexpr std::uint32_t offset_noise_x = 17;  // and the two after it
+inline constexpr std::uint32_t clump_strength = 20;
+inline constexpr std::uint32_t wave_drift = 21;  // and the two after it, as of every smoothNoise()
+inline constexpr std::uint32_t curl_drift = 24;
+inline constexpr std::uint32_t flyaway_choice = 27;
+inline constexpr std::uint32_t flyaway_reach = 28;
+inline constexpr std::uint32_t flyaway_x = 29;
 }  // namespace purpose
 
 }  // namespace hair

@@ -84,6 +84,13 @@ const Table& tableOf(const ShadingSettings*) {
          number(
              "pheomelanin", &S::pheomelanin, 0, 100, "1",
              "red pigment; absorption (0.187, 0.4, 1.05) per fibre radius"),
+         number(
+             "strand_variation", &S::strand_variation, 0, 0.9, "1",
+             "strands differ in color: each is as of hair that absorbs more or less by up to this "
+             "part"),
+         number(
+             "tip_lightening", &S::tip_lightening, 0, 0.9, "1",
+             "tips are as of hair that absorbs less than at the root by this part"),
          number("ambient", &S::ambient, 0, 10, "1", "ambient factor"),
          number("diffuse", &S::diffuse, 0, 10, "1", "k_d of phong and kajiya_kay"),
          number("specular", &S::specular, 0, 10, "1", "k_s of phong and kajiya_kay"),

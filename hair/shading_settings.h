@@ -51,6 +51,8 @@ struct ShadingSettings {
     glm::vec3 color{0.95f, 0.9f, 0.625f};
     float eumelanin = 1.3f;
     float pheomelanin = 0.0f;
+    float strand_variation = 0.0f;
+    float tip_lightening = 0.0f;
     float ambient = 0.5f;
     float diffuse = 0.5f;
     float specular = 0.5f;

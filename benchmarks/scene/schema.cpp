@@ -37,7 +37,8 @@ Broken strandsHaveTwoEnds(const hair::Settings& s) {
 
 Broken groomHasStrandsOfItsOwn(const hair::Settings& s) {
     if (s.strands.source != hair::StrandSource::groom || !s.groom.file.empty()) return {};
-    return "is groom, but there is no /groom/file";
+    if (s.groom.grow.strands > 0) return {};
+    return "is groom, but there is neither /groom/file nor /groom/grow/strands";
 }
 
 Broken partingHasLength(const hair::Settings& s) {

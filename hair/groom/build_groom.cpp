@@ -230,8 +230,10 @@ Groom buildGroom(
     if (!mesh) throw engine::Error(path, "guides are to be grown, but there is no mesh");
     try {
         const std::uint32_t guides = settings.guides == 0 ? kThesisGuides : settings.guides;
-        return style(
-            grow(*mesh, settings.grow, directory, guides, seed), settings.style, seed, mesh);
+        Groom grown =
+            style(grow(*mesh, settings.grow, directory, guides, seed), settings.style, seed, mesh);
+        if (settings.grow.strands == 0) return grown;
+        return withGuides(std::move(grown), guides, mesh, seed);
     } catch (const engine::Error& error) {
         throw engine::Error(path, error.what());
     }

@@ -520,7 +520,8 @@ engine::Constants strandConstants(const StrandSettings& strands, const StrandPla
         {gpu::kStrandCollisionConstant, shaderCode(strands.collision)},
         {gpu::kRandomnessConstant, shaderCode(strands.randomness)},
         {gpu::kLodMorphConstant, plan.morphs},
-        {gpu::kMergedHairsConstant, plan.merged_hairs}};
+        {gpu::kMergedHairsConstant, plan.merged_hairs},
+        {gpu::kOwnColorsConstant, plan.own_colors}};
 }
 
 // ---- Watched stages -----------------------------------------------------------------------------

@@ -74,8 +74,8 @@ strandImages(const StrandTexture& texture, const ShadowPass& shadows) {
 
 }  // namespace
 
-static_assert(offsetof(gpu::PictureParameters, lights) == 220);
-static_assert(sizeof(gpu::PictureParameters) == 396);
+static_assert(offsetof(gpu::PictureParameters, lights) == 228);
+static_assert(sizeof(gpu::PictureParameters) == 404);
 
 gpu::PictureParameters pictureParameters(
     const Settings& settings, const StrandPlan& plan, const StrandView& view,
@@ -95,6 +95,8 @@ gpu::PictureParameters pictureParameters(
         .pixel_near = 0.0f,
         .pixel_slope = view_height / static_cast<float>(render.height * render.ssaa),
         .hair_color = hairColor(settings),
+        .strand_variation = settings.shading.strand_variation,
+        .tip_lightening = settings.shading.tip_lightening,
         .ambient = shading.ambient,
         .diffuse = shading.diffuse,
         .specular = shading.specular,

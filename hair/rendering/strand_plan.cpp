@@ -142,6 +142,8 @@ planStrands(const StrandView& view, const Settings& settings, std::uint32_t isol
     StrandPlan plan = planStrands(triangles, segments, strands, settings.lod, isoline_limit);
     plan.reach = pushed ? kAnywhere : view.offset_reach;
     plan.merged_hairs = drawsMergedHairs(settings);
+    plan.own_colors =
+        settings.shading.strand_variation > 0.0f || settings.shading.tip_lightening > 0.0f;
     plan.greatest_width = view.greatest_width * (plan.merged_hairs ? gpu::kMostMergedSpread : 1.0f);
     return plan;
 }

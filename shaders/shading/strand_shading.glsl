@@ -12,6 +12,7 @@
 #include "shading/options.glsl"
 #include "shading/phong.glsl"
 #include "shading/shadows.glsl"
+#include "strands/options.glsl"
 
 // A point of a strand's quad.
 struct StrandFragment {
@@ -128,14 +129,16 @@ vec3 shadeFiber(PictureParameters picture, StrandFragment fragment) {
     return sum;
 }
 
-// The point in working colours. `hair_color` is the picture's, or with a texture's factor.
+// The point in working colours. `hair_color` is the picture's, or with a texture's factor and a
+// strand's own.
 vec3 shadeStrand(PictureParameters picture, StrandFragment fragment, vec3 hair_color) {
     vec3 sum;
     if (kModel == kModelPhong || kModel == kModelKajiyaKay) {
         sum = shadeOpaque(picture, fragment, hair_color);
     } else {
         sum = shadeFiber(picture, fragment);
-        if (kStrandTexture != 0u) sum *= hair_color / max(picture.hair_color, vec3(1e-4));
+        if (kStrandTexture != 0u || kOwnColors != 0u)
+            sum *= hair_color / max(picture.hair_color, vec3(1e-4));
     }
     if (kEnvironment == kEnvironmentHarmonics)
         sum += picture.ambient * hair_color * environmentLight(picture, cylinderNormal(fragment));

@@ -30,6 +30,8 @@ struct PictureParameters {
     float pixel_near;  // m: a rendered pixel's side at the eye; above 0 in parallel projections
     float pixel_slope;  // what pixel_near grows by per metre of distance
     vec3 hair_color;  // in working colours: display RGB, or linear where there is a tone map
+    float strand_variation;  // strands/own_color.glsl
+    float tip_lightening;
     float ambient;
     float diffuse;
     float specular;

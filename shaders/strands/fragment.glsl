@@ -6,6 +6,7 @@
 #include "shading/strand_shading.glsl"
 #include "strands/coverage.glsl"
 #include "strands/merged_coverage.glsl"
+#include "strands/own_color.glsl"
 #include "strands/texture.glsl"
 
 layout(push_constant, scalar) uniform Push { StrandPush push; };
@@ -13,7 +14,7 @@ layout(push_constant, scalar) uniform Push { StrandPush push; };
 layout(location = 0) in vec4 position_and_across;
 layout(location = 1) in vec4 tangent_and_along;
 layout(location = 2) in float half_width;  // m; where quads tell it. Of lines their coverage
-layout(location = 3) flat in uint merged_hairs;  // where they are drawn
+layout(location = 3) flat in uint merged_hairs;  // where kTellsHairs
 
 // 1: strands are lines a pixel wide
 layout(constant_id = kLinesConstant) const uint kLines = 0;
@@ -52,6 +53,7 @@ SeenStrand seenStrand(PictureParameters picture) {
         if (!toMergedHair(merged_hairs, seen.fragment)) seen.coverage = 0.0;
     }
     seen.factors = strandTexel(seen.fragment.across, seen.fragment.along);
+    if (kOwnColors != 0u) seen.factors.rgb *= ownColor(picture, merged_hairs, tangent_and_along.w);
     return seen;
 }
 

@@ -9,7 +9,7 @@ layout(triangle_strip, max_vertices = 4) out;
 
 layout(location = 0) in vec4 position_and_width[];  // a negative width drops the line
 layout(location = 1) in vec4 tangent_and_along[];
-layout(location = 2) in uint merged_hairs[];  // where they are drawn
+layout(location = 2) in uint merged_hairs[];  // where kTellsHairs
 
 LineEnd lineEnd(int end) {
     vec4 position = position_and_width[end];

@@ -7,7 +7,7 @@ struct LineEnd {
     vec3 tangent;  // of any length
     float width;  // m
     float along;
-    uint merged;  // strands/merged_word.glsl; where they are drawn
+    uint merged;  // strands/merged_word.glsl; where kTellsHairs
 };
 
 #endif

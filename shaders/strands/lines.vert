@@ -13,7 +13,7 @@ layout(constant_id = kStrictLinesConstant) const uint kStrictLines = 0;
 layout(location = 0) out vec4 position_and_across;  // m; 0: the middle
 layout(location = 1) out vec4 tangent_and_along_out;
 layout(location = 2) out float line_coverage;
-layout(location = 3) flat out uint merged_hairs;  // none: lines have no width to divide
+layout(location = 3) flat out uint merged_hairs;  // of these none: lines have no width to divide
 invariant gl_Position;
 
 // How many times as long as its extent in rows, or columns, a line is on the screen.
@@ -36,6 +36,6 @@ void main() {
     line_coverage = min(line_coverage, 1.0);
     position_and_across = vec4(point.position, 0.0);
     tangent_and_along_out = vec4(point.tangent, point.along);
-    merged_hairs = 0u;
+    merged_hairs = kOwnColors != 0 ? point.merged : 0u;
     if (!drawn) gl_Position = kNowhere;
 }

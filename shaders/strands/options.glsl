@@ -20,5 +20,10 @@ layout(constant_id = kRandomnessConstant) const uint kRandomness = kRandomnessHa
 layout(constant_id = kLodMorphConstant) const uint kLodMorph = 0;
 // 1: strands of coarser levels of detail are drawn as the hairs that they stand for
 layout(constant_id = kMergedHairsConstant) const uint kMergedHairs = 0;
+// 1: strands differ in color
+layout(constant_id = kOwnColorsConstant) const uint kOwnColors = 0;
+
+// Whether strands' words of strands/merged_word.glsl go with them.
+const bool kTellsHairs = kMergedHairs != 0 || kOwnColors != 0;
 
 #endif

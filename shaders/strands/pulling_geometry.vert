@@ -7,7 +7,7 @@ layout(push_constant, scalar) uniform Push { StrandPush push; };
 
 layout(location = 0) out vec4 position_and_width;  // a negative width drops the line
 layout(location = 1) out vec4 tangent_and_along;
-layout(location = 2) out uint merged_hairs;  // where they are drawn
+layout(location = 2) out uint merged_hairs;  // where kTellsHairs
 
 void main() {
     bool drawn;
@@ -15,5 +15,5 @@ void main() {
         PictureReference(push.picture).parameters, uint(gl_VertexIndex), drawn);
     position_and_width = vec4(point.position, drawn ? point.width : -1.0);
     tangent_and_along = vec4(point.tangent, point.along);
-    if (kMergedHairs != 0) merged_hairs = point.merged;
+    if (kTellsHairs) merged_hairs = point.merged;
 }

@@ -8,7 +8,7 @@
 layout(location = 0) out vec4 position_and_across;
 layout(location = 1) out vec4 tangent_and_along_out;
 layout(location = 2) out float half_width;  // where kTellsWidth
-layout(location = 3) flat out uint merged_hairs_out;  // where they are drawn
+layout(location = 3) flat out uint merged_hairs_out;  // where kTellsHairs
 // What one back end or pass covers the others cover too, sample by sample.
 invariant gl_Position;
 
@@ -19,7 +19,7 @@ void makeCorner(PictureParameters picture, LineEnd end, QuadEnd quad, float acro
     position_and_across = corner.position_and_across;
     tangent_and_along_out = corner.tangent_and_along;
     if (kTellsWidth) half_width = corner.half_width;
-    if (kMergedHairs != 0) merged_hairs_out = corner.merged;
+    if (kTellsHairs) merged_hairs_out = corner.merged;
 }
 
 #endif

@@ -29,7 +29,7 @@ struct StrandPoint {
     vec3 tangent;   // d position / d t, not normalised
     float width;    // m
     float along;    // 0 at the root, 1 at the tip; or what is shown in its place
-    uint merged;    // strands/merged_word.glsl; where they are drawn
+    uint merged;    // strands/merged_word.glsl; where kTellsHairs
 };
 
 float guideWidth(PictureParameters picture, PatchStrand strand, uint vertex) {
@@ -127,7 +127,7 @@ StrandPoint drawnPoint(PictureParameters picture, StrandPatch strand_patch, Patc
         pushStrandOut(picture, along_guides, point.position, point.tangent);
     }
     putShown(picture, strand_patch, strand.index, point);
-    if (kMergedHairs != 0)
+    if (kTellsHairs)
         point.merged = strandMerged(lod, strand_patch.key, strand.index);
     return point;
 }

@@ -183,8 +183,16 @@ TEST(CheckSettings, DrawsStrandsOfAFileOnlyWhereThereIsOne) {
             s.groom.file = file;
         });
     };
-    EXPECT_EQ(own(""), "/strands/source: is groom, but there is no /groom/file");
+    EXPECT_EQ(
+        own(""),
+        "/strands/source: is groom, but there is neither /groom/file nor /groom/grow/strands");
     EXPECT_EQ(own("a.hair"), "no error");
+    EXPECT_EQ(
+        broken([](hair::Settings& s) {
+            s.strands.source = hair::StrandSource::groom;
+            s.groom.grow.strands = 100;
+        }),
+        "no error");
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include "hair/groom/files.h"
 #include "hair/groom/growth/grow.h"
+#include "hair/groom/guides/bind_strands.h"
+#include "hair/groom/style/style.h"
 #include "tests/error_text.h"
 #include "tests/groom/style/sample_strands.h"
 #include "tests/groom/test_meshes.h"
@@ -47,6 +49,30 @@ TEST(BuildGroom, GrowsWhereNoFileIsNamed) {
     const Groom groom = buildGroom(settings, &cap, "scenes", 7);
     EXPECT_EQ(groom.points, grow(cap, settings.grow, "", 30, 7).points);
     EXPECT_TRUE(groom.bindings.empty());
+}
+
+// Guides are strands of the dense groom, which each is bound to alone; roots are as many, and on
+// the cap, as were asked for.
+TEST(BuildGroom, ChoosesGuidesFromGrownStrands) {
+    const Mesh cap = makeCap();
+    GroomSettings settings;
+    settings.guides = 30;
+    settings.grow.strands = 2000;
+    settings.grow.vertices = 5;
+    settings.style.frizz.amplitude = 0.003f;
+    const Groom groom = buildGroom(settings, &cap, "scenes", 7);
+    EXPECT_EQ(groom.strand_count, 30u);
+    ASSERT_EQ(groom.bindings.size(), 2000u);
+    EXPECT_FALSE(groom.root_triangles.empty());
+    const Groom dense = style(grow(cap, settings.grow, "", 30, 7), settings.style, 7, nullptr);
+    ASSERT_EQ(dense.strand_count, 2000u);
+    EXPECT_LT(reconstructionError(dense, groom, groom.bindings).mean, 0.02);
+    std::uint32_t found = 0;
+    for (std::uint32_t i = 0; i < dense.strand_count && found < 30; ++i)
+        found += std::ranges::equal(dense.strand(i), groom.strand(found)) ? 1u : 0u;
+    EXPECT_EQ(found, 30u);
+    settings.grow.strands = 20;
+    EXPECT_THAT(errorText([&] { buildGroom(settings, &cap, "scenes", 7); }), HasSubstr("20 strands"));
 }
 
 TEST(BuildGroom, GrowsTheThesissNumberOfGuides) {

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -97,6 +98,66 @@ TEST_F(ShowPictureTest, StrandsKeepColorsOfTheirOwn) {
     shown.lod.level = 0.0f;
     shown.strands.backend = Backend::pulling_geometry;
     EXPECT_EQ(differingPixels(draw(shown), all), 0u);
+}
+
+// Hair of the color (1/2, 1/4, 1/8), lit from everywhere alike: what absorbs a times as much is
+// (2^-a, 2^-2a, 2^-3a).
+class OwnColorTest : public ShowPictureTest {
+protected:
+    static Settings lit() {
+        Settings lit = settings(Show::shading);
+        lit.seed = 230;  // as above
+        lit.render.width = lit.render.height = 512;
+        lit.strands.root_width = lit.strands.tip_width = 0.002f;
+        lit.shading.color = {0.5f, 0.25f, 0.125f};
+        lit.shading.ambient = 1.0f;
+        lit.shading.diffuse = lit.shading.specular = 0.0f;
+        return lit;
+    }
+
+    // a of each color that is seen, in ascending order.
+    static std::vector<double> absorptions(const Pixels& pixels) {
+        std::vector<double> found;
+        for (const auto& color : colors(pixels)) {
+            const double a = -std::log2(color[0] / 255.0);
+            // Half a step of 255 and rounding of the color itself, to half floats in some back
+            // ends.
+            EXPECT_NEAR(color[1], 255.0 * std::exp2(-2.0 * a), 1.6) << a;
+            EXPECT_NEAR(color[2], 255.0 * std::exp2(-3.0 * a), 1.6) << a;
+            found.push_back(a);
+        }
+        std::ranges::sort(found);
+        return found;
+    }
+};
+
+TEST_F(OwnColorTest, TipsAbsorbLess) {
+    Settings lit = OwnColorTest::lit();
+    lit.shading.tip_lightening = 0.5f;
+    const std::vector<double> found = absorptions(draw(lit));
+    ASSERT_GT(found.size(), 20u);
+    EXPECT_NEAR(found.front(), 0.5, 0.02);  // a pixel of a hundred, and a step of color
+    EXPECT_NEAR(found.back(), 1.0, 0.02);
+}
+
+// As many colors as strands, of the bound and on either side of the hair's; alike in all back ends.
+TEST_F(OwnColorTest, StrandsDiffer) {
+    Settings lit = OwnColorTest::lit();
+    lit.shading.strand_variation = 0.4f;
+    const Pixels all = draw(lit);
+    const std::vector<double> found = absorptions(all);
+    EXPECT_GE(found.size(), 10u);  // two may be the same to a step of color
+    EXPECT_LE(found.size(), 12u);
+    EXPECT_GE(found.front(), 0.6 - 0.02);
+    EXPECT_LE(found.back(), 1.4 + 0.02);
+    EXPECT_LT(found.front(), 0.9);
+    EXPECT_GT(found.back(), 1.1);
+    for (const Backend backend :
+         {Backend::tessellation, Backend::pulling_geometry, Backend::pulling, Backend::expanded,
+          Backend::software}) {
+        lit.strands.backend = backend;
+        EXPECT_EQ(differingPixels(draw(lit), all), 0u) << backendName(backend);
+    }
 }
 
 // A sphere of 0.05 m behind the strands: nothing is drawn farther than that from its middle, and

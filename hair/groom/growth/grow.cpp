@@ -96,6 +96,8 @@ Groom grow(
     const Mesh& mesh, const GrowSettings& settings, const std::filesystem::path& directory,
     std::uint32_t guides, std::uint32_t seed) {
     assert(settings.vertices >= 2 && guides >= 1);
+    const bool dense = settings.strands > 0;
+    const std::uint32_t count = dense ? settings.strands : guides;
     const Scalp scalp = extractScalp(mesh, settings.scalp);
     const NearestSurface surface(scalp.positions, scalp.triangles);
     const std::optional<Texture> mask = picture(directory, settings.mask);
@@ -106,19 +108,20 @@ Groom grow(
     const DirectionField directions(settings, surface, parting);
     Roots roots = placeRoots(
         scalp, surface,
-        {.guides = guides,
+        {.guides = count,
          .seed = seed,
          .placement = settings.placement,
          .mask = mask ? &*mask : nullptr,
-         .parting = parting});
+         .parting = parting,
+         .dense = dense});
 
     Groom groom;
-    groom.strand_count = guides;
+    groom.strand_count = count;
     groom.vertices_per_strand = settings.vertices;
     groom.root_triangles = std::move(roots.triangles);
-    groom.points.reserve(std::size_t{guides} * settings.vertices);
-    groom.root_normals.reserve(guides);
-    for (std::uint32_t i = 0; i < guides; ++i) {
+    groom.points.reserve(std::size_t{count} * settings.vertices);
+    groom.root_normals.reserve(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
         const SurfacePoint& root = roots.points[i];
         double length = settings.length;
         if (length_map) length *= textureAt(*length_map, scalp, root);

@@ -153,6 +153,7 @@ Roots surfaceRoots(
     for (const std::uint32_t number : numbers)
         roots.points.push_back(rootSample(scalp, options.seed, number));
 
+    if (options.dense) return roots;
     roots.triangles = surfaceTriangles(scalp, roots.points);
     if (options.mask && options.guides > 2)
         eraseBald(roots.triangles, roots.points, ground, surface);
@@ -241,8 +242,8 @@ constexpr double kSpacing = 0.8;
 Roots placedRoots(
     const Scalp& scalp, const NearestSurface& surface, const RootOptions& options,
     const PartingRows* rows) {
-    const bool has_hairline =
-        !options.mask && options.guides >= 3 && options.placement == RootPlacement::poisson_disc;
+    const bool has_hairline = !options.mask && !options.dense && options.guides >= 3 &&
+                              options.placement == RootPlacement::poisson_disc;
     if (!has_hairline) return surfaceRoots(scalp, surface, options, rows);
     try {
         return discRoots(scalp, options, rows);
@@ -284,7 +285,7 @@ hairlineLengths(double total, std::uint32_t count, std::vector<double> cuts, dou
 
 Roots placeRoots(const Scalp& scalp, const NearestSurface& surface, const RootOptions& options) {
     std::optional<PartingRows> rows;
-    if (options.parting) {
+    if (options.parting && !options.dense) {
         const double spacing = kSpacing * std::sqrt(scalp.area() / options.guides);
         rows = partingRows(*options.parting, scalp, surface, spacing);
         if (2 * rows->pairs.size() + 3 > options.guides) rows.reset();

@@ -22,6 +22,7 @@ struct RootOptions {
     RootPlacement placement = RootPlacement::poisson_disc;
     const Texture* mask = nullptr;           // null: everywhere alike
     const PartingLine* parting = nullptr;    // null: none
+    bool dense = false;  // many roots, of which nobody needs rows or triangles
 };
 
 struct Roots {

@@ -402,11 +402,7 @@ double squareDistance(const glm::dvec3& p, const glm::vec3& low, const glm::vec3
     return square(p - glm::clamp(p, glm::dvec3(low), glm::dvec3(high)));
 }
 
-struct Candidate {
-    double square = std::numeric_limits<double>::max();  // of the distance
-    glm::dvec3 weights{1.0, 0.0, 0.0};
-    std::size_t slot = 0;  // of the triangle
-};
+using Candidate = NearestCandidate;
 
 // The point of a triangle that is nearest: over the face where the point lies within the three
 // planes through the edges, else the nearest of the edges' (the regions of Ericson 2005, Real-time
@@ -457,6 +453,16 @@ NearestSurface::NearestSurface(
 }
 
 MeshPoint NearestSurface::operator()(const glm::dvec3& point) const {
+    return meshPoint(nearest(point, std::numeric_limits<double>::max()), point);
+}
+
+std::optional<MeshPoint> NearestSurface::within(const glm::dvec3& point, double reach) const {
+    const Candidate best = nearest(point, reach * reach);
+    if (best.square >= reach * reach) return std::nullopt;
+    return meshPoint(best, point);
+}
+
+Candidate NearestSurface::nearest(const glm::dvec3& point, double square) const {
     struct Waiting {
         std::uint32_t node;
         double square;  // of its box's distance
@@ -467,7 +473,7 @@ MeshPoint NearestSurface::operator()(const glm::dvec3& point) const {
         const TriangleTree::Node& box = tree_.nodes[node];
         waiting[count++] = {node, squareDistance(point, box.low, box.high)};
     };
-    Candidate best;
+    Candidate best{.square = square};
     wait(0);
     while (count > 0) {
         const Waiting next = waiting[--count];
@@ -482,6 +488,10 @@ MeshPoint NearestSurface::operator()(const glm::dvec3& point) const {
             std::swap(waiting[count - 2], waiting[count - 1]);
     }
 
+    return best;
+}
+
+MeshPoint NearestSurface::meshPoint(const Candidate& best, const glm::dvec3& point) const {
     const CornerPoints& corners = corners_[best.slot];
     MeshPoint found{.triangle = tree_.order[best.slot], .weights = best.weights};
     for (int i = 0; i < 3; ++i)

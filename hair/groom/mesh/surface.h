@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -85,6 +86,13 @@ struct MeshPoint {
     double distance = 0.0;  // from where it was asked for
 };
 
+// What a search for the nearest point has found so far.
+struct NearestCandidate {
+    double square;  // of the distance
+    glm::dvec3 weights{1.0, 0.0, 0.0};
+    std::size_t slot = 0;  // of the triangle
+};
+
 // Finds the point of a mesh that is nearest to a point. Borrows nothing.
 class NearestSurface {
 public:
@@ -94,8 +102,13 @@ public:
         std::span<const std::array<std::uint32_t, 3>> triangles);
 
     MeshPoint operator()(const glm::dvec3& point) const;
+    // None where that is `reach` away, or farther: much sooner known.
+    std::optional<MeshPoint> within(const glm::dvec3& point, double reach) const;
 
 private:
+    NearestCandidate nearest(const glm::dvec3& point, double square) const;
+    MeshPoint meshPoint(const NearestCandidate& best, const glm::dvec3& point) const;
+
     TriangleTree tree_;
     std::vector<std::array<glm::vec3, 3>> corners_;  // in the order of the leaves
 };

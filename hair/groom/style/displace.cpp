@@ -159,18 +159,52 @@ strandFrames(std::span<const glm::vec3> points, const glm::vec3* root_normal) {
 
 // ---- Curls, frizz and waves ---------------------------------------------------------------------
 
+namespace {
+
+// Where along its turns each strand of a groom starts, and how that wanders along it.
+class Phases {
+public:
+    // `drift` and the two after it, and `phase`, are purposes of random numbers.
+    template <class Settings>
+    Phases(
+        const Groom& groom, const Settings& settings, std::uint32_t seed, std::uint32_t phase,
+        std::uint32_t drift)
+        : variation_(settings.phase_variation), drift_(settings.drift), seed_(seed),
+          phase_purpose_(phase), drift_purpose_(drift) {
+        if (settings.spacing > 0.0f) centres_ = clumpCentres(groom, settings.spacing, seed);
+    }
+
+    // In turns, after so many of them.
+    double operator()(std::uint32_t strand, double turns) const {
+        const std::uint32_t like = centres_.empty() ? strand : centres_[strand];
+        double phase = variation_ * random01(seed_, like, phase_purpose_);
+        static constexpr double kChanges = 0.5;  // of the drift, a turn
+        if (drift_ != 0.0)
+            phase +=
+                drift_ *
+                smoothNoise(hash(seed_, like, drift_purpose_), drift_purpose_, kChanges * turns).x;
+        return phase;
+    }
+
+private:
+    double variation_, drift_;
+    std::uint32_t seed_, phase_purpose_, drift_purpose_;
+    std::vector<std::uint32_t> centres_;  // empty: each strand is its own
+};
+
+}  // namespace
+
 Groom curl(Groom groom, const CurlSettings& settings, std::uint32_t seed) {
     if (settings.radius == 0.0f) return groom;
+    const Phases phases(groom, settings, seed, purpose::curl_phase, purpose::curl_drift);
     return displace(
         std::move(groom), settings.start,
         [&](const Groom& before, std::uint32_t strand, const AlongStrand& along) {
-            const double phase =
-                double{settings.phase_variation} * random01(seed, strand, purpose::curl_phase);
-            return [&, phase,
+            return [&, strand,
                     frames = strandFrames(before.strand(strand), rootNormalOf(before, strand))](
                        std::uint32_t point) {
-                const double turns = settings.frequency * along.arc(point) + phase;
-                const double angle = 2.0 * std::numbers::pi * turns;
+                const double turns = settings.frequency * along.arc(point);
+                const double angle = 2.0 * std::numbers::pi * (turns + phases(strand, turns));
                 return double{settings.radius} * (std::cos(angle) * frames[point].normal +
                                                   std::sin(angle) * frames[point].binormal);
             };
@@ -197,19 +231,36 @@ Groom frizz(Groom groom, const FrizzSettings& settings, std::uint32_t seed) {
         });
 }
 
+Groom flyaways(Groom groom, const FlyawaySettings& settings, std::uint32_t seed) {
+    if (settings.share == 0.0f || settings.reach == 0.0f) return groom;
+    static constexpr double kWays = 1.5;  // changes of direction from root to tip
+    return displace(
+        std::move(groom), 0.0, [&](const Groom&, std::uint32_t strand, const AlongStrand& along) {
+            const bool apart = random01(seed, strand, purpose::flyaway_choice) < settings.share;
+            const double reach =
+                apart ? double{settings.reach} * random01(seed, strand, purpose::flyaway_reach)
+                      : 0.0;
+            return [&, reach, own = hash(seed, strand, purpose::flyaway_x)](std::uint32_t point) {
+                if (reach == 0.0) return glm::dvec3(0.0);
+                const double fraction = along.fraction(point);
+                return reach * ease(settings.start, 1.0, fraction) *
+                       smoothNoise(own, purpose::flyaway_x, kWays * fraction);
+            };
+        });
+}
+
 Groom wave(Groom groom, const WaveSettings& settings, std::uint32_t seed) {
     if (settings.amplitude == 0.0f) return groom;
+    const Phases phases(groom, settings, seed, purpose::wave_phase, purpose::wave_drift);
     return displace(
         std::move(groom), settings.start,
         [&](const Groom& before, std::uint32_t strand, const AlongStrand& along) {
-            const double phase =
-                double{settings.phase_variation} * random01(seed, strand, purpose::wave_phase);
-            return [&, phase,
+            return [&, strand,
                     frames = strandFrames(before.strand(strand), rootNormalOf(before, strand))](
                        std::uint32_t point) {
-                const double waves = settings.frequency * along.arc(point) + phase;
-                return settings.amplitude * std::sin(2.0 * std::numbers::pi * waves) *
-                       frames[point].normal;
+                const double waves = settings.frequency * along.arc(point);
+                const double angle = 2.0 * std::numbers::pi * (waves + phases(strand, waves));
+                return settings.amplitude * std::sin(angle) * frames[point].normal;
             };
         });
 }

@@ -6,6 +6,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "hair/groom/groom.h"
+
 // What displaces the points of strands: places along a strand, frames that do not turn about it,
 // and smooth noise.
 namespace hair::groom {
@@ -38,6 +40,10 @@ constexpr double ease(double from, double to, double x) {
 // Value noise of vectors: a random point of the unit ball at every whole number, eased between, so
 // always within the ball. `purpose` and the two after it are its purposes of random numbers.
 glm::dvec3 smoothNoise(std::uint32_t seed, std::uint32_t purpose, double x);
+
+// The centre of each strand's clump; a centre's own is itself. Centres are taken greedily, in the
+// order of a hash, wherever none is nearer than the spacing yet, by their roots.
+std::vector<std::uint32_t> clumpCentres(const Groom& groom, double spacing, std::uint32_t seed);
 
 // Unit vectors at a point of a strand: along it, across it, and the cross product of the two.
 struct StrandFrame {

@@ -26,6 +26,7 @@ Groom style(Groom groom, const StyleSettings& settings, std::uint32_t seed, cons
     groom = wave(std::move(groom), settings.wave, seed);
     groom = curl(std::move(groom), settings.curl, seed);
     groom = frizz(std::move(groom), settings.frizz, seed);
+    groom = flyaways(std::move(groom), settings.flyaways, seed);
     if (settings.clearance > 0.0f && !mesh)
         throw engine::Error("/groom/style/clearance: there is no mesh that the strands grow on");
     const auto clear = [&] {
@@ -49,8 +50,7 @@ struct Ground {
     double gap;  // negative inside
 };
 
-Ground groundUnder(const glm::dvec3& point, const Mesh& mesh, const NearestSurface& surface) {
-    const MeshPoint nearest = surface(point);
+Ground groundUnder(const glm::dvec3& point, const MeshPoint& nearest, const Mesh& mesh) {
     glm::dvec3 normal(0.0);
     for (int corner = 0; corner < 3; ++corner)
         normal += nearest.weights[corner] *
@@ -110,12 +110,19 @@ struct ClearStrand {
         const std::vector<glm::dvec3> old = points;
         bool moved = false;
         glm::dvec3 above(0.0);  // direction of the segment above
+        double depth = 0.0;  // of the vertex above, where it is inside
         for (std::size_t i = 1; i < points.size(); ++i) {
             const glm::dvec3 edge = old[i] - old[i - 1];
             glm::dvec3 direction = lengths[i] > 0.0 ? edge / lengths[i] : edge;
+            // No segment ends deeper than it is long below the vertex above.
+            const double reach = 1.001 * std::max(wanted[i], lengths[i] + depth);
+            depth = 0.0;
             for (int turn = 0; turn < kTurns && lengths[i] > 0.0; ++turn) {
-                const Ground ground =
-                    groundUnder(points[i - 1] + lengths[i] * direction, mesh, surface);
+                const glm::dvec3 end = points[i - 1] + lengths[i] * direction;
+                const std::optional<MeshPoint> nearest = surface.within(end, reach);
+                if (!nearest) break;
+                const Ground ground = groundUnder(end, *nearest, mesh);
+                depth = std::max(-ground.gap, 0.0);
                 if (ground.gap >= wanted[i] - kClearEnough) break;
                 const double height =
                     glm::dot(ground.outward, ground.position - points[i - 1]) + wanted[i];
@@ -136,7 +143,7 @@ struct ClearStrand {
         for (int push = 0; push < kMostPushes; ++push) {
             bool clear = true;
             for (std::size_t i = 1; i < points.size(); ++i) {
-                const Ground ground = groundUnder(points[i], mesh, surface);
+                const Ground ground = groundUnder(points[i], surface(points[i]), mesh);
                 if (ground.gap >= wanted[i] - kNear) continue;
                 clear = false;
                 points[i] = ground.position + wanted[i] * ground.outward;
@@ -225,8 +232,8 @@ private:
     std::unordered_map<Cube, std::vector<std::uint32_t>, CubeHash> cubes_;
 };
 
-// The centre of each strand's clump; a centre's own is itself. Centres are taken greedily, in the
-// order of a hash, wherever none is nearer than the spacing yet.
+}  // namespace
+
 std::vector<std::uint32_t> clumpCentres(const Groom& groom, double spacing, std::uint32_t seed) {
     std::vector<std::uint32_t> order(groom.strand_count);
     std::iota(order.begin(), order.end(), 0u);
@@ -240,21 +247,34 @@ std::vector<std::uint32_t> clumpCentres(const Groom& groom, double spacing, std:
     return order;
 }
 
-}  // namespace
+namespace {
 
-Groom clump(Groom groom, const ClumpSettings& settings, std::uint32_t seed) {
-    if (settings.strength == 0.0f) return groom;
-    const std::vector<std::uint32_t> centres = clumpCentres(groom, settings.spacing, seed);
+void drawToCentres(
+    Groom& groom, const std::vector<std::uint32_t>& centres, const ClumpSettings& settings,
+    std::uint32_t seed) {
     const std::size_t vertices = groom.vertices_per_strand;
     for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand) {
         if (centres[strand] == strand) continue;
         const AlongStrand along(groom.strand(strand));
         const std::span<const glm::vec3> centre = groom.strand(centres[strand]);
+        const double strength =
+            settings.strength *
+            (1.0 - double{settings.variation} * random01(seed, strand, purpose::clump_strength));
         for (std::size_t i = 0; i < vertices; ++i) {
-            const double share = settings.strength * ease(settings.start, 1.0, along.fraction(i));
+            const double share = strength * ease(settings.start, 1.0, along.fraction(i));
             glm::vec3& point = groom.points[strand * vertices + i];
             point = glm::vec3(glm::mix(glm::dvec3(point), glm::dvec3(centre[i]), share));
         }
+    }
+}
+
+}  // namespace
+
+Groom clump(Groom groom, const ClumpSettings& settings, std::uint32_t seed) {
+    if (settings.strength == 0.0f) return groom;
+    for (std::uint32_t level = settings.levels; level-- > 0;) {
+        const double spacing = std::ldexp(double{settings.spacing}, -static_cast<int>(level));
+        drawToCentres(groom, clumpCentres(groom, spacing, seed), settings, seed);
     }
     return groom;
 }

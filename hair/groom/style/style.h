@@ -14,12 +14,15 @@
 namespace hair::groom {
 
 // Strands are drawn to the centre strand of their clump: vertex k to its vertex k, by
-// strength * smoothstep(start, 1, position along the strand). Centre strands stay; their roots are
-// at least `spacing` apart, and every strand joins the nearest.
+// strength (1 - variation * random) smoothstep(start, 1, position along the strand). Centre strands
+// stay; their roots are at least `spacing` apart, and every strand joins the nearest. With more
+// levels than one that is done for spacing / 2^(levels - 1) first and for `spacing` last.
 Groom clump(Groom groom, const ClumpSettings& settings, std::uint32_t seed);
 
 // A sine across the strand, in the plane of its tangent at the root and the root's normal, or,
-// where those are parallel or there is no normal, in the strand's own plane.
+// where those are parallel or there is no normal, in the strand's own plane. Its phase is that of
+// the strand's clump of `spacing`, and along the strand wanders by up to `drift` waves; so is a
+// helix's.
 Groom wave(Groom groom, const WaveSettings& settings, std::uint32_t seed);
 
 // A right-handed helix round the strand, in its rotation-minimising frame (Wang et al. 2008,
@@ -29,6 +32,10 @@ Groom curl(Groom groom, const CurlSettings& settings, std::uint32_t seed);
 
 // Smooth random displacement, at most `amplitude` in length.
 Groom frizz(Groom groom, const FrizzSettings& settings, std::uint32_t seed);
+
+// A share of the strands, chosen one by one, go their own way: smooth random displacement that
+// grows by smoothstep(start, 1, position along the strand) to at most `reach`.
+Groom flyaways(Groom groom, const FlyawaySettings& settings, std::uint32_t seed);
 
 // Strands are led round the mesh: from the root on, a segment that would end nearer to its surface
 // than `clearance`, or inside, is turned along it, the way that it and the segment above go, and

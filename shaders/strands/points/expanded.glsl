@@ -46,7 +46,7 @@ void main() {
         push.points, strand * kPointsPerStrand + segment * (pieces + kSplitJoints) + end);
     float along = (float(segment) + float(end) / float(pieces)) / float(kSegments);
     PictureParameters picture = PictureReference(push.picture).parameters;
-    uint merged = kMergedHairs != 0 ? storedMerged(picture, strand, stored) : 0u;
+    uint merged = kTellsHairs ? storedMerged(picture, strand, stored) : 0u;
     // Points are as wide as what is drawn, gaps and all.
     float width = point.width / mergedSpread(merged);
     LineEnd line_end =

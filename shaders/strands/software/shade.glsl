@@ -2,6 +2,7 @@
 #include "shading/strand_shading.glsl"
 #include "strands/software/seen.glsl"
 
+#include "strands/own_color.glsl"
 #include "strands/software/place.glsl"
 #include "strands/software/samples.glsl"
 #include "strands/merged_fragment.glsl"
@@ -9,7 +10,7 @@
 layout(local_size_x_id = kPixelGroupConstant) in;
 
 // The point of a piece that a place on the screen shows, px.
-StrandFragment seenPoint(PictureParameters picture, uint number, vec2 place) {
+StrandFragment seenPoint(PictureParameters picture, uint number, vec2 place, out uint merged) {
     Piece piece = pieceOf(picture, number);
     PiecePlace seen = piecePlace(piece, place);
     vec3 narrowing = piece.from.side - piece.to.side;
@@ -24,12 +25,14 @@ StrandFragment seenPoint(PictureParameters picture, uint number, vec2 place) {
     fragment.to_eye = normalize(picture.eye - fragment.position);
     fragment.along = 0.0;  // what a strand's texture would need
     fragment.width = 2.0 * length(mix(piece.from.side, piece.to.side, seen.t));
-    if (kMergedHairs != 0) {
+    merged = 0u;
+    if (kTellsHairs) {
         PlaceOnStrand on_strand = placeOnStrand(picture, number, seen.t);
         fragment.along = on_strand.along;
-        if (mergedCount(on_strand.merged) > 1.0) {
+        merged = on_strand.merged;
+        if (kMergedHairs != 0 && mergedCount(merged) > 1.0) {
             fragment.across = straightAcross(piece, seen);
-            toMergedHair(on_strand.merged, fragment);
+            toMergedHair(merged, fragment);
         }
     }
     return fragment;
@@ -49,8 +52,11 @@ void main() {
             uint index = sampleIndex(pixel, i);
             uvec2 seen = fetchSample(index);
             if (seen.x == kNoPiece) continue;
-            StrandFragment fragment = seenPoint(picture, seen.x, vec2(pixel) + samplePlace(i));
-            vec3 color = shadeStrand(picture, fragment, picture.hair_color);
+            uint merged;
+            StrandFragment fragment =
+                seenPoint(picture, seen.x, vec2(pixel) + samplePlace(i), merged);
+            vec3 hair_color = picture.hair_color * ownColor(picture, merged, fragment.along);
+            vec3 color = shadeStrand(picture, fragment, hair_color);
             if (kLinearLight == 1u)
                 storePair(push.colors, index,
                           uvec2(packHalf2x16(color.rg), packHalf2x16(vec2(color.b, 1.0))));

@@ -6,12 +6,12 @@
 
 layout(location = 0) out vec4 position_and_width;
 layout(location = 1) out vec4 tangent_and_along;
-layout(location = 2) out uint merged_hairs;  // where they are drawn
+layout(location = 2) out uint merged_hairs;  // where kTellsHairs
 
 void main() {
     StrandPoint point = evaluatedPoint(PictureReference(push.picture).parameters);
     position_and_width = vec4(point.position, point.width);
     tangent_and_along = vec4(point.tangent, point.along);
-    if (kMergedHairs != 0) merged_hairs = point.merged;
+    if (kTellsHairs) merged_hairs = point.merged;
     see(bitSum(position_and_width) + bitSum(tangent_and_along));
 }

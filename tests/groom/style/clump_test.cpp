@@ -83,6 +83,39 @@ TEST(Clump, GrowsFromItsStart) {
             << i;
 }
 
+// Strand 0 keeps all of it, the other a part of at least 1 - variation: whichever is no centre.
+TEST(Clump, DrawsSomeStrandsLess) {
+    ClumpSettings settings{.strength = 1.0f, .spacing = 10.0f, .start = 0.0f};
+    settings.variation = 0.75f;
+    const Groom before = lawn(2000);
+    const Groom after = clump(before, settings, 1);
+    const std::vector<std::uint32_t> centres = unmoved(after, before);
+    ASSERT_EQ(centres.size(), 1u);
+    const glm::dvec3 tip(before.strand(centres.front()).back());
+    double mean = 0.0;
+    for (std::uint32_t i = 0; i < before.strand_count; ++i) {
+        if (i == centres.front()) continue;
+        const double left = glm::distance(glm::dvec3(after.strand(i).back()), tip) /
+                            glm::distance(glm::dvec3(before.strand(i).back()), tip);
+        ASSERT_GE(left, -1e-5) << i;
+        ASSERT_LE(left, 0.75 + 1e-4) << i;  // rounding of points 0.01 m apart and more
+        mean += left / 1999.0;
+    }
+    // Uniform in [0, 0.75]: a mean of 0.375, four standard errors of 0.2165 / sqrt 1999.
+    EXPECT_NEAR(mean, 0.375, 0.02);
+}
+
+// Two levels are the finer clumps, and these drawn together.
+TEST(Clump, HasClumpsWithinClumps) {
+    ClumpSettings settings{.strength = 0.5f, .spacing = 0.1f, .start = 0.1f};
+    const Groom before = lawn(2000);
+    ClumpSettings finer = settings;
+    finer.spacing = 0.05f;
+    const Groom expected = clump(clump(before, finer, 1), settings, 1);
+    settings.levels = 2;
+    EXPECT_EQ(clump(before, settings, 1).points, expected.points);
+}
+
 TEST(Clump, DependsOnTheSeedAlone) {
     const ClumpSettings settings{.strength = 0.7f, .spacing = 0.1f};
     const Groom before = lawn(500);

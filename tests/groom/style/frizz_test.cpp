@@ -75,5 +75,24 @@ TEST(Frizz, TakesStrandsLongerThanItsNoiseCanCount) {
     EXPECT_TRUE(allFinite(frizz(groom, {.amplitude = 1.0f, .frequency = 10000.0f}, 1)));
 }
 
+// Of 2000 strands a tenth goes its own way, within reach, and not before its start.
+TEST(Flyaways, AreAShareOfTheStrands) {
+    const FlyawaySettings settings{.share = 0.1f, .reach = 0.02f, .start = 0.5f};
+    const Groom before = verticalStrands(2000, 9, 0.2, 0.0001);
+    const Groom after = flyaways(before, settings, 1);
+    int apart = 0;
+    for (std::uint32_t strand = 0; strand < 2000; ++strand) {
+        for (std::uint32_t i = 0; i <= 4; ++i)
+            ASSERT_EQ(after.strand(strand)[i], before.strand(strand)[i]);
+        for (std::uint32_t i = 5; i < 9; ++i)
+            ASSERT_LE(
+                glm::distance(after.strand(strand)[i], before.strand(strand)[i]), 0.02 + kRounding);
+        apart += after.strand(strand).back() != before.strand(strand).back() ? 1 : 0;
+    }
+    // Binomial: 200, four standard deviations of 13.4.
+    EXPECT_NEAR(apart, 200, 54);
+    EXPECT_EQ(flyaways(before, {}, 1).points, before.points);
+}
+
 }  // namespace
 }  // namespace hair::groom

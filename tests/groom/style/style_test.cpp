@@ -17,6 +17,7 @@ StyleSettings everything() {
         .wave = {.amplitude = 0.004f},
         .curl = {.radius = 0.005f, .phase_variation = 1.0f},
         .frizz = {.amplitude = 0.002f},
+        .flyaways = {.share = 0.5f},
         .cut = {.length = 0.15f, .point = {0, 0.1f, 0}, .normal = {0.1f, 1.0f, 0}},
         .taper = {.root_width = 0.0001f, .tip_width = 0.00005f}};
 }
@@ -45,7 +46,7 @@ TEST(Style, IsItsPartsInTheirOrder) {
     const StyleSettings s = everything();
     Groom expected = clump(sample(), s.clump, 5);
     expected = frizz(curl(wave(expected, s.wave, 5), s.curl, 5), s.frizz, 5);
-    expected = taper(cut(expected, s.cut), s.taper);
+    expected = taper(cut(flyaways(expected, s.flyaways, 5), s.cut), s.taper);
     const Groom after = style(sample(), s, 5, nullptr);
     EXPECT_EQ(after.points, expected.points);
     EXPECT_EQ(after.widths, expected.widths);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -57,6 +58,44 @@ TEST(Wave, MovesNeighboursAlikeUnlessPhasesVary) {
     settings.phase_variation = 1.0f;
     const Groom unlike = wave(before, settings, 1);
     EXPECT_FALSE(std::ranges::equal(unlike.strand(0), unlike.strand(1)));
+}
+
+// Roots 1 mm apart, clumps of 8 mm and more: swings are alike within one and few in all, which
+// without it are as many as strands.
+TEST(Wave, SharesPhasesWithinAClump) {
+    WaveSettings settings{.amplitude = 0.005f, .frequency = 20.0f, .phase_variation = 1.0f};
+    const Groom before = withNormals(verticalStrands(64, 17, 0.2, 0.001), {0.0f, 0.0f, 1.0f});
+    const auto swings = [&] {
+        const Groom after = wave(before, settings, 1);
+        std::set<float> found;
+        for (std::uint32_t i = 0; i < 64; ++i) found.insert(after.strand(i)[9].z);
+        return found.size();
+    };
+    EXPECT_EQ(swings(), 64u);
+    settings.spacing = 0.008f;
+    // Centres at least 8 mm apart on a line of 63 mm, and no place left for another.
+    EXPECT_LE(swings(), 8u);
+    EXPECT_GE(swings(), 4u);
+}
+
+// Where the phase has wandered by up to a quarter of a wave, zero may be anywhere up to an eighth
+// of a strand of two waves on; the swing stays within the amplitude.
+TEST(Wave, DriftsAlongTheStrand) {
+    WaveSettings settings{.amplitude = 0.005f, .frequency = 20.0f, .start = 0.0f};
+    const Groom before = withNormals(verticalStrands(50, 65, 0.2, 0.01), {0.0f, 0.0f, 1.0f});
+    const Groom steady = wave(before, settings, 1);
+    settings.drift = 0.25f;
+    const Groom drifting = wave(before, settings, 1);
+    double most = 0.0;
+    for (std::size_t i = 0; i < before.points.size(); ++i) {
+        EXPECT_LE(std::abs(drifting.points[i].z), 0.005 + kRounding);
+        const double arc = before.points[i].y;
+        // sin differs by at most the greatest turn of its argument.
+        const double bound = 0.005 * std::min(2.0, 2.0 * pi * 0.25);
+        EXPECT_LE(std::abs(drifting.points[i].z - steady.points[i].z), bound + kRounding) << arc;
+        most = std::max(most, double{std::abs(drifting.points[i].z - steady.points[i].z)});
+    }
+    EXPECT_GT(most, 0.001);
 }
 
 }  // namespace
