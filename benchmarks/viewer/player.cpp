@@ -75,10 +75,10 @@ std::uint32_t Pacer::framesFor(double seconds, double frame_time, std::optional<
 
 Player::Player(
     const engine::Device& device, const hair::Settings& settings,
-    const std::filesystem::path& directory, measure::HairCache* cache)
+    const std::filesystem::path& directory, measure::HairCache* cache, unsigned level)
     : device_(device), directory_(directory), cache_(cache), settings_(settings),
       case_(caseOf(settings)), isolated_(device, engine::Timing::isolated),
-      overlapped_(device, engine::Timing::overlapped) {
+      overlapped_(device, engine::Timing::overlapped), level_(level) {
     seek(0);
 }
 

@@ -91,10 +91,11 @@ Sphere groomNow(const Shown& shown);
 // reached. Only a preview shows something else.
 class Player {
 public:
-    // Draws frame 0. Throws as Case does. The cache may be null.
+    // Draws frame 0, at this level of preview.h. Throws as Case does. The cache may be null.
     Player(
         const engine::Device& device, const hair::Settings& settings,
-        const std::filesystem::path& directory, measure::HairCache* cache = nullptr);
+        const std::filesystem::path& directory, measure::HairCache* cache = nullptr,
+        unsigned level = 0);
 
     // Plays with these settings; refresh() draws them. Throws engine::Error for impossible ones,
     // and keeps the last.

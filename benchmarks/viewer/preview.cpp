@@ -82,6 +82,8 @@ void PreviewControl::drawn(unsigned level, double milliseconds) {
             moving_ = level;
             calm_ = 0;
         }
+        // Of what moves nothing is known yet.
+        while (moving_ < level && took_[moving_] == 0.0 && expected(moving_) > kAim) ++moving_;
         return;
     }
     if (milliseconds > kAim) {

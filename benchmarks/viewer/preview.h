@@ -45,6 +45,10 @@ class PreviewControl {
 public:
     static constexpr double kAim = 100.0;  // ms that a picture that moves should take at most
 
+    // The level of a scene's first picture, of which nobody knows how long it takes: it is there
+    // soon, and a finer one soon after it wherever that is fast.
+    static constexpr unsigned kFirst = 4;
+
     // A picture of this level took so long, ms.
     void drawn(unsigned level, double milliseconds);
 

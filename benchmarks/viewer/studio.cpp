@@ -43,9 +43,9 @@ void Studio::reloadShaders() {
 // ---- Settings -----------------------------------------------------------------------------------
 
 // A side that was not played before.
-void Studio::make(const SideOrder& order, SideReply& reply) {
+void Studio::make(const SideOrder& order, unsigned level, SideReply& reply) {
     try {
-        auto played = std::make_unique<Played>(device_, order, order.directory, cache_);
+        auto played = std::make_unique<Played>(device_, order, order.directory, cache_, level);
         if (const auto beside = played_.find(order.beside.value_or(0)); beside != played_.end())
             played->player.seek(beside->second->player.frame());
         played->revision = order.revision;
@@ -84,12 +84,10 @@ void Studio::admit(const Order& order, Reply& reply) {
     for (const SideOrder& side : order.sides) {
         reply.sides.push_back({.side = side.side, .revision = side.revision});
         if (played_.contains(side.side)) continue;
-        make(side, reply.sides.back());
+        make(side, order.level, reply.sides.back());
         // What its first frame took, and not what it took to be made.
-        if (const auto made = played_.find(side.side); made != played_.end()) {
+        if (const auto made = played_.find(side.side); made != played_.end())
             reply.milliseconds += made->second->player.record().wall;
-            reply.level = 0;
-        }
     }
 }
 

@@ -42,7 +42,7 @@ struct Order {
 
 struct Reply {
     std::vector<SideReply> sides;
-    unsigned level = 0;  // that was drawn: a side's first picture is always of level 0
+    unsigned level = 0;  // that was drawn
     // That playing and drawing took, and of frames on the way to another one, as after a seek, what
     // the last one took. 0: nothing was drawn.
     double milliseconds = 0.0;
@@ -72,8 +72,8 @@ private:
     struct Played {
         Played(
             const engine::Device& device, const SideOrder& order,
-            const std::filesystem::path& directory, measure::HairCache& cache)
-            : player(device, order.settings, directory, &cache) {}
+            const std::filesystem::path& directory, measure::HairCache& cache, unsigned level)
+            : player(device, order.settings, directory, &cache, level) {}
 
         Player player;
         std::uint64_t revision = 0;  // that was followed or refused
@@ -84,7 +84,7 @@ private:
 
     void reloadShaders();
     void admit(const Order& order, Reply& reply);
-    void make(const SideOrder& order, SideReply& reply);
+    void make(const SideOrder& order, unsigned level, SideReply& reply);
     static void follow(Played& played, const SideOrder& order, SideReply& reply);
     void play(const Order& order, const Stop& stop, Reply& reply);
     static void advance(Player& player, const Order& order, const Stop& stop, SideReply& reply);

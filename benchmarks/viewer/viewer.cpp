@@ -228,7 +228,8 @@ unsigned Viewer::Parts::levelFor(const Order& order) {
     if (moves) moved_at = seconds();
     const bool exact = std::ranges::any_of(
         waiting, [](const Waiting& each) { return each.needs == Needs::picture; });
-    if (!previews || exact || recorder.records() || scene.isMaking()) return 0;
+    if (!previews || exact || recorder.records()) return 0;
+    if (scene.isMaking()) return PreviewControl::kFirst;
     return moves ? control.moving()
                  : control.still(scene.side(0).shown().level, seconds() - moved_at);
 }

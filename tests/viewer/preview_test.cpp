@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hair/fields.h"
 #include "hair/settings.h"
 
 namespace benchmarks::viewer {
@@ -56,6 +57,24 @@ TEST(PreviewControl, GetsWithinItsAimAfterOnePictureOfAScene) {
         EXPECT_LE(device.took(control.moving()), kAim) << times;
         // And not coarser than that takes.
         EXPECT_GT(device.took(control.moving() - 1), kAim) << times;
+    }
+}
+
+// The level that moves is within the aim by what the first picture tells: a level is expected to
+// take at most twice as long as the next coarser one.
+TEST(PreviewControl, LearnsFromACoarseFirstPicture) {
+    for (const double times : {0.5, 3.0, 7.0, 100.0}) {
+        PreviewControl control;
+        const Device device{.whole = times * kAim};
+        control.drawn(PreviewControl::kFirst, device.took(PreviewControl::kFirst));
+        const unsigned level = control.moving();
+        EXPECT_LE(level, PreviewControl::kFirst);
+        if (level < PreviewControl::kFirst) {
+            EXPECT_LE(device.took(level), kAim) << times;
+        }
+        if (level > 0) {
+            EXPECT_GT(device.took(level - 1), kAim) << times;
+        }
     }
 }
 

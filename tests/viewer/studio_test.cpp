@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include "benchmarks/viewer/preview.h"
 #include "tests/golden/features.h"
 #include "tests/gpu_fixture.h"
 
@@ -66,6 +67,17 @@ TEST_F(StudioTest, DrawsFewerStrandsAndPixelsInAPreview) {
     // 16 strands of a root triangle at level 0, and 2^-3 of them at level 3: thesis 2.3.8.1.
     EXPECT_DOUBLE_EQ(coarse.strand_share, 2.0 / 16.0);
     EXPECT_EQ(coarse.guides, whole.guides);
+}
+
+TEST_F(StudioTest, OpensASceneAtTheLevelThatIsAskedFor) {
+    const hair::Settings settings = movingSettings();
+    Order order{.sides = {side(1, settings)}, .level = PreviewControl::kFirst};
+    const Reply first = perform(order);
+    EXPECT_EQ(first.level, PreviewControl::kFirst);
+    EXPECT_GT(first.milliseconds, 0.0);
+    EXPECT_EQ(first.sides.front().shown->level, PreviewControl::kFirst);
+    order.level = 0;
+    EXPECT_EQ(perform(order).sides.front().shown->pictureHash(), hashOf(settings, 0));
 }
 
 // Previews change what is drawn and nothing else: frames that were played in previews are refined

@@ -1,12 +1,15 @@
 #include "hair/groom/style/style.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <future>
 #include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
 #include <string>
+#include <thread>
 #include <unordered_map>
 
 #include <glm/common.hpp>
@@ -158,17 +161,39 @@ struct ClearStrand {
     }
 };
 
+// Does something for each index below `count`, in any order and on all processors; what it throws
+// comes out of here.
+template <class Work>
+void inParallel(std::uint32_t count, Work&& work) {
+    static constexpr std::uint32_t kTaken = 256;  // indices at a time
+    std::atomic<std::uint64_t> next = 0;
+    const auto take = [&] {
+        for (std::uint64_t first = next.fetch_add(kTaken); first < count;
+             first = next.fetch_add(kTaken)) {
+            const std::uint64_t end = std::min<std::uint64_t>(first + kTaken, count);
+            for (std::uint64_t i = first; i < end; ++i) work(static_cast<std::uint32_t>(i));
+        }
+    };
+    const std::uint32_t takers =
+        std::min((count + kTaken - 1) / kTaken, std::thread::hardware_concurrency());
+    std::vector<std::future<void>> others;
+    for (std::uint32_t i = 1; i < takers; ++i)
+        others.push_back(std::async(std::launch::async, take));
+    take();
+    for (std::future<void>& other : others) other.get();
+}
+
 }  // namespace
 
 Groom keepClear(Groom groom, const Mesh& mesh, double clearance) {
     const NearestSurface surface(mesh.positions, mesh.triangles);
-    for (std::uint32_t index = 0; index < groom.strand_count; ++index) {
+    inParallel(groom.strand_count, [&](std::uint32_t index) {
         ClearStrand strand(groom.strand(index), clearance, mesh, surface);
-        if (!strand.turnSegments()) continue;
+        if (!strand.turnSegments()) return;
         strand.pushVertices();
         std::ranges::copy(
             strand.points, groom.points.begin() + std::size_t{index} * groom.vertices_per_strand);
-    }
+    });
     return groom;
 }
 
