@@ -1,3 +1,6 @@
+#include <cstdio>
+#include <filesystem>
+
 #include <gmock/gmock.h>
 
 #include "hair/groom/formats/alembic_export.h"
@@ -5,6 +8,7 @@
 #include "tests/groom/formats/alembic_files.h"
 #include "tests/groom/formats/broken_promise.h"
 #include "tests/groom/formats/strand_files.h"
+#include "tests/python.h"
 
 namespace hair::groom {
 namespace {
@@ -613,6 +617,54 @@ TEST(AlembicExport, HasTheHashesOfAlembicsLibrary) {
     expectSame(textIn(strands.colors.values));
     expectSame(textIn(strands.groups));
     expectSame(textIn(strands.root_uvs));
+}
+
+// What Alembic's own library reads of an archive of ours, to the last bit.
+TEST(AlembicExport, IsReadByAlembicsLibrary) {
+    const std::string python = HAIRBENCH_SOURCE_DIR "/.deps/alembic/bin/python";
+    if (!std::filesystem::exists(python))
+        GTEST_SKIP() << "no Python environment for Alembic: run scripts/setup --alembic";
+    StrandSet strands = hardStrands();
+    strands.points[2].x = 1e30f;  // corners of the bounds
+    strands.points[9].z = -2.0f;
+    strands.groups = {-5, 1, 2};
+    strands.guides = {0, 1, 0};
+    strands.root_uvs = {{0.1f, -0.0f}, {1.0f / 3.0f, 1e-45f}, {1, 2}};
+    strands.metres_per_unit = 0.0254;
+    strands.comment = "of hairbench";
+    const TemporaryFolder folder;
+    exportStrands(strands, folder.file("a.abc"));
+    const Outcome loaded = runInShell(
+        "'" + python + "' -B '" HAIRBENCH_SOURCE_DIR "/tests/groom/formats/load_alembic.py' '" +
+        folder.file("a.abc").string() + "' 2>&1");
+    ASSERT_EQ(loaded.status, 0) << loaded.output;
+    const auto words = [](const auto& elements) {
+        std::string text;
+        const auto* const first = reinterpret_cast<const std::uint32_t*>(elements.data());
+        for (std::size_t i = 0; i < elements.size() * sizeof(elements[0]) / 4; ++i) {
+            char word[16];
+            std::snprintf(word, sizeof word, " %08x", first[i]);
+            text += word;
+        }
+        return text + '\n';
+    };
+    const std::string expected =
+        "transform /hair M44d((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1))\n"
+        "groom_version_major int16_t con 1\n"
+        "groom_version_minor int16_t con 5\n"
+        "curves /hair/strands kLinear kNonPeriodic kNoBasis\n"
+        "P" +
+        words(strands.points) +
+        "nVertices 5 2 3\n"
+        "bounds" +
+        words(std::vector{-1.0f, -1.17549435e-38f, -2.0f, 1e30f, 9.999999e9f, 16777217.0f}) +
+        "width kVertexScope" + words(strands.widths.values) +
+        "groom_group_id int32_t uni -5 1 2\n"
+        "groom_guide int16_t uni 0 1 0\n"
+        "groom_root_uv float32_t[2] uni" +
+        words(strands.root_uvs) + "groom_color float32_t[3] vtx" + words(strands.colors.values) +
+        "hairbench:metersPerUnit 0.0254\nhairbench:comment of hairbench\n";
+    EXPECT_EQ(loaded.output, expected);
 }
 
 }  // namespace
