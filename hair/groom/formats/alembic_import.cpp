@@ -307,20 +307,20 @@ private:
                 std::to_string(topology.vertices()));
         share(topology.vertices() * sizeof(glm::vec3), points);
         std::vector<glm::vec3> vertices;
-        if (topology.isCubic()) {
+        if (!topology.isLinear()) {
             vertices = values_.floatsOf<glm::vec3>(points);
             topology.draw(vertices, sizes);
         }
         const std::size_t start = set_.points.size();
         std::uint64_t end = start;
-        if (set_.ends.empty()) set_.ends.reserve(topology.sizes().size());
-        for (const std::int32_t size : topology.sizes()) {
-            end += topology.pointsOf(size);
+        if (set_.ends.empty()) set_.ends.reserve(topology.curves());
+        for (std::size_t i = 0; i < topology.curves(); ++i) {
+            end += topology.pointsOf(i);
             if (end > std::numeric_limits<std::uint32_t>::max())
                 sizes.fail("the strands have 2^32 points, or more");
             set_.ends.push_back(static_cast<std::uint32_t>(end));
         }
-        if (topology.isCubic()) {
+        if (!topology.isLinear()) {
             if (start == 0) set_.points.reserve(end);
             topology.alongVertices(std::span<const glm::vec3>(vertices), [&](const glm::dvec3& p) {
                 set_.points.push_back(placed(p, space, points));
@@ -328,7 +328,7 @@ private:
         } else {
             appendLinear(points, space);
         }
-        curves.strands = static_cast<std::uint32_t>(topology.sizes().size());
+        curves.strands = static_cast<std::uint32_t>(topology.curves());
         curves.points = static_cast<std::uint32_t>(end - start);
     }
 
@@ -362,12 +362,12 @@ private:
     static PerWhat perWhatOf(const AlembicParameter& parameter, const AlembicTopology& topology) {
         const std::uint64_t count = parameter.count();
         if (count == 1) return PerWhat::object;
-        if (count == topology.sizes().size()) return PerWhat::curve;
+        if (count == topology.curves()) return PerWhat::curve;
         if (count == topology.vertices()) return PerWhat::vertex;
-        if (topology.isCubic() && count == topology.ends()) return PerWhat::end;
+        if (!topology.isLinear() && count == topology.ends()) return PerWhat::end;
         parameter.fail(
             std::to_string(count) + " values, expected 1, one for each of " +
-            std::to_string(topology.sizes().size()) + " curves, or of " +
+            std::to_string(topology.curves()) + " curves, or of " +
             std::to_string(topology.vertices()) + " vertices");
     }
 
@@ -378,7 +378,7 @@ private:
         std::vector<Value> values, const Rounded& rounded) {
         const PerWhat what = perWhatOf(parameter, topology);
         if (what == PerWhat::object) return {.everywhere = values.front(), .values = {}};
-        if (what == PerWhat::vertex && !topology.isCubic())
+        if (what == PerWhat::vertex && topology.isLinear())
             return {.everywhere = {}, .values = std::move(values)};
         PointAttribute<Value> result;
         const auto add = [&](const auto& value) { result.values.push_back(rounded(value)); };
@@ -388,8 +388,7 @@ private:
             topology.alongEnds(std::span<const Value>(values), add);
         else
             for (std::size_t i = 0; i < values.size(); ++i)
-                result.values.insert(
-                    result.values.end(), topology.pointsOf(topology.sizes()[i]), values[i]);
+                result.values.insert(result.values.end(), topology.pointsOf(i), values[i]);
         return result;
     }
 
@@ -397,8 +396,8 @@ private:
     template <class Value>
     static std::optional<std::vector<Value>>
     perCurve(std::vector<Value> values, const AlembicTopology& topology) {
-        if (values.size() == 1) values.resize(topology.sizes().size(), Value(values.front()));
-        if (values.size() != topology.sizes().size()) return {};
+        if (values.size() == 1) values.resize(topology.curves(), Value(values.front()));
+        if (values.size() != topology.curves()) return {};
         return values;
     }
 
@@ -472,7 +471,7 @@ private:
             auto all = perCurve(values_.floatsOf<glm::vec2>(*root_uv), topology);
             if (!all) root_uv->fail("one is expected for each curve");
             curves.root_uvs = std::move(*all);
-        } else if (uv && uv->count() == topology.sizes().size()) {
+        } else if (uv && uv->count() == topology.curves()) {
             curves.root_uvs = values_.floatsOf<glm::vec2>(*uv);
         } else if (uv) {
             leaveOut("uv");

@@ -20,11 +20,11 @@ namespace hair::groom {
 // are: evenly in t, by the fewest points that give no curve fewer than it has vertices. Bézier and
 // B-spline curves are those of their vertices; Catmull-Rom curves run through all of theirs, as
 // Blender draws them, but where each has its two first and two last vertices in one place, as
-// RenderMan wants them, between those.
+// RenderMan wants them, between those. Curves with knots, of any order to 16, are what these say.
 // What parameters only some of the objects have is left out with a warning; of guides those are
 // none that say nothing. Refuses whatever is not as AlembicArchive says; closed curves, other bases
-// (Hermite, power), NURBS (knots, weights or orders); counts that don't fit, values of other
-// types, numbers that are not finite, negative widths; projections. Throws engine::Error
+// (Hermite, power), weights that differ; counts that don't fit, values of other types, numbers that
+// are not finite, negative widths; projections. Throws engine::Error
 // "byte N: path of the object or property: reason".
 StrandSet importAlembic(const StrandFile& file);
 

@@ -295,6 +295,81 @@ TEST(AlembicCubic, WidthsFollowTheCurveOrItsSegments) {
     EXPECT_FLOAT_EQ(of_ends[3], 3.0f);
 }
 
+// Knots and orders of curves, which are of type 2 (of variable order).
+std::vector<MadeProperty> withKnots(
+    std::vector<float> points, std::vector<std::int32_t> sizes, std::vector<float> knots,
+    const std::string& orders) {
+    return {
+        madeFloats("P", 3, std::move(points)),
+        madeIntegers("nVertices", std::move(sizes)),
+        madeKind(2, 0, 2),
+        madeFloats(".knots", 1, std::move(knots)),
+        {.name = ".orders", .type = kUint8, .samples = {orders}}};
+}
+
+// Knots of 4 at either end make the Bezier curve, those at even distances the uniform B-spline.
+TEST(AlembicNurbs, AreBezierCurvesAndBsplinesWithTheirKnots) {
+    const std::vector<float> points{0, 0, 0, 0, 1, 0, 1, 1, 0, 1, 0, 0};
+    for (const auto& [knots, basis] :
+         {std::pair{std::vector<float>{0, 0, 0, 0, 1, 1, 1, 1}, 1u},
+          std::pair{std::vector<float>{0, 1, 2, 3, 4, 5, 6, 7}, 2u}}) {
+        const StrandSet by_knots = readMade({madeCurves("a", withKnots(points, {4}, knots, "\4"))});
+        const StrandSet by_basis = readCubic(basis, points, {4});
+        ASSERT_EQ(by_knots.ends, by_basis.ends);
+        for (std::size_t i = 0; i < 4; ++i)
+            for (int axis = 0; axis < 3; ++axis)
+                EXPECT_NEAR(by_knots.points[i][axis], by_basis.points[i][axis], 1e-7f) << i;
+    }
+}
+
+// With vertices at the means of order - 1 knots (Greville's abscissae) a curve is its parameter.
+TEST(AlembicNurbs, KeepTheirParameterWithVerticesAtMeansOfKnots) {
+    const std::vector<float> cubic{0, 0, 0, 0, 1, 1.5f, 1.5f, 4, 4, 4, 4};
+    const std::vector<float> quadratic{-1, 0, 2, 3, 7, 9};
+    std::vector<float> points;
+    for (std::size_t i = 0; i < 7; ++i) {
+        const float mean = (cubic[i + 1] + cubic[i + 2] + cubic[i + 3]) / 3;
+        points.insert(points.end(), {mean, 2 * mean, 1});
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+        points.insert(points.end(), {(quadratic[i + 1] + quadratic[i + 2]) / 2, 0, 0});
+    points.insert(points.end(), {5, 6, 7, 8, 9, 10});  // a line
+    std::vector<float> knots = cubic;
+    knots.insert(knots.end(), quadratic.begin(), quadratic.end());
+    knots.insert(knots.end(), {0, 0, 1, 1});
+    const StrandSet set =
+        readMade({madeCurves("a", withKnots(points, {7, 3, 2}, knots, "\4\3\2"))});
+    // The cubic one has segments from 0 to 1, 1.5 and 4, each in 2 pieces, as the others have.
+    ASSERT_THAT(set.ends, ElementsAre(7, 10, 13));
+    const float cubic_expected[] = {0, 0.5f, 1, 1.25f, 1.5f, 2.75f, 4};
+    for (std::size_t i = 0; i < 7; ++i) {
+        EXPECT_NEAR(set.points[i].x, cubic_expected[i], 1e-6f) << i;
+        EXPECT_NEAR(set.points[i].y, 2 * cubic_expected[i], 1e-6f) << i;
+        EXPECT_NEAR(set.points[i].z, 1, 1e-6f) << i;
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_NEAR(set.points[7 + i].x, 2 + 0.5f * static_cast<float>(i), 1e-6f) << i;
+    EXPECT_EQ(set.points[10], glm::vec3(5, 6, 7));
+    EXPECT_EQ(set.points[12], glm::vec3(8, 9, 10));
+}
+
+TEST(AlembicNurbs, WithOtherKnotsAreRefused) {
+    const std::vector<float> points{0, 0, 0, 0, 1, 0, 1, 1, 0, 1, 0, 0};
+    const auto error = [&](std::vector<float> knots, const std::string& orders) {
+        return madeError({madeCurves("a", withKnots(points, {4}, std::move(knots), orders))});
+    };
+    EXPECT_EQ(error({0, 0, 0, 0, 1, 1, 1, 1}, "\4"), "no error");
+    EXPECT_THAT(
+        error({0, 0, 0, 0, 1, 1, 1}, "\4"),
+        AllOf(HasSubstr("/a/.geom/.knots"), HasSubstr("curve 0 has too few knots")));
+    EXPECT_THAT(error({0, 0, 0, 0, 1, 1, 1, 1, 1}, "\4"), HasSubstr("9 knots, the curves have 8"));
+    EXPECT_THAT(error({0, 0, 0, 1, 0, 1, 1, 1}, "\4"), HasSubstr("knots that go back"));
+    EXPECT_THAT(error({1, 1, 1, 1, 1, 1, 1, 1}, "\4"), HasSubstr("knots that are all one"));
+    EXPECT_THAT(error({0, 0, 0, 0, 0, 1, 1, 1, 1}, "\5"), HasSubstr("none of order 5"));
+    EXPECT_THAT(error({0, 0, 0, 0, 1}, "\1"), HasSubstr("has the order 1"));
+    EXPECT_THAT(error({0, 0, 0, 0, 1, 1, 1, 1}, "\4\4"), HasSubstr("2 orders of 1 curves"));
+}
+
 TEST(AlembicCubic, OthersAreRefusedWithWhatToDo) {
     const auto error = [](std::uint32_t type, std::uint32_t wrap, std::uint32_t basis,
                           std::vector<MadeProperty> more = {}) {
@@ -305,14 +380,13 @@ TEST(AlembicCubic, OthersAreRefusedWithWhatToDo) {
         return madeError({madeCurves("a", geometry)});
     };
     EXPECT_THAT(error(1, 1, 0), HasSubstr("closed (periodic)"));
-    EXPECT_THAT(error(2, 0, 2), AllOf(HasSubstr("NURBS"), HasSubstr("as linear curves")));
-    EXPECT_THAT(error(7, 0, 2), HasSubstr("variable order"));
+    EXPECT_THAT(error(2, 0, 2), AllOf(HasSubstr("without knots"), HasSubstr("as linear curves")));
+    EXPECT_THAT(error(7, 0, 2), HasSubstr("the unknown type 7"));
     EXPECT_THAT(error(0, 0, 0), HasSubstr("no basis: export them as linear"));
     EXPECT_THAT(error(0, 0, 4), HasSubstr("Hermite"));
     EXPECT_THAT(error(0, 0, 5), HasSubstr("power"));
     EXPECT_THAT(error(0, 0, 9), HasSubstr("the basis 9"));
     EXPECT_THAT(error(0, 0, 1), HasSubstr("curve 0 has 5 vertices, which are no cubic B"));
-    EXPECT_THAT(error(0, 0, 2, {madeFloats(".knots", 1, {0, 0, 1})}), HasSubstr("knots"));
     EXPECT_THAT(error(0, 0, 2, {madeFloats("w", 1, {1, 2, 1, 1, 1})}), HasSubstr("rational"));
     EXPECT_EQ(error(0, 0, 2, {madeFloats("w", 1, {1, 1, 1, 1, 1})}), "no error");
 }
