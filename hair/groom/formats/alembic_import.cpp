@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -81,6 +82,7 @@ constexpr std::array kKnownProperties{
     "groom_color"sv,
     "groom_root_uv"sv,
     "groom_group_id"sv,
+    "groom_group_name"sv,
     "groom_guide"sv,
     "groom_version_major"sv,
     "groom_version_minor"sv,
@@ -443,6 +445,12 @@ private:
             readColors(*color, topology, curves);
         readRootUvs(geometry, parameters, topology, curves);
         curves.groups = integersIn(parameters, "groom_group_id", topology, place.group);
+        if (const auto names = values_.parameterOf(parameters, "groom_group_name")) {
+            if (curves.groups.empty())
+                curves.groups = groupsNamed(*names, topology);
+            else
+                leaveOut("groom_group_name");
+        }
         for (const std::int32_t flag : integersIn(parameters, "groom_guide", topology, place.guide))
             curves.guides.push_back(flag != 0 ? 1 : 0);
     }
@@ -487,6 +495,30 @@ private:
         auto all =
             perCurve(own ? values_.integersOf(*own) : std::vector<std::int32_t>{*above}, topology);
         if (!all) own->fail("one is expected, or one for each curve");
+        return std::move(*all);
+    }
+
+    // A number for each curve's group: 0 for the name that comes first in the archive, and so on.
+    std::vector<std::int32_t>
+    groupsNamed(const AlembicParameter& names, const AlembicTopology& topology) {
+        names.require(AlembicType::text, 1);
+        share(names.elements.count, names);
+        const std::vector<char> bytes = values_.stored<char>(names);
+        if (bytes.back() != '\0') names.fail("a text without its end");
+        std::vector<std::int32_t> numbers;
+        for (auto at = bytes.begin(); at != bytes.end();) {
+            const auto end = std::find(at, bytes.end(), '\0');
+            const auto number = static_cast<std::int32_t>(group_names_.size());
+            numbers.push_back(group_names_.try_emplace({at, end}, number).first->second);
+            at = end + 1;
+        }
+        for (const std::uint32_t index : names.indices)
+            if (index >= numbers.size())
+                names.fail(
+                    "index " + std::to_string(index) + " of " + std::to_string(numbers.size()) +
+                    " names");
+        auto all = perCurve(names.arranged(std::move(numbers)), topology);
+        if (!all) names.fail("one is expected, or one for each curve");
         return std::move(*all);
     }
 
@@ -584,6 +616,7 @@ private:
     StrandSet set_;
     std::vector<AlembicCurves> curves_;
     std::uint64_t shared_ = 0;  // bytes of points and triangles that were read
+    std::map<std::string, std::int32_t> group_names_;
     std::set<std::string> left_out_;
     std::string first_moving_;
     std::size_t moving_ = 0;  // objects

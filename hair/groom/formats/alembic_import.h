@@ -10,7 +10,8 @@
 //   curveBasisAndType   linear or cubic curves; without it linear ones
 //   width          diameters; groom_width comes before it
 //   and of .arbGeomParams what Epic's "Using Alembic for Grooms" (version 1.5) names:
-//   groom_root_uv (else uv, one for each curve), groom_group_id, groom_guide, groom_color.
+//   groom_root_uv (else uv, one for each curve), groom_group_id, groom_guide, groom_color;
+//   groom_group_name, where there is no number: 0 for the first name, and so on.
 //   groom_width, groom_group_id and groom_guide may also be of the transforms above.
 // A parameter has one value, one for each curve, or one for each vertex: how many there are says
 // which, whatever its scope. It may have indices.

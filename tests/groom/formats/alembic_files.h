@@ -18,7 +18,6 @@ enum AlembicCode : std::uint32_t {  // Alembic's PlainOldDataType
     kInt16 = 4,
     kUint32 = 5,
     kInt32 = 6,
-    kHalf = 9,
     kFloat = 10,
     kDouble = 11,
     kText = 12
@@ -116,13 +115,6 @@ private:
 };
 
 // ---- Curves -------------------------------------------------------------------------------------
-
-template <class... Values>
-std::string made(Bytes& (Bytes::*put)(std::uint32_t), Values... values) {
-    Bytes bytes;
-    ((bytes.*put)(static_cast<std::uint32_t>(values)), ...);
-    return bytes.str();
-}
 
 inline MadeProperty madeFloats(std::string name, std::uint32_t extent, std::vector<float> values) {
     Bytes bytes;

@@ -89,6 +89,30 @@ TEST(Alembic, ReadsUnrealsParameters) {
     EXPECT_THAT(set.warnings, ElementsAre("'groom_id': left out"));
 }
 
+TEST(Alembic, NumbersGroupsByTheirNamesWhereNothingElseDoes) {
+    const auto named = [](std::string names) {
+        return MadeProperty{.name = "groom_group_name", .type = kText, .samples = {names}};
+    };
+    MadeProperty values = named(std::string("fringe\0back\0", 12));
+    values.name = ".vals";
+    const MadeProperty indices{
+        .name = ".indices", .type = kUint32, .samples = {Bytes().u32(1).u32(0).str()}};
+    const StrandSet set = readMade(
+        {twoCurvesWith({named(std::string("top\0back\0", 9))}),
+         twoCurvesWith({named(std::string("back\0", 5))}),
+         twoCurvesWith({madeCompound("groom_group_name", {values, indices})})});
+    EXPECT_THAT(set.groups, ElementsAre(0, 1, 1, 1, 1, 2));
+    EXPECT_THAT(set.warnings, IsEmpty());
+    const StrandSet numbered = readMade(
+        {twoCurvesWith({named(std::string("a\0b\0", 4)), madeIntegers("groom_group_id", {8, 9})})});
+    EXPECT_THAT(numbered.groups, ElementsAre(8, 9));
+    EXPECT_THAT(numbered.warnings, ElementsAre("'groom_group_name': left out"));
+    EXPECT_THAT(madeError({twoCurvesWith({named("top")})}), HasSubstr("without its end"));
+    EXPECT_THAT(
+        madeError({twoCurvesWith({named(std::string("a\0b\0c\0", 6))})}),
+        HasSubstr("one is expected, or one for each curve"));
+}
+
 TEST(Alembic, ReadsOneValueForAllCurvesAndScalars) {
     const StrandSet set = readMade({twoCurvesWith(
         {{.name = "groom_group_id", .kind = 1, .type = kInt32, .samples = {Bytes().u32(5).str()}},
