@@ -4,6 +4,8 @@
 #include <memory>
 
 #include "engine/error.h"
+#include "hair/groom/formats/alembic_export.h"
+#include "hair/groom/formats/alembic_import.h"
 #include "hair/groom/formats/cyhair.h"
 #include "hair/groom/formats/embree_xml.h"
 #include "hair/groom/formats/gltf.h"
@@ -25,7 +27,7 @@ using namespace std::string_view_literals;
 constexpr StrandExporter kExporters[] = {
     {".hair", exportHair},     {".hgl", exportHgl},   {".tfx", exportTfx}, {".obj", exportObj},
     {".ply", exportPly},       {".gltf", exportGltf}, {".glb", exportGlb}, {".usda", exportUsda},
-    {".data", exportHairData}, {".npy", exportNpy},   {".npz", exportNpz},
+    {".data", exportHairData}, {".npy", exportNpy},   {".npz", exportNpz}, {".abc", exportAlembic},
 };
 
 constexpr std::array kHair{".hair"sv};
@@ -42,6 +44,7 @@ constexpr std::array kNpy{".npy"sv};
 constexpr std::array kNpz{".npz"sv};
 constexpr std::array kXml{".xml"sv};
 constexpr std::array kBin{".bin"sv};
+constexpr std::array kAbc{".abc"sv};
 
 constexpr auto kTfxVersion = "\0\0\x80\x40"sv;   // 4.0f
 constexpr auto kTfx3Version = "\0\0\x40\x40"sv;  // 3.0f
@@ -64,6 +67,7 @@ constexpr StrandImporter kImporters[] = {
     {"NumPy's archive", kNpz, "", importNpz},
     {"Embree's scene", kXml, "", importEmbreeXml},
     {"CT2Hair's strands", kBin, "", importCt2Hair},
+    {"Alembic", kAbc, "Ogawa", importAlembic},
 };
 
 // Files that are not read, but known by their first bytes: what they are and what to do with them.
@@ -79,8 +83,8 @@ constexpr std::string_view kFromMaya = "export its curves as USD from Maya";
 constexpr std::string_view kUnpack = "unpack it and give what is in it";
 
 constexpr OtherFormat kOtherFormats[] = {
-    {"Ogawa", "an Alembic file (Ogawa)", kToUsd},
-    {"\x89HDF\r\n\x1a\n", "an HDF5 file, such as an Alembic of before 2013", kToUsd},
+    {"\x89HDF\r\n\x1a\n", "an HDF5 file, such as an Alembic of before 2013",
+     "convert it by Alembic's \"abcconvert -toOgawa\""},
     {"Kaydara FBX Binary", "an FBX file", kToUsd},
     {"BLENDER", "a Blender file", "export its curves as USD from Blender"},
     {"\x28\xb5\x2f\xfd", "a file compressed by Zstandard, as Blender's are",

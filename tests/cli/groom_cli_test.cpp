@@ -20,7 +20,7 @@ using testing::Not;
 // Points survive every format to the bit; a strand's own number of points does where it may.
 TEST_F(GroomCli, ConvertsThereAndBack) {
     folder_.write("four.hair", fourStrands().text());
-    for (const std::string extension : {".ply", ".obj", ".gltf", ".glb", ".usda"}) {
+    for (const std::string extension : {".ply", ".obj", ".gltf", ".glb", ".usda", ".abc"}) {
         const Outcome there = convert("four.hair", "other" + extension);
         EXPECT_EQ(there.status, 0) << there.output;
         const Outcome back = convert("other" + extension, "back.hair");

@@ -16,14 +16,13 @@
 #include <utility>
 #include <vector>
 
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include "engine/error.h"
 #include "engine/files.h"
 #include "hair/groom/formats/binary_file.h"
+#include "hair/groom/formats/curves.h"
 #include "hair/groom/formats/text.h"
 
 namespace hair::groom {
@@ -264,19 +263,6 @@ private:
 
 // ---- Curves -------------------------------------------------------------------------------------
 
-// Weights of four control vertices by powers of t: [vertex][t^0 to t^3].
-using CurveBasis = std::array<std::array<double, 4>, 4>;
-
-constexpr CurveBasis kBezierBasis{
-    {{1.0, -3.0, 3.0, -1.0}, {0.0, 3.0, -6.0, 3.0}, {0.0, 0.0, 3.0, -3.0}, {0.0, 0.0, 0.0, 1.0}}};
-constexpr CurveBasis kBsplineBasis{
-    {{1.0 / 6, -0.5, 0.5, -1.0 / 6},
-     {4.0 / 6, 0.0, -1.0, 0.5},
-     {1.0 / 6, 0.5, 0.5, -0.5},
-     {0.0, 0.0, 0.0, 1.0 / 6}}};
-constexpr CurveBasis kCatmullRomBasis{
-    {{0.0, -0.5, 1.0, -0.5}, {1.0, 0.0, -2.5, 1.5}, {0.0, 0.5, 2.0, -1.5}, {0.0, 0.0, -0.5, 0.5}}};
-
 struct EmbreeBasis {
     std::string_view name;
     const CurveBasis* weights;  // null: linear
@@ -310,13 +296,6 @@ constexpr std::array kEmbreeCurves{
 struct EmbreeStrand {
     std::uint32_t first;
     std::uint32_t segments;
-};
-
-struct AffineSpace {
-    glm::dmat3 linear{1.0};
-    glm::dvec3 translation{0.0};
-
-    bool isIdentity() const { return linear == glm::dmat3(1.0) && translation == glm::dvec3(0.0); }
 };
 
 class EmbreeScene {
@@ -367,8 +346,7 @@ private:
                 own.linear[column][row] = numbers[static_cast<std::size_t>(4 * row + column)];
             own.translation[row] = numbers[static_cast<std::size_t>(4 * row + 3)];
         }
-        const AffineSpace all{
-            space.linear * own.linear, space.linear * own.translation + space.translation};
+        const AffineSpace all = space.of(own);
         for (const XmlElement& child : std::span(element.children).subspan(1)) readNode(child, all);
     }
 
@@ -469,12 +447,10 @@ private:
     static glm::dvec4
     pointOf(const EmbreeBasis& basis, std::span<const glm::vec4> corners, double t) {
         if (!basis.weights) return corners[t == 0.0 ? 0 : 1];
+        const std::array<double, 4> weights = weightsAt(*basis.weights, t);
         glm::dvec4 point(0.0);
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            const auto& power = (*basis.weights)[i];
-            const double weight = power[0] + t * (power[1] + t * (power[2] + t * power[3]));
-            point += weight * glm::dvec4(corners[i]);
-        }
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            point += weights[i] * glm::dvec4(corners[i]);
         return point;
     }
 
@@ -483,9 +459,8 @@ private:
         // Between control vertices a curve's radius may be under the least of them.
         double width = 2.0 * std::max(point.w, 0.0);
         if (!space.isIdentity()) {
-            place = space.linear * place + space.translation;
-            // Of a scale that differs by direction, the geometric mean.
-            width *= std::cbrt(std::abs(glm::determinant(space.linear)));
+            place = space.place(place);
+            width *= space.widthFactor();
         }
         const glm::vec3 rounded(place);
         const auto rounded_width = static_cast<float>(width);

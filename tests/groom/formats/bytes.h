@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -19,17 +20,24 @@ public:
         bytes_.append(count, '\0');
         return *this;
     }
+    Bytes& u8(std::uint32_t value) { return unsignedOf(value, 1); }
     Bytes& u16(std::uint32_t value) { return unsignedOf(value, 2); }
     Bytes& u32(std::uint32_t value) { return unsignedOf(value, 4); }
+    Bytes& u64(std::uint64_t value) { return unsignedOf(value, 8); }
     template <class... Floats>
     Bytes& f32(Floats... values) {
         (one(static_cast<float>(values)), ...);
         return *this;
     }
+    template <class... Doubles>
+    Bytes& f64(Doubles... values) {
+        (u64(std::bit_cast<std::uint64_t>(static_cast<double>(values))), ...);
+        return *this;
+    }
     const std::string& str() const { return bytes_; }
 
 private:
-    Bytes& unsignedOf(std::uint32_t value, int size) {
+    Bytes& unsignedOf(std::uint64_t value, int size) {
         for (int i = 0; i < size; ++i) bytes_ += static_cast<char>(value >> (8 * i) & 0xff);
         return *this;
     }

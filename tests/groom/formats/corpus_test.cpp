@@ -14,6 +14,11 @@ namespace fs = std::filesystem;
 
 // Every valid file of the corpus and how many strands it has.
 const std::map<std::string, std::uint32_t> kStrands{
+    {"abc/alembic_cubic.abc", 3},
+    {"abc/alembic_groom.abc", 3},
+    {"abc/alembic_objects.abc", 3},
+    {"abc/blender_catmull_rom.abc", 3},
+    {"abc/blender_poly.abc", 3},
     {"bin/short_and_nan.bin", 1},
     {"bin/two_strands.bin", 2},
     {"data/empty_strand.data", 2},

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "hair/groom/formats/alembic_import.h"
 #include "hair/groom/formats/gltf.h"
 #include "hair/groom/formats/obj.h"
 #include "hair/groom/formats/ply.h"
@@ -78,6 +79,64 @@ TEST(IndependentWriters, TrimeshHeadAndLinesInOneGlb) {
     const Mesh box = importMesh(path);
     EXPECT_EQ(box.triangles.size(), 12u);
     EXPECT_THAT(box.parts, ElementsAre("head"));
+}
+
+TEST(IndependentWriters, AlembicLibraryWithUnrealsParameters) {
+    const StrandSet strands = readFile(importAlembic, corpus("abc/alembic_groom.abc"));
+    EXPECT_THAT(strands.ends, ElementsAre(4, 6, 9));
+    EXPECT_EQ(strands.points, kWritten);
+    ASSERT_EQ(strands.widths.values.size(), 9u);
+    for (std::size_t k = 0; k < 9; ++k) {
+        const auto number = static_cast<float>(k);
+        EXPECT_EQ(strands.widths.at(k), 0.125f * (1.0f - number / 16.0f));
+        EXPECT_EQ(strands.colors.at(k), glm::vec3(number / 8.0f, 0.5f, 0.25f));
+    }
+    EXPECT_THAT(strands.groups, ElementsAre(3, 4, 3));
+    EXPECT_THAT(strands.guides, ElementsAre(1, 0, 0));
+    EXPECT_THAT(
+        strands.root_uvs,
+        ElementsAre(glm::vec2(0, 0), glm::vec2(0.25f, 0.125f), glm::vec2(0.5f, 0.25f)));
+    EXPECT_THAT(strands.warnings, ElementsAre("'groom_group_name': left out"));
+}
+
+// Twice as large, a quarter turn about z, and moved by (1, 2, 3).
+TEST(IndependentWriters, AlembicLibraryWithObjectsUnderTransforms) {
+    const StrandSet strands = readFile(importAlembic, corpus("abc/alembic_objects.abc"));
+    EXPECT_THAT(strands.ends, ElementsAre(4, 6, 9));
+    ASSERT_EQ(strands.points.size(), kWritten.size());
+    for (std::size_t k = 0; k < kWritten.size(); ++k) {
+        const glm::vec3 p = kWritten[k];
+        const glm::vec3 expected(1 - 2 * p.y, 2 + 2 * p.x, 3 + 2 * p.z);
+        for (int axis = 0; axis < 3; ++axis)
+            EXPECT_NEAR(strands.points[k][axis], expected[axis], 1e-6f) << k;  // of cos 90 degrees
+    }
+    EXPECT_THAT(strands.warnings, ElementsAre(HasSubstr("the first sample of 2")));
+}
+
+// The four corners of a square by three bases: at their beginnings and in their middles.
+TEST(IndependentWriters, AlembicLibraryWithCubicCurves) {
+    const StrandSet strands = readFile(importAlembic, corpus("abc/alembic_cubic.abc"));
+    ASSERT_THAT(strands.ends, ElementsAre(4, 8, 12));
+    EXPECT_EQ(strands.points[0], glm::vec3(0));
+    EXPECT_FLOAT_EQ(strands.points[1].x, 7.0f / 27);
+    EXPECT_FLOAT_EQ(strands.points[4].x, 1.0f / 6);
+    EXPECT_FLOAT_EQ(strands.points[4].y, 5.0f / 6);
+    EXPECT_EQ(strands.points[9], glm::vec3(0, 1, 0));
+}
+
+// Blender writes what has z up and was moved by (1, 2, 3) with y up: by (1, 3, -2).
+TEST(IndependentWriters, BlenderAlembic) {
+    for (const char* name : {"abc/blender_catmull_rom.abc", "abc/blender_poly.abc"}) {
+        SCOPED_TRACE(name);
+        const StrandSet strands = readFile(importAlembic, corpus(name));
+        EXPECT_THAT(strands.ends, ElementsAre(4, 6, 9));
+        ASSERT_EQ(strands.points.size(), kWritten.size());
+        for (std::size_t k = 0; k < kWritten.size(); ++k) {
+            EXPECT_EQ(strands.points[k], kWritten[k] + glm::vec3(1, 3, -2)) << k;
+            EXPECT_EQ(strands.widths.at(k), 0.125f * (1.0f - static_cast<float>(k) / 16.0f)) << k;
+        }
+        EXPECT_TRUE(strands.warnings.empty());
+    }
 }
 
 // The caller's points as strands of 4, 2 and 3 in a scene of assimp's.

@@ -59,7 +59,7 @@ TEST(RoundTrip, KeepsUniformStrandsThroughEveryBinaryFormat) {
 
 TEST(RoundTrip, GivesTheSameBytes) {
     const TemporaryFolder folder;
-    for (const std::string format : {".hair", ".tfx", ".hgl"}) {
+    for (const std::string format : {".hair", ".tfx", ".hgl", ".abc"}) {
         const auto first = folder.file("first" + format);
         const auto second = folder.file("second" + format);
         exportStrands(uniformStrands(), first);
@@ -72,7 +72,7 @@ TEST(RoundTrip, KeepsRaggedStrandsWhereTheFormatDoes) {
     const TemporaryFolder folder;
     const StrandSet strands = hardStrands();
     for (const char* formats :
-         {".hair", ".hair .ply .hair", ".hair .glb .hair", ".ply .gltf .hair"}) {
+         {".hair", ".hair .ply .hair", ".hair .glb .hair", ".ply .gltf .hair", ".abc .hair .abc"}) {
         SCOPED_TRACE(formats);
         const StrandSet back = through(folder, strands, formats);
         expectCameBack(back, strands);
@@ -108,7 +108,7 @@ TEST(RoundTrip, KeepsGroupsGuidesAndRootUvs) {
     strands.root_uvs = {{0.1f, 0.2f}, {1.0f / 3.0f, -0.0f}};
     strands.groups = {-7, 8};
     strands.guides = {0, 1};
-    const StrandSet back = through(folder, strands, ".npz .usda .npz");
+    const StrandSet back = through(folder, strands, ".npz .usda .abc .usda .npz .abc");
     expectCameBack(back, strands);
     expectBitEqual(back.root_uvs, strands.root_uvs);
     EXPECT_EQ(back.groups, strands.groups);

@@ -34,7 +34,7 @@ TEST(ImportStrands, GoesByTheExtensionInAnyCase) {
 
 TEST(ImportStrands, GoesByTheFirstBytesWhereTheyAreAnotherFormats) {
     const TemporaryFolder folder;
-    for (const std::string written : {".hair", ".tfx", ".ply", ".glb"}) {
+    for (const std::string written : {".hair", ".tfx", ".ply", ".glb", ".abc"}) {
         exportStrands(kTwoStrands, folder.file("a" + written));
         for (const std::string name : {"b.hair", "b.hgl", "b.obj", "b.gltf", "b.txt", "b"}) {
             std::filesystem::rename(folder.file("a" + written), folder.file(name));
@@ -63,12 +63,13 @@ TEST(ImportStrands, NamesTheFileOnce) {
 
 TEST(ImportStrands, ListsWhatItKnows) {
     const TemporaryFolder folder;
-    const auto path = folder.write("hair.abc", "unknown");
+    const auto path = folder.write("hair.xyz", "unknown");
     EXPECT_EQ(
         fileError(path),
         path.string() +
-            ": unknown format of strands \".abc\"; known are .hair, .tfx, .hgl, "
-            ".ply, .obj, .gltf, .glb, .usd, .usda, .usdc, .usdz, .data, .npy, .npz, .xml, .bin");
+            ": unknown format of strands \".xyz\"; known are .hair, .tfx, .hgl, "
+            ".ply, .obj, .gltf, .glb, .usd, .usda, .usdc, .usdz, .data, .npy, .npz, .xml, .bin, "
+            ".abc");
 }
 
 // The first bytes are those that the formats' own descriptions state.
@@ -76,8 +77,9 @@ TEST(ImportStrands, NamesWhatItDoesNotRead) {
     using namespace std::string_literals;
     const TemporaryFolder folder;
     const std::pair<std::string, const char*> kOthers[] = {
-        {"Ogawa\xff\0\1"s, "an Alembic file (Ogawa), which is not read: import it in Blender"},
-        {"\x89HDF\r\n\x1a\n"s, "an HDF5 file"},
+        {"\x89HDF\r\n\x1a\n"s,
+         "an HDF5 file, such as an Alembic of before 2013, which is not read: convert it by "
+         "Alembic's \"abcconvert -toOgawa\""},
         {"Kaydara FBX Binary  \0\x1a\0"s, "an FBX file"},
         {"BLENDER-v405"s, "a Blender file, which is not read: export"},
         {"\x28\xb5\x2f\xfd"s, "compressed by Zstandard"},
@@ -120,7 +122,7 @@ TEST(ExportStrands, ListsWhatItKnows) {
     EXPECT_EQ(
         errorText([] { exportStrands(kTwoStrands, "a.usdc"); }),
         "a.usdc: strands can't be written as \".usdc\"; known are .hair, .hgl, .tfx, .obj, .ply, "
-        ".gltf, .glb, .usda, .data, .npy, .npz");
+        ".gltf, .glb, .usda, .data, .npy, .npz, .abc");
 }
 
 TEST(ExportStrands, ReturnsTheWarnings) {

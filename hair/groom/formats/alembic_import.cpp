@@ -1,0 +1,630 @@
+#include "hair/groom/formats/alembic_import.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "hair/groom/formats/alembic_curves.h"
+#include "hair/groom/formats/alembic_values.h"
+#include "hair/groom/formats/binary_file.h"
+#include "hair/groom/formats/curves.h"
+#include "hair/groom/formats/ogawa.h"
+#include "hair/groom/formats/text.h"
+
+namespace hair::groom {
+namespace {
+
+using namespace std::string_view_literals;
+
+// Bytes of points and triangles for each byte of the file: objects that are equal share theirs in
+// it, but not without end.
+constexpr std::uint64_t kMostShared = 16;
+
+// What a parameter has a value for.
+enum class PerWhat : std::uint8_t { object, curve, vertex, end };
+
+// ---- Objects ------------------------------------------------------------------------------------
+
+// What an object's curves have, of those that are read already its points.
+struct AlembicCurves {
+    std::uint32_t strands = 0;
+    std::uint32_t points = 0;
+    PointAttribute<float> widths;
+    PointAttribute<glm::vec3> colors;
+    std::vector<glm::vec2> root_uvs;
+    std::vector<std::int32_t> groups;
+    std::vector<std::uint8_t> guides;
+};
+
+// What an object has from those above it.
+struct AlembicPlace {
+    AffineSpace space;
+    std::optional<float> width;
+    std::optional<std::int32_t> group;
+    std::optional<std::int32_t> guide;
+};
+
+// Numbers of an operation, by Alembic's XformOperationType: scale, translation, rotation about an
+// axis, matrix, rotations about x, y and z.
+constexpr std::array<std::size_t, 7> kOperationNumbers{3, 3, 4, 16, 1, 1, 1};
+
+// Properties that are read, or say nothing of the strands.
+constexpr std::array kKnownProperties{
+    "P"sv,
+    "nVertices"sv,
+    "curveBasisAndType"sv,
+    ".selfBnds"sv,
+    ".childBnds"sv,
+    ".arbGeomParams"sv,
+    ".userProperties"sv,
+    "w"sv,
+    ".orders"sv,
+    ".knots"sv,
+    "width"sv,
+    "uv"sv,
+    "groom_width"sv,
+    "groom_color"sv,
+    "groom_root_uv"sv,
+    "groom_group_id"sv,
+    "groom_group_name"sv,
+    "groom_guide"sv,
+    "groom_version_major"sv,
+    "groom_version_minor"sv,
+    "groom_tool"sv,
+    "groom_properties"sv};
+
+class AlembicReader {
+public:
+    explicit AlembicReader(std::span<const std::byte> bytes) : values_(bytes) {}
+
+    StrandSet read() {
+        readObject(values_.archive().top(), "", {});
+        if (set_.ends.empty()) {
+            std::string found;
+            for (const std::string& name : left_out_)
+                found.append(found.empty() ? "; it has " : ", ").append(name);
+            failAt(0, "the archive has no curves" + found);
+        }
+        joinParts();
+        if (moving_ > 0) {
+            const std::string others =
+                moving_ > 1 ? " and of " + std::to_string(moving_ - 1) + " more" : "";
+            set_.warnings.push_back(
+                first_moving_ + others + ": the first sample of " + std::to_string(most_samples_) +
+                " is read");
+        }
+        if (!left_out_.empty()) {
+            std::string names;
+            for (const std::string& name : left_out_)
+                names.append(names.empty() ? "" : ", ").append(name);
+            set_.warnings.push_back(names + ": left out");
+        }
+        return std::move(set_);
+    }
+
+private:
+    // ---- Transforms ----
+
+    // An operation as a matrix of the affine group, numbers as kOperationNumbers has them.
+    static AffineSpace
+    operationOf(std::size_t type, std::span<const double> numbers, const AlembicParameter& where) {
+        AffineSpace space;
+        const auto rotate = [&](const glm::dvec3& axis, double degrees) {
+            const double length = std::sqrt(glm::dot(axis, axis));
+            if (length == 0.0 && degrees != 0.0) where.fail("a rotation about no axis");
+            if (length == 0.0) return;
+            const double angle = degrees * (std::numbers::pi / 180.0);
+            const glm::dvec3 n = axis / length;
+            const double c = std::cos(angle);
+            const double s = std::sin(angle);
+            // Rodrigues: I cos + (1 - cos) n nT + sin [n]x; [column][row].
+            for (int column = 0; column < 3; ++column) {
+                glm::dvec3 unit(0.0);
+                unit[column] = 1.0;
+                space.linear[column] =
+                    c * unit + (1.0 - c) * n[column] * n + s * glm::cross(n, unit);
+            }
+        };
+        switch (type) {
+        case 0:
+            for (int i = 0; i < 3; ++i) space.linear[i][i] = numbers[static_cast<std::size_t>(i)];
+            break;
+        case 1:
+            space.translation = {numbers[0], numbers[1], numbers[2]};
+            break;
+        case 2:
+            rotate({numbers[0], numbers[1], numbers[2]}, numbers[3]);
+            break;
+        case 3:
+            // Rows are for row vectors: they are the columns for column vectors.
+            for (int i = 0; i < 3; ++i) {
+                const auto row = numbers.subspan(4 * static_cast<std::size_t>(i), 4);
+                space.linear[i] = {row[0], row[1], row[2]};
+                if (row[3] != 0.0) where.fail("a projection");
+            }
+            space.translation = {numbers[12], numbers[13], numbers[14]};
+            if (numbers[15] != 1.0) where.fail("a projection");
+            break;
+        default: {
+            glm::dvec3 axis(0.0);
+            axis[static_cast<int>(type) - 4] = 1.0;
+            rotate(axis, numbers[0]);
+        }
+        }
+        return space;
+    }
+
+    // The space of what is below a transform: its operations from the last to the first.
+    AffineSpace spaceOf(const AlembicCompound& transform, const AffineSpace& above) {
+        AffineSpace space = above;
+        if (const auto inherits = values_.parameterOf(transform, ".inherits")) {
+            inherits->require(AlembicType::boolean, 1);
+            if (values_.stored<std::uint8_t>(*inherits).front() == 0) space = {};
+        }
+        const auto operations = values_.parameterOf(transform, ".ops");
+        const auto numbers = values_.parameterOf(transform, ".vals");
+        if (!operations) return space;
+        operations->require(AlembicType::uint8, operations->property.extent);
+        if (!numbers) operations->fail("operations without numbers");
+        const auto codes = arrayAt<std::uint8_t>(
+            values_.bytes(), operations->elements.start,
+            operations->elements.count * operations->property.extent);
+        std::size_t expected = 0;
+        for (const std::uint8_t code : codes) {
+            const std::size_t type = code >> 4;
+            if (type >= kOperationNumbers.size())
+                operations->fail("the unknown operation " + std::to_string(type));
+            expected += kOperationNumbers[type];
+        }
+        warnOfSamples(numbers->property, transform.path);
+        const std::vector<double> all = values_.doublesOf(*numbers, expected);
+        std::span<const double> rest(all);
+        for (const std::uint8_t code : codes) {
+            const std::size_t type = code >> 4;
+            space = space.of(operationOf(type, rest.first(kOperationNumbers[type]), *numbers));
+            rest = rest.subspan(kOperationNumbers[type]);
+        }
+        return space;
+    }
+
+    // ---- Objects ----
+
+    void warnOfSamples(const AlembicProperty& property, const std::string& path) {
+        if (property.stored < 2) return;
+        if (moving_ == 0) first_moving_ = path;
+        ++moving_;
+        most_samples_ = std::max(most_samples_, property.samples);
+    }
+
+    void
+    readObject(const AlembicObject& object, const std::string& path, const AlembicPlace& above) {
+        const AlembicContents contents = values_.archive().contentsOf(object, path);
+        const std::string_view schema = alembicValue(object.metadata, "schema");
+        AlembicPlace place = above;
+        if (schema.starts_with("AbcGeom_Xform_v")) {
+            readTransform(contents.properties, path, place);
+        } else if (schema.starts_with("AbcGeom_Curve_v")) {
+            readCurves(contents.properties, schema, path, place);
+        } else if (
+            std::ranges::find(contents.properties, ".instanceSource", &AlembicProperty::name) !=
+            contents.properties.end()) {
+            left_out_.insert("instances");
+        } else if (!schema.empty()) {
+            leaveOut(schema);
+        }
+        for (const AlembicObject& child : contents.children)
+            readObject(child, path + '/' + std::string(child.name), place);
+    }
+
+    // Names are short, and few of them are worth a sentence.
+    void leaveOut(std::string_view name) {
+        constexpr std::size_t kMostNames = 20;
+        if (left_out_.size() < kMostNames) left_out_.insert(inQuotes(name));
+    }
+
+    void readTransform(
+        const std::vector<AlembicProperty>& properties, const std::string& path,
+        AlembicPlace& place) {
+        const AlembicCompound transform = values_.compoundOf(properties, ".xform", path);
+        place.space = spaceOf(transform, place.space);
+        const AlembicCompound parameters = values_.compoundIn(transform, ".arbGeomParams");
+        const auto one = [&](std::string_view name) {
+            auto parameter = values_.parameterOf(parameters, name);
+            if (parameter && parameter->count() != 1) parameter->fail("one value is expected");
+            return parameter;
+        };
+        if (const auto width = one("groom_width")) place.width = widthsOf(*width, {}).front();
+        if (const auto group = one("groom_group_id"))
+            place.group = values_.integersOf(*group).front();
+        if (const auto guide = one("groom_guide")) place.guide = values_.integersOf(*guide).front();
+        warnOfVersion(parameters);
+    }
+
+    void warnOfVersion(const AlembicCompound& parameters) {
+        const auto major = values_.parameterOf(parameters, "groom_version_major");
+        if (!major) return;
+        const std::int32_t version = values_.integersOf(*major).front();
+        if (version != 1)
+            set_.warnings.push_back(
+                parameters.path + ": version " + std::to_string(version) +
+                " of Unreal's groom schema is read as 1");
+    }
+
+    // ---- Curves ----
+
+    void readCurves(
+        const std::vector<AlembicProperty>& properties, std::string_view schema,
+        const std::string& path, const AlembicPlace& place) {
+        if (schema != "AbcGeom_Curve_v2")
+            failIn(
+                properties.empty() ? 0 : properties.front().header, path,
+                "curves of " + inQuotes(schema) + ", expected AbcGeom_Curve_v2");
+        const AlembicCompound geometry = values_.compoundOf(properties, ".geom", path);
+        const auto points = values_.parameterOf(geometry, "P");
+        const auto sizes = values_.parameterOf(geometry, "nVertices");
+        if (!points && !sizes) return;  // an object that curves were taken out of
+        if (!points || !sizes)
+            failIn(
+                (points ? points->property : sizes->property).header, geometry.path,
+                points ? "positions without nVertices" : "nVertices without positions");
+        warnOfSamples(points->property, path);
+        AlembicTopology topology(values_, geometry, *sizes);
+        const std::uint32_t first_strand = set_.strandCount();
+        AlembicCurves curves;
+        readPoints(*points, *sizes, topology, place.space, curves);
+        readParameters(geometry, topology, place, curves);
+        readUserProperties(
+            values_.compoundIn(geometry, ".userProperties"), first_strand, curves.strands);
+        curves_.push_back(std::move(curves));
+    }
+
+    void share(std::uint64_t bytes, const AlembicParameter& parameter) {
+        shared_ += bytes;
+        if (shared_ / kMostShared > values_.bytes().size())
+            parameter.fail("objects share what the file has more than 16 times over");
+    }
+
+    void readPoints(
+        const AlembicParameter& points, const AlembicParameter& sizes, AlembicTopology& topology,
+        const AffineSpace& space, AlembicCurves& curves) {
+        if (points.count() != topology.vertices())
+            points.fail(
+                std::to_string(points.count()) + " positions, nVertices are " +
+                std::to_string(topology.vertices()));
+        share(topology.vertices() * sizeof(glm::vec3), points);
+        std::vector<glm::vec3> vertices;
+        if (!topology.isLinear()) {
+            vertices = values_.floatsOf<glm::vec3>(points);
+            topology.draw(vertices, sizes);
+        }
+        const std::size_t start = set_.points.size();
+        std::uint64_t end = start;
+        if (set_.ends.empty()) set_.ends.reserve(topology.curves());
+        for (std::size_t i = 0; i < topology.curves(); ++i) {
+            end += topology.pointsOf(i);
+            if (end > std::numeric_limits<std::uint32_t>::max())
+                sizes.fail("the strands have 2^32 points, or more");
+            set_.ends.push_back(static_cast<std::uint32_t>(end));
+        }
+        if (!topology.isLinear()) {
+            if (start == 0) set_.points.reserve(end);
+            topology.alongVertices(std::span<const glm::vec3>(vertices), [&](const glm::dvec3& p) {
+                set_.points.push_back(placed(p, space, points));
+            });
+        } else {
+            appendLinear(points, space);
+        }
+        curves.strands = static_cast<std::uint32_t>(topology.curves());
+        curves.points = static_cast<std::uint32_t>(end - start);
+    }
+
+    // The vertices as they lie.
+    void appendLinear(const AlembicParameter& points, const AffineSpace& space) {
+        if (set_.points.empty() && !points.has_indices) {
+            set_.points = values_.floatsOf<glm::vec3>(points);
+        } else {
+            const std::vector<glm::vec3> own = values_.floatsOf<glm::vec3>(points);
+            set_.points.insert(set_.points.end(), own.begin(), own.end());
+        }
+        if (space.isIdentity()) return;
+        const auto added = std::span(set_.points).last(points.count());
+        for (glm::vec3& point : added) point = placed(point, space, points);
+    }
+
+    static float floatOf(double value, const AlembicParameter& parameter) {
+        const auto rounded = static_cast<float>(value);
+        if (!std::isfinite(rounded)) parameter.fail("a value is over what floats hold");
+        return rounded;
+    }
+
+    static glm::vec3
+    placed(const glm::dvec3& point, const AffineSpace& space, const AlembicParameter& points) {
+        const glm::dvec3 place = space.isIdentity() ? point : space.place(point);
+        return {floatOf(place.x, points), floatOf(place.y, points), floatOf(place.z, points)};
+    }
+
+    // ---- Parameters of curves ----
+
+    static PerWhat perWhatOf(const AlembicParameter& parameter, const AlembicTopology& topology) {
+        const std::uint64_t count = parameter.count();
+        if (count == 1) return PerWhat::object;
+        if (count == topology.curves()) return PerWhat::curve;
+        if (count == topology.vertices()) return PerWhat::vertex;
+        if (!topology.isLinear() && count == topology.ends()) return PerWhat::end;
+        parameter.fail(
+            std::to_string(count) + " values, expected 1, one for each of " +
+            std::to_string(topology.curves()) + " curves, or of " +
+            std::to_string(topology.vertices()) + " vertices");
+    }
+
+    // Values of the curves' points.
+    template <class Value, class Rounded>
+    static PointAttribute<Value> perPoint(
+        const AlembicParameter& parameter, const AlembicTopology& topology,
+        std::vector<Value> values, const Rounded& rounded) {
+        const PerWhat what = perWhatOf(parameter, topology);
+        if (what == PerWhat::object) return {.everywhere = values.front(), .values = {}};
+        if (what == PerWhat::vertex && topology.isLinear())
+            return {.everywhere = {}, .values = std::move(values)};
+        PointAttribute<Value> result;
+        const auto add = [&](const auto& value) { result.values.push_back(rounded(value)); };
+        if (what == PerWhat::vertex)
+            topology.alongVertices(std::span<const Value>(values), add);
+        else if (what == PerWhat::end)
+            topology.alongEnds(std::span<const Value>(values), add);
+        else
+            for (std::size_t i = 0; i < values.size(); ++i)
+                result.values.insert(result.values.end(), topology.pointsOf(i), values[i]);
+        return result;
+    }
+
+    // Values of the curves; absent where there are neither one nor as many as curves.
+    template <class Value>
+    static std::optional<std::vector<Value>>
+    perCurve(std::vector<Value> values, const AlembicTopology& topology) {
+        if (values.size() == 1) values.resize(topology.curves(), Value(values.front()));
+        if (values.size() != topology.curves()) return {};
+        return values;
+    }
+
+    // Diameters in the space of the file.
+    std::vector<float> widthsOf(const AlembicParameter& parameter, const AffineSpace& space) const {
+        parameter.require(AlembicType::float32, 1);
+        auto widths = values_.stored<float>(parameter);
+        requireFinite(widths, parameter.elements.start, parameter.path);
+        requireNotNegative(widths, parameter.elements.start, parameter.path);
+        const double factor = space.isIdentity() ? 1.0 : space.widthFactor();
+        // A turn has the factor 1 but for rounding.
+        if (std::abs(factor - 1.0) > 1e-9)
+            for (float& width : widths) width = floatOf(width * factor, parameter);
+        return parameter.arranged(std::move(widths));
+    }
+
+    void readParameters(
+        const AlembicCompound& geometry, const AlembicTopology& topology, const AlembicPlace& place,
+        AlembicCurves& curves) {
+        const AlembicCompound parameters = values_.compoundIn(geometry, ".arbGeomParams");
+        for (const AlembicCompound* const all : {&geometry, &parameters})
+            for (const auto& [name, property] : all->properties)
+                if (std::ranges::find(kKnownProperties, name) == kKnownProperties.end() &&
+                    (property.samples > 0 || property.group != 0))
+                    leaveOut(name);
+        warnOfVersion(parameters);
+
+        auto width = values_.parameterOf(parameters, "groom_width");
+        if (!width && !place.width) width = values_.parameterOf(geometry, "width");
+        if (width) {
+            curves.widths = perPoint(
+                *width, topology, widthsOf(*width, place.space),
+                // Between vertices a curve may be under the least of them.
+                [](double value) { return static_cast<float>(std::max(value, 0.0)); });
+        } else if (place.width) {
+            const double factor = place.space.isIdentity() ? 1.0 : place.space.widthFactor();
+            const auto inherited = static_cast<float>(*place.width * factor);
+            if (!std::isfinite(inherited))
+                failIn(0, geometry.path, "the width of the transforms above is over a float's");
+            curves.widths.everywhere = inherited;
+        }
+        if (const auto color = values_.parameterOf(parameters, "groom_color"))
+            readColors(*color, topology, curves);
+        readRootUvs(geometry, parameters, topology, curves);
+        curves.groups = integersIn(parameters, "groom_group_id", topology, place.group);
+        if (const auto names = values_.parameterOf(parameters, "groom_group_name")) {
+            if (curves.groups.empty())
+                curves.groups = groupsNamed(*names, topology);
+            else
+                leaveOut("groom_group_name");
+        }
+        for (const std::int32_t flag : integersIn(parameters, "groom_guide", topology, place.guide))
+            curves.guides.push_back(flag != 0 ? 1 : 0);
+    }
+
+    void readColors(
+        const AlembicParameter& color, const AlembicTopology& topology, AlembicCurves& curves) {
+        std::vector<glm::vec3> values;
+        if (color.property.isOf(AlembicType::float32, 4)) {
+            for (const glm::vec4& rgba : values_.floatsOf<glm::vec4>(color))
+                values.emplace_back(rgba);
+        } else {
+            values = values_.floatsOf<glm::vec3>(color);
+        }
+        curves.colors = perPoint(color, topology, std::move(values), [&](const glm::dvec3& value) {
+            return glm::vec3(
+                floatOf(value.x, color), floatOf(value.y, color), floatOf(value.z, color));
+        });
+    }
+
+    void readRootUvs(
+        const AlembicCompound& geometry, const AlembicCompound& parameters,
+        const AlembicTopology& topology, AlembicCurves& curves) {
+        const auto root_uv = values_.parameterOf(parameters, "groom_root_uv");
+        const auto uv = values_.parameterOf(geometry, "uv");
+        if (root_uv) {
+            auto all = perCurve(values_.floatsOf<glm::vec2>(*root_uv), topology);
+            if (!all) root_uv->fail("one is expected for each curve");
+            curves.root_uvs = std::move(*all);
+        } else if (uv && uv->count() == topology.curves()) {
+            curves.root_uvs = values_.floatsOf<glm::vec2>(*uv);
+        } else if (uv) {
+            leaveOut("uv");
+        }
+    }
+
+    // An integer for each curve, its own or that of what is above; empty where there is neither.
+    std::vector<std::int32_t> integersIn(
+        const AlembicCompound& parameters, std::string_view name, const AlembicTopology& topology,
+        std::optional<std::int32_t> above) {
+        const auto own = values_.parameterOf(parameters, name);
+        if (!own && !above) return {};
+        auto all =
+            perCurve(own ? values_.integersOf(*own) : std::vector<std::int32_t>{*above}, topology);
+        if (!all) own->fail("one is expected, or one for each curve");
+        return std::move(*all);
+    }
+
+    // A number for each curve's group: 0 for the name that comes first in the archive, and so on.
+    std::vector<std::int32_t>
+    groupsNamed(const AlembicParameter& names, const AlembicTopology& topology) {
+        names.require(AlembicType::text, 1);
+        share(names.elements.count, names);
+        const std::vector<char> bytes = values_.stored<char>(names);
+        if (bytes.back() != '\0') names.fail("a text without its end");
+        std::vector<std::int32_t> numbers;
+        for (auto at = bytes.begin(); at != bytes.end();) {
+            const auto end = std::find(at, bytes.end(), '\0');
+            const auto number = static_cast<std::int32_t>(group_names_.size());
+            numbers.push_back(group_names_.try_emplace({at, end}, number).first->second);
+            at = end + 1;
+        }
+        for (const std::uint32_t index : names.indices)
+            if (index >= numbers.size())
+                names.fail(
+                    "index " + std::to_string(index) + " of " + std::to_string(numbers.size()) +
+                    " names");
+        auto all = perCurve(names.arranged(std::move(numbers)), topology);
+        if (!all) names.fail("one is expected, or one for each curve");
+        return std::move(*all);
+    }
+
+    // What hairbench's own archives have beside.
+    void readUserProperties(
+        const AlembicCompound& own, std::uint32_t first_strand, std::uint32_t strands) {
+        if (const auto unit = values_.parameterOf(own, "hairbench:metersPerUnit")) {
+            const double metres = values_.doublesOf(*unit, 1).front();
+            if (!(metres > 0.0)) unit->fail("a unit of no length");
+            if (set_.metres_per_unit.value_or(metres) != metres)
+                unit->fail("another unit than that of the objects before");
+            set_.metres_per_unit = metres;
+        }
+        if (const auto triangles = values_.parameterOf(own, "hairbench:rootTriangles")) {
+            using Triangle = std::array<std::uint32_t, 3>;
+            triangles->require(AlembicType::uint32, 3);
+            share(triangles->count() * sizeof(Triangle), *triangles);
+            for (Triangle triangle : triangles->arranged(values_.stored<Triangle>(*triangles))) {
+                for (std::uint32_t& strand : triangle) {
+                    if (strand >= strands) triangles->fail("a triangle of no strand");
+                    strand += first_strand;
+                }
+                set_.root_triangles.push_back(triangle);
+            }
+        }
+        const auto comment = values_.parameterOf(own, "hairbench:comment");
+        if (comment && set_.comment.empty()) {
+            comment->require(AlembicType::text, 1);
+            const std::vector<char> text = values_.stored<char>(*comment);
+            set_.comment.assign(text.begin(), std::ranges::find(text, '\0'));
+        }
+    }
+
+    // ---- All objects together ----
+
+    // What every object has; a warning where only some have it.
+    template <class Has>
+    bool areIn(const Has& has, const std::string& what) {
+        const auto count = std::ranges::count_if(curves_, has);
+        if (count == 0) return false;
+        const bool all = count == std::ssize(curves_);
+        if (!all) set_.warnings.push_back(what + ": left out, since some of the curves have none");
+        return all;
+    }
+
+    template <class Value>
+    void joinAttribute(PointAttribute<Value> AlembicCurves::* part, PointAttribute<Value>& joined) {
+        const PointAttribute<Value>& first = curves_.front().*part;
+        const bool is_one = std::ranges::all_of(curves_, [&](const AlembicCurves& curves) {
+            return (curves.*part).values.empty() && (curves.*part).everywhere == first.everywhere;
+        });
+        if (is_one || curves_.size() == 1) {
+            joined = std::move(curves_.front().*part);
+            return;
+        }
+        joined.values.reserve(set_.points.size());
+        for (const AlembicCurves& curves : curves_) {
+            const PointAttribute<Value>& own = curves.*part;
+            if (own.values.empty())
+                joined.values.insert(joined.values.end(), curves.points, *own.everywhere);
+            else
+                joined.values.insert(joined.values.end(), own.values.begin(), own.values.end());
+        }
+    }
+
+    template <class Value>
+    void join(std::vector<Value> AlembicCurves::* part, std::vector<Value>& joined) {
+        if (curves_.size() == 1) {
+            joined = std::move(curves_.front().*part);
+            return;
+        }
+        joined.reserve(set_.ends.size());
+        for (const AlembicCurves& curves : curves_)
+            joined.insert(joined.end(), (curves.*part).begin(), (curves.*part).end());
+    }
+
+    void joinParts() {
+        if (areIn([](const AlembicCurves& c) { return c.widths.known(); }, "widths"))
+            joinAttribute(&AlembicCurves::widths, set_.widths);
+        if (areIn([](const AlembicCurves& c) { return c.colors.known(); }, "groom_color"))
+            joinAttribute(&AlembicCurves::colors, set_.colors);
+        if (areIn([](const AlembicCurves& c) { return !c.root_uvs.empty(); }, "groom_root_uv"))
+            join(&AlembicCurves::root_uvs, set_.root_uvs);
+        if (areIn([](const AlembicCurves& c) { return !c.groups.empty(); }, "groom_group_id"))
+            join(&AlembicCurves::groups, set_.groups);
+        // Guides are often curves of their own, and the others say nothing of it.
+        const bool has_guides = std::ranges::any_of(
+            curves_, [](const AlembicCurves& curves) { return !curves.guides.empty(); });
+        for (AlembicCurves& curves : curves_)
+            if (has_guides && curves.guides.empty()) curves.guides.resize(curves.strands, 0);
+        join(&AlembicCurves::guides, set_.guides);
+    }
+
+    AlembicValues values_;
+    StrandSet set_;
+    std::vector<AlembicCurves> curves_;
+    std::uint64_t shared_ = 0;  // bytes of points and triangles that were read
+    std::map<std::string, std::int32_t> group_names_;
+    std::set<std::string> left_out_;
+    std::string first_moving_;
+    std::size_t moving_ = 0;  // objects
+    std::uint32_t most_samples_ = 0;
+};
+
+}  // namespace
+
+StrandSet importAlembic(const StrandFile& file) { return AlembicReader(file.bytes).read(); }
+
+}  // namespace hair::groom

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hair/groom/formats/binary_file.h"
+#include "hair/groom/formats/ogawa.h"
+
+// Values of an Alembic archive's properties, in their first samples and checked for their type.
+namespace hair::groom {
+
+// The properties of a compound by their names.
+struct AlembicCompound {
+    std::string path;  // for messages
+    std::map<std::string_view, AlembicProperty> properties;
+
+    const AlembicProperty* find(std::string_view name) const;  // null: there is none
+};
+
+// Values of a property, or of one with indices (a compound of `.vals` and `.indices`); at least
+// one.
+struct AlembicParameter {
+    std::string path;
+    AlembicProperty property;  // that has the values
+    AlembicElements elements;
+    std::vector<std::uint32_t> indices;
+    bool has_indices = false;
+
+    std::uint64_t count() const { return has_indices ? indices.size() : elements.count; }
+
+    [[noreturn]] void fail(const std::string& reason) const {
+        failIn(elements.start, path, reason);
+    }
+    // Throws where values are of another type.
+    void require(AlembicType type, std::uint8_t extent) const;
+
+    // The values that the indices name; all where there are none.
+    template <class Value>
+    std::vector<Value> arranged(std::vector<Value> values) const {
+        if (!has_indices) return values;
+        std::vector<Value> result;
+        result.reserve(indices.size());
+        for (const std::uint32_t index : indices) result.push_back(values[index]);
+        return result;
+    }
+};
+
+// Functions throw engine::Error "byte N: path: reason". A compound and a property are read once.
+class AlembicValues {
+public:
+    explicit AlembicValues(std::span<const std::byte> bytes) : archive_(bytes) {}
+
+    AlembicArchive& archive() { return archive_; }
+    std::span<const std::byte> bytes() const { return archive_.bytes(); }
+
+    // The compound `name` of an object's properties. Throws where there is none.
+    AlembicCompound compoundOf(
+        const std::vector<AlembicProperty>& properties, std::string_view name,
+        const std::string& path);
+    // The compound `name` of another; without properties where there is none.
+    AlembicCompound compoundIn(const AlembicCompound& outer, std::string_view name);
+
+    // Absent where the property is not there or has no values.
+    std::optional<AlembicParameter>
+    parameterOf(const AlembicCompound& compound, std::string_view name);
+
+    // Vectors of as many float32 as a Value has, all finite.
+    template <class Value>
+    std::vector<Value> floatsOf(const AlembicParameter& parameter) const {
+        parameter.require(
+            AlembicType::float32, static_cast<std::uint8_t>(sizeof(Value) / sizeof(float)));
+        auto values = stored<Value>(parameter);
+        requireFinite(values, parameter.elements.start, parameter.path);
+        return parameter.arranged(std::move(values));
+    }
+    // Integers of any type, one to an element, that are in the range of int32.
+    std::vector<std::int32_t> integersOf(const AlembicParameter& parameter) const;
+    // As many numbers as expected, of type float64, all finite; indices don't count.
+    std::vector<double> doublesOf(const AlembicParameter& parameter, std::size_t expected) const;
+
+    // The values as they are stored, of a type that has been required.
+    template <class Value>
+    std::vector<Value> stored(const AlembicParameter& parameter) const {
+        return arrayAt<Value>(bytes(), parameter.elements.start, parameter.elements.count);
+    }
+
+private:
+    std::int64_t integerAt(std::uint64_t byte, const AlembicParameter& parameter) const;
+
+    AlembicArchive archive_;
+};
+
+}  // namespace hair::groom
