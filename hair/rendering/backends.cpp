@@ -504,7 +504,8 @@ void declareStrands(engine::Commands& commands, const gpu::PictureParameters& pi
     commands.uses(
         {{picture.guides, Access::vertex_read},
          {picture.contacts, Access::vertex_read},
-         {picture.guide_normals, Access::vertex_read}});
+         {picture.guide_normals, Access::vertex_read},
+         {picture.guide_turns, Access::vertex_read}});
 }
 
 engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan) {
@@ -520,7 +521,8 @@ engine::Constants strandConstants(const StrandSettings& strands, const StrandPla
         {gpu::kStrandCollisionConstant, shaderCode(strands.collision)},
         {gpu::kRandomnessConstant, shaderCode(strands.randomness)},
         {gpu::kLodMorphConstant, plan.morphs},
-        {gpu::kMergedHairsConstant, plan.merged_hairs}};
+        {gpu::kMergedHairsConstant, plan.merged_hairs},
+        {gpu::kResidualsConstant, plan.residuals}};
 }
 
 // ---- Watched stages -----------------------------------------------------------------------------

@@ -85,6 +85,7 @@ const uint kRandomnessConstant = 8u;
 const uint kLodMorphConstant = 9u;
 const uint kStrandCollisionConstant = 30u;
 const uint kMergedHairsConstant = 31u;
+const uint kResidualsConstant = 32u;
 
 // Constants of strands/software: strands/software/software.glsl; of strands/mesh, too.
 const uint kMostSegmentsConstant = 10u;
