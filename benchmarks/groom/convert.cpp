@@ -94,6 +94,9 @@ edited(hair::groom::StrandSet strands, const ConvertOptions& options, const Conv
             "chose: " + report::countText(*options.guides, "guide") + " of " +
             report::countText(strands.strandCount(), "strand"));
         log.say("error: of the strands made from them " + choice.error);
+        log.say(
+            "left: of the file's strands as /strands/source groom draws them with so many guides " +
+            choice.left);
         strands = std::move(choice.guides);
     }
     return strands;

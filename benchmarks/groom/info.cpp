@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <sstream>
 
@@ -15,19 +16,22 @@
 #include "hair/groom/guides/choose_guides.h"
 #include "hair/groom/guides/root_triangles.h"
 #include "hair/groom/style/style.h"
+#include "hair/rendering/strand_residuals.h"
 
 namespace benchmarks::groom {
 namespace {
 
 // ---- Choice of guides ---------------------------------------------------------------------------
 
-// Lengths are in metres where the unit is known, or else in the unit of the file.
+// A length of a file, in metres where the unit is known.
+std::string fileLength(double length, std::optional<double> metres_per_unit) {
+    return metres_per_unit ? report::lengthText(length * *metres_per_unit)
+                           : report::shortNumber(length) + " units";
+}
+
 std::string
 errorText(const hair::groom::ReconstructionError& error, std::optional<double> metres_per_unit) {
-    const auto length = [&](double value) {
-        return metres_per_unit ? report::lengthText(value * *metres_per_unit)
-                               : report::shortNumber(value) + " units";
-    };
+    const auto length = [&](double value) { return fileLength(value, metres_per_unit); };
     return length(error.mean) + " in the mean (" + report::shortNumber(100.0 * error.relative) +
            " % of the mean length), " + length(error.rms) + " rms, " + length(error.percentile95) +
            " for 95 % of the strands, " + length(error.maximum) + " at most";
@@ -43,12 +47,20 @@ chooseGuides(const hair::groom::StrandSet& strands, std::uint32_t count, std::ui
                             std::to_string(strands.strandCount()) + " strands there are");
     const hair::groom::Groom dense = hair::groom::toGroom(strands, 0);
     const std::vector<std::uint32_t> chosen = hair::groom::chooseGuides(dense, count, seed);
-    const hair::groom::Groom guides = hair::groom::pickStrands(dense, chosen);
-    const hair::groom::ReconstructionError error =
-        hair::groom::reconstructionError(dense, guides, hair::groom::bindStrands(dense, chosen));
+    hair::groom::Groom guides = hair::groom::pickStrands(dense, chosen);
+    guides.bindings = hair::groom::bindStrands(dense, chosen);
+    guides.bound_ends = strands.ends;
+    guides.bound_points = strands.points;
+    std::vector<std::uint32_t> all(strands.strandCount());
+    std::iota(all.begin(), all.end(), 0u);
+    const auto [mean, greatest] = hair::rendering::makeStrandResiduals(guides, {}, all).left;
     return {
         .guides = hair::groom::pickStrands(strands, chosen),
-        .error = errorText(error, strands.metres_per_unit)};
+        .error = errorText(
+            hair::groom::reconstructionError(dense, guides, guides.bindings),
+            strands.metres_per_unit),
+        .left = fileLength(mean, strands.metres_per_unit) + " in the mean, " +
+                fileLength(greatest, strands.metres_per_unit) + " at most"};
 }
 
 std::vector<std::array<std::uint32_t, 3>>

@@ -17,7 +17,10 @@ namespace benchmarks::groom {
 // Guides chosen from strands, with every attribute but root triangles.
 struct GuideChoice {
     hair::groom::StrandSet guides;
-    std::string error;  // of the strands that are made from them, for people
+    // For people: of the strands that are made from the guides alone, and of those that a scene with
+    // the file and as many guides draws.
+    std::string error;
+    std::string left;
 };
 
 // Chooses `count` guides. Throws engine::Error if there are fewer strands.

@@ -287,10 +287,13 @@ struct Row {
 // The first row that fits counts. A new buffer needs a row only if no family of names fits.
 constexpr Row kPurposes[] = {
     {"guide normals", "groom"},
+    {"guide turns", "groom"},
     {"guide widths", "groom"},
+    {"guide tangents at rest", "groom"},
     {"root ", "groom"},
     {"bound strands", "groom"},
     {"strand offsets", "groom"},
+    {"strand residuals", "groom"},
     {"guide ", "simulation"},
     {"settled state", "simulation"},
     {"shape ", "simulation"},

@@ -125,7 +125,8 @@ AssetStore::groom(const hair::Settings& settings, const std::filesystem::path& d
     hair::groom::Groom made =
         hair::groom::buildGroom(groom, grown_on ? &*grown_on : nullptr, directory, settings.seed);
     const std::size_t bytes = bytesOf(made.points) + bytesOf(made.widths) +
-                              bytesOf(made.root_triangles) + bytesOf(made.bindings);
+                              bytesOf(made.root_triangles) + bytesOf(made.bindings) +
+                              bytesOf(made.bound_ends) + bytesOf(made.bound_points);
     return grooms_.add(key, std::move(made), bytes);
 }
 

@@ -143,16 +143,47 @@ Groom withGuides(Groom dense, std::uint32_t count, const Mesh* mesh, std::uint32
     return guides;
 }
 
+// Strands by their points alone.
+struct Polylines {
+    std::vector<std::uint32_t> ends;  // [strand], index after its last point
+    std::vector<glm::vec3> points;
+};
+
+// The strands as they are drawn at rest: the file's, but where styling moved them what it made.
+// `before` and `after` are the strands' resampled points, [strand][vertex].
+Polylines
+drawnStrands(Polylines file, std::span<const glm::vec3> before, std::span<const glm::vec3> after) {
+    if (std::ranges::equal(before, after)) return file;
+    const std::size_t vertices = after.size() / file.ends.size();
+    Polylines drawn;
+    std::uint32_t first = 0;
+    for (std::size_t i = 0; i < file.ends.size(); ++i) {
+        std::span<const glm::vec3> points = after.subspan(i * vertices, vertices);
+        if (std::ranges::equal(before.subspan(i * vertices, vertices), points))
+            points = std::span<const glm::vec3>(file.points).subspan(first, file.ends[i] - first);
+        first = file.ends[i];
+        drawn.points.insert(drawn.points.end(), points.begin(), points.end());
+        drawn.ends.push_back(static_cast<std::uint32_t>(drawn.points.size()));
+    }
+    return drawn;
+}
+
 Groom fromFile(
     const GroomSettings& settings, const Mesh* mesh, const std::filesystem::path& path,
     std::uint32_t seed) {
     StrandSet strands = importStrands(path, settings.points_per_strand);
     try {
         place(strands, settings.placement);
-        Groom groom = toGroom(std::move(strands), settings.vertices);
-        if (mesh) groom.root_normals = rootNormals(groom, *mesh);
-        return withGuides(
-            style(std::move(groom), settings.style, seed, mesh), settings.guides, mesh, seed);
+        Polylines file{strands.ends, strands.points};
+        Groom dense = toGroom(std::move(strands), settings.vertices);
+        if (mesh) dense.root_normals = rootNormals(dense, *mesh);
+        const std::vector<glm::vec3> unstyled = dense.points;
+        dense = style(std::move(dense), settings.style, seed, mesh);
+        file = drawnStrands(std::move(file), unstyled, dense.points);
+        Groom groom = withGuides(std::move(dense), settings.guides, mesh, seed);
+        groom.bound_ends = std::move(file.ends);
+        groom.bound_points = std::move(file.points);
+        return groom;
     } catch (const engine::Error& error) {
         throw engine::Error(path.string(), error.what());
     }

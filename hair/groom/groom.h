@@ -35,11 +35,20 @@ struct Groom {
     std::vector<std::array<std::uint32_t, 3>> root_triangles;
     // The strands of the file that the guides were chosen from.
     std::vector<StrandBinding> bindings;
+    // Their own points at rest, of which the bindings give the mean of the guides. Those of a
+    // strand with vertices_per_strand points are one to each vertex of the guides, all others are
+    // where their arc length is along the strand. Empty: not known.
+    std::vector<std::uint32_t> bound_ends;  // [binding], index after its last point; ascends
+    std::vector<glm::vec3> bound_points;  // [point], strand after strand, m, root first
 
     std::uint32_t segmentsPerStrand() const { return vertices_per_strand - 1; }
     std::span<const glm::vec3> strand(std::uint32_t index) const {
         return std::span(points).subspan(
             std::size_t{index} * vertices_per_strand, vertices_per_strand);
+    }
+    std::span<const glm::vec3> boundStrand(std::size_t binding) const {
+        const std::uint32_t first = binding == 0 ? 0 : bound_ends[binding - 1];
+        return std::span(bound_points).subspan(first, bound_ends[binding] - first);
     }
 };
 

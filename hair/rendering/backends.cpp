@@ -504,7 +504,8 @@ void declareStrands(engine::Commands& commands, const gpu::PictureParameters& pi
     commands.uses(
         {{picture.guides, Access::vertex_read},
          {picture.contacts, Access::vertex_read},
-         {picture.guide_normals, Access::vertex_read}});
+         {picture.guide_normals, Access::vertex_read},
+         {picture.guide_turns, Access::vertex_read}});
 }
 
 engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan) {
@@ -521,7 +522,8 @@ engine::Constants strandConstants(const StrandSettings& strands, const StrandPla
         {gpu::kRandomnessConstant, shaderCode(strands.randomness)},
         {gpu::kLodMorphConstant, plan.morphs},
         {gpu::kMergedHairsConstant, plan.merged_hairs},
-        {gpu::kOwnColorsConstant, plan.own_colors}};
+        {gpu::kOwnColorsConstant, plan.own_colors},
+        {gpu::kResidualsConstant, plan.residuals}};
 }
 
 // ---- Watched stages -----------------------------------------------------------------------------

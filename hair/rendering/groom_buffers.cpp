@@ -13,25 +13,41 @@
 #include "hair/rendering/shadow_pass.h"
 #include "hair/rendering/strand_offsets.h"
 #include "hair/rendering/strand_plan.h"
+#include "hair/rendering/strand_residuals.h"
 
 namespace hair::rendering {
 namespace {
 
-static_assert(sizeof(gpu::BoundStrand) == 36 && offsetof(gpu::BoundStrand, offset) == 24);
+static_assert(sizeof(gpu::BoundStrand) == 52 && offsetof(gpu::BoundStrand, offset) == 24);
 static_assert(sizeof(gpu::RootFrame) == 24);
 
-// The bindings in random order: levels of detail keep the first ones.
-std::vector<gpu::BoundStrand>
-inRandomOrder(const std::vector<groom::StrandBinding>& bindings, std::uint32_t seed) {
-    std::vector<std::uint32_t> order(bindings.size());
+// The numbers of the bound strands in random order: levels of detail keep the first ones.
+std::vector<std::uint32_t> randomOrder(const groom::Groom& groom, std::uint32_t seed) {
+    std::vector<std::uint32_t> order(groom.bindings.size());
     std::iota(order.begin(), order.end(), 0u);
     std::ranges::stable_sort(
         order, {}, [&](std::uint32_t i) { return hash(seed, i, gpu::kOrderPurpose); });
+    return order;
+}
+
+// `residuals`: of the strands in that order, or none.
+std::vector<gpu::BoundStrand> boundStrands(
+    const groom::Groom& groom, const std::vector<std::uint32_t>& order,
+    const StrandResiduals& residuals) {
     std::vector<gpu::BoundStrand> strands;
     strands.reserve(order.size());
     for (const std::uint32_t i : order) {
-        const auto& [guides, weights, offset] = bindings[i];
-        strands.push_back({{guides[0], guides[1], guides[2]}, weights, offset});
+        const auto& [guides, weights, offset] = groom.bindings[i];
+        gpu::BoundStrand strand{
+            .guides = {guides[0], guides[1], guides[2]}, .weights = weights, .offset = offset};
+        if (!residuals.strands.empty()) {
+            const StrandResidual& residual = residuals.strands[strands.size()];
+            strand.first_residual = residual.first;
+            strand.residuals = residual.count;
+            strand.residual_step = residual.step;
+            strand.residual_reach = residual.reach;
+        }
+        strands.push_back(strand);
     }
     return strands;
 }
@@ -78,8 +94,20 @@ GroomBuffers::GroomBuffers(
     if (settings.strands.width == WidthSource::groom)
         view_.guide_widths = upload(widths_, groom.widths, "guide widths");
     if (settings.strands.source == StrandSource::groom) {
+        const std::vector<std::uint32_t> order = randomOrder(groom, settings.seed);
+        StrandResiduals residuals;
+        if (!groom.bound_ends.empty()) {
+            residuals = makeStrandResiduals(groom, settings.strands, order);
+            view_.residuals = upload(residuals_, residuals.samples, "strand residuals");
+            view_.rest_tangents =
+                upload(rest_tangents_, restTangents(groom), "guide tangents at rest");
+            float reach = 0.0f;
+            for (const StrandResidual& strand : residuals.strands)
+                reach = std::max(reach, strand.reach);
+            view_.radius += reach;
+        }
         view_.bound_strands =
-            upload(bound_strands_, inRandomOrder(groom.bindings, settings.seed), "bound strands");
+            upload(bound_strands_, boundStrands(groom, order, residuals), "bound strands");
         view_.bound_strand_count = static_cast<std::uint32_t>(groom.bindings.size());
     }
     if (settings.strands.randomness == Randomness::thesis) {

@@ -27,6 +27,8 @@ struct StrandView {
     std::uint64_t root_pattern = 0;  // vec2 [strand]; 0: root triangles have patterns of their own
     std::uint64_t root_frames = 0;  // gpu::RootFrame [guide]; 0: strands are not offset
     std::uint64_t offsets = 0;  // StrandOffsets::values
+    std::uint64_t residuals = 0;  // StrandResiduals::samples; 0: bound strands have none
+    std::uint64_t rest_tangents = 0;  // vec3 [guide][vertex], restTangents(); 0: without residuals
     glm::vec3 centre{0.0f};  // of a sphere that the strands can't leave, m, before the head moved
     float radius = 0.0f;  // of it
     float offset_reach = 0.0f;  // m, how far offsets move a strand's points
@@ -61,6 +63,8 @@ private:
     engine::Buffer root_pattern_;
     engine::Buffer root_frames_;  // gpu::RootFrame
     engine::Buffer offsets_;
+    engine::Buffer residuals_;
+    engine::Buffer rest_tangents_;
     StrandView view_;
 };
 

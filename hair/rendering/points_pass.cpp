@@ -116,6 +116,7 @@ void PointsPass::record(
         {{parameters.guides, Access::compute_read},
          {parameters.contacts, Access::compute_read},
          {parameters.guide_normals, Access::compute_read},
+         {parameters.guide_turns, Access::compute_read},
          {points_, Access::compute_write},
          {pieces_, Access::compute_write},
          {bounds_, Access::compute_write}});

@@ -75,7 +75,7 @@ strandImages(const StrandTexture& texture, const ShadowPass& shadows) {
 }  // namespace
 
 static_assert(offsetof(gpu::PictureParameters, lights) == 228);
-static_assert(sizeof(gpu::PictureParameters) == 404);
+static_assert(sizeof(gpu::PictureParameters) == 420);
 
 gpu::PictureParameters pictureParameters(
     const Settings& settings, const StrandPlan& plan, const StrandView& view,
@@ -117,6 +117,8 @@ gpu::PictureParameters pictureParameters(
         .guide_widths = view.guide_widths,
         .bound_strands = view.bound_strands,
         .guide_normals = buffers.guide_normals,
+        .guide_turns = buffers.guide_turns,
+        .residuals = view.residuals,
         .contacts = view.contacts,
         .bodies = view.bodies,
         .root_pattern = view.root_pattern,
@@ -158,13 +160,14 @@ Renderer::Renderer(
       resolve_(device, settings_.render, target_.description()) {
     backend_.variant = strands_.backendVariant();
     for (engine::Buffer& parameters : parameters_) parameters = parameterBuffer(device);
-    if (settings_.render.hair && hasOffsets(settings_.strands)) frames_.emplace(device, view);
+    if (settings_.render.hair && FramesPass::isNeeded(view)) frames_.emplace(device, view);
 }
 
 void Renderer::record(engine::Passes& passes, const StrandView& view) {
     const gpu::PictureParameters picture_parameters = pictureParameters(
         settings_, plan_, view,
         {.guide_normals = frames_ ? frames_->normals().address() : 0,
+         .guide_turns = frames_ ? frames_->turns().address() : 0,
          .lights = lights_.address(),
          .optics = optics_.address(),
          .shadows = shadows_.address(passes.slot()),

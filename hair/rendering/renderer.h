@@ -27,6 +27,7 @@ namespace hair::rendering {
 // Addresses of what else shaders read; 0 where they don't.
 struct PictureBuffers {
     std::uint64_t guide_normals = 0;  // FramesPass::normals()
+    std::uint64_t guide_turns = 0;  // FramesPass::turns()
     std::uint64_t lights = 0;
     std::uint64_t optics = 0;
     std::uint64_t shadows = 0;

@@ -9,6 +9,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
@@ -23,6 +24,7 @@ namespace hair::rendering {
 namespace {
 
 static_assert(sizeof(gpu::FramesPush) == 96 && offsetof(gpu::FramesPush, guides) == 64);
+static_assert(sizeof(gpu::TurnsPush) == 48 && offsetof(gpu::TurnsPush, guides) == 16);
 
 // ---- Offsets of a model -------------------------------------------------------------------------
 
@@ -209,28 +211,58 @@ glm::vec3 runOn(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
 
 }  // namespace
 
-FramesPass::FramesPass(const engine::Device& device, const StrandView& view)
-    : pipeline_(device, {.shader = "strands/frames.comp", .push_size = sizeof(gpu::FramesPush)}),
-      normals_(
-          device, {.size = std::max<std::size_t>(
-                               std::size_t{view.guide_count} * view.vertices_per_guide, 1) *
-                           sizeof(glm::vec3),
-                   .name = "guide normals"}) {}
+bool FramesPass::isNeeded(const StrandView& view) {
+    return view.root_frames != 0 || view.rest_tangents != 0;
+}
+
+FramesPass::FramesPass(const engine::Device& device, const StrandView& view) {
+    const std::size_t vertices =
+        std::max<std::size_t>(std::size_t{view.guide_count} * view.vertices_per_guide, 1);
+    if (view.root_frames != 0) {
+        frame_.emplace(
+            device, engine::ComputeDescription{
+                        .shader = "strands/frames.comp", .push_size = sizeof(gpu::FramesPush)});
+        normals_ = {device, {.size = vertices * sizeof(glm::vec3), .name = "guide normals"}};
+    }
+    if (view.rest_tangents != 0) {
+        turn_.emplace(
+            device, engine::ComputeDescription{
+                        .shader = "strands/turns.comp", .push_size = sizeof(gpu::TurnsPush)});
+        turns_ = {device, {.size = vertices * sizeof(glm::vec4), .name = "guide turns"}};
+    }
+}
 
 void FramesPass::record(engine::Commands& commands, const StrandView& view) const {
     using engine::Access;
     // The pass waits for whoever still draws with the frames that are overwritten.
     commands.barrier(Access::vertex_read, Access::compute_write);
-    commands.uses({{view.guides, Access::compute_read}, {normals_, Access::compute_write}});
-    commands.bind(
-        pipeline_, gpu::FramesPush{
-                       .head = view.head,
-                       .guides = view.guides,
-                       .root_frames = view.root_frames,
-                       .normals = normals_.address(),
-                       .guide_count = view.guide_count,
-                       .vertices_per_guide = view.vertices_per_guide});
-    commands.dispatch((view.guide_count + gpu::kFramesGroupSize - 1) / gpu::kFramesGroupSize);
+    commands.uses(
+        {{view.guides, Access::compute_read},
+         {normals_.address(), Access::compute_write},
+         {turns_.address(), Access::compute_write}});
+    if (frame_) {
+        commands.bind(
+            *frame_, gpu::FramesPush{
+                         .head = view.head,
+                         .guides = view.guides,
+                         .root_frames = view.root_frames,
+                         .normals = normals_.address(),
+                         .guide_count = view.guide_count,
+                         .vertices_per_guide = view.vertices_per_guide});
+        commands.dispatchInvocations(view.guide_count, gpu::kFramesGroupSize);
+    }
+    if (turn_) {
+        const glm::quat head = glm::normalize(glm::quat_cast(glm::dmat3(glm::mat3(view.head))));
+        commands.bind(
+            *turn_, gpu::TurnsPush{
+                        .head_turn = {head.x, head.y, head.z, head.w},
+                        .guides = view.guides,
+                        .rest_tangents = view.rest_tangents,
+                        .turns = turns_.address(),
+                        .guide_count = view.guide_count,
+                        .vertices_per_guide = view.vertices_per_guide});
+        commands.dispatchInvocations(view.guide_count, gpu::kFramesGroupSize);
+    }
     commands.barrier(Access::compute_write, Access::vertex_read);
 }
 

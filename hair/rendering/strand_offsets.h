@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,27 +14,36 @@
 #include "hair/rendering/groom_buffers.h"
 #include "hair/settings.h"
 
-// Offsets of strands from their smooth shape, and the frames along guides that they are in.
+// Offsets of strands from their smooth shape, and the frames along guides that they and residuals
+// are in.
 namespace hair::rendering {
 
 // Frames along the guides that don't turn about them, for the offsets of strands. They start at the
 // root with what the groom has at rest, turned as little as the guide's direction there has turned:
-// as long as that isn't reversed they move without a jump.
+// as long as that isn't reversed they move without a jump. And how the guides have turned since
+// rest, for residuals: in the same way, from the root on.
 class FramesPass {
 public:
-    // `view` gives the counts.
+    // Whether what is drawn of `view` has either.
+    static bool isNeeded(const StrandView& view);
+
+    // `view` gives the counts, and which of the two there are.
     FramesPass(const engine::Device& device, const StrandView& view);
 
     // Belongs after what moves the guides, which compute sees, and before what draws. The frames
     // are then visible to the stages before the rasteriser.
     void record(engine::Commands& commands, const StrandView& view) const;
 
-    // vec3 [guide][vertex], unit length, across the guide.
+    // vec3 [guide][vertex], unit length, across the guide; empty without offsets.
     const engine::Buffer& normals() const { return normals_; }
+    // vec4 [guide][vertex], unit quaternions, from rest to now; empty without residuals.
+    const engine::Buffer& turns() const { return turns_; }
 
 private:
-    engine::ComputePipeline pipeline_;
+    std::optional<engine::ComputePipeline> frame_;
+    std::optional<engine::ComputePipeline> turn_;
     engine::Buffer normals_;
+    engine::Buffer turns_;
 };
 
 // Offsets of drawn strands from their smooth shape: thesis 2.3.8.2 and 2.3.8.3. Computed once; a

@@ -64,9 +64,11 @@ StrandPoints evaluateStrandPoints(
     const std::uint32_t size = std::min(count, most_at_once);
     const engine::Buffer records(device, {.size = size * sizeof(Record), .name = "strand points"});
     std::optional<FramesPass> frames;
-    if (hasOffsets(settings.strands)) frames.emplace(device, view);
+    if (FramesPass::isNeeded(view)) frames.emplace(device, view);
     parameters.write(pictureParameters(
-        settings, result.plan, view, {.guide_normals = frames ? frames->normals().address() : 0}));
+        settings, result.plan, view,
+        {.guide_normals = frames ? frames->normals().address() : 0,
+         .guide_turns = frames ? frames->turns().address() : 0}));
     result.records.reserve(count);
     for (std::uint32_t first = 0; first < count; first += std::min(size, count - first)) {
         const std::uint32_t part = std::min(size, count - first);
@@ -79,6 +81,7 @@ StrandPoints evaluateStrandPoints(
                 {{view.guides, engine::Access::compute_read},
                  {view.contacts, engine::Access::compute_read},
                  {frames ? frames->normals().address() : 0, engine::Access::compute_read},
+                 {frames ? frames->turns().address() : 0, engine::Access::compute_read},
                  {records, engine::Access::compute_write}});
             commands.bind(
                 pipeline, gpu::StrandPointsPush{

@@ -86,6 +86,7 @@ const uint kLodMorphConstant = 9u;
 const uint kStrandCollisionConstant = 30u;
 const uint kMergedHairsConstant = 31u;
 const uint kOwnColorsConstant = 32u;
+const uint kResidualsConstant = 33u;
 
 // Constants of strands/software: strands/software/software.glsl; of strands/mesh, too.
 const uint kMostSegmentsConstant = 10u;

@@ -10,7 +10,8 @@ const uint kOffsetPurpose = 0x4f464653u;  // which profile of offsets a strand h
 const uint kMergedPurpose = 0x4d524744u;  // the hairs that a strand of a coarser level stands for
 const uint kColorPurpose = 0x434f4c52u;  // the colors by which a picture tells strands apart
 
-// Invocations in a workgroup of strands/frames.comp and of strands/evaluate.comp.
+// Invocations in a workgroup of strands/frames.comp and strands/turns.comp, and of
+// strands/evaluate.comp.
 const uint kFramesGroupSize = 64u;
 const uint kStrandPointsGroupSize = 64u;
 
@@ -54,6 +55,9 @@ struct PictureParameters {
     Address guide_widths;  // float [guide][vertex], m; read where the groom's widths are drawn
     Address bound_strands;  // BoundStrand [strand]; read where the groom's strands are drawn
     Address guide_normals;  // vec3 [guide][vertex], across the guide; read where offsets are drawn
+    Address guide_turns;  // vec4 [guide][vertex], unit quaternions: how the guide has turned since
+                          // rest; read where residuals are drawn
+    Address residuals;  // uvec2 [sample], all strands': see hair/rendering/strand_residuals.h
     Address contacts;  // vec4 [guide][vertex]: w > 0 where a guide touches a body and below; read
                        // where the collision rule holds
     Address bodies;  // Bodies; read where they push strands out
@@ -75,12 +79,20 @@ struct PictureParameters {
     float blend;  // 0: mixed strands follow one guide; 1: all three
 };
 
-// A strand of the groom: the weighted mean of its guides plus `offset`.
+// A strand of the groom: the weighted mean of its guides plus `offset`, and a residual where these
+// are known.
 struct BoundStrand {
     uvec3 guides;
     vec3 weights;  // sum 1
     vec3 offset;  // m, before the head moved
+    uint first_residual;  // of its samples
+    uint residuals;  // samples; at least 2
+    float residual_step;  // m, of a sample's whole numbers
+    float residual_reach;  // m: no residual on the strand is longer
 };
+
+// Where residuals' samples are on a strand, in whole numbers from the root up to this at the tip.
+const float kResidualPlaces = 65535.0f;
 
 // The start of a guide's frames, before the head moved: unit vectors along and across it.
 struct RootFrame {
@@ -94,6 +106,17 @@ struct FramesPush {
     Address guides;  // vec4 [guide][vertex], m, root first
     Address root_frames;  // RootFrame [guide]
     Address normals;  // vec3 [guide][vertex], unit length, across the guide; written
+    uint guide_count;
+    uint vertices_per_guide;
+};
+
+// Push constants of strands/turns.comp.
+struct TurnsPush {
+    vec4 head_turn;  // quaternion of PictureParameters::head
+    Address guides;  // vec4 [guide][vertex], m, root first
+    Address rest_tangents;  // vec3 [guide][vertex], before the head moved: unit length, or 0 where
+                            // the guide has no direction
+    Address turns;  // vec4 [guide][vertex]; written
     uint guide_count;
     uint vertices_per_guide;
 };

@@ -11,6 +11,8 @@ layout(constant_id = kSourceConstant) const uint kSource = kSourceRootTriangles;
 layout(constant_id = kWidthConstant) const uint kWidth = kWidthScene;
 // 1: strands are offset from their smooth shape
 layout(constant_id = kOffsetsConstant) const uint kOffsets = 0;
+// 1: strands of the groom have residuals
+layout(constant_id = kResidualsConstant) const uint kResiduals = 0;
 layout(constant_id = kInterpolationConstant) const uint kInterpolation = kInterpolationMulti;
 // 1: strands of guides that touch a body follow one of them from there on
 layout(constant_id = kCollisionRuleConstant) const uint kCollisionRule = 0;

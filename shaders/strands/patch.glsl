@@ -23,6 +23,12 @@ BoundStrand boundStrand(PictureParameters picture, uint strand) {
     return BoundStrands(picture.bound_strands).strands[strand];
 }
 
+// How far a strand of the groom may be from the curve of its guides' mean.
+float boundReach(PictureParameters picture, uint strand) {
+    BoundStrand bound = boundStrand(picture, strand);
+    return length(bound.offset) + (kResiduals != 0 ? bound.residual_reach : 0.0);
+}
+
 vec3 guideVertex(PictureParameters picture, uint guide, uint vertex) {
     return GuidePoints(picture.guides).points[guide * picture.vertices_per_guide + vertex].xyz;
 }

@@ -10,6 +10,7 @@
 #include "strands/merged_word.glsl"
 #include "strands/offsets.glsl"
 #include "strands/patch.glsl"
+#include "strands/residuals.glsl"
 #include "strands/roots.glsl"
 
 layout(buffer_reference, scalar) readonly buffer GuideWidths { float widths[]; };
@@ -68,6 +69,20 @@ void offsetPoint(PictureParameters picture, StrandPatch strand_patch, PatchStran
     point.tangent = tangent;
 }
 
+// Moves a point of the guides' mean to the strand of the file. That the turn changes along the
+// strand is left out of the tangent, as above; at rest it doesn't change.
+void addResidual(PictureParameters picture, StrandPatch strand_patch, PatchStrand strand, float t,
+                 inout StrandPoint point) {
+    BoundStrand bound = boundStrand(picture, strand.index);
+    StrandOffset residual = strandResidual(picture, bound, point.along);
+    vec4 turn = strandTurn(picture, strand.guides, strand.weights, strand_patch.segment, t);
+    precise vec3 position = point.position + turnedBy(turn, residual.value);  // strands/curve.glsl
+    precise vec3 tangent =
+        point.tangent + turnedBy(turn, residual.slope / float(picture.vertices_per_guide - 1));
+    point.position = position;
+    point.tangent = tangent;
+}
+
 vec4 curveWeights(float t) {
     return kCurve == kCurveCatmullRom ? interpolationWeights(t) : splineWeights(t);
 }
@@ -94,6 +109,7 @@ StrandPoint pointOnStrand(PictureParameters picture, StrandPatch strand_patch, P
                   strand_patch.lod.width_scale * strandShare(strand_patch.lod, strand.index);
     point.position += strand.lift;
     if (kOffsets != 0) offsetPoint(picture, strand_patch, strand, t, point);
+    if (kResiduals != 0) addResidual(picture, strand_patch, strand, t, point);
     return point;
 }
 

@@ -73,6 +73,11 @@ TEST_F(GroomCli, ConvertChoosesGuidesAndSaysHowGoodTheyAre) {
         outcome.output,
         ContainsRegex(
             "chose: 20 guides of 400 strands\nerror: .* nm in the mean .* % of the mean length"));
+    EXPECT_THAT(
+        outcome.output,
+        ContainsRegex(
+            "left: of the file's strands as /strands/source groom draws them with so many guides "
+            ".* in the mean, .* at most"));
     EXPECT_EQ(json("guides.hgl")["strands"], 20);
 }
 

@@ -12,6 +12,7 @@ namespace {
 struct Feature {
     const char* name;
     StrandSettings strands;
+    bool has_residuals = false;
 };
 
 const StrandCurlSettings kThinCurl{.radius = 0.01f, .frequency = 40.0f};
@@ -23,6 +24,7 @@ const Feature kFeatures[] = {
     {"offsets", {.offsets = "a model"}},
     {"widths", {.width = WidthSource::groom}},
     {"groom", {.source = StrandSource::groom}},
+    {"residuals", {.source = StrandSource::groom}, true},
     {"single", {.interpolation = Interpolation::single}},
     {"mixed", {.interpolation = Interpolation::mixed}},
     {"collision_rule", {.collision_rule = true}},
@@ -38,10 +40,25 @@ const Feature kFeatures[] = {
       .curl = kThinCurl,
       .variation = kVariation,
       .offsets = "a model",
-      .curve = Curve::catmull_rom}},
+      .curve = Curve::catmull_rom},
+     true},
 };
 
-groom::Groom groomWithAll() {
+// Points of their own for the bound strands, 5 to 12 of them: spirals round their guides.
+void addResiduals(groom::Groom& groom) {
+    for (std::uint32_t i = 0; i < groom.bindings.size(); ++i) {
+        const auto guide = groom.strand(groom.bindings[i].guides[0]);
+        const std::uint32_t points = 5 + i % 8;
+        for (std::uint32_t k = 0; k < points; ++k) {
+            const float turn = 0.9f * static_cast<float>(k) + 0.7f * static_cast<float>(i);
+            const glm::vec3 aside(0.01f * std::sin(turn), 0.0f, 0.01f * std::cos(turn));
+            groom.bound_points.push_back(guide[k * 7 / (points - 1)] + aside);
+        }
+        groom.bound_ends.push_back(static_cast<std::uint32_t>(groom.bound_points.size()));
+    }
+}
+
+groom::Groom groomWithAll(bool has_residuals = false) {
     groom::Groom groom = tangledGroom(8);
     for (std::size_t i = 0; i < groom.points.size(); ++i)
         groom.widths.push_back(1e-3f * static_cast<float>(1 + i * 7 % 5));
@@ -52,6 +69,7 @@ groom::Groom groomWithAll() {
              .weights = {weight, 0.5f, 0.5f - weight},
              .offset = {0.01f * weight, -0.02f, 0.03f * weight}});
     }
+    if (has_residuals) addResiduals(groom);
     return groom;
 }
 
@@ -74,24 +92,26 @@ protected:
             .render = {.width = 160, .height = 120}};
     }
 
-    static Pixels draw(const Settings& settings) {
+    static Pixels draw(const Settings& settings, bool has_residuals) {
         const groom::StrandSet model = zigzag();
         return drawGroom(
-            device(), settings, groomWithAll(), nullptr,
+            device(), settings, groomWithAll(has_residuals), nullptr,
             settings.strands.offsets.empty() ? nullptr : &model);
     }
 
-    static void expectEqualPictures(const Pixels& tessellated, Settings settings) {
+    static void
+    expectEqualPictures(const Pixels& tessellated, Settings settings, bool has_residuals) {
         settings.strands.submission = Submission::batched;
-        EXPECT_EQ(differingPixels(tessellated, draw(settings)), 0u);
+        EXPECT_EQ(differingPixels(tessellated, draw(settings, has_residuals)), 0u);
         settings.strands.backend = Backend::pulling_geometry;
-        EXPECT_EQ(differingPixels(tessellated, draw(settings)), 0u);
+        EXPECT_EQ(differingPixels(tessellated, draw(settings, has_residuals)), 0u);
     }
 
     static std::vector<engine::FrameRecord> record(
-        const Settings& settings, engine::Timing timing, std::optional<ExpectedCounts>& expected) {
+        const Settings& settings, bool has_residuals, engine::Timing timing,
+        std::optional<ExpectedCounts>& expected) {
         const groom::StrandSet model = zigzag();
-        const DeviceHair hair(device(), groomWithAll(), settings, &model);
+        const DeviceHair hair(device(), groomWithAll(has_residuals), settings, &model);
         Renderer renderer(device(), settings, hair.view(), RenderAssets{});
         engine::FrameLoop loop(device(), timing);
         loop.frame([&](engine::Passes& passes) { renderer.record(passes, hair.view()); });
@@ -101,13 +121,13 @@ protected:
 };
 
 TEST_F(StrandFeaturePictureTest, BackEndsDrawTheSame) {
-    const Pixels plain = draw(small({}));
+    const Pixels plain = draw(small({}), false);
     for (const Feature& feature : kFeatures) {
         SCOPED_TRACE(feature.name);
         const Settings settings = small(feature.strands);
-        const Pixels picture = draw(settings);
+        const Pixels picture = draw(settings, feature.has_residuals);
         EXPECT_GT(differingPixels(picture, plain), 100u);  // there is something of it to see
-        expectEqualPictures(picture, settings);
+        expectEqualPictures(picture, settings, feature.has_residuals);
     }
 }
 
@@ -116,9 +136,13 @@ TEST_F(StrandFeaturePictureTest, BackEndsDrawTheSameAtAnyLevelOfDetail) {
         SCOPED_TRACE(feature.name);
         Settings settings = small(feature.strands);
         settings.lod.level = 1.0f;
-        expectEqualPictures(draw(settings), settings);
+        const auto draw_and_compare = [&] {
+            expectEqualPictures(
+                draw(settings, feature.has_residuals), settings, feature.has_residuals);
+        };
+        draw_and_compare();
         settings.lod = {.mode = LodMode::distance, .near_distance = 0.4f, .far_distance = 0.8f};
-        expectEqualPictures(draw(settings), settings);
+        draw_and_compare();
     }
 }
 
@@ -129,7 +153,7 @@ TEST_F(StrandFeaturePictureTest, CountsAreThoseOfThePlan) {
         settings.strands.tessellation = 6;
         settings.lod.level = level;
         std::optional<ExpectedCounts> expected;
-        const auto records = record(settings, engine::Timing::statistics, expected);
+        const auto records = record(settings, false, engine::Timing::statistics, expected);
         const auto pass = std::ranges::find(
             records.at(0).statistics, std::string("strands"), &engine::PassStatistics::name);
         ASSERT_NE(pass, records.at(0).statistics.end());
@@ -152,15 +176,16 @@ TEST_F(StrandFeaturePictureTest, CountsAreThoseOfThePlan) {
     }
 }
 
-TEST_F(StrandFeaturePictureTest, FramesAreAPassWhereStrandsAreOffsetOnly) {
+TEST_F(StrandFeaturePictureTest, FramesAreAPassWhereStrandsAreOffOfTheirCurvesOnly) {
     for (const Feature& feature : kFeatures) {
         std::optional<ExpectedCounts> expected;
-        const auto records = record(small(feature.strands), engine::Timing::isolated, expected);
+        const auto records = record(
+            small(feature.strands), feature.has_residuals, engine::Timing::isolated, expected);
         const auto& passes = records.at(0).passes;
         const bool there =
             std::ranges::find(passes, std::string("frames"), &engine::PassTime::name) !=
             passes.end();
-        constexpr std::string_view kOffset[] = {"curl", "variation", "offsets", "all"};
+        constexpr std::string_view kOffset[] = {"curl", "variation", "offsets", "residuals", "all"};
         const bool offset = std::ranges::find(kOffset, feature.name) != std::end(kOffset);
         EXPECT_EQ(there, offset) << feature.name;
     }

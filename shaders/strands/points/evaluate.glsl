@@ -64,7 +64,7 @@ void main() {
     uint drawn = min(drawnStrands(strand_patch.lod), end);
     if (push.culls != 0u) {
         float offset = 0.0;
-        if (kSource == kSourceGroom) offset = length(boundStrand(picture, begin).offset);
+        if (kSource == kSourceGroom) offset = boundReach(picture, begin);
         float beyond =
             push.reach + offset + push.greatest_width * strand_patch.lod.width_scale;
         if (isOutside(picture, guides, 0u, kSegments, beyond)) drawn = begin;

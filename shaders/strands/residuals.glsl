@@ -1,0 +1,117 @@
+// Residuals: what a strand of the file is off the curve of its guides' mean at rest. They come from
+// a table (hair/rendering/strand_residuals.h), in the axes of the groom at rest, and turn as the
+// guides have turned since (strands/turns.comp).
+#ifndef HAIRBENCH_STRAND_RESIDUALS_GLSL
+#define HAIRBENCH_STRAND_RESIDUALS_GLSL
+
+#include "common/picture.glsl"
+#include "strands/offsets.glsl"
+#include "strands/roots.glsl"
+
+layout(buffer_reference, scalar) readonly buffer Residuals { uvec2 samples[]; };
+layout(buffer_reference, scalar) readonly buffer GuideTurns { vec4 turns[]; };
+
+// A sample is four numbers of 16 bits: a vector in steps, and its place along the strand.
+struct ResidualSample {
+    vec3 value;  // steps
+    float place;  // 0 to kResidualPlaces
+};
+
+ResidualSample residualSample(Residuals table, uint index) {
+    uvec2 bits = table.samples[index];
+    ivec2 words = ivec2(bits);
+    return ResidualSample(vec3(bitfieldExtract(words.x, 0, 16), bitfieldExtract(words.x, 16, 16),
+                               bitfieldExtract(words.y, 0, 16)),
+                          float(bits.y >> 16));
+}
+
+// The last but one of the strand's samples, or the last of those that `place` is not before. Points
+// of files are mostly evenly spaced: the second look finds it. Otherwise it is halving.
+uint residualInterval(Residuals table, BoundStrand strand, float along, float place) {
+    uint low = 0u;
+    uint high = strand.residuals - 1u;
+    uint look = clamp(uint(along * float(high)), 1u, max(high, 2u) - 1u);
+    for (bool first = true; high - low > 1u; first = false) {
+        if (float(table.samples[strand.first_residual + look].y >> 16) <= place)
+            low = look;
+        else
+            high = look;
+        if (first)
+            look = low == look ? low + 1u : high - 1u;
+        else
+            look = (low + high) / 2u;
+    }
+    return low;
+}
+
+// The residual and its derivative by the place along the strand, 0 to 1: the cubic that has at both
+// samples the slope of the parabola through them and the sample beyond: Bessel's, de Boor 1978, A
+// Practical Guide to Splines, chapter IV.
+StrandOffset strandResidual(PictureParameters picture, BoundStrand strand, float along) {
+    Residuals table = Residuals(picture.residuals);
+    float place = along * kResidualPlaces;
+    uint interval = residualInterval(table, strand, along, place);
+    uint first = strand.first_residual + interval;
+    bool is_first = interval == 0u;
+    bool is_last = interval + 2u == strand.residuals;
+    ResidualSample a = residualSample(table, is_first ? first : first - 1u);
+    ResidualSample b = residualSample(table, first);
+    ResidualSample c = residualSample(table, first + 1u);
+    ResidualSample d = residualSample(table, is_last ? first + 1u : first + 2u);
+
+    // Changes over the interval, were it all as steep as at its ends.
+    float size = c.place - b.place;
+    precise vec3 change = c.value - b.value;
+    float part_before = is_first ? 0.0 : size / (c.place - a.place);
+    float part_behind = is_last ? 0.0 : size / (d.place - b.place);
+    precise vec3 steep_before =
+        is_first ? vec3(0.0) : (b.value - a.value) * (size / (b.place - a.place)) - change;
+    precise vec3 steep_behind =
+        is_last ? vec3(0.0) : (d.value - c.value) * (size / (d.place - c.place)) - change;
+    precise vec3 bent_before = part_before * steep_before;
+    precise vec3 bent_behind = part_behind * steep_behind;
+    // Where there is no neighbour the other end's parabola goes on.
+    if (is_first) bent_before = -bent_behind;
+    if (is_last) bent_behind = -bent_before;
+
+    precise float t = clamp((place - b.place) / size, 0.0, 1.0);
+    precise float s = 1.0 - t;
+    precise vec3 value =
+        b.value + t * change + t * s * (s * bent_before - t * bent_behind);
+    precise vec3 slope = change + s * (1.0 - 3.0 * t) * bent_before -
+                         t * (2.0 - 3.0 * t) * bent_behind;
+    return StrandOffset(strand.residual_step * value,
+                        strand.residual_step * kResidualPlaces / size * slope);
+}
+
+vec4 guideTurn(PictureParameters picture, uint guide, uint segment, float share) {
+    GuideTurns guides = GuideTurns(picture.guide_turns);
+    uint first = guide * picture.vertices_per_guide + segment;
+    precise vec4 turn = (1.0 - share) * guides.turns[first] + share * guides.turns[first + 1u];
+    return turn;
+}
+
+// A vector turned by a unit quaternion, rounded alike in every stage: strands/curve.glsl.
+vec3 turnedBy(vec4 turn, vec3 v) {
+    precise vec3 half_moved = cross(turn.xyz, v);
+    precise vec3 moved = v + 2.0 * (turn.w * half_moved + cross(turn.xyz, half_moved));
+    return moved;
+}
+
+// How a strand has turned since rest at t of a segment: the mean of its guides' turns, a step of the
+// power iteration from the heaviest one's towards Markley et al. 2007, Averaging Quaternions,
+// equation (12). Signs make no difference, it is never 0, and where a guide has turned away from the
+// heaviest by half a turn it counts nothing, so that nothing jumps.
+vec4 strandTurn(PictureParameters picture, uvec3 guides, vec3 weights, uint segment, float t) {
+    precise float share = t * t * (3.0 - 2.0 * t);  // so that the turn is smooth across vertices
+    vec4 a = guideTurn(picture, guides.x, segment, share);
+    vec4 b = guideTurn(picture, guides.y, segment, share);
+    vec4 c = guideTurn(picture, guides.z, segment, share);
+    uint heaviest = heaviestCorner(weights);
+    vec4 most = heaviest == 0u ? a : heaviest == 1u ? b : c;
+    precise vec4 mean = weights.x * dot(most, a) * a + weights.y * dot(most, b) * b +
+                        weights.z * dot(most, c) * c;
+    return mean * inversesqrt(max(dot(mean, mean), 1e-30));
+}
+
+#endif
