@@ -202,7 +202,12 @@ const Table& tableOf(const DistanceFieldSettings*) {
 const Table& tableOf(const CollisionSettings*) {
     using S = CollisionSettings;
     static const Table table = tableWith<S>(
-        {number("margin", &S::margin, 0, 1, "m", "distance that guides keep from colliders"),
+        {choice(
+             "parts", &S::parts,
+             {{CollisionParts::vertices, "vertices"}, {CollisionParts::segments, "segments"}},
+             "what of a guide keeps out of colliders. vertices: its vertices alone; segments: what "
+             "is between them too, so that no long segment passes through a thin collider"),
+         number("margin", &S::margin, 0, 1, "m", "distance that guides keep from colliders"),
          number(
              "friction", &S::friction, 0, 10, "1",
              "Coulomb's coefficient of friction on colliders"),

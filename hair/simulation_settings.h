@@ -140,7 +140,11 @@ struct DistanceFieldSettings {
 
 const Table& tableOf(const DistanceFieldSettings*);
 
+// What of a guide keeps out of bodies.
+enum class CollisionParts { vertices, segments };
+
 struct CollisionSettings {
+    CollisionParts parts = CollisionParts::vertices;
     float margin = 0.0f;
     float friction = 0.0f;
     bool continuous = false;

@@ -90,6 +90,20 @@ Broken solverCarriesContact(const hair::Settings& s) {
     return {};
 }
 
+Broken solverKeepsSegmentsOut(const hair::Settings& s) {
+    if (s.simulation.collision.parts == hair::CollisionParts::vertices) return {};
+    switch (s.simulation.solver) {
+    case hair::Solver::stable_cosserat:
+    case hair::Solver::position_based_rod:
+    case hair::Solver::augmented_mass_spring:
+        return "is segments, which the solvers shape, ftl and rod keep out of bodies";
+    default:
+        if (s.simulation.collision.warm_start)
+            return "is segments, but warm_start carries forces of contact of vertices alone";
+        return {};
+    }
+}
+
 Broken keyframesAscend(const hair::Settings& s) {
     const auto& keys = s.simulation.motion.keyframes;
     const auto late =
@@ -205,6 +219,7 @@ constexpr Rule kRules[] = {
     {"/simulation/rest", solverHasBalancedRest},
     {"/simulation/material/ellipticity", solverHasEllipticSections},
     {"/simulation/collision/warm_start", solverCarriesContact},
+    {"/simulation/collision/parts", solverKeepsSegmentsOut},
     {"/simulation/wind/direction", windHasDirection},
     {"/simulation/motion/keyframes", keyframesAscend},
     {"/simulation/pulls", pullKeysAscend},

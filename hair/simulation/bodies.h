@@ -81,6 +81,8 @@ public:
     // What a user has to know of their meshes, each with the field's JSON pointer before it.
     std::vector<std::string> warnings() const;
 
+    std::size_t count() const { return capsules_.count + distances_.size(); }
+
     gpu::Bodies parameters() const { return parametersWith(capsules_); }
     // The parameters of the same distance fields with other capsules.
     gpu::Bodies parametersWith(const Capsules& capsules) const;

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "engine/error.h"
 #include "hair/gpu_structs.h"
 #include "hair/simulation/stiffness.h"
 
@@ -41,6 +42,23 @@ std::vector<glm::vec4> withMargin(std::span<const glm::vec3> points, float margi
 bool hairActsOnHair(const SimulationSettings& settings) {
     const HairHairSettings& contact = settings.hair_hair;
     return settings.solver != Solver::none && (contact.friction > 0.0f || contact.repulsion > 0.0f);
+}
+
+// Whether segments keep out of bodies by a pass of their own; `rod` does it itself.
+bool hasSegmentPass(const SimulationSettings& settings) {
+    if (settings.collision.parts == CollisionParts::vertices) return false;
+    switch (settings.solver) {
+    case Solver::none:
+    case Solver::rod:
+        return false;
+    case Solver::shape:
+    case Solver::ftl:
+        return true;
+    default:
+        throw engine::Error(
+            "/simulation/collision/parts",
+            "is segments, which the solvers shape, ftl and rod keep out of bodies");
+    }
 }
 
 }  // namespace
@@ -85,6 +103,8 @@ Simulation::Simulation(
     assert(groom.points.size() == std::size_t{strand_count_} * vertices_per_strand_);
     checkPulls(settings.pulls, strand_count_, vertices_per_strand_);
     if (hasPulls()) pulls_.emplace(pullPassOf(settings));
+    if (hasSegmentPass(settings))
+        segments_.emplace(device, strand_count_, vertices_per_strand_, settings);
     if (hairActsOnHair(settings)) hair_hair_.emplace(device, groom, settings, step_);
     const RigidMotion placed = pose();
     std::vector<glm::vec3> start;
@@ -317,7 +337,9 @@ void Simulation::recordSubsteps(
     const GuideAddresses guides = addresses();
     const AirAtGuides air = wind_.air();
     GuideAddresses before = addresses(from_copy);
+    const bool segments = segments_ && bodies_.count() > 0;
     for (std::uint32_t i = 0; i < count; ++i) {
+        if (segments) segments_->recordStart(commands, positions_[i == 0 ? from_copy : current_]);
         // After the forces, or the substep before.
         commands.barrier(Access::compute_write, Access::compute_write);
         commands.uses(
@@ -336,6 +358,7 @@ void Simulation::recordSubsteps(
                        .frame_before = frameAfter(i),
                        .first_strand = 0,
                        .drag = air.drag});
+        if (segments) segments_->record(commands, guides, frameAfter(i + 1), frameAfter(i));
         before = guides;
     }
     commands.barrier(

@@ -22,6 +22,7 @@
 #include "hair/simulation/hair_hair.h"
 #include "hair/simulation/head_motion.h"
 #include "hair/simulation/pulls.h"
+#include "hair/simulation/segments.h"
 #include "hair/simulation/solvers.h"
 #include "hair/simulation/wind.h"
 
@@ -177,6 +178,7 @@ private:
     WindPass wind_;
     std::optional<PullPass> pulls_;  // from the first pull on
     std::optional<HairHair> hair_hair_;
+    std::optional<SegmentPass> segments_;  // where they keep out of bodies
     std::unique_ptr<GuideSolver> solver_;  // null: nothing moves
     std::vector<engine::Buffer> settled_;  // state() after construction
     std::uint64_t steps_ = 0;

@@ -182,6 +182,12 @@ accelerationsOf(const engine::Device& device, const groom::Groom& groom, RodInte
                  .name = "rod accelerations"});
 }
 
+// How `rod` keeps segments out of bodies.
+std::uint32_t segmentsOf(const SimulationSettings& settings) {
+    if (settings.collision.parts == CollisionParts::vertices) return gpu::kRodNoSegments;
+    return settings.rest == RestShape::balanced ? gpu::kRodSegmentsAtRest : gpu::kRodSegments;
+}
+
 }  // namespace
 
 RodMethod rodMethod(const SimulationSettings& settings) {
@@ -189,7 +195,8 @@ RodMethod rodMethod(const SimulationSettings& settings) {
         .shader = "simulation/rod.comp",
         .packed_shader = "simulation/rod_packed.comp",
         .scratch_rows = gpu::kRodScratchRows +
-                        (settings.collision.warm_start ? gpu::kRodContactScratchRows : 0),
+                        (settings.collision.warm_start ? gpu::kRodContactScratchRows : 0) +
+                        (segmentsOf(settings) == gpu::kRodNoSegments ? 0 : 1),
         .iterations = settings.rod.iterations,
         .integrator = settings.rod.integrator,
         .damping = settings.material.damping};
@@ -269,6 +276,7 @@ RodSolver::RodSolver(
                        {{gpu::kContinuousCollisionConstant, settings.collision.continuous},
                         {gpu::kEllipticSectionConstant, settings.material.ellipticity != 1.0f},
                         {gpu::kWarmStartConstant, settings.collision.warm_start},
+                        {gpu::kRodSegmentsConstant, segmentsOf(settings)},
                         {gpu::kRodAlphaConstant, accelerations_.has_value()},
                         {gpu::kRodDampedConstant, method.damping > 0.0}},
                    .push_size = sizeof(gpu::SubstepPush)}),

@@ -150,10 +150,17 @@ const uint kShapeVerticesPerChunkConstant = 4u;
 // Of every solver: simulation/constraints/bodies.glsl.
 const uint kContinuousCollisionConstant = 5u;
 
+// Of simulation/segments.comp.
+const uint kSegmentVerticesConstant = 0u;
+
 // Of the solver `rod`: simulation/rod/joint.glsl and simulation/rod.glsl.
 const uint kEllipticSectionConstant = 6u;
 const uint kWarmStartConstant = 7u;
 const uint kRodAlphaConstant = 8u;
 const uint kRodDampedConstant = 9u;
+const uint kRodSegmentsConstant = 10u;
+const uint kRodNoSegments = 0u;  // keep out of bodies
+const uint kRodSegments = 1u;
+const uint kRodSegmentsAtRest = 2u;  // pushed no farther out than they are at rest
 
 #endif

@@ -93,6 +93,15 @@ struct SubstepPush {
     AirDrag drag;
 };
 
+// Push constants of simulation/segments.comp.
+struct SegmentPush {
+    Address guides;  // GuideParameters: positions are moved, and contact is marked in `previous`
+    Address starts;  // positions at the start of the substep, m
+    RigidFrame frame;  // of the head at the end of the substep
+    RigidFrame frame_before;  // of the head at the start of the substep
+    uint keeps_rest;  // 1: no segment is pushed farther out than it is at rest
+};
+
 // Push constants of simulation/wind.comp.
 struct WindPush {
     Address guides;  // GuideParameters

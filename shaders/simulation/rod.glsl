@@ -10,12 +10,19 @@
 // Whether forces of contact are carried: simulation/rod/contact.glsl.
 layout(constant_id = kWarmStartConstant) const bool kWarmStart = false;
 
+// Whether segments keep out of bodies, and not vertices alone: kRodNoSegments and the next.
+layout(constant_id = kRodSegmentsConstant) const uint kSegments = kRodNoSegments;
+const bool kSegmentsCollide = kSegments != kRodNoSegments;
+
 // Rows of the scratch memory: 0 to 2 the columns of `by_move` with `by_itself` as the last row, 3
 // to 5 those of `by_turn`, 6 the vertex's displacement and 7 the segment's rotation, both since the
 // prediction; 8 the tangent that air brakes it across, and by how much: air_drag.glsl. Where forces
-// of contact are carried, 9 and 10 have what holds it: its Hold.
-const uint kScratchRows = kRodScratchRows + (kWarmStart ? kRodContactScratchRows : 0u);
+// of contact are carried, 9 and 10 have what holds it: its Hold. The last one, where segments keep
+// out of bodies, is by how much bodies push the vertex, and 1 where it or its segment touches one.
+const uint kPushRow = kRodScratchRows + (kWarmStart ? kRodContactScratchRows : 0u);
+const uint kScratchRows = kPushRow + (kSegmentsCollide ? 1u : 0u);
 
+#include "simulation/constraints/segment.glsl"
 #include "simulation/rod/contact.glsl"
 #include "simulation/rod/joint.glsl"
 #include "simulation/rod/strand.glsl"
@@ -279,6 +286,66 @@ vec3 speedUp(uint i, uint row, vec3 now) {
     return change;
 }
 
+// Pushes of bodies on vertices and then, twice over, on the segments between them, each by the mass
+// of its own two ends: the next solve brings them to the rest of the strand.
+const uint kSweeps = 2u;
+
+void pushSegments() {
+    for (uint sweep = 0; sweep < kSweeps; ++sweep) {
+        MovingSegment segment;
+        segment.b = root_now;
+        segment.b_before = State(guides.previous).at[root].xyz;
+        vec3 free_above = root_now;
+        vec3 edges = vec3(0.0);
+        float touched_above = 0.0;
+        for (uint i = 1; i < guides.vertices_per_strand; ++i) {
+            edges += restLength(i) * axisOf(orientationAt(i));
+            vec3 before = State(from.positions).at[root + i].xyz;
+            vec3 free = isPinned(i) ? before : root_now + unit * edges;
+            float touched = 0.0;
+            vec3 held = free;
+            if (sweep > 0u) {
+                vec4 pushed = scratchAt(i, kPushRow);
+                held += unit * pushed.xyz;
+                touched = pushed.w;
+            } else if (!isPinned(i)) {
+                vec3 pushed;
+                held = heldByBodies(i, free, before, touched, pushed);
+            }
+            float w_a = i > 1 && !isPinned(i - 1) ? 1.0 : 0.0;
+            float w_b = isPinned(i) ? 0.0 : 1.0;
+            segment =
+                movingSegment(guides, root + i, w_a, segment.b, held, segment.b_before, before);
+            EnteredPlane entered;
+            SegmentContact contact = contactOf(
+                segment, guides.bodies, push.frame, push.frame_before, true,
+                kSegments == kRodSegmentsAtRest, entered);
+            float s = contact.at;
+            float r = 1.0 - s;
+            float yields = r * r * w_a + s * s * w_b;
+            if (contact.gap < 0.0 && yields > 0.0) {
+                vec3 slid = movedPast(segment, contact, push.frame, push.frame_before);
+                float share;
+                vec3 kept = slideBack(
+                    slid - contact.gap * contact.normal, vec3(0.0), contact.normal, -contact.gap,
+                    guides.bodies.friction, share);
+                vec3 move = (kept - slid) / yields;
+                segment.a += r * w_a * move;
+                segment.b += s * w_b * move;
+                touched = 1.0;
+            }
+            if (i > 1)
+                setScratch(
+                    i - 1, kPushRow, vec4((segment.a - free_above) / unit, touched_above));
+            free_above = free;
+            touched_above = touched;
+        }
+        setScratch(
+            guides.vertices_per_strand - 1, kPushRow,
+            vec4((segment.b - free_above) / unit, touched_above));
+    }
+}
+
 // Velocities and positions, and collisions: what they move turns segments and leaves misfits.
 void finish() {
     State positions = State(guides.positions);
@@ -298,7 +365,15 @@ void finish() {
         vec3 pushed = vec3(0.0);
         if (!isPinned(i)) {
             vec3 free = root_now + unit * edges;
-            vec3 held = heldByBodies(i, free, before, contact, pushed);
+            vec3 held;
+            if (kSegmentsCollide) {
+                vec4 push_of_bodies = scratchAt(i, kPushRow);
+                pushed = push_of_bodies.xyz;
+                contact = max(contact, push_of_bodies.w);
+                held = free + unit * pushed;
+            } else {
+                held = heldByBodies(i, free, before, contact, pushed);
+            }
             // Implicit Euler's velocity has the load already.
             vec3 load = kAlpha ? loadAt(i) : vec3(0.0);
             vec3 change = speedUp(i, kRodAcceleration, share * scratchAt(i, 6).xyz + load);
@@ -348,6 +423,7 @@ void main() {
         eliminate();
         last_turn = turnSegments();
     }
+    if (kSegmentsCollide) pushSegments();
     finish();
     if (kAlpha) {
         bool smooth_strand = is_smooth && last_turn <= kSmoothTurn;

@@ -1,0 +1,199 @@
+#version 460
+// Takes segments of strands out of bodies, after a substep of a solver whose state is positions. One
+// invocation per strand.
+//
+// A segment that touches a body is pushed by a force at the place where it touches. How far that
+// place yields is asked of the strand as a chain of masses whose segments keep their lengths: what
+// is below hangs on the segment, and what is above holds it. For a contact at x = (1 - s) a + s b of
+// the segment with the direction d from a to b that is
+//     K = (1 - s)^2 A + s^2 B - g g^T / (d.A d + d.B d),    g = s B d - (1 - s) A d,
+// with the yielding of its ends by themselves, A with all that is above and B with all that is
+// below. A vertex that hangs on a single segment of direction e, whose other end yields by y along
+// e, yields by w (1 - w / (w + y) e e^T), so that a walk along the strand finds all of them. It is
+// what elimination of the tensions leaves (Featherstone 1983, The calculation of robot dynamics
+// using articulated-body inertias). Contacts are solved one after the other down the strand, each
+// within Coulomb's cone for the whole substep, and some times over: a projected Gauss-Seidel method
+// (Jean 1999, The non-smooth contact dynamics method).
+#extension GL_GOOGLE_include_directive : require
+
+#include "common/rigid_frame.glsl"
+#include "shared/options.h"
+#include "simulation/constraints/segment.glsl"
+#include "simulation/guides.glsl"
+
+layout(local_size_x = kGuideGroupSize) in;
+
+layout(constant_id = kSegmentVerticesConstant) const uint kVerticesPerStrand = 8;
+
+layout(push_constant, scalar) uniform Push { SegmentPush push; };
+
+const uint kMostPasses = 8u;
+const float kStill = 1.0e-7;  // m, by which no pass need move anything
+// Of a free vertex's yielding: beneath it a segment stands on the body and its strand with it.
+const float kLeastYield = 0.02;
+const float kMostMove = 0.5;  // of a segment's length in a pass
+// Of the yielding: what a taut strand and friction hold both is left to either.
+const float kSoftest = 1.0e-3;
+
+GuideParameters guides;
+uint root;
+vec4 points[kVerticesPerStrand];  // w: inverse mass
+vec3 forces[kVerticesPerStrand];  // of contact, on the segment that ends there
+EnteredPlane planes[kVerticesPerStrand];
+float below[kVerticesPerStrand];  // w / (w + y) of the segment below
+float above[kVerticesPerStrand];  // and of the one above
+vec3 shifts[kVerticesPerStrand];  // in a pass, by contacts above and at the segment that ends there
+vec3 lifts[kVerticesPerStrand];  // in a pass, by contacts below
+
+vec3 startOf(uint i) { return Vectors(push.starts).at[root + i].xyz; }
+
+vec3 directionTo(uint i) {
+    vec3 edge = points[i].xyz - points[i - 1].xyz;
+    float len = length(edge);
+    return len < kShortestSegment ? vec3(0.0) : edge / len;
+}
+
+// What a vertex with the inverse mass w yields to a force, where a segment along e holds a share.
+vec3 yieldTo(vec3 force, float w, float share, vec3 e) {
+    return w * (force - share * dot(e, force) * e);
+}
+
+float shareOf(float w, float beyond) { return w > 0.0 ? w / (w + beyond) : 0.0; }
+
+// The force of contact that is right for what has been moved so far.
+vec3 forceOf(SegmentContact contact, mat3 yields, vec3 slid, vec3 force, float friction) {
+    vec3 normal = contact.normal;
+    float yields_out = dot(normal, yields * normal);
+    if (yields_out < kLeastYield) return force;
+    float pressed = dot(normal, yields * force) - contact.gap;
+    if (friction > 0.0) {
+        vec3 wanted = -contact.gap * normal - (slid - dot(slid, normal) * normal);
+        vec3 sticking = force + inverse(yields + mat3(kSoftest)) * wanted;
+        float pressure = dot(sticking, normal);
+        vec3 shear = sticking - pressure * normal;
+        float size = length(shear);
+        if (pressure > 0.0 && size <= friction * pressure) return sticking;
+        if (size > 0.0) {
+            vec3 rim = normal + friction / size * shear;
+            return max(pressed / max(dot(normal, yields * rim), 0.1 * yields_out), 0.0) * rim;
+        }
+    }
+    return max(pressed / yields_out, 0.0) * normal;
+}
+
+// One pass over all contacts. The farthest that it moved a vertex, m; 0 without a contact.
+float pushSegments(bool by_way) {
+    below[kVerticesPerStrand - 1] = 0.0;
+    vec3 after = vec3(0.0);
+    for (uint i = kVerticesPerStrand - 1; i > 0; --i) {
+        vec3 direction = directionTo(i);
+        float across = dot(after, direction);
+        float beyond = points[i].w * (1.0 - below[i] * across * across);
+        below[i - 1] = shareOf(points[i - 1].w, beyond);
+        after = direction;
+    }
+    float farthest = 0.0;
+    above[0] = 0.0;
+    shifts[0] = vec3(0.0);
+    vec3 direction_above = vec3(0.0);
+    for (uint i = 1; i < kVerticesPerStrand; ++i) {
+        vec3 direction = directionTo(i);
+        vec3 direction_below = vec3(0.0);
+        if (i + 1 < kVerticesPerStrand) direction_below = directionTo(i + 1);
+        float w_a = points[i - 1].w;
+        float w_b = points[i].w;
+        vec3 a_yields = yieldTo(direction, w_a, above[i - 1], direction_above);
+        vec3 b_yields = yieldTo(direction, w_b, below[i], direction_below);
+        float along_a = dot(direction, a_yields);
+        float along_b = dot(direction, b_yields);
+        above[i] = shareOf(w_b, along_a);
+        shifts[i] = along_b > 0.0 ? dot(direction, shifts[i - 1]) / along_b * b_yields : vec3(0.0);
+        lifts[i - 1] = vec3(0.0);
+
+        vec3 a = points[i - 1].xyz + shifts[i - 1];
+        vec3 b = points[i].xyz + shifts[i];
+        MovingSegment segment = movingSegment(
+            guides, root + i, w_a, a, b, startOf(i - 1), startOf(i));
+        SegmentContact contact = contactOf(
+            segment, guides.bodies, push.frame, push.frame_before, by_way, push.keeps_rest != 0u,
+            planes[i]);
+        for (bool touches = (contact.gap < 0.0 || forces[i] != vec3(0.0)) &&
+                            contact.normal != vec3(0.0) && along_a + along_b > 0.0;
+             touches; touches = false) {
+            float s = contact.at;
+            float r = 1.0 - s;
+            mat3 yields = mat3(r * r * w_a + s * s * w_b);
+            yields -= r * r * w_a * above[i - 1] * outerProduct(direction_above, direction_above);
+            yields -= s * s * w_b * below[i] * outerProduct(direction_below, direction_below);
+            vec3 g = s * b_yields - r * a_yields;
+            yields -= outerProduct(g, g) / (along_a + along_b);
+            vec3 slid = movedPast(segment, contact, push.frame, push.frame_before);
+            vec3 change =
+                forceOf(contact, yields, slid, forces[i], guides.bodies.friction) - forces[i];
+            float tension = dot(g, change) / (along_a + along_b);
+            vec3 move_a = r * yieldTo(change, w_a, above[i - 1], direction_above) +
+                          tension * a_yields;
+            vec3 move_b = s * yieldTo(change, w_b, below[i], direction_below) - tension * b_yields;
+            float move = max(length(move_a), length(move_b));
+            float part = min(1.0, kMostMove * distance(a, b) / max(move, 1.0e-30));
+            forces[i] += part * change;
+            lifts[i - 1] = part * move_a;
+            shifts[i] += part * move_b;
+            farthest = max(farthest, move);
+        }
+        direction_above = direction;
+    }
+    return farthest;
+}
+
+// Moves vertices as a pass found, and gives segments their lengths again: it is right to the first
+// order of the moves.
+void movePoints(float lengths[kVerticesPerStrand]) {
+    vec3 lifted = vec3(0.0);  // with the vertex below
+    lifts[kVerticesPerStrand - 1] = vec3(0.0);
+    for (uint i = kVerticesPerStrand - 1; i > 0; --i) {
+        vec3 direction = directionTo(i);
+        vec3 direction_above = vec3(0.0);
+        if (i > 1) direction_above = directionTo(i - 1);
+        vec3 lift = lifts[i] + lifted;
+        vec3 yields = yieldTo(direction, points[i - 1].w, above[i - 1], direction_above);
+        float along = dot(direction, yields);
+        lifted = along > 0.0 ? dot(direction, lift) / along * yields : vec3(0.0);
+        points[i].xyz += shifts[i] + lift;
+    }
+    for (uint i = 1; i < kVerticesPerStrand; ++i)
+        if (points[i].w > 0.0) points[i].xyz = points[i - 1].xyz + lengths[i] * directionTo(i);
+}
+
+void main() {
+    guides = GuideReference(push.guides).parameters;
+    uint strand = workgroupIndex() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (strand >= guides.strand_count) return;  // no barrier follows
+    root = strand * kVerticesPerStrand;
+    State positions = State(guides.positions);
+    State previous = State(guides.previous);
+
+    float lengths[kVerticesPerStrand];
+    points[0] = positions.at[root];
+    lengths[0] = 0.0;
+    for (uint i = 1; i < kVerticesPerStrand; ++i) {
+        points[i] = positions.at[root + i];
+        lengths[i] = distance(points[i].xyz, points[i - 1].xyz);
+        forces[i] = vec3(0.0);
+    }
+    bool touches = false;
+    for (uint pass = 0; pass < kMostPasses; ++pass) {
+        float moved = pushSegments(pass == 0);
+        if (moved == 0.0) break;
+        movePoints(lengths);
+        touches = true;
+        if (moved < kStill) break;
+    }
+    if (!touches) return;
+    float contact = 0.0;  // 1 from the first segment that touches a body
+    for (uint i = 1; i < kVerticesPerStrand; ++i) {
+        if (forces[i] != vec3(0.0)) contact = 1.0;
+        positions.at[root + i] = points[i];
+        if (contact > 0.0) previous.at[root + i].w = contact;
+    }
+}
