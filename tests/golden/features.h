@@ -56,6 +56,21 @@ inline const std::vector<Feature>& features() {
              s.strands.variation.amplitude = 0.008f;
              s.strands.variation.share = 0.8f;
          }},
+        {"own_colors",
+         [](Settings& s) {
+             s.shading.strand_variation = 0.7f;
+             s.shading.tip_lightening = 0.5f;
+         }},
+        {"grown_strands",
+         [](Settings& s) {
+             s.groom.grow.strands = 4000;
+             s.groom.style.clump = {.strength = 0.8f, .variation = 0.5f, .levels = 2};
+             s.groom.style.wave = {
+                 .amplitude = 0.006f, .phase_variation = 1.0f, .spacing = 0.02f, .drift = 0.3f};
+             s.groom.style.flyaways = {.share = 0.1f, .reach = 0.03f};
+             s.strands.source = StrandSource::groom;
+             s.strands.root_width = 0.001f;
+         }},
         {"taper",
          [](Settings& s) {
              s.strands.root_width = 0.004f;
