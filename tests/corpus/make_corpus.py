@@ -302,6 +302,25 @@ def hostile_npz_files():
     yield "nothing.npz", npz(0, {})
 
 
+def hostile_abc_files():
+    header = b"Ogawa\xff\0\1" + struct.pack("<Q", 16)
+    data = 1 << 63
+    # Its 2^61 children have 2^64 bytes, which are 0 in 64 bits.
+    yield "children_wrap.abc", header + struct.pack("<Q", 2**61)
+    # An archive whose top object is the child of itself, after a version and data with its header.
+    version = struct.pack("<Qi", 4, 0)
+    library = struct.pack("<Qi", 4, 10803)
+    child = struct.pack("<I", 1) + b"a\0" + bytes(32)
+    at = 16 + 8 + 6 * 8
+    places = [at, at + len(version), at + len(version) + len(library)]
+    top = places[2] + 8 + len(child)
+    root = struct.pack(
+        "<7Q", 6, places[0] | data, places[1] | data, top, data, data, data)
+    yield "object_of_itself.abc", (
+        header + root + version + library + struct.pack("<Q", len(child)) + child +
+        struct.pack("<4Q", 3, 0, top, places[2] | data))
+
+
 def main():
     folder = sys.argv[1] if len(sys.argv) > 1 else os.path.dirname(os.path.abspath(__file__))
     families = {
@@ -309,7 +328,7 @@ def main():
         "usd": usd_files, "obj": obj_files, "data": data_files, "bin": bin_files,
         "npy": npy_files, "npz": npz_files, "xml": xml_files,
         "findings/hair": hostile_hair_files, "findings/tfx": hostile_tfx_files,
-        "findings/hgl": hostile_hgl_files,
+        "findings/hgl": hostile_hgl_files, "findings/abc": hostile_abc_files,
         "findings/npy": hostile_npy_files, "findings/npz": hostile_npz_files,
         "findings/data": lambda: hostile_list_files("data"),
         "findings/bin": lambda: hostile_list_files("bin")}

@@ -185,9 +185,9 @@ TEST(BuildGroom, NamesThePath) {
 
 TEST(BuildGroom, ListsTheFormatsItKnows) {
     const TemporaryFolder folder;
-    folder.write("guides.abc", "no hair");
+    folder.write("guides.xyz", "no hair");
     GroomSettings settings;
-    settings.file = "guides.abc";
+    settings.file = "guides.xyz";
     const std::string error = errorText([&] { buildGroom(settings, nullptr, folder.path(), 1); });
     for (const StrandImporter& importer : strandImporters())
         for (const std::string_view extension : importer.extensions)
