@@ -236,11 +236,8 @@ void FramesPass::record(engine::Commands& commands, const StrandView& view) cons
     using engine::Access;
     // The pass waits for whoever still draws with the frames that are overwritten.
     commands.barrier(Access::vertex_read, Access::compute_write);
-    commands.uses(
-        {{view.guides, Access::compute_read},
-         {normals_.address(), Access::compute_write},
-         {turns_.address(), Access::compute_write}});
     if (frame_) {
+        commands.uses({{view.guides, Access::compute_read}, {normals_, Access::compute_write}});
         commands.bind(
             *frame_, gpu::FramesPush{
                          .head = view.head,
@@ -252,6 +249,7 @@ void FramesPass::record(engine::Commands& commands, const StrandView& view) cons
         commands.dispatchInvocations(view.guide_count, gpu::kFramesGroupSize);
     }
     if (turn_) {
+        commands.uses({{view.guides, Access::compute_read}, {turns_, Access::compute_write}});
         const glm::quat head = glm::normalize(glm::quat_cast(glm::dmat3(glm::mat3(view.head))));
         commands.bind(
             *turn_, gpu::TurnsPush{

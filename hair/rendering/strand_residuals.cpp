@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
@@ -160,6 +161,17 @@ private:
     double farthest_left_out_ = 0.0;
 };
 
+// Whether every place is found from where it would be among evenly spaced ones: by the sample at
+// its even place, moved by kResidualGuess = 1/4 of an interval, and that one's neighbour.
+bool isEven(std::span<const PlacedPoint> points) {
+    const auto intervals = static_cast<double>(points.size() - 1);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double ahead = points[i].place * intervals / kMostPlace - static_cast<double>(i);
+        if (ahead < -0.2 || ahead > 0.7) return false;
+    }
+    return true;
+}
+
 glm::uvec2 packed(const glm::ivec3& steps, std::uint32_t place) {
     const glm::uvec3 low = glm::uvec3(steps) & 0xffffu;
     return {low.x | low.y << 16u, low.z | place << 16u};
@@ -205,7 +217,8 @@ StrandResiduals makeStrandResiduals(
     assert(groom.bound_ends.size() == groom.bindings.size());
     StrandResiduals residuals;
     residuals.strands.reserve(order.size());
-    residuals.samples.reserve(groom.bound_points.size());
+    residuals.samples.reserve(groom.bound_points.size() + 1);
+    residuals.samples.emplace_back(0, 0);
     RestCurve curve(groom, settings);
     PlacedPoints placed;
     std::vector<glm::dvec3> vectors;
@@ -242,6 +255,10 @@ StrandResiduals makeStrandResiduals(
         }
         residual.reach = static_cast<float>(reachOf(vectors, placed.points()) * (1.0 + 1e-6));
         residuals.strands.push_back(residual);
+        if (!isEven(placed.points())) {
+            const auto halvings = static_cast<std::uint32_t>(std::bit_width(vectors.size()));
+            residuals.samples.front().x = std::max(residuals.samples.front().x, halvings);
+        }
         residuals.left.mean += placed.leftOut();
         residuals.left.greatest = std::max(residuals.left.greatest, placed.farthestLeftOut());
         points += static_cast<double>(vectors.size());

@@ -35,7 +35,9 @@ struct Lengths {
 // 1/131,070 of its length.
 struct StrandResiduals {
     std::vector<StrandResidual> strands;  // in the order that was asked for
-    std::vector<glm::uvec2> samples;  // strand after strand; shaders/strands/residuals.glsl
+    // shaders/strands/residuals.glsl. First {h, 0}: so many halvings find a place among a strand's
+    // samples, none where all strands' are spaced evenly. Then strand after strand.
+    std::vector<glm::uvec2> samples;
     Lengths kept;  // of all residuals
     Lengths left;  // from the drawn curve to the points of the file, roundings of floats left out
 };

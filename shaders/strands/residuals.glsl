@@ -11,6 +11,10 @@
 layout(buffer_reference, scalar) readonly buffer Residuals { uvec2 samples[]; };
 layout(buffer_reference, scalar) readonly buffer GuideTurns { vec4 turns[]; };
 
+// Of an interval: how far ahead of its even place a sample is looked for.
+// hair/rendering/strand_residuals.cpp knows it, too.
+const float kResidualGuess = 0.25;
+
 // A sample is four numbers of 16 bits: a vector in steps, and its place along the strand.
 struct ResidualSample {
     vec3 value;  // steps
@@ -25,21 +29,23 @@ ResidualSample residualSample(Residuals table, uint index) {
                           float(bits.y >> 16));
 }
 
-// The last but one of the strand's samples, or the last of those that `place` is not before. Points
-// of files are mostly evenly spaced: the second look finds it. Otherwise it is halving.
+// The last sample of a strand that is not behind a place, or the last but one. Where points are spaced
+// evenly two looks find it, from where it should be on. Otherwise as many halvings as the longest
+// strand needs: in a branch, lavapipe's evaluation stage runs a loop wrongly that invocations leave
+// one by one.
 uint residualInterval(Residuals table, BoundStrand strand, float along, float place) {
     uint low = 0u;
     uint high = strand.residuals - 1u;
-    uint look = clamp(uint(along * float(high)), 1u, max(high, 2u) - 1u);
-    for (bool first = true; high - low > 1u; first = false) {
-        if (float(table.samples[strand.first_residual + look].y >> 16) <= place)
-            low = look;
-        else
-            high = look;
-        if (first)
-            look = low == look ? low + 1u : high - 1u;
-        else
-            look = (low + high) / 2u;
+    uint halvings = table.samples[0].x;
+    precise float guess = along * float(high) + kResidualGuess;
+    uint look = clamp(uint(guess), 1u, max(high, 2u) - 1u);
+    for (uint i = 0u; i < 2u + halvings; ++i) {
+        bool is_found = high - low <= 1u;
+        bool is_before = float(table.samples[strand.first_residual + look].y >> 16) <= place;
+        low = is_before && !is_found ? look : low;
+        high = is_before || is_found ? high : look;
+        uint middle = (low + high) / 2u;
+        look = i > 0u ? middle : is_before ? min(low + 1u, high) : max(high, 1u) - 1u;
     }
     return low;
 }
@@ -49,7 +55,7 @@ uint residualInterval(Residuals table, BoundStrand strand, float along, float pl
 // Practical Guide to Splines, chapter IV.
 StrandOffset strandResidual(PictureParameters picture, BoundStrand strand, float along) {
     Residuals table = Residuals(picture.residuals);
-    float place = along * kResidualPlaces;
+    precise float place = along * kResidualPlaces;
     uint interval = residualInterval(table, strand, along, place);
     uint first = strand.first_residual + interval;
     bool is_first = interval == 0u;
@@ -60,10 +66,10 @@ StrandOffset strandResidual(PictureParameters picture, BoundStrand strand, float
     ResidualSample d = residualSample(table, is_last ? first + 1u : first + 2u);
 
     // Changes over the interval, were it all as steep as at its ends.
-    float size = c.place - b.place;
+    precise float size = c.place - b.place;
     precise vec3 change = c.value - b.value;
-    float part_before = is_first ? 0.0 : size / (c.place - a.place);
-    float part_behind = is_last ? 0.0 : size / (d.place - b.place);
+    precise float part_before = is_first ? 0.0 : size / (c.place - a.place);
+    precise float part_behind = is_last ? 0.0 : size / (d.place - b.place);
     precise vec3 steep_before =
         is_first ? vec3(0.0) : (b.value - a.value) * (size / (b.place - a.place)) - change;
     precise vec3 steep_behind =
@@ -77,11 +83,12 @@ StrandOffset strandResidual(PictureParameters picture, BoundStrand strand, float
     precise float t = clamp((place - b.place) / size, 0.0, 1.0);
     precise float s = 1.0 - t;
     precise vec3 value =
-        b.value + t * change + t * s * (s * bent_before - t * bent_behind);
-    precise vec3 slope = change + s * (1.0 - 3.0 * t) * bent_before -
-                         t * (2.0 - 3.0 * t) * bent_behind;
-    return StrandOffset(strand.residual_step * value,
-                        strand.residual_step * kResidualPlaces / size * slope);
+        strand.residual_step *
+        (b.value + t * change + t * s * (s * bent_before - t * bent_behind));
+    precise vec3 slope = strand.residual_step * kResidualPlaces / size *
+                         (change + s * (1.0 - 3.0 * t) * bent_before -
+                          t * (2.0 - 3.0 * t) * bent_behind);
+    return StrandOffset(value, slope);
 }
 
 vec4 guideTurn(PictureParameters picture, uint guide, uint segment, float share) {
@@ -111,7 +118,8 @@ vec4 strandTurn(PictureParameters picture, uvec3 guides, vec3 weights, uint segm
     vec4 most = heaviest == 0u ? a : heaviest == 1u ? b : c;
     precise vec4 mean = weights.x * dot(most, a) * a + weights.y * dot(most, b) * b +
                         weights.z * dot(most, c) * c;
-    return mean * inversesqrt(max(dot(mean, mean), 1e-30));
+    precise vec4 turn = mean * inversesqrt(max(dot(mean, mean), 1e-30));
+    return turn;
 }
 
 #endif

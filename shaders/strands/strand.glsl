@@ -77,8 +77,8 @@ void addResidual(PictureParameters picture, StrandPatch strand_patch, PatchStran
     StrandOffset residual = strandResidual(picture, bound, point.along);
     vec4 turn = strandTurn(picture, strand.guides, strand.weights, strand_patch.segment, t);
     precise vec3 position = point.position + turnedBy(turn, residual.value);  // strands/curve.glsl
-    precise vec3 tangent =
-        point.tangent + turnedBy(turn, residual.slope / float(picture.vertices_per_guide - 1));
+    precise vec3 slope = residual.slope / float(picture.vertices_per_guide - 1);
+    precise vec3 tangent = point.tangent + turnedBy(turn, slope);
     point.position = position;
     point.tangent = tangent;
 }

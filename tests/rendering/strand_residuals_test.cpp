@@ -473,14 +473,25 @@ TEST(StrandResiduals, TakeEightBytesAPoint) {
     const groom::Groom groom = groomOf(file, 30, 12);
     const StrandResiduals residuals = makeStrandResiduals(groom, {}, inOrder(groom));
     EXPECT_EQ(sizeof(residuals.samples[0]), 8u);
-    EXPECT_EQ(residuals.samples.size(), file.points.size());
+    EXPECT_EQ(residuals.samples.size(), 1 + file.points.size());
     ASSERT_EQ(residuals.strands.size(), 300u);
-    std::uint32_t first = 0;
+    std::uint32_t first = 1;
     for (std::uint32_t i = 0; i < 300; ++i) {
         EXPECT_EQ(residuals.strands[i].first, first);
         EXPECT_EQ(residuals.strands[i].count, i % 2 == 0 ? 32u : 10u);
         first += residuals.strands[i].count;
     }
+}
+
+// Of the curves' even points none are searched for; of bunched ones up to 46 on a strand are, in 6
+// halvings.
+TEST(StrandResiduals, AreSearchedWhereTheyAreUneven) {
+    const auto halvings = [](double bunching) {
+        const groom::Groom groom = groomOf(wisps(50, std::array{46u, 20u}, bunching), 10, 12);
+        return makeStrandResiduals(groom, {}, inOrder(groom)).samples.front().x;
+    };
+    EXPECT_EQ(halvings(1.0), 0u);
+    EXPECT_EQ(halvings(2.5), 6u);
 }
 
 // Half of a 32,767th of the greatest residual in each of three directions.
@@ -507,7 +518,7 @@ TEST(StrandResiduals, LeaveOutPointsAtThePlacesOfOthers) {
     for (int k = 0; k <= 70000; ++k) groom.bound_points.emplace_back(0.0, 2e-6 * k, 0.00375);
     groom.bound_ends = {70001};
     const StrandResiduals residuals = makeStrandResiduals(groom, {}, inOrder(groom));
-    EXPECT_LE(residuals.samples.size(), 65536u);
+    EXPECT_LE(residuals.samples.size(), 1 + 65536u);
     EXPECT_GT(residuals.samples.size(), 60000u);
     EXPECT_LT(residuals.left.greatest, 5e-6);
 }
