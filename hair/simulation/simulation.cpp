@@ -48,8 +48,13 @@ bool hairActsOnHair(const SimulationSettings& settings) {
 bool hasSegmentPass(const SimulationSettings& settings) {
     if (settings.collision.parts == CollisionParts::vertices) return false;
     switch (settings.solver) {
-    case Solver::none:
     case Solver::rod:
+        if (settings.collision.warm_start)
+            throw engine::Error(
+                "/simulation/collision/parts",
+                "is segments, but warm_start carries forces of contact of vertices alone");
+        return false;
+    case Solver::none:
         return false;
     case Solver::shape:
     case Solver::ftl:

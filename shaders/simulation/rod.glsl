@@ -317,9 +317,10 @@ void pushSegments() {
             segment =
                 movingSegment(guides, root + i, w_a, segment.b, held, segment.b_before, before);
             EnteredPlane entered;
+            float clearance;
             SegmentContact contact = contactOf(
-                segment, guides.bodies, push.frame, push.frame_before, true,
-                kSegments == kRodSegmentsAtRest, entered);
+                segment, guides.bodies, 0u, bodyCount(guides.bodies), push.frame,
+                push.frame_before, true, kSegments == kRodSegmentsAtRest, entered, clearance);
             float s = contact.at;
             float r = 1.0 - s;
             float yields = r * r * w_a + s * s * w_b;

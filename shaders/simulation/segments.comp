@@ -28,7 +28,7 @@ layout(constant_id = kSegmentVerticesConstant) const uint kVerticesPerStrand = 8
 layout(push_constant, scalar) uniform Push { SegmentPush push; };
 
 const uint kMostPasses = 8u;
-const float kStill = 1.0e-7;  // m, by which no pass need move anything
+const float kStill = 1.0e-6;  // m, by which no pass need move anything
 // Of a free vertex's yielding: beneath it a segment stands on the body and its strand with it.
 const float kLeastYield = 0.02;
 const float kMostMove = 0.5;  // of a segment's length in a pass
@@ -40,6 +40,9 @@ uint root;
 vec4 points[kVerticesPerStrand];  // w: inverse mass
 vec3 forces[kVerticesPerStrand];  // of contact, on the segment that ends there
 EnteredPlane planes[kVerticesPerStrand];
+uint bodies_met[kVerticesPerStrand];
+float clearances[kVerticesPerStrand];  // of segments from bodies in the first pass, m
+float travelled;  // by vertices since then, at most, m
 float below[kVerticesPerStrand];  // w / (w + y) of the segment below
 float above[kVerticesPerStrand];  // and of the one above
 vec3 shifts[kVerticesPerStrand];  // in a pass, by contacts above and at the segment that ends there
@@ -112,12 +115,24 @@ float pushSegments(bool by_way) {
 
         vec3 a = points[i - 1].xyz + shifts[i - 1];
         vec3 b = points[i].xyz + shifts[i];
-        MovingSegment segment = movingSegment(
-            guides, root + i, w_a, a, b, startOf(i - 1), startOf(i));
-        SegmentContact contact = contactOf(
-            segment, guides.bodies, push.frame, push.frame_before, by_way, push.keeps_rest != 0u,
-            planes[i]);
-        for (bool touches = (contact.gap < 0.0 || forces[i] != vec3(0.0)) &&
+        SegmentContact contact = kNoContact;
+        MovingSegment segment;
+        // Later passes look at what touches, or may have been moved into the body that was nearest.
+        bool held = forces[i] != vec3(0.0);
+        for (bool near = by_way || held || clearances[i] < travelled; near; near = false) {
+            segment = movingSegment(guides, root + i, w_a, a, b, startOf(i - 1), startOf(i));
+            uint first = by_way ? 0u : bodies_met[i];
+            float clearance;
+            contact = contactOf(
+                segment, guides.bodies, first, by_way ? bodyCount(guides.bodies) : first + 1u,
+                push.frame, push.frame_before, by_way, push.keeps_rest != 0u, planes[i],
+                clearance);
+            if (by_way) {
+                clearances[i] = clearance;
+                bodies_met[i] = contact.body;
+            }
+        }
+        for (bool touches = (contact.gap < 0.0 || held) &&
                             contact.normal != vec3(0.0) && along_a + along_b > 0.0;
              touches; touches = false) {
             float s = contact.at;
@@ -182,10 +197,12 @@ void main() {
         forces[i] = vec3(0.0);
     }
     bool touches = false;
+    travelled = 0.0;
     for (uint pass = 0; pass < kMostPasses; ++pass) {
         float moved = pushSegments(pass == 0);
         if (moved == 0.0) break;
         movePoints(lengths);
+        travelled += 2.0 * moved;
         touches = true;
         if (moved < kStill) break;
     }

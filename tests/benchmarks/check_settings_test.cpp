@@ -121,6 +121,26 @@ TEST(CheckSettings, WantsSolversThatKnowSectionsAndForcesOfContact) {
         "contact");
 }
 
+TEST(CheckSettings, WantsSolversThatKeepSegmentsOut) {
+    const auto with = [](hair::Solver solver, bool warm_start) {
+        return broken([&](hair::Settings& s) {
+            s.simulation.solver = solver;
+            s.simulation.collision.warm_start = warm_start;
+            s.simulation.collision.parts = hair::CollisionParts::segments;
+        });
+    };
+    for (const hair::Solver solver : {hair::Solver::shape, hair::Solver::ftl, hair::Solver::rod})
+        EXPECT_EQ(with(solver, false), "no error");
+    EXPECT_EQ(
+        with(hair::Solver::stable_cosserat, false),
+        "/simulation/collision/parts: is segments, which the solvers shape, ftl and rod keep out "
+        "of bodies");
+    EXPECT_EQ(
+        with(hair::Solver::rod, true),
+        "/simulation/collision/parts: is segments, but warm_start carries forces of contact of "
+        "vertices alone");
+}
+
 TEST(CheckSettings, WantsKeyframesInOrder) {
     const auto times = [](std::vector<float> all) {
         return broken([&](hair::Settings& s) {

@@ -104,9 +104,10 @@ struct SegmentContact {
     float gap;  // negative inside, m
     float at;
     bool on_head;
+    uint body;
 };
 
-const SegmentContact kNoContact = SegmentContact(vec3(0.0), kFar, 0.0, false);
+const SegmentContact kNoContact = SegmentContact(vec3(0.0), kFar, 0.0, false, 0u);
 
 // Where a segment entered a body on its way: dot(plane.xyz, x) >= plane.w outside. 0: nowhere.
 struct EnteredPlane {
@@ -114,6 +115,13 @@ struct EnteredPlane {
     float at;
     bool on_head;
 };
+
+// What a way has to be longer than to lead past the middle of a body: a capsule's radius, and of a
+// field a cell, as there is nothing thinner than two in it.
+float halfThickness(Bodies bodies, uint body) {
+    if (body < bodies.capsule_count) return Capsules(bodies.capsules).at[body].radius;
+    return BodyFields(bodies.fields).at[body - bodies.capsule_count].field.cell;
+}
 
 // Of a segment that hangs on a root, or another vertex that is held, the first quarter does not
 // count: it lies in the skin.
@@ -148,7 +156,7 @@ SegmentContact enteredOn(
         if (gap < kTouch) {
             vec3 way = mix(p, q, place.at) - mix(p_now, q_now, place.at);
             return SegmentContact(
-                place.normal, dot(place.normal, way) + gap, place.at, false);
+                place.normal, dot(place.normal, way) + gap, place.at, false, body);
         }
         time += gap / max(reach, kShortestSegment);
         if (time >= 1.0) break;
@@ -156,26 +164,35 @@ SegmentContact enteredOn(
     return kNoContact;
 }
 
-// The contact of the segment that is deepest in a body, or nearest to one. With `by_way` it finds
-// planes where the segment enters bodies, by which it is held later too. `keeps_rest`: a body that
-// follows the head pushes it no farther out than it is at rest.
+// The contact of the segment that is deepest in one of the bodies from `first_body` up to
+// `end_body`, or nearest to one. With `by_way` it finds planes where the segment enters bodies, by
+// which it is held later too. `keeps_rest`: a body that follows the head pushes it no farther out
+// than it is at rest. `clearance`: no body is nearer to the segment than that.
 SegmentContact contactOf(
-    MovingSegment segment, Bodies bodies, RigidFrame frame, RigidFrame frame_before, bool by_way,
-    bool keeps_rest, inout EnteredPlane entered) {
+    MovingSegment segment, Bodies bodies, uint first_body, uint end_body, RigidFrame frame,
+    RigidFrame frame_before, bool by_way, bool keeps_rest, inout EnteredPlane entered,
+    out float clearance) {
+    clearance = kFar;
     float half_length = 0.5 * distance(segment.a, segment.b);
     float widest = max(segment.rest_a.w, segment.rest_b.w);
     SegmentContact nearest = kNoContact;
     float deepest = 0.0;
     if (by_way) entered = EnteredPlane(vec4(0.0), 0.0, false);
-    for (uint body = 0; body < bodyCount(bodies); ++body) {
+    for (uint body = first_body; body < end_body; ++body) {
         bool on_head = isOnHead(bodies, body);
         vec3 p = on_head ? fromWorld(frame, segment.a) : segment.a;
         vec3 q = on_head ? fromWorld(frame, segment.b) : segment.b;
-        vec3 p_before = on_head ? fromWorld(frame_before, segment.a_before) : segment.a_before;
-        vec3 q_before = on_head ? fromWorld(frame_before, segment.b_before) : segment.b_before;
-        float reach = by_way ? max(distance(p, p_before), distance(q, q_before)) : 0.0;
+        vec3 p_before = p;
+        vec3 q_before = q;
+        if (by_way) {
+            p_before = on_head ? fromWorld(frame_before, segment.a_before) : segment.a_before;
+            q_before = on_head ? fromWorld(frame_before, segment.b_before) : segment.b_before;
+        }
+        float reach = max(distance(p, p_before), distance(q, q_before));
+        if (reach <= halfThickness(bodies, body)) reach = 0.0;
         vec3 normal;
         float gap = gapToBody(bodies, body, widest, 0.5 * (p + q), normal);
+        clearance = min(clearance, gap - half_length);
         // A loop, since llvmpipe works out both sides of a branch but leaves loops.
         for (bool near = gap < half_length + reach; near; near = false) {
             SegmentPlace place = nearestPlace(bodies, body, p, q, segment.first);
@@ -189,8 +206,8 @@ SegmentContact contactOf(
             if (gap < nearest.gap)
                 nearest = SegmentContact(
                     on_head ? rotate(frame.rotation, place.normal) : place.normal, gap, place.at,
-                    on_head);
-            for (bool moves = by_way; moves; moves = false) {
+                    on_head, body);
+            for (bool moves = reach > 0.0; moves; moves = false) {
                 SegmentContact found = enteredOn(
                     bodies, body, p_before, q_before, p, q, margin, segment.first);
                 if (found.gap >= deepest) continue;
@@ -209,7 +226,7 @@ SegmentContact contactOf(
     vec3 place = mix(segment.a, segment.b, entered.at);
     return SegmentContact(
         entered.plane.xyz, dot(entered.plane.xyz, place) - entered.plane.w, entered.at,
-        entered.on_head);
+        entered.on_head, nearest.body);
 }
 
 // How far the place of a contact has moved in the substep, as its body sees it.
