@@ -15,11 +15,9 @@ import sys
 import zlib
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 import make_head
-
-SCALP_RADIUS = 0.095  # of the scalp round STAR, on average: angles to metres
+from make_head import distance_to_hairline, smoothstep
 
 
 def directions(size):
@@ -31,18 +29,6 @@ def directions(size):
 
 def elevation(direction):
     return np.degrees(np.arcsin(np.clip(direction[:, 1], -1.0, 1.0)))
-
-
-def distance_to_hairline(direction):
-    """Metres along the scalp, positive on its inside."""
-    azimuth = np.linspace(-np.pi, np.pi, 20000, endpoint=False)
-    limit = make_head.LIMIT(np.abs(azimuth))
-    line = np.stack([np.cos(limit) * np.sin(azimuth), np.sin(limit),
-                     np.cos(limit) * np.cos(azimuth)], axis=1)
-    chord = cKDTree(line).query(direction)[0]
-    angle = 2.0 * np.arcsin(np.minimum(0.5 * chord, 1.0))
-    side = np.sign(make_head.hair_side(make_head.STAR + direction))
-    return SCALP_RADIUS * angle * side
 
 
 def noise(direction, per_radian, seed):
@@ -59,15 +45,10 @@ def noise(direction, per_radian, seed):
     return total
 
 
-def smoothstep(low, high, x):
-    t = np.clip((x - low) / (high - low), 0.0, 1.0)
-    return t * t * (3.0 - 2.0 * t)
-
-
 def hairline_mask(size):
     """From a quarter on the hairline to 1 after 4 to 6 mm; 0 outside."""
     direction = directions(size)
-    distance = distance_to_hairline(direction)
+    distance = distance_to_hairline(make_head.STAR + direction)
     wander = 0.002 * noise(direction, 14.0, 1)
     return np.where(distance > 0.0,
                     smoothstep(-0.002, 0.004, distance - wander), 0.0)
