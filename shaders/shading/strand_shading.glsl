@@ -21,6 +21,7 @@ struct StrandFragment {
     float across;  // -1 at one edge, 1 at the other
     float along;  // 0 at the root, 1 at the tip
     float width;  // m
+    float fiber_width;  // m: of one of the hairs that a merged strand stands for, else the width
 };
 
 // Unit vectors: x along the strand, y across it towards the eye, z across both. On a round fibre
@@ -122,7 +123,7 @@ Footprint footprintOf(PictureParameters picture, StrandFragment fragment) {
     if (kFarField == 0u) return Footprint(h, h, h);
     float depth = max((picture.view_projection * vec4(fragment.position, 1.0)).w, 0.0);
     float pixel = picture.pixel_near + picture.pixel_slope * depth;
-    float reach = pixel / max(fragment.width, 1e-9);
+    float reach = pixel / max(fragment.fiber_width, 1e-9);
     return Footprint(h, max(h - reach, -1.0), min(h + reach, 1.0));
 }
 

@@ -24,8 +24,10 @@ StrandFragment seenPoint(PictureParameters picture, uint number, vec2 place) {
     fragment.to_eye = normalize(picture.eye - fragment.position);
     fragment.along = 0.0;  // what a strand's texture would need
     fragment.width = 2.0 * length(mix(piece.from.side, piece.to.side, seen.t));
+    fragment.fiber_width = fragment.width;
     if (kMergedHairs != 0) {
         PlaceOnStrand on_strand = placeOnStrand(picture, number, seen.t);
+        fragment.fiber_width /= mergedCount(on_strand.merged);
         fragment.along = on_strand.along;
         if (mergedCount(on_strand.merged) > 1.0) {
             fragment.across = straightAcross(piece, seen);
