@@ -145,7 +145,7 @@ void writeSphere(std::ostream& out, const hair::LightSettings& light, const glm:
         << "    </emitter>\n</shape>\n";
 }
 
-// Mitsuba's rectangle is that of -1 to 1 across +z, to which it shines.
+// Mitsuba's rectangle is that of -1 to 1 across +z, to which it shines. Zeros lose their signs.
 void writeRectangle(
     std::ostream& out, const hair::LightSettings& light, const glm::dvec3& radiance) {
     const hair::rendering::RectangleFace face = hair::rendering::rectangleFace(light);
@@ -155,7 +155,8 @@ void writeRectangle(
     out << "<shape type=\"rectangle\">\n    <transform name=\"to_world\">\n        <matrix "
            "value=\"";
     for (int row = 0; row < 3; ++row)
-        for (const glm::vec3& column : columns) out << scene::decimalText(column[row]) << ' ';
+        for (const glm::vec3& column : columns)
+            out << scene::decimalText(column[row] + 0.0f) << ' ';
     out << "0 0 0 1\"/>\n    </transform>\n    <emitter type=\"area\">\n        "
         << rgb("radiance", radiance) << "    </emitter>\n</shape>\n";
 }

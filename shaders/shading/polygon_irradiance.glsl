@@ -9,9 +9,9 @@ struct CutRectangle {
     vec3 at[5];
 };
 
-// The angle between two directions along the axis that turns one into the other. Its size over its
-// sine is the series of the arc sine where it is small, so that what edges leave of each other keeps
-// its digits.
+// The angle between two directions along the axis that turns one into the other. Its size over
+// its sine is the series of the arc sine where it is small, so that what edges leave of each other
+// keeps its digits.
 vec3 edgeAngle(vec3 a, vec3 b) {
     vec3 across = cross(a, b);
     float squared = dot(across, across);
@@ -28,9 +28,9 @@ vec3 cornerDirection(vec3 corner) {
     return corner * inversesqrt(max(dot(corner, corner), 1e-30));
 }
 
-// The irradiance of a surface with normal n is the scalar product with n, for a radiance of 1, where
-// all of the polygon is before the surface. It points to the polygon if its corners come round it
-// clockwise as the point sees them.
+// The irradiance of a surface with normal n is the scalar product with n, for a radiance of 1,
+// where all of the polygon is before the surface. It points to the polygon if its corners come
+// round it clockwise as the point sees them.
 vec3 vectorIrradiance(CutRectangle polygon) {
     vec3 sum = vec3(0.0);
     vec3 last = cornerDirection(polygon.at[4]);
@@ -46,14 +46,17 @@ CutRectangle wholeRectangle(mat4x3 corners) {
     return CutRectangle(vec3[5](corners[0], corners[1], corners[2], corners[3], corners[3]));
 }
 
-bool isBefore(mat4x3 corners, vec3 normal) { return all(greaterThanEqual(normal * corners, vec4(0.0))); }
+bool isBefore(mat4x3 corners, vec3 normal) {
+    return all(greaterThanEqual(normal * corners, vec4(0.0)));
+}
 
 // What of a rectangle is before the surface; without any of it all corners are 0.
 CutRectangle cutByHorizon(mat4x3 corners, vec3 normal) {
-    CutRectangle result = CutRectangle(vec3[5](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0)));
+    const vec3 none = vec3(0.0);
+    CutRectangle result = CutRectangle(vec3[5](none, none, none, none, none));
     vec4 heights = normal * corners;
     int count = 0;
-    vec3 last = vec3(0.0);
+    vec3 last = none;
     for (int i = 0; i < 4; ++i) {
         int next = (i + 1) & 3;
         if (heights[i] >= 0.0) {

@@ -258,8 +258,8 @@ LightPath pathByMap(ShadowReference shadows, ShadowMap map, Receiver receiver) {
     return path;
 }
 
-// What paths that have equal parts of a light bring is their mean. What each says of strands counts as
-// far as meshes let its light through.
+// What paths that have equal parts of a light bring is their mean. What each says of strands counts
+// as far as meshes let its light through.
 LightPath meanPath(ShadowReference shadows, ShadowMap first, Receiver receiver) {
     LightPath sum = LightPath(0.0, 0.0, 0.0, vec3(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0);
     for (uint i = 0u; i <= first.further_count; ++i) {

@@ -89,8 +89,8 @@ vec3 shadeOpaque(PictureParameters picture, StrandFragment fragment, vec3 hair_c
     return sum;
 }
 
-// A light's directions make lobes wider by their variances along the fibre and round it, rad^2: that
-// of the logistic distribution is (pi s)^2 / 3.
+// A light's directions make lobes wider by their variances along the fibre and round it, rad^2:
+// that of the logistic distribution is (pi s)^2 / 3.
 HairOptics widenedBy(HairOptics optics, vec2 variances) {
     float inverse = optics.inverse_azimuthal_scale;
     optics.variances += variances.x;
@@ -158,8 +158,8 @@ vec3 footprintScattering(HairOptics optics, Footprint footprint, vec3 to_eye, ve
 const float kPartReach = 1.5;
 const float kMostParts = 4.0;
 
-// The variances of the directions of a part with these sides, m, along the fibre and round it; angles
-// round it are wider by 1 / cos(theta).
+// The variances of the directions of a part with these sides, m, along the fibre and round it;
+// angles round it are wider by 1 / cos(theta).
 vec2 partVariances(vec3 to_part, vec3 half_width, vec3 half_height, vec3 tangent) {
     float inverse = inversesqrt(max(dot(to_part, to_part), 1e-18));
     vec3 direction = inverse * to_part;

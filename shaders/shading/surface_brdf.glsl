@@ -66,12 +66,12 @@ vec3 stretchedFacet(vec3 from, vec3 normal, vec3 to_eye, float alpha) {
 
 const float kSidePieces = 2.0;  // that sides of a rectangle's half vectors are cut into
 
-// The distribution of facets is a cosine's, stretched by alpha along the surface (Heitz, Dupuy, Hill
-// and Neubelt 2016, Real-time polygonal-light shading with linearly transformed cosines). So which
-// part of the facets mirrors the rectangle to the eye is the irradiance of what the stretched cosine
-// sees of the rectangle's half vectors, a polygon but for its sides' curvature, and exact for a
-// smooth surface. What changes slowly beside it, Fresnel's reflectance and shadowing, is that of the
-// mean such facet.
+// The distribution of facets is a cosine's, stretched by alpha along the surface (Heitz, Dupuy,
+// Hill and Neubelt 2016, Real-time polygonal-light shading with linearly transformed cosines). So
+// which part of the facets mirrors the rectangle to the eye is the irradiance of what the stretched
+// cosine sees of the rectangle's half vectors, a polygon but for its sides' curvature, and exact
+// for a smooth surface. What changes slowly beside it, Fresnel's reflectance and shadowing, is that
+// of the mean such facet.
 RectangleReflection rectangleBrdf(Surface surface, vec3 normal, vec3 to_eye, vec3 to_light,
                                   mat4x3 corners) {
     // An eye that a normal map puts below the surface sees it from the side.

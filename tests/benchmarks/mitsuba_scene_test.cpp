@@ -132,10 +132,10 @@ TEST(MitsubaScene, HasEveryKindOfLight) {
          {R"(<emitter type="directional">)", R"(<vector name="direction" value="0, -0.5, 0.25"/>)",
           R"(<rgb name="irradiance" value="3.1415927, 3.1415927, 3.1415927"/>)",
           R"(<shape type="rectangle">)",
-          // Across +x and +y to -z: x turns round, so that the third column is the normal.
-          R"(<matrix value="100 -0 0 0 -0 50 0 0 -0 0 -1 50 0 0 0 1"/>)",
-          R"(<shape type="sphere">)", R"(<point name="center" value="0, 300, 0"/>)",
-          R"(<float name="radius" value="150"/>)", R"(<rgb name="radiance" value="4, 4, 4"/>)",
+          // Sides along y x -z = -x and y, so that the third column, their product, is the normal.
+          R"(<matrix value="-100 0 0 0 0 50 0 0 0 0 -1 50 0 0 0 1"/>)", R"(<shape type="sphere">)",
+          R"(<point name="center" value="0, 300, 0"/>)", R"(<float name="radius" value="150"/>)",
+          R"(<rgb name="radiance" value="4, 4, 4"/>)",
           R"(<rgb name="intensity" value="125663.7, 125663.7, 125663.7"/>)"})
         EXPECT_THAT(text, HasSubstr(part));
 }
