@@ -11,14 +11,16 @@ const Table& tableOf(const LightSettings*) {
              "type", &S::type,
              {{LightType::point, "point"},
               {LightType::directional, "directional"},
-              {LightType::sphere, "sphere"}},
-             "point; directional: from infinity; sphere: a point light with a radius"),
+              {LightType::sphere, "sphere"},
+              {LightType::rectangle, "rectangle"}},
+             "point; directional: from infinity; sphere: a point light with a radius; rectangle: "
+             "shines from one side"),
          number(
              "position", &S::position, -1000, 1000, "m",
-             "position of a point light, centre of a sphere light"),
+             "position of a point light, centre of a sphere or a rectangle"),
          number(
              "direction", &S::direction, -1, 1, "1",
-             "direction in which a directional light shines"),
+             "direction in which a directional light or a rectangle shines"),
          number(
              "color", &S::color, 0, 100, "1",
              "colour of a white matt surface that faces the light, display RGB"),
@@ -31,7 +33,17 @@ const Table& tableOf(const LightSettings*) {
          number(
              "angular_radius", &S::angular_radius, 0, 90, "deg",
              "angular radius of a directional light; the sun's is 0.27"),
-         toggle("shadows", &S::shadows, "whether the light casts shadows: /shading/shadows")});
+         number(
+             "up", &S::up, -1, 1, "1",
+             "direction along which a rectangle has its height, but for what of it is along "
+             "`direction`; where that is all of it, x is taken"),
+         number("width", &S::width, 0.0001, 100, "m", "width of a rectangle"),
+         number("height", &S::height, 0.0001, 100, "m", "height of a rectangle"),
+         toggle("shadows", &S::shadows, "whether the light casts shadows: /shading/shadows"),
+         number(
+             "shadow_samples", &S::shadow_samples, 1, 64, "count",
+             "points of a light with a size, each with shadow maps of its own; their mean is the "
+             "light's shadow; 1: the shadow of its middle")});
     return table;
 }
 
@@ -110,6 +122,10 @@ const Table& tableOf(const ShadingSettings*) {
          number(
              "density_factor", &S::density_factor, 0, 1, "1",
              "d of dual_scattering: part of what a strand scatters that meets other strands"),
+         toggle(
+             "far_field", &S::far_field,
+             "marschner and dual_scattering: the mean over the part of a strand's width that a "
+             "pixel is wide, of thin strands all of it, and not the place at the pixel's middle"),
          list("lights", &S::lights, 16, "the lights"),
          number(
              "environment_lights", &S::environment_lights, 0, 48, "count",

@@ -10,7 +10,7 @@ namespace hair {
 
 class Table;
 
-enum class LightType { point, directional, sphere };
+enum class LightType { point, directional, sphere, rectangle };
 
 // A light's color is what a white matt surface that faces it shows at reference_distance, or at any
 // distance where that is 0, as in the thesis.
@@ -23,7 +23,11 @@ struct LightSettings {
     float reference_distance = 0.0f;
     float radius = 0.1f;
     float angular_radius = 0.0f;
+    glm::vec3 up{0.0f, 1.0f, 0.0f};
+    float width = 0.5f;
+    float height = 0.5f;
     bool shadows = true;
+    std::uint32_t shadow_samples = 1;
 };
 
 const Table& tableOf(const LightSettings*);
@@ -62,6 +66,7 @@ struct ShadingSettings {
     float cuticle_tilt = 2.0f;
     float refractive_index = 1.55f;
     float density_factor = 0.99f;
+    bool far_field = false;
     std::vector<LightSettings> lights{LightSettings{}};
     std::uint32_t environment_lights = 12;
     ShadowSettings shadows;

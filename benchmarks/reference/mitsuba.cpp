@@ -1,6 +1,7 @@
 #include "benchmarks/reference/mitsuba.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <filesystem>
@@ -28,6 +29,7 @@
 #include "engine/pictures.h"
 #include "engine/process.h"
 #include "hair/groom/mesh/mesh.h"
+#include "hair/rendering/lights.h"
 #include "hair/rendering/render_assets.h"
 #include "hair/rendering/scene_meshes.h"
 #include "hair/settings.h"
@@ -87,9 +89,15 @@ glm::dvec3 lightIntensity(
     return std::numbers::pi * referenceSquared(light, target) * color;
 }
 
-// The irradiance of a surface that faces a sphere is pi radiance (radius / distance)^2.
+// The irradiance of a surface that faces a sphere is pi radiance (radius / distance)^2, before the
+// middle of a rectangle pi radiance times the form factor.
 glm::dvec3
 lightRadiance(const hair::LightSettings& light, const glm::dvec3& color, const glm::dvec3& target) {
+    if (light.type == hair::LightType::rectangle) {
+        hair::LightSettings seen = light;
+        seen.reference_distance = static_cast<float>(std::sqrt(referenceSquared(light, target)));
+        return color / hair::rendering::rectangleFormFactor(seen);
+    }
     const double radius{light.radius};
     return referenceSquared(light, target) / (radius * radius) * color;
 }
@@ -137,6 +145,22 @@ void writeSphere(std::ostream& out, const hair::LightSettings& light, const glm:
         << "    </emitter>\n</shape>\n";
 }
 
+// Mitsuba's rectangle is that of -1 to 1 across +z, to which it shines. Zeros lose their signs.
+void writeRectangle(
+    std::ostream& out, const hair::LightSettings& light, const glm::dvec3& radiance) {
+    const hair::rendering::RectangleFace face = hair::rendering::rectangleFace(light);
+    const std::array columns{
+        -kUnitsPerMetre * face.half_width, kUnitsPerMetre * face.half_height, face.normal,
+        kUnitsPerMetre * light.position};
+    out << "<shape type=\"rectangle\">\n    <transform name=\"to_world\">\n        <matrix "
+           "value=\"";
+    for (int row = 0; row < 3; ++row)
+        for (const glm::vec3& column : columns)
+            out << scene::decimalText(column[row] + 0.0f) << ' ';
+    out << "0 0 0 1\"/>\n    </transform>\n    <emitter type=\"area\">\n        "
+        << rgb("radiance", radiance) << "    </emitter>\n</shape>\n";
+}
+
 // Irradiance is pi times the colour.
 void writeDirectional(std::ostream& out, const glm::vec3& direction, const glm::dvec3& irradiance) {
     out << "<emitter type=\"directional\">\n    "
@@ -152,6 +176,8 @@ void writeLight(
         writeDirectional(out, light.direction, std::numbers::pi * color);
     } else if (light.type == hair::LightType::sphere && light.radius > 0.0f) {
         writeSphere(out, light, lightRadiance(light, color, target));
+    } else if (light.type == hair::LightType::rectangle) {
+        writeRectangle(out, light, lightRadiance(light, color, target));
     } else {
         writePoint(out, light.position, lightIntensity(light, color, target));
     }

@@ -85,7 +85,7 @@ glm::dvec3 lightColor(const hair::RenderSettings& render, const hair::LightSetti
 glm::dvec3
 lightIntensity(const hair::LightSettings& light, const glm::dvec3& color, const glm::dvec3& target);
 
-// Radiance of the surface of a sphere of light.
+// Radiance of the surface of a sphere or rectangle of light.
 glm::dvec3
 lightRadiance(const hair::LightSettings& light, const glm::dvec3& color, const glm::dvec3& target);
 

@@ -12,6 +12,8 @@
 #include "benchmarks/scene/settings_json.h"
 #include "engine/error.h"
 #include "hair/fields.h"
+#include "hair/gpu_structs.h"
+#include "hair/rendering/lights.h"
 #include "hair/settings.h"
 
 namespace benchmarks::scene {
@@ -199,11 +201,24 @@ Broken frameHasRoomForItsSteps(const hair::Settings& s) {
 Broken lightsHaveDirections(const hair::Settings& s) {
     for (std::size_t i = 0; i < s.shading.lights.size(); ++i) {
         const hair::LightSettings& light = s.shading.lights[i];
-        if (light.type == hair::LightType::directional && glm::length(light.direction) == 0.0f)
-            return "entry " + std::to_string(i) +
-                   " is directional, but its direction has no length";
+        if (glm::length(light.direction) > 0.0f) continue;
+        const std::string entry = "entry " + std::to_string(i);
+        if (light.type == hair::LightType::directional)
+            return entry + " is directional, but its direction has no length";
+        if (light.type == hair::LightType::rectangle)
+            return entry + " is a rectangle, but its direction has no length";
     }
     return {};
+}
+
+Broken lightsHaveRoomForTheirMaps(const hair::Settings& s) {
+    std::uint32_t further = 0;
+    for (const hair::LightSettings& light : s.shading.lights)
+        further += hair::rendering::shadowMaps(light) - 1;
+    if (further <= hair::gpu::kMostFurtherMaps) return {};
+    return "has " + std::to_string(further) +
+           " shadow maps beyond one a light by shadow_samples, over " +
+           std::to_string(hair::gpu::kMostFurtherMaps);
 }
 
 struct Rule {
@@ -231,6 +246,7 @@ constexpr Rule kRules[] = {
     {"/render/coverage", coverageIsSeen},
     {"/render/transparency", alphaHasSamplesToCover},
     {"/shading/lights", lightsHaveDirections},
+    {"/shading/lights", lightsHaveRoomForTheirMaps},
     {"/run/busy_work", busyWorkHasAPass},
     {"/run/overlapped_stamps", stampsAreOfOneQueue},
     {"/run/frame_time", frameHasRoomForItsSteps}};

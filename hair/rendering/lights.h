@@ -17,6 +17,24 @@ glm::mat4 viewProjection(const CameraSettings& camera, float aspect);
 // The lights as shaders read them, in the settings' order.
 std::vector<gpu::Light> makeLights(const Settings& settings);
 
+// The face of a rectangle light.
+struct RectangleFace {
+    glm::vec3 normal;  // unit length: where its light goes
+    glm::vec3 half_width;  // m, from its middle to that of a side
+    glm::vec3 half_height;  // m
+};
+
+RectangleFace rectangleFace(const LightSettings& light);
+
+// Irradiance over pi, for a radiance of 1, of a surface that faces a rectangle's middle at its
+// reference_distance: the form factor of a rectangle and a parallel element on its axis (Howell,
+// Menguec, Daun and Siegel, Thermal Radiation Heat Transfer, of an element before a corner, four
+// times).
+double rectangleFormFactor(const LightSettings& light);
+
+// How many shadow maps a light has of each kind, where there are shadows: one where it has no size.
+std::uint32_t shadowMaps(const LightSettings& light);
+
 // The value of kLightKinds in shading/options.glsl.
 std::uint32_t lightKinds(const Settings& settings);
 

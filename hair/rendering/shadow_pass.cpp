@@ -13,10 +13,12 @@
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/trigonometric.hpp>
+#include <glm/vec2.hpp>
 
 #include "engine/error.h"
 #include "engine/pipeline.h"
 #include "engine/target.h"
+#include "hair/rendering/lights.h"
 
 namespace hair::rendering {
 namespace {
@@ -124,6 +126,20 @@ LightView lightView(
     return perspectiveView(light.position, unit(to_centre), bounds.range, widened * slope, texels);
 }
 
+// Evenly over the disc of radius 1 (Vogel 1979, A better way to construct the sunflower head).
+glm::vec2 onDisc(std::uint32_t index, std::uint32_t count) {
+    const float radius = std::sqrt((static_cast<float>(index) + 0.5f) / static_cast<float>(count));
+    const float angle = 2.39996323f * static_cast<float>(index);
+    return radius * glm::vec2(std::cos(angle), std::sin(angle));
+}
+
+// Evenly over the square from -1 to 1: x in equal steps, y by the golden section.
+glm::vec2 onSquare(std::uint32_t index, std::uint32_t count) {
+    const float place = static_cast<float>(index) + 0.5f;
+    return 2.0f * glm::vec2(place / static_cast<float>(count), glm::fract(place * 0.618033989f)) -
+           1.0f;
+}
+
 // The mean base colour of the head's triangles, working colours; those of meshes without one.
 glm::vec3 meanColor(const Settings& settings, const RenderAssets& assets) {
     if (!assets.head || !settings.render.head) return glm::vec3(0.0f);
@@ -146,19 +162,22 @@ glm::vec3 meanColor(const Settings& settings, const RenderAssets& assets) {
 // GLSL takes it that what an address points to is aligned to 16 bytes, where nothing else is said.
 constexpr std::size_t kPictureStride = (sizeof(gpu::PictureParameters) + 15) / 16 * 16;
 
-static_assert(offsetof(gpu::ShadowMap, corner) == 80 && sizeof(gpu::ShadowMap) == 108);
-static_assert(offsetof(gpu::ShadowParameters, softness) == 6920);
+static_assert(offsetof(gpu::ShadowMap, corner) == 80 && sizeof(gpu::ShadowMap) == 116);
+static_assert(offsetof(gpu::ShadowParameters, softness) == 192 * 116 + 8);
 
 constexpr VkFormat kLayerFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 
-std::vector<std::uint32_t> shadowingLights(const Settings& settings) {
+// A light's maps are beside each other.
+std::vector<MapOfLight> mapsOfLights(const Settings& settings) {
     const ShadingSettings& shading = settings.shading;
-    std::vector<std::uint32_t> lights;
-    if (!shading.shadows.meshes && shading.shadows.hair == HairShadows::none) return lights;
-    for (std::uint32_t i = 0; i < shading.lights.size(); ++i)
-        if (shading.lights[i].shadows) lights.push_back(i);
-    return lights;
+    std::vector<MapOfLight> maps;
+    if (!shading.shadows.meshes && shading.shadows.hair == HairShadows::none) return maps;
+    for (std::uint32_t i = 0; i < shading.lights.size(); ++i) {
+        if (!shading.lights[i].shadows) continue;
+        for (std::uint32_t k = 0; k < shadowMaps(shading.lights[i]); ++k) maps.push_back({i, k});
+    }
+    return maps;
 }
 
 ShadowAtlas
@@ -227,6 +246,38 @@ Sphere strandBounds(const groom::Groom& groom, const StrandSettings& settings) {
     return bounds;
 }
 
+std::vector<LightSettings> lightSamples(const LightSettings& light, const glm::vec3& seen) {
+    const std::uint32_t count = shadowMaps(light);
+    std::vector<LightSettings> samples(count, light);
+    if (count == 1) return samples;
+    // Of a sphere the disc is taken whose edge is the sphere's outline from `seen`; of a disc at
+    // infinity its projection, in which all of its parts light alike what faces its middle.
+    const bool directional = light.type == LightType::directional;
+    const glm::vec3 axis = unit(directional ? light.direction : seen - light.position);
+    const glm::mat4 view = looking(glm::vec3(0.0f), axis);
+    const glm::vec3 right(view[0][0], view[1][0], view[2][0]);
+    const glm::vec3 up(view[0][1], view[1][1], view[2][1]);
+    const float apart = glm::distance(seen, light.position);
+    const float ratio = std::min(light.radius / std::max(apart, kLeastRadius), 0.95f);
+    const float radius = light.radius / std::sqrt(1.0f - ratio * ratio);
+    const float sine = std::sin(glm::radians(light.angular_radius));
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const glm::vec2 disc = onDisc(i, count);
+        const glm::vec3 offset = disc.x * right + disc.y * up;
+        if (light.type == LightType::rectangle) {
+            const RectangleFace face = rectangleFace(light);
+            const glm::vec2 place = onSquare(i, count);
+            samples[i].position += place.x * face.half_width + place.y * face.half_height;
+        } else if (directional) {
+            const float cosine = std::sqrt(1.0f - sine * sine * glm::dot(disc, disc));
+            samples[i].direction = cosine * axis + sine * offset;
+        } else {
+            samples[i].position += radius * offset;
+        }
+    }
+    return samples;
+}
+
 Sphere enclosing(const Sphere& a, const Sphere& b) {
     const float apart = glm::distance(a.centre, b.centre);
     if (b.radius == 0.0f || apart + b.radius <= a.radius) return a;
@@ -271,7 +322,7 @@ VkRect2D ShadowAtlas::part(std::uint32_t index) const {
 
 bool hasHairMaps(const Settings& settings) {
     return settings.shading.shadows.hair != HairShadows::none && settings.render.hair &&
-           !shadowingLights(settings).empty();
+           !mapsOfLights(settings).empty();
 }
 
 void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas) {
@@ -293,11 +344,11 @@ void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas) {
 ShadowPass::ShadowPass(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan,
     const RenderAssets& assets, const PointsPass* points)
-    : settings_(settings), scene_(settings, assets), lights_(shadowingLights(settings)),
-      mesh_maps_(settings.shading.shadows.meshes && !lights_.empty()),
+    : settings_(settings), scene_(settings, assets), maps_(mapsOfLights(settings)),
+      mesh_maps_(settings.shading.shadows.meshes && !maps_.empty()),
       hair_maps_(hasHairMaps(settings) && plan.strands() > 0),
       atlas_(checkedAtlas(
-          device, static_cast<std::uint32_t>(lights_.size()), settings.shading.shadows.resolution)),
+          device, static_cast<std::uint32_t>(maps_.size()), settings.shading.shadows.resolution)),
       mesh_depths_(atlasImage(
           device, mesh_maps_ ? &atlas_ : nullptr, engine::Target::kDepthFormat,
           VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, "depth of meshes")),
@@ -309,14 +360,14 @@ ShadowPass::ShadowPass(
           "opacity of hair")),
       sampler_(device, {.filter = VK_FILTER_NEAREST}),
       images_{{&mesh_depths_, &sampler_}, {&hair_depths_, &sampler_}, {&hair_layers_, &sampler_}},
-      mesh_color_(meanColor(settings, assets)), written_(lights_.size() * kPictureStride) {
-    seen_.reserve(lights_.size());
+      mesh_color_(meanColor(settings, assets)), written_(maps_.size() * kPictureStride) {
+    seen_.reserve(maps_.size());
     for (std::uint32_t slot = 0; slot < engine::FrameLoop::kMaxSlots; ++slot) {
         parameters_[slot] =
             uploadBuffer(device, sizeof(gpu::ShadowParameters), "shadow parameters");
         parameters_[slot].write(gpu::ShadowParameters{});
         pictures_[slot] = uploadBuffer(
-            device, std::max<std::size_t>(lights_.size(), 1) * kPictureStride, "lights' pictures");
+            device, std::max<std::size_t>(maps_.size(), 1) * kPictureStride, "lights' pictures");
     }
     device.runOnce([&](engine::Commands& commands) {
         for (const engine::SampledImage& sampled : images_)
@@ -352,12 +403,16 @@ void ShadowPass::writeParameters(
     const float margin = std::max(shadows.softness, 0.5f) + 1.0f;
     const ShadowBounds bounds = scene_.bounds(view);
     seen_.clear();
-    for (std::uint32_t i = 0; i < lights_.size(); ++i) {
-        const std::uint32_t light = lights_[i];
-        const LightView seen =
-            lightView(settings_.shading.lights[light], bounds, atlas_.side, margin);
+    std::vector<LightSettings> samples;
+    std::uint32_t further = gpu::kMostLights;
+    for (std::uint32_t i = 0; i < maps_.size(); ++i) {
+        const auto [light, sample] = maps_[i];
+        if (sample == 0)
+            samples = lightSamples(settings_.shading.lights[light], bounds.seen.centre);
+        const LightView seen = lightView(samples[sample], bounds, atlas_.side, margin);
         const VkOffset2D corner = atlas_.part(i).offset;
-        parameters.maps[light] = {
+        const std::uint32_t map = sample == 0 ? light : further++;
+        parameters.maps[map] = {
             .view_projection = seen.view_projection,
             .depth_terms = seen.depth_terms,
             .corner = {corner.x, corner.y},
@@ -365,7 +420,9 @@ void ShadowPass::writeParameters(
             .texel_slope = seen.texel_slope,
             .layer_depth = shadows.layer_depth,
             .ends_at_meshes = mesh_maps_ && shadows.hair == HairShadows::deep_shadow ? 1u : 0u,
-            .casters = (mesh_maps_ ? gpu::kMeshesCast : 0u) | (hair_maps_ ? gpu::kHairCasts : 0u)};
+            .casters = (mesh_maps_ ? gpu::kMeshesCast : 0u) | (hair_maps_ ? gpu::kHairCasts : 0u),
+            .further = further,
+            .further_count = static_cast<std::uint32_t>(samples.size()) - 1u};
         gpu::PictureParameters picture = of;
         picture.view_projection = seen.view_projection;
         picture.eye = seen.eye;
@@ -375,7 +432,7 @@ void ShadowPass::writeParameters(
         picture.pixel_slope = widens ? seen.texel_slope : 0.0f;
         if (settings_.render.transparency == Transparency::none) picture.opacity = 1.0f;
         picture.shadows = parameters_[slot].address() + offsetof(gpu::ShadowParameters, maps) +
-                          light * sizeof(gpu::ShadowMap);
+                          map * sizeof(gpu::ShadowMap);
         const std::size_t place = i * kPictureStride;
         std::memcpy(&written_[place], &picture, sizeof picture);
         seen_.push_back({pictures_[slot].address() + place, picture});
@@ -431,7 +488,7 @@ void ShadowPass::drawHair(engine::Commands& commands) const {
 void ShadowPass::record(
     engine::Passes& passes, const SceneMeshes& meshes, const StrandView& view,
     const gpu::PictureParameters& picture) {
-    if (lights_.empty()) return;
+    if (maps_.empty()) return;
     writeParameters(passes.slot(), view, picture);
     if (mesh_maps_) {
         passes.pass("mesh_shadow", engine::PassKind::graphics, [&](engine::Commands& commands) {

@@ -64,6 +64,16 @@ struct ShadowAtlas {
     VkRect2D part(std::uint32_t index) const;
 };
 
+// A shadow map: the light, and which of the light's points it is seen from.
+struct MapOfLight {
+    std::uint32_t light = 0;
+    std::uint32_t sample = 0;
+};
+
+// Lights like this one but in one point each of its face, or direction of its disc, as it is seen
+// from `seen`: the light itself where it has one map. They stand for equal parts of its light.
+std::vector<LightSettings> lightSamples(const LightSettings& light, const glm::vec3& seen);
+
 // Whether there are maps of hair.
 bool hasHairMaps(const Settings& settings);
 
@@ -72,8 +82,8 @@ void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas);
 
 // What lights see: the depth of meshes, and of hair its depth and opacity in layers (Yuksel and
 // Keyser 2008, Deep opacity maps) or what a ray through each texel meets (Lokovic and Veach 2000,
-// Deep shadow maps). Each light that throws shadows has a part of an atlas. Spheres
-// throw those of points at their centres.
+// Deep shadow maps). Each light that throws shadows has a part of an atlas; one with a size that of
+// its middle, or several, each of another point of its face (LightSettings::shadow_samples).
 class ShadowPass {
 public:
     // `points` are there where readsPoints(). Throws engine::Unsupported where the device lacks the
@@ -108,7 +118,7 @@ private:
 
     Settings settings_;
     ShadowScene scene_;
-    std::vector<std::uint32_t> lights_;  // of the atlas's parts
+    std::vector<MapOfLight> maps_;  // of the atlas's parts
     bool mesh_maps_;
     bool hair_maps_;
     ShadowAtlas atlas_;

@@ -409,7 +409,8 @@ engine::Constants shadingConstants(const Settings& settings) {
          render.coverage == Coverage::analytic && render.show == Show::shading},
         {gpu::kStrandTextureConstant, !settings.strands.texture.empty()},
         {gpu::kShowConstant, shaderCode(render.show)},
-        {gpu::kLightKindsConstant, lightKinds(settings)}};
+        {gpu::kLightKindsConstant, lightKinds(settings)},
+        {gpu::kFarFieldConstant, shading.far_field}};
 }
 
 StrandTexture::StrandTexture(

@@ -71,10 +71,19 @@ vec3 shadeSurface(PictureParameters picture, Surface surface, vec3 normal, vec3 
     vec3 around = vec3(0.0);
     for (uint i = 0u; i < kLightCount; ++i) {
         LightSample light = lightAt(pictureLight(picture, i), position);
-        vec3 f = surfaceBrdf(widened(surface, light), normal, to_eye, light.to_light);
-        float lit = visiblePart(picture, i) * mattResponse(light, normal);
-        sum += kSurfacePi * f * lit * light.color;
         around += light.color;
+        float matt = mattResponse(light, normal);
+        float visible = visiblePart(picture, i);
+        if (isRectangle(light)) {
+            RectangleReflection of =
+                rectangleBrdf(surface, normal, to_eye, light.to_light, light.corners);
+            vec3 reflected = matt * of.diffuse + of.glossy / light.facing;
+            sum += kSurfacePi * visible * reflected * light.color;
+            continue;
+        }
+        vec3 f = surfaceBrdf(widened(surface, light), normal, to_eye, light.to_light);
+        float lit = visible * matt;
+        sum += kSurfacePi * f * lit * light.color;
     }
     vec3 straight = reflectance(surface);
     vec3 diffuse = (1.0 - straight) * scattered(surface);

@@ -36,9 +36,9 @@ vec3 passedForward(HairOptics optics, vec3 to_light) {
 }
 
 // f |cos theta_i| of a fibre whose light has come by `path`, asked for with passedForward(); what it
-// loses there is in it, but for meshes. Directions and h as in fiberBsdf().
-vec3 dualScattering(HairOptics optics, vec3 to_eye, vec3 to_light, float h, LightPath path) {
-    FiberView view = fiberView(optics, to_eye, h);
+// loses there is in it, but for meshes. Directions as in fiberBsdf(), `view` of to_eye.
+vec3 dualScattering(HairOptics optics, FiberView view, vec3 to_eye, vec3 to_light,
+                    LightPath path) {
     float sin_i = clamp(to_light.x, -1.0, 1.0);
     float cos_i = sqrt(1.0 - sin_i * sin_i);
     float sin_o = clamp(to_eye.x, -1.0, 1.0);
@@ -73,7 +73,7 @@ vec3 dualScattering(HairOptics optics, vec3 to_eye, vec3 to_light, float h, Ligh
 
     vec4 through = longitudinalLobes(
         sin_i, cos_i, view.sin_tilted, view.cos_tilted, optics.variances);
-    through *= azimuthalLobes(optics, distances);
+    through *= azimuthalLobes(optics, view, distances);
     vec3 sum = path.direct * (view.attenuations * through + local.x * albedo);
     vec4 spread = longitudinalLobes(
         sin_from.y, cos_from.y, view.sin_tilted, view.cos_tilted,

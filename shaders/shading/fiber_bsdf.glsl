@@ -51,6 +51,7 @@ struct FiberView {
     vec3 centre_z;
     vec2 eye;  // direction phi_o
     mat4x3 attenuations;  // A_p
+    vec3 reaches;  // rad: to each side of those directions N_p is averaged; 0 at one place
 };
 
 // (x, y) turned by the angle of (c, s).
@@ -91,6 +92,21 @@ FiberView fiberView(HairOptics optics, vec3 to_eye, float h) {
     view.attenuations[2] = view.attenuations[1] * transmitted * f;
     view.attenuations[3] =
         view.attenuations[2] * transmitted * f / max(1.0 - transmitted * f, 1e-6);
+    view.reaches = vec3(0.0);
+    return view;
+}
+
+// The same for what is seen round the place sin(gamma), `turn` wide in gamma: over that Phi(p) is
+// taken to be linear.
+FiberView fiberViewRound(HairOptics optics, vec3 to_eye, float gamma, float turn) {
+    float h = sin(gamma);
+    FiberView view = fiberView(optics, to_eye, h);
+    float sin_o = clamp(to_eye.x, -1.0, 1.0);
+    float inverse = sqrt((1.0 - sin_o * sin_o) / (optics.eta * optics.eta - sin_o * sin_o));
+    float inside = inverse * cos(gamma) * inversesqrt(1.0 - h * h * inverse * inverse);
+    // dPhi/dgamma.
+    vec3 slopes = vec3(-2.0, 2.0 * inside - 2.0, 4.0 * inside - 2.0);
+    view.reaches = max(0.5 * turn * abs(slopes), 1e-3);
     return view;
 }
 
@@ -101,8 +117,18 @@ vec3 azimuthalDistances(FiberView view, vec2 light) {
     return atan(abs(across), along);
 }
 
+// The mean of N_p from distances - reaches to distances + reaches, by the logistic distribution's
+// own integral.
+vec4 averageAzimuthalLobes(HairOptics optics, vec3 reaches, vec3 distances) {
+    float k = optics.inverse_azimuthal_scale;
+    vec3 near = 1.0 / (1.0 + exp(min(k * (distances - reaches), 80.0)));
+    vec3 far = 1.0 / (1.0 + exp(min(k * (distances + reaches), 80.0)));
+    return vec4(optics.trimmed * (near - far) / (2.0 * reaches), kHalfInversePi);
+}
+
 // N_p at distances from azimuthalDistances(); the rest goes everywhere alike.
-vec4 azimuthalLobes(HairOptics optics, vec3 distances) {
+vec4 azimuthalLobes(HairOptics optics, FiberView view, vec3 distances) {
+    if (view.reaches.x > 0.0) return averageAzimuthalLobes(optics, view.reaches, distances);
     vec3 e = exp(-distances * optics.inverse_azimuthal_scale);
     float scale = optics.inverse_azimuthal_scale * optics.trimmed;
     return vec4(scale * e / ((1.0 + e) * (1.0 + e)), kHalfInversePi);
@@ -114,7 +140,7 @@ vec3 fiberScattering(HairOptics optics, FiberView view, vec3 to_light) {
     float cos_i = sqrt(1.0 - sin_i * sin_i);
     vec4 lobes = longitudinalLobes(
         sin_i, cos_i, view.sin_tilted, view.cos_tilted, optics.variances);
-    lobes *= azimuthalLobes(optics, azimuthalDistances(view, azimuthOf(to_light)));
+    lobes *= azimuthalLobes(optics, view, azimuthalDistances(view, azimuthOf(to_light)));
     return view.attenuations * lobes;
 }
 

@@ -4,6 +4,7 @@
 
 #include "common/picture.glsl"
 #include "shading/options.glsl"
+#include "shading/polygon_irradiance.glsl"
 
 layout(buffer_reference, scalar) readonly buffer Lights { Light lights[]; };
 
@@ -11,21 +12,53 @@ layout(buffer_reference, scalar) readonly buffer Lights { Light lights[]; };
 struct LightSample {
     vec3 to_light;  // unit length
     vec3 color;  // what a white matt surface that faces it shows: irradiance / pi
-    float angular_radius;  // rad; 0 but of spheres and discs
+    float angular_radius;  // rad; 0 of points: of rectangles that of the disc of equal variance
+    // Of rectangles:
+    mat4x3 corners;  // from the point, m
+    float facing;  // irradiance of a surface that faces the light, of radiance 1; 0 of other lights
 };
 
 bool hasSpheres() { return (kLightKinds & kSomeSpheres) != 0u; }
+bool hasRectangles() { return (kLightKinds & kSomeRectangles) != 0u; }
+bool isRectangle(LightSample light) { return hasRectangles() && light.facing > 0.0; }
 
+const float kLightInversePi = 0.318309886;
 const float kNearestLight = 1e-3;  // m: a point light is nowhere stronger than here
+
+// A rectangle shines to one side, with a radiance that is the same everywhere on it.
+void seeRectangle(inout LightSample result, Light light, vec3 offset) {
+    if (dot(offset, light.to_light) <= 0.0) {
+        result.color = vec3(0.0);
+        return;
+    }
+    result.corners = mat4x3(offset - light.half_width - light.half_height,
+                            offset + light.half_width - light.half_height,
+                            offset + light.half_width + light.half_height,
+                            offset - light.half_width + light.half_height);
+    vec3 irradiance = vectorIrradiance(wholeRectangle(result.corners));
+    result.facing = max(length(irradiance), 1e-18);
+    result.to_light = irradiance / result.facing;
+    if (light.reference_distance > 0.0) result.color *= kLightInversePi * result.facing;
+    // The variances of its directions along both sides add up.
+    float squared = dot(offset, offset);
+    vec3 sides = cross(offset, light.half_width);
+    vec3 heights = cross(offset, light.half_height);
+    float variances = (dot(sides, sides) + dot(heights, heights)) / (3.0 * squared * squared);
+    result.angular_radius = sqrt(2.0 * variances);
+}
 
 // The irradiance of a surface that faces a sphere of uniform radiance is pi L (r / d)^2 outside of
 // it, exactly: it falls as that of a point. Inside the sphere is all around.
 LightSample lightAt(Light light, vec3 position) {
     // The 1e-18 m give a direction to where the light is, and change no other.
     vec3 offset = light.position - position + vec3(0.0, 1e-18, 0.0);
-    LightSample result = LightSample(normalize(offset), light.color, 0.0);
+    LightSample result = LightSample(normalize(offset), light.color, 0.0, mat4x3(0.0), 0.0);
     if ((kLightKinds & kSomeDirectional) != 0u && light.type == kLightDirectional)
         result.to_light = light.to_light;
+    if (hasRectangles() && light.type == kLightRectangle) {
+        seeRectangle(result, light, offset);
+        return result;
+    }
     if ((kLightKinds & kSomeWeaken) != 0u && light.reference_distance > 0.0) {
         float nearest = max(length(offset), max(light.radius, kNearestLight));
         float ratio = light.reference_distance / nearest;
@@ -71,9 +104,14 @@ Light pictureLight(PictureParameters picture, uint index) {
 // The irradiance of a surface over that of one which faces the light: the cosine, but where the
 // horizon cuts the light a parabola that joins it smoothly. There it is off by up to 4 % of the
 // sine of the light's angular radius (Snyder 1996, Area light sources for real-time graphics, has
-// the exact one).
+// the exact one). That of rectangles is exact.
 float mattResponse(LightSample light, vec3 normal) {
     float cosine = dot(normal, light.to_light);
+    if (isRectangle(light)) {
+        if (isBefore(light.corners, normal)) return max(cosine, 0.0);
+        vec3 irradiance = vectorIrradiance(cutByHorizon(light.corners, normal));
+        return max(dot(irradiance, normal), 0.0) / light.facing;
+    }
     if (!hasSpheres()) return max(cosine, 0.0);
     float size = sin(light.angular_radius);
     if (abs(cosine) >= size) return max(cosine, 0.0);

@@ -19,8 +19,11 @@ layout(constant_id = kStrandTextureConstant) const uint kStrandTexture = 0;
 layout(constant_id = kShowConstant) const uint kShow = kShowShading;
 // What lights there may be
 layout(constant_id = kLightKindsConstant) const uint kLightKinds = kAllLightKinds;
+// 1: fibres show the mean over what a pixel covers of their width
+layout(constant_id = kFarFieldConstant) const uint kFarField = 0;
 
 // Whether fragments read how wide their strand is.
-const bool kNeedsWidth = kAnalyticCoverage != 0u || kHairShadows == kHairShadowsDeepShadow;
+const bool kNeedsWidth = kAnalyticCoverage != 0u || kFarField != 0u ||
+                         kHairShadows == kHairShadowsDeepShadow;
 
 #endif

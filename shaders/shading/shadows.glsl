@@ -209,12 +209,8 @@ float keptInHair(ShadowMap map, vec2 texel, float side, float texel_size) {
     return ((1.0 + 2.0 * cosine) * kEyeH - 1.0) / ((1.0 + 2.0 * kStraight) * kEyeH - 1.0);
 }
 
-// The path of light to a point.
-LightPath lightPath(PictureParameters picture, uint light, Receiver receiver) {
-    if (kMeshShadows == 0 && kHairShadows == kHairShadowsNone) return kFreePath;
-    ShadowReference shadows = ShadowReference(picture.shadows);
-    ShadowMap map = shadows.parameters.maps[light];
-    if (map.casters == 0u) return kFreePath;
+// The path of light to a point, by one of the light's maps.
+LightPath pathByMap(ShadowReference shadows, ShadowMap map, Receiver receiver) {
     vec4 clip = map.view_projection * vec4(receiver.position, 1.0);
     if (clip.w <= 0.0) return kFreePath;  // behind the light's view
     float w = clip.w;
@@ -260,6 +256,48 @@ LightPath lightPath(PictureParameters picture, uint light, Receiver receiver) {
     if (kHairShadows == kHairShadowsDeepShadow && (map.casters & kHairCasts) != 0u)
         path.kept = keptInHair(map, point.texel, side, texel);
     return path;
+}
+
+// What paths that have equal parts of a light bring is their mean. What each says of strands counts
+// as far as meshes let its light through.
+LightPath meanPath(ShadowReference shadows, ShadowMap first, Receiver receiver) {
+    LightPath sum = LightPath(0.0, 0.0, 0.0, vec3(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0);
+    for (uint i = 0u; i <= first.further_count; ++i) {
+        ShadowMap map = first;
+        if (i > 0u) map = shadows.parameters.maps[first.further + i - 1u];
+        LightPath path = pathByMap(shadows, map, receiver);
+        float through = path.meshes * dot(path.scattered, vec3(1.0));
+        sum.meshes += path.meshes;
+        sum.strands += path.meshes * path.strands;
+        sum.direct += path.meshes * path.direct;
+        sum.scattered += path.meshes * path.scattered;
+        sum.met += through * path.met;
+        sum.ended += path.meshes * path.ended;
+        sum.returned += path.meshes * path.returned;
+        sum.kept += path.meshes * path.kept;
+    }
+    float through = dot(sum.scattered, vec3(1.0));
+    sum.met = through > 1e-6 ? max(sum.met / through, 1.0) : 1.0;
+    float whole = 1.0 / max(sum.meshes, 1e-6);
+    sum.strands *= whole;
+    sum.direct *= whole;
+    sum.scattered *= whole;
+    sum.ended *= whole;
+    sum.returned *= whole;
+    sum.kept *= whole;
+    sum.meshes /= float(first.further_count + 1u);
+    return sum;
+}
+
+// The path of light to a point.
+LightPath lightPath(PictureParameters picture, uint light, Receiver receiver) {
+    if (kMeshShadows == 0 && kHairShadows == kHairShadowsNone) return kFreePath;
+    ShadowReference shadows = ShadowReference(picture.shadows);
+    ShadowMap map = shadows.parameters.maps[light];
+    if (map.casters == 0u) return kFreePath;
+    if ((kLightKinds & kSomeSampled) != 0u && map.further_count > 0u)
+        return meanPath(shadows, map, receiver);
+    return pathByMap(shadows, map, receiver);
 }
 
 // Part of the light that each strand in between lets through to opaque shading models: the thesis's

@@ -22,6 +22,7 @@ struct StrandFragment {
     float across;  // -1 at one edge, 1 at the other
     float along;  // 0 at the root, 1 at the tip
     float width;  // m
+    float fiber_width;  // m: of one of the hairs that a merged strand stands for, else the width
 };
 
 // Unit vectors: x along the strand, y across it towards the eye, z across both. On a round fibre
@@ -89,16 +90,121 @@ vec3 shadeOpaque(PictureParameters picture, StrandFragment fragment, vec3 hair_c
     return sum;
 }
 
-// A light's disc makes lobes wider: along the fibre, and round it by the logistic distribution's
-// variance, which is (pi s)^2 / 3.
-HairOptics widened(HairOptics optics, LightSample light) {
-    if (!hasSpheres()) return optics;
-    float variance = lightVariance(light);
+// A light's directions make lobes wider by their variances along the fibre and round it, rad^2:
+// that of the logistic distribution is (pi s)^2 / 3.
+HairOptics widenedBy(HairOptics optics, vec2 variances) {
     float inverse = optics.inverse_azimuthal_scale;
-    optics.variances += variance;
-    optics.inverse_azimuthal_scale = inverse * inversesqrt(1.0 + 0.303963551 * variance *
+    optics.variances += variances.x;
+    optics.inverse_azimuthal_scale = inverse * inversesqrt(1.0 + 0.303963551 * variances.y *
                                                                      inverse * inverse);
     return optics;
+}
+
+HairOptics widened(HairOptics optics, LightSample light) {
+    return hasSpheres() ? widenedBy(optics, vec2(lightVariance(light))) : optics;
+}
+
+// What a fibre that is seen so shows of light that comes by `path`, but for what meshes stop.
+vec3 seenScattering(HairOptics optics, FiberView view, vec3 to_eye, vec3 to_light,
+                    LightPath path) {
+    // By marschner what has met a strand is lost.
+    if (kModel == kModelMarschner) return fiberScattering(optics, view, to_light) * path.direct;
+    return dualScattering(optics, view, to_eye, to_light, path);
+}
+
+// What a pixel sees of a fibre's width, as h.
+struct Footprint {
+    float h;  // at the pixel's middle
+    float from;
+    float to;
+};
+
+Footprint footprintOf(PictureParameters picture, StrandFragment fragment) {
+    float h = clamp(fragment.across, -1.0, 1.0);
+    if (kFarField == 0u) return Footprint(h, h, h);
+    float depth = max((picture.view_projection * vec4(fragment.position, 1.0)).w, 0.0);
+    float pixel = picture.pixel_near + picture.pixel_slope * depth;
+    float reach = pixel / max(fragment.fiber_width, 1e-9);
+    return Footprint(h, max(h - reach, -1.0), min(h + reach, 1.0));
+}
+
+// Over less of the width, h, light is that of the middle.
+const float kNearField = 0.2;
+const int kFootprintParts = 8;
+
+// The mean over the footprint, by parts of equal angle gamma, h being sin(gamma), so that R's
+// azimuths are in equal steps.
+vec3 footprintScattering(HairOptics optics, Footprint footprint, vec3 to_eye, vec3 to_light,
+                         LightPath path) {
+    if (kFarField == 0u || footprint.to - footprint.from < kNearField) {
+        FiberView view = fiberView(optics, to_eye, footprint.h);
+        return seenScattering(optics, view, to_eye, to_light, path);
+    }
+    float from = asin(footprint.from);
+    float turn = (asin(footprint.to) - from) / float(kFootprintParts);
+    float part = 2.0 * sin(0.5 * turn) / (footprint.to - footprint.from);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < kFootprintParts; ++i) {
+        float gamma = from + (float(i) + 0.5) * turn;
+        FiberView view = fiberViewRound(optics, to_eye, gamma, turn);
+        sum += part * cos(gamma) * seenScattering(optics, view, to_eye, to_light, path);
+    }
+    return sum;
+}
+
+// ---- Rectangles of light ----
+
+// A part of a rectangle is at most this many standard deviations of the fibre's narrowest lobe to
+// each side, as far as the most parts along a side allow.
+const float kPartReach = 1.5;
+const float kMostParts = 4.0;
+
+// The variances of the directions of a part with these sides, m, along the fibre and round it;
+// angles round it are wider by 1 / cos(theta).
+vec2 partVariances(vec3 to_part, vec3 half_width, vec3 half_height, vec3 tangent) {
+    float inverse = inversesqrt(max(dot(to_part, to_part), 1e-18));
+    vec3 direction = inverse * to_part;
+    vec3 round = cross(tangent, direction);  // as long as the cosine
+    float cos_squared = max(dot(round, round), 1e-4);
+    vec3 up = tangent - dot(tangent, direction) * direction;
+    vec2 along = vec2(dot(up, half_width), dot(up, half_height));
+    vec2 azimuth = vec2(dot(round, half_width), dot(round, half_height)) * inversesqrt(cos_squared);
+    vec2 variances = vec2(dot(along, along), dot(azimuth, azimuth)) *
+                     (inverse * inverse / (3.0 * cos_squared));
+    return min(variances, vec2(3.28986813));  // of a whole turn
+}
+
+// What a fibre shows of a rectangle, over what a surface that faces it gets: the sum over parts of
+// it, each by its solid angle.
+vec3 rectangleScattering(HairOptics optics, mat3 frame, Footprint footprint, vec3 to_eye,
+                         LightSample light, LightPath path) {
+    vec3 middle = 0.25 * (light.corners[0] + light.corners[1] + light.corners[2] +
+                          light.corners[3]);
+    vec3 half_width = 0.5 * (light.corners[1] - light.corners[0]);
+    vec3 half_height = 0.5 * (light.corners[3] - light.corners[0]);
+    vec3 normal = normalize(cross(half_width, half_height));
+    // Of TT, and of the azimuths, whose is (pi s) / sqrt(3).
+    float narrowest = min(sqrt(optics.variances.y), 1.81379936 / optics.inverse_azimuthal_scale);
+    float reach = kPartReach * narrowest * length(middle);
+    vec2 parts = clamp(ceil(vec2(length(half_width), length(half_height)) / reach), vec2(1.0),
+                       vec2(kMostParts));
+    vec3 sum = vec3(0.0);
+    float facing = 0.0;
+    for (float y = 0.5; y < parts.y; ++y) {
+        for (float x = 0.5; x < parts.x; ++x) {
+            vec2 place = 2.0 * vec2(x, y) / parts - 1.0;
+            vec3 to_part = middle + place.x * half_width + place.y * half_height;
+            float inverse = inversesqrt(max(dot(to_part, to_part), 1e-18));
+            vec3 direction = inverse * to_part;
+            float angle = max(dot(direction, normal), 0.0) * inverse * inverse;
+            HairOptics seen = widenedBy(optics, partVariances(to_part, half_width / parts.x,
+                                                              half_height / parts.y, frame[0]));
+            sum += angle *
+                   footprintScattering(seen, footprint, to_eye, direction * frame, path);
+            facing += angle * dot(direction, light.to_light);
+        }
+    }
+    return sum / max(facing, 1e-18);
 }
 
 // Working colours of the models marschner and dual_scattering. A light's irradiance is pi times its
@@ -107,7 +213,7 @@ vec3 shadeFiber(PictureParameters picture, StrandFragment fragment) {
     HairOptics optics = HairOpticsReference(picture.optics).optics;
     mat3 frame = fiberFrame(fragment);
     vec3 to_eye = fragment.to_eye * frame;
-    float h = clamp(fragment.across, -1.0, 1.0);
+    Footprint footprint = footprintOf(picture, fragment);
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < kLightCount; ++i) {
         LightSample light = lightAt(pictureLight(picture, i), fragment.position);
@@ -117,12 +223,10 @@ vec3 shadeFiber(PictureParameters picture, StrandFragment fragment) {
         if (kModel == kModelDualScattering) passed = passedForward(seen, to_light);
         LightPath path = lightPath(picture, i, receiverOf(fragment, passed));
         vec3 scattered;
-        if (kModel == kModelMarschner) {
-            // What has met a strand is lost.
-            scattered =
-                fiberScattering(seen, fiberView(seen, to_eye, h), to_light) * path.direct;
+        if (isRectangle(light)) {
+            scattered = rectangleScattering(optics, frame, footprint, to_eye, light, path);
         } else {
-            scattered = dualScattering(seen, to_eye, to_light, h, path);
+            scattered = footprintScattering(seen, footprint, to_eye, to_light, path);
         }
         sum += 3.14159265 * path.meshes * scattered * light.color;
     }

@@ -2,6 +2,8 @@
 #ifndef HAIRBENCH_SURFACE_BRDF_GLSL
 #define HAIRBENCH_SURFACE_BRDF_GLSL
 
+#include "shading/polygon_irradiance.glsl"
+
 // A surface; its colour is linear.
 struct Surface {
     vec3 base_color;
@@ -47,6 +49,66 @@ vec3 surfaceBrdf(Surface surface, vec3 normal, vec3 to_eye, vec3 to_light) {
     vec3 fresnel = straight + (1.0 - straight) * grazing;
     vec3 diffuse = (1.0 - kDielectric) * (1.0 - grazing) * scattered(surface) / kSurfacePi;
     return diffuse + fresnel * distribution * visible;
+}
+
+// What a surface sends to the eye of a rectangle of radiance 1.
+struct RectangleReflection {
+    vec3 diffuse;  // over its irradiance
+    vec3 glossy;
+};
+
+// The direction of the facet that mirrors light from there to the eye, its slope over alpha.
+vec3 stretchedFacet(vec3 from, vec3 normal, vec3 to_eye, float alpha) {
+    vec3 half_vector = to_eye + cornerDirection(from);
+    float height = dot(normal, half_vector);
+    return cornerDirection((half_vector - height * normal) / alpha + height * normal);
+}
+
+const float kSidePieces = 2.0;  // that sides of a rectangle's half vectors are cut into
+
+// The distribution of facets is a cosine's, stretched by alpha along the surface (Heitz, Dupuy,
+// Hill and Neubelt 2016, Real-time polygonal-light shading with linearly transformed cosines). So
+// which part of the facets mirrors the rectangle to the eye is the irradiance of what the stretched
+// cosine sees of the rectangle's half vectors, a polygon but for its sides' curvature, and exact
+// for a smooth surface. What changes slowly beside it, Fresnel's reflectance and shadowing, is that
+// of the mean such facet.
+RectangleReflection rectangleBrdf(Surface surface, vec3 normal, vec3 to_eye, vec3 to_light,
+                                  mat4x3 corners) {
+    // An eye that a normal map puts below the surface sees it from the side.
+    to_eye = normalize(to_eye + normal * max(1e-3 - dot(normal, to_eye), 0.0));
+    float roughness = max(surface.roughness, kSmoothest);
+    float alpha = roughness * roughness;
+    CutRectangle before = cutByHorizon(corners, normal);
+    vec3 seen = vec3(0.0);
+    vec3 from = before.at[4];
+    vec3 last = stretchedFacet(from, normal, to_eye, alpha);
+    for (int i = 0; i < 5; ++i) {
+        for (float k = 1.0; k <= kSidePieces; ++k) {
+            vec3 at = mix(from, before.at[i], k / kSidePieces);
+            vec3 next = stretchedFacet(at, normal, to_eye, alpha);
+            seen += 0.5 * edgeAngle(last, next);
+            last = next;
+        }
+        from = before.at[i];
+    }
+    float along = dot(seen, normal);
+    vec3 straight = reflectance(surface);
+    vec3 middle = normalize(to_eye + to_light);
+    float matt_grazing = pow(1.0 - clamp(dot(to_eye, middle), 0.0, 1.0), 5.0);
+    RectangleReflection result = RectangleReflection(
+        (1.0 - kDielectric) * (1.0 - matt_grazing) * scattered(surface) / kSurfacePi, vec3(0.0));
+    if (along <= 1e-9) return result;
+
+    vec3 facet = normalize(alpha * (seen - along * normal) + along * normal);
+    float v_dot_h = clamp(dot(to_eye, facet), 0.0, 1.0);
+    float n_dot_l = max(dot(normal, 2.0 * v_dot_h * facet - to_eye), 1e-3);
+    float visible = smithVisibility(n_dot_l, alpha * alpha) *
+                    smithVisibility(abs(dot(normal, to_eye)), alpha * alpha);
+    vec3 fresnel = straight + (1.0 - straight) * pow(1.0 - v_dot_h, 5.0);
+    // D cos(h) dh is along / pi; dl = 4 (v.h) dh.
+    result.glossy = fresnel * (along / kSurfacePi) * visible * 4.0 * v_dot_h * n_dot_l /
+                    max(dot(normal, facet), 1e-3);
+    return result;
 }
 
 #endif

@@ -127,6 +127,7 @@ const uint kAnalyticCoverageConstant = 22u;
 const uint kStrandTextureConstant = 23u;
 const uint kShowConstant = 24u;
 const uint kLightKindsConstant = 25u;
+const uint kFarFieldConstant = 34u;
 
 // Constant of environment/background.frag.
 const uint kBackgroundLinearLightConstant = 0u;

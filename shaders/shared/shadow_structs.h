@@ -2,6 +2,8 @@
 #define HAIRBENCH_SHADOW_STRUCTS_H
 
 const uint kMostLights = 64u;  // those of the scene, then those of an environment
+const uint kMostFurtherMaps = 128u;  // of lights that have several
+const uint kMostMaps = 192u;
 
 // What throws shadows in a map.
 const uint kMeshesCast = 1u;
@@ -17,11 +19,13 @@ struct ShadowMap {
     float layer_depth;  // m: see shadows/layers.glsl
     uint ends_at_meshes;  // 1: strands behind a mesh are not counted
     uint casters;  // kMeshesCast | kHairCasts; 0: the light throws no shadows
+    uint further;  // in ShadowParameters::maps: where the light's other maps begin
+    uint further_count;
 };
 
 // The shadows of a picture, read by whatever is lit.
 struct ShadowParameters {
-    ShadowMap maps[kMostLights];  // [light]
+    ShadowMap maps[kMostMaps];  // [light], then from kMostLights on further ones of some lights
     float side;  // of a part of the atlas, texels
     float stopped;  // part of the light that a strand stops
     float softness;  // texels

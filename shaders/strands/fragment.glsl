@@ -35,6 +35,8 @@ SeenStrand seenStrand(PictureParameters picture) {
     seen.fragment.across = position_and_across.w;
     seen.fragment.along = tangent_and_along.w;
     seen.fragment.width = kNeedsWidth && kLines == 0 ? 2.0 * half_width : picture.root_width;
+    seen.fragment.fiber_width = seen.fragment.width;
+    if (kMergedHairs != 0) seen.fragment.fiber_width /= mergedCount(merged_hairs);
     seen.coverage = 1.0;
     if (kLines != 0) {
         seen.coverage = half_width;

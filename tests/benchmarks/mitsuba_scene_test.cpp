@@ -118,14 +118,24 @@ TEST(MitsubaScene, HasEveryKindOfLight) {
     settings.shading.lights = {
         {.type = hair::LightType::directional, .direction = {0, -0.5f, 0.25f}},
         {.type = hair::LightType::sphere, .position = {0, 3, 0}, .radius = 1.5f},
+        {.type = hair::LightType::rectangle,
+         .position = {0, 0, 0.5f},
+         .direction = {0, 0, -2},
+         .reference_distance = 0.5f,
+         .up = {0, 1, 0},
+         .width = 2.0f,
+         .height = 1.0f},
         {.position = {0, 1, 0}, .reference_distance = 2.0f}};
     const std::string text = sceneOf(settings, {});
     EXPECT_TRUE(isWellFormed(text)) << text;
     for (const char* part :
          {R"(<emitter type="directional">)", R"(<vector name="direction" value="0, -0.5, 0.25"/>)",
           R"(<rgb name="irradiance" value="3.1415927, 3.1415927, 3.1415927"/>)",
-          R"(<shape type="sphere">)", R"(<point name="center" value="0, 300, 0"/>)",
-          R"(<float name="radius" value="150"/>)", R"(<rgb name="radiance" value="4, 4, 4"/>)",
+          R"(<shape type="rectangle">)",
+          // Sides along y x -z = -x and y, so that the third column, their product, is the normal.
+          R"(<matrix value="-100 0 0 0 0 50 0 0 0 0 -1 50 0 0 0 1"/>)", R"(<shape type="sphere">)",
+          R"(<point name="center" value="0, 300, 0"/>)", R"(<float name="radius" value="150"/>)",
+          R"(<rgb name="radiance" value="4, 4, 4"/>)",
           R"(<rgb name="intensity" value="125663.7, 125663.7, 125663.7"/>)"})
         EXPECT_THAT(text, HasSubstr(part));
 }

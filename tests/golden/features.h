@@ -165,6 +165,27 @@ inline const std::vector<Feature>& features() {
                  {.position = {0.3f, 0.3f, -0.2f}, .reference_distance = 0.3f}};
          },
          "lit"},
+        {"rectangle",
+         [](Settings& s) {
+             lit(s);
+             s.shading.model = ShadingModel::marschner;
+             s.shading.lights = {
+                 {.type = LightType::rectangle,
+                  .position = {0.25f, 0.2f, 0.3f},
+                  .direction = {-0.25f, -0.2f, -0.3f},
+                  .reference_distance = 0.4f,
+                  .width = 0.1f,
+                  .height = 0.5f,
+                  .shadow_samples = 4}};
+         },
+         "marschner"},
+        {"far_field",
+         [](Settings& s) {
+             lit(s);
+             s.shading.model = ShadingModel::marschner;
+             s.shading.far_field = true;
+         },
+         "marschner"},
         {"aces",
          [](Settings& s) {
              lit(s);

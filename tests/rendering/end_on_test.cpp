@@ -9,14 +9,10 @@
 
 #include "engine/buffer_image.h"
 #include "engine/frame_loop.h"
-#include "engine/pipeline.h"
-#include "hair/rendering/fiber.h"
-#include "hair/rendering/lights.h"
 #include "hair/rendering/renderer.h"
-#include "hair/shader_codes.h"
 #include "tests/gpu_fixture.h"
-#include "tests/probe_shaders.h"
 #include "tests/rendering/linear_picture.h"
+#include "tests/rendering/strand_probe.h"
 
 namespace hair::rendering {
 namespace {
@@ -38,48 +34,7 @@ Settings litSettings(ShadingModel model) {
     return settings;
 }
 
-class EndOn : public GpuTest {
-protected:
-    static std::vector<gpu::StrandProbe>
-    shade(ShadingModel model, const std::vector<gpu::StrandProbe>& probes) {
-        static_assert(sizeof(gpu::StrandProbe) == 52 && sizeof(gpu::ProbeStrandPush) == 20);
-        const Settings settings = litSettings(model);
-        const HairOpticsBuffers optics(device(), settings);
-        const engine::Buffer lights = engine::makeBuffer(
-            device(), std::span<const gpu::Light>(makeLights(settings)), "lights");
-        gpu::PictureParameters picture{};
-        picture.hair_color = settings.shading.color;
-        picture.ambient = settings.shading.ambient;
-        picture.diffuse = settings.shading.diffuse;
-        picture.specular = settings.shading.specular;
-        picture.exponent = settings.shading.exponent;
-        picture.light_count = static_cast<std::uint32_t>(settings.shading.lights.size());
-        picture.lights = lights.address();
-        picture.optics = optics.address();
-        const engine::Buffer parameters = engine::makeBuffer(
-            device(), std::span<const gpu::PictureParameters>(&picture, 1), "picture");
-        const engine::Buffer buffer = engine::makeBuffer(
-            device(), std::span<const gpu::StrandProbe>(probes), "strand probes");
-        probe_shaders::addTo(device());
-        const engine::ComputePipeline pipeline(
-            device(), {.shader = "probe_strand.comp",
-                       .constants =
-                           {{gpu::kModelConstant, shaderCode(model)},
-                            {gpu::kLightCountConstant, picture.light_count},
-                            {gpu::kLightKindsConstant, lightKinds(settings)}},
-                       .push_size = sizeof(gpu::ProbeStrandPush)});
-        const auto count = static_cast<std::uint32_t>(probes.size());
-        device().runOnce([&](engine::Commands& commands) {
-            commands.bind(
-                pipeline,
-                gpu::ProbeStrandPush{
-                    .picture = parameters.address(), .probes = buffer.address(), .count = count});
-            commands.dispatch((count + 63) / 64, 1);
-            commands.barrier(engine::Access::compute_write, engine::Access::transfer_read);
-        });
-        return engine::downloadAs<gpu::StrandProbe>(device(), buffer);
-    }
-};
+using EndOn = GpuTest;
 
 // Points whose tangent is the way to the eye or away from it, and others that are off it by an
 // angle that floats hardly hold.
@@ -98,7 +53,7 @@ TEST_F(EndOn, EveryModelShadesPointsWithFiniteLight) {
                          .normal = {},
                          .color = {}});
     for (const ShadingModel model : kModels)
-        for (const gpu::StrandProbe& probe : shade(model, probes)) {
+        for (const gpu::StrandProbe& probe : shadeStrands(device(), litSettings(model), probes)) {
             // A normal of a cylinder, to some ten roundings.
             EXPECT_NEAR(glm::length(probe.normal), 1.0f, 1e-6f);
             EXPECT_NEAR(glm::dot(probe.normal, probe.tangent), 0.0f, 1e-6f);

@@ -20,11 +20,11 @@ std::vector<LightSettings> manyLights() {
         const float angle = 0.4f * static_cast<float>(i);
         const glm::vec3 position(2.0f * std::cos(angle), 0.5f, 2.0f * std::sin(angle));
         lights.push_back(
-            {.type = static_cast<LightType>(i % 3),
+            {.type = static_cast<LightType>(i % 4),
              .position = position,
              .direction = -0.3f * position,
              .color = {0.3f, 0.5f, 0.2f + 0.02f * static_cast<float>(i)},
-             .reference_distance = i % 2 == 0 ? 1.5f : 0.0f});
+             .reference_distance = i % 8 < 4 ? 1.5f : 0.0f});
     }
     return lights;
 }

@@ -25,8 +25,9 @@ void main() {
             metAtRandom(kFreePath, probe.strands, passedForward(optics, probe.to_light));
         path.ended = vec3(probe.ended);
         path.returned = vec3(probe.returned);
+        FiberView view = fiberView(optics, probe.to_eye, probe.h);
         probe.dual_scattering =
-            dualScattering(optics, probe.to_eye, probe.to_light, probe.h, path);
+            dualScattering(optics, view, probe.to_eye, probe.to_light, path);
     }
     Probes(push.probes).at[index] = probe;
 }

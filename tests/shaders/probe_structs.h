@@ -76,6 +76,24 @@ struct ProbeModelsPush {
     uint count;
 };
 
+// What probe_rectangle.comp is asked and what it answers.
+struct RectangleProbe {
+    vec3 base_color;
+    float metallic;
+    float roughness;
+    vec3 normal;
+    vec3 to_eye;
+    vec3 corners[4];  // m, as LightSample has them
+    vec3 diffuse;  // radiance to the eye, of a rectangle of radiance 1; written
+    vec3 glossy;  // written
+};
+
+// Push constants of probe_rectangle.comp.
+struct RectangleProbePush {
+    Address probes;  // RectangleProbe [probe]
+    uint count;
+};
+
 // Where strands/software/samples.glsl has a pixel's samples: written by probe_samples.comp.
 struct SamplePlaces {
     vec2 places[8];  // px, of each sample

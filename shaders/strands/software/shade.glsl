@@ -25,11 +25,13 @@ StrandFragment seenPoint(PictureParameters picture, uint number, vec2 place, out
     fragment.to_eye = normalize(picture.eye - fragment.position);
     fragment.along = 0.0;  // what a strand's texture would need
     fragment.width = 2.0 * length(mix(piece.from.side, piece.to.side, seen.t));
+    fragment.fiber_width = fragment.width;
     merged = 0u;
     if (kTellsHairs) {
         PlaceOnStrand on_strand = placeOnStrand(picture, number, seen.t);
         fragment.along = on_strand.along;
         merged = on_strand.merged;
+        if (kMergedHairs != 0) fragment.fiber_width /= mergedCount(merged);
         if (kMergedHairs != 0 && mergedCount(merged) > 1.0) {
             fragment.across = straightAcross(piece, seen);
             toMergedHair(merged, fragment);
