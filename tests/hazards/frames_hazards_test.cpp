@@ -123,6 +123,10 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
         rods.simulation.solver = solver;
         silent("rods, solver " + std::to_string(static_cast<int>(solver)), rods);
     }
+    hair::Settings segments = everything();
+    segments.simulation.collision.parts = hair::CollisionParts::segments;
+    segments.simulation.colliders = {{.radius = 0.05f}};
+    silent("segments", segments);
     for (const hair::Backend backend : {hair::Backend::expanded, hair::Backend::software}) {
         for (const std::uint32_t samples : {1u, 4u}) {
             for (const bool has_maps : {false, true}) {
