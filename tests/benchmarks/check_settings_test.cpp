@@ -78,6 +78,27 @@ TEST(CheckSettings, WantsACameraThatLooksSomewhere) {
     EXPECT_EQ(broken([](hair::Settings& s) { s.camera.up = {0.0f, 0.001f, 0.5f}; }), "no error");
 }
 
+TEST(CheckSettings, WantsRectanglesToShineSomewhere) {
+    EXPECT_EQ(
+        broken([](hair::Settings& s) {
+            s.shading.lights[0].direction = glm::vec3(0.0f);
+            s.shading.lights[0].type = hair::LightType::rectangle;
+        }),
+        "/shading/lights: entry 0 is a rectangle, but its direction has no length");
+}
+
+TEST(CheckSettings, WantsRoomForTheMapsOfLights) {
+    const auto spheres = [](std::size_t count) {
+        return broken([count](hair::Settings& s) {
+            s.shading.lights.assign(count, {.type = hair::LightType::sphere, .shadow_samples = 64});
+        });
+    };
+    EXPECT_EQ(spheres(2), "no error");  // 126
+    EXPECT_EQ(
+        spheres(3),
+        "/shading/lights: has 189 shadow maps beyond one a light by shadow_samples, over 128");
+}
+
 TEST(CheckSettings, WantsDirectionalLightToGoSomewhere) {
     const auto still = [](hair::Settings& s) { s.shading.lights[0].direction = glm::vec3(0.0f); };
     EXPECT_EQ(broken(still), "no error");
