@@ -483,15 +483,14 @@ TEST(StrandResiduals, TakeEightBytesAPoint) {
     }
 }
 
-// Of the curves' even points none are searched for; of bunched ones up to 46 on a strand are, in 6
-// halvings.
+// Points at the guides' vertices are found at once; bunched ones, up to 46 a strand, in 6 halvings.
 TEST(StrandResiduals, AreSearchedWhereTheyAreUneven) {
-    const auto halvings = [](double bunching) {
-        const groom::Groom groom = groomOf(wisps(50, std::array{46u, 20u}, bunching), 10, 12);
+    const auto halvings = [](double bunching, std::uint32_t vertices) {
+        const groom::Groom groom = groomOf(wisps(50, std::array{46u}, bunching), 10, vertices);
         return makeStrandResiduals(groom, {}, inOrder(groom)).samples.front().x;
     };
-    EXPECT_EQ(halvings(1.0), 0u);
-    EXPECT_EQ(halvings(2.5), 6u);
+    EXPECT_EQ(halvings(2.5, 46), 0u);
+    EXPECT_EQ(halvings(2.5, 12), 6u);
 }
 
 // Half of a 32,767th of the greatest residual in each of three directions.
