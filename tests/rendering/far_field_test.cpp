@@ -16,7 +16,7 @@ namespace {
 
 using FarField = GpuTest;
 
-constexpr double kWidth = 1e-4;  // m, of the probes' strands
+constexpr double kProbeWidth = 1e-4;  // m, of the probes' strands
 
 Settings farSettings(float roughness, const glm::dvec3& to_light) {
     Settings settings;
@@ -94,7 +94,8 @@ TEST_F(FarField, IsTheMeanOverTheWidthOfThinFibers) {
          {Row{0.2f, 0.18, 0.08, 0.04}, Row{0.3f, 0.05, 0.04, 0.02}, Row{0.5f, 0.01, 0.015, 0.005},
           Row{0.9f, 0.005, 0.005, 0.002}})
         for (const float across : {-0.9f, 0.2f}) {  // wherever the pixel's middle is
-            const FarError error = errorOf(device(), row.roughness, across, 10 * kWidth, -1, 1);
+            const FarError error =
+                errorOf(device(), row.roughness, across, 10 * kProbeWidth, -1, 1);
             EXPECT_LT(error.largest, row.largest) << row.roughness;
             EXPECT_LT(error.mean, row.mean) << row.roughness;
             EXPECT_NEAR(error.ratio, 1.0, row.sum) << row.roughness;
@@ -104,9 +105,9 @@ TEST_F(FarField, IsTheMeanOverTheWidthOfThinFibers) {
 // h - 0.4 to h + 0.4, and at the edge what is left of that.
 TEST_F(FarField, IsTheMeanOverThePartThatAPixelSees) {
     for (const float roughness : {0.3f, 0.5f}) {
-        const FarError middle = errorOf(device(), roughness, 0.2f, 0.4 * kWidth, -0.2, 0.6);
+        const FarError middle = errorOf(device(), roughness, 0.2f, 0.4 * kProbeWidth, -0.2, 0.6);
         EXPECT_LT(middle.largest, 0.005) << roughness;
-        const FarError edge = errorOf(device(), roughness, 0.8f, 0.5 * kWidth, 0.3, 1.0);
+        const FarError edge = errorOf(device(), roughness, 0.8f, 0.5 * kProbeWidth, 0.3, 1.0);
         EXPECT_LT(edge.largest, 0.02) << roughness;
         EXPECT_LT(edge.mean, 0.02) << roughness;
     }
@@ -115,7 +116,7 @@ TEST_F(FarField, IsTheMeanOverThePartThatAPixelSees) {
 TEST_F(FarField, WideFibersShowThePlace) {
     const glm::dvec3 to_light = direction(0.3, 1.0);
     Settings settings = farSettings(0.3f, to_light);
-    const auto wide = shadeStrands(device(), settings, allRound(0.4f), 0.05 * kWidth);
+    const auto wide = shadeStrands(device(), settings, allRound(0.4f), 0.05 * kProbeWidth);
     settings.shading.far_field = false;
     const auto place = shadeStrands(device(), settings, allRound(0.4f));
     for (std::size_t i = 0; i < wide.size(); ++i) EXPECT_EQ(wide[i].color, place[i].color) << i;
