@@ -17,8 +17,8 @@ namespace benchmarks::groom {
 // Guides chosen from strands, with every attribute but root triangles.
 struct GuideChoice {
     hair::groom::StrandSet guides;
-    // For people: of the strands that are made from the guides alone, and of those that a scene with
-    // the file and as many guides draws.
+    // For people: of the strands that are made from the guides alone, and of those that a scene
+    // with the file and as many guides draws.
     std::string error;
     std::string left;
 };
@@ -33,7 +33,7 @@ rootTriangles(const hair::groom::StrandSet& strands, const hair::groom::Mesh* me
 
 // Something about a groom that its maker may not have meant.
 struct Oddity {
-    std::string_view name;    // snake_case
+    std::string_view name;  // snake_case
     std::uint64_t count = 0;  // of the things that are odd
     std::string what;
     std::string advice;
