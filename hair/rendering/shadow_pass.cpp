@@ -246,10 +246,10 @@ Sphere strandBounds(const groom::Groom& groom, const StrandSettings& settings) {
     return bounds;
 }
 
-std::vector<LightSettings> lightSamples(const LightSettings& light, const glm::vec3& seen) {
+LightSettings lightSample(const LightSettings& light, const glm::vec3& seen, std::uint32_t index) {
     const std::uint32_t count = shadowMaps(light);
-    std::vector<LightSettings> samples(count, light);
-    if (count == 1) return samples;
+    LightSettings sample = light;
+    if (count == 1) return sample;
     // Of a sphere the disc is taken whose edge is the sphere's outline from `seen`; of a disc at
     // infinity its projection, in which all of its parts light alike what faces its middle.
     const bool directional = light.type == LightType::directional;
@@ -261,21 +261,19 @@ std::vector<LightSettings> lightSamples(const LightSettings& light, const glm::v
     const float ratio = std::min(light.radius / std::max(apart, kLeastRadius), 0.95f);
     const float radius = light.radius / std::sqrt(1.0f - ratio * ratio);
     const float sine = std::sin(glm::radians(light.angular_radius));
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const glm::vec2 disc = onDisc(i, count);
-        const glm::vec3 offset = disc.x * right + disc.y * up;
-        if (light.type == LightType::rectangle) {
-            const RectangleFace face = rectangleFace(light);
-            const glm::vec2 place = onSquare(i, count);
-            samples[i].position += place.x * face.half_width + place.y * face.half_height;
-        } else if (directional) {
-            const float cosine = std::sqrt(1.0f - sine * sine * glm::dot(disc, disc));
-            samples[i].direction = cosine * axis + sine * offset;
-        } else {
-            samples[i].position += radius * offset;
-        }
+    const glm::vec2 disc = onDisc(index, count);
+    const glm::vec3 offset = disc.x * right + disc.y * up;
+    if (light.type == LightType::rectangle) {
+        const RectangleFace face = rectangleFace(light);
+        const glm::vec2 place = onSquare(index, count);
+        sample.position += place.x * face.half_width + place.y * face.half_height;
+    } else if (directional) {
+        const float cosine = std::sqrt(1.0f - sine * sine * glm::dot(disc, disc));
+        sample.direction = cosine * axis + sine * offset;
+    } else {
+        sample.position += radius * offset;
     }
-    return samples;
+    return sample;
 }
 
 Sphere enclosing(const Sphere& a, const Sphere& b) {
@@ -403,13 +401,12 @@ void ShadowPass::writeParameters(
     const float margin = std::max(shadows.softness, 0.5f) + 1.0f;
     const ShadowBounds bounds = scene_.bounds(view);
     seen_.clear();
-    std::vector<LightSettings> samples;
     std::uint32_t further = gpu::kMostLights;
     for (std::uint32_t i = 0; i < maps_.size(); ++i) {
         const auto [light, sample] = maps_[i];
-        if (sample == 0)
-            samples = lightSamples(settings_.shading.lights[light], bounds.seen.centre);
-        const LightView seen = lightView(samples[sample], bounds, atlas_.side, margin);
+        const LightSettings& whole = settings_.shading.lights[light];
+        const LightView seen =
+            lightView(lightSample(whole, bounds.seen.centre, sample), bounds, atlas_.side, margin);
         const VkOffset2D corner = atlas_.part(i).offset;
         const std::uint32_t map = sample == 0 ? light : further++;
         parameters.maps[map] = {
@@ -422,7 +419,7 @@ void ShadowPass::writeParameters(
             .ends_at_meshes = mesh_maps_ && shadows.hair == HairShadows::deep_shadow ? 1u : 0u,
             .casters = (mesh_maps_ ? gpu::kMeshesCast : 0u) | (hair_maps_ ? gpu::kHairCasts : 0u),
             .further = further,
-            .further_count = static_cast<std::uint32_t>(samples.size()) - 1u};
+            .further_count = shadowMaps(whole) - 1u};
         gpu::PictureParameters picture = of;
         picture.view_projection = seen.view_projection;
         picture.eye = seen.eye;

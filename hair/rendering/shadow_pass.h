@@ -70,9 +70,10 @@ struct MapOfLight {
     std::uint32_t sample = 0;
 };
 
-// Lights like this one but in one point each of its face, or direction of its disc, as it is seen
-// from `seen`: the light itself where it has one map. They stand for equal parts of its light.
-std::vector<LightSettings> lightSamples(const LightSettings& light, const glm::vec3& seen);
+// A light like this one but in one point of its face, or direction of its disc, as it is seen from
+// `seen`: the light itself where it has one map. `index`, below shadowMaps(), tells apart those
+// that stand for equal parts of its light.
+LightSettings lightSample(const LightSettings& light, const glm::vec3& seen, std::uint32_t index);
 
 // Whether there are maps of hair.
 bool hasHairMaps(const Settings& settings);

@@ -27,7 +27,9 @@ SegmentPass::SegmentPass(
 
 void SegmentPass::recordStart(engine::Commands& commands, const engine::Buffer& positions) const {
     // After the substep before, which wrote the positions and read the start of its own.
-    commands.barrier(Access::compute_write, Access::transfer_read);
+    commands.barrier(
+        {{Access::compute_write, Access::transfer_read},
+         {Access::compute_write, Access::transfer_write}});
     commands.copy(positions, starts_, starts_.size());
     commands.barrier(
         {{Access::transfer_read, Access::compute_write},

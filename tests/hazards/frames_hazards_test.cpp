@@ -126,6 +126,7 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
     hair::Settings segments = everything();
     segments.simulation.collision.parts = hair::CollisionParts::segments;
     segments.simulation.colliders = {{.radius = 0.05f}};
+    segments.simulation.substeps = 3;  // each after the one before
     silent("segments", segments);
     for (const hair::Backend backend : {hair::Backend::expanded, hair::Backend::software}) {
         for (const std::uint32_t samples : {1u, 4u}) {
