@@ -31,9 +31,7 @@ void SegmentPass::recordStart(engine::Commands& commands, const engine::Buffer& 
         {{Access::compute_write, Access::transfer_read},
          {Access::compute_write, Access::transfer_write}});
     commands.copy(positions, starts_, starts_.size());
-    commands.barrier(
-        {{Access::transfer_read, Access::compute_write},
-         {Access::transfer_write, Access::compute_write}});
+    commands.barrier(Access::transfer_write, Access::compute_write);
 }
 
 void SegmentPass::record(
