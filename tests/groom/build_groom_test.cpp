@@ -72,7 +72,8 @@ TEST(BuildGroom, ChoosesGuidesFromGrownStrands) {
         found += std::ranges::equal(dense.strand(i), groom.strand(found)) ? 1u : 0u;
     EXPECT_EQ(found, 30u);
     settings.grow.strands = 20;
-    EXPECT_THAT(errorText([&] { buildGroom(settings, &cap, "scenes", 7); }), HasSubstr("20 strands"));
+    EXPECT_THAT(
+        errorText([&] { buildGroom(settings, &cap, "scenes", 7); }), HasSubstr("20 strands"));
 }
 
 TEST(BuildGroom, GrowsTheThesissNumberOfGuides) {
