@@ -248,8 +248,7 @@ const Table& tableOf(const GroomSettings*) {
          number(
              "guides", &S::guides, 0, 1000000, "count",
              "guides to grow, or to choose from the file or from grown strands; 0: all of the "
-             "file's "
-             "strands, or 86 grown ones"),
+             "file's strands, or 86 grown ones"),
          group("grow", &S::grow, "guides grown on a scalp"),
          group("style", &S::style, "styling of what is grown or read")});
     return table;
