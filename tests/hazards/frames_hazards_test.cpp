@@ -128,6 +128,14 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
     segments.simulation.colliders = {{.radius = 0.05f}};
     segments.simulation.substeps = 3;  // each after the one before
     silent("segments", segments);
+    // Strands that keep what their guides' mean lacks.
+    for (const hair::Backend backend : {hair::Backend::tessellation, hair::Backend::expanded}) {
+        hair::Settings residuals = everything();
+        residuals.strands.backend = backend;
+        residuals.strands.source = hair::StrandSource::groom;
+        residuals.groom.grow.strands = 300;
+        silent("residuals, back end " + std::to_string(static_cast<int>(backend)), residuals);
+    }
     for (const hair::Backend backend : {hair::Backend::expanded, hair::Backend::software}) {
         for (const std::uint32_t samples : {1u, 4u}) {
             for (const bool has_maps : {false, true}) {

@@ -1,9 +1,20 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "tests/flip_errors.h"
 #include "tests/gpu_fixture.h"
 #include "tests/rendering/pictures.h"
+#include "tests/required.h"
+#include "tests/temporary_folder.h"
 
 // What strands may have beside the thesis's: every back end draws it alike, and counts it right.
 namespace hair::rendering {
@@ -144,6 +155,37 @@ TEST_F(StrandFeaturePictureTest, BackEndsDrawTheSameAtAnyLevelOfDetail) {
         settings.lod = {.mode = LodMode::distance, .near_distance = 0.4f, .far_distance = 0.8f};
         draw_and_compare();
     }
+}
+
+// Those that make triangles in another way, within what their pictures of plain strands differ by
+// (tests/rendering/points_picture_test.cpp): mean FLIP errors. `pulling` rounds a pixel otherwise
+// here and there.
+TEST_F(StrandFeaturePictureTest, OtherBackEndsDrawThemToo) {
+    if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
+    constexpr std::array<std::pair<Backend, double>, 3> kWays{
+        {{Backend::pulling, 0.001}, {Backend::expanded, 0.005}, {Backend::software, 0.02}}};
+    constexpr std::string_view kLate[] = {"residuals", "push_out", "all"};
+    const TemporaryFolder folder;
+    std::vector<std::pair<std::filesystem::path, std::filesystem::path>> pairs;
+    std::vector<std::pair<std::string, double>> expectations;
+    for (const Feature& feature : kFeatures) {
+        if (std::ranges::find(kLate, feature.name) == std::end(kLate)) continue;
+        const Settings settings = small(feature.strands);
+        const auto write = [&](Backend backend) {
+            const std::string name = std::string(feature.name) + std::to_string(int(backend));
+            return writePicture(
+                folder.file(name + ".png"), settings,
+                draw(with(settings, backend), feature.has_residuals));
+        };
+        const auto tessellated = write(Backend::tessellation);
+        for (const auto& [backend, error] : kWays) {
+            pairs.emplace_back(tessellated, write(backend));
+            expectations.emplace_back(pairs.back().second.filename(), error);
+        }
+    }
+    const std::vector<double> errors = flipErrors(pairs);
+    for (std::size_t i = 0; i < expectations.size(); ++i)
+        EXPECT_LE(errors.at(i), expectations[i].second) << expectations[i].first;
 }
 
 TEST_F(StrandFeaturePictureTest, CountsAreThoseOfThePlan) {

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -16,8 +17,10 @@
 #include <utility>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "engine/error.h"
 #include "engine/files.h"
@@ -37,9 +40,10 @@ namespace {
 struct XmlElement {
     std::string_view name;
     std::size_t line = 0;
+    std::size_t size = 0;  // bytes, with all that is in it
     std::vector<std::pair<std::string_view, std::string_view>> attributes;
-    std::string_view text;  // before the first child
-    std::size_t text_line = 0;
+    // Before the first child, between comments: where it begins, and the line of that.
+    std::vector<std::pair<std::string_view, std::size_t>> texts;
     std::vector<XmlElement> children;
 
     std::string_view attribute(std::string_view wanted) const {
@@ -130,6 +134,7 @@ private:
 
     XmlElement takeElement(int depth) {
         if (depth > kMostNested) fail("more than 64 elements within another");
+        const std::size_t before = rest_.size();
         expect("<");
         XmlElement element;
         element.line = line_;
@@ -137,11 +142,16 @@ private:
         takeAttributes(element);
         if (rest_.starts_with("/>")) {
             take(2);
+            element.size = before - rest_.size();
             return element;
         }
         expect(">");
-        element.text_line = line_;
-        element.text = take(std::min(rest_.find('<'), rest_.size()));
+        for (;;) {
+            const std::size_t line = line_;
+            element.texts.emplace_back(take(std::min(rest_.find('<'), rest_.size())), line);
+            if (!rest_.starts_with("<!--")) break;
+            takeThrough("-->");
+        }
         for (;;) {
             skipBlank();
             if (rest_.starts_with("</")) break;
@@ -154,6 +164,7 @@ private:
             fail("the end of " + inQuotes(element.name) + " is expected");
         skipSpace();
         expect(">");
+        element.size = before - rest_.size();
         return element;
     }
 
@@ -168,19 +179,23 @@ class EmbreeArrays {
 public:
     explicit EmbreeArrays(std::filesystem::path path) : path_(std::move(path)) {}
 
+    // With numbers that are NaN.
     std::vector<glm::vec4> vectors(const XmlElement& element) {
         std::vector<glm::vec4> vectors;
         if (isBeside(element)) {
             vectors = beside<glm::vec4>(element);
-            const auto wrong = firstNotFinite(
-                {reinterpret_cast<const float*>(vectors.data()), 4 * vectors.size()});
-            if (wrong)
+            const std::span numbers(
+                reinterpret_cast<const float*>(vectors.data()), 4 * vectors.size());
+            const auto wrong =
+                std::ranges::find_if(numbers, [](float number) { return std::isinf(number); });
+            if (wrong != numbers.end())
                 failAtLine(
-                    element.line, "number " + std::to_string(*wrong) + " of " +
+                    element.line, "number " + std::to_string(wrong - numbers.begin()) + " of " +
                                       inQuotes(element.name) + " is not finite");
             return vectors;
         }
-        const std::vector<float> numbers = floats(element);
+        const std::vector<float> numbers =
+            words(element, [](float number) { return !std::isinf(number); });
         if (numbers.size() % 4 != 0)
             failAtLine(
                 element.line, inQuotes(element.name) + " has no whole number of x y z radius");
@@ -191,14 +206,12 @@ public:
     }
 
     std::vector<float> floats(const XmlElement& element) const {
-        std::vector<float> numbers;
-        eachWord(element, [&](std::string_view word, std::size_t line) {
-            const auto number = floatFrom(word);
-            if (!number || !std::isfinite(*number))
-                failAtLine(line, inQuotes(word) + " is no finite number");
-            numbers.push_back(*number);
-        });
-        return numbers;
+        return words(element, [](float number) { return std::isfinite(number); });
+    }
+
+    // Those of an attribute.
+    std::vector<float> floats(const XmlElement& element, std::string_view attribute) const {
+        return floats({.name = attribute, .texts = {{element.attribute(attribute), element.line}}});
     }
 
     // `each`: how many of them an entry of the array has, for its `size`.
@@ -219,12 +232,26 @@ private:
 
     template <class Visit>
     static void eachWord(const XmlElement& element, const Visit& visit) {
-        TextLines lines(element.text);
-        while (!lines.atEnd()) {
-            std::string_view line = lines.take();
-            for (std::string_view word = takeWord(line); !word.empty(); word = takeWord(line))
-                visit(word, element.text_line + lines.number() - 1);
+        for (const auto& [text, first_line] : element.texts) {
+            TextLines lines(text);
+            while (!lines.atEnd()) {
+                std::string_view line = lines.take();
+                for (std::string_view word = takeWord(line); !word.empty(); word = takeWord(line))
+                    visit(word, first_line + lines.number() - 1);
+            }
         }
+    }
+
+    template <class Allowed>
+    static std::vector<float> words(const XmlElement& element, const Allowed& allowed) {
+        std::vector<float> numbers;
+        eachWord(element, [&](std::string_view word, std::size_t line) {
+            const auto number = floatFrom(word);
+            if (!number || !allowed(*number))
+                failAtLine(line, inQuotes(word) + " is no finite number");
+            numbers.push_back(*number);
+        });
+        return numbers;
     }
 
     static std::uint64_t count(const XmlElement& element, std::string_view attribute) {
@@ -270,9 +297,12 @@ struct EmbreeBasis {
     std::uint32_t step;  // vertices from a segment to the next of its curve
 };
 
+// Vertices with tangents, which are made Bezier's.
+constexpr std::string_view kHermite = "hermite";
+
 constexpr std::array kEmbreeBases{
     EmbreeBasis{"linear", nullptr, 2, 1}, EmbreeBasis{"bezier", &kBezierBasis, 4, 3},
-    EmbreeBasis{"bspline", &kBsplineBasis, 4, 1},
+    EmbreeBasis{kHermite, &kBezierBasis, 4, 3}, EmbreeBasis{"bspline", &kBsplineBasis, 4, 1},
     EmbreeBasis{"catmull_rom", &kCatmullRomBasis, 4, 1}};
 
 struct EmbreeCurvesRow {
@@ -306,19 +336,35 @@ public:
         if (root.name != "scene")
             failAtLine(root.line, inQuotes(root.name) + ", expected a scene of Embree, 'scene'");
         for (const XmlElement& child : root.children) readNode(child, {});
-        if (set_.ends.empty()) failAtLine(root.line, "the scene has no curves");
-        if (!left_out_.empty()) {
-            std::string names;
-            for (const std::string_view name : left_out_)
-                names.append(names.empty() ? "" : ", ").append(inQuotes(name));
-            set_.warnings.push_back("the scene's " + names + " are left out");
-        }
+        if (set_.ends.empty())
+            failAtLine(
+                root.line, not_numbers_ > 0
+                               ? "every curve has a vertex that is not a number"
+                               : "the scene has no curves" +
+                                     (left_out_.empty() ? "" : ", but " + leftOutNames()));
+        warnOfStrands(not_numbers_, "with a vertex that is not a number", set_);
+        if (!left_out_.empty())
+            set_.warnings.push_back("the scene's " + leftOutNames() + " are left out");
         return std::move(set_);
     }
 
 private:
+    std::string leftOutNames() const {
+        std::string names;
+        for (const std::string_view name : left_out_)
+            names.append(names.empty() ? "" : ", ").append(inQuotes(name));
+        return names;
+    }
+
     void readNode(const XmlElement& element, const AffineSpace& space) {
-        if (element.name == "Group") {
+        if (const std::string_view id = element.attribute("id");
+            !id.empty() && element.name != "ref" && element.name != "assign")
+            named_.insert_or_assign(id, std::vector{&element});
+        if (element.name == "assign") {
+            define(element);
+        } else if (element.name == "ref") {
+            follow(element, space);
+        } else if (element.name == "Group") {
             for (const XmlElement& child : element.children) readNode(child, space);
         } else if (element.name == "Transform") {
             readTransform(element, space);
@@ -331,22 +377,76 @@ private:
         }
     }
 
-    void readTransform(const XmlElement& element, const AffineSpace& space) {
-        const bool has_matrix =
-            !element.children.empty() && element.children.front().name == "AffineSpace" &&
-            element.children.front().attributes.empty() && element.attribute("time_steps").empty();
+    void follow(const XmlElement& ref, const AffineSpace& space) {
+        const auto named = named_.find(ref.attribute("id"));
+        if (named == named_.end())
+            failAtLine(ref.line, "nothing before has the id " + inQuotes(ref.attribute("id")));
+        if (++references_ > kMostReferences)
+            failAtLine(ref.line, "more than 64 references within another: one to itself?");
+        const std::vector<const XmlElement*> nodes = named->second;
+        for (const XmlElement* const node : nodes) {
+            repeated(*node, node->size);
+            readNode(*node, space);
+        }
+        --references_;
+    }
+
+    // What is referred to is read anew, so that a small scene could mean an endless one.
+    void repeated(const XmlElement& element, std::size_t bytes) {
+        repeated_ += bytes;
+        if (repeated_ > kMostRepeated)
+            failAtLine(
+                element.line, "what the scene refers to has more than 256 MB, each as often "
+                              "as it is referred to");
+    }
+
+    // What is named for later, and not placed.
+    void define(const XmlElement& element) {
+        std::vector<const XmlElement*> nodes;
+        for (const XmlElement& child : element.children) {
+            nodes.push_back(&child);
+            if (const std::string_view id = child.attribute("id"); !id.empty())
+                named_.insert_or_assign(id, std::vector{&child});
+        }
+        if (const std::string_view id = element.attribute("id"); !id.empty())
+            named_.insert_or_assign(id, std::move(nodes));
+    }
+
+    AffineSpace spaceOf(const XmlElement& element) const {
+        AffineSpace space;
+        for (const std::string_view attribute : {"translate", "scale"}) {
+            if (element.attribute(attribute).empty()) continue;
+            const std::vector<float> numbers = arrays_.floats(element, attribute);
+            if (numbers.size() != 3 || element.attributes.size() != 1)
+                failAtLine(
+                    element.line, "an AffineSpace without 3 numbers for 'translate' or "
+                                  "'scale' alone");
+            for (int axis = 0; axis < 3; ++axis) {
+                const double number = numbers[static_cast<std::size_t>(axis)];
+                (attribute == "scale" ? space.linear[axis] : space.translation)[axis] = number;
+            }
+            return space;
+        }
         const std::vector<float> numbers =
-            has_matrix ? arrays_.floats(element.children.front()) : std::vector<float>();
+            element.attributes.empty() ? arrays_.floats(element) : std::vector<float>();
         if (numbers.size() != 12)
             failAtLine(
-                element.line, "a transform that is no AffineSpace of 12 numbers is not read");
-        AffineSpace own;
+                element.line, "an AffineSpace is 12 numbers, or has a 'translate' or 'scale' of 3");
         for (int row = 0; row < 3; ++row) {
             for (int column = 0; column < 3; ++column)
-                own.linear[column][row] = numbers[static_cast<std::size_t>(4 * row + column)];
-            own.translation[row] = numbers[static_cast<std::size_t>(4 * row + 3)];
+                space.linear[column][row] = numbers[static_cast<std::size_t>(4 * row + column)];
+            space.translation[row] = numbers[static_cast<std::size_t>(4 * row + 3)];
         }
-        const AffineSpace all = space.of(own);
+        return space;
+    }
+
+    void readTransform(const XmlElement& element, const AffineSpace& space) {
+        if (element.children.empty() || element.children.front().name != "AffineSpace" ||
+            !element.attribute("time_steps").empty())
+            failAtLine(
+                element.line, "a transform that doesn't begin with one AffineSpace is not "
+                              "read");
+        const AffineSpace all = space.of(spaceOf(element.children.front()));
         for (const XmlElement& child : std::span(element.children).subspan(1)) readNode(child, all);
     }
 
@@ -356,7 +456,7 @@ private:
         if (basis != kEmbreeBases.end()) return *basis;
         failAtLine(
             element.line, "curves of basis " + inQuotes(name) +
-                              ", expected linear, bezier, bspline or catmull_rom");
+                              ", expected linear, bezier, bspline, hermite or catmull_rom");
     }
 
     std::vector<glm::vec4> positionsOf(const XmlElement& element) {
@@ -375,15 +475,43 @@ private:
         return vectors;
     }
 
+    // Of each vertex of a Hermite curve three: before it by a third of its tangent, it, and after.
+    std::vector<glm::vec4>
+    withTangents(const XmlElement& element, const std::vector<glm::vec4>& positions) {
+        const XmlElement* const tangents = element.child("tangents");
+        if (!tangents) failAtLine(element.line, "curves of basis 'hermite' without tangents");
+        const std::vector<glm::vec4> vectors = arrays_.vectors(*tangents);
+        if (vectors.size() != positions.size())
+            failAtLine(
+                tangents->line, std::to_string(vectors.size()) + " tangents, there are " +
+                                    std::to_string(positions.size()) + " positions");
+        std::vector<glm::vec4> all;
+        all.reserve(3 * positions.size());
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            const glm::vec4 third = vectors[i] / 3.0f;
+            for (const float side : {-1.0f, 0.0f, 1.0f}) all.push_back(positions[i] + side * third);
+        }
+        return all;
+    }
+
     // Segments that follow one another, in one curve where curves have numbers.
     std::vector<EmbreeStrand> strandsOf(
         const XmlElement& element, const EmbreeBasis& basis, bool has_pairs, std::size_t vertices) {
         const XmlElement* const indices = element.child("indices");
         if (!indices) failAtLine(element.line, inQuotes(element.name) + " without indices");
         const std::size_t each = has_pairs ? 2 : 1;
-        const std::vector<std::uint32_t> numbers = arrays_.integers(*indices, each);
+        std::vector<std::uint32_t> numbers = arrays_.integers(*indices, each);
         if (numbers.size() % each != 0)
             failAtLine(indices->line, "an index without the number of its curve");
+        if (basis.name == kHermite) {
+            for (std::uint32_t& number : numbers) {
+                if (number >= vertices / 3)
+                    failAtLine(
+                        indices->line, "a segment from vertex " + std::to_string(number) +
+                                           ", there are " + std::to_string(vertices / 3));
+                number = 3 * number + 1;
+            }
+        }
         std::vector<std::uint32_t> curves;
         if (const XmlElement* const ids = element.child("curveid")) {
             curves = arrays_.integers(*ids, 1);
@@ -417,7 +545,9 @@ private:
     void
     readCurves(const XmlElement& element, const EmbreeCurvesRow& row, const AffineSpace& space) {
         const EmbreeBasis& basis = basisOf(element, row);
-        const std::vector<glm::vec4> positions = positionsOf(element);
+        std::vector<glm::vec4> positions = positionsOf(element);
+        if (basis.name == kHermite) positions = withTangents(element, positions);
+        if (references_ > 0) repeated(element, positions.size() * sizeof(glm::vec4));
         const std::vector<EmbreeStrand> strands =
             strandsOf(element, basis, row.has_pairs, positions.size());
         std::uint32_t pieces = 1;  // between the ends of a segment
@@ -432,6 +562,16 @@ private:
         if (points > std::numeric_limits<std::uint32_t>::max())
             failAtLine(element.line, "the strands have 2^32 points, or more");
         for (const EmbreeStrand& strand : strands) {
+            const std::size_t vertices =
+                basis.vertices + (std::size_t{strand.segments} - 1) * basis.step;
+            const auto all = std::span(positions).subspan(strand.first, vertices);
+            const auto not_number = [](const glm::vec4& vertex) {
+                return glm::any(glm::isnan(vertex));
+            };
+            if (std::ranges::any_of(all, not_number)) {
+                ++not_numbers_;
+                continue;
+            }
             for (std::uint32_t i = 0; i < strand.segments; ++i) {
                 const auto corners = std::span(positions).subspan(
                     strand.first + std::size_t{i} * basis.step, basis.vertices);
@@ -471,7 +611,14 @@ private:
         set_.widths.values.push_back(rounded_width);
     }
 
+    static constexpr int kMostReferences = 64;
+    static constexpr std::size_t kMostRepeated = 256'000'000;
+
     EmbreeArrays arrays_;
+    std::map<std::string_view, std::vector<const XmlElement*>> named_;
+    int references_ = 0;  // that the node is within
+    std::size_t repeated_ = 0;  // bytes
+    std::size_t not_numbers_ = 0;
     std::set<std::string_view> left_out_;
     StrandSet set_;
 };

@@ -75,13 +75,6 @@ std::vector<ListedStrand> listStrands(std::span<const std::byte> bytes, std::uin
     return strands;
 }
 
-void warnOfStrands(std::size_t count, const std::string& which, StrandSet& set) {
-    if (count == 0) return;
-    set.warnings.push_back(
-        std::to_string(count) + (count == 1 ? " strand " : " strands ") + which +
-        (count == 1 ? " is left out" : " are left out"));
-}
-
 void requireSomeStrand(const StrandSet& set, const std::string& reason) {
     if (set.ends.empty()) failAt(0, reason);
 }

@@ -86,6 +86,13 @@ std::vector<std::string> leftOut(const StrandSet& strands, std::initializer_list
     return warnings;
 }
 
+void warnOfStrands(std::size_t count, const std::string& which, StrandSet& set) {
+    if (count == 0) return;
+    set.warnings.push_back(
+        std::to_string(count) + (count == 1 ? " strand " : " strands ") + which +
+        (count == 1 ? " is left out" : " are left out"));
+}
+
 // ---- Words --------------------------------------------------------------------------------------
 
 std::string_view TextLines::take() {

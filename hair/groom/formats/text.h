@@ -35,6 +35,9 @@ enum class Part {
 // everywhere is not to have transparencies.
 std::vector<std::string> leftOut(const StrandSet& strands, std::initializer_list<Part> held);
 
+// Warns where strands were left out: "3 strands with ... are left out".
+void warnOfStrands(std::size_t count, const std::string& which, StrandSet& set);
+
 // Lines of text files, word by word. Numbers are spelt in C's notation whatever the locale, a '+'
 // before them allowed.
 

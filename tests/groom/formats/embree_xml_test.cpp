@@ -94,6 +94,25 @@ TEST(EmbreeXml, SamplesSplines) {
     EXPECT_EQ(bent.points.back(), glm::vec3(2, -3, 7));
 }
 
+// x = t^3 and y = t from 0 to 2: positions and derivatives at 0, 1 and 2.
+TEST(EmbreeXml, SamplesHermiteCurves) {
+    const std::string text = replaced(
+        curves("hermite", "0 0 0 1  1 1 0 1  8 2 0 1", "0 1"), "<indices>",
+        "<tangents>0 1 0 0  3 1 0 0  12 1 0 0</tangents><indices>");
+    const StrandSet set = readXml(text);
+    ASSERT_THAT(set.ends, ElementsAre(7));
+    for (int k = 0; k < 7; ++k) {
+        const double t = k / 3.0;
+        EXPECT_NEAR(set.points[k].x, t * t * t, 1e-5) << k;  // floats of 2^3 are 1e-6 apart
+        EXPECT_NEAR(set.points[k].y, t, 1e-6) << k;
+        EXPECT_NEAR(set.widths.at(k), 2.0, 1e-6) << k;
+    }
+    EXPECT_THAT(
+        errorOfXml(replaced(text, "0 1</indices>", "2</indices>")),
+        HasSubstr("a segment of vertices 7 to 10, there are 9"));
+    EXPECT_THAT(errorOfXml(replaced(text, "12 1 0 0", "")), HasSubstr("2 tangents, there are 3"));
+}
+
 // x y z to 2 z, 2 x, 2 y and by (1, 2, 3): lengths twice as long.
 TEST(EmbreeXml, FollowsGroupsAndTransforms) {
     std::string text = replaced(
@@ -106,8 +125,83 @@ TEST(EmbreeXml, FollowsGroupsAndTransforms) {
     for (const float width : set.widths.values) EXPECT_FLOAT_EQ(width, 1.0f);  // by a cube root
     EXPECT_THAT(set.warnings, ElementsAre("the scene's 'PointLight' are left out"));
     EXPECT_THAT(
-        errorOfXml(replaced(text, "<AffineSpace>", "<AffineSpace scale=\"1 2 3\">")),
-        HasSubstr("AffineSpace of 12 numbers"));
+        errorOfXml(replaced(text, "<AffineSpace>", "<AffineSpace rotate=\"1 2 3\">")),
+        HasSubstr("an AffineSpace is 12 numbers"));
+}
+
+TEST(EmbreeXml, FollowsShortTransforms) {
+    const auto placed = [](const std::string& space) {
+        const std::string text =
+            replaced(kLinear, "<scene>", "<scene><Transform><AffineSpace " + space + "/>");
+        return replaced(text, "</scene>", "</Transform></scene>");
+    };
+    const StrandSet moved = readXml(placed("translate=\"1 2 3\""));
+    EXPECT_EQ(moved.points[2], glm::vec3(1, 4, 3.5f));
+    EXPECT_EQ(moved.widths.at(2), 0.5f);
+    const StrandSet scaled = readXml(placed("scale=\"8 1 1\""));
+    EXPECT_EQ(scaled.points[3], glm::vec3(32, 0, 0));
+    EXPECT_FLOAT_EQ(scaled.widths.at(3), 1.0f);  // the geometric mean of 8, 1, 1 is 2
+    for (const char* wrong :
+         {"scale=\"1 2\"", "translate=\"1 2 3\" scale=\"1 1 1\"", "translate=\"1 2 x\""})
+        EXPECT_THAT(errorOfXml(placed(wrong)), StartsWith("line 3: ")) << wrong;
+}
+
+// Nodes of an `assign` are for later, as often as they are referred to.
+TEST(EmbreeXml, FollowsReferences) {
+    std::string text = replaced(kLinear, "<scene>", "<scene><assign type=\"scene\" id=\"hair\">");
+    text = replaced(text, "</scene>", "</assign><Group><ref id=\"hair\"/></Group></scene>");
+    expectTheStrands(readXml(text));
+    const std::string twice = replaced(
+        text, "<Group>",
+        "<Transform><AffineSpace translate=\"9 0 0\"/><ref id=\"hair\"/></Transform><Group>");
+    const StrandSet set = readXml(twice);
+    ASSERT_THAT(set.ends, ElementsAre(3, 5, 8, 10));
+    EXPECT_EQ(set.points[0], glm::vec3(9, 0, 0));
+    EXPECT_EQ(set.points[5], glm::vec3(0));
+    // By an element's own id, which is drawn where it stands, too.
+    std::string own = replaced(kLinear, "<Curves", "<Curves id=\"own\"");
+    own = replaced(own, "</scene>", "<ref id=\"own\"/></scene>");
+    EXPECT_THAT(readXml(own).ends, ElementsAre(3, 5, 8, 10));
+    EXPECT_THAT(
+        errorOfXml(replaced(text, "<ref id=\"hair\"", "<ref id=\"fur\"")),
+        StartsWith("line 14: nothing before has the id 'fur'"));
+    EXPECT_EQ(
+        errorOfXml(replaced(text, "<ref id=\"hair\"/>", "")), "line 3: the scene has no curves");
+}
+
+// A few lines that mean 2^40 groups, and one that is within itself.
+TEST(EmbreeXml, RefusesEndlessReferences) {
+    std::string text = "<scene><assign id=\"0\"><Group/></assign>";
+    for (int i = 0; i < 40; ++i) {
+        const std::string ref = "<ref id=\"" + std::to_string(i) + "\"/>";
+        text += "<assign id=\"" + std::to_string(i + 1) + "\"><Group>" + ref + ref +
+                "</Group></assign>";
+    }
+    EXPECT_THAT(errorOfXml(text + "<ref id=\"40\"/></scene>"), HasSubstr("more than 256 MB"));
+    EXPECT_THAT(
+        errorOfXml("<scene><assign id=\"a\"><Group><ref id=\"a\"/></Group></assign>"
+                   "<ref id=\"a\"/></scene>"),
+        HasSubstr("one to itself?"));
+}
+
+// Embree's own hair0.xml ends curves so.
+TEST(EmbreeXml, LeavesOutStrandsWithNan) {
+    const StrandSet set = readXml(replaced(kLinear, "4 1 0", "4 nan 0"));
+    EXPECT_THAT(set.ends, ElementsAre(3));
+    EXPECT_EQ(set.points[2], glm::vec3(0, 2, 0.5f));
+    EXPECT_THAT(
+        set.warnings, ElementsAre("1 strand with a vertex that is not a number is left out"));
+    std::string none = replaced(kLinear, "4 1 0", "4 nan 0");
+    none = replaced(none, "0 0 0 0.25", "0 0 0 nan");
+    EXPECT_EQ(errorOfXml(none), "line 3: every curve has a vertex that is not a number");
+}
+
+TEST(EmbreeXml, ReadsNumbersBetweenComments) {
+    expectTheStrands(
+        readXml(replaced(kLinear, "<positions>", "<positions><!-- 1 2 3 4 -->\n<!-- <a> -->")));
+    EXPECT_EQ(
+        errorOfXml(replaced(kLinear, "0 1 0 0.25", "<!-- two\n -->0 x 0 0.25")),
+        "line 8: 'x' is no finite number");
 }
 
 TEST(EmbreeXml, ReadsArraysOfTheFileBesideIt) {
@@ -137,14 +231,15 @@ TEST(EmbreeXml, NamesTheLineOfWhatIsWrong) {
         return errorOfXml(replaced(kLinear, from, to));
     };
     EXPECT_EQ(error("4 1 0", "4 one 0"), "line 10: 'one' is no finite number");
-    EXPECT_EQ(error("4 1 0", "4 nan 0"), "line 10: 'nan' is no finite number");
+    EXPECT_EQ(error("4 1 0", "4 inf 0"), "line 10: 'inf' is no finite number");
     EXPECT_THAT(error("4 1 0", "4 1"), StartsWith("line 5: 'positions' has no whole number"));
     EXPECT_THAT(error("0 1 0 0.25", "0 1 0 -1"), StartsWith("line 5: radius 1 is negative"));
     EXPECT_EQ(error("0 1 3", "0 1 4"), "line 12: a segment of vertices 4 to 5, there are 5");
     EXPECT_EQ(error("0 1 3", "0 1 -3"), "line 12: '-3' is no index");
     EXPECT_EQ(error("0 1 3", ""), "line 3: the scene has no curves");
-    EXPECT_THAT(
-        error("\"linear\"", "\"hermite\""), StartsWith("line 4: curves of basis 'hermite'"));
+    EXPECT_THAT(error("\"linear\"", "\"nurbs\""), StartsWith("line 4: curves of basis 'nurbs'"));
+    EXPECT_EQ(
+        error("\"linear\"", "\"hermite\""), "line 4: curves of basis 'hermite' without tangents");
     EXPECT_THAT(error("</Curves>", "</Kurves>"), StartsWith("line 13: the end of 'Curves'"));
     EXPECT_THAT(errorOfXml("<BGFscene></BGFscene>"), StartsWith("line 1: 'BGFscene'"));
     EXPECT_THAT(errorOfXml(kLinear + "<scene/>"), StartsWith("line 15: the scene has ended"));
