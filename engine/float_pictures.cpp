@@ -70,6 +70,10 @@ private:
     std::size_t at_ = 0;
 };
 
+// At least so many pixels take a byte: deflate makes at most 1032 bytes of one, and a pixel has one
+// channel of two bytes at least.
+constexpr std::int64_t kMostPixelsPerByte = 1032 / 2;
+
 struct Size {
     std::int64_t width;
     std::int64_t height;
@@ -114,6 +118,9 @@ FloatPixels decode(std::string_view bytes) {
     const Imath::Box2i shown = header.displayWindow();
     const Size data_size = checkedSize(window);
     const Size size = checkedSize(shown);
+    for (const Size& each : {data_size, size})
+        if (each.width * each.height / kMostPixelsPerByte > static_cast<std::int64_t>(bytes.size()))
+            throw Error("ends too early for a picture of its size");
     const std::array names = channelsOf(header.channels());
 
     std::vector<float> data(static_cast<std::size_t>(3 * data_size.width * data_size.height));
@@ -151,6 +158,64 @@ FloatPixels decodeExr(std::string_view file) {
     }
 }
 
+// Walks through Radiance's pixels as stb_image reads them (Ward 1991; Radiance's color.c): stb
+// never ends where runs do too early.
+class RadiancePixels {
+public:
+    explicit RadiancePixels(std::string_view file) : rest_(file) {}
+
+    void check(int width, int height) {
+        for (std::string_view line = takeLine(); !line.empty(); line = takeLine()) {
+        }
+        takeLine();  // the size
+        constexpr int kLeastOfRuns = 8;
+        constexpr int kMostOfRuns = 32768;
+        bool has_runs = width >= kLeastOfRuns && width < kMostOfRuns;
+        for (int y = 0; y < height && has_runs; ++y) {
+            const auto head = std::string_view(rest_).substr(0, 4);
+            has_runs = head.size() == 4 && head[0] == 2 && head[1] == 2 && byteOf(head[2]) < 128;
+            if (!has_runs && y > 0) throw Error("a row does not begin as rows of runs do");
+            if (!has_runs) break;
+            take(4);
+            if (byteOf(head[2]) * 256 + byteOf(head[3]) != width)
+                throw Error("a row has another width than the picture");
+            for (int channel = 0; channel < 4; ++channel) takeRuns(width);
+        }
+        if (!has_runs)
+            take(
+                std::size_t{4} * static_cast<std::size_t>(width) *
+                static_cast<std::size_t>(height));
+    }
+
+private:
+    static int byteOf(char c) { return static_cast<unsigned char>(c); }
+
+    std::string_view take(std::size_t size) {
+        if (size > rest_.size()) throw Error("ends too early");
+        const std::string_view taken = rest_.substr(0, size);
+        rest_.remove_prefix(size);
+        return taken;
+    }
+
+    std::string_view takeLine() {
+        const std::size_t size = rest_.find('\n');
+        if (size == std::string_view::npos) throw Error("ends too early");
+        return take(size + 1).substr(0, size);
+    }
+
+    void takeRuns(int width) {
+        for (int x = 0; x < width;) {
+            const int count = byteOf(take(1)[0]);
+            const int pixels = count > 128 ? count - 128 : count;
+            if (pixels == 0 || pixels > width - x) throw Error("a run does not fit its row");
+            take(count > 128 ? 1 : static_cast<std::size_t>(pixels));
+            x += pixels;
+        }
+    }
+
+    std::string_view rest_;
+};
+
 // Radiance's RGBE.
 FloatPixels decodeHdr(std::string_view file) {
     const auto* data = reinterpret_cast<const stbi_uc*>(file.data());
@@ -161,6 +226,7 @@ FloatPixels decodeHdr(std::string_view file) {
     if (!stbi_info_from_memory(data, size, &width, &height, &channels))
         throw Error("not a Radiance HDR picture");
     checkPictureSize(width, height);
+    RadiancePixels(file).check(width, height);
     const std::unique_ptr<float, void (*)(void*)> decoded(
         stbi_loadf_from_memory(data, size, &width, &height, &channels, 3), stbi_image_free);
     if (!decoded) throw Error(std::string("can't be decoded: ") + stbi_failure_reason());

@@ -7,6 +7,7 @@
 #include "engine/error.h"
 #include "engine/files.h"
 #include "engine/float_pictures.h"
+#include "engine/png_text.h"
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
@@ -51,6 +52,7 @@ Pixels decodeImage(std::string_view file) {
     if (!stbi_info_from_memory(data, size, &width, &height, &channels))
         throw Error("not a PNG, JPEG, TGA or BMP");
     checkPictureSize(width, height);
+    if (isPng(file)) checkPngData(file);
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(
         stbi_load_from_memory(data, size, &width, &height, &channels, 4), stbi_image_free);

@@ -74,10 +74,14 @@ struct Inflation {
     ~Inflation() { inflateEnd(&stream); }
 };
 
+void start(z_stream& stream) {
+    if (inflateInit(&stream) != Z_OK) throw Error("zlib can't be started");
+}
+
 std::string inflated(std::string_view data, std::size_t at) {
     Inflation inflation;
     z_stream& stream = inflation.stream;
-    if (inflateInit(&stream) != Z_OK) throw Error("zlib can't be started");
+    start(stream);
     stream.next_in = const_cast<Bytef*>(bytesOf(data));  // zlib's type; it only reads
     stream.avail_in = static_cast<uInt>(data.size());
     std::string text;
@@ -143,6 +147,51 @@ std::optional<std::string> pngText(std::string_view file, std::string_view keywo
         if (takeUpToZero(chunk.data, begin) == keyword) found = textOf(type, chunk.data, begin);
     }
     return found;
+}
+
+namespace {
+
+// The bytes of all rows, each with its filter's; section 11.2.1. Interlaced ones are a little more.
+std::uint64_t rowBytes(std::string_view header, std::size_t at) {
+    constexpr std::array<std::uint64_t, 7> kChannels{1, 0, 3, 1, 2, 0, 4};  // by colour type
+    if (header.size() != 13) fail(at, "the header is cut off");
+    const auto type = static_cast<unsigned char>(header[9]);
+    if (type >= kChannels.size()) fail(at, "the type of colours is unknown");
+    const std::uint64_t bits = kChannels[type] * static_cast<unsigned char>(header[8]);
+    return bigEndian(header.substr(4)) * (1 + (bigEndian(header) * bits + 7) / 8);
+}
+
+}  // namespace
+
+void checkPngData(std::string_view file) {
+    if (!isPng(file)) fail(0, "is no PNG");
+    Inflation inflation;
+    z_stream& stream = inflation.stream;
+    start(stream);
+    std::array<char, 1 << 14> piece{};
+    std::uint64_t most = 0;
+    int state = Z_OK;
+    std::size_t at = kSignature.size();
+    for (std::string_view type; type != "IEND";) {
+        const std::size_t begin = at;
+        const Chunk chunk = readChunk(file, at);
+        type = chunk.type;
+        if (begin == kSignature.size()) {
+            if (type != "IHDR") fail(begin, "the first chunk is no header");
+            most = 2 * rowBytes(chunk.data, begin);
+        }
+        if (type != "IDAT") continue;
+        stream.next_in = const_cast<Bytef*>(bytesOf(chunk.data));  // zlib's type; it only reads
+        stream.avail_in = static_cast<uInt>(chunk.data.size());
+        while (state == Z_OK && stream.avail_in > 0) {
+            stream.next_out = reinterpret_cast<Bytef*>(piece.data());
+            stream.avail_out = static_cast<uInt>(piece.size());
+            state = inflate(&stream, Z_NO_FLUSH);
+            if (state != Z_OK && state != Z_STREAM_END) fail(begin, "the data are damaged");
+            if (stream.total_out > most)
+                fail(begin, "the data are more than a picture of this size has");
+        }
+    }
 }
 
 }  // namespace engine

@@ -64,6 +64,62 @@ TEST(FloatImage, ReadsRadiancePixels) {
     EXPECT_EQ(pixels.rgb, (std::vector<float>{1.0f, 0.5f, 0.25f, 800.0f, 400.0f, 200.0f}));
 }
 
+// The same manual: rows of 8 pixels and more may have each channel in runs: 128 + n and a byte, or
+// n and n bytes.
+TEST(FloatImage, ReadsRadianceRuns) {
+    const TemporaryFolder folder;
+    std::string bytes = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 8\n";
+    for (int row = 0; row < 2; ++row) {
+        for (const int byte :
+             {2, 2, 0, 8, 128 + 8, 128, 2, 64, 32, 128 + 6, 16, 128 + 8, 0, 128 + 5, 129, 128 + 3,
+              130})
+            bytes += static_cast<char>(byte);
+    }
+    const FloatPixels pixels = readFloatImage(folder.write("a.hdr", bytes));
+    ASSERT_EQ(pixels.rgb.size(), 3u * 8 * 2);
+    for (std::size_t row = 0; row < 2; ++row) {
+        for (std::size_t x = 0; x < 8; ++x) {
+            const float unit = x < 5 ? 1.0f / 128 : 2.0f / 128;
+            const std::size_t at = 3 * (8 * row + x);
+            EXPECT_EQ(pixels.rgb[at], 128 * unit) << x;
+            EXPECT_EQ(pixels.rgb[at + 1], (x == 0 ? 64 : x == 1 ? 32 : 16) * unit) << x;
+            EXPECT_EQ(pixels.rgb[at + 2], 0.0f) << x;
+        }
+    }
+    // Wherever it ends, and with any byte of the pixels changed.
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+        const auto path = folder.write("cut.hdr", bytes.substr(0, size));
+        EXPECT_THAT(errorText([&] { readFloatImage(path); }), StartsWith(path.string() + ": "))
+            << size;
+    }
+    for (std::size_t at = bytes.size() - 34; at < bytes.size(); ++at) {
+        for (int value = 0; value < 256; ++value) {
+            std::string damaged = bytes;
+            damaged[at] = static_cast<char>(value);
+            errorText([&] { readFloatImage(folder.write("damaged.hdr", damaged)); });
+        }
+    }
+}
+
+// 800 MB of floats from a kilobyte.
+TEST(FloatImage, RefusesAnExrThatIsTooShortForItsSize) {
+    const TemporaryFolder folder;
+    const std::vector<float> rgb(3 * 8 * 8, 1.0f);
+    writeExr(folder.file("a.exr"), 8, 8, rgb);
+    std::string bytes = textOf(folder.file("a.exr"));
+    for (const std::string window : {"dataWindow", "displayWindow"}) {
+        std::string huge = bytes;
+        // The name, "box2i" and a size, each with its end, then two corners.
+        const std::size_t corner = huge.find(window) + window.size() + 1 + 6 + 4 + 8;
+        ASSERT_EQ(huge.substr(corner, 8), std::string("\7\0\0\0\7\0\0\0", 8));
+        huge.replace(corner, 8, std::string("\xff\x1f\0\0\xff\x1f\0\0", 8));  // 8192 by 8192
+        EXPECT_THAT(
+            errorText([&] { readFloatImage(folder.write("huge.exr", huge)); }),
+            HasSubstr("ends too early for a picture of its size"))
+            << window;
+    }
+}
+
 TEST(FloatImage, NamesTheFileThatItCannotRead) {
     const TemporaryFolder folder;
     EXPECT_EQ(errorText([] { readFloatImage("no.exr"); }), "no.exr: no such file");

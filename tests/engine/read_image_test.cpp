@@ -1,6 +1,9 @@
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
+#include <zlib.h>
 
 #include "engine/pictures.h"
 #include "tests/error_text.h"
@@ -60,6 +63,38 @@ TEST(ReadImage, RefusesAPictureThatEnds) {
         const auto path = folder.write("cut.png", bytes.substr(0, size));
         EXPECT_THAT(errorText([&] { readImage(path); }), StartsWith(path.string() + ": "));
     }
+}
+
+// A picture of one pixel with 256 MiB of zeros, a megabyte when deflated.
+TEST(ReadImage, RefusesMoreDataThanThePictureHas) {
+    const TemporaryFolder folder;
+    const auto chunk = [](const std::string& type, const std::string& data) {
+        std::string bytes;
+        const auto number = [&](std::uint32_t value) {
+            for (const int shift : {24, 16, 8, 0}) bytes += static_cast<char>(value >> shift);
+        };
+        number(static_cast<std::uint32_t>(data.size()));
+        bytes += type + data;
+        const std::string sum = type + data;
+        number(static_cast<std::uint32_t>(
+            crc32_z(0, reinterpret_cast<const Bytef*>(sum.data()), sum.size())));
+        return bytes;
+    };
+    const auto png = [&](std::size_t zeros) {
+        std::vector<Bytef> deflated(compressBound(zeros));
+        uLongf size = deflated.size();
+        const std::vector<Bytef> data(zeros);
+        EXPECT_EQ(compress2(deflated.data(), &size, data.data(), zeros, 1), Z_OK);
+        const std::string header("\0\0\0\1\0\0\0\1\10\0\0\0\0", 13);  // grey
+        return "\x89PNG\r\n\x1a\n" + chunk("IHDR", header) +
+               chunk("IDAT", {reinterpret_cast<const char*>(deflated.data()), size}) +
+               chunk("IEND", "");
+    };
+    EXPECT_EQ(
+        readImage(folder.write("a.png", png(2))).rgba, (std::vector<std::uint8_t>{0, 0, 0, 255}));
+    EXPECT_THAT(
+        errorText([&] { readImage(folder.write("b.png", png(std::size_t{1} << 28))); }),
+        HasSubstr("the data are more than a picture of this size has"));
 }
 
 // A Truevision TGA header alone, of 65,535 by 65,535 grey pixels: whoever believes it allocates
