@@ -4,7 +4,10 @@
 #include <cerrno>
 #include <cstring>
 #include <iostream>
+#include <map>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,6 +18,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/report/environment.h"
 #include "benchmarks/report/report.h"
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
@@ -88,6 +92,35 @@ int writeAt(int file, std::string_view text, std::uintmax_t offset) {
     return fsync(file) == 0 ? 0 : errno;
 }
 
+constexpr std::string_view kBeforeHash = R"({"hash":")";
+constexpr std::string_view kBeforeValue = R"(","line":)";
+constexpr std::size_t kHashSize = 16;
+
+std::string lineOf(const scene::Json& value) {
+    // What drivers and commands say need not be UTF-8.
+    const std::string text = value.dump(-1, ' ', false, scene::Json::error_handler_t::replace);
+    return std::string(kBeforeHash)
+        .append(report::hashText(text))
+        .append(kBeforeValue)
+        .append(text)
+        .append("}\n");
+}
+
+// Nothing where the line, without its end, is not as it was written.
+std::optional<scene::Json> valueIn(std::string_view line) {
+    constexpr std::size_t kStart = kBeforeHash.size() + kHashSize + kBeforeValue.size();
+    if (line.size() <= kStart || !line.starts_with(kBeforeHash) || !line.ends_with('}') ||
+        line.substr(kBeforeHash.size() + kHashSize, kBeforeValue.size()) != kBeforeValue)
+        return std::nullopt;
+    const std::string_view text = line.substr(kStart, line.size() - kStart - 1);
+    if (line.substr(kBeforeHash.size(), kHashSize) != report::hashText(text)) return std::nullopt;
+    try {
+        return scene::parseJson(text, "line");  // not too deep, and no member twice
+    } catch (const engine::Error&) {
+        return std::nullopt;
+    }
+}
+
 }  // namespace
 
 Journal::Journal(std::filesystem::path path) : path_(std::move(path)) {
@@ -111,29 +144,30 @@ Journal::~Journal() {
 std::vector<scene::Json> Journal::read() {
     const std::string text = engine::readFile(path_);
     std::vector<scene::Json> lines;
+    damaged_.clear();
     size_ = 0;
-    for (std::size_t end; (end = text.find('\n', size_)) != std::string::npos; size_ = end + 1) {
-        scene::Json line = scene::Json::parse(
-            text.begin() + static_cast<std::ptrdiff_t>(size_),
-            text.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
-        if (line.is_discarded() && lines.empty())
+    std::size_t number = 1;
+    for (std::size_t end; (end = text.find('\n', size_)) != std::string::npos; ++number) {
+        auto value = valueIn(std::string_view(text).substr(size_, end - size_));
+        if (!value && number == 1)
             throw engine::Error(path_.string(), "is no journal of hairbench run");
-        if (line.is_discarded()) break;
-        lines.push_back(std::move(line));
+        if (value)
+            lines.push_back(*std::move(value));
+        else
+            damaged_.push_back(number);
+        size_ = end + 1;
     }
     return lines;
 }
 
 void Journal::append(const scene::Json& line) {
-    // What drivers and commands say need not be UTF-8.
-    const std::string text =
-        line.dump(-1, ' ', false, scene::Json::error_handler_t::replace) + '\n';
+    const std::string text = lineOf(line);
     int error = ftruncate(file_, static_cast<off_t>(size_)) == 0 ? 0 : errno;
     if (error == 0) error = writeAt(file_, text, size_);
     if (error != 0) {
         // Should that fail too, the next one who reads leaves the rest out.
         [[maybe_unused]] const int ignored = ftruncate(file_, static_cast<off_t>(size_));
-        throw WriteFailed(path_.string() + ": cannot be written: " + std::strerror(error));
+        throw engine::WriteFailed(path_.string() + ": cannot be written: " + std::strerror(error));
     }
     if (size_ == 0) syncFolderOf(path_);
     size_ += text.size();
@@ -202,10 +236,34 @@ std::vector<scene::Json> linesToKeep(
     return {};
 }
 
+// The journal's cases that are the plan's, each once.
+std::vector<scene::Json>
+casesOf(std::span<scene::Json> lines, const RunPlan& plan, const std::string& name) {
+    std::map<std::size_t, std::string> left;
+    for (const PlannedCase& each : plan.cases) left.emplace(each.index, each.spec.name);
+    const auto is_left = [&](const scene::Json& line) {
+        if (!line.is_object() || !line.contains("index") || !line.contains("order")) return false;
+        if (!line["index"].is_number_unsigned() || !line["order"].is_number_unsigned())
+            return false;
+        const auto planned = left.find(line["index"].get<std::size_t>());
+        if (planned == left.end() || line.value("name", scene::Json()) != planned->second)
+            return false;
+        left.erase(planned);
+        return true;
+    };
+    std::vector<scene::Json> cases;
+    for (scene::Json& line : lines) {
+        if (is_left(line))
+            cases.push_back(std::move(line));
+        else
+            std::cerr << name << ": a line is no case of this run, or there twice: left out\n";
+    }
+    return cases;
+}
+
 std::set<std::size_t> indicesOf(const std::vector<scene::Json>& cases) {
     std::set<std::size_t> indices;
-    for (const scene::Json& each : cases)
-        if (each.contains("index")) indices.insert(each.at("index").get<std::size_t>());
+    for (const scene::Json& each : cases) indices.insert(each.at("index").get<std::size_t>());
     return indices;
 }
 
@@ -227,7 +285,9 @@ RunRecord::RunRecord(
         if (journal_) lines = linesToKeep(journal_->read(), head, options.resume, name);
         if (!lines.empty()) {
             head = std::move(lines.front());
-            cases_.assign(std::next(lines.begin()), lines.end());
+            for (const std::size_t line : journal_->damaged())
+                std::cerr << name << ": line " << line << " is damaged: left out\n";
+            cases_ = casesOf(std::span(lines).subspan(1), plan, name);
         } else if (journal_) {
             journal_->clear();
             journal_->append(head);
@@ -253,8 +313,8 @@ void RunRecord::add(const report::CaseResult& result) {
     scene::Json line = report::caseJson(result);
     try {
         if (journal_) journal_->append(line);
-    } catch (const WriteFailed& error) {
-        throw WriteFailed(
+    } catch (const engine::WriteFailed& error) {
+        throw engine::WriteFailed(
             std::string(error.what()) + "; " + std::to_string(cases_.size()) +
             (cases_.size() == 1 ? " case is" : " cases are") +
             " kept there: --resume goes on with them");
@@ -274,7 +334,7 @@ void RunRecord::write(const scene::Json& report) {
         report::writeReport(report, out_);
     } catch (const engine::Error& error) {
         if (!journal_) throw;
-        throw WriteFailed(
+        throw engine::WriteFailed(
             std::string(error.what()) + "; all is kept in " + journalFile(out_).string() +
             ": --resume writes the report");
     }

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -21,16 +20,12 @@ namespace benchmarks::run {
 // processor. "driver version: 1.2 is not 1.3", `a` first; nothing where they belong together.
 std::optional<std::string> identityDifference(const scene::Json& a, const scene::Json& b);
 
-// The system did not take what was to be written: a full disk, a limit. "<path>: cannot be written:
-// <reason>"
-class WriteFailed : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
-};
-
 // A file of JSON values, one a line, that survives the end of its writer at any moment: a line is
 // handed over in one piece and on the disk when append() returns, and one that was cut short is not
-// there for who reads. No two processes have it at a time.
+// there for who reads. A line has the hash of its value's text with it (report::hashText()), so
+// that one that was damaged is left out, and no other:
+//   {"hash":"ef46db3751d8e999","line":VALUE}
+// No two processes have it at a time.
 class Journal {
 public:
     // Opens it, or makes it with its folder. Throws engine::Error "<path>: <reason>" where another
@@ -41,11 +36,13 @@ public:
     Journal(const Journal&) = delete;
     Journal& operator=(const Journal&) = delete;
 
-    // The whole lines, up to one that is no JSON, which only a torn disk leaves. Throws
-    // engine::Error where the first is none: it is some other file.
+    // The values of the whole lines. Throws engine::Error where the first has none: it is some
+    // other file.
     std::vector<scene::Json> read();
+    // The numbers of the lines, the first is 1, that read() left out.
+    const std::vector<std::size_t>& damaged() const { return damaged_; }
 
-    // Appends behind the lines that read() gave. Throws WriteFailed, and leaves those before as
+    // Appends behind the last whole line. Throws WriteFailed, and leaves those before as
     // they were.
     void append(const scene::Json& line);
 
@@ -59,9 +56,10 @@ private:
     std::filesystem::path path_;
     int file_;
     std::uintmax_t size_ = 0;  // B, of the whole lines
+    std::vector<std::size_t> damaged_;
 };
 
-inline constexpr const char* kJournalSchema = "hairbench-journal/1.0.0";
+inline constexpr const char* kJournalSchema = "hairbench-journal/2.0.0";
 
 struct RecordOptions {
     std::filesystem::path out;  // the report
@@ -71,7 +69,8 @@ struct RecordOptions {
 
 // What a run has done and has still to do, kept in "<out>.journal" until its report is written, so
 // that a run that was killed can go on. Its first line says whose it is; each other is a case as
-// reports have it, in the order in which they ran.
+// reports have it, in the order in which they ran. What is none of the plan's, or there twice, is
+// left out with a line on stderr, and so is a damaged line: such a case is played again.
 class RunRecord {
 public:
     // Throws engine::Error "<journal>: <reason>" where the journal is of another run and `resume`

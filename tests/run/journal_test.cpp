@@ -5,11 +5,17 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/report/environment.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
 namespace benchmarks::run {
 namespace {
+
+// A line as the file has it.
+std::string journalLine(const std::string& json) {
+    return R"({"hash":")" + report::hashText(json) + R"(","line":)" + json + "}\n";
+}
 
 class JournalFile : public testing::Test {
 protected:
@@ -34,7 +40,9 @@ protected:
 TEST_F(JournalFile, KeepsLines) {
     append(R"({"schema": "x"})");
     append(R"({"name": "two\nlines", "value": 0.1})");
-    EXPECT_EQ(textOf(path_), "{\"schema\":\"x\"}\n{\"name\":\"two\\nlines\",\"value\":0.1}\n");
+    EXPECT_EQ(
+        textOf(path_),
+        journalLine(R"({"schema":"x"})") + journalLine(R"({"name":"two\nlines","value":0.1})"));
     EXPECT_EQ(found(), R"([{"schema":"x"},{"name":"two\nlines","value":0.1}])");
 }
 
@@ -42,30 +50,56 @@ TEST_F(JournalFile, LosesOnlyTheLineThatWasCutShort) {
     append("[1]");
     append("[22]");
     append("[333]");
-    const std::string whole = textOf(path_);  // lines end behind bytes 4, 9 and 15
+    const std::string whole = textOf(path_);
+    const std::size_t first = journalLine("[1]").size();
+    const std::size_t second = first + journalLine("[22]").size();
     for (std::size_t size = 0; size <= whole.size(); ++size) {
         folder_.write("a/b/r.json.journal", whole.substr(0, size));
-        const std::string expected = size < 4    ? "[]"
-                                     : size < 9  ? "[[1]]"
-                                     : size < 15 ? "[[1],[22]]"
-                                                 : "[[1],[22],[333]]";
+        const std::string expected = size < first          ? "[]"
+                                     : size < second       ? "[[1]]"
+                                     : size < whole.size() ? "[[1],[22]]"
+                                                           : "[[1],[22],[333]]";
         EXPECT_EQ(found(), expected) << size;
         if (size == 0) continue;  // nothing was there
         append("[4]");
         EXPECT_EQ(
-            textOf(path_).find("[4]\n"), size < 4    ? 0u
-                                         : size < 9  ? 4u
-                                         : size < 15 ? 9u
-                                                     : 15u);
+            textOf(path_).find(journalLine("[4]")), size < first          ? 0u
+                                                    : size < second       ? first
+                                                    : size < whole.size() ? second
+                                                                          : whole.size());
     }
 }
 
-// What a crash of the machine can leave of blocks that were not written.
-TEST_F(JournalFile, EndsWhereItIsNoJson) {
-    folder_.write("a/b/r.json.journal", std::string("[1]\n\0\0\0\0\n[3]\n", 13));
-    EXPECT_EQ(found(), "[[1]]");
-    append("[2]");
-    EXPECT_EQ(textOf(path_), "[1]\n[2]\n");
+// What a crash of the machine can leave of blocks that were not written, bits that were flipped,
+// and lines that somebody else wrote.
+TEST_F(JournalFile, LosesOnlyTheLineThatIsDamaged) {
+    std::string flipped = journalLine("[22]");
+    flipped[flipped.find("22")] = '3';
+    const std::string deep(100000, '[');
+    for (const std::string& damaged :
+         {std::string("\0\0\0\0\n", 5), std::string("\n"), std::string("null\n"),
+          std::string("{}\n"), std::string("[2]\n"), flipped, deep + "\n", journalLine(deep),
+          journalLine(deep + std::string(deep.size(), ']')), journalLine("{\"a\": 1, \"a\": 2}")}) {
+        folder_.write("a/b/r.json.journal", journalLine("[1]") + damaged + journalLine("[3]"));
+        EXPECT_EQ(found(), "[[1],[3]]") << damaged.substr(0, 40);
+        append("[4]");
+        Journal journal(path_);
+        EXPECT_EQ(scene::Json(journal.read()).dump(), "[[1],[3],[4]]");
+        EXPECT_THAT(journal.damaged(), testing::ElementsAre(2));
+    }
+}
+
+// A flip of any bit of a line is seen.
+TEST_F(JournalFile, SeesEveryFlippedBit) {
+    const std::string whole = journalLine(R"({"name":"a","value":0.25})");
+    for (std::size_t i = 0; i + 1 < whole.size(); ++i) {
+        for (int bit = 0; bit < 8; ++bit) {
+            std::string flipped = whole;
+            flipped[i] = static_cast<char>(flipped[i] ^ (1 << bit));
+            folder_.write("a/b/r.json.journal", journalLine("[1]") + flipped + journalLine("[3]"));
+            EXPECT_EQ(found(), "[[1],[3]]") << flipped;
+        }
+    }
 }
 
 TEST_F(JournalFile, IsNotTakenForOne) {
@@ -103,7 +137,7 @@ TEST_F(JournalFile, BeginsAnewAfterClear) {
         journal.clear();
         journal.append(scene::Json::parse("[3]"));
     }
-    EXPECT_EQ(textOf(path_), "[3]\n");
+    EXPECT_EQ(textOf(path_), journalLine("[3]"));
 }
 
 TEST_F(JournalFile, SaysWhyItCannotBeOpened) {

@@ -100,6 +100,69 @@ TEST_F(Record, GoesOnAsIfNothingHadHappened) {
     }
 }
 
+// A line that was damaged costs its case.
+TEST_F(Record, PlaysAgainWhatIsDamaged) {
+    std::string whole;
+    {
+        RunRecord record = open(false);
+        run(record, 4);
+        whole = record.report(false).dump();
+    }
+    std::string text = textOf(journalFile(out_));
+    const std::size_t second = text.find('\n', text.find('\n') + 1) + 1;  // of the cases
+    text.replace(second, 4, "null");
+    folder_.write("r.json.journal", text);
+    testing::internal::CaptureStderr();
+    RunRecord record = open(true);
+    EXPECT_THAT(
+        testing::internal::GetCapturedStderr(),
+        HasSubstr("r.json.journal: line 3 is damaged: left out\n"));
+    EXPECT_EQ(record.done(), 3u);
+    ASSERT_THAT(placesLeft(record), ElementsAre(shuffledOrder(4, 1)[1]));
+    run(record, 1);
+    EXPECT_EQ(record.report(false).dump(), whole);
+}
+
+// Whole lines that are none of the run's.
+TEST_F(Record, LeavesOutWhatIsNoCaseOfTheRun) {
+    {
+        RunRecord record = open(false);
+        run(record, 2);
+    }
+    const std::string before = textOf(journalFile(out_));
+    scene::Json twice;
+    {
+        Journal journal(journalFile(out_));
+        twice = journal.read()[1];
+    }
+    scene::Json foreign = twice;
+    foreign["index"] = 2;  // of the other shard
+    scene::Json huge = twice;
+    huge["index"] = 18446744073709551615u;
+    scene::Json negative = twice;
+    negative["index"] = -1;
+    scene::Json renamed = twice;
+    renamed["index"] = shuffledOrder(4, 1)[3] * 2 + 1;
+    scene::Json without = twice;
+    without.erase("order");
+    for (const scene::Json& line :
+         {twice, foreign, huge, negative, renamed, without, scene::Json(), scene::Json::object(),
+          scene::Json("text")}) {
+        folder_.write("r.json.journal", before);
+        {
+            Journal journal(journalFile(out_));
+            journal.read();
+            journal.append(line);
+        }
+        testing::internal::CaptureStderr();
+        EXPECT_EQ(open(true).done(), 2u) << line;
+        EXPECT_THAT(
+            testing::internal::GetCapturedStderr(),
+            HasSubstr("a line is no case of this run, or there twice: left out"))
+            << line;
+    }
+}
+
 TEST_F(Record, KeepsTheJournalOfAnInterruptedRun) {
     {
         RunRecord record = open(false);
