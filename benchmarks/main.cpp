@@ -1,24 +1,66 @@
 #include <exception>
+#include <filesystem>
 #include <iostream>
+#include <new>
+#include <string>
+#include <string_view>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include "benchmarks/commands/command_line.h"
+#include "benchmarks/commands/commands.h"
 #include "benchmarks/report/change.h"
 #include "engine/error.h"
+#include "engine/files.h"
 #include "engine/instance.h"
 
 using namespace benchmarks;
 
-int main(int argc, char** argv) {
+namespace {
+
+// A standard stream that is closed would be the next file that is opened: a report, a device. What
+// is written to a closed standard output fails, as on a full disk.
+void openMissingStreams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(stream, F_GETFD) < 0)
+            open(stream == STDOUT_FILENO ? "/dev/full" : "/dev/null", O_RDWR);
+}
+
+int fail(std::string_view kind, const std::string& reason, int status) {
+    std::cerr << "hairbench: " << kind << reason << '\n';
+    return status;
+}
+
+int statusOf(int argc, char** argv) {
     try {
         return commands::runCommandLine(argc, argv);
+    } catch (const engine::WriteFailed& error) {
+        return fail("", commands::shortMessage(error), report::kInternalError);
     } catch (const engine::NoDevice& error) {
-        std::cerr << "hairbench: " << error.what() << '\n';
-        return report::kNoDevice;
+        return fail("", commands::shortMessage(error), report::kNoDevice);
     } catch (const engine::Error& error) {
-        std::cerr << "hairbench: " << error.what() << '\n';
-        return report::kUsageError;
+        return fail("", commands::shortMessage(error), report::kUsageError);
+    } catch (const std::filesystem::filesystem_error& error) {
+        const std::string path = error.path1().string();
+        return fail(
+            "", commands::shortMessage(engine::Error(path, error.code().message())),
+            report::kUsageError);
+    } catch (const std::bad_alloc&) {
+        return fail("", "not enough memory", report::kInternalError);
     } catch (const std::exception& error) {
-        std::cerr << "hairbench: internal error: " << error.what() << '\n';
-        return report::kInternalError;
+        return fail("internal error: ", commands::shortMessage(error), report::kInternalError);
     }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    openMissingStreams();
+    const int status = statusOf(argc, argv);
+    std::cout.flush();
+    if (std::cout) return status;
+    return fail(
+        "", "standard output can't be written",
+        status == report::kOk ? report::kInternalError : status);
 }

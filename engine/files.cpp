@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLargest = std::numeric_limits<int>::max();
-
 std::ifstream opened(const fs::path& path) {
     std::error_code error;
     if (!fs::exists(path, error)) throw Error(path.string(), "no such file");
@@ -77,17 +75,20 @@ private:
     int error_ = 0;
 };
 
-[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
-    throw Error(path.string(), "cannot be written: " + reason);
+// `error` is errno's.
+[[noreturn]] void fail(const fs::path& path, int error) {
+    const std::string reason =
+        std::string("cannot be written: ") + (error == 0 ? "unknown reason" : std::strerror(error));
+    if (error == 0 || error == ENOSPC || error == EDQUOT || error == EFBIG || error == EIO)
+        throw WriteFailed(path.string(), reason);
+    throw Error(path.string(), reason);
 }
 
 // `name` is what its errors call the file.
 void writeFile(
     const fs::path& path, const fs::path& name, const Writer& write, const WritePoll& poll) {
     PolledFile file(path, poll);
-    const auto fail_here = [&] {
-        fail(name, file.error() == 0 ? "unknown reason" : std::strerror(file.error()));
-    };
+    const auto fail_here = [&] { fail(name, file.error()); };
     if (!file.is_open()) fail_here();
     std::ostream stream(&file);
     stream.exceptions(std::ios::badbit);  // so that the rest is not even tried
@@ -130,14 +131,26 @@ void OpenFile::read(std::span<char> bytes) {
     if (!file_) throw Error(name_, "can't be read");
 }
 
-std::string readFile(const fs::path& path) {
+std::string readFile(const fs::path& path, std::size_t largest) {
+    const auto too_large = [&] {
+        const std::size_t mebibytes = largest >> 20;
+        throw Error(
+            path.string(),
+            "is larger than " +
+                (largest == kLargestFile ? "2 GiB" : std::to_string(mebibytes) + " MiB"));
+    };
+    std::error_code error;
+    if (fs::exists(path, error) && !fs::is_regular_file(path, error) &&
+        !fs::is_directory(path, error) && path != "/dev/stdin")
+        throw Error(path.string(), "not a file");
     std::ifstream file = opened(path);
+    if (fs::is_regular_file(path, error) && fs::file_size(path, error) > largest) too_large();
     std::string bytes;
     std::array<char, 1 << 16> part;
     while (file) {
         file.read(part.data(), part.size());
         bytes.append(part.data(), static_cast<std::size_t>(file.gcount()));
-        if (bytes.size() > kLargest) throw Error(path.string(), "is larger than 2 GiB");
+        if (bytes.size() > largest) too_large();
     }
     if (!file.eof()) throw Error(path.string(), "can't be read");
     return bytes;
@@ -162,7 +175,7 @@ void writeFileAtomically(const fs::path& path, const Writer& write, const WriteP
         writeFile(partial, path, write, poll);
         if (there) fs::permissions(partial, fs::status(target).permissions(), error);
         fs::rename(partial, target, error);
-        if (error) fail(path, error.message());
+        if (error) fail(path, error.value());
     } catch (...) {
         fs::remove(partial, error);
         throw;
@@ -182,7 +195,13 @@ void checkWritable(const fs::path& path) {
     std::error_code error;
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     const fs::path probe = fs::exists(path, error) ? path : folder;
-    if (access(probe.c_str(), W_OK) != 0) fail(path, std::strerror(errno));
+    if (access(probe.c_str(), W_OK) != 0) fail(path, errno);
+    // A name that is too long, or links that end nowhere.
+    for (const fs::path& each : {path, fs::path(path.string() + ".partial")}) {
+        error.clear();
+        const fs::file_status status = fs::status(each, error);
+        if (!fs::status_known(status)) fail(path, error.value());
+    }
 }
 
 }  // namespace engine

@@ -57,6 +57,11 @@ struct CommandLine {
 };
 
 // A command whose options live as long as the app.
+// What CLI11 reads as numbers, and nobody means.
+std::string whyNotFinite(std::string& text) {
+    return text.find_first_of("nN") == std::string::npos ? "" : "'" + text + "' is not finite";
+}
+
 template <class Options>
 CLI::App* addCommand(
     const CommandLine& line, CLI::App& parent, const std::string& name,
@@ -66,6 +71,9 @@ CLI::App* addCommand(
     const auto options = std::make_shared<Options>();
     if constexpr (requires { options->command; }) options->command = line.arguments;
     add_options(*command, *options);
+    for (CLI::Option* const option : command->get_options({}))
+        if (option->get_type_name().starts_with("FLOAT"))
+            option->check(CLI::Validator(whyNotFinite, ""));
     command->callback([&chosen = line.chosen, options, run] {
         chosen = [options, run] { return run(*options); };
     });
@@ -831,6 +839,24 @@ void addReportCommands(const CommandLine& line) {
 }
 
 }  // namespace
+
+std::string shortMessage(const std::exception& error) {
+    constexpr std::size_t kLongest = 480;  // leaves room for what stands before it
+    constexpr std::size_t kEnd = 140;
+    constexpr std::string_view kCut = " [...] ";
+    const std::string_view text = error.what();
+    if (text.size() <= kLongest) return std::string(text);
+    // Not within a character of UTF-8.
+    const auto boundary = [&](std::size_t at) {
+        while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80) ++at;
+        return at;
+    };
+    std::size_t start = kLongest - kEnd - kCut.size();
+    while (start > 0 && (static_cast<unsigned char>(text[start]) & 0xc0) == 0x80) --start;
+    return std::string(text.substr(0, start))
+        .append(kCut)
+        .append(text.substr(boundary(text.size() - kEnd)));
+}
 
 int runCommandLine(int argc, char** argv) {
     CLI::App app("hairbench: measures simulated and rendered hair on Vulkan devices", "hairbench");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,6 +22,10 @@ struct ViewOptions;
 }  // namespace benchmarks::viewer
 
 namespace benchmarks::commands {
+
+// An error's words, in at most 500 bytes: what a stranger's file can put into a message is not to
+// bury the rest of it.
+std::string shortMessage(const std::exception& error);
 
 int runScene(const run::RunOptions& options);
 

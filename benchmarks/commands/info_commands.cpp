@@ -56,7 +56,7 @@ int validateScenes(const ValidateOptions& options) {
             if (!device) continue;
             for (scene::Scene& scene : loaded) printStart(*device, path, scene, cache);
         } catch (const engine::Error& error) {
-            std::cerr << error.what() << '\n';
+            std::cerr << shortMessage(error) << '\n';
             status = report::kUsageError;
         }
     }

@@ -75,21 +75,16 @@ int runScene(const run::RunOptions& options) {
     engine::processUse();  // counts the threads that begin from here on: those of the device too
     const engine::Device device(options.scene.device);
     std::cerr << report::versionOnDevice(device) << '\n';
-    try {
-        const run::FinishedRun finished = run::playRun(device, options, plan, out, cache);
-        const scene::Json& report = finished.report.json();
-        if (finished.was_complete)
-            std::cout << "nothing left to do: " << out.string() << " is complete\n";
-        else
-            printReport(report, out);
-        if (!finished.interrupted) return conclude(options, report, out);
-        std::cerr << "interrupted after " << finished.done << " of " << plan.cases.size()
-                  << " cases; --resume goes on\n";
-        return report::kInterrupted;
-    } catch (const run::WriteFailed& error) {
-        std::cerr << "hairbench: " << error.what() << '\n';
-        return report::kInternalError;
-    }
+    const run::FinishedRun finished = run::playRun(device, options, plan, out, cache);
+    const scene::Json& report = finished.report.json();
+    if (finished.was_complete)
+        std::cout << "nothing left to do: " << out.string() << " is complete\n";
+    else
+        printReport(report, out);
+    if (!finished.interrupted) return conclude(options, report, out);
+    std::cerr << "interrupted after " << finished.done << " of " << plan.cases.size()
+              << " cases; --resume goes on\n";
+    return report::kInterrupted;
 }
 
 }  // namespace benchmarks::commands

@@ -116,9 +116,17 @@ std::string joinedTail(const std::vector<std::string>& tokens, std::size_t count
     return text;
 }
 
+void requireFew(const std::string& axis, std::size_t values) {
+    if (values > kMostAxisValues)
+        throw engine::Error(
+            axis, std::to_string(values) + " values, an axis has at most " +
+                      std::to_string(kMostAxisValues));
+}
+
 // checkedAxis() for an axis that may have a value more than once, as tied ones do.
 Axis echoedAxis(const Axis& axis, const Json& resolved) {
     if (axis.values.empty()) throw engine::Error(axis.pointer, "an axis needs at least one value");
+    requireFew(axis.pointer, axis.values.size());
     Axis echoed{.pointer = axis.pointer, .values = {}, .tied = {}};
     for (const Document& value : axis.values) {
         Json document = resolved;
@@ -244,6 +252,7 @@ Axis zipped(const Json& group, const Json& resolved) {
 
 Axis listed(const Json& rows, const Json& resolved) {
     std::vector<Axis> fields;
+    requireFew("/sweep/cases", rows.size());
     readObjects("cases", rows, [&](const Json& row) {
         for (const auto& [pointer, value] : row.items()) {
             echoedAxis({.pointer = pointer, .values = {Document(value)}, .tied = {}}, resolved);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,6 +9,8 @@
 
 // Axes of a sweep: the fields that it varies and their values.
 namespace benchmarks::scene {
+
+inline constexpr std::size_t kMostAxisValues = 10000;
 
 // A field that a sweep varies, with those that change with it.
 struct Axis {

@@ -31,13 +31,24 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 
 std::string
 unknownName(std::string_view what, std::string_view name, const std::vector<std::string>& known) {
+    // What a line has room for, in bytes.
+    constexpr std::size_t kLongestName = 64;
+    constexpr std::size_t kLongestList = 1000;
     std::string text(what);
     const auto distance = [&](const std::string& other) { return editDistance(name, other); };
-    const auto nearest = std::ranges::min_element(known, {}, distance);
-    if (nearest != known.end() && 2 * distance(*nearest) <= std::max(name.size(), nearest->size()))
-        text += " (did you mean \"" + *nearest + "\"?)";
+    if (name.size() <= kLongestName) {
+        const auto nearest = std::ranges::min_element(known, {}, distance);
+        if (nearest != known.end() &&
+            2 * distance(*nearest) <= std::max(name.size(), nearest->size()))
+            text += " (did you mean \"" + *nearest + "\"?)";
+    }
     text += "; known: ";
-    for (const std::string& other : known) text += (&other == &known.front() ? "" : ", ") + other;
+    const std::size_t start = text.size();
+    for (std::size_t i = 0; i < known.size(); ++i) {
+        if (text.size() - start + known[i].size() > kLongestList)
+            return text + " and " + std::to_string(known.size() - i) + " more";
+        text += (i == 0 ? "" : ", ") + known[i];
+    }
     return text;
 }
 
@@ -151,6 +162,9 @@ namespace {
 // ---- Documents and parsing ----------------------------------------------------------------------
 
 constexpr std::size_t kDeepest = 64;
+// Members are looked for one by one.
+constexpr std::size_t kMostMembers = 4096;
+constexpr std::size_t kLongestKey = 512;  // bytes
 
 // "file:line:column", both counted from 1; `position` is the number of bytes read.
 std::string placeName(std::string_view text, std::size_t position, const std::string& name) {
@@ -190,7 +204,15 @@ public:
     bool end_array() override { return close(); }
 
     bool key(string_t& key) override {
+        if (key.size() > kLongestKey)
+            throw engine::Error(
+                name_, "a name of " + std::to_string(key.size()) + " bytes, at most " +
+                           std::to_string(kLongestKey) + " are read");
         levels_.back().key = key;
+        if (levels_.back().value.size() >= kMostMembers)
+            throw engine::Error(
+                name_ + ": " + pointer(),
+                "is one of over " + std::to_string(kMostMembers) + " members of an object");
         if (levels_.back().value.contains(key))
             throw engine::Error(name_ + ": " + pointer(), "is there twice");
         return true;

@@ -85,8 +85,13 @@ auto inFile(const fs::path& path, Action&& action) {
 std::string readScene(const fs::path& path) {
     if (std::error_code error; fs::is_directory(path, error))
         throw engine::Error(path.string(), "is a folder, not a scene file");
-    std::string text = engine::readFile(path);
-    if (!engine::isPng(text)) return text;
+    constexpr std::size_t kLargestScene = std::size_t{16} << 20;
+    std::string text = engine::readFile(path, kLargestSceneFile);
+    if (!engine::isPng(text)) {
+        if (text.size() > kLargestScene)
+            throw engine::Error(path.string(), "is larger than 16 MiB, and no picture");
+        return text;
+    }
     auto scene = inFile(path, [&] { return engine::pngText(text, kSceneKeyword); });
     if (scene) return *std::move(scene);
     throw engine::Error(path.string(), "is a picture without a scene in it");
@@ -167,6 +172,8 @@ struct Loaded {
     Json document;  // what the scene is made from: bases merged, with the reader's own members
 };
 
+constexpr std::size_t kMostBases = 16;
+
 // `opened`: the files that led here.
 Loaded load(const fs::path& path, std::vector<fs::path> opened) {
     const std::string text = readScene(path);
@@ -181,6 +188,10 @@ Loaded load(const fs::path& path, std::vector<fs::path> opened) {
         if (const std::string* const base = stringMember(document, "base")) {
             const fs::path base_path = path.parent_path() / *base;
             opened.push_back(fs::weakly_canonical(path));
+            if (opened.size() > kMostBases)
+                throw engine::Error(
+                    "/base",
+                    "more than " + std::to_string(kMostBases) + " scenes are built one on another");
             if (std::ranges::find(opened, fs::weakly_canonical(base_path)) != opened.end())
                 throw engine::Error(
                     "/base", base_path.string() + " is built on this file: a cycle");

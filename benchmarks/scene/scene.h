@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -19,10 +20,14 @@ namespace benchmarks::scene {
 // <reason>", because a misspelt removal would silently remove nothing.
 void mergePatch(Json& target, const Json& patch, const Json& known);
 
-// A scene file, checked: hair::Settings members plus
+// Of a screenshot, which has its picture beside the scene.
+inline constexpr std::size_t kLargestSceneFile = std::size_t{256} << 20;
+
+// A scene file of at most 16 MiB, checked: hair::Settings members plus
 //   "$schema"  a string for editors, ignored
 //   "base"     another scene file, relative to this one; this document is applied to it as a JSON
-//              merge patch (RFC 7386), so null takes a member of the base away
+//              merge patch (RFC 7386), so null takes a member of the base away; at most 16
+//              follow one another
 //   "sweep"    JSON pointer -> array of values, and the members in axis.h; one case for each
 //              combination, in the written order
 // A screenshot of the viewer is one too: a PNG with the text of a scene file in it.

@@ -1,6 +1,7 @@
 #include "benchmarks/scene/sweep.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <regex>
 #include <set>
@@ -23,7 +24,7 @@ namespace {
 // Null where the file is none: loadScene() says what is wrong with it.
 Json suiteDocument(const std::filesystem::path& path) {
     if (!std::filesystem::is_regular_file(path)) return nullptr;
-    const std::string text = engine::readFile(path);
+    const std::string text = engine::readFile(path, kLargestSceneFile);
     // Only a file that has the word can be one, and scenes are not parsed twice.
     if (text.find("\"suite\"") == std::string::npos) return nullptr;
     Json document = parseJson(text, path.string());
@@ -237,7 +238,10 @@ void setField(Scene& scene, const std::string& argument) {
 }
 
 // The number as a scene file would have it: 0.02, though settings are floats.
-Json decimal(double number) { return Json::parse(decimalText(number)); }
+Json decimal(double number) {
+    if (!std::isfinite(number)) throw engine::Error("neither infinite numbers nor NaN are taken");
+    return Json::parse(decimalText(number));
+}
 
 }  // namespace
 

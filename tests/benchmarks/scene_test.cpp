@@ -1,8 +1,15 @@
 #include "benchmarks/scene/scene.h"
 
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <tuple>
+
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
+#include "benchmarks/scene/sweep.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
@@ -262,6 +269,91 @@ TEST(SceneErrors, OfACycleOfBases) {
     EXPECT_EQ(
         folder.relative(errorText([&] { scene::loadScene(path); })),
         "b.json: /base: a.json: /base: sub/../b.json is built on this file: a cycle");
+}
+
+TEST(SceneErrors, OfALongChainOfBases) {
+    const TemporaryFolder folder;
+    folder.write("0.json", "{}");
+    for (int i = 1; i <= 4000; ++i)
+        folder.write(
+            std::to_string(i) + ".json", R"({"base": ")" + std::to_string(i - 1) + R"(.json"})");
+    EXPECT_EQ(scene::loadScene(folder.file("16.json")).document.text(), "{}");
+    for (const char* path : {"17.json", "4000.json"})
+        EXPECT_THAT(
+            errorText([&] { scene::loadScene(folder.file(path)); }),
+            HasSubstr("/base: more than 16 scenes are built one on another"));
+}
+
+TEST(SceneErrors, OfManyMembers) {
+    const TemporaryFolder folder;
+    std::string members = R"("0": 1)";
+    for (int i = 1; i < 300000; ++i) members += ", \"" + std::to_string(i) + "\": 1";
+    for (const auto& [before, after, place] :
+         {std::tuple{"{", "}", "/4096"}, {R"({"strands": {)", "}}", "/strands/4096"}})
+        EXPECT_EQ(
+            folder.relative(errorText(
+                [&] { scene::loadScene(folder.write("s.json", before + members + after)); })),
+            std::string("s.json: ") + place + ": is one of over 4096 members of an object");
+}
+
+TEST(SceneErrors, OfALongName) {
+    const TemporaryFolder folder;
+    const auto load = [&](std::size_t length) {
+        return folder.relative(errorText([&] {
+            scene::loadScene(folder.write("s.json", "{\"" + std::string(length, 'a') + "\": 1}"));
+        }));
+    };
+    EXPECT_EQ(load(10000000), "s.json: a name of 10000000 bytes, at most 512 are read");
+    EXPECT_THAT(load(512), HasSubstr("unknown key; known: description, seed, groom, "));
+}
+
+TEST(SceneErrors, OfALongAxis) {
+    const TemporaryFolder folder;
+    std::string values = "1";
+    for (int i = 2; i <= 100000; ++i) values += ", " + std::to_string(i);
+    std::string rows = R"({"/seed": 1})";
+    for (int i = 2; i <= 100000; ++i) rows += R"(, {"/seed": )" + std::to_string(i) + '}';
+    const auto load = [&](const std::string& sweep) {
+        return folder.relative(errorText(
+            [&] { scene::loadScene(folder.write("s.json", R"({"sweep": {)" + sweep + "}}")); }));
+    };
+    EXPECT_EQ(
+        load(R"("/seed": [)" + values + "]"),
+        "s.json: /sweep: /seed: 100000 values, an axis has at most 10000");
+    EXPECT_EQ(
+        load(R"("cases": [)" + rows + "]"),
+        "s.json: /sweep/cases: 100000 values, an axis has at most 10000");
+}
+
+// Their sizes alone tell, so that they are not read.
+TEST(SceneErrors, OfALargeFile) {
+    const TemporaryFolder folder;
+    const auto path = folder.write("s.json", "{}");
+    std::filesystem::resize_file(path, std::uintmax_t{1} << 40);
+    EXPECT_EQ(
+        folder.relative(errorText([&] { scene::loadScene(path); })),
+        "s.json: is larger than 256 MiB");
+    folder.write("t.json", std::string(std::size_t{17} << 20, ' '));
+    EXPECT_EQ(
+        folder.relative(errorText([&] { scene::loadScene(folder.file("t.json")); })),
+        "t.json: is larger than 16 MiB, and no picture");
+}
+
+// What nobody writes to would be waited for.
+TEST(SceneErrors, OfAPipe) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(mkfifo(folder.file("pipe.json").c_str(), 0600), 0);
+    const auto load = [&](const std::filesystem::path& path) {
+        return folder.relative(errorText([&] { scene::loadScenes(path); }));
+    };
+    EXPECT_EQ(load(folder.file("pipe.json")), "pipe.json: not a file");
+    EXPECT_EQ(
+        load(folder.write("s.json", R"({"base": "pipe.json"})")),
+        "s.json: /base: pipe.json: not a file");
+    EXPECT_THAT(
+        load(folder.write("suite.json", R"({"suite": ["pipe.json"]})")),
+        HasSubstr("pipe.json: not a file"));
+    EXPECT_EQ(load("/dev/zero"), "/dev/zero: not a file");
 }
 
 TEST(SceneErrors, OfARemovalThatRemovesNothing) {

@@ -51,6 +51,70 @@ TEST(Cli, SchemaIsTheCommittedOne) {
     EXPECT_TRUE(outcome.output == committed) << "hairbench schema > scenes/scene.schema.json";
 }
 
+// What nobody can read was not said.
+TEST(Cli, FailsWhereStandardOutputIsClosedOrFull) {
+    const std::string hair = shippedScene("truth/cantilever.obj");
+    for (const std::string& command :
+         {std::string("--help"), std::string("--version"), std::string("schema"),
+          "groom info " + hair, "validate " + shippedScene("smoke.json")}) {
+        EXPECT_EQ(hairbench(command).status, 0) << command;
+        for (const char* stream : {" >/dev/full", " >&-"}) {
+            const Outcome outcome =
+                runInShell("'" HAIRBENCH_PROGRAM "' " + command + " 2>&1" + stream);
+            EXPECT_EQ(outcome.status, 1) << command << stream;
+            EXPECT_EQ(outcome.output, "hairbench: standard output can't be written\n")
+                << command << stream;
+        }
+    }
+}
+
+TEST(Cli, TakesFiniteNumbersOnly) {
+    for (const char* command :
+         {"run @ --max-time nan", "run @ --max-time inf", "run @ --precision NaN",
+          "run @ --precision nan%", "groom info @ --scale nan", "groom fix @ x.obj --scale nan",
+          "gate @ @ --scene @ --threshold nan", "lod @ --from nan"}) {
+        std::string line = command;
+        for (std::size_t at; (at = line.find('@')) != std::string::npos;)
+            line.replace(at, 1, shippedScene("smoke.json"));
+        const Outcome outcome = hairbench(line);
+        EXPECT_EQ(outcome.status, 2) << command << outcome.output;
+        EXPECT_THAT(
+            outcome.output, testing::AnyOf(HasSubstr("is not finite"), HasSubstr("is no share")))
+            << command;
+    }
+}
+
+// At once, and not after the run.
+TEST(Cli, SaysAtOnceThatANameCannotBeWritten) {
+    const TemporaryFolder folder;
+    fs::create_symlink("loop.json", folder.file("loop.json"));
+    for (const auto& [name, reason] :
+         {std::pair{std::string(300, 'a'), "File name too long"},
+          {std::string(250, 'a'), "File name too long"},  // with .partial
+          {std::string("loop.json"), "Too many levels of symbolic links"}}) {
+        const Outcome outcome = hairbenchErrors(
+            "run " + shippedScene("smoke.json") + " -o '" + folder.file(name).string() + "'");
+        EXPECT_EQ(outcome.status, 2) << name;
+        EXPECT_THAT(outcome.output, HasSubstr(reason)) << name;
+        EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
+    }
+}
+
+// A message has at most 500 bytes, its beginning and its end.
+TEST(Cli, MessagesAreShort) {
+    const TemporaryFolder folder;
+    const std::string text =
+        R"({"groom": {"file": ")" + std::string(100000, 'a') + R"(/\u00e9.ply"}})";
+    const std::string scene = folder.write("s.json", text).string();
+    for (const char* command : {"validate ", "run "}) {
+        const Outcome outcome = hairbench(command + scene);
+        EXPECT_EQ(outcome.status, 2);
+        EXPECT_LE(outcome.output.size(), 500u);
+        EXPECT_THAT(outcome.output, HasSubstr("aaa [...] aaa"));
+        EXPECT_THAT(outcome.output, HasSubstr("/\u00e9.ply"));
+    }
+}
+
 TEST(Cli, ListsTheWholeSweep) {
     const Outcome outcome = hairbench("run " + shippedScene("thesis.json") + " --list");
     EXPECT_EQ(outcome.status, 0);
