@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -10,8 +11,10 @@
 #include "benchmarks/scene/sweep.h"
 #include "engine/frame_loop.h"
 #include "engine/hazards.h"
+#include "hair/groom/files.h"
 #include "tests/golden/features.h"
 #include "tests/gpu_fixture.h"
+#include "tests/temporary_folder.h"
 
 // Whether the passes order what they do: no barrier is missing, each that is taken out is missed,
 // and none is there for nothing.
@@ -52,6 +55,23 @@ hair::Settings everything() {
     settings.render.transparency = hair::Transparency::fragment_list;
     settings.render.overlays.guides = true;
     return settings;
+}
+
+// 16 curls side by side.
+fs::path writeCurls(const TemporaryFolder& folder) {
+    hair::groom::StrandSet set{.metres_per_unit = 1.0};
+    for (int strand = 0; strand < 16; ++strand) {
+        for (int k = 0; k < 24; ++k) {
+            const float turn = 0.8f * static_cast<float>(k) + static_cast<float>(strand);
+            set.points.emplace_back(
+                0.01f * static_cast<float>(strand) + 0.005f * std::cos(turn),
+                0.1f - 0.004f * static_cast<float>(k), 0.005f * std::sin(turn));
+        }
+        set.ends.push_back(static_cast<std::uint32_t>(set.points.size()));
+    }
+    const fs::path file = folder.file("curls.ply");
+    hair::groom::exportStrands(set, file);
+    return file;
 }
 
 class FramesHazards : public GpuTest {
@@ -129,11 +149,13 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
     segments.simulation.substeps = 3;  // each after the one before
     silent("segments", segments);
     // Strands that keep what their guides' mean lacks.
+    const TemporaryFolder folder;
     for (const hair::Backend backend : {hair::Backend::tessellation, hair::Backend::expanded}) {
         hair::Settings residuals = everything();
         residuals.strands.backend = backend;
         residuals.strands.source = hair::StrandSource::groom;
-        residuals.groom.grow.strands = 300;
+        residuals.groom.file = writeCurls(folder).string();
+        residuals.groom.guides = 4;
         silent("residuals, back end " + std::to_string(static_cast<int>(backend)), residuals);
     }
     for (const hair::Backend backend : {hair::Backend::expanded, hair::Backend::software}) {
