@@ -10,7 +10,7 @@
 #include "engine/error.h"
 #include "engine/pictures.h"
 #include "engine/process.h"
-#include "hair/groom/formats/usd_import.h"
+#include "engine/run_tool.h"
 
 namespace benchmarks::reference {
 namespace {
@@ -29,7 +29,7 @@ void run(
     std::vector<std::string> all{interpreter(), "-B", "-E"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     try {
-        hair::groom::runTool(all, each_line, engine::checkInterrupted);
+        engine::runTool(all, each_line, engine::checkInterrupted);
     } catch (const std::system_error& error) {
         throw engine::Error(
             "this needs the project's Python environment for references: run scripts/setup "

@@ -57,7 +57,7 @@ constexpr Rule kRules[] = {
     {"", "CLI/", "benchmarks/commands/command_line.cpp"},
     {"engine/", "assimp/"},
     {"benchmarks/", "assimp/"},
-    {"hair/", "assimp/", "hair/groom/mesh/import_mesh.cpp"},
+    {"hair/", "assimp/", "hair/groom/mesh/mesh_reader.cpp"},
     {"", "tiny_gltf", "hair/groom/mesh/gltf_model.h"},
     {"", "stb", "engine/"},
     {"", "OpenEXR/", "engine/float_pictures.cpp"},

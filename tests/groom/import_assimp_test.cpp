@@ -1,10 +1,15 @@
 #include <map>
+#include <span>
+#include <sstream>
+#include <string>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
 #include "hair/groom/mesh/import_mesh.h"
+#include "hair/groom/mesh/mesh_stream.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
@@ -281,6 +286,102 @@ TEST(ImportMesh, ListsTheFormatsItKnows) {
         for (const std::string_view extension : importer.extensions) {
             EXPECT_THAT(error, HasSubstr(std::string(extension)));
         }
+    }
+}
+
+// ---- What assimp was not made for
+// ----------------------------------------------------------------
+
+std::string plyOf(const std::string& vertices, const std::string& faces, const std::string& rows) {
+    return "ply\nformat ascii 1.0\nelement vertex " + vertices +
+           "\nproperty float x\nproperty float y\nproperty float z\nelement face " + faces +
+           "\nproperty list uchar int vertex_indices\nend_header\n" + rows;
+}
+
+// Each ended or held up the whole program where assimp was a part of it, or took gigabytes: a
+// corner that is no vertex writes past the heap, a face without corners aborts, text among numbers
+// loops.
+TEST(ImportAssimp, RefusesWhatItsReaderDiesOf) {
+    const TemporaryFolder folder;
+    const std::string three = "0 0 0\n0 0 1\n1 0 0\n";
+    std::string numbers = "0 0 0 zero 0 50 100 0 0";
+    const auto dae = [&](const std::string& values) {
+        return R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="9">)" +
+               values + R"(</float_array><technique_common>
+<accessor source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 x</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"/></node></visual_scene>
+</library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+    };
+    const std::pair<const char*, std::string> files[] = {
+        {"past.ply", plyOf("3", "1", three + "3 0 1 2000000000\n")},
+        {"beside.ply", plyOf("3", "1", three + "3 0 1 3\n")},
+        {"negative.ply", plyOf("3", "1", three + "3 0 1 -1\n")},
+        {"corners.ply", plyOf("3", "1", three + "0\n")},
+        {"faces.ply", plyOf("3", "99999999", three + "3 0 1 2\n")},
+        {"vertices.ply", plyOf("4294967295", "1", three + "3 0 1 2\n")},
+        {"text.dae", dae(numbers)},
+        {"loop.dae", dae(std::string(100000, 'x'))},
+        {"deep.dae", "<?xml version=\"1.0\"?>" + std::string(200000, '<') + "a>"},
+        {"empty.fbx", std::string("Kaydara FBX Binary  \0\x1a\0\xff\xff\xff\xff", 27)},
+        {"short.stl", std::string(80, ' ') + std::string("\xff\xff\xff\x7f", 4)},
+    };
+    for (const auto& [name, content] : files) {
+        const auto path = folder.write(name, content);
+        const std::string text = errorText([&] { importMesh(path); });
+        EXPECT_THAT(text, StartsWith(path.string() + ": "));
+        EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+        EXPECT_LT(text.size(), 400u) << text;
+    }
+}
+
+// What a program writes that a file has taken over.
+TEST(MeshStream, IsRefusedWhateverIsChanged) {
+    ReadMesh read;
+    read.mesh.positions = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}};
+    read.mesh.normals = {{0, 1, 0}, {0, 1, 0}, {0, 1, 0}};
+    read.mesh.texture_coordinates = {{0, 0}, {0, 1}, {1, 0}};
+    read.mesh.triangles = {{0, 1, 2}};
+    read.mesh.triangle_materials = {0};
+    read.mesh.triangle_parts = {0};
+    read.mesh.parts = {"scalp"};
+    read.mesh.vertex_groups = {{.name = "hair", .weights = {0, 0.5f, 1}}};
+    read.mesh.materials = {{.name = "skin", .base_color = {0.25f, 0.5f, 1}}};
+    read.textures = {"skin.png"};
+    std::ostringstream out;
+    writeMeshStream(out, read);
+    const std::string whole = out.str();
+    const auto parsed = [](const std::string& bytes) {
+        return readMeshStream(std::as_bytes(std::span(bytes)));
+    };
+    const ReadMesh same = parsed(whole);
+    EXPECT_EQ(same.mesh.positions, read.mesh.positions);
+    EXPECT_EQ(same.mesh.triangles, read.mesh.triangles);
+    EXPECT_EQ(same.mesh.parts, read.mesh.parts);
+    EXPECT_EQ(same.mesh.vertex_groups[0].weights, read.mesh.vertex_groups[0].weights);
+    EXPECT_EQ(same.mesh.materials[0].name, "skin");
+    EXPECT_EQ(same.mesh.materials[0].base_color, read.mesh.materials[0].base_color);
+    EXPECT_EQ(same.textures, read.textures);
+    for (std::size_t size = 0; size < whole.size(); ++size)
+        EXPECT_THAT(errorText([&] { parsed(whole.substr(0, size)); }), StartsWith("byte ")) << size;
+    EXPECT_EQ(errorText([&] { parsed(whole + "x"); }).substr(0, 5), "byte ");
+    // Any byte: an error, or a mesh whose arrays fit each other.
+    for (std::size_t at = 0; at < whole.size(); ++at) {
+        std::string damaged = whole;
+        damaged[at] = static_cast<char>(damaged[at] ^ 0xff);
+        errorText([&] {
+            const ReadMesh changed = parsed(damaged);
+            for (const auto& triangle : changed.mesh.triangles)
+                for (const std::uint32_t vertex : triangle)
+                    EXPECT_LT(vertex, changed.mesh.positions.size());
+            EXPECT_EQ(changed.mesh.normals.size(), changed.mesh.positions.size());
+        });
     }
 }
 

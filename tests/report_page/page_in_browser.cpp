@@ -10,7 +10,7 @@
 
 #include "benchmarks/report/page.h"
 #include "engine/files.h"
-#include "hair/groom/formats/usd_import.h"
+#include "engine/run_tool.h"
 #include "tests/report_page/sample_reports.h"
 #include "tests/required.h"
 
@@ -21,7 +21,7 @@ using scene::Json;
 
 bool isThere(const std::string& program) {
     try {
-        hair::groom::runTool({program, "--version"});
+        engine::runTool({program, "--version"});
         return true;
     } catch (const std::exception&) {
         return false;
@@ -70,7 +70,7 @@ Json inBrowser(const std::string& page, const std::string& steps, int width) {
     const std::filesystem::path file = folder.path() / "page.html";
     std::ofstream(file) << watched(page, steps);
     // Virtual time passes as fast as the page's work allows, however busy the machine is.
-    const std::vector<std::byte> bytes = hair::groom::runTool(
+    const std::vector<std::byte> bytes = engine::runTool(
         {"timeout", "300", *findBrowser(), "--headless=new", "--no-sandbox", "--disable-gpu",
          "--disable-dev-shm-usage", "--host-resolver-rules=MAP * ~NOTFOUND",
          "--user-data-dir=" + (folder.path() / "profile").string(),

@@ -1,159 +1,19 @@
 #include "hair/groom/formats/usd_import.h"
 
-#include <cerrno>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <csignal>
 #include <cstdlib>
 #include <limits>
 #include <system_error>
 #include <utility>
 
-#include <fcntl.h>
-#include <poll.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include "engine/error.h"
+#include "engine/run_tool.h"
 #include "hair/groom/formats/binary_file.h"
-
-extern "C" char** environ;
 
 namespace hair::groom {
 namespace {
-
-// ---- Running a program --------------------------------------------------------------------------
-
-[[noreturn]] void failWith(int error, const char* what) {
-    throw std::system_error(error, std::generic_category(), what);
-}
-
-class File {
-public:
-    explicit File(int descriptor) : descriptor_(descriptor) {}
-    File(const File&) = delete;
-    File& operator=(const File&) = delete;
-    ~File() { close(); }
-
-    int get() const { return descriptor_; }
-    void close() {
-        if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
-    }
-
-private:
-    int descriptor_;
-};
-
-struct Pipe {
-    Pipe() : Pipe(open()) {}
-
-    File read;
-    File write;
-
-private:
-    explicit Pipe(const std::array<int, 2>& ends) : read(ends[0]), write(ends[1]) {}
-
-    // Other children do not get the ends of the pipe.
-    static std::array<int, 2> open() {
-        std::array<int, 2> ends{};
-        if (pipe2(ends.data(), O_CLOEXEC) != 0) failWith(errno, "pipe");
-        return ends;
-    }
-};
-
-// A child that is gone in any case.
-class Child {
-public:
-    Child(const std::vector<std::string>& arguments, const File& output, const File& errors) {
-        std::vector<char*> pointers;
-        for (const std::string& argument : arguments)
-            pointers.push_back(const_cast<char*>(argument.c_str()));  // posix_spawn's interface
-        pointers.push_back(nullptr);
-        posix_spawn_file_actions_t actions;
-        posix_spawn_file_actions_init(&actions);
-        posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-        posix_spawn_file_actions_adddup2(&actions, output.get(), STDOUT_FILENO);
-        posix_spawn_file_actions_adddup2(&actions, errors.get(), STDERR_FILENO);
-        const int error =
-            posix_spawnp(&id_, pointers.front(), &actions, nullptr, pointers.data(), environ);
-        posix_spawn_file_actions_destroy(&actions);
-        if (error != 0) failWith(error, pointers.front());
-    }
-    Child(const Child&) = delete;
-    Child& operator=(const Child&) = delete;
-    ~Child() {
-        if (id_ <= 0) return;
-        kill(id_, SIGKILL);
-        wait();
-    }
-
-    // The child's status, as waitpid has it.
-    int wait() {
-        int status = 0;
-        while (waitpid(id_, &status, 0) < 0 && errno == EINTR) {
-        }
-        id_ = 0;
-        return status;
-    }
-
-private:
-    pid_t id_ = 0;
-};
-
-using Take = std::function<void(std::span<const char>)>;
-using Poll = std::function<void()>;
-
-constexpr int kPollInterval = 100;  // ms
-
-// Reads both until the child has closed them.
-void drain(File& output, const Take& take, File& errors, std::string& text, const Poll& idle) {
-    std::vector<char> part(1 << 16);
-    while (output.get() >= 0 || errors.get() >= 0) {
-        std::array<pollfd, 2> ready{
-            pollfd{output.get(), POLLIN, 0}, pollfd{errors.get(), POLLIN, 0}};
-        const int count = poll(ready.data(), ready.size(), idle ? kPollInterval : -1);
-        if (count == 0 && idle) idle();
-        if (count <= 0) continue;
-        for (std::size_t i = 0; i < ready.size(); ++i) {
-            if (ready[i].revents == 0) continue;
-            const ssize_t size = read(ready[i].fd, part.data(), part.size());
-            if (size < 0 && errno == EINTR) continue;
-            if (size <= 0) {
-                (i == 0 ? output : errors).close();
-            } else if (i == 0) {
-                take(std::span(part).first(static_cast<std::size_t>(size)));
-            } else {
-                text.append(part.data(), static_cast<std::size_t>(size));
-            }
-        }
-    }
-}
-
-std::string lastLine(std::string_view text) {
-    while (text.ends_with('\n')) text.remove_suffix(1);
-    return std::string(text.substr(text.rfind('\n') + 1));
-}
-
-std::string describe(int status) {
-    if (WIFSIGNALED(status)) return "ended by signal " + std::to_string(WTERMSIG(status));
-    return "ended with status " + std::to_string(WEXITSTATUS(status));
-}
-
-void run(const std::vector<std::string>& arguments, const Take& take, const Poll& idle = {}) {
-    Pipe output;
-    Pipe errors;
-    Child child(arguments, output.write, errors.write);
-    output.write.close();
-    errors.write.close();
-    std::string text;
-    drain(output.read, take, errors.read, text, idle);
-    const int status = child.wait();
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-    const std::string line = WIFEXITED(status) ? lastLine(text) : "";
-    throw engine::Error(line.empty() ? arguments.front() + ' ' + describe(status) : line);
-}
 
 // ---- The stream of curves -----------------------------------------------------------------------
 
@@ -289,7 +149,7 @@ std::vector<std::byte> readStage(const std::filesystem::path& path) {
     try {
         // -B -E: leaves no byte code beside the tool, and nobody's variables change what it does.
         // An absolute path, which is no option whatever it begins with.
-        return runTool({interpreter, "-B", "-E", kTool, std::filesystem::absolute(path).string()});
+        return engine::runTool({interpreter, "-B", "-E", kTool, std::filesystem::absolute(path).string()});
     } catch (const std::system_error& error) {
         throw engine::Error(
             "reading USD needs the project's Python environment: run scripts/setup --python (" +
@@ -298,34 +158,6 @@ std::vector<std::byte> readStage(const std::filesystem::path& path) {
 }
 
 }  // namespace
-
-std::vector<std::byte> runTool(const std::vector<std::string>& arguments) {
-    std::vector<std::byte> bytes;
-    run(arguments, [&](std::span<const char> part) {
-        const auto read = std::as_bytes(part);
-        bytes.insert(bytes.end(), read.begin(), read.end());
-    });
-    return bytes;
-}
-
-void runTool(
-    const std::vector<std::string>& arguments,
-    const std::function<void(std::string_view line)>& each_line,
-    const std::function<void()>& poll) {
-    std::string rest;
-    run(
-        arguments,
-        [&](std::span<const char> part) {
-            rest.append(part.data(), part.size());
-            std::size_t begin = 0;
-            for (std::size_t end; (end = rest.find('\n', begin)) != std::string::npos;
-                 begin = end + 1)
-                each_line(std::string_view(rest).substr(begin, end - begin));
-            rest.erase(0, begin);
-        },
-        poll);
-    if (!rest.empty()) each_line(rest);
-}
 
 StrandSet readUsdStream(std::span<const std::byte> bytes) {
     const UsdStreamHeader header = readHeader(bytes);

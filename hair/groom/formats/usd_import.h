@@ -3,11 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "hair/groom/files.h"
 #include "hair/groom/groom.h"
@@ -18,19 +14,6 @@ namespace hair::groom {
 // .usdc, .usdz), read by usd_curves.py, whose comments say how. Throws engine::Error: where the
 // project's Python environment is missing, for a file that has no path, with the tool's last words.
 StrandSet importUsd(const StrandFile& file);
-
-// Runs a program, without a shell and with nothing to read, and returns what it wrote to stdout.
-// Throws engine::Error: the last line that it wrote to stderr if it fails, how it ended if it wrote
-// none; std::errc::no_such_file_or_directory as std::system_error where there is no such program.
-std::vector<std::byte> runTool(const std::vector<std::string>& arguments);
-
-// Runs a program as the function above does, hands over each line that it writes to stdout, without
-// its end, as soon as it is there, and calls `poll` some ten times a second while there is nothing.
-// What either throws ends the program.
-void runTool(
-    const std::vector<std::string>& arguments,
-    const std::function<void(std::string_view line)>& each_line,
-    const std::function<void()>& poll = {});
 
 // What usd_curves.py writes, little-endian: this header, then what it counts, in its order and with
 // nothing between.

@@ -3,172 +3,62 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <string>
+#include <system_error>
+#include <utility>
 
-#include <assimp/Importer.hpp>
-#include <assimp/config.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <glm/geometric.hpp>
 
 #include "engine/error.h"
 #include "engine/files.h"
+#include "engine/pictures.h"
+#include "engine/run_tool.h"
 #include "hair/groom/files.h"
 #include "hair/groom/mesh/import_gltf.h"
 #include "hair/groom/mesh/mesh.h"
+#include "hair/groom/mesh/mesh_stream.h"
 
 namespace hair::groom {
 namespace {
 
 // ---- Import assimp ------------------------------------------------------------------------------
 
-constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
-                            aiProcess_GenSmoothNormals | aiProcess_SortByPType |
-                            aiProcess_GlobalScale | aiProcess_RemoveComponent;
-
-// What isn't read below: with it gone, vertices that differ in nothing else are joined.
-constexpr unsigned kIgnored =
-    aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS | aiComponent_TEXCOORDSn(1) |
-    aiComponent_TEXCOORDSn(2) | aiComponent_TEXCOORDSn(3) | aiComponent_TEXCOORDSn(4) |
-    aiComponent_TEXCOORDSn(5) | aiComponent_TEXCOORDSn(6) | aiComponent_ANIMATIONS |
-    aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS;
-
-Material toMaterial(const aiMaterial& source) {
-    Material material{.name = source.GetName().C_Str()};
-    aiColor3D color;
-    if (source.Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS) {
-        material.base_color = {color.r, color.g, color.b};
-    }
-    return material;
+// Beside the program where it is installed, else where it was built.
+std::filesystem::path readerProgram() {
+    std::error_code error;
+    const auto own = std::filesystem::read_symlink("/proc/self/exe", error);
+    const auto beside = own.parent_path() / "hairbench_mesh_reader";
+    if (!error && std::filesystem::exists(beside, error)) return beside;
+    return HAIRBENCH_MESH_READER;
 }
 
-// Reads the diffuse texture, where it is a file beside the mesh's.
-void readTexture(const aiMaterial& source, const std::filesystem::path& folder, Mesh& mesh) {
-    aiString name;
-    unsigned coordinates = 0;
-    if (source.GetTexture(aiTextureType_DIFFUSE, 0, &name, nullptr, &coordinates) !=
-            aiReturn_SUCCESS ||
-        name.length == 0 || name.C_Str()[0] == '*' || coordinates != 0)
-        return;
-    std::string file = name.C_Str();
-    std::ranges::replace(file, '\\', '/');
-    mesh.materials.back().base_color_texture = {
-        .picture = static_cast<std::uint32_t>(mesh.pictures.size())};
-    mesh.pictures.push_back(engine::readImage(folder / file));
-}
-
-void checkVertex(unsigned vertex, const aiMesh& part, const std::string& what) {
-    if (vertex < part.mNumVertices) return;
-    throw engine::Error(
-        what + " of mesh '" + part.mName.C_Str() + "' names vertex " + std::to_string(vertex) +
-        ", there are " + std::to_string(part.mNumVertices));
-}
-
-// Positions, normals and texture coordinates.
-void appendVertices(Mesh& mesh, const aiMesh& part, const aiMatrix4x4& transform) {
-    aiMatrix3x3 normal_transform(transform);
-    normal_transform.Inverse().Transpose();
-    const std::size_t first = mesh.positions.size();
-    for (unsigned i = 0; i < part.mNumVertices; ++i) {
-        const aiVector3D position = transform * part.mVertices[i];
-        const aiVector3D normal = part.HasNormals() ? part.mNormals[i] : aiVector3D(0.0f);
-        const aiVector3D turned = normal_transform * normal;
-        mesh.positions.emplace_back(position.x, position.y, position.z);
-        mesh.normals.emplace_back(turned.x, turned.y, turned.z);
-    }
-    if (!part.HasTextureCoords(0)) return;
-    mesh.texture_coordinates.resize(first, glm::vec2(0.0f));  // of the parts without
-    for (unsigned i = 0; i < part.mNumVertices; ++i) {
-        const aiVector3D& coordinate = part.mTextureCoords[0][i];
-        mesh.texture_coordinates.emplace_back(coordinate.x, 1.0f - coordinate.y);  // v was up
-    }
-}
-
-void appendTriangles(
-    Mesh& mesh, const aiMesh& part, std::uint32_t first, const aiMatrix4x4& transform) {
-    const bool mirrored = transform.Determinant() < 0.0f;
-    for (unsigned i = 0; i < part.mNumFaces; ++i) {
-        const aiFace& face = part.mFaces[i];
-        if (face.mNumIndices != 3) continue;
-        for (unsigned corner = 0; corner < 3; ++corner)
-            checkVertex(face.mIndices[corner], part, "triangle " + std::to_string(i));
-        mesh.triangles.push_back(
-            {first + face.mIndices[0], first + face.mIndices[mirrored ? 2 : 1],
-             first + face.mIndices[mirrored ? 1 : 2]});
-        mesh.triangle_materials.push_back(part.mMaterialIndex);
-    }
-}
-
-// Bones: what moves with one is what was painted with its weight.
-void appendGroups(Mesh& mesh, const aiMesh& part, std::uint32_t first) {
-    for (unsigned i = 0; i < part.mNumBones; ++i) {
-        const aiBone& bone = *part.mBones[i];
-        auto group = std::ranges::find(mesh.vertex_groups, bone.mName.C_Str(), &VertexGroup::name);
-        if (group == mesh.vertex_groups.end())
-            group = mesh.vertex_groups.insert(group, {.name = bone.mName.C_Str()});
-        group->weights.resize(mesh.positions.size(), 0.0f);
-        for (unsigned k = 0; k < bone.mNumWeights; ++k) {
-            const aiVertexWeight& weight = bone.mWeights[k];
-            checkVertex(weight.mVertexId, part, std::string("bone '") + bone.mName.C_Str() + "'");
-            group->weights[first + weight.mVertexId] = weight.mWeight;
-        }
-    }
-}
-
-// A node is a part, by its own name or that of what it holds.
-void appendNode(
-    Mesh& mesh, const aiScene& scene, const aiNode& node, const aiMatrix4x4& transform) {
-    if (node.mNumMeshes == 0) return;
-    const aiMesh& first_mesh = *scene.mMeshes[node.mMeshes[0]];
-    const auto part_index = static_cast<std::uint32_t>(mesh.parts.size());
-    mesh.parts.emplace_back(node.mName.length > 0 ? node.mName.C_Str() : first_mesh.mName.C_Str());
-    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-        const aiMesh& part = *scene.mMeshes[node.mMeshes[i]];
-        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-        appendVertices(mesh, part, transform);
-        appendTriangles(mesh, part, first, transform);
-        appendGroups(mesh, part, first);
-    }
-    mesh.triangle_parts.resize(mesh.triangles.size(), part_index);
-}
-
-void appendScene(Mesh& mesh, const aiScene& scene) {
-    struct Visit {
-        const aiNode* node;
-        aiMatrix4x4 parent;
-    };
-    std::vector<Visit> visits{{scene.mRootNode, aiMatrix4x4()}};
-    while (!visits.empty()) {
-        const Visit visit = visits.back();
-        visits.pop_back();
-        const aiMatrix4x4 transform = visit.parent * visit.node->mTransformation;
-        appendNode(mesh, scene, *visit.node, transform);
-        for (unsigned i = visit.node->mNumChildren; i > 0; --i)
-            visits.push_back({visit.node->mChildren[i - 1], transform});
-    }
-    if (!mesh.texture_coordinates.empty())
-        mesh.texture_coordinates.resize(mesh.positions.size(), glm::vec2(0.0f));
-    for (VertexGroup& group : mesh.vertex_groups) group.weights.resize(mesh.positions.size(), 0.0f);
-}
-
-// Whatever assimp reads, with node transforms applied, polygons triangulated, points and lines left
-// out. Parts are the nodes that hold triangles, by their names or those of their meshes: objects
-// and groups in most formats. Vertex groups are the bones. Texture coordinates are the first set, 0
-// for parts without. Of materials, the diffuse colour and its texture where that is a file.
+// Whatever assimp reads, by a child (mesh_reader.cpp).
 Mesh importAssimp(const std::filesystem::path& path, Textures textures) {
-    Assimp::Importer importer;
-    importer.SetPropertyInteger(
-        AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, static_cast<int>(kIgnored));
-    const aiScene* scene = importer.ReadFile(path.string(), kSteps);
-    if (!scene) throw engine::Error(importer.GetErrorString());
-    Mesh mesh;
-    for (unsigned i = 0; i < scene->mNumMaterials; ++i) {
-        const aiMaterial& material = *scene->mMaterials[i];
-        mesh.materials.push_back(toMaterial(material));
-        if (textures == Textures::decoded) readTexture(material, path.parent_path(), mesh);
+    const std::string program = readerProgram().string();
+    ReadMesh read;
+    try {
+        // A vertex is 32 bytes, and no format has one in less than one.
+        const std::size_t most = (std::size_t{64} << 20) + 64 * std::filesystem::file_size(path);
+        // An absolute path, which is no option whatever it begins with.
+        read = readMeshStream(
+            engine::runTool({program, std::filesystem::absolute(path).string()}, most));
+    } catch (const std::system_error&) {
+        throw engine::Error("the program that reads such meshes is missing: " + program);
+    } catch (const engine::Error& error) {
+        const std::string reason = error.what();
+        if (!reason.starts_with(program)) throw;
+        throw engine::Error("assimp, which reads it," + reason.substr(program.size()));
     }
-    appendScene(mesh, *scene);
+    Mesh mesh = std::move(read.mesh);
+    if (textures == Textures::skipped) return mesh;
+    for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
+        if (read.textures[i].empty()) continue;
+        mesh.materials[i].base_color_texture = {
+            .picture = static_cast<std::uint32_t>(mesh.pictures.size())};
+        mesh.pictures.push_back(engine::readImage(path.parent_path() / read.textures[i]));
+    }
     return mesh;
 }
 

@@ -1,4 +1,4 @@
-#include "hair/groom/formats/usd_import.h"
+#include "engine/run_tool.h"
 
 #include <string>
 #include <system_error>
@@ -7,7 +7,7 @@
 
 #include "tests/error_text.h"
 
-namespace hair::groom {
+namespace engine {
 namespace {
 
 std::vector<std::byte> shell(const std::string& script) { return runTool({"sh", "-c", script}); }
@@ -27,6 +27,15 @@ TEST(RunTool, ReturnsWhatTheProgramWrites) {
 TEST(RunTool, TakesMuchOnBothOutputs) {
     const auto bytes = shell("head -c 1000000 /dev/zero >&2; head -c 2000000 /dev/zero");
     EXPECT_EQ(bytes.size(), 2000000u);
+}
+
+// Or this would never end.
+TEST(RunTool, EndsWhatWritesTooMuch) {
+    const auto most = [](std::size_t bytes) {
+        return errorText([&] { runTool({"cat", "/dev/zero"}, bytes); });
+    };
+    EXPECT_EQ(most(1000000), "cat wrote more than 1000000 bytes");
+    EXPECT_EQ(runTool({"printf", "four"}, 4).size(), 4u);
 }
 
 TEST(RunTool, HandsOverLines) {
@@ -78,4 +87,4 @@ TEST(RunTool, SaysThatThereIsNoSuchProgram) {
 }
 
 }  // namespace
-}  // namespace hair::groom
+}  // namespace engine
