@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <new>
 #include <set>
 #include <span>
 #include <string>
@@ -137,6 +138,8 @@ report::CaseResult runCase(
         result = without(planned, report::Status::skipped, error.what());
     } catch (const engine::Error& error) {
         result = without(planned, report::Status::failed, error.what());
+    } catch (const std::bad_alloc&) {
+        result = without(planned, report::Status::failed, "the host has not enough memory");
     }
     for (const std::string& message : device.messages().take())
         result.trust.warnings.push_back("validation: " + message);

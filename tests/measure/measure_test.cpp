@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <map>
+#include <new>
 #include <set>
 #include <span>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "benchmarks/measure/hair_cache.h"
 #include "benchmarks/measure/sampling.h"
 #include "benchmarks/report/environment.h"
+#include "benchmarks/run/case.h"
 #include "tests/error_text.h"
 #include "tests/gpu_fixture.h"
 
@@ -101,6 +104,31 @@ TEST_F(MeasureTest, TellsWhatOverlapSaves) {
     EXPECT_GT(passes, 0.0);
     EXPECT_NEAR(
         onlySample(result, "frame.overlap"), passes - frame, 1e-9 * (passes + frame));  // rounding
+}
+
+// The next case may need less.
+TEST_F(MeasureTest, FailsACaseForWhichThereIsNoMemory) {
+    const run::PlannedCase planned{
+        .spec = {.name = "small", .axes = {}, .settings = smallCase()},
+        .directory = HAIRBENCH_SOURCE_DIR "/scenes",
+        .index = 7};
+    HairCache cache = userHairCache(false);
+    run::CaseComparisons comparisons;
+    bool is_full = true;
+    const MeasureHooks hooks{
+        .stop = [] { return false; },
+        .progress =
+            [&](const SamplingState&) {
+                if (is_full) throw std::bad_alloc();
+            }};
+    const report::CaseResult failed =
+        run::runCase(device(), planned, hooks, {}, comparisons, cache);
+    EXPECT_EQ(failed.status, report::Status::failed);
+    EXPECT_EQ(failed.reason, "the host has not enough memory");
+    EXPECT_EQ(failed.index, 7u);
+    is_full = false;
+    EXPECT_EQ(
+        run::runCase(device(), planned, hooks, {}, comparisons, cache).status, report::Status::ok);
 }
 
 TEST_F(MeasureTest, TellsHowLongTheDeviceWasAtWork) {
