@@ -12,6 +12,7 @@
 
 #include "engine/frame_loop.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/mesh/deforming_mesh.h"
 #include "hair/groom/mesh/mesh.h"
 #include "hair/rendering/groom_buffers.h"
 #include "hair/rendering/render_assets.h"
@@ -116,6 +117,7 @@ private:
     std::filesystem::path directory_;
     std::optional<hair::groom::Mesh> mesh_;
     hair::groom::Groom groom_;
+    std::unique_ptr<hair::groom::DeformingMesh> deforming_;  // null: the mesh keeps its shape
     hair::simulation::Simulation simulation_;
     hair::simulation::FixedStep fixed_step_;
     std::unique_ptr<hair::rendering::GroomBuffers> groom_buffers_;
