@@ -162,6 +162,13 @@ std::string Case::stateHash() const {
     return report::hashBytes(std::as_bytes(std::span(positions)));
 }
 
+void Case::deform(hair::groom::Mesh& mesh) const {
+    if (!deforming_) return;
+    const std::vector<glm::dvec3> positions = deforming_->positions(simulation_.time());
+    mesh.positions.assign(positions.begin(), positions.end());
+    mesh.normals = deforming_->normals(positions);
+}
+
 hair::rendering::StrandPoints Case::strands() const {
     return hair::rendering::evaluateStrandPoints(device_, settings_, view());
 }

@@ -63,10 +63,10 @@ SkinnedHead::SkinnedHead(
     for (std::uint32_t slot = 0; slot < engine::FrameLoop::kMaxSlots; ++slot) {
         positions_[slot] = {
             device,
-            {.size = bytes, .usage = engine::Usage::upload, .name = "deformed mesh positions"}};
+            {.size = bytes, .usage = engine::Usage::upload, .name = "mesh positions, deformed"}};
         normals_[slot] = {
             device,
-            {.size = bytes, .usage = engine::Usage::upload, .name = "deformed mesh normals"}};
+            {.size = bytes, .usage = engine::Usage::upload, .name = "mesh normals, deformed"}};
         write(slot, view);
     }
     const std::size_t strands = std::max(strand_count_, 1u);
@@ -111,7 +111,8 @@ SkinnedHead::SkinnedHead(
     roots.reserve(found.size());
     for (std::size_t i = 0; i < found.size(); ++i)
         roots.push_back(carriedRoot(bindings[i], found[i]));
-    roots_ = engine::makeBuffer(device, std::span<const gpu::CarriedRoot>(roots), "carried roots");
+    roots_ = engine::makeBuffer(
+        device, std::span<const gpu::CarriedRoot>(roots), "root triangles of strands");
 }
 
 void SkinnedHead::write(std::uint32_t slot, const StrandView& view) {

@@ -28,11 +28,17 @@ deforming(const std::filesystem::path& path, const AnimationSettings& settings) 
     return {groom::importMesh(path), groom::MeshAnimation(path, settings.clip), settings};
 }
 
-// Every solver, `none` among them, and every way that `shape` is spread.
+// Every solver, `none` among them.
 std::vector<SimulationSettings> everySolver() {
     std::vector<SimulationSettings> all(1);
     all.back().solver = Solver::none;
     for (const Solver solver : kSolvers) all.emplace_back().solver = solver;
+    return all;
+}
+
+// And every way that `shape` is spread.
+std::vector<SimulationSettings> everyShader() {
+    std::vector<SimulationSettings> all = everySolver();
     for (const Parallelism parallelism :
          {Parallelism::vertex, Parallelism::strand, Parallelism::serial})
         all.emplace_back().parallelism = parallelism;
@@ -67,7 +73,7 @@ TEST_F(GpuSkin, KeepsRootsOnTheirTriangles) {
     const std::vector<BendingSheet::Place> places = BendingSheet::places();
     const AnimationSettings animation{.clip = "play", .repeat = false};
     const groom::DeformingMesh mesh = deforming(path, animation);
-    for (SimulationSettings settings : everySolver()) {
+    for (SimulationSettings settings : everyShader()) {
         SCOPED_TRACE(nameOf(settings));
         settings.animation = animation;
         Simulation simulation(device(), groom, settings, 1, {}, {}, &mesh);
