@@ -1,4 +1,6 @@
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -6,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
+#include "engine/error.h"
 #include "hair/groom/mesh/animation.h"
 #include "hair/groom/mesh/deforming_mesh.h"
 #include "hair/groom/mesh/import_mesh.h"
@@ -202,11 +205,45 @@ std::string skinError(const glm::u8vec4& joints, const glm::vec4& weights) {
 }
 
 TEST(MeshAnimation, RefusesWrongSkins) {
-    EXPECT_EQ(skinError({0, 0, 0, 0}, {1, 0, 0, 0}), "");
+    EXPECT_EQ(skinError({0, 0, 0, 0}, {1, 0, 0, 0}), "no error");
     EXPECT_THAT(
         skinError({0, 0, 0, 0}, {0.5f, 0.4f, 0, 0}), HasSubstr("of vertex 0 add up to 0.9"));
-    EXPECT_THAT(skinError({1, 0, 0, 0}, {1, 0, 0, 0}), HasSubstr("names joint 1, the skin has 1"));
+    EXPECT_THAT(
+        skinError({1, 0, 0, 0}, {1, 0, 0, 0}),
+        HasSubstr("names a joint that is none of the skin's 1"));
     EXPECT_THAT(skinError({0, 0, 0, 0}, {2, -1, 0, 0}), HasSubstr("has a negative weight"));
+}
+
+// Every byte of a file in turn is another one, or is where the file ends: what is left is refused
+// with an error or has the vertices that it says.
+TEST(MeshAnimation, RefusesOrPlaysDamagedFiles) {
+    const TemporaryFolder folder;
+    const auto path = BendingSheet::write(folder);
+    std::ifstream stream(path, std::ios::binary);
+    const std::string whole{std::istreambuf_iterator<char>(stream), {}};
+    int refused = 0;
+    const auto play = [&](const std::string& bytes) {
+        const auto damaged = folder.write("damaged.glb", bytes);
+        try {
+            const MeshAnimation animation(damaged, "play");
+            const auto pose = animation.poseAt(0.1);
+            EXPECT_EQ(animation.positions(pose).size(), animation.vertexCount());
+        } catch (const engine::Error& error) {
+            EXPECT_THAT(error.what(), HasSubstr("damaged.glb: "));
+            ++refused;
+        }
+    };
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        std::string flipped = whole;
+        flipped[i] = static_cast<char>(flipped[i] ^ (1 << i % 8));
+        play(flipped);
+    }
+    EXPECT_GT(refused, 0);
+    for (std::size_t size = 0; size < whole.size(); size += 7) {
+        refused = 0;
+        play(whole.substr(0, size));
+        EXPECT_EQ(refused, 1) << size << " bytes";
+    }
 }
 
 // ---- Triangles ----------------------------------------------------------------------------------

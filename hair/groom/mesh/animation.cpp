@@ -235,10 +235,10 @@ private:
                 for (std::size_t i = 4 * vertex; i < 4 * vertex + 4; ++i) {
                     const double joint = joints[set].values[i];
                     const double weight = weights[set].values[i];
-                    if (!(joint < static_cast<double>(part.joints.size())))
+                    if (!(joint >= 0.0 && joint < static_cast<double>(part.joints.size())))
                         throw engine::Error(
-                            "vertex " + std::to_string(vertex) + " names joint " +
-                            std::to_string(static_cast<std::uint64_t>(joint)) + ", the skin has " +
+                            "vertex " + std::to_string(vertex) +
+                            " names a joint that is none of the skin's " +
                             std::to_string(part.joints.size()));
                     if (weight < 0.0)
                         throw engine::Error(

@@ -19,7 +19,7 @@ namespace hair::groom {
 namespace {
 
 // Of a triangle's size: two edges that are shorter across each other than this are without area.
-constexpr double kFlat = 1e-9;
+constexpr double kNoArea = 1e-9;
 // How many times as long as at rest edges may be on average.
 constexpr double kMostStretch = 4.0;
 
@@ -29,7 +29,7 @@ std::optional<glm::dmat3> triangleFrame(const std::array<glm::dvec3, 3>& corners
     const glm::dvec3 other = corners[2] - corners[0];
     const glm::dvec3 normal = glm::cross(edge, other);
     const double area = glm::length(normal);
-    if (!(area > kFlat * (glm::dot(edge, edge) + glm::dot(other, other)))) return {};
+    if (!(area > kNoArea * (glm::dot(edge, edge) + glm::dot(other, other)))) return {};
     const glm::dvec3 along = glm::normalize(edge);
     return glm::dmat3(along, glm::cross(normal / area, along), normal / area);
 }

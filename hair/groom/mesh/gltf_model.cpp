@@ -547,7 +547,7 @@ bool hasTriangles(const tinygltf::Primitive& primitive) {
 // glTF 2.0, section 3.6.2.3: a sparse accessor is zeros, or what its buffer view holds, with some
 // elements replaced.
 GltfNumbers readNumbers(const tinygltf::Model& model, int index, GltfIntegers integers) {
-    constexpr std::size_t kMost = std::size_t{1} << 26;  // elements without a byte in the file
+    constexpr std::size_t kMost = std::size_t{1} << 24;  // elements without a byte in the file
     const std::string name = numbered("accessor", index);
     const tinygltf::Accessor& accessor = at(model.accessors, index, "accessor");
     GltfNumbers numbers;
@@ -557,7 +557,7 @@ GltfNumbers readNumbers(const tinygltf::Model& model, int index, GltfIntegers in
         const int components =
             tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
         if (components <= 0) throw engine::Error(name, "unknown type");
-        if (accessor.count > kMost) throw engine::Error(name, "has 2^26 elements, or more");
+        if (accessor.count > kMost) throw engine::Error(name, "has more than 2^24 elements");
         numbers.components = static_cast<std::size_t>(components);
         numbers.values.assign(accessor.count * numbers.components, 0.0);
     }
