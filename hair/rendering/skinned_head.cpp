@@ -151,9 +151,7 @@ void SkinnedHead::record(
                        .found = corrections_.address(),
                        .count = strand_count_});
     commands.dispatchInvocations(strand_count_, gpu::kSkinGroupSize);
-    commands.barrier(
-        {{Access::compute_write, Access::compute_write},
-         {Access::compute_write, Access::vertex_read}});
+    commands.barrier(Access::compute_write, Access::vertex_read);
 }
 
 }  // namespace hair::rendering

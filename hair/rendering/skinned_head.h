@@ -35,8 +35,8 @@ public:
     const engine::Buffer& normals(std::uint32_t slot) const { return normals_[slot]; }
 
     // Corrects the roots for what is drawn next. After what moves guides and their frames, which
-    // compute sees; the corrections are then visible to compute and to the stages before the
-    // rasteriser. `picture` is the address of the gpu::PictureParameters.
+    // compute sees; the corrections are then visible to the stages before the rasteriser, and to a
+    // PointsPass. `picture` is the address of the gpu::PictureParameters.
     void record(
         engine::Commands& commands, std::uint64_t picture, const gpu::PictureParameters& parameters,
         std::uint32_t slot) const;

@@ -82,7 +82,10 @@ StrandPoints evaluateStrandPoints(
                 frames->record(commands, view);
                 commands.barrier(engine::Access::compute_write, engine::Access::compute_read);
             }
-            if (skin && first == 0) skin->record(commands, parameters.address(), picture, 0);
+            if (skin && first == 0) {
+                skin->record(commands, parameters.address(), picture, 0);
+                commands.barrier(engine::Access::compute_write, engine::Access::compute_read);
+            }
             commands.uses(
                 {{view.guides, engine::Access::compute_read},
                  {view.contacts, engine::Access::compute_read},
