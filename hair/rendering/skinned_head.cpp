@@ -133,10 +133,9 @@ void SkinnedHead::record(
     engine::Commands& commands, std::uint64_t picture, const gpu::PictureParameters& parameters,
     std::uint32_t slot) const {
     if (!roots_.address()) return;
-    // After the guides' frames, and whoever still draws with the corrections that are overwritten.
-    commands.barrier(
-        {{Access::compute_write, Access::compute_write},
-         {Access::vertex_read, Access::compute_write}});
+    // After whoever still draws with the corrections that are overwritten, and so after the guides'
+    // frames, which were to be drawn with.
+    commands.barrier(Access::vertex_read, Access::compute_write);
     commands.uses(
         {{parameters.guides, Access::compute_read},
          {parameters.contacts, Access::compute_read},
