@@ -63,8 +63,8 @@ struct PictureParameters {
     Address bodies;  // Bodies; read where they push strands out
     Address root_pattern;  // vec2 [strand], in [0, 1): read where it is that of every triangle
     Address offsets;  // vec3 [profile][1 + sample + 1], m: see hair/rendering/strand_offsets.h
-    Address root_corrections;  // vec4 [root triangle][strand], `density` of them, m: from a strand's
-                               // root to where the deformed mesh has it; read where
+    Address root_corrections;  // vec4 [root triangle][strand], `density` of them, m: from a
+                               // strand's root to where the deformed mesh has it; read where
                                // kSkinnedStrands
     uint offset_profiles;
     uint offset_samples;  // along a strand, from root to tip
