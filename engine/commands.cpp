@@ -371,6 +371,16 @@ void Commands::fill(const Buffer& buffer, std::uint32_t value) {
     vkCmdFillBuffer(buffer_, buffer.get(), 0, VK_WHOLE_SIZE, value);
 }
 
+void Commands::write(const Buffer& buffer, std::span<const std::byte> bytes) {
+    constexpr std::size_t kMost = 65536;  // of vkCmdUpdateBuffer
+    assert(bytes.size() % 4 == 0 && bytes.size() <= buffer.size());
+    if (hazards_) touch({{buffer, Access::transfer_write}});
+    for (std::size_t first = 0; first < bytes.size(); first += kMost) {
+        const auto part = bytes.subspan(first, std::min(kMost, bytes.size() - first));
+        vkCmdUpdateBuffer(buffer_, buffer.get(), first, part.size(), part.data());
+    }
+}
+
 // ---- Dispatches and draws -----------------------------------------------------------------------
 
 void Commands::images(

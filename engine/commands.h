@@ -148,6 +148,8 @@ public:
     void
     copy(const Buffer& source, std::size_t offset, const Image& destination, std::uint32_t level);
     void fill(const Buffer& buffer, std::uint32_t value);
+    // Bytes that the command buffer itself keeps, to a buffer's start; whole words of 4 bytes.
+    void write(const Buffer& buffer, std::span<const std::byte> bytes);
 
     // Pipelines are bound with the constants that their next dispatch or draws use.
     void bind(const ComputePipeline& pipeline);

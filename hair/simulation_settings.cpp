@@ -267,6 +267,19 @@ const Table& tableOf(const MotionSettings*) {
     return table;
 }
 
+const Table& tableOf(const AnimationSettings*) {
+    using S = AnimationSettings;
+    static const Table table = tableWith<S>(
+        {text(
+             "clip", &S::clip,
+             "animation of the mesh's file (skin, morph targets, nodes) that deforms the head and "
+             "carries each root with its triangle, before /simulation/motion moves all of it: its "
+             "name, or its number where it has none; empty: none"),
+         number("speed", &S::speed, 0, 100, "1", "times as fast as the file says"),
+         toggle("repeat", &S::repeat, "start again at the time of the last keyframe")});
+    return table;
+}
+
 const Table& tableOf(const PullKey*) {
     using S = PullKey;
     static const Table table = tableWith<S>(
@@ -363,6 +376,7 @@ const Table& tableOf(const SimulationSettings*) {
          list("distance_fields", &S::distance_fields, 8, "meshes that push guides out"),
          group("hair_hair", &S::hair_hair, "contact of hair with hair, on a grid of density"),
          group("motion", &S::motion, "keyframed motion of the head"),
+         group("animation", &S::animation, "animation that deforms the mesh that hair grows on"),
          list("pulls", &S::pulls, 64, "hands that pull at hair")});
     return table;
 }

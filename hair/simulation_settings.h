@@ -182,6 +182,15 @@ struct MotionSettings {
 
 const Table& tableOf(const MotionSettings*);
 
+// An animation of the file of the mesh that hair grows on, which deforms it, and with it the scalp.
+struct AnimationSettings {
+    std::string clip;  // empty: the mesh keeps its shape
+    float speed = 1.0f;
+    bool repeat = true;
+};
+
+const Table& tableOf(const AnimationSettings*);
+
 // Where a hand is.
 struct PullKey {
     float time = 0.0f;
@@ -243,6 +252,7 @@ struct SimulationSettings {
     std::vector<DistanceFieldSettings> distance_fields;
     HairHairSettings hair_hair;
     MotionSettings motion;
+    AnimationSettings animation;
     std::vector<PullSettings> pulls;
 };
 

@@ -28,10 +28,12 @@ const Asset* pointerTo(const std::optional<Asset>& asset) {
 
 hair::simulation::Simulation simulationOf(
     const engine::Device& device, const hair::groom::Groom& groom, const hair::Settings& settings,
-    std::span<const hair::groom::Mesh> field_meshes, HairCache* cache) {
-    if (!cache) return {device, groom, settings.simulation, settings.seed, field_meshes};
+    std::span<const hair::groom::Mesh> field_meshes, const hair::groom::DeformingMesh* deforming,
+    HairCache* cache) {
+    if (!cache)
+        return {device, groom, settings.simulation, settings.seed, field_meshes, {}, deforming};
     cache->assets().trim();
-    return cache->simulation(device, groom, settings, field_meshes);
+    return cache->simulation(device, groom, settings, field_meshes, deforming);
 }
 
 }  // namespace
@@ -46,8 +48,10 @@ Case::Case(
           cache ? cache->assets().groom(settings, directory)
                 : hair::groom::buildGroom(
                       settings.groom, pointerTo(mesh_), directory, settings.seed)),
+      deforming_(scene::loadDeforming(settings, mesh_, directory)),
       simulation_(simulationOf(
-          device, groom_, settings, scene::loadFieldMeshes(settings, mesh_, directory), cache)),
+          device, groom_, settings, scene::loadFieldMeshes(settings, mesh_, directory),
+          deforming_.get(), cache)),
       fixed_step_(double{settings.simulation.time_step}),
       groom_buffers_(std::make_unique<hair::rendering::GroomBuffers>(groomBuffers(settings))),
       renderer_(std::make_unique<hair::rendering::Renderer>(
@@ -55,7 +59,9 @@ Case::Case(
           scene::loadRenderAssets(settings, pointerTo(mesh_), directory))) {}
 
 hair::rendering::GroomBuffers Case::groomBuffers(const hair::Settings& settings) const {
-    return {device_, groom_, settings, pointerTo(scene::loadOffsets(settings, directory_))};
+    return {
+        device_, groom_, settings, pointerTo(scene::loadOffsets(settings, directory_)),
+        deforming_.get()};
 }
 
 void Case::setDrawing(const hair::Settings& settings) {
@@ -156,6 +162,13 @@ std::string Case::stateHash() const {
     return report::hashBytes(std::as_bytes(std::span(positions)));
 }
 
+void Case::deform(hair::groom::Mesh& mesh) const {
+    if (!deforming_) return;
+    const std::vector<glm::dvec3> positions = deforming_->positions(simulation_.time());
+    mesh.positions.assign(positions.begin(), positions.end());
+    mesh.normals = deforming_->normals(positions);
+}
+
 hair::rendering::StrandPoints Case::strands() const {
     return hair::rendering::evaluateStrandPoints(device_, settings_, view());
 }
@@ -193,6 +206,8 @@ hair::rendering::StrandView Case::viewOf(const hair::rendering::GroomBuffers& bu
     view.contacts = guides.contacts;
     view.bodies = guides.bodies;
     view.head = hair::simulation::toMatrix(simulation_.pose());
+    view.time = simulation_.time();
+    view.carried = glm::dmat4(hair::simulation::toMatrix(simulation_.carried()));
     return view;
 }
 

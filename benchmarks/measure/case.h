@@ -12,6 +12,7 @@
 
 #include "engine/frame_loop.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/mesh/deforming_mesh.h"
 #include "hair/groom/mesh/mesh.h"
 #include "hair/rendering/groom_buffers.h"
 #include "hair/rendering/render_assets.h"
@@ -82,8 +83,14 @@ public:
     const hair::groom::Groom& groom() const { return groom_; }
     // What is odd about what the case was given, though it can be played.
     std::vector<std::string> warnings() const { return simulation_.bodyWarnings(); }
-    // Where the head is in the last frame.
+    // Where the head is in the last frame; where an animation deforms it, where its scalp is on
+    // average.
     hair::simulation::RigidMotion head() const { return simulation_.pose(); }
+    // What takes the mesh under the hair to where the last frame has it: deform() where an
+    // animation does so, then this.
+    hair::simulation::RigidMotion carried() const { return simulation_.carried(); }
+    // `mesh` is the one under the hair.
+    void deform(hair::groom::Mesh& mesh) const;
 
     const hair::Settings& settings() const { return settings_; }
 
@@ -116,6 +123,7 @@ private:
     std::filesystem::path directory_;
     std::optional<hair::groom::Mesh> mesh_;
     hair::groom::Groom groom_;
+    std::unique_ptr<hair::groom::DeformingMesh> deforming_;  // null: the mesh keeps its shape
     hair::simulation::Simulation simulation_;
     hair::simulation::FixedStep fixed_step_;
     std::unique_ptr<hair::rendering::GroomBuffers> groom_buffers_;

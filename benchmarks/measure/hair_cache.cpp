@@ -239,7 +239,7 @@ const SettledState* HairCache::settled(const std::string& key) {
 
 hair::simulation::Simulation HairCache::simulation(
     const engine::Device& device, const hair::groom::Groom& groom, const hair::Settings& settings,
-    std::span<const hair::groom::Mesh> field_meshes) {
+    std::span<const hair::groom::Mesh> field_meshes, const hair::groom::DeformingMesh* deforming) {
     const std::string basis =
         Key("made by").add("program", program(device)).text() + deviceText(device);
     std::vector<std::string> meshes, field_keys;
@@ -250,6 +250,7 @@ hair::simulation::Simulation HairCache::simulation(
             fieldKey(basis, meshes.back(), settings.simulation, field_keys.size()));
         fields.push_back(field(field_keys.back()));
     }
+    if (deforming) meshes.push_back("deformed " + hashOf(deforming->positions(0.0)));
     // What was not settled is there at once.
     const bool settles = settings.simulation.settle_steps > 0;
     const std::string state_key = stateKey(basis, groom, settings, meshes);
@@ -257,7 +258,7 @@ hair::simulation::Simulation HairCache::simulation(
 
     hair::simulation::Simulation simulation(
         device, groom, settings.simulation, settings.seed, field_meshes,
-        {.fields = fields, .settled = state});
+        {.fields = fields, .settled = state}, deforming);
     for (std::size_t i = 0; i < fields.size(); ++i) {
         if (fields[i] || fields_.find(field_keys[i])) continue;
         ++made_;

@@ -9,6 +9,7 @@
 #include "benchmarks/scene/recent.h"
 #include "engine/device.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/mesh/deforming_mesh.h"
 #include "hair/groom/mesh/mesh.h"
 #include "hair/settings.h"
 #include "hair/simulation/simulation.h"
@@ -21,11 +22,11 @@ namespace benchmarks::measure {
 // disk. All of it lies on the host: a case owns its device's objects, and they are to the bit what
 // they are without the cache.
 //
-// Fields are known by the content of their mesh, states by that of the groom and the fields'
-// meshes, and both by the settings that decide them, the device, its driver and features, on a
-// software device the processor, and the program: only what the very same program file has made is
-// taken from disk, so a changed build never takes another's, and where the file is not known
-// nothing is.
+// Fields are known by the content of their mesh, states by that of the groom, the fields'
+// meshes and where an animation has the head's mesh at first, and both by the settings that decide
+// them, the device, its driver and features, on a software device the processor, and the program:
+// only what the very same program file has made is taken from disk, so a changed build never takes
+// another's, and where the file is not known nothing is.
 class HairCache {
 public:
     explicit HairCache(DiskCache disk = DiskCache({})) : disk_(std::move(disk)) {}
@@ -36,7 +37,8 @@ public:
     // As Simulation's constructor, which it is but for what is known.
     hair::simulation::Simulation simulation(
         const engine::Device& device, const hair::groom::Groom& groom,
-        const hair::Settings& settings, std::span<const hair::groom::Mesh> field_meshes);
+        const hair::Settings& settings, std::span<const hair::groom::Mesh> field_meshes,
+        const hair::groom::DeformingMesh* deforming = nullptr);
 
     // Fields that were baked and states that were settled for want of a known one.
     std::size_t made() const { return made_; }

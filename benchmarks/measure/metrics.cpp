@@ -290,6 +290,7 @@ constexpr Row kPurposes[] = {
     {"guide turns", "groom"},
     {"guide widths", "groom"},
     {"guide tangents at rest", "groom"},
+    {"guides at rest", "groom"},
     {"root ", "groom"},
     {"bound strands", "groom"},
     {"strand offsets", "groom"},

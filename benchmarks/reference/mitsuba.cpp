@@ -441,10 +441,12 @@ void play(const engine::Device& device, measure::Case& played, std::uint32_t fra
 // The head, where the last frame takes it, and the meshes beside it.
 std::vector<MitsubaParts::Mesh> writeMeshes(
     const std::filesystem::path& folder, const scene::Scene& scene, const hair::Settings& settings,
-    const hair::simulation::RigidMotion& head) {
+    const measure::Case& played) {
     std::vector<MitsubaParts::Mesh> parts;
-    if (const auto mesh = scene::loadMesh(settings, scene.directory); mesh && settings.render.head)
-        parts = writeMitsubaMesh(folder, "head", *mesh, head);
+    if (auto mesh = scene::loadMesh(settings, scene.directory); mesh && settings.render.head) {
+        played.deform(*mesh);
+        parts = writeMitsubaMesh(folder, "head", *mesh, played.carried());
+    }
     const auto& wanted = settings.render.meshes;
     hair::rendering::RenderAssets assets =
         scene::loadRenderAssets(settings, nullptr, scene.directory);
@@ -493,7 +495,7 @@ MitsubaExport exportMitsuba(
         result.strands = strands.strandCount();
         result.points = strands.points.size();
     }
-    parts.meshes = writeMeshes(folder, scene, settings, played.head());
+    parts.meshes = writeMeshes(folder, scene, settings, played);
     for (const MitsubaParts::Mesh& mesh : parts.meshes) result.triangles += mesh.triangles;
     parts.environment_file = copyEnvironment(folder, scene, settings);
     write("scene.xml", [&](std::ostream& out) { writeMitsubaScene(out, settings, parts); });

@@ -1,5 +1,6 @@
 #include "benchmarks/scene/assets.h"
 
+#include <memory>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -146,6 +147,25 @@ std::vector<hair::groom::Mesh> loadFieldMeshes(
     return meshes;
 }
 
+std::unique_ptr<hair::groom::DeformingMesh> loadDeforming(
+    const hair::Settings& settings, const std::optional<hair::groom::Mesh>& grown_on,
+    const std::filesystem::path& directory) {
+    const hair::AnimationSettings& animation = settings.simulation.animation;
+    if (animation.clip.empty()) return nullptr;
+    if (!grown_on)
+        throw engine::Error(
+            "/simulation/animation/clip",
+            "is set, but neither /groom/mesh nor /groom/grow names a mesh");
+    const std::filesystem::path file = directory / meshFile(settings.groom);
+    hair::groom::MeshAnimation played(file, animation.clip);
+    try {
+        return std::make_unique<hair::groom::DeformingMesh>(
+            *grown_on, std::move(played), animation);
+    } catch (const engine::Error& error) {
+        throw engine::Error(file.string(), error.what());
+    }
+}
+
 std::optional<hair::groom::StrandSet>
 loadOffsets(const hair::Settings& settings, const std::filesystem::path& directory) {
     if (settings.strands.offsets.empty()) return std::nullopt;
@@ -170,6 +190,39 @@ hair::rendering::RenderAssets loadRenderAssets(
     return assets;
 }
 
+namespace {
+
+// Animations of the mesh that hair grows on which nobody plays; empty: none.
+std::string
+unplayedAnimations(const hair::Settings& settings, const std::filesystem::path& directory) {
+    const std::string& file = meshFile(settings.groom);
+    if (file.empty() || !settings.simulation.animation.clip.empty()) return {};
+    std::string names;
+    try {
+        for (const std::string& name : hair::groom::animationNames(directory / file))
+            names.append(names.empty() ? "'" : ", '").append(name + '\'');
+    } catch (const engine::Error&) {
+        return {};  // of skins or animations alone, which nobody asks for
+    }
+    if (names.empty()) return {};
+    return "/simulation/animation/clip: is empty, so nothing plays the animations of " + file +
+           ": " + names;
+}
+
+// What bodies miss of a mesh that deforms; empty: nothing.
+std::string stiffBodies(const hair::Settings& settings) {
+    if (settings.simulation.animation.clip.empty()) return {};
+    const auto& fields = settings.simulation.distance_fields;
+    for (std::size_t i = 0; i < fields.size(); ++i)
+        if (fields[i].follows == hair::Follows::head)
+            return "/simulation/distance_fields/" + std::to_string(i) +
+                   ": keeps its shape and moves with the scalp's mean motion: hair does not feel "
+                   "how /simulation/animation deforms the mesh";
+    return {};
+}
+
+}  // namespace
+
 std::vector<std::string>
 checkAssets(const hair::Settings& settings, const std::filesystem::path& scene) {
     AssetStore assets;
@@ -185,6 +238,11 @@ std::vector<std::string> checkAssets(
     std::vector<std::string> warnings = checkFields(settings, mesh, scene);
     checkMeshes(settings.render, scene);
     loadRenderAssets(settings, mesh ? &*mesh : nullptr, directory);
+    loadDeforming(settings, mesh, directory);
+    if (const std::string warning = unplayedAnimations(settings, directory); !warning.empty())
+        warnings.push_back(scene.string() + ": " + warning);
+    if (const std::string warning = stiffBodies(settings); !warning.empty())
+        warnings.push_back(scene.string() + ": " + warning);
     const std::optional<hair::groom::StrandSet> offsets = loadOffsets(settings, directory);
     try {
         hair::rendering::checkStrands(settings.strands, groom);

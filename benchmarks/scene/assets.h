@@ -2,12 +2,14 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "benchmarks/scene/recent.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/mesh/deforming_mesh.h"
 #include "hair/groom/mesh/mesh.h"
 #include "hair/rendering/render_assets.h"
 #include "hair/settings.h"
@@ -44,6 +46,12 @@ private:
 
 // The meshes of /simulation/distance_fields, in their order. `grown_on` is what loadMesh gave.
 std::vector<hair::groom::Mesh> loadFieldMeshes(
+    const hair::Settings& settings, const std::optional<hair::groom::Mesh>& grown_on,
+    const std::filesystem::path& directory);
+
+// The mesh that loadMesh gave as /simulation/animation deforms it; null where that names no clip.
+// Throws engine::Error also where there is no mesh.
+std::unique_ptr<hair::groom::DeformingMesh> loadDeforming(
     const hair::Settings& settings, const std::optional<hair::groom::Mesh>& grown_on,
     const std::filesystem::path& directory);
 

@@ -505,7 +505,8 @@ void declareStrands(engine::Commands& commands, const gpu::PictureParameters& pi
         {{picture.guides, Access::vertex_read},
          {picture.contacts, Access::vertex_read},
          {picture.guide_normals, Access::vertex_read},
-         {picture.guide_turns, Access::vertex_read}});
+         {picture.guide_turns, Access::vertex_read},
+         {picture.root_corrections, Access::vertex_read}});
 }
 
 engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan) {
@@ -523,7 +524,8 @@ engine::Constants strandConstants(const StrandSettings& strands, const StrandPla
         {gpu::kLodMorphConstant, plan.morphs},
         {gpu::kMergedHairsConstant, plan.merged_hairs},
         {gpu::kOwnColorsConstant, plan.own_colors},
-        {gpu::kResidualsConstant, plan.residuals}};
+        {gpu::kResidualsConstant, plan.residuals},
+        {gpu::kSkinnedStrandsConstant, plan.skinned}};
 }
 
 // ---- Watched stages -----------------------------------------------------------------------------

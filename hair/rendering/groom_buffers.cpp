@@ -62,6 +62,25 @@ std::vector<gpu::RootFrame> rootFrames(const groom::Groom& groom) {
     return frames;
 }
 
+// How far roots come from where the mean motion of all of them would take them, in the poses that
+// a clip has at even times, m.
+double scalpReach(const groom::Groom& groom, const groom::DeformingMesh& mesh) {
+    constexpr int kPoses = 64;
+    std::vector<glm::vec3> roots;
+    for (std::uint32_t i = 0; i < groom.strand_count; ++i) roots.push_back(groom.strand(i).front());
+    const std::vector<groom::SurfaceBinding> bindings = mesh.bind(roots);
+    double reach = 0.0;
+    for (int i = 0; i <= kPoses; ++i) {
+        const auto motions = mesh.motions(bindings, mesh.period() * i / kPoses);
+        const groom::SurfaceMotion mean = groom::meanMotion(motions, roots);
+        for (std::size_t root = 0; root < roots.size(); ++root) {
+            const glm::dvec3 rest(roots[root]);
+            reach = std::max(reach, glm::distance(motions[root](rest), mean(rest)));
+        }
+    }
+    return reach;
+}
+
 // Of the cubic through the values of offsets: its weights' magnitudes add up to 1 + t (1 - t).
 constexpr float kOvershoot = 1.25f;
 
@@ -69,8 +88,9 @@ constexpr float kOvershoot = 1.25f;
 
 GroomBuffers::GroomBuffers(
     const engine::Device& device, const groom::Groom& groom, const Settings& settings,
-    const groom::StrandSet* model)
+    const groom::StrandSet* model, const groom::DeformingMesh* deforming)
     : view_{
+          .deforming = deforming,
           .guide_count = groom.strand_count,
           .vertices_per_guide = groom.vertices_per_strand,
           .triangle_count = static_cast<std::uint32_t>(groom.root_triangles.size())} {
@@ -123,6 +143,16 @@ GroomBuffers::GroomBuffers(
         view_.offset_profiles = offsets.profiles;
         view_.offset_samples = offsets.samples;
         view_.root_frames = upload(root_frames_, rootFrames(groom), "root frames");
+    }
+    if (deforming) {
+        std::vector<glm::vec4> rest;
+        for (const glm::vec3& point : groom.points) rest.emplace_back(point, 0.0f);
+        view_.rest_guides = upload(rest_guides_, rest, "guides at rest");
+        // A strand may be corrected by as much as a root leaves the motion of the whole scalp, and
+        // its guides be as far away on the other side.
+        const float reach = static_cast<float>(2.0 * scalpReach(groom, *deforming));
+        view_.radius += reach;
+        view_.offset_reach += reach;
     }
 }
 

@@ -7,6 +7,7 @@
 #include "engine/buffer_image.h"
 #include "engine/device.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/mesh/deforming_mesh.h"
 #include "hair/settings.h"
 
 namespace hair::rendering {
@@ -34,7 +35,13 @@ struct StrandView {
     float offset_reach = 0.0f;  // m, how far offsets move a strand's points
     float greatest_width = 0.0f;  // m, of strands at level 0 of detail
     float greatest_width_scale = 0.0f;  // of levels of detail by distance: strand_plan.h; 0: any
-    glm::mat4 head{1.0f};  // rigid motion of the root normals and of the mesh under the hair
+    glm::mat4 head{1.0f};  // rigid motion of the root normals and of the mesh under the hair, or,
+                           // where that deforms, of the scalp on average
+    // Of a mesh under the hair that deforms; null: it keeps its shape.
+    const groom::DeformingMesh* deforming = nullptr;
+    double time = 0.0;  // s, that it is seen at
+    glm::dmat4 carried{1.0};  // its rigid motion after it has been deformed
+    std::uint64_t rest_guides = 0;  // vec4 [guide][vertex], m; w 0; where it deforms
     std::uint32_t guide_count = 0;
     std::uint32_t vertices_per_guide = 0;
     std::uint32_t triangle_count = 0;
@@ -46,11 +53,12 @@ struct StrandView {
 // What rendering reads of a groom and does not change, on the device.
 class GroomBuffers {
 public:
-    // `model` is what settings.strands.offsets names, null if that is empty. Throws engine::Error
-    // as checkStrands and makeStrandOffsets do.
+    // `model` is what settings.strands.offsets names, null if that is empty; `deforming` is the
+    // mesh under the hair where an animation deforms it, and outlives the buffers. Throws
+    // engine::Error as checkStrands and makeStrandOffsets do.
     GroomBuffers(
         const engine::Device& device, const groom::Groom& groom, const Settings& settings,
-        const groom::StrandSet* model);
+        const groom::StrandSet* model, const groom::DeformingMesh* deforming = nullptr);
 
     // Lacks the guides' address and the head's motion.
     const StrandView& view() const { return view_; }
@@ -65,6 +73,7 @@ private:
     engine::Buffer offsets_;
     engine::Buffer residuals_;
     engine::Buffer rest_tangents_;
+    engine::Buffer rest_guides_;
     StrandView view_;
 };
 

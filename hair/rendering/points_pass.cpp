@@ -117,6 +117,7 @@ void PointsPass::record(
          {parameters.contacts, Access::compute_read},
          {parameters.guide_normals, Access::compute_read},
          {parameters.guide_turns, Access::compute_read},
+         {parameters.root_corrections, Access::compute_read},
          {points_, Access::compute_write},
          {pieces_, Access::compute_write},
          {bounds_, Access::compute_write}});

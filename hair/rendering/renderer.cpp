@@ -75,7 +75,7 @@ strandImages(const StrandTexture& texture, const ShadowPass& shadows) {
 }  // namespace
 
 static_assert(offsetof(gpu::PictureParameters, lights) == 228);
-static_assert(sizeof(gpu::PictureParameters) == 420);
+static_assert(sizeof(gpu::PictureParameters) == 428);
 
 gpu::PictureParameters pictureParameters(
     const Settings& settings, const StrandPlan& plan, const StrandView& view,
@@ -123,6 +123,7 @@ gpu::PictureParameters pictureParameters(
         .bodies = view.bodies,
         .root_pattern = view.root_pattern,
         .offsets = view.offsets,
+        .root_corrections = buffers.root_corrections,
         .offset_profiles = view.offset_profiles,
         .offset_samples = view.offset_samples,
         .vertices_per_guide = view.vertices_per_guide,
@@ -161,6 +162,7 @@ Renderer::Renderer(
     backend_.variant = strands_.backendVariant();
     for (engine::Buffer& parameters : parameters_) parameters = parameterBuffer(device);
     if (settings_.render.hair && FramesPass::isNeeded(view)) frames_.emplace(device, view);
+    if (view.deforming) skin_.emplace(device, settings_, plan_, view);
 }
 
 void Renderer::record(engine::Passes& passes, const StrandView& view) {
@@ -168,6 +170,7 @@ void Renderer::record(engine::Passes& passes, const StrandView& view) {
         settings_, plan_, view,
         {.guide_normals = frames_ ? frames_->normals().address() : 0,
          .guide_turns = frames_ ? frames_->turns().address() : 0,
+         .root_corrections = skin_ ? skin_->corrections().address() : 0,
          .lights = lights_.address(),
          .optics = optics_.address(),
          .shadows = shadows_.address(passes.slot()),
@@ -180,6 +183,15 @@ void Renderer::record(engine::Passes& passes, const StrandView& view) {
     if (frames_) {
         passes.pass("frames", engine::PassKind::compute, [&](engine::Commands& commands) {
             frames_->record(commands, view);
+        });
+    }
+    if (skin_) {
+        skin_->write(passes.slot(), view);
+        meshes_.deform(skin_->positions(passes.slot()), skin_->normals(passes.slot()));
+    }
+    if (skin_ && settings_.render.hair) {
+        passes.pass("skin", engine::PassKind::compute, [&](engine::Commands& commands) {
+            skin_->record(commands, picture, picture_parameters, passes.slot());
         });
     }
     if (points_) {

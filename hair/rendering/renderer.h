@@ -17,6 +17,7 @@
 #include "hair/rendering/resolve_pass.h"
 #include "hair/rendering/scene_meshes.h"
 #include "hair/rendering/shadow_pass.h"
+#include "hair/rendering/skinned_head.h"
 #include "hair/rendering/strand_offsets.h"
 #include "hair/rendering/strand_pass.h"
 #include "hair/rendering/strand_plan.h"
@@ -28,6 +29,7 @@ namespace hair::rendering {
 struct PictureBuffers {
     std::uint64_t guide_normals = 0;  // FramesPass::normals()
     std::uint64_t guide_turns = 0;  // FramesPass::turns()
+    std::uint64_t root_corrections = 0;  // SkinnedHead::corrections()
     std::uint64_t lights = 0;
     std::uint64_t optics = 0;
     std::uint64_t shadows = 0;
@@ -82,6 +84,7 @@ private:
     engine::Buffer lights_;  // gpu::Light
     HairOpticsBuffers optics_;
     std::optional<FramesPass> frames_;
+    std::optional<SkinnedHead> skin_;
     std::optional<PointsPass> points_;
     ShadowPass shadows_;
     EnvironmentPass environment_;

@@ -198,22 +198,30 @@ void SceneMeshes::add(
     }
 }
 
+void SceneMeshes::deform(const engine::Buffer& positions, const engine::Buffer& normals) {
+    deformed_positions_ = positions.address();
+    deformed_normals_ = normals.address();
+}
+
 void SceneMeshes::bind(
     engine::Commands& commands, const engine::GraphicsPipeline& pipeline, std::uint64_t picture,
     const SceneMesh& mesh, const MeshMaterial& material) const {
+    const bool moves = mesh.motion == Motion::with_head;
+    const bool deforms = moves && deformed_positions_ != 0;
     commands.bind(
-        pipeline, gpu::MeshPush{
-                      .picture = picture,
-                      .positions = mesh.geometry.positions.address(),
-                      .normals = mesh.geometry.normals.address(),
-                      .texture_coordinates = mesh.geometry.texture_coordinates.address(),
-                      .base_color = material.base_color,
-                      .opacity = material.opacity,
-                      .metallic = material.metallic,
-                      .roughness = material.roughness,
-                      .normal_scale = material.normal_scale,
-                      .cutoff = material.cutoff,
-                      .is_moving = mesh.motion == Motion::with_head ? 1u : 0u});
+        pipeline,
+        gpu::MeshPush{
+            .picture = picture,
+            .positions = deforms ? deformed_positions_ : mesh.geometry.positions.address(),
+            .normals = deforms ? deformed_normals_ : mesh.geometry.normals.address(),
+            .texture_coordinates = mesh.geometry.texture_coordinates.address(),
+            .base_color = material.base_color,
+            .opacity = material.opacity,
+            .metallic = material.metallic,
+            .roughness = material.roughness,
+            .normal_scale = material.normal_scale,
+            .cutoff = material.cutoff,
+            .is_moving = moves && !deforms ? 1u : 0u});
 }
 
 void SceneMeshes::draw(

@@ -89,13 +89,17 @@ private:
     std::vector<MeshMaterial> materials_;
 };
 
-// The meshes of a picture on the device: the head, which moves, and others, which don't. Drawn
-// material by material.
+// The meshes of a picture on the device: the head, which moves or deforms, and others, which don't.
+// Drawn material by material.
 class SceneMeshes {
 public:
     SceneMeshes(const engine::Device& device, const Settings& settings, const RenderAssets& assets);
 
     bool empty() const { return meshes_.empty(); }
+
+    // Draws the head from other buffers from now on, which have it where it is in the world: vec3
+    // [vertex] each.
+    void deform(const engine::Buffer& positions, const engine::Buffer& normals);
 
     // Lit, into the target that is being rendered to. `shadows` are ShadowPass::images().
     void draw(
@@ -124,6 +128,8 @@ private:
         engine::Commands& commands, const engine::GraphicsPipeline& pipeline, std::uint64_t picture,
         const SceneMesh& mesh, const MeshMaterial& material) const;
 
+    std::uint64_t deformed_positions_ = 0;  // addresses; 0: the head keeps its shape
+    std::uint64_t deformed_normals_ = 0;
     engine::Texture blank_;
     engine::Sampler blank_sampler_;
     std::vector<SceneMesh> meshes_;

@@ -142,6 +142,7 @@ planStrands(const StrandView& view, const Settings& settings, std::uint32_t isol
     StrandPlan plan = planStrands(triangles, segments, strands, settings.lod, isoline_limit);
     plan.reach = pushed ? kAnywhere : view.offset_reach;
     plan.residuals = strands.source == StrandSource::groom && view.residuals != 0;
+    plan.skinned = view.deforming != nullptr;
     plan.merged_hairs = drawsMergedHairs(settings);
     plan.own_colors =
         settings.shading.strand_variation > 0.0f || settings.shading.tip_lightening > 0.0f;

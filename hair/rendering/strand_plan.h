@@ -36,6 +36,7 @@ struct StrandPlan {
     std::uint32_t strands_per_patch = 0;
     LodMode lod_mode = LodMode::forced;
     bool residuals = false;  // strands of the groom have them
+    bool skinned = false;  // roots follow the triangles of a mesh that deforms
     bool merged_hairs = false;  // strands of coarser levels are drawn as those they stand for
     bool own_colors = false;  // strands differ in color
     float reach = 0.0f;  // m, how far offsets move points of strands

@@ -12,6 +12,7 @@
 #include "engine/pipeline.h"
 #include "hair/rendering/backends.h"
 #include "hair/rendering/renderer.h"
+#include "hair/rendering/skinned_head.h"
 #include "hair/rendering/strand_offsets.h"
 
 namespace hair::rendering {
@@ -65,10 +66,14 @@ StrandPoints evaluateStrandPoints(
     const engine::Buffer records(device, {.size = size * sizeof(Record), .name = "strand points"});
     std::optional<FramesPass> frames;
     if (FramesPass::isNeeded(view)) frames.emplace(device, view);
-    parameters.write(pictureParameters(
+    std::optional<SkinnedHead> skin;
+    if (view.deforming) skin.emplace(device, settings, result.plan, view);
+    const gpu::PictureParameters picture = pictureParameters(
         settings, result.plan, view,
         {.guide_normals = frames ? frames->normals().address() : 0,
-         .guide_turns = frames ? frames->turns().address() : 0}));
+         .guide_turns = frames ? frames->turns().address() : 0,
+         .root_corrections = skin ? skin->corrections().address() : 0});
+    parameters.write(picture);
     result.records.reserve(count);
     for (std::uint32_t first = 0; first < count; first += std::min(size, count - first)) {
         const std::uint32_t part = std::min(size, count - first);
@@ -77,11 +82,16 @@ StrandPoints evaluateStrandPoints(
                 frames->record(commands, view);
                 commands.barrier(engine::Access::compute_write, engine::Access::compute_read);
             }
+            if (skin && first == 0) {
+                skin->record(commands, parameters.address(), picture, 0);
+                commands.barrier(engine::Access::compute_write, engine::Access::compute_read);
+            }
             commands.uses(
                 {{view.guides, engine::Access::compute_read},
                  {view.contacts, engine::Access::compute_read},
                  {frames ? frames->normals().address() : 0, engine::Access::compute_read},
                  {frames ? frames->turns().address() : 0, engine::Access::compute_read},
+                 {picture.root_corrections, engine::Access::compute_read},
                  {records, engine::Access::compute_write}});
             commands.bind(
                 pipeline, gpu::StrandPointsPush{

@@ -23,8 +23,8 @@ constexpr std::int64_t kPartsPerStep = 720720;  // the least common multiple of 
 static_assert(sizeof(gpu::Bodies) == 32);
 static_assert(sizeof(gpu::GuideParameters) == 96 && offsetof(gpu::GuideParameters, gravity) == 56);
 static_assert(offsetof(gpu::GuideParameters, step) == 68);
-static_assert(sizeof(gpu::SubstepPush) == 108 && offsetof(gpu::SubstepPush, frame_before) == 68);
-static_assert(offsetof(gpu::SubstepPush, drag) == 100);
+static_assert(sizeof(gpu::SubstepPush) == 124 && offsetof(gpu::SubstepPush, frame_before) == 68);
+static_assert(offsetof(gpu::SubstepPush, drag) == 116);
 
 constexpr std::uint32_t kSettleBatch = 64;  // substeps per submission
 
@@ -84,7 +84,8 @@ std::uint32_t FixedStep::stepsFor(double frame_time) {
 
 Simulation::Simulation(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
-    std::uint32_t seed, std::span<const groom::Mesh> field_meshes, const MadeBefore& made)
+    std::uint32_t seed, std::span<const groom::Mesh> field_meshes, const MadeBefore& made,
+    const groom::DeformingMesh* deforming)
     : device_(&device), settings_(settings), step_(stepOf(settings)),
       strand_count_(groom.strand_count), vertices_per_strand_(groom.vertices_per_strand),
       seed_(seed), pinned_(groom.points.size()), motion_(settings.motion),
@@ -107,14 +108,18 @@ Simulation::Simulation(
     assert(strand_count_ > 0 && vertices_per_strand_ > 1);
     assert(groom.points.size() == std::size_t{strand_count_} * vertices_per_strand_);
     checkPulls(settings.pulls, strand_count_, vertices_per_strand_);
+    if (deforming) roots_.emplace(device, groom, *deforming, step_.count);
+    if (!settings.animation.clip.empty() && !roots_)
+        throw engine::Error("/simulation/animation/clip", "is set, but hair grows on no mesh");
     if (hasPulls()) pulls_.emplace(pullPassOf(settings));
     if (hasSegmentPass(settings))
         segments_.emplace(device, strand_count_, vertices_per_strand_, settings);
     if (hairActsOnHair(settings)) hair_hair_.emplace(device, groom, settings, step_);
-    const RigidMotion placed = pose();
+    const std::vector<RigidMotion> placed = rootMotions();
     std::vector<glm::vec3> start;
     start.reserve(groom.points.size());
-    for (const glm::vec3& point : groom.points) start.emplace_back(placed(point));
+    for (const glm::vec3& point : groom.points)
+        start.emplace_back(placed[start.size() / vertices_per_strand_](point));
     setState(start, start);
     if (balance()) balanceRest(start);
     for (const engine::Buffer* buffer : state())
@@ -150,7 +155,7 @@ void Simulation::balanceRest(std::span<const glm::vec3> start) {
     const auto with_bodies = parametersWith(bodies_.parameters());
     const auto without = parametersWith({});
     engine::upload(*device_, std::as_bytes(std::span(without)), parameters_);
-    const glm::dquat to_groom = glm::conjugate(pose().rotation);
+    const std::vector<RigidMotion> placed = rootMotions();
     bool corrects = true;
     for (int i = 0; i < kMostCorrections && corrects; ++i) {
         setState(start, start);
@@ -159,8 +164,11 @@ void Simulation::balanceRest(std::span<const glm::vec3> start) {
             recordSubsteps(commands, 1, current_, 0.0, 0.0);
         });
         std::vector<glm::vec3> moved;
-        for (std::size_t vertex = 0; const glm::vec3& now : readPositions())
-            moved.emplace_back(to_groom * (glm::dvec3(now) - glm::dvec3(start[vertex++])));
+        for (std::size_t vertex = 0; const glm::vec3& now : readPositions()) {
+            const glm::dquat& rotation = placed[vertex / vertices_per_strand_].rotation;
+            moved.emplace_back(
+                glm::conjugate(rotation) * (glm::dvec3(now) - glm::dvec3(start[vertex++])));
+        }
         corrects = solver_->correctBalance(*device_, moved);
     }
     engine::upload(*device_, std::as_bytes(std::span(with_bodies)), parameters_);
@@ -179,8 +187,7 @@ void Simulation::recordWind(engine::Commands& commands) const {
 }
 
 void Simulation::recordVolume(engine::Commands& commands) const {
-    if (hair_hair_)
-        hair_hair_->record(commands, addresses(), motion_.at(time() + double{step_.whole}));
+    if (hair_hair_) hair_hair_->record(commands, addresses(), poseAt(time() + double{step_.whole}));
 }
 
 void Simulation::recordPulls(engine::Commands& commands) const {
@@ -276,12 +283,18 @@ void Simulation::setState(
     if (!solver_) return;
     device_->runOnce([&](engine::Commands& commands) {
         const gpu::RigidFrame frame = toGpu(pose());
+        if (roots_) roots_->record(commands, motion_, 1, time(), time());
         commands.barrier(engine::Access::anything, engine::Access::compute_write);
         commands.uses(
             {{positions_[current_], engine::Access::compute_read},
              {previous_[current_], engine::Access::compute_read}});
+        if (roots_) commands.uses({{roots_->frames(), engine::Access::compute_read}});
         solver_->recordAdopt(
-            commands, {.guides = addresses().parameters, .frame = frame, .frame_before = frame});
+            commands, {.guides = addresses().parameters,
+                       .frame = frame,
+                       .frame_before = frame,
+                       .roots = roots_ ? roots_->address(0) : 0,
+                       .roots_before = roots_ ? roots_->address(0) : 0});
         commands.barrier(engine::Access::compute_write, engine::Access::anything);
     });
 }
@@ -335,7 +348,10 @@ GuideView Simulation::guides() const {
 void Simulation::recordSubsteps(
     engine::Commands& commands, std::uint32_t count, std::uint32_t from_copy, double from,
     double to) const {
+    std::vector<RigidMotion> means;
+    if (roots_) means = roots_->record(commands, motion_, count, from, to);
     const auto frameAfter = [&](std::uint32_t substep) {
+        if (roots_) return toGpu(means[substep]);
         const double part = static_cast<double>(substep) / step_.count;
         return toGpu(motion_.at(from + part * (to - from)));
     };
@@ -354,6 +370,7 @@ void Simulation::recordSubsteps(
              {guides.positions, Access::compute_write},
              {guides.previous, Access::compute_write}});
         if (air.velocities) commands.uses({{*air.velocities, Access::compute_read}});
+        if (roots_) commands.uses({{roots_->frames(), Access::compute_read}});
         solver_->record(
             commands, {.guides = guides.parameters,
                        .from = before.parameters,
@@ -361,6 +378,8 @@ void Simulation::recordSubsteps(
                        .air = air.velocities ? air.velocities->address() : 0,
                        .frame = frameAfter(i + 1),
                        .frame_before = frameAfter(i),
+                       .roots = roots_ ? roots_->address(i + 1) : 0,
+                       .roots_before = roots_ ? roots_->address(i) : 0,
                        .first_strand = 0,
                        .drag = air.drag});
         if (segments) segments_->record(commands, guides, frameAfter(i + 1), frameAfter(i));
@@ -370,6 +389,18 @@ void Simulation::recordSubsteps(
         {{Access::compute_write, Access::vertex_read},
          {Access::compute_write, Access::compute_write},
          {Access::vertex_read, Access::compute_write}});
+}
+
+RigidMotion Simulation::poseAt(double time) const {
+    const RigidMotion carried = motion_.at(time);
+    return roots_ ? carried * roots_->meanAt(time) : carried;
+}
+
+std::vector<RigidMotion> Simulation::rootMotions() const {
+    if (!roots_) return std::vector<RigidMotion>(strand_count_, pose());
+    std::vector<RigidMotion> motions = roots_->at(time());
+    for (RigidMotion& motion : motions) motion = carried() * motion;
+    return motions;
 }
 
 GuideAddresses Simulation::addresses(std::uint32_t copy) const {

@@ -14,6 +14,7 @@
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/mesh/deforming_mesh.h"
 #include "hair/groom/mesh/mesh.h"
 #include "hair/settings.h"
 #include "hair/simulation/bodies.h"
@@ -23,6 +24,7 @@
 #include "hair/simulation/head_motion.h"
 #include "hair/simulation/pulls.h"
 #include "hair/simulation/segments.h"
+#include "hair/simulation/skinned_roots.h"
 #include "hair/simulation/solvers.h"
 #include "hair/simulation/wind.h"
 
@@ -71,13 +73,14 @@ struct MadeBefore {
 class Simulation {
 public:
     // The groom needs at least one strand and two vertices; `field_meshes[i]` is the mesh of
-    // settings.distance_fields[i]. Settles the guides (see settle) for settings.settle_steps. What
+    // settings.distance_fields[i]; `deforming` is the mesh under the hair where settings.animation
+    // plays one, and is borrowed. Settles the guides (see settle) for settings.settle_steps. What
     // was made before is taken as it is; a settled state that does not fit is not.
     // Throws Error for settings that make no sense, Unsupported for what the device can't do.
     Simulation(
         const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
         std::uint32_t seed, std::span<const groom::Mesh> field_meshes = {},
-        const MadeBefore& made = {});
+        const MadeBefore& made = {}, const groom::DeformingMesh* deforming = nullptr);
 
     // Bodies::warnings().
     std::vector<std::string> bodyWarnings() const { return bodies_.warnings(); }
@@ -141,11 +144,16 @@ public:
     // Whether a step records anything: `none` does so only where the head moves.
     bool moves() const { return solver_ != nullptr; }
     double time() const { return static_cast<double>(steps_) * double{step_.whole}; }
-    // The head's rigid motion now.
-    RigidMotion pose() const { return motion_.at(time()); }
+    // The head's rigid motion now; where an animation deforms it, the mean of the guides' roots.
+    RigidMotion pose() const { return poseAt(time()); }
+    // What of it /simulation/motion does, after the animation.
+    RigidMotion carried() const { return motion_.at(time()); }
     GuideView guides() const;
 
 private:
+    RigidMotion poseAt(double time) const;
+    // How guides have moved since rest with their roots now, [guide].
+    std::vector<RigidMotion> rootMotions() const;
     void recordSubsteps(
         engine::Commands& commands, std::uint32_t count, std::uint32_t from_copy, double from,
         double to) const;
@@ -168,6 +176,7 @@ private:
     std::uint32_t seed_;
     std::vector<bool> pinned_;  // [strand][vertex]
     HeadMotion motion_;
+    std::optional<SkinnedRoots> roots_;
     Bodies bodies_;
     engine::Buffer rest_positions_;
     std::array<engine::Buffer, 2> positions_;  // [copy]

@@ -19,10 +19,11 @@ FtlSolver::FtlSolver(
               .velocity_correction = settings.ftl.velocity_correction}}),
           "ftl parameters")),
       pipeline_(
-          device,
-          {.shader = "simulation/ftl.comp",
-           .constants = {{gpu::kContinuousCollisionConstant, settings.collision.continuous}},
-           .push_size = sizeof(gpu::SubstepPush)}) {}
+          device, {.shader = "simulation/ftl.comp",
+                   .constants =
+                       {{gpu::kContinuousCollisionConstant, settings.collision.continuous},
+                        {gpu::kSkinnedRootsConstant, hasSkinnedRoots(settings)}},
+                   .push_size = sizeof(gpu::SubstepPush)}) {}
 
 void FtlSolver::record(engine::Commands& commands, gpu::SubstepPush push) const {
     push.solver = parameters_.address();

@@ -278,10 +278,13 @@ RodSolver::RodSolver(
                         {gpu::kWarmStartConstant, settings.collision.warm_start},
                         {gpu::kRodSegmentsConstant, segmentsOf(settings)},
                         {gpu::kRodAlphaConstant, accelerations_.has_value()},
-                        {gpu::kRodDampedConstant, method.damping > 0.0}},
+                        {gpu::kRodDampedConstant, method.damping > 0.0},
+                        {gpu::kSkinnedRootsConstant, hasSkinnedRoots(settings)}},
                    .push_size = sizeof(gpu::SubstepPush)}),
       adopt_(
-          device, {.shader = "simulation/rod_adopt.comp", .push_size = sizeof(gpu::SubstepPush)}) {}
+          device, {.shader = "simulation/rod_adopt.comp",
+                   .constants = {{gpu::kSkinnedRootsConstant, hasSkinnedRoots(settings)}},
+                   .push_size = sizeof(gpu::SubstepPush)}) {}
 
 void RodSolver::record(engine::Commands& commands, gpu::SubstepPush push) const {
     push.solver = parameters_.address();

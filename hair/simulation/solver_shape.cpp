@@ -228,6 +228,7 @@ ShapePlan planShape(
                                       : "simulation/shape_serial.comp",
             .constants =
                 {{gpu::kContinuousCollisionConstant, settings.collision.continuous},
+                 {gpu::kSkinnedRootsConstant, hasSkinnedRoots(settings)},
                  {gpu::kShapeGroupSizeConstant, kGroup},
                  {gpu::kShapeTridiagonalConstant, tridiagonal},
                  {gpu::kShapeVerticesPerStrandConstant, vertices_per_strand}},
@@ -253,6 +254,7 @@ ShapePlan planShape(
         .shader = shaderOf(device, settings),
         .constants =
             {{gpu::kContinuousCollisionConstant, settings.collision.continuous},
+             {gpu::kSkinnedRootsConstant, hasSkinnedRoots(settings)},
              {gpu::kShapeGroupSizeConstant, strands * chunks},
              {gpu::kShapeTridiagonalConstant, tridiagonal},
              {gpu::kShapeVerticesPerStrandConstant, vertices_per_strand},

@@ -16,13 +16,16 @@
 namespace hair::simulation {
 namespace {
 
-// Hair frozen on a head that moves: solver `none` with keyframes.
+// Hair frozen on a head that moves or deforms: solver `none` with keyframes or an animation.
 class RestSolver : public GuideSolver {
 public:
-    RestSolver(const engine::Device& device, const groom::Groom& groom)
+    RestSolver(
+        const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings)
         : vertex_count_(groom.strand_count * groom.vertices_per_strand),
           pipeline_(
-              device, {.shader = "simulation/rest.comp", .push_size = sizeof(gpu::SubstepPush)}) {}
+              device, {.shader = "simulation/rest.comp",
+                       .constants = {{gpu::kSkinnedRootsConstant, hasSkinnedRoots(settings)}},
+                       .push_size = sizeof(gpu::SubstepPush)}) {}
 
     void record(engine::Commands& commands, gpu::SubstepPush push) const override {
         commands.bind(pipeline_, push);
@@ -54,8 +57,8 @@ std::unique_ptr<GuideSolver> make(
 std::unique_ptr<GuideSolver> makeNone(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const gpu::Step&) {
-    if (settings.motion.keyframes.empty()) return nullptr;
-    return std::make_unique<RestSolver>(device, groom);
+    if (settings.motion.keyframes.empty() && !hasSkinnedRoots(settings)) return nullptr;
+    return std::make_unique<RestSolver>(device, groom, settings);
 }
 
 template <RodMethod (*kMethod)(const SimulationSettings&)>

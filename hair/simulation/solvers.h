@@ -61,8 +61,13 @@ public:
     virtual std::vector<const engine::Buffer*> state() const { return {}; }
 };
 
-// The settings' solver; null where nothing moves: `none` without keyframes. Throws Unsupported
-// for what the device can't do.
+// Whether an animation deforms the mesh under the hair: solvers read SubstepPush::roots.
+inline bool hasSkinnedRoots(const SimulationSettings& settings) {
+    return !settings.animation.clip.empty();
+}
+
+// The settings' solver; null where nothing moves: `none` without keyframes or animation. Throws
+// Unsupported for what the device can't do.
 std::unique_ptr<GuideSolver> makeSolver(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const gpu::Step& step);

@@ -87,6 +87,7 @@ const uint kStrandCollisionConstant = 30u;
 const uint kMergedHairsConstant = 31u;
 const uint kOwnColorsConstant = 32u;
 const uint kResidualsConstant = 33u;
+const uint kSkinnedStrandsConstant = 35u;
 
 // Constants of strands/software: strands/software/software.glsl; of strands/mesh, too.
 const uint kMostSegmentsConstant = 10u;
@@ -148,8 +149,9 @@ const uint kShapeCollidesConstant = 2u;
 const uint kShapeTridiagonalConstant = 3u;  // lengths by walkDown() and walkUp()
 const uint kShapeVerticesPerChunkConstant = 4u;
 
-// Of every solver: simulation/constraints/bodies.glsl.
+// Of every solver: simulation/constraints/bodies.glsl and simulation/root_frame.glsl.
 const uint kContinuousCollisionConstant = 5u;
+const uint kSkinnedRootsConstant = 11u;
 
 // Of simulation/segments.comp.
 const uint kSegmentVerticesConstant = 0u;

@@ -89,6 +89,8 @@ struct SubstepPush {
     Address air;  // the air's velocity at the vertices, m/s; address 0: it does not brake
     RigidFrame frame;  // of the head at the end of the substep
     RigidFrame frame_before;  // of the head at the start of the substep
+    Address roots;  // RigidFrame [strand], at the end; read where kSkinnedRoots
+    Address roots_before;  // RigidFrame [strand], at the start
     uint first_strand;  // of those that this dispatch moves
     AirDrag drag;
 };

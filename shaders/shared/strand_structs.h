@@ -63,6 +63,9 @@ struct PictureParameters {
     Address bodies;  // Bodies; read where they push strands out
     Address root_pattern;  // vec2 [strand], in [0, 1): read where it is that of every triangle
     Address offsets;  // vec3 [profile][1 + sample + 1], m: see hair/rendering/strand_offsets.h
+    Address root_corrections;  // vec4 [root triangle][strand], `density` of them, m: from a
+                               // strand's root to where the deformed mesh has it; read where
+                               // kSkinnedStrands
     uint offset_profiles;
     uint offset_samples;  // along a strand, from root to tip
     uint vertices_per_guide;
@@ -119,6 +122,26 @@ struct TurnsPush {
     Address turns;  // vec4 [guide][vertex]; written
     uint guide_count;
     uint vertices_per_guide;
+};
+
+// What carries a strand's root where the mesh deforms: groom::SurfaceBinding.
+struct CarriedRoot {
+    uvec3 corners;  // vertices of the mesh
+    vec3 weights;  // of the corners, sum 1
+    vec3 offset;  // from the triangle to the root, along the axes of the triangle, m
+    vec4 inverse_edges;  // of SurfaceBinding::edges, column by column, 1/m
+};
+
+// Invocations in a workgroup of strands/skin.comp.
+const uint kSkinGroupSize = 64u;
+
+// Push constants of strands/skin.comp.
+struct SkinPush {
+    Address picture;  // PictureParameters
+    Address roots;  // CarriedRoot [root triangle][strand]; 0: what is found is the roots themselves
+    Address mesh;  // vec3 [vertex], the deformed mesh, m
+    Address found;  // vec4 [root triangle][strand], m; written
+    uint count;  // of strands
 };
 
 // Push constants of everything that draws strands.

@@ -10,6 +10,7 @@
 #include "simulation/constraints/global.glsl"
 #include "simulation/guides.glsl"
 #include "simulation/integrate.glsl"
+#include "simulation/root_frame.glsl"
 
 layout(local_size_x = kGuideGroupSize) in;
 
@@ -33,7 +34,8 @@ void main() {
     float contact = 0.0;  // 1 from the first vertex that touches a body
     vec4 follicle = positions_before.at[root];
     vec3 leader_before = follicle.xyz;  // at the start of the substep
-    vec3 leader = toWorld(push.frame, rest.at[root].xyz);
+    RigidFrame root_frame = rootFrame(push.frame, push.roots, strand);
+    vec3 leader = toWorld(root_frame, rest.at[root].xyz);
     positions.at[root] = vec4(leader, follicle.w);
     previous.at[root] = vec4(leader_before, 0.0);
     for (uint i = root + 1; i < root + guides.vertices_per_strand; ++i) {
@@ -59,7 +61,7 @@ void main() {
                     before + braked(predicted - before, guides.step.sub * air, tangent, brake);
                 stiffness = pullOn(stiffness, brake);
             }
-            predicted = pullToRest(predicted, toWorld(push.frame, rest.at[i].xyz), stiffness);
+            predicted = pullToRest(predicted, toWorld(root_frame, rest.at[i].xyz), stiffness);
             float rest_length = distance(rest.at[i].xyz, rest.at[i - 1].xyz);
             point.xyz = followLeader(leader, predicted, rest_length);
             correction = point.xyz - predicted;

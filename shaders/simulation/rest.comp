@@ -5,6 +5,7 @@
 
 #include "common/rigid_frame.glsl"
 #include "simulation/guides.glsl"
+#include "simulation/root_frame.glsl"
 
 layout(local_size_x = kGuideGroupSize) in;
 
@@ -19,6 +20,7 @@ void main() {
     State(guides.previous).at[index] = vec4(point.xyz, 0.0);
     bool pinned = index % guides.vertices_per_strand != 0u && point.w == 0.0;
     vec3 rest = Vectors(guides.rest_positions).at[index].xyz;
-    if (!pinned) point.xyz = toWorld(push.frame, rest);
+    uint strand = index / guides.vertices_per_strand;
+    if (!pinned) point.xyz = toWorld(rootFrame(push.frame, push.roots, strand), rest);
     State(guides.positions).at[index] = point;
 }

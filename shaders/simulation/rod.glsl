@@ -90,7 +90,7 @@ vec3 predictedTurn(uint i, vec3 angular_velocity) {
 // Velocities with the forces of the substep, and where they would take the strand.
 void predict() {
     State positions = State(from.positions);
-    root_now = toWorld(push.frame, Vectors(guides.rest_positions).at[root].xyz);
+    root_now = toWorld(root_frame, Vectors(guides.rest_positions).at[root].xyz);
     vec4 follicle = positions.at[root];
     vec3 root_moved = (root_now - follicle.xyz) / unit;
     State(guides.previous).at[root] = vec4(follicle.xyz, 0.0);
@@ -146,7 +146,7 @@ void predict() {
 // By how much a segment has turned in the substep, as small turns add up.
 vec3 turnSoFar(uint i) {
     if (i > 0) return predictedTurn(i, motionAt(i).angular_velocity) + scratchAt(i, 7).xyz;
-    vec4 turn = multiply(push.frame.rotation, conjugate(push.frame_before.rotation));
+    vec4 turn = multiply(root_frame.rotation, conjugate(root_frame_before.rotation));
     return (turn.w < 0.0 ? -2.0 : 2.0) * turn.xyz;
 }
 

@@ -6,6 +6,7 @@
 #include "common/rigid_frame.glsl"
 #include "common/vectors.glsl"
 #include "simulation/rod/state.glsl"
+#include "simulation/root_frame.glsl"
 
 layout(local_size_x = kRodGroupSize) in;
 
@@ -23,7 +24,8 @@ void main() {
     uint root = strand * guides.vertices_per_strand;
     uint strands = guides.strand_count;
     vec4 orientation = multiply(
-        push.frame.rotation, segmentRow(rod.segments, 0, kRodHalfRotation, strands, strand));
+        rootFrame(push.frame, push.roots, strand).rotation,
+        segmentRow(rod.segments, 0, kRodHalfRotation, strands, strand));
     for (uint i = 1; i < guides.vertices_per_strand; ++i) {
         vec3 here = positions.at[root + i].xyz;
         vec3 before = previous.at[root + i].xyz;

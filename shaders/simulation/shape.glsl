@@ -25,6 +25,7 @@
 #include "simulation/contacts.glsl"
 #include "simulation/guides.glsl"
 #include "simulation/integrate.glsl"
+#include "simulation/root_frame.glsl"
 
 // The workgroup is a multiple of kChunks.
 layout(local_size_x_id = kShapeGroupSizeConstant) in;
@@ -48,6 +49,8 @@ const uint kVerticesInLast = kVerticesPerStrand - kLastChunk * kVerticesPerChunk
 
 uint lane;
 uint chunk;
+RigidFrame root_frame;  // at the end of the substep
+RigidFrame root_frame_before;
 vec4 head_rotation;  // that the shape is seen from
 // Vertex j of the chunk is points[j + 1]; around them lie the last vertex of the chunk before and
 // the first of the chunk after. Segment j joins points[j] and points[j + 1].
@@ -193,7 +196,7 @@ void bendUpChunk(vec2 stiffness, float free_mass, vec3 root_moved) {
 }
 
 void bendDownChunk(vec3 root_moved) {
-    vec4 head_turn = multiply(push.frame.rotation, conjugate(push.frame_before.rotation));
+    vec4 head_turn = multiply(root_frame.rotation, conjugate(root_frame_before.rotation));
     BendAbove above = BendAbove(
         points[1].xyz + root_moved, root_moved, (head_turn.w < 0.0 ? -2.0 : 2.0) * head_turn.xyz);
     if (kChunks > 1 && chunk > 0)
@@ -331,7 +334,7 @@ void load(GuideParameters guides, GuideParameters from, ShapeParameters params, 
         vec4 point = loadVector(from.positions, first + j);
         vec3 previous = loadVector(from.previous, first + j).xyz;
         storeVector(guides.previous, first + j, vec4(point.xyz, 0.0));
-        vec3 rest = toWorld(push.frame, loadVector(params.rest_positions, first + j).xyz);
+        vec3 rest = toWorld(root_frame, loadVector(params.rest_positions, first + j).xyz);
         vec3 acceleration = guides.gravity;
         if (push.accelerations != kNoAddress)
             acceleration += loadVector(push.accelerations, first + j).xyz;
@@ -420,20 +423,23 @@ void main() {
     uint root = strand * kVerticesPerStrand;
     uint first = root + chunk * kVerticesPerChunk;
     uint end = first + (chunk < kLastChunk ? kVerticesPerChunk : kVerticesInLast);
+    uint existing = min(strand, guides.strand_count - 1);
+    root_frame = rootFrame(push.frame, push.roots, existing);
+    root_frame_before = rootFrame(push.frame_before, push.roots_before, existing);
 
     [[unroll]] for (uint j = 0; j < kVerticesPerChunk + 2; ++j) points[j] = vec4(0.0);
     [[unroll]] for (uint j = 0; j <= kVerticesPerChunk; ++j) rest_edges[j] = vec4(0.0);
     float stiffness = 0.0;
     vec3 first_rest_tangent = vec3(0.0);
 #ifdef HAIRBENCH_SHAPE_ENERGY
-    RigidFrame head = push.frame_before;  // that the shape is seen from
+    RigidFrame head = root_frame_before;  // that the shape is seen from
     [[unroll]] for (uint j = 0; j < kVerticesPerChunk; ++j) loads[j] = kNoLoad;
     vec3 root_moved = vec3(0.0);
     if (present)
-        root_moved = toWorld(push.frame, loadVector(params.rest_positions, root).xyz) -
+        root_moved = toWorld(root_frame, loadVector(params.rest_positions, root).xyz) -
                      loadVector(GuideReference(push.from).parameters.positions, root).xyz;
 #else
-    RigidFrame head = push.frame;
+    RigidFrame head = root_frame;
 #endif
     head_rotation = head.rotation;
     if (present) {

@@ -20,6 +20,7 @@
 #include "simulation/contacts.glsl"
 #include "simulation/guides.glsl"
 #include "simulation/integrate.glsl"
+#include "simulation/root_frame.glsl"
 
 layout(local_size_x_id = kShapeGroupSizeConstant) in;
 layout(constant_id = kShapeVerticesPerStrandConstant) const uint kVerticesPerStrand = 8;
@@ -40,6 +41,8 @@ void main() {
     State positions = State(guides.positions);
     State previous = State(guides.previous);
     Vectors rest_edges = Vectors(params.rest_edges);
+    RigidFrame root_frame = rootFrame(push.frame, push.roots, strand);
+    RigidFrame root_frame_before = rootFrame(push.frame_before, push.roots_before, strand);
 
     vec3 above = vec3(0.0);  // where the substep starts from
     float inverse_masses[kVerticesPerStrand];
@@ -52,7 +55,7 @@ void main() {
         vec4 point = State(from.positions).at[root + v];
         float inverse_mass = point.w;
         vec3 before = point.xyz;
-        vec3 rest = toWorld(push.frame, Vectors(params.rest_positions).at[root + v].xyz);
+        vec3 rest = toWorld(root_frame, Vectors(params.rest_positions).at[root + v].xyz);
 #ifdef HAIRBENCH_SHAPE_ENERGY
         loads[v] = kNoLoad;
         if (v == 0) root_moved = rest - before;
@@ -107,7 +110,7 @@ void main() {
     // Loops that Mesa would unroll up to 32 vertices, which takes lavapipe 20 times as long to
     // compile.
     lengths = held;
-    RigidFrame head = push.frame_before;
+    RigidFrame head = root_frame_before;
     Transport start = Transport(firstTangent(head, rest_edges.at[root + 1]), head.rotation);
     vec3 axes[kVerticesPerStrand];
     // Kept: Mesa 22.3.6's lavapipe takes x for w where it is loaded again alone (2 vertices).
@@ -133,7 +136,7 @@ void main() {
             joints[v] = addJoint(
                 below, edge, goal_edges[v], axes[v], stiffness * vec2(1.0, params.local_damping));
     }
-    vec4 head_turn = multiply(push.frame.rotation, conjugate(push.frame_before.rotation));
+    vec4 head_turn = multiply(root_frame.rotation, conjugate(root_frame_before.rotation));
     vec3 upper = positions.at[root].xyz;
     BendAbove turning =
         BendAbove(upper + root_moved, root_moved, (head_turn.w < 0.0 ? -2.0 : 2.0) * head_turn.xyz);
@@ -150,7 +153,7 @@ void main() {
     }
 #else
     Transport start =
-        Transport(firstTangent(push.frame, rest_edges.at[root + 1]), push.frame.rotation);
+        Transport(firstTangent(root_frame, rest_edges.at[root + 1]), root_frame.rotation);
     for (uint iteration = 0; iteration < params.local_iterations; ++iteration) {
         Transport frame = start;
         vec3 upper = positions.at[root].xyz;

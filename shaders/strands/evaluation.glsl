@@ -14,6 +14,7 @@ layout(location = 14) patch in vec3 root_lift[3];
 layout(location = 17) patch in uvec3 patch_guides;
 layout(location = 18) patch in vec4 single_shares;
 layout(location = 19) patch in uvec2 patch_pieces;
+layout(location = 20) patch in uint patch_triangle;
 
 StrandPoint evaluatedPoint(PictureParameters picture) {
     // Whole numbers again, so that no rounding of the tessellator moves a strand or opens a joint.
@@ -22,6 +23,7 @@ StrandPoint evaluatedPoint(PictureParameters picture) {
     uint piece_end = uint(place.y);
 
     StrandPatch strand_patch;
+    if (kSkinnedStrands != 0) strand_patch.triangle = patch_triangle;
     strand_patch.key = patch_ids.x;
     strand_patch.segment = patch_ids.y;
     strand_patch.first_strand = patch_ids.z;

@@ -13,6 +13,8 @@ layout(constant_id = kWidthConstant) const uint kWidth = kWidthScene;
 layout(constant_id = kOffsetsConstant) const uint kOffsets = 0;
 // 1: strands of the groom have residuals
 layout(constant_id = kResidualsConstant) const uint kResiduals = 0;
+// 1: roots follow the triangles of a mesh that deforms
+layout(constant_id = kSkinnedStrandsConstant) const uint kSkinnedStrands = 0;
 layout(constant_id = kInterpolationConstant) const uint kInterpolation = kInterpolationMulti;
 // 1: strands of guides that touch a body follow one of them from there on
 layout(constant_id = kCollisionRuleConstant) const uint kCollisionRule = 0;

@@ -14,6 +14,7 @@
 #include "strands/roots.glsl"
 
 layout(buffer_reference, scalar) readonly buffer GuideWidths { float widths[]; };
+layout(buffer_reference, scalar) readonly buffer RootCorrections { vec4 at[]; };
 
 // One strand of a patch.
 struct PatchStrand {
@@ -83,6 +84,21 @@ void addResidual(PictureParameters picture, StrandPatch strand_patch, PatchStran
     point.tangent = tangent;
 }
 
+// Takes a strand's root to its own triangle of the deformed mesh, and the rest of it along, less and
+// less toward the tip.
+void correctRoot(PictureParameters picture, StrandPatch strand_patch, PatchStrand strand,
+                 inout StrandPoint point) {
+    // A patch may have places to spare.
+    uint index = strand_patch.triangle * picture.density + min(strand.index, picture.density - 1u);
+    vec3 correction = RootCorrections(picture.root_corrections).at[index].xyz;
+    precise float left = 1.0 - point.along;
+    precise vec3 position = point.position + left * left * correction;  // strands/curve.glsl
+    precise vec3 tangent =
+        point.tangent - 2.0 * left / float(picture.vertices_per_guide - 1) * correction;
+    point.position = position;
+    point.tangent = tangent;
+}
+
 vec4 curveWeights(float t) {
     return kCurve == kCurveCatmullRom ? interpolationWeights(t) : splineWeights(t);
 }
@@ -110,6 +126,7 @@ StrandPoint pointOnStrand(PictureParameters picture, StrandPatch strand_patch, P
     point.position += strand.lift;
     if (kOffsets != 0) offsetPoint(picture, strand_patch, strand, t, point);
     if (kResiduals != 0) addResidual(picture, strand_patch, strand, t, point);
+    if (kSkinnedStrands != 0) correctRoot(picture, strand_patch, strand, point);
     return point;
 }
 
@@ -148,10 +165,9 @@ StrandPoint drawnPoint(PictureParameters picture, StrandPatch strand_patch, Patc
     return point;
 }
 
-// A point of a strand, evaluated from the guides themselves: for stages that work on one point at a
-// time.
-StrandPoint pointFromGuides(PictureParameters picture, StrandPatch strand_patch, uvec3 guides,
-                            uint index, uint piece_end) {
+// A strand of a patch, from the guides themselves: for stages that work on one point at a time.
+PatchStrand strandFromGuides(PictureParameters picture, StrandPatch strand_patch, uvec3 guides,
+                             uint index) {
     PatchStrand strand;
     strand.index = index;
     strand.guides = guides;
@@ -167,6 +183,13 @@ StrandPoint pointFromGuides(PictureParameters picture, StrandPatch strand_patch,
     }
     strandControlPoints(picture, guides, segment, strand.weights, points,
                         singleShares(picture, guides, segment), strand.r);
+    return strand;
+}
+
+// A point of such a strand.
+StrandPoint pointFromGuides(PictureParameters picture, StrandPatch strand_patch, uvec3 guides,
+                            uint index, uint piece_end) {
+    PatchStrand strand = strandFromGuides(picture, strand_patch, guides, index);
     return drawnPoint(picture, strand_patch, strand, piece_end);
 }
 

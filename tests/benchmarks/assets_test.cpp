@@ -53,5 +53,48 @@ TEST(Assets, NamesAMissingMeshOfAField) {
     EXPECT_EQ(error.substr(0, 10), "none.obj: ") << error;
 }
 
+hair::Settings animated(const std::string& clip) {
+    hair::Settings settings;
+    settings.groom.grow.mesh = HAIRBENCH_SCENES_DIR "/assets/head_talk.glb";
+    settings.simulation.animation.clip = clip;
+    return settings;
+}
+
+TEST(Assets, WarnsOfAnimationsThatNobodyPlays) {
+    const TemporaryFolder folder;
+    const auto scene = folder.write("s.json", "{}");
+    const auto warnings = scene::checkAssets(animated(""), scene);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(
+        folder.relative(warnings.front()),
+        "s.json: /simulation/animation/clip: is empty, so nothing plays the animations "
+        "of " HAIRBENCH_SCENES_DIR "/assets/head_talk.glb: 'talk'");
+    EXPECT_TRUE(scene::checkAssets(animated("talk"), scene).empty());
+}
+
+TEST(Assets, WarnsOfAFieldThatKeepsItsShape) {
+    const TemporaryFolder folder;
+    hair::Settings settings = animated("talk");
+    settings.simulation.distance_fields.resize(1);
+    const auto scene = folder.write("s.json", "{}");
+    const auto warnings = scene::checkAssets(settings, scene);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(
+        folder.relative(warnings.front())
+            .find("s.json: /simulation/distance_fields/0: keeps its shape"),
+        0u);
+    settings.simulation.distance_fields[0].follows = hair::Follows::world;
+    EXPECT_TRUE(scene::checkAssets(settings, scene).empty());
+}
+
+TEST(Assets, NamesTheClipsThatThereAre) {
+    const TemporaryFolder folder;
+    const auto scene = folder.write("s.json", "{}");
+    EXPECT_EQ(
+        errorText([&] { scene::checkAssets(animated("walk"), scene); }),
+        HAIRBENCH_SCENES_DIR "/assets/head_talk.glb: has no animation 'walk'; its animations are "
+                             "'talk'");
+}
+
 }  // namespace
 }  // namespace benchmarks

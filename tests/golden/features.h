@@ -238,7 +238,12 @@ inline const std::vector<Feature>& features() {
              s.render.show = Show::lod;
              s.lod = {.mode = LodMode::distance, .near_distance = 0.3f, .far_distance = 0.6f};
          }},
-        {"strands", [](Settings& s) { s.render.show = Show::strands; }, "tangents"}};
+        {"strands", [](Settings& s) { s.render.show = Show::strands; }, "tangents"},
+        // Nodding, with the mouth open and the brows where they are at rest.
+        {"skinned", [](Settings& s) {
+             s.groom.grow.mesh = "assets/head_talk.glb";
+             s.simulation.animation.clip = "talk";
+         }}};
     return kFeatures;
 }
 

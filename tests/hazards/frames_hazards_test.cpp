@@ -136,6 +136,15 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
     at_rest.strands.curl.radius = 0.004f;
     silent("at rest", made(at_rest));
     silent("everything", everything());
+    // Frames of half a step: every other one draws and moves nothing.
+    for (const float curl : {0.0f, 0.004f}) {
+        hair::Settings skinned = hair::plainSettings();
+        skinned.groom.grow.mesh = "assets/head_talk.glb";
+        skinned.simulation.animation.clip = "talk";
+        skinned.strands.curl.radius = curl;
+        skinned.run.frame_time = 0.5f * skinned.simulation.time_step;
+        silent("skinned, curl " + std::to_string(curl), made(skinned));
+    }
     for (const hair::Solver solver :
          {hair::Solver::rod, hair::Solver::stable_cosserat, hair::Solver::position_based_rod,
           hair::Solver::augmented_mass_spring}) {

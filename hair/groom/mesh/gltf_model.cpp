@@ -7,14 +7,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <functional>
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -177,6 +180,7 @@ constexpr std::array<std::string_view, 11> kSections{
     "extensionsUsed",
     "extensionsRequired"};
 constexpr std::array<std::string_view, 3> kImageSections{"images", "textures", "samplers"};
+constexpr std::array<std::string_view, 2> kMotionSections{"skins", "animations"};
 
 // The first line of what tinygltf or nlohmann says, which may go on with all the file's data.
 std::string firstLine(std::string_view text) {
@@ -223,10 +227,26 @@ std::vector<tinygltf::Image> takeImages(json& document) {
     return images;
 }
 
-bool isRead(const std::string& section, GltfImages images) {
-    if (std::ranges::find(kSections, section) != kSections.end()) return true;
-    return images == GltfImages::named &&
-           std::ranges::find(kImageSections, section) != kImageSections.end();
+// tinygltf wants what glTF does not ask for: skins whose matrices are the identity have none. Says
+// whether there are any.
+bool nameMissingMatrices(json& document) {
+    const auto skins = document.find("skins");
+    if (skins == document.end() || !skins->is_array()) return false;
+    bool found = false;
+    for (json& skin : *skins) {
+        if (!skin.is_object() || skin.contains("inverseBindMatrices")) continue;
+        skin["inverseBindMatrices"] = -1;
+        found = true;
+    }
+    return found;
+}
+
+bool isRead(const std::string& section, GltfImages images, GltfMotion motion) {
+    const auto isOf = [&](std::span<const std::string_view> sections) {
+        return std::ranges::find(sections, section) != sections.end();
+    };
+    return isOf(kSections) || (images == GltfImages::named && isOf(kImageSections)) ||
+           (motion == GltfMotion::read && isOf(kMotionSections));
 }
 
 struct Rewritten {
@@ -236,7 +256,7 @@ struct Rewritten {
 
 // The file as tinygltf is to read it: without images and the sections that aren't read, and with
 // the first buffer's data in a chunk.
-Rewritten rewritten(std::string_view file, GltfImages images) {
+Rewritten rewritten(std::string_view file, GltfImages images, GltfMotion motion) {
     const GlbChunks chunks = isGlb(file) ? glbChunks(file) : GlbChunks{file, {}};
     const auto offset = static_cast<std::size_t>(chunks.json.data() - file.data());
     if (chunks.json.size() > kMaximumJson) fail(offset, "JSON of 2^31 bytes or more");
@@ -248,7 +268,7 @@ Rewritten rewritten(std::string_view file, GltfImages images) {
         }
         if (depth != 1 || event != json::parse_event_t::key) return true;
         const auto& key = parsed.get_ref<const std::string&>();
-        if (isRead(key, images)) return true;
+        if (isRead(key, images, motion)) return true;
         has_others = true;
         return false;
     };
@@ -256,6 +276,7 @@ Rewritten rewritten(std::string_view file, GltfImages images) {
         json document = json::parse(chunks.json.begin(), chunks.json.end(), keep);
         const std::string data = isGlb(file) ? std::string() : takeData(document);
         std::vector<tinygltf::Image> taken = takeImages(document);
+        has_others |= nameMissingMatrices(document);
         if (data.empty() && !has_others && taken.empty()) return {};
         std::string text = document.dump();
         if (!data.empty() || isGlb(file))
@@ -299,11 +320,12 @@ void checkExtensions(const tinygltf::Model& model) {
 
 }  // namespace
 
-tinygltf::Model
-loadGltf(std::span<const std::byte> bytes, const std::filesystem::path& path, GltfImages images) {
+tinygltf::Model loadGltf(
+    std::span<const std::byte> bytes, const std::filesystem::path& path, GltfImages images,
+    GltfMotion motion) {
     const std::string_view file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (file.size() > std::numeric_limits<std::uint32_t>::max()) fail(0, "4 GiB or more");
-    Rewritten other = rewritten(file, images);
+    Rewritten other = rewritten(file, images, motion);
     const std::string_view text = other.file ? std::string_view(*other.file) : file;
 
     tinygltf::TinyGLTF loader;
@@ -355,10 +377,9 @@ struct Elements {
     }
 };
 
-Elements elementsOf(const tinygltf::Model& model, int index) {
-    const std::string name = numbered("accessor", index);
-    const tinygltf::Accessor& accessor = at(model.accessors, index, "accessor");
-    if (accessor.sparse.isSparse) throw engine::Error(name, "sparse accessors are not supported");
+// Whether or not it is sparse. The accessor outlives what is returned.
+Elements denseElements(
+    const tinygltf::Model& model, const tinygltf::Accessor& accessor, const std::string& name) {
     const tinygltf::BufferView& view = at(model.bufferViews, accessor.bufferView, "buffer view");
     const tinygltf::Buffer& buffer = at(model.buffers, view.buffer, "buffer");
     const int stride = accessor.ByteStride(view);
@@ -379,6 +400,13 @@ Elements elementsOf(const tinygltf::Model& model, int index) {
         throw engine::Error(name, "lies outside its buffer");
     }
     return {accessor, name, buffer.data.data() + view.byteOffset + accessor.byteOffset, step};
+}
+
+Elements elementsOf(const tinygltf::Model& model, int index) {
+    const std::string name = numbered("accessor", index);
+    const tinygltf::Accessor& accessor = at(model.accessors, index, "accessor");
+    if (accessor.sparse.isSparse) throw engine::Error(name, "sparse accessors are not supported");
+    return denseElements(model, accessor, name);
 }
 
 // Each element as it lies there.
@@ -441,6 +469,60 @@ std::vector<std::uint32_t> readUnsigned(const Elements& elements) {
     }
 }
 
+// The numbers of elements of Stored, appended to the values.
+template <class Stored>
+void appendNumbers(const Elements& elements, GltfIntegers integers, GltfNumbers& numbers) {
+    constexpr bool kIsFloat = std::is_same_v<Stored, float>;
+    if (!kIsFloat && !elements.accessor.normalized && integers == GltfIntegers::normalized)
+        elements.refuse("of float, or of normalized integers");
+    const double one = !kIsFloat && elements.accessor.normalized
+                           ? static_cast<double>(std::numeric_limits<Stored>::max())
+                           : 1.0;
+    const std::size_t count = elements.accessor.count;
+    numbers.values.reserve(numbers.values.size() + count * numbers.components);
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t component = 0; component < numbers.components; ++component) {
+            Stored value;
+            std::memcpy(
+                &value, elements.first + i * elements.stride + component * sizeof value,
+                sizeof value);
+            // The least signed number is -1 too.
+            const double number = static_cast<double>(value) / one;
+            numbers.values.push_back(one > 1.0 ? std::max(number, -1.0) : number);
+        }
+    }
+}
+
+GltfNumbers numbersOf(const Elements& elements, GltfIntegers integers) {
+    const auto type = static_cast<std::uint32_t>(elements.accessor.type);
+    GltfNumbers numbers{
+        .components = static_cast<std::size_t>(tinygltf::GetNumComponentsInType(type)),
+        .values = {}};
+    switch (elements.accessor.componentType) {
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+        appendNumbers<float>(elements, integers, numbers);
+        break;
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+        appendNumbers<std::int8_t>(elements, integers, numbers);
+        break;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        appendNumbers<std::uint8_t>(elements, integers, numbers);
+        break;
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+        appendNumbers<std::int16_t>(elements, integers, numbers);
+        break;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        appendNumbers<std::uint16_t>(elements, integers, numbers);
+        break;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        appendNumbers<std::uint32_t>(elements, integers, numbers);
+        break;
+    default:
+        elements.refuse("of float, or of integers of up to 32 bits");
+    }
+    return numbers;
+}
+
 void requireFloat(const Elements& elements, int type, const char* expected) {
     if (elements.accessor.type == type &&
         elements.accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT)
@@ -454,6 +536,56 @@ std::optional<int> findAttribute(const tinygltf::Primitive& primitive, const std
     const auto attribute = primitive.attributes.find(name);
     if (attribute == primitive.attributes.end()) return {};
     return attribute->second;
+}
+
+bool hasTriangles(const tinygltf::Primitive& primitive) {
+    return primitive.mode == TINYGLTF_MODE_TRIANGLES ||
+           primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
+           primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
+}
+
+// glTF 2.0, section 3.6.2.3: a sparse accessor is zeros, or what its buffer view holds, with some
+// elements replaced.
+GltfNumbers readNumbers(const tinygltf::Model& model, int index, GltfIntegers integers) {
+    constexpr std::size_t kMost = std::size_t{1} << 24;  // elements without a byte in the file
+    const std::string name = numbered("accessor", index);
+    const tinygltf::Accessor& accessor = at(model.accessors, index, "accessor");
+    GltfNumbers numbers;
+    if (accessor.bufferView >= 0 || !accessor.sparse.isSparse) {
+        numbers = numbersOf(denseElements(model, accessor, name), integers);
+    } else {
+        const int components =
+            tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+        if (components <= 0) throw engine::Error(name, "unknown type");
+        if (accessor.count > kMost) throw engine::Error(name, "has more than 2^24 elements");
+        numbers.components = static_cast<std::size_t>(components);
+        numbers.values.assign(accessor.count * numbers.components, 0.0);
+    }
+    if (!accessor.sparse.isSparse) return numbers;
+
+    const auto& sparse = accessor.sparse;
+    tinygltf::Accessor places;
+    places.bufferView = sparse.indices.bufferView;
+    places.byteOffset = static_cast<std::size_t>(sparse.indices.byteOffset);
+    places.componentType = sparse.indices.componentType;
+    places.type = TINYGLTF_TYPE_SCALAR;
+    places.count = static_cast<std::size_t>(sparse.count);
+    tinygltf::Accessor replaced = accessor;
+    replaced.bufferView = sparse.values.bufferView;
+    replaced.byteOffset = static_cast<std::size_t>(sparse.values.byteOffset);
+    replaced.count = places.count;
+    const auto elements = readUnsigned(denseElements(model, places, name + "'s sparse indices"));
+    const GltfNumbers values =
+        numbersOf(denseElements(model, replaced, name + "'s sparse values"), integers);
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+        if (elements[i] >= accessor.count || (i > 0 && elements[i] <= elements[i - 1]))
+            throw engine::Error(name, "its sparse indices don't ascend, or are past its end");
+        std::copy_n(
+            values.values.begin() + static_cast<std::ptrdiff_t>(i * values.components),
+            values.components,
+            numbers.values.begin() + static_cast<std::ptrdiff_t>(elements[i] * values.components));
+    }
+    return numbers;
 }
 
 std::vector<float> readScalars(const tinygltf::Model& model, int accessor) {

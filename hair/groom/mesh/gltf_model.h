@@ -47,13 +47,16 @@ enum class GltfImages {
             // samplers
 };
 
+// Whether skins and animations are read, or left out with whatever may be wrong about them.
+enum class GltfMotion { skipped, read };
+
 // glTF 2.0, .gltf or, by its first bytes, .glb. Buffers in files of their own are read from the
 // folder of `path`, or refused where that is empty. What nobody here needs is left out. Refuses
 // extensions that the file requires and that change the geometry. Throws engine::Error without
 // naming the file.
 tinygltf::Model loadGltf(
     std::span<const std::byte> bytes, const std::filesystem::path& path,
-    GltfImages images = GltfImages::skipped);
+    GltfImages images = GltfImages::skipped, GltfMotion motion = GltfMotion::skipped);
 
 // What a glTF file's numbers lead to, with every index and range looked at. Errors begin with what
 // is wrong: "accessor 2: ...".
@@ -78,6 +81,21 @@ std::optional<int> findAttribute(const tinygltf::Primitive& primitive, const std
 // Accessors of float.
 std::vector<float> readScalars(const tinygltf::Model& model, int accessor);
 std::vector<glm::vec3> readVectors(const tinygltf::Model& model, int accessor);
+
+// An accessor of any kind, sparse ones among them.
+struct GltfNumbers {
+    std::size_t components = 0;  // of an element
+    std::vector<double> values;  // [element][component]
+};
+
+// What integers that are not normalized are: refused, or the numbers that they are. Normalized ones
+// stand for 0 to 1, signed ones for -1 to 1 (glTF 2.0, section 3.11).
+enum class GltfIntegers { normalized, whole };
+
+GltfNumbers readNumbers(const tinygltf::Model& model, int accessor, GltfIntegers integers);
+
+// Whether a primitive is a triangle list, strip or fan.
+bool hasTriangles(const tinygltf::Primitive& primitive);
 
 // POSITION, which every primitive needs.
 std::vector<glm::vec3>

@@ -228,12 +228,6 @@ Corners cornersOf(int mode, std::size_t i) {
     }
 }
 
-bool hasTriangles(const tinygltf::Primitive& primitive) {
-    return primitive.mode == TINYGLTF_MODE_TRIANGLES ||
-           primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
-           primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
-}
-
 std::size_t triangleCount(int mode, std::size_t index_count) {
     if (mode != TINYGLTF_MODE_TRIANGLES) return index_count < 3 ? 0 : index_count - 2;
     if (index_count % 3 != 0) {

@@ -17,10 +17,10 @@ uint edgeIndex(uint i) { return motionIndex(i, kRodMisfit, guides.strand_count, 
 // A segment's edge at the start of the substep.
 vec3 edgeAt(uint i) { return loadVector(rod.motion, edgeIndex(i)).xyz; }
 
-// The root goes with the head.
+// The root goes with its follicle.
 void takeRoot() {
     stretching = min(rod.stretching / (unit * unit), kMostSpring);
-    root_now = toWorld(push.frame, Vectors(guides.rest_positions).at[root].xyz);
+    root_now = toWorld(root_frame, Vectors(guides.rest_positions).at[root].xyz);
     vec4 follicle = State(from.positions).at[root];
     root_moved = (root_now - follicle.xyz) / unit;
     State(guides.previous).at[root] = vec4(follicle.xyz, 0.0);

@@ -7,6 +7,7 @@
 #include "simulation/air_drag.glsl"
 #include "simulation/constraints/bodies.glsl"
 #include "simulation/rod/state.glsl"
+#include "simulation/root_frame.glsl"
 
 layout(local_size_x = kRodGroupSize) in;
 
@@ -21,6 +22,8 @@ uint strand;
 uint root;    // of the strand's vertices
 float unit;   // m
 vec3 root_now;
+RigidFrame root_frame;  // at the end of the substep
+RigidFrame root_frame_before;
 
 float restLength(uint i) {
     return segmentRow(rod.segments, i, kRodStiffness, guides.strand_count, strand).x;
@@ -55,7 +58,7 @@ bool isPinned(uint i) {
 vec4 orientationAt(uint i) {
     if (i > 0) return loadVector(rod.motion, orientationIndex(i));
     return multiply(
-        push.frame.rotation,
+        root_frame.rotation,
         segmentRow(rod.segments, 0, kRodHalfRotation, guides.strand_count, strand));
 }
 
@@ -94,6 +97,8 @@ bool takeStrand() {
 
     root = strand * guides.vertices_per_strand;
     unit = Factors(rod.units).at[strand];
+    root_frame = rootFrame(push.frame, push.roots, strand);
+    root_frame_before = rootFrame(push.frame_before, push.roots_before, strand);
     return true;
 }
 

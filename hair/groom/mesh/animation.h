@@ -1,0 +1,102 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/ext/quaternion_double.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace hair::groom {
+
+// The names of a mesh file's animations, numbers ("0", "1" ...) where they have none. Empty for
+// formats whose animations nobody here plays. Throws engine::Error "path: reason".
+std::vector<std::string> animationNames(const std::filesystem::path& path);
+
+// Where the vertices of a glTF file's meshes are over time: glTF 2.0, sections 3.7.2.2 (morph
+// targets), 3.7.3 (skins), 3.11 and appendix C (animations). Everything is worked out in double
+// precision.
+class MeshAnimation {
+public:
+    // The scene's nodes and what morph targets weigh, at a time.
+    struct Pose {
+        std::vector<std::vector<glm::dmat4>> joints;  // [part][joint] of a skin; [part][0] else
+        std::vector<std::vector<double>> weights;  // [part][morph target]
+    };
+
+    // `clip` is the name of one of the file's animations, or its number in animationNames(). Throws
+    // engine::Error "path: reason" for what glTF does not allow: joints that the skin lacks,
+    // weights of joints whose sum is not 1, keyframes that don't ascend, numbers that are not
+    // finite. A channel that names no node, or a property of another extension, is passed over.
+    MeshAnimation(const std::filesystem::path& path, const std::string& clip);
+
+    // Of the meshes that importMesh() reads of the same file, in the same order.
+    std::size_t vertexCount() const { return vertex_count_; }
+    // The time of the last keyframe, s; at least 0.
+    double duration() const { return duration_; }
+
+    // Before the first keyframe of a channel and after its last these hold.
+    Pose poseAt(double time) const;
+    // m
+    glm::dvec3 position(const Pose& pose, std::size_t vertex) const;
+    std::vector<glm::dvec3> positions(const Pose& pose) const;
+
+private:
+    enum class Interpolation { step, linear, cubic_spline };
+    enum class Property { translation, rotation, scale, weights };
+
+    struct Node {
+        int parent;  // -1: none; comes before the node
+        int number;  // in the file
+        glm::dmat4 matrix;  // where has_matrix
+        bool has_matrix;
+        glm::dvec3 translation;  // m
+        glm::dquat rotation;  // unit length
+        glm::dvec3 scale;
+    };
+
+    struct Channel {
+        std::size_t node;  // index into nodes_
+        Property property;
+        Interpolation interpolation;
+        std::size_t components;  // of a value
+        std::vector<double> times;  // [key], s, ascending
+        std::vector<double> values;  // [key][component]; cubic: [key][in tangent, value, out][...]
+
+        std::vector<double> at(double time) const;
+    };
+
+    // A primitive.
+    struct Part {
+        std::size_t first;  // vertex
+        std::vector<glm::dvec3> positions;  // [vertex]
+        std::vector<std::vector<glm::dvec3>> targets;  // [morph target][vertex], displacements
+        std::vector<double> weights;  // [morph target], where nothing animates them
+        std::size_t node;  // index into nodes_
+        bool is_skinned = false;
+        std::vector<std::size_t> joints;  // [joint], indices into nodes_
+        std::vector<glm::dmat4> inverse_binds;  // [joint]
+        std::size_t influences = 0;
+        // [vertex][influence]: a joint and its weight; weights of a vertex add up to 1
+        std::vector<std::pair<std::uint32_t, double>> influence_list;
+    };
+
+    friend class GltfAnimationReader;
+
+    static glm::dvec3
+    placed(const Part& part, const Pose& pose, std::size_t number, std::size_t vertex);
+
+    std::size_t vertex_count_ = 0;
+    double duration_ = 0.0;
+    std::vector<Node> nodes_;  // parents first
+    std::vector<Channel> channels_;
+    std::vector<Part> parts_;  // by their first vertices
+};
+
+}  // namespace hair::groom

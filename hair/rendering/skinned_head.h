@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "engine/buffer_image.h"
+#include "engine/commands.h"
+#include "engine/frame_loop.h"
+#include "engine/pipeline.h"
+#include "hair/gpu_structs.h"
+#include "hair/rendering/groom_buffers.h"
+#include "hair/rendering/strand_plan.h"
+#include "hair/settings.h"
+
+namespace hair::rendering {
+
+// The mesh under the hair where an animation deforms it, and the roots of drawn strands, each on
+// the triangle of the mesh that was nearest to it at rest. Guides' roots are the simulation's to
+// move; those of strands between guides follow their guides and are then corrected here.
+class SkinnedHead {
+public:
+    // `view` has a mesh that deforms. Finds the roots at rest on the device and waits.
+    SkinnedHead(
+        const engine::Device& device, const Settings& settings, const StrandPlan& plan,
+        const StrandView& view);
+
+    // Works out the mesh at the view's time. No frame in flight may read the slot.
+    void write(std::uint32_t slot, const StrandView& view);
+
+    // vec3 [vertex], in the world; upload buffers.
+    const engine::Buffer& positions(std::uint32_t slot) const { return positions_[slot]; }
+    const engine::Buffer& normals(std::uint32_t slot) const { return normals_[slot]; }
+
+    // Corrects the roots for what is drawn next. After what moves guides and their frames, which
+    // compute sees; the corrections are then visible to the stages before the rasteriser, and to a
+    // PointsPass. `picture` is the address of the gpu::PictureParameters.
+    void record(
+        engine::Commands& commands, std::uint64_t picture, const gpu::PictureParameters& parameters,
+        std::uint32_t slot) const;
+
+    // vec4 [root triangle][strand], m.
+    const engine::Buffer& corrections() const { return corrections_; }
+
+private:
+    std::uint32_t strand_count_;
+    engine::ComputePipeline pipeline_;
+    std::array<engine::Buffer, engine::FrameLoop::kMaxSlots> positions_;
+    std::array<engine::Buffer, engine::FrameLoop::kMaxSlots> normals_;
+    engine::Buffer corrections_;
+    engine::Buffer roots_;  // gpu::CarriedRoot [root triangle][strand]
+};
+
+}  // namespace hair::rendering

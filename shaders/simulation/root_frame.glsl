@@ -1,0 +1,19 @@
+// How a strand's root, its rest shape and its follicle's directions have moved since rest: as the
+// head has, or, where an animation deforms the mesh, as the root's own triangle has.
+#ifndef HAIRBENCH_SIMULATION_ROOT_FRAME_GLSL
+#define HAIRBENCH_SIMULATION_ROOT_FRAME_GLSL
+
+#include "common/rigid_frame.glsl"
+#include "shared/options.h"
+
+layout(constant_id = kSkinnedRootsConstant) const bool kSkinnedRoots = false;
+
+layout(buffer_reference, scalar) readonly buffer RootFrames { RigidFrame at[]; };
+
+// `head` and `roots` are SubstepPush::frame and roots, or both of them `_before`.
+RigidFrame rootFrame(RigidFrame head, Address roots, uint strand) {
+    if (kSkinnedRoots) return RootFrames(roots).at[strand];
+    return head;
+}
+
+#endif
