@@ -238,7 +238,26 @@ inline const std::vector<Feature>& features() {
              s.render.show = Show::lod;
              s.lod = {.mode = LodMode::distance, .near_distance = 0.3f, .far_distance = 0.6f};
          }},
-        {"strands", [](Settings& s) { s.render.show = Show::strands; }, "tangents"}};
+        {"strands", [](Settings& s) { s.render.show = Show::strands; }, "tangents"},
+        {"shadow",
+         [](Settings& s) {
+             lit(s);
+             s.render.show = Show::shadow;
+         },
+         "lit"},
+        {"overdraw", [](Settings& s) { s.render.show = Show::overdraw; }, "tangents"},
+        {"density", [](Settings& s) { s.render.show = Show::density; }, "overdraw"},
+        {"brushed", [](Settings& s) {
+             s.groom.edits = {
+                 {.tool = BrushTool::comb,
+                  .radius = 0.08f,
+                  .strength = 0.8f,
+                  .path = {{{-0.05f, 0.1f, 0.05f}}, {{0.15f, 0.15f, 0.05f}}}},
+                 {.tool = BrushTool::cut,
+                  .radius = 0.05f,
+                  .strength = 1.0f,
+                  .path = {{{-0.2f, -0.05f, -0.1f}}, {{-0.2f, -0.05f, 0.1f}}}}};
+         }}};
     return kFeatures;
 }
 
