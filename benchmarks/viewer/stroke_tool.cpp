@@ -175,7 +175,6 @@ void StrokeTool::draw(const Pointer& pointer, Handles& handles, const Shown& pla
 
 Edit StrokeTool::update(
     const Pointer& pointer, Handles& handles, hair::Settings& settings, const Shown& played) {
-    if (pointer.hovers) resize();
     Edit edit;
     if (pointer.pressed && !drag_) {
         edit = press(pointer, settings, played);
@@ -196,6 +195,7 @@ Edit StrokeTool::update(
 }
 
 Edit StrokeTool::options(OptionsLine& line, hair::Settings& settings) {
+    resize();
     for (const BrushRow& row : kBrushes)
         if (line.choice(
                 row.name,
