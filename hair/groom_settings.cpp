@@ -208,6 +208,41 @@ const Table& tableOf(const StyleSettings*) {
     return table;
 }
 
+// ---- Brushes, after styling ---------------------------------------------------------------------
+
+const Table& tableOf(const StrokePoint*) {
+    using S = StrokePoint;
+    static const Table table = tableWith<S>({number(
+        "position", &S::position, -100, 100, "m",
+        "place of the brush, where the head is before it moves")});
+    return table;
+}
+
+const Table& tableOf(const StrokeSettings*) {
+    using S = StrokeSettings;
+    static const Table table = tableWith<S>(
+        {choice(
+             "tool", &S::tool,
+             {{BrushTool::comb, "comb"},
+              {BrushTool::cut, "cut"},
+              {BrushTool::lengthen, "lengthen"},
+              {BrushTool::push, "push"},
+              {BrushTool::clump, "clump"}},
+             "comb: hair goes along with the brush; cut: strands end where they pass the path; "
+             "lengthen: they go on beyond their tips; push: hair moves away from the head; clump: "
+             "tips are drawn to the path"),
+         number(
+             "radius", &S::radius, 0.001, 1, "m",
+             "distance from the path at which the brush has no effect"),
+         number(
+             "strength", &S::strength, 0, 1, "1",
+             "effect on the path: part of the brush's way that hair goes along, of what is cut "
+             "off, of a strand's length that is added, of the radius that hair is pushed, of the "
+             "way to the path that tips are drawn"),
+         list("path", &S::path, 1000, "places that the brush passes, straight between them")});
+    return table;
+}
+
 // ---- Where guides come from ---------------------------------------------------------------------
 
 const Table& tableOf(const FilePlacementSettings*) {
@@ -250,7 +285,10 @@ const Table& tableOf(const GroomSettings*) {
              "guides to grow, or to choose from the file or from grown strands; 0: all of the "
              "file's strands, or 86 grown ones"),
          group("grow", &S::grow, "guides grown on a scalp"),
-         group("style", &S::style, "styling of what is grown or read")});
+         group("style", &S::style, "styling of what is grown or read"),
+         list(
+             "edits", &S::edits, 1000,
+             "strokes of brushes over the styled hair at rest, one after the other")});
     return table;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -142,6 +143,27 @@ struct FilePlacementSettings {
 
 const Table& tableOf(const FilePlacementSettings*);
 
+// ---- Brushes, after styling ---------------------------------------------------------------------
+
+enum class BrushTool { comb, cut, lengthen, push, clump };
+
+// A place of a stroke's path.
+struct StrokePoint {
+    glm::vec3 position{0.0f, 0.0f, 0.0f};
+};
+
+const Table& tableOf(const StrokePoint*);
+
+// A stroke of a brush over the hair at rest.
+struct StrokeSettings {
+    BrushTool tool = BrushTool::comb;
+    float radius = 0.03f;
+    float strength = 0.5f;
+    std::vector<StrokePoint> path;
+};
+
+const Table& tableOf(const StrokeSettings*);
+
 struct GroomSettings {
     std::string file;
     std::uint32_t points_per_strand = 0;
@@ -151,6 +173,7 @@ struct GroomSettings {
     std::uint32_t guides = 0;
     GrowSettings grow;
     StyleSettings style;
+    std::vector<StrokeSettings> edits;
 };
 
 const Table& tableOf(const GroomSettings*);

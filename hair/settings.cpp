@@ -120,9 +120,14 @@ const Table& tableOf(const RenderSettings*) {
               {Show::tangents, "tangents"},
               {Show::normals, "normals"},
               {Show::lod, "lod"},
-              {Show::strands, "strands"}},
+              {Show::strands, "strands"},
+              {Show::shadow, "shadow"},
+              {Show::overdraw, "overdraw"},
+              {Show::density, "density"}},
              "what colours strands: light; directions along and across them as RGB; the level of "
-             "detail from blue to red; or a colour of each strand's own"),
+             "detail from blue to red; a colour of each strand's own; the part of the lights that "
+             "shadows let through; how many fragments of strands a pixel draws; or how many there "
+             "are in front of the head"),
          group("overlays", &S::overlays, "what is drawn over the hair")});
     return table;
 }

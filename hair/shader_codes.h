@@ -88,7 +88,10 @@ inline constexpr std::size_t kCount<Show> = counted<Show>(
      {Show::tangents, gpu::kShowTangents},
      {Show::normals, gpu::kShowNormals},
      {Show::lod, gpu::kShowLod},
-     {Show::strands, gpu::kShowStrands}});
+     {Show::strands, gpu::kShowStrands},
+     {Show::shadow, gpu::kShowShadow},
+     {Show::overdraw, gpu::kShowOverdraw},
+     {Show::density, gpu::kShowDensity}});
 
 template <>
 inline constexpr std::size_t kCount<ToneMap> = counted<ToneMap>(

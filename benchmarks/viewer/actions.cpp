@@ -75,6 +75,23 @@ constexpr std::array kActions{
         "the bodies that hair collides with"},
     ActionRow{Action::show_head, "Show", "Head", ImGuiKey_4, "4", "the mesh that hair grows on"},
     ActionRow{Action::show_hair, "Show", "Hair", ImGuiKey_5, "5", "the strands"},
+    ActionRow{Action::show_shading, "Show", "Light on strands", 0, "", "strands as they are lit"},
+    ActionRow{
+        Action::show_tangents, "Show", "Tangents", 0, "", "directions along strands as colours"},
+    ActionRow{
+        Action::show_normals, "Show", "Normals", 0, "", "directions across strands as colours"},
+    ActionRow{
+        Action::show_levels, "Show", "Levels of detail", 0, "",
+        "from blue to red as it is coarser"},
+    ActionRow{Action::show_strands, "Show", "Strands", 0, "", "each strand in a colour of its own"},
+    ActionRow{
+        Action::show_shadow, "Show", "Shadow", 0, "", "what part of the lights reaches strands"},
+    ActionRow{
+        Action::show_overdraw, "Show", "Overdraw", 0, "",
+        "fragments that a pixel draws: red is full at 8, green at 32, blue at 128"},
+    ActionRow{
+        Action::show_density, "Show", "Density", 0, "",
+        "fragments of strands in front of the head: red is full at 8, green at 32, blue at 128"},
 
     ActionRow{
         Action::tool_camera, "Tools", "Camera", ImGuiKey_C, "C",
@@ -83,10 +100,16 @@ constexpr std::array kActions{
         Action::tool_wind, "Tools", "Wind", ImGuiKey_N, "N",
         "the mouse turns and stretches the wind's arrow"},
     ActionRow{Action::tool_grab, "Tools", "Grab", ImGuiKey_G, "G", "the mouse pulls at hair"},
+    ActionRow{
+        Action::tool_brush, "Tools", "Brush", ImGuiKey_B, "B",
+        "the mouse grooms; [ and ] change the brush's radius"},
     ActionRow{Action::tool_head, "Tools", "Head", ImGuiKey_H, "H", "the mouse moves the head"},
     ActionRow{
         Action::tool_colliders, "Tools", "Colliders", ImGuiKey_K, "K",
         "the mouse moves the capsules that hair collides with"},
+    ActionRow{
+        Action::tool_lights, "Tools", "Lights", ImGuiKey_L, "L",
+        "the mouse moves lights round the hair and turns the environment"},
 
     ActionRow{Action::dark_theme, "View", "Dark", 0, "", "light letters on dark"},
     ActionRow{Action::light_theme, "View", "Light", 0, "", "dark letters on light"},
@@ -218,6 +241,7 @@ bool startsGroup(Action action) {
     case Action::quit:
     case Action::view_front:
     case Action::show_head:
+    case Action::show_shading:
     case Action::panel_scene:
     case Action::left_column:
     case Action::dark_theme:
@@ -329,6 +353,29 @@ bool* switchOf(Action action, hair::Settings& settings) {
     }
 }
 
+std::optional<hair::Show> showOf(Action action) {
+    switch (action) {
+    case Action::show_shading:
+        return hair::Show::shading;
+    case Action::show_tangents:
+        return hair::Show::tangents;
+    case Action::show_normals:
+        return hair::Show::normals;
+    case Action::show_levels:
+        return hair::Show::lod;
+    case Action::show_strands:
+        return hair::Show::strands;
+    case Action::show_shadow:
+        return hair::Show::shadow;
+    case Action::show_overdraw:
+        return hair::Show::overdraw;
+    case Action::show_density:
+        return hair::Show::density;
+    default:
+        return std::nullopt;
+    }
+}
+
 std::optional<Tool> toolOf(Action action) {
     switch (action) {
     case Action::tool_camera:
@@ -337,6 +384,10 @@ std::optional<Tool> toolOf(Action action) {
         return Tool::wind;
     case Action::tool_grab:
         return Tool::grab;
+    case Action::tool_brush:
+        return Tool::brush;
+    case Action::tool_lights:
+        return Tool::lights;
     case Action::tool_head:
         return Tool::head;
     case Action::tool_colliders:

@@ -38,11 +38,21 @@ enum class Action {
     overlay_bodies,
     show_head,
     show_hair,
+    show_shading,
+    show_tangents,
+    show_normals,
+    show_levels,
+    show_strands,
+    show_shadow,
+    show_overdraw,
+    show_density,
     tool_camera,
     tool_wind,
     tool_grab,
+    tool_brush,
     tool_head,
     tool_colliders,
+    tool_lights,
     compare,  // on and off
     edit_other,  // the other of two sides
     present_fifo,
@@ -99,6 +109,9 @@ std::vector<Action> menuBar(const std::function<ActionState(Action)>& state);
 
 // The setting that an action switches on and off; null where it switches none.
 bool* switchOf(Action action, hair::Settings& settings);
+
+// What an action has strands show; none where it changes nothing of that.
+std::optional<hair::Show> showOf(Action action);
 
 // The tool that an action takes up; none where it takes up none.
 std::optional<Tool> toolOf(Action action);

@@ -104,24 +104,6 @@ void keepAllowed(hair::CameraSettings& camera, const hair::CameraSettings& befor
         camera = before;
 }
 
-// The point of the hair or the head that a pixel shows; none where it shows neither.
-std::optional<glm::vec3>
-pointUnder(const PictureView& view, glm::vec2 pixel, float reach, const Shown& played) {
-    const hair::Settings& settings = played.settings;
-    std::optional<glm::vec3> point;
-    if (settings.render.hair)
-        point = pickHair(view, played.guides, played.vertices_per_guide, pixel, reach);
-    if (!settings.render.head) return point;
-    const std::optional<hair::groom::Mesh> mesh = scene::loadMesh(settings, played.directory);
-    if (!mesh) return point;
-    const Ray ray = view.ray(pixel);
-    const auto hit = pickMesh(ray, *mesh, played.head);
-    if (!hit) return point;
-    const glm::vec3 skin = ray.from + ray.direction * *hit;
-    if (!point || view.depth(skin) < view.depth(*point)) return skin;
-    return point;
-}
-
 }  // namespace
 
 // ---- Cameras ------------------------------------------------------------------------------------
@@ -188,6 +170,23 @@ void focus(hair::CameraSettings& camera, glm::vec3 point) {
 }
 
 // ---- Mouse and keys -----------------------------------------------------------------------------
+
+std::optional<glm::vec3>
+pointUnder(const PictureView& view, glm::vec2 pixel, float reach, const Shown& played) {
+    const hair::Settings& settings = played.settings;
+    std::optional<glm::vec3> point;
+    if (settings.render.hair)
+        point = pickHair(view, played.guides, played.vertices_per_guide, pixel, reach);
+    if (!settings.render.head) return point;
+    const std::optional<hair::groom::Mesh> mesh = scene::loadMesh(settings, played.directory);
+    if (!mesh) return point;
+    const Ray ray = view.ray(pixel);
+    const auto hit = pickMesh(ray, *mesh, played.head);
+    if (!hit) return point;
+    const glm::vec3 skin = ray.from + ray.direction * *hit;
+    if (!point || view.depth(skin) < view.depth(*point)) return skin;
+    return point;
+}
 
 Edit CameraTool::mouse(const Pointer& pointer, Left left, hair::CameraSettings& camera) const {
     const ImGuiIO& io = ImGui::GetIO();

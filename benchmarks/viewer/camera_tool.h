@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include <glm/vec2.hpp>
@@ -48,6 +49,11 @@ void look(
 
 // Looks at a point from where the camera is, unless that is along /camera/up or too near.
 void focus(hair::CameraSettings& camera, glm::vec3 point);
+
+// The point of the hair or the head that a pixel shows; none where it shows neither. Hair is its
+// guides, at most `reach` px away. Reads the head's mesh from its file.
+std::optional<glm::vec3>
+pointUnder(const PictureView& view, glm::vec2 pixel, float reach, const Shown& played);
 
 // Moves /camera with the mouse and keys.
 class CameraTool {

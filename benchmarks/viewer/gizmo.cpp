@@ -66,8 +66,13 @@ float pixelsToSegment(glm::vec2 point, glm::vec2 a, glm::vec2 b) {
 
 // ---- Handles ------------------------------------------------------------------------------------
 
-constexpr ImU32 kOutline = IM_COL32(0, 0, 0, 190);
 constexpr ImU32 kBox = IM_COL32(0, 0, 0, 190);
+
+// What is faint has a faint outline.
+ImU32 outlineOf(ImU32 color) {
+    const ImU32 alpha = (color >> IM_COL32_A_SHIFT) * 190u / 255u;
+    return IM_COL32(0, 0, 0, alpha);
+}
 
 // Sizes in heights of the font.
 constexpr float kLine = 0.13f;
@@ -176,7 +181,7 @@ Handles::~Handles() { list_->PopClipRect(); }
 float Handles::reach() { return sized(0.6f); }
 
 void Handles::line(glm::vec2 a, glm::vec2 b, Color color) {
-    list_->AddLine(at(a), at(b), kOutline, sized(kLine + 2.0f * kBorder));
+    list_->AddLine(at(a), at(b), outlineOf(color), sized(kLine + 2.0f * kBorder));
     list_->AddLine(at(a), at(b), color, sized(kLine));
 }
 
@@ -184,17 +189,23 @@ void Handles::path(std::span<const glm::vec2> points, Color color) {
     std::vector<ImVec2> line;
     for (const glm::vec2& point : points) line.push_back(at(point));
     const auto count = static_cast<int>(line.size());
-    list_->AddPolyline(line.data(), count, kOutline, 0, sized(kLine + 2.0f * kBorder));
+    list_->AddPolyline(line.data(), count, outlineOf(color), 0, sized(kLine + 2.0f * kBorder));
     list_->AddPolyline(line.data(), count, color, 0, sized(kLine));
 }
 
+void Handles::thinPath(std::span<const glm::vec2> points, Color color) {
+    std::vector<ImVec2> line;
+    for (const glm::vec2& point : points) line.push_back(at(point));
+    list_->AddPolyline(line.data(), static_cast<int>(line.size()), color, 0, 1.0f);
+}
+
 void Handles::circle(glm::vec2 center, float radius, Color color) {
-    list_->AddCircle(at(center), radius, kOutline, 0, sized(kLine + 2.0f * kBorder));
+    list_->AddCircle(at(center), radius, outlineOf(color), 0, sized(kLine + 2.0f * kBorder));
     list_->AddCircle(at(center), radius, color, 0, sized(kLine));
 }
 
 void Handles::dot(glm::vec2 center, Color color) {
-    list_->AddCircleFilled(at(center), sized(kDot + kBorder), kOutline);
+    list_->AddCircleFilled(at(center), sized(kDot + kBorder), outlineOf(color));
     list_->AddCircleFilled(at(center), sized(kDot), color);
 }
 
@@ -213,8 +224,8 @@ void Handles::arrow(glm::vec2 from, glm::vec2 tip, Color color) {
             at(tip + along * sized(2.0f * border)), at(foot + side), at(foot - side), with);
     };
     const glm::vec2 neck = tip - along * std::min(length, sized(kHead));
-    list_->AddLine(at(from), at(neck), kOutline, sized(kLine + 2.0f * kBorder));
-    head(kBorder, kOutline);
+    list_->AddLine(at(from), at(neck), outlineOf(color), sized(kLine + 2.0f * kBorder));
+    head(kBorder, outlineOf(color));
     list_->AddLine(at(from), at(neck), color, sized(kLine));
     head(0.0f, color);
 }

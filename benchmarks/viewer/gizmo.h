@@ -67,7 +67,7 @@ public:
 
     using Color = std::uint32_t;  // IM_COL32
     static constexpr Color kPlain = 0xffffffff;
-    static constexpr Color kFaint = 0x90ffffff;
+    static constexpr Color kFaint = 0x60ffffff;
     static constexpr Color kHot = 0xff40d8ff;  // under the mouse, or held: yellow
     static constexpr Color kAxes[] = {
         0xff6060ff, 0xff70e070, 0xffff9060};  // x red, y green, z blue
@@ -77,6 +77,8 @@ public:
 
     void line(glm::vec2 a, glm::vec2 b, Color color);
     void path(std::span<const glm::vec2> points, Color color);
+    // Of many, without outlines.
+    void thinPath(std::span<const glm::vec2> points, Color color);
     void circle(glm::vec2 center, float radius, Color color);
     void dot(glm::vec2 center, Color color);
     void arrow(glm::vec2 from, glm::vec2 tip, Color color);

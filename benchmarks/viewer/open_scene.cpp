@@ -6,6 +6,7 @@
 
 #include <imgui.h>
 
+#include "benchmarks/viewer/timeline.h"
 #include "hair/fields.h"
 
 namespace benchmarks::viewer {
@@ -155,6 +156,18 @@ Order OpenScene::order(PlayState& state, double seconds, Frames frames) {
             pacer_.framesFor(seconds, double{a_->shown().settings.run.frame_time}, state.speed);
     else if (steps)
         order.frames = 1;
+    if (order.seek || steps || state.playing) state.scrub.reset();
+    if (state.scrub) {
+        const std::uint32_t now = a_->shown().frame;
+        const std::uint32_t start = *state.scrub < now ? 0 : now;
+        const std::uint32_t most = frames == Frames::every_one ? 1 : Pacer::kMostFrames;
+        const std::uint32_t part = std::min(*state.scrub - start, most);
+        if (*state.scrub < now)
+            order.seek = part;
+        else
+            order.frames = part;
+        if (start + part == *state.scrub) state.scrub.reset();
+    }
     if (frames == Frames::every_one) order.frames = std::min(order.frames, 1u);
     if (order.frames > 0) {
         // In turns, so that the timings panel has both.
@@ -197,7 +210,7 @@ void OpenScene::savedAs(const std::filesystem::path& path, const hair::Settings&
 
 // ---- The widgets of time ------------------------------------------------------------------------
 
-void playPanel(PlayState& state, std::uint32_t frame, double time) {
+void playPanel(PlayState& state, const Shown& shown) {
     // As wide as the wider of its two names, so that nothing moves when it is pressed.
     if (ImGui::Button(state.playing ? "Pause###play" : "Play###play", {letters(4.5f), 0.0f}))
         state.playing = !state.playing;
@@ -217,14 +230,16 @@ void playPanel(PlayState& state, std::uint32_t frame, double time) {
     ImGui::TextUnformatted("Frame");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(letters(5.5f));
-    std::uint32_t wanted = frame;
+    std::uint32_t wanted = shown.frame;
     ImGui::InputScalar("##frame", ImGuiDataType_U32, &wanted);
     if (ImGui::IsItemDeactivatedAfterEdit()) state.seek = wanted;
     tip("the frame that is shown; type another number to go there: the scene is played up to it "
         "from frame 0 on");
     ImGui::SameLine();
-    ImGui::Text("%.3f s", time);
+    ImGui::Text("%.3f s", shown.time());
     tip("simulated time at the end of the frame");
+    ImGui::SameLine();
+    timeline(state, shown);
 }
 
 }  // namespace benchmarks::viewer

@@ -103,8 +103,8 @@ private:
     Pacer pacer_;
 };
 
-// Pause, single step, restart, speed and seek, in one line within the current window of Dear ImGui.
-// `time`: simulated s.
-void playPanel(PlayState& state, std::uint32_t frame, double time);
+// Pause, single step, restart, speed, seek and the timeline, in one line within the current window
+// of Dear ImGui.
+void playPanel(PlayState& state, const Shown& shown);
 
 }  // namespace benchmarks::viewer

@@ -222,6 +222,7 @@ Shown Player::shown(Guides guides) const {
         .number = 0,
         .has_guides = reads,
         .guides = reads ? case_->guides() : std::vector<glm::vec3>(),
+        .rest_guides = reads ? groom.points : std::vector<glm::vec3>(),
         .vertices_per_guide = groom.vertices_per_strand,
         .rest = sphereRound(groom.points),
         .head = case_->head(),

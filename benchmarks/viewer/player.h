@@ -47,6 +47,10 @@ struct PlayState {
     bool playing = true;
     bool step = false;  // plays one frame while paused
     std::optional<std::uint32_t> seek;
+    // The frame that is played to in parts, each of which is shown: another may be wanted
+    // meanwhile.
+    std::optional<std::uint32_t> scrub;
+    std::uint32_t furthest = 0;  // frame that was shown
     // Simulated seconds per second; absent: one frame for every picture of the window.
     std::optional<double> speed;
 };
@@ -65,6 +69,7 @@ struct Shown {
     std::uint64_t number = 0;  // no other picture of the window's has it
     bool has_guides = false;  // not where there are very many and frames are being played
     std::vector<glm::vec3> guides;  // [guide][vertex], m
+    std::vector<glm::vec3> rest_guides;  // as `guides`, at rest, before the head moved
     std::uint32_t vertices_per_guide = 0;
     Sphere rest;  // round the guides at rest, before the head moved
     hair::simulation::RigidMotion head;

@@ -260,10 +260,7 @@ void Viewer::Parts::showWindow() {
         showColumn("Left", layout.left, leftTabs(), tabs.left);
     showColumn("Right", layout.right, rightTabs(), tabs.right);
     pane("Picture", layout.picture, Surface::stage, [&] { showPicture(); });
-    pane("Play", layout.play, Surface::bar, [&] {
-        const Shown& shown = scene.side(0).shown();
-        playPanel(state, shown.frame, shown.time());
-    });
+    pane("Play", layout.play, Surface::bar, [&] { playPanel(state, scene.side(0).shown()); });
     pane("Status", layout.status, Surface::bar, [&] { showStatus(); });
     splitters(layout, preferences.now);
     helpPanel(help);
@@ -325,6 +322,8 @@ bool Viewer::Parts::changeSetting(Action action) {
     Edit edit{.changed = true};
     if (bool* const value = switchOf(action, settings))
         *value = !*value;
+    else if (const std::optional<hair::Show> show = showOf(action))
+        settings.render.show = *show;
     else if ((presetOf(action) || action == Action::frame_groom) && !shown.isThere())
         return true;
     else if (const CameraPreset* const preset = presetOf(action))
@@ -454,6 +453,8 @@ ActionState Viewer::Parts::stateOf(Action action) const {
     const Preferences& now = preferences.now;
     hair::Settings settings = scene.editedSide().wanted();
     if (const bool* const value = switchOf(action, settings)) return {.checked = *value};
+    if (const std::optional<hair::Show> show = showOf(action))
+        return {.checked = settings.render.show == *show};
     if (const std::optional<Tool> tool = toolOf(action)) return {.checked = tools.tool == *tool};
     if (const std::optional<engine::PresentMode> mode = presentModeOf(action))
         return {

@@ -22,15 +22,18 @@ constexpr ToolRow kTools[] = {
      "The other tools do the same where the mouse is on no handle."},
     {Tool::wind, "Wind", "The wind's arrow: drag its tip to turn and to stretch it"},
     {Tool::grab, "Grab", "Drag hair: a hand pulls at it, and is kept in the scene"},
+    {Tool::brush, "Brush", "Drag over hair: combs, cuts, lengthens, pushes or clumps it"},
     {Tool::head, "Head", "Arrows and rings at the head's pivot: drag them to move the head"},
-    {Tool::colliders, "Colliders", "Capsules that hair collides with: click to select, then drag"}};
+    {Tool::colliders, "Colliders", "Capsules that hair collides with: click to select, then drag"},
+    {Tool::lights, "Lights", "Lights and the environment: drag them round the hair"}};
 
 }  // namespace
 
 // ---- Mouse and keys over a picture --------------------------------------------------------------
 
 bool PictureTools::drags() const {
-    return wind_.drags() || grab_.drags() || head_.drags() || colliders_.drags();
+    return wind_.drags() || grab_.drags() || head_.drags() || colliders_.drags() ||
+           brush_.drags() || lights_.drags();
 }
 
 Edit PictureTools::handle(
@@ -43,6 +46,10 @@ Edit PictureTools::handle(
         return wind_.update(pointer, handles, settings, played);
     case Tool::grab:
         return grab_.update(pointer, handles, settings, played, runs);
+    case Tool::brush:
+        return brush_.update(pointer, handles, settings, played);
+    case Tool::lights:
+        return lights_.update(pointer, handles, settings, played);
     case Tool::head:
         return head_.update(pointer, handles, settings, played, runs);
     case Tool::colliders:
@@ -111,6 +118,12 @@ Edit PictureTools::toolbar(hair::Settings& settings, const Shown& played) {
         break;
     case Tool::grab:
         edit = grab_.options(line, settings);
+        break;
+    case Tool::brush:
+        edit = brush_.options(line, settings);
+        break;
+    case Tool::lights:
+        edit = lights_.options(line, settings, played);
         break;
     case Tool::head:
         edit = head_.options(line, settings);

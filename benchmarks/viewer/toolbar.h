@@ -5,8 +5,10 @@
 #include "benchmarks/viewer/edit.h"
 #include "benchmarks/viewer/grab_tool.h"
 #include "benchmarks/viewer/head_tool.h"
+#include "benchmarks/viewer/light_tool.h"
 #include "benchmarks/viewer/picking.h"
 #include "benchmarks/viewer/player.h"
+#include "benchmarks/viewer/stroke_tool.h"
 #include "hair/settings.h"
 
 // The tools for the picture: which one the mouse has, and the line of buttons to choose it.
@@ -17,8 +19,10 @@ enum class Tool {
     camera,     // orbit, pan, zoom, focus
     wind,       // turns and stretches the wind's arrow
     grab,       // pulls at hair
+    brush,      // grooms: strokes over the hair at rest
     head,       // moves the head: keyframes of its motion
     colliders,  // moves capsules
+    lights,     // moves lights and turns the environment
 };
 
 // The mouse and keys over a picture, and what is drawn over it for them.
@@ -53,8 +57,10 @@ private:
     CameraTool camera_;
     WindTool wind_;
     GrabTool grab_;
+    StrokeTool brush_;
     HeadTool head_;
     ColliderTool colliders_;
+    LightTool lights_;
     RunningClock clock_;
 };
 

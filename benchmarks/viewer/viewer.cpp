@@ -125,7 +125,7 @@ double Viewer::Parts::patience() const {
     const bool awake = driven || tools.isBusy() || ImGui::GetTime() < awake_until;
     if (drawing.busy()) return awake ? kMovingBeside : kAsleep;
     if (stopped) return awake ? kMoving : kAsleep;
-    if (!scene.isFollowed() || (state.playing && !state.speed)) return 0.0;
+    if (!scene.isFollowed() || state.scrub || (state.playing && !state.speed)) return 0.0;
     const bool refines = scene.side(0).shown().level > 0;
     return awake || state.playing || refines ? kMoving : kAsleep;
 }
@@ -361,6 +361,8 @@ void Viewer::Parts::takeNews(const OpenScene::News& news) {
         message.attempt([&] { std::rethrow_exception(news.failure); });
     }
     if (news.opened) {
+        state.scrub.reset();
+        state.furthest = 0;
         const SceneFile& file = scene.file();
         scenes = SceneList(file.directory);
         area.views = Views::a;

@@ -18,6 +18,7 @@
 #include "hair/groom/guides/bind_strands.h"
 #include "hair/groom/guides/choose_guides.h"
 #include "hair/groom/guides/root_triangles.h"
+#include "hair/groom/style/strokes.h"
 #include "hair/groom/style/style.h"
 
 namespace hair::groom {
@@ -127,16 +128,26 @@ void place(StrandSet& strands, const FilePlacementSettings& settings) {
         *strands.widths.everywhere = static_cast<float>(*strands.widths.everywhere * scale);
 }
 
-// All strands as guides, or some of them with the others bound to them.
-Groom withGuides(Groom dense, std::uint32_t count, const Mesh* mesh, std::uint32_t seed) {
+// What brushes do to the strands of a groom that is styled.
+Strokes strokesOf(const GroomSettings& settings, const Groom& styled, const Mesh* mesh) {
+    return Strokes(settings.edits, mesh, settings.style.clearance, middleOfRoots(styled));
+}
+
+// All strands as guides, or some of them with the others bound to them. Brushes move every strand;
+// which of them are guides is decided before, so that a stroke makes no others.
+Groom withGuides(
+    Groom dense, std::uint32_t count, const Mesh* mesh, std::uint32_t seed,
+    const Strokes& strokes) {
     std::vector<std::uint32_t> chosen(dense.strand_count);
     std::iota(chosen.begin(), chosen.end(), 0u);
-    if (count == 0 || count == dense.strand_count) {
+    const bool are_all = count == 0 || count == dense.strand_count;
+    if (!are_all) chosen = chooseGuides(dense, count, seed);
+    dense = replay(std::move(dense), strokes);
+    if (are_all) {
         dense.bindings = bindStrands(dense, chosen);
         if (dense.root_triangles.empty()) dense.root_triangles = triangulateRoots(dense, mesh);
         return dense;
     }
-    chosen = chooseGuides(dense, count, seed);
     Groom guides = pickStrands(dense, chosen);
     guides.bindings = bindStrands(dense, chosen);
     guides.root_triangles = triangulateRoots(guides, mesh);
@@ -180,7 +191,9 @@ Groom fromFile(
         const std::vector<glm::vec3> unstyled = dense.points;
         dense = style(std::move(dense), settings.style, seed, mesh);
         file = drawnStrands(std::move(file), unstyled, dense.points);
-        Groom groom = withGuides(std::move(dense), settings.guides, mesh, seed);
+        const Strokes strokes = strokesOf(settings, dense, mesh);
+        replay(file.ends, file.points, strokes);
+        Groom groom = withGuides(std::move(dense), settings.guides, mesh, seed, strokes);
         groom.bound_ends = std::move(file.ends);
         groom.bound_points = std::move(file.points);
         return groom;
@@ -263,8 +276,9 @@ Groom buildGroom(
         const std::uint32_t guides = settings.guides == 0 ? kThesisGuides : settings.guides;
         Groom grown =
             style(grow(*mesh, settings.grow, directory, guides, seed), settings.style, seed, mesh);
-        if (settings.grow.strands == 0) return grown;
-        return withGuides(std::move(grown), guides, mesh, seed);
+        const Strokes strokes = strokesOf(settings, grown, mesh);
+        if (settings.grow.strands == 0) return replay(std::move(grown), strokes);
+        return withGuides(std::move(grown), guides, mesh, seed, strokes);
     } catch (const engine::Error& error) {
         throw engine::Error(path, error.what());
     }

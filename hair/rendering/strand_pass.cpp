@@ -70,8 +70,45 @@ std::unique_ptr<StrandBlend> makeOpaqueBlend(const BlendContext& context) {
     return std::make_unique<DirectBlend>(context.settings.render, "strands/strand.frag");
 }
 
-// The nearest fragment, in a color that says what /render/show asks for.
+// ---- Counted ------------------------------------------------------------------------------------
+
+// Fragments add up over black: those that pass the test of depth in the order in which they are
+// drawn, or all that are in front of what was there before the strands.
+class CountBlend : public StrandBlend {
+public:
+    explicit CountBlend(const RenderSettings& render)
+        : output_{
+              .fragment = "strands/strand_show.frag",
+              .colors = {{colorFormat(render), engine::Blend::add}},
+              .depth_write = render.show == Show::overdraw,
+              .samples = render.msaa} {}
+
+    StrandOutput output() const override { return output_; }
+
+    void record(
+        engine::Passes& passes, const engine::Target& target,
+        const RecordedStrands& strands) const override {
+        passes.pass("strands", strands.kind, [&](engine::Commands& commands) {
+            strands.prepare(commands);
+            target.beginRendering(commands, engine::Load::keep, {}, strands.last);
+            VkClearAttachment black{.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT};
+            black.clearValue.color = {{0.0f, 0.0f, 0.0f, 1.0f}};
+            const VkClearRect all{{{0, 0}, target.color().extent()}, 0, 1};
+            vkCmdClearAttachments(commands.get(), 1, &black, 1, &all);
+            strands.draw(commands);
+            target.endRendering(commands, strands.last);
+        });
+    }
+
+private:
+    StrandOutput output_;
+};
+
+// What /render/show asks for: counts, or a color of the nearest fragment.
 std::unique_ptr<StrandBlend> makeShownBlend(const BlendContext& context) {
+    const Show show = context.settings.render.show;
+    if (show == Show::overdraw || show == Show::density)
+        return std::make_unique<CountBlend>(context.settings.render);
     return std::make_unique<DirectBlend>(context.settings.render, "strands/strand_show.frag");
 }
 

@@ -11,5 +11,5 @@ void main() {
     mat4 head = line.moves != 0u ? picture.head : mat4(1.0);
     vec3 from = (head * vec4(line.from, 1.0)).xyz;
     vec3 to = (head * vec4(line.to, 1.0)).xyz;
-    emitCorner(picture, from, to, kBodyWidth);
+    emitCorner(picture, from, to, kBodyWidth, kAnyPixels);
 }

@@ -11,5 +11,5 @@ void main() {
     GuidePoints guides = GuidePoints(picture.guides);
     vec3 from = guides.points[first].xyz;
     vec3 to = guides.points[first + 1].xyz;
-    emitCorner(picture, from, to, kOverlayWidth);
+    emitCorner(picture, from, to, kOverlayWidth, kGuidePixels);
 }

@@ -13,5 +13,5 @@ void main() {
     uint line = lineIndex();
     vec3 from = corner(picture, line / 3u, line % 3u);
     vec3 to = corner(picture, line / 3u, line % 3u + 1u);
-    emitCorner(picture, from, to, kOverlayWidth);
+    emitCorner(picture, from, to, kOverlayWidth, kAnyPixels);
 }

@@ -65,6 +65,9 @@ const uint kShowTangents = 1u;
 const uint kShowNormals = 2u;
 const uint kShowLod = 3u;
 const uint kShowStrands = 4u;
+const uint kShowShadow = 5u;
+const uint kShowOverdraw = 6u;
+const uint kShowDensity = 7u;
 
 // From linear light to display colours (ToneMap).
 const uint kToneMapNone = 0u;

@@ -7,6 +7,8 @@
 
 layout(location = 0) out vec4 color;
 
+// Fragments at which red, green and blue are full, of those that are added up.
+const vec3 kFull = vec3(8.0, 32.0, 128.0);
 const float kRed = 0.5;  // hues
 const float kBlue = 4.5;
 const float kTurn = 6.283185307;
@@ -27,10 +29,19 @@ void main() {
     StrandFragment fragment = seenStrand(picture).fragment;
     float shown = fragment.along;  // strands/strand.glsl puts it there
     vec3 result;
+    float alpha = 1.0;
     if (kShow == kShowTangents) {
         result = fromDisplay(directionColor(fragment.tangent));
     } else if (kShow == kShowNormals) {
         result = fromDisplay(directionColor(cylinderNormal(fragment)));
+    } else if (kShow == kShowOverdraw || kShow == kShowDensity) {
+        result = 1.0 / kFull;
+        alpha = 0.0;  // that of what they are added to stays
+    } else if (kShow == kShowShadow) {
+        float visible = 0.0;
+        for (uint i = 0u; i < kLightCount; ++i)
+            visible += visiblePart(picture, i, fragment) / float(kLightCount);
+        result = fromDisplay(vec3(kLightCount == 0u ? 1.0 : visible));
     } else if (kShow == kShowLod) {
         float hue = mix(kBlue, kRed, clamp(shown, 0.0, 1.0));
         result = fromLinear(perceptualColor(0.65, 0.16, hue));
@@ -38,5 +49,5 @@ void main() {
         float lightness = mix(0.45, 0.85, fract(shown * 16.0));
         result = fromLinear(perceptualColor(lightness, 0.15, shown * kTurn));
     }
-    color = vec4(result, 1.0);
+    color = vec4(result, alpha);
 }

@@ -240,9 +240,29 @@ inline const std::vector<Feature>& features() {
          }},
         {"strands", [](Settings& s) { s.render.show = Show::strands; }, "tangents"},
         // Nodding, with the mouth open and the brows where they are at rest.
-        {"skinned", [](Settings& s) {
+        {"skinned",
+         [](Settings& s) {
              s.groom.grow.mesh = "assets/head_talk.glb";
              s.simulation.animation.clip = "talk";
+         }},
+        {"shadow",
+         [](Settings& s) {
+             lit(s);
+             s.render.show = Show::shadow;
+         },
+         "lit"},
+        {"overdraw", [](Settings& s) { s.render.show = Show::overdraw; }, "tangents"},
+        {"density", [](Settings& s) { s.render.show = Show::density; }, "overdraw"},
+        {"brushed", [](Settings& s) {
+             s.groom.edits = {
+                 {.tool = BrushTool::comb,
+                  .radius = 0.08f,
+                  .strength = 0.8f,
+                  .path = {{{-0.05f, 0.1f, 0.05f}}, {{0.15f, 0.15f, 0.05f}}}},
+                 {.tool = BrushTool::cut,
+                  .radius = 0.05f,
+                  .strength = 1.0f,
+                  .path = {{{-0.2f, -0.05f, -0.1f}}, {{-0.2f, -0.05f, 0.1f}}}}};
          }}};
     return kFeatures;
 }

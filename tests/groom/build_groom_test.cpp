@@ -6,6 +6,7 @@
 #include "hair/groom/files.h"
 #include "hair/groom/growth/grow.h"
 #include "hair/groom/guides/bind_strands.h"
+#include "hair/groom/style/strokes.h"
 #include "hair/groom/style/style.h"
 #include "tests/error_text.h"
 #include "tests/groom/style/sample_strands.h"
@@ -110,6 +111,53 @@ TEST(BuildGroom, TakesEveryStrandOfAFileForAGuide) {
         EXPECT_EQ(groom.bindings[i].guides[0], i);
         EXPECT_EQ(groom.bindings[i].weights, glm::vec3(1.0f, 0.0f, 0.0f));
     }
+}
+
+// Brushes move each strand of a file by itself, at the points that it has. Which of them are guides
+// is as without brushes.
+TEST(BuildGroom, BrushesEveryStrandOfAFile) {
+    const TemporaryFolder folder;
+    const Groom dense = grown(200);
+    GroomSettings settings = fileOf(folder, dense);
+    settings.guides = 50;
+    settings.vertices = 5;
+    const Groom without = buildGroom(settings, nullptr, folder.path(), 1);
+    const glm::vec3 tip = dense.strand(0).back();
+    settings.edits = {
+        {.tool = BrushTool::comb,
+         .radius = 0.06f,
+         .strength = 1.0f,
+         .path = {{tip}, {tip + glm::vec3(0.02f, 0.03f, 0.0f)}}}};
+    const Groom groom = buildGroom(settings, nullptr, folder.path(), 1);
+
+    const Strokes strokes(settings.edits, nullptr, 0.0, middleOfRoots(dense));
+    const Groom brushed = replay(dense, strokes);
+    ASSERT_NE(brushed.points, dense.points);
+    EXPECT_EQ(groom.bound_points, brushed.points);
+    EXPECT_EQ(groom.bound_ends, without.bound_ends);
+    EXPECT_EQ(groom.points, replay(without, strokes).points);
+    EXPECT_EQ(groom.root_triangles, without.root_triangles);
+}
+
+TEST(BuildGroom, BrushesGrownGuidesAfterStyling) {
+    const Mesh cap = makeCap();
+    GroomSettings settings;
+    settings.guides = 30;
+    settings.style.cut.length = 0.1f;
+    const Groom without = buildGroom(settings, &cap, "scenes", 7);
+    settings.edits = {
+        {.tool = BrushTool::lengthen,
+         .radius = 0.05f,
+         .strength = 0.5f,
+         .path = {{without.strand(3).front()}}}};
+    const Groom groom = buildGroom(settings, &cap, "scenes", 7);
+    EXPECT_EQ(
+        groom.points,
+        replay(without, Strokes(settings.edits, &cap, 0.0, middleOfRoots(without))).points);
+    double length = 0.0;
+    for (std::size_t i = 1; i < groom.vertices_per_strand; ++i)
+        length += glm::distance(groom.strand(3)[i - 1], groom.strand(3)[i]);
+    EXPECT_NEAR(length, 0.15, 1e-6);  // its root is on the path
 }
 
 TEST(BuildGroom, ChoosesGuidesFromAFileAndBindsTheOthers) {

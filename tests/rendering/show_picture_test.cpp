@@ -100,6 +100,61 @@ TEST_F(ShowPictureTest, StrandsKeepColorsOfTheirOwn) {
     EXPECT_EQ(differingPixels(draw(shown), all), 0u);
 }
 
+// The number of fragments that a pixel has in a picture that counts them; -1 where its three colors
+// are of no number.
+int countOf(const std::uint8_t* pixel) {
+    // Green is full at 32, in steps of 8 of 255.
+    const int count = static_cast<int>(std::lround(pixel[1] * 32.0 / 255.0));
+    // Each fragment is rounded to a step of 255: 1/2 of it for each.
+    const bool agrees = std::abs(pixel[0] - std::min(count * 255.0 / 8.0, 255.0)) <= 0.5 * count &&
+                        std::abs(pixel[2] - count * 255.0 / 128.0) <= 0.5 * count;
+    return agrees ? count : -1;
+}
+
+// As many fragments as the strands' quads are large: 12 of 5 mm by 0.2 m, where 512 px are
+// 2 * 0.5 m * tan 20 degrees. Where edges lie on the grid of pixels is chance: 0.29 px of a width
+// of 7 px for one strand, by the root of 12 less in the mean of all: 1.2 %; three times that.
+TEST_F(ShowPictureTest, DensityCountsAllStrands) {
+    Settings shown = settings(Show::density);
+    shown.render.width = shown.render.height = 512;
+    const Pixels all = draw(shown);
+    shown.render.show = Show::overdraw;
+    const Pixels drawn = draw(shown);
+    double sum = 0.0;
+    int most = 0;
+    for (std::size_t i = 0; i < all.size(); i += 4) {
+        const int count = countOf(&all[i]);
+        ASSERT_GE(count, 0) << "pixel " << i / 4;
+        sum += count;
+        most = std::max(most, count);
+        // Of those one at least is drawn, and none that is not there.
+        const int passed = countOf(&drawn[i]);
+        ASSERT_GE(passed, count > 0 ? 1 : 0) << "pixel " << i / 4;
+        ASSERT_LE(passed, count) << "pixel " << i / 4;
+    }
+    EXPECT_GT(most, 1);
+    const double pixels_per_metre = 512.0 / (2.0 * 0.5 * std::tan(20.0 * 3.14159265358979 / 180.0));
+    const double expected = 12 * 0.005 * 0.2 * pixels_per_metre * pixels_per_metre;
+    EXPECT_NEAR(sum, expected, 0.036 * expected);
+}
+
+// White without shadows; with the hair's own, the light from the side comes to the first strands
+// alone: others are darker, in grey.
+TEST_F(ShowPictureTest, ShadowIsThePartOfTheLights) {
+    Settings shown = settings(Show::shadow);
+    const auto without = colors(draw(shown));
+    EXPECT_EQ(without, (std::set<std::array<int, 3>>{{255, 255, 255}}));
+    shown.shading.shadows.hair = HairShadows::deep_shadow;
+    shown.shading.lights = {{.position = {5.0f, 0.0f, 0.01f}}};
+    const auto found = colors(draw(shown));
+    ASSERT_GT(found.size(), 1u);
+    for (const auto& [red, green, blue] : found) {
+        EXPECT_EQ(red, green);
+        EXPECT_EQ(red, blue);
+    }
+    EXPECT_LT((*found.begin())[0], 200);
+}
+
 // Hair of the color (1/2, 1/4, 1/8), lit from everywhere alike: what absorbs a times as much is
 // (2^-a, 2^-2a, 2^-3a).
 class OwnColorTest : public ShowPictureTest {

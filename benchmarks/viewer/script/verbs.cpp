@@ -413,7 +413,9 @@ Act readClick(const scene::Json& value, const std::string& pointer, const Script
 }
 
 Act readDrag(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
-    const Members members(value, pointer, {"item", "window", "from", "to", "by", "button", "keys"});
+    const Members members(
+        value, pointer, {"item", "window", "from", "to", "by", "button", "keys", "holds"});
+    const bool holds = members.flag("holds").value_or(false);
     const Place from = placeOf(members, "from");
     const auto to = members.pair("to"), by = members.pair("by");
     if (to.has_value() == by.has_value())
@@ -430,7 +432,7 @@ Act readDrag(const scene::Json& value, const std::string& pointer, const ScriptF
             moveTo(
                 driver, {begin[0] + t * (end[0] - begin[0]), begin[1] + t * (end[1] - begin[1])});
         }
-        release(driver, button, keys);
+        if (!holds) release(driver, button, keys);
         driver.settle();
     };
 }

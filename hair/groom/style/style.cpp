@@ -1,16 +1,14 @@
 #include "hair/groom/style/style.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <future>
 #include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
 #include <string>
-#include <thread>
 #include <unordered_map>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -18,6 +16,7 @@
 #include "engine/error.h"
 #include "hair/groom/mesh/surface.h"
 #include "hair/groom/style/displace.h"
+#include "hair/groom/style/parallel.h"
 #include "hair/random.h"
 
 namespace hair::groom {
@@ -94,10 +93,10 @@ struct ClearStrand {
     std::vector<double> wanted;  // clearance of the vertex
 
     ClearStrand(
-        std::span<const glm::vec3> strand, double clearance, const Mesh& on,
+        std::vector<glm::dvec3> strand, double clearance, const Mesh& on,
         const NearestSurface& its_surface)
-        : mesh(on), surface(its_surface), points(strand.begin(), strand.end()),
-          lengths(points.size(), 0.0), wanted(points.size(), 0.0) {
+        : mesh(on), surface(its_surface), points(std::move(strand)), lengths(points.size(), 0.0),
+          wanted(points.size(), 0.0) {
         double arc = 0.0;
         for (std::size_t i = 1; i < points.size(); ++i) {
             lengths[i] = glm::distance(points[i], points[i - 1]);
@@ -161,40 +160,32 @@ struct ClearStrand {
     }
 };
 
-// Does something for each index below `count`, in any order and on all processors; what it throws
-// comes out of here.
-template <class Work>
-void inParallel(std::uint32_t count, Work&& work) {
-    static constexpr std::uint32_t kTaken = 256;  // indices at a time
-    std::atomic<std::uint64_t> next = 0;
-    const auto take = [&] {
-        for (std::uint64_t first = next.fetch_add(kTaken); first < count;
-             first = next.fetch_add(kTaken)) {
-            const std::uint64_t end = std::min<std::uint64_t>(first + kTaken, count);
-            for (std::uint64_t i = first; i < end; ++i) work(static_cast<std::uint32_t>(i));
-        }
-    };
-    const std::uint32_t takers =
-        std::min((count + kTaken - 1) / kTaken, std::thread::hardware_concurrency());
-    std::vector<std::future<void>> others;
-    for (std::uint32_t i = 1; i < takers; ++i)
-        others.push_back(std::async(std::launch::async, take));
-    take();
-    for (std::future<void>& other : others) other.get();
-}
-
 }  // namespace
+
+bool keepClear(
+    std::vector<glm::dvec3>& points, const Mesh& mesh, const NearestSurface& surface,
+    double clearance) {
+    ClearStrand strand(points, clearance, mesh, surface);
+    if (!strand.turnSegments()) return false;
+    strand.pushVertices();
+    points = std::move(strand.points);
+    return true;
+}
 
 Groom keepClear(Groom groom, const Mesh& mesh, double clearance) {
     const NearestSurface surface(mesh.positions, mesh.triangles);
     inParallel(groom.strand_count, [&](std::uint32_t index) {
-        ClearStrand strand(groom.strand(index), clearance, mesh, surface);
-        if (!strand.turnSegments()) return;
-        strand.pushVertices();
-        std::ranges::copy(
-            strand.points, groom.points.begin() + std::size_t{index} * groom.vertices_per_strand);
+        const std::span<const glm::vec3> strand = groom.strand(index);
+        std::vector<glm::dvec3> points(strand.begin(), strand.end());
+        if (keepClear(points, mesh, surface, clearance))
+            std::ranges::copy(
+                points, groom.points.begin() + std::size_t{index} * groom.vertices_per_strand);
     });
     return groom;
+}
+
+glm::dvec3 outwardOf(const Mesh& mesh, const NearestSurface& surface, const glm::dvec3& point) {
+    return groundUnder(point, surface(point), mesh).outward;
 }
 
 // ---- Clumps -------------------------------------------------------------------------------------

@@ -2,9 +2,13 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "hair/groom/groom.h"
 #include "hair/groom/mesh/mesh.h"
+#include "hair/groom/mesh/surface.h"
 #include "hair/groom_settings.h"
 
 // Styling: pure functions from a groom to a groom. Roots, counts, normals, triangles and the order
@@ -43,6 +47,15 @@ Groom flyaways(Groom groom, const FlyawaySettings& settings, std::uint32_t seed)
 // their lengths, and strands that are clear of it every bit. For a mesh that is open, inside is
 // behind the nearest triangle.
 Groom keepClear(Groom groom, const Mesh& mesh, double clearance);
+
+// The same for the points of one strand, root first; returns whether they moved. `surface` is the
+// mesh's.
+bool keepClear(
+    std::vector<glm::dvec3>& points, const Mesh& mesh, const NearestSurface& surface,
+    double clearance);
+
+// The unit vector away from the part of a mesh's surface that is next to a point, on either side.
+glm::dvec3 outwardOf(const Mesh& mesh, const NearestSurface& surface, const glm::dvec3& point);
 
 // Strands end at settings.length of arc, and where they first pass the plane; what is left of them
 // is resampled evenly to as many vertices. A strand whose root is beyond the plane, or that would

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "benchmarks/viewer/edit.h"
+#include "benchmarks/viewer/gizmo.h"
+#include "benchmarks/viewer/picking.h"
+#include "benchmarks/viewer/player.h"
+#include "hair/settings.h"
+
+// The tool for the lights of /shading/lights and the environment.
+namespace benchmarks::viewer {
+
+// ---- Where light comes from ---------------------------------------------------------------------
+
+// The unit vector from the groom's middle to a light; of a directional light, against it.
+glm::vec3 lightDirection(const hair::LightSettings& light, const Sphere& groom);
+
+// Moves a light round the groom's middle, at its distance: a directional light shines from there
+// through it, a rectangle goes on facing it.
+void setLightDirection(hair::LightSettings& light, const Sphere& groom, const glm::vec3& direction);
+
+// m from the groom's middle; absent for a directional light, which has none.
+std::optional<float> lightDistance(const hair::LightSettings& light, const Sphere& groom);
+void setLightDistance(hair::LightSettings& light, const Sphere& groom, float distance);
+
+// Turns the environment by so many degrees, kept from -180 to 180.
+void turnEnvironment(hair::RenderSettings& render, float degrees);
+
+// ---- The tool -----------------------------------------------------------------------------------
+
+// A handle for each light, on a sphere round the groom, from where it shines: lights may be far
+// outside of the picture. A ring turns the environment.
+class LightTool {
+public:
+    Edit
+    update(const Pointer& pointer, Handles& handles, hair::Settings& settings, const Shown& played);
+    bool drags() const { return drag_.has_value() || turn_.has_value(); }
+
+    // The chosen light's strength and distance and the environment's turn, in one line.
+    Edit options(OptionsLine& line, hair::Settings& settings, const Shown& played);
+
+private:
+    struct Drag {
+        const Shown* played;  // whose picture the mouse is in
+        glm::vec3 handle;  // where it was held
+        glm::vec2 from;  // px
+    };
+    struct Turn {
+        const Shown* played;
+        glm::vec2 from;  // px
+        float start;  // deg
+    };
+    Edit dragLight(const Pointer& pointer, hair::Settings& settings, const Sphere& groom);
+    Edit dragEnvironment(const Pointer& pointer, hair::Settings& settings, const Gizmo& ring);
+
+    std::size_t selected_ = 0;
+    std::optional<Drag> drag_;
+    std::optional<Turn> turn_;
+};
+
+}  // namespace benchmarks::viewer
