@@ -34,6 +34,23 @@ const Table& tableOf(const PartingSettings*) {
     return table;
 }
 
+const Table& tableOf(const VellusSettings*) {
+    using S = VellusSettings;
+    static const Table table = tableWith<S>(
+        {number(
+             "share", &S::share, 0, 10, "1",
+             "vellus hairs, as a part of /groom/grow/strands; they follow the head alone and are "
+             "drawn where /strands/source is groom; 0: none"),
+         number(
+             "length", &S::length, 0.001, 0.1, "m",
+             "greatest length at the edge of the scalp; twice that a band further in"),
+         number("width", &S::width, 1e-6, 0.001, "m", "width at the root"),
+         number(
+             "band", &S::band, 0.001, 0.1, "m",
+             "distance from the edge of the scalp, on either side, over which they thin out")});
+    return table;
+}
+
 const Table& tableOf(const GrowSettings*) {
     using S = GrowSettings;
     static const Table table = tableWith<S>(
@@ -71,11 +88,27 @@ const Table& tableOf(const GrowSettings*) {
              "droop", &S::droop, 0, 100, "1/m",
              "how fast the direction turns toward gravity along the guide; 0 is straight"),
          group("whorl", &S::whorl, "hair turning round a point"),
-         group("parting", &S::parting, "hair combed away from a line")});
+         group("parting", &S::parting, "hair combed away from a line"),
+         group("vellus", &S::vellus, "short, thin hairs along the edge of the scalp")});
     return table;
 }
 
 // ---- Styling, in the order in which it is applied -----------------------------------------------
+
+const Table& tableOf(const BraidSettings*) {
+    using S = BraidSettings;
+    static const Table table = tableWith<S>(
+        {number(
+             "pitch", &S::pitch, 0, 1, "m",
+             "length of braid after which each of its three parts is where it was; 0: no braid"),
+         number("tie", &S::tie, -100, 100, "m", "where all strands are gathered"),
+         number("direction", &S::direction, -1, 1, "1", "where the braid goes from there"),
+         number("width", &S::width, 0.001, 1, "m", "width of the braid at the tie"),
+         number(
+             "length", &S::length, 0, 10, "m",
+             "length of the braid, after which strands hang loose; 0: to their tips")});
+    return table;
+}
 
 const Table& tableOf(const ClumpSettings*) {
     using S = ClumpSettings;
@@ -194,7 +227,8 @@ const Table& tableOf(const TaperSettings*) {
 const Table& tableOf(const StyleSettings*) {
     using S = StyleSettings;
     static const Table table = tableWith<S>(
-        {group("clump", &S::clump, "clumps of strands drawn together at their tips"),
+        {group("braid", &S::braid, "all strands in one braid"),
+         group("clump", &S::clump, "clumps of strands drawn together at their tips"),
          group("wave", &S::wave, "plane waves along strands"),
          group("curl", &S::curl, "strands wound into helices"),
          group("frizz", &S::frizz, "random displacement of strands"),
@@ -288,7 +322,11 @@ const Table& tableOf(const GroomSettings*) {
          group("style", &S::style, "styling of what is grown or read"),
          list(
              "edits", &S::edits, 1000,
-             "strokes of brushes over the styled hair at rest, one after the other")});
+             "strokes of brushes over the styled hair at rest, one after the other"),
+         fileName(
+             "fixed", &S::fixed,
+             "file of strands in metres beside the others that follow the head alone, with their "
+             "widths, as brows and lashes do; drawn where /strands/source is groom; empty: none")});
     return table;
 }
 

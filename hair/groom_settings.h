@@ -30,6 +30,16 @@ struct PartingSettings {
 
 const Table& tableOf(const PartingSettings*);
 
+// Short, thin hairs on either side of the edge of the scalp.
+struct VellusSettings {
+    float share = 0.0f;
+    float length = 0.012f;
+    float width = 0.00003f;
+    float band = 0.01f;
+};
+
+const Table& tableOf(const VellusSettings*);
+
 enum class RootPlacement { poisson_disc, random };
 
 // Guides grown on the scalp of a mesh.
@@ -47,11 +57,23 @@ struct GrowSettings {
     float droop = 0.0f;
     WhorlSettings whorl;
     PartingSettings parting;
+    VellusSettings vellus;
 };
 
 const Table& tableOf(const GrowSettings*);
 
 // ---- Styling, in the order in which it is applied -----------------------------------------------
+
+// All strands gathered, and plaited in three parts from there on.
+struct BraidSettings {
+    float pitch = 0.0f;
+    glm::vec3 tie{0.0f, -0.07f, -0.115f};
+    glm::vec3 direction{0.0f, -1.0f, 0.0f};
+    float width = 0.03f;
+    float length = 0.0f;
+};
+
+const Table& tableOf(const BraidSettings*);
 
 struct ClumpSettings {
     float strength = 0.0f;
@@ -119,6 +141,7 @@ struct TaperSettings {
 const Table& tableOf(const TaperSettings*);
 
 struct StyleSettings {
+    BraidSettings braid;
     ClumpSettings clump;
     WaveSettings wave;
     CurlSettings curl;
@@ -174,6 +197,7 @@ struct GroomSettings {
     GrowSettings grow;
     StyleSettings style;
     std::vector<StrokeSettings> edits;
+    std::string fixed;
 };
 
 const Table& tableOf(const GroomSettings*);

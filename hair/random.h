@@ -45,7 +45,12 @@ inline constexpr std::uint32_t wave_drift = 21;  // and the two after it, as of 
 inline constexpr std::uint32_t curl_drift = 24;
 inline constexpr std::uint32_t flyaway_choice = 27;
 inline constexpr std::uint32_t flyaway_reach = 28;
-inline constexpr std::uint32_t flyaway_x = 29;
+inline constexpr std::uint32_t flyaway_x = 29;  // and the two after it
+inline constexpr std::uint32_t vellus_choice = 32;
+inline constexpr std::uint32_t vellus_length = 33;
+inline constexpr std::uint32_t vellus_turn = 34;
+inline constexpr std::uint32_t braid_angle = 35;
+inline constexpr std::uint32_t braid_radius = 36;
 }  // namespace purpose
 
 }  // namespace hair

@@ -112,6 +112,11 @@ const Table& tableOf(const RenderSettings*) {
              "environment_turn", &S::environment_turn, -360, 360, "deg",
              "rotation of the environment about +y"),
          toggle("head", &S::head, "draw the mesh that the hair grows on"),
+         number(
+             "scalp_tint", &S::scalp_tint, 0, 1, "1",
+             "how much of its own colour the material that /groom/grow/scalp names has; the rest "
+             "is "
+             "that of the mesh's first other material, so that at 0 no edge of it shows"),
          list("meshes", &S::meshes, 16, "meshes beside the head"),
          toggle("hair", &S::hair, "draw the strands; without them a frame is its simulation"),
          choice(

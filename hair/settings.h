@@ -89,6 +89,7 @@ struct RenderSettings {
     float environment_strength = 1.0f;
     float environment_turn = 0.0f;
     bool head = true;
+    float scalp_tint = 1.0f;
     std::vector<MeshSettings> meshes;
     bool hair = true;
     Show show = Show::shading;

@@ -1,10 +1,12 @@
 #include "benchmarks/scene/assets.h"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <system_error>
 #include <utility>
 
+#include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/scene/settings_json.h"
@@ -55,6 +57,19 @@ void checkMeshes(const hair::RenderSettings& render, const std::filesystem::path
     }
 }
 
+// Gives the material of that name so much of its own colour, the rest of the first other's.
+void tintScalp(hair::groom::Mesh& mesh, const std::string& scalp, float own) {
+    if (own == 1.0f) return;
+    const auto named = [&](const hair::groom::Material& material) {
+        return material.name == scalp;
+    };
+    const auto other = std::ranges::find_if_not(mesh.materials, named);
+    if (other == mesh.materials.end()) return;
+    const glm::vec3 around = other->base_color;
+    for (hair::groom::Material& material : mesh.materials)
+        if (named(material)) material.base_color = glm::mix(around, material.base_color, own);
+}
+
 }  // namespace
 
 std::optional<hair::groom::Mesh>
@@ -62,9 +77,11 @@ loadMesh(const hair::Settings& settings, const std::filesystem::path& directory)
     const hair::GroomSettings& groom = settings.groom;
     const std::string& file = groom.file.empty() ? groom.grow.mesh : groom.mesh;
     if (file.empty()) return std::nullopt;
-    return hair::groom::importMesh(
+    hair::groom::Mesh mesh = hair::groom::importMesh(
         directory / file,
         settings.render.head ? hair::groom::Textures::decoded : hair::groom::Textures::skipped);
+    tintScalp(mesh, groom.grow.scalp, settings.render.scalp_tint);
+    return mesh;
 }
 
 namespace {
@@ -87,7 +104,9 @@ const std::string& meshFile(const hair::GroomSettings& groom) {
 }
 
 std::string meshKey(const hair::Settings& settings, const std::filesystem::path& directory) {
+    const float tint = settings.render.scalp_tint;
     return (settings.render.head ? "textures of " : "") +
+           (tint == 1.0f ? "" : settings.groom.grow.scalp + ' ' + std::to_string(tint) + ' ') +
            stampOf(directory, meshFile(settings.groom));
 }
 
@@ -119,7 +138,7 @@ AssetStore::groom(const hair::Settings& settings, const std::filesystem::path& d
     std::string key = directory.string() + '\n' + writeFields(groom).dump() + '\n' +
                       std::to_string(settings.seed) + '\n' + meshKey(settings, directory);
     for (const std::string& file :
-         {groom.file, groom.grow.scalp, groom.grow.mask, groom.grow.length_map})
+         {groom.file, groom.grow.scalp, groom.grow.mask, groom.grow.length_map, groom.fixed})
         key += stampOf(directory, file);
     if (const auto* known = grooms_.find(key)) return *known;
     const std::optional<hair::groom::Mesh>& grown_on = mesh(settings, directory);

@@ -4,9 +4,11 @@
 #include <cassert>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -15,6 +17,7 @@
 #include "engine/error.h"
 #include "hair/groom/files.h"
 #include "hair/groom/growth/grow.h"
+#include "hair/groom/growth/vellus.h"
 #include "hair/groom/guides/bind_strands.h"
 #include "hair/groom/guides/choose_guides.h"
 #include "hair/groom/guides/root_triangles.h"
@@ -179,9 +182,31 @@ drawnStrands(Polylines file, std::span<const glm::vec3> before, std::span<const 
     return drawn;
 }
 
+// Puts strands to the groom's bound ones that follow the head alone.
+void addFixed(Groom& groom, const StrandSet& strands) {
+    for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
+        const std::span<const glm::vec3> points = strands.strand(i);
+        groom.bindings.push_back(
+            {.guides = {0, 0, 0},
+             .weights = glm::vec3(0.0f),
+             .offset = points.front(),
+             .width = strands.widths.known() ? strands.widths.at(strands.first(i)) : 0.0f});
+        groom.bound_points.insert(groom.bound_points.end(), points.begin(), points.end());
+        groom.bound_ends.push_back(static_cast<std::uint32_t>(groom.bound_points.size()));
+    }
+}
+
+void addFixedFile(Groom& groom, const std::string& file, const std::filesystem::path& directory) {
+    if (file.empty() || groom.bound_ends.empty()) return;
+    StrandSet strands = importStrands(directory / file, 0);
+    place(strands, {});
+    addFixed(groom, strands);
+}
+
 Groom fromFile(
-    const GroomSettings& settings, const Mesh* mesh, const std::filesystem::path& path,
+    const GroomSettings& settings, const Mesh* mesh, const std::filesystem::path& directory,
     std::uint32_t seed) {
+    const std::filesystem::path path = directory / settings.file;
     StrandSet strands = importStrands(path, settings.points_per_strand);
     try {
         place(strands, settings.placement);
@@ -196,6 +221,7 @@ Groom fromFile(
         Groom groom = withGuides(std::move(dense), settings.guides, mesh, seed, strokes);
         groom.bound_ends = std::move(file.ends);
         groom.bound_points = std::move(file.points);
+        addFixedFile(groom, settings.fixed, directory);
         return groom;
     } catch (const engine::Error& error) {
         throw engine::Error(path.string(), error.what());
@@ -269,7 +295,7 @@ Groom toGroom(StrandSet strands, std::uint32_t vertices) {
 Groom buildGroom(
     const GroomSettings& settings, const Mesh* mesh, const std::filesystem::path& directory,
     std::uint32_t seed) {
-    if (!settings.file.empty()) return fromFile(settings, mesh, directory / settings.file, seed);
+    if (!settings.file.empty()) return fromFile(settings, mesh, directory, seed);
     const std::string path = (directory / settings.grow.mesh).string();
     if (!mesh) throw engine::Error(path, "guides are to be grown, but there is no mesh");
     try {
@@ -278,7 +304,17 @@ Groom buildGroom(
             style(grow(*mesh, settings.grow, directory, guides, seed), settings.style, seed, mesh);
         const Strokes strokes = strokesOf(settings, grown, mesh);
         if (settings.grow.strands == 0) return replay(std::move(grown), strokes);
-        return withGuides(std::move(grown), guides, mesh, seed, strokes);
+        std::vector<glm::vec3> points = grown.points;
+        std::vector<std::uint32_t> ends(grown.strand_count);
+        for (std::uint32_t i = 0; i < grown.strand_count; ++i)
+            ends[i] = (i + 1) * grown.vertices_per_strand;
+        replay(ends, points, strokes);
+        Groom groom = withGuides(std::move(grown), guides, mesh, seed, strokes);
+        groom.bound_points = std::move(points);
+        groom.bound_ends = std::move(ends);
+        addFixed(groom, growVellus(*mesh, settings.grow, seed));
+        addFixedFile(groom, settings.fixed, directory);
+        return groom;
     } catch (const engine::Error& error) {
         throw engine::Error(path, error.what());
     }

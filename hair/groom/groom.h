@@ -16,11 +16,14 @@
 namespace hair::groom {
 
 // A strand between guides: at rest, vertex k is the weighted mean of vertex k of the three guides
-// plus `offset`.
+// plus `offset`. Without weights it follows the head alone, and needs points of its own.
 struct StrandBinding {
     std::array<std::uint32_t, 3> guides{};
-    glm::vec3 weights{1.0f, 0.0f, 0.0f};  // sum 1
+    glm::vec3 weights{1.0f, 0.0f, 0.0f};  // sum 1; all 0: no guide counts
     glm::vec3 offset{0.0f, 0.0f, 0.0f};   // m; puts the root where the file has it
+    float width = 0.0f;  // m, at the root; 0: as that of all others
+
+    bool followsHead() const { return weights == glm::vec3(0.0f); }
 };
 
 // Guide hairs at rest with the triangles that span them: what import and growth make, and what
@@ -33,7 +36,8 @@ struct Groom {
     std::vector<float> widths;  // [strand][vertex], diameters, m; empty: not known
     // Guide indices; strands grow between them.
     std::vector<std::array<std::uint32_t, 3>> root_triangles;
-    // The strands of the file that the guides were chosen from.
+    // The strands of the file, or the grown ones, that the guides were chosen from, and then those
+    // that follow the head alone.
     std::vector<StrandBinding> bindings;
     // Their own points at rest, of which the bindings give the mean of the guides. Those of a
     // strand with vertices_per_strand points are one to each vertex of the guides, all others are

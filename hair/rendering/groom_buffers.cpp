@@ -18,7 +18,7 @@
 namespace hair::rendering {
 namespace {
 
-static_assert(sizeof(gpu::BoundStrand) == 52 && offsetof(gpu::BoundStrand, offset) == 24);
+static_assert(sizeof(gpu::BoundStrand) == 56 && offsetof(gpu::BoundStrand, offset) == 24);
 static_assert(sizeof(gpu::RootFrame) == 24);
 
 // The numbers of the bound strands in random order: levels of detail keep the first ones.
@@ -30,22 +30,45 @@ std::vector<std::uint32_t> randomOrder(const groom::Groom& groom, std::uint32_t 
     return order;
 }
 
+// A strand that follows the head alone may be anywhere beside its guides.
+constexpr float kAnyReach = 1e6f;  // m
+
+// What the width of a strand at its root is multiplied with, so that it is its own.
+float widthFactor(
+    const groom::Groom& groom, const StrandSettings& settings,
+    const groom::StrandBinding& binding) {
+    if (binding.width == 0.0f) return 1.0f;
+    double width = settings.root_width;
+    if (settings.width == WidthSource::groom) {
+        width = 0.0;
+        for (int i = 0; i < 3; ++i) {
+            const std::size_t guide = binding.guides[static_cast<std::size_t>(i)];
+            width += double{binding.weights[i]} * groom.widths[guide * groom.vertices_per_strand];
+        }
+    }
+    return width > 0.0 ? static_cast<float>(binding.width / width) : 1.0f;
+}
+
 // `residuals`: of the strands in that order, or none.
 std::vector<gpu::BoundStrand> boundStrands(
-    const groom::Groom& groom, const std::vector<std::uint32_t>& order,
-    const StrandResiduals& residuals) {
+    const groom::Groom& groom, const StrandSettings& settings,
+    const std::vector<std::uint32_t>& order, const StrandResiduals& residuals) {
     std::vector<gpu::BoundStrand> strands;
     strands.reserve(order.size());
     for (const std::uint32_t i : order) {
-        const auto& [guides, weights, offset] = groom.bindings[i];
+        const groom::StrandBinding& binding = groom.bindings[i];
+        const auto& guides = binding.guides;
         gpu::BoundStrand strand{
-            .guides = {guides[0], guides[1], guides[2]}, .weights = weights, .offset = offset};
+            .guides = {guides[0], guides[1], guides[2]},
+            .weights = binding.weights,
+            .offset = binding.offset,
+            .width = widthFactor(groom, settings, binding)};
         if (!residuals.strands.empty()) {
             const StrandResidual& residual = residuals.strands[strands.size()];
             strand.first_residual = residual.first;
             strand.residuals = residual.count;
             strand.residual_step = residual.step;
-            strand.residual_reach = residual.reach;
+            strand.residual_reach = binding.followsHead() ? kAnyReach : residual.reach;
         }
         strands.push_back(strand);
     }
@@ -122,12 +145,17 @@ GroomBuffers::GroomBuffers(
             view_.rest_tangents =
                 upload(rest_tangents_, restTangents(groom), "guide tangents at rest");
             float reach = 0.0f;
-            for (const StrandResidual& strand : residuals.strands)
-                reach = std::max(reach, strand.reach);
+            for (std::size_t i = 0; i < order.size(); ++i)
+                if (!groom.bindings[order[i]].followsHead())
+                    reach = std::max(reach, residuals.strands[i].reach);
             view_.radius += reach;
         }
-        view_.bound_strands =
-            upload(bound_strands_, boundStrands(groom, order, residuals), "bound strands");
+        const std::vector<gpu::BoundStrand> bound =
+            boundStrands(groom, settings.strands, order, residuals);
+        if (view_.residuals != 0)
+            view_.greatest_width *=
+                std::max(1.0f, std::ranges::max(bound, {}, &gpu::BoundStrand::width).width);
+        view_.bound_strands = upload(bound_strands_, bound, "bound strands");
         view_.bound_strand_count = static_cast<std::uint32_t>(groom.bindings.size());
     }
     if (settings.strands.randomness == Randomness::thesis) {

@@ -241,8 +241,13 @@ Sphere strandBounds(const groom::Groom& groom, const StrandSettings& settings) {
     }
     float beside = settings.curl.radius + settings.variation.amplitude;
     for (const groom::StrandBinding& binding : groom.bindings)
-        beside = std::max(beside, glm::length(binding.offset));
+        if (!binding.followsHead()) beside = std::max(beside, glm::length(binding.offset));
     bounds.radius += beside;
+    for (std::size_t i = 0; i < groom.bound_ends.size(); ++i) {
+        if (!groom.bindings[i].followsHead()) continue;
+        for (const glm::vec3& point : groom.boundStrand(i))
+            bounds.radius = std::max(bounds.radius, glm::distance(bounds.centre, point));
+    }
     return bounds;
 }
 

@@ -206,6 +206,7 @@ DistanceLod distanceLod(
     if (settings.strands.source == StrandSource::groom) {
         for (const groom::StrandBinding& binding : groom.bindings) {
             glm::dvec3 place = glm::dmat3(glm::mat3(view.head)) * glm::dvec3(binding.offset);
+            if (binding.followsHead()) place += glm::dvec3(view.head[3]);
             for (int i = 0; i < 3; ++i)
                 place +=
                     double{binding.weights[i]} * root(binding.guides[static_cast<std::size_t>(i)]);

@@ -45,6 +45,10 @@ public:
 
     void take(const groom::StrandBinding& binding) {
         const std::size_t vertices = groom_.vertices_per_strand;
+        if (binding.followsHead()) {
+            std::ranges::fill(controls_, glm::dvec3(binding.offset));
+            return;
+        }
         const int heaviest = heaviestOf(binding.weights);
         const auto weightOf = [&](int i) {
             return (1.0 - single_) * binding.weights[i] + (i == heaviest ? single_ : 0.0);

@@ -43,7 +43,7 @@ struct StrandResiduals {
 };
 
 // The residuals of the bound strands `order`, whose points groom.bound_points has to have, beside
-// the curves that the settings ask for.
+// the curves that the settings ask for, or beside the root of a strand that follows the head alone.
 StrandResiduals makeStrandResiduals(
     const groom::Groom& groom, const StrandSettings& settings,
     std::span<const std::uint32_t> order);

@@ -46,12 +46,13 @@ def noise(direction, per_radian, seed):
 
 
 def hairline_mask(size):
-    """From a quarter on the hairline to 1 after 4 to 6 mm; 0 outside."""
+    """From nearly none on the hairline to 1 after 10 to 17 mm; 0 outside."""
     direction = directions(size)
     distance = distance_to_hairline(make_head.STAR + direction)
-    wander = 0.002 * noise(direction, 14.0, 1)
+    wander = (0.004 * noise(direction, 14.0, 1)
+              + 0.003 * noise(direction, 60.0, 2))
     return np.where(distance > 0.0,
-                    smoothstep(-0.002, 0.004, distance - wander), 0.0)
+                    smoothstep(-0.001, 0.010, distance - wander), 0.0)
 
 
 def taper_lengths(size):

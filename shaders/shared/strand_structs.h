@@ -83,15 +83,16 @@ struct PictureParameters {
 };
 
 // A strand of the groom: the weighted mean of its guides plus `offset`, and a residual where these
-// are known.
+// are known. Without weights it follows the head alone.
 struct BoundStrand {
     uvec3 guides;
-    vec3 weights;  // sum 1
+    vec3 weights;  // sum 1; all 0: no guide counts
     vec3 offset;  // m, before the head moved
     uint first_residual;  // of its samples
     uint residuals;  // samples; at least 2
     float residual_step;  // m, of a sample's whole numbers
     float residual_reach;  // m: no residual on the strand is longer
+    float width;  // factor of the width; read where residuals are drawn
 };
 
 // Where residuals' samples are on a strand, in whole numbers from the root up to this at the tip.

@@ -23,6 +23,19 @@ BoundStrand boundStrand(PictureParameters picture, uint strand) {
     return BoundStrands(picture.bound_strands).strands[strand];
 }
 
+bool followsHead(vec3 weights) { return kResiduals != 0 && weights == vec3(0.0); }
+
+// What a strand of the groom is moved by beside its guides: the place of its root, where it follows
+// the head alone.
+vec3 boundOffset(PictureParameters picture, BoundStrand bound) {
+    precise vec3 offset = mat3(picture.head) * bound.offset;
+    if (followsHead(bound.weights)) {
+        precise vec3 root = offset + picture.head[3].xyz;
+        offset = root;
+    }
+    return offset;
+}
+
 // How far a strand of the groom may be from the curve of its guides' mean.
 float boundReach(PictureParameters picture, uint strand) {
     BoundStrand bound = boundStrand(picture, strand);
@@ -62,7 +75,7 @@ vec3 lodCentre(PictureParameters picture, StrandPatch strand_patch, uvec3 guides
     if (kSource == kSourceGroom) {
         BoundStrand strand = boundStrand(picture, strand_patch.first_strand);
         precise vec3 root = strand.weights.x * a + strand.weights.y * b + strand.weights.z * c +
-                            mat3(picture.head) * strand.offset;
+                            boundOffset(picture, strand);
         return root;
     }
     return (a + b + c) / 3.0;

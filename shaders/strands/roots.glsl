@@ -61,9 +61,8 @@ RootLift rootLift(PictureParameters picture, StrandPatch strand_patch, uvec3 gui
     RootLift lift;
     for (int i = 0; i < 3; ++i) lift.edges[i] = vec3(0.0);
     if (kSource == kSourceGroom) {
-        precise vec3 offset =
-            mat3(picture.head) * boundStrand(picture, strand_patch.first_strand).offset;
-        lift.edges[0] = offset;
+        lift.edges[0] =
+            boundOffset(picture, boundStrand(picture, strand_patch.first_strand));
         return lift;
     }
     if (picture.root_normals == kNoAddress) return lift;

@@ -71,11 +71,21 @@ void offsetPoint(PictureParameters picture, StrandPatch strand_patch, PatchStran
 }
 
 // Moves a point of the guides' mean to the strand of the file. That the turn changes along the
-// strand is left out of the tangent, as above; at rest it doesn't change.
+// strand is left out of the tangent, as above; at rest it doesn't change. A strand that follows the
+// head alone is its root and its residual.
 void addResidual(PictureParameters picture, StrandPatch strand_patch, PatchStrand strand, float t,
                  inout StrandPoint point) {
     BoundStrand bound = boundStrand(picture, strand.index);
     StrandOffset residual = strandResidual(picture, bound, point.along);
+    point.width *= bound.width;
+    if (followsHead(bound.weights)) {
+        mat3 head = mat3(picture.head);
+        precise vec3 place = strand.lift + head * residual.value;  // strands/curve.glsl
+        precise vec3 along = head * (residual.slope / float(picture.vertices_per_guide - 1));
+        point.position = place;
+        point.tangent = along;
+        return;
+    }
     vec4 turn = strandTurn(picture, strand.guides, strand.weights, strand_patch.segment, t);
     precise vec3 position = point.position + turnedBy(turn, residual.value);  // strands/curve.glsl
     precise vec3 slope = residual.slope / float(picture.vertices_per_guide - 1);
@@ -155,7 +165,7 @@ StrandPoint drawnPoint(PictureParameters picture, StrandPatch strand_patch, Patc
         point.tangent = mix(mix(a.tangent, b.tangent, part), point.tangent, lod.morph);
         point.width = mix(mix(a.width, b.width, part), point.width, lod.morph);
     }
-    if (kStrandCollision == kStrandCollisionPushOut) {
+    if (kStrandCollision == kStrandCollisionPushOut && !followsHead(strand.weights)) {
         float along_guides = float(strand_patch.segment) + pieceEnd(lod, index);
         pushStrandOut(picture, along_guides, point.position, point.tangent);
     }

@@ -71,6 +71,29 @@ inline const std::vector<Feature>& features() {
              s.strands.source = StrandSource::groom;
              s.strands.root_width = 0.001f;
          }},
+        {"vellus",
+         [](Settings& s) {
+             s.groom.grow.strands = 4000;
+             s.groom.grow.length = 0.02f;
+             s.groom.grow.vellus = {
+                 .share = 0.5f, .length = 0.03f, .width = 0.0005f, .band = 0.03f};
+             s.groom.fixed = HAIRBENCH_SOURCE_DIR "/scenes/assets/brows.npz";
+             s.strands.source = StrandSource::groom;
+             s.strands.root_width = 0.001f;
+             s.render.scalp_tint = 0.0f;
+         },
+         "grown_strands"},
+        {"braid",
+         [](Settings& s) {
+             s.groom.grow.strands = 4000;
+             s.groom.grow.vertices = 60;
+             s.groom.grow.length = 0.5f;
+             s.groom.style.braid = {.pitch = 0.06f, .width = 0.045f, .length = 0.16f};
+             s.strands.source = StrandSource::groom;
+             s.strands.root_width = 0.001f;
+             s.camera.position = {-0.24f, 0.0f, -0.5f};
+             s.camera.target = {0.0f, -0.1f, 0.0f};
+         }},
         {"taper",
          [](Settings& s) {
              s.strands.root_width = 0.004f;

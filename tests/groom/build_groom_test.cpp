@@ -1,5 +1,11 @@
 #include "hair/groom/build_groom.h"
 
+#include <algorithm>
+#include <span>
+
+#include <algorithm>
+#include <span>
+
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
@@ -75,6 +81,48 @@ TEST(BuildGroom, ChoosesGuidesFromGrownStrands) {
     settings.grow.strands = 20;
     EXPECT_THAT(
         errorText([&] { buildGroom(settings, &cap, "scenes", 7); }), HasSubstr("20 strands"));
+}
+
+// What is drawn of grown strands is what styling made of them, not the mean of their guides.
+TEST(BuildGroom, KeepsThePointsOfGrownStrands) {
+    const Mesh cap = makeCap();
+    GroomSettings settings;
+    settings.guides = 30;
+    settings.grow.strands = 500;
+    settings.style.frizz.amplitude = 0.003f;
+    const Groom groom = buildGroom(settings, &cap, "scenes", 7);
+    const Groom dense = style(grow(cap, settings.grow, "", 30, 7), settings.style, 7, nullptr);
+    EXPECT_EQ(groom.bound_points, dense.points);
+    ASSERT_EQ(groom.bound_ends.size(), 500u);
+    EXPECT_EQ(groom.bound_ends.back(), dense.points.size());
+}
+
+// After the strands that guides move come vellus hairs and those of the file, which follow the head
+// alone: no weights, their root as offset, their own width.
+TEST(BuildGroom, AddsStrandsThatFollowTheHead) {
+    const TemporaryFolder folder;
+    StrandSet file{.ends = {3, 6}, .metres_per_unit = 1.0};
+    for (int i = 0; i < 6; ++i) file.points.emplace_back(0.01f * static_cast<float>(i), 0.2f, 0.3f);
+    file.widths.values = {1e-4f, 1e-4f, 1e-4f, 2e-4f, 2e-4f, 2e-4f};
+    exportStrands(file, folder.file("lashes.npz"));
+    const Mesh cap = makeCap();
+    GroomSettings settings;
+    settings.guides = 30;
+    settings.grow.strands = 500;
+    settings.grow.vellus.share = 0.1f;
+    settings.fixed = "lashes.npz";
+    const Groom groom = buildGroom(settings, &cap, folder.path(), 7);
+    ASSERT_EQ(groom.bindings.size(), 500u + 50u + 2u);
+    ASSERT_EQ(groom.bound_ends.size(), groom.bindings.size());
+    for (std::size_t i = 0; i < groom.bindings.size(); ++i) {
+        const StrandBinding& binding = groom.bindings[i];
+        EXPECT_EQ(binding.followsHead(), i >= 500) << i;
+        EXPECT_EQ(binding.width, i < 500 ? 0.0f : i < 550 ? 3e-5f : i < 551 ? 1e-4f : 2e-4f) << i;
+        if (i >= 500) {
+            EXPECT_EQ(binding.offset, groom.boundStrand(i)[0]) << i;
+        }
+    }
+    EXPECT_TRUE(std::ranges::equal(groom.boundStrand(550), std::span(file.points).first(3)));
 }
 
 TEST(BuildGroom, GrowsTheThesissNumberOfGuides) {

@@ -341,6 +341,54 @@ TEST_F(StrandResidualsTest, ARigidMotionOfTheHeadCarriesStrandsRigidly) {
     }
 }
 
+// A strand without weights goes where the head goes, whatever guides do, and is as wide as it says:
+// its own points, turned and moved.
+TEST_F(StrandResidualsTest, AStrandWithoutWeightsFollowsTheHeadAlone) {
+    groom::Groom groom = groomOf(wisps(40, std::array{20u}), 12);
+    const std::size_t own = groom.bindings.size();
+    const groom::StrandSet lashes = wisps(30, std::array{6u});
+    for (std::uint32_t i = 0; i < lashes.strandCount(); ++i) {
+        const auto points = lashes.strand(i);
+        groom.bindings.push_back(
+            {.weights = glm::vec3(0.0f), .offset = points[0], .width = 0.0001f});
+        groom.bound_points.insert(groom.bound_points.end(), points.begin(), points.end());
+        groom.bound_ends.push_back(static_cast<std::uint32_t>(groom.bound_points.size()));
+    }
+    Settings settings = ownStrands(3);
+    settings.strands.root_width = settings.strands.tip_width = 0.0004f;
+    const StrandPoints rest = evaluate(groom, settings);
+    const glm::dmat4 matrix = glm::rotate(
+        glm::translate(glm::dmat4(1.0), glm::dvec3(0.2, -0.1, 0.3)), 1.3,
+        glm::normalize(glm::dvec3(1.0, -2.0, 0.5)));
+    groom::Groom blown = moved(groom, matrix);
+    for (std::size_t i = 0; i < blown.points.size(); ++i)
+        blown.points[i].x += 0.1f * static_cast<float>(i % groom.vertices_per_strand);
+    const StrandPoints turned = evaluate(groom, settings, blown, glm::mat4(matrix));
+    const std::vector<std::uint32_t> order = drawnOrder(groom, settings.seed);
+    double farthest = 0.0;
+    double from_points = 0.0;
+    std::size_t found = 0;
+    for (std::uint32_t drawn = 0; drawn < order.size(); ++drawn) {
+        if (order[drawn] < own) continue;
+        ++found;
+        const std::vector<glm::dvec3> before = line(rest, drawn);
+        const std::vector<glm::dvec3> after = line(turned, drawn);
+        ASSERT_EQ(before.size(), after.size());
+        for (std::size_t k = 0; k < before.size(); ++k) {
+            const glm::dvec3 expected(matrix * glm::dvec4(before[k], 1.0));
+            farthest = std::max(farthest, apart(after[k], expected));
+        }
+        EXPECT_FLOAT_EQ(rest.at(0, drawn, 2, 1).width, 0.0001f);
+        const auto points = groom.boundStrand(order[drawn]);
+        from_points = std::max(
+            {from_points, apart(before.front(), glm::dvec3(points.front())),
+             apart(before.back(), glm::dvec3(points.back()))});
+    }
+    EXPECT_EQ(found, 30u);
+    EXPECT_LT(farthest, kRigid);
+    EXPECT_LT(from_points, 5e-5);  // as far as docs/grooms.md lets a strand be from its points
+}
+
 // Three straight guides up, 0.01 m a segment, and a curl about their middle that keeps clear of the
 // ends' offset: its root is theirs.
 groom::Groom straightGuides(std::uint32_t vertices) {

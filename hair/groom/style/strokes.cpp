@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "hair/groom/style/displace.h"
-#include "hair/groom/style/parallel.h"
+#include "hair/groom/style/clearance.h"
 #include "hair/groom/style/style.h"
 
 namespace hair::groom {

@@ -17,6 +17,14 @@
 // strands as files hold them.
 namespace hair::groom {
 
+// All strands are led over the mesh to settings.tie and from there on in a braid of three parts,
+// in its direction, with their lengths. u along the braid, the middle of part k is at
+// a sin(2 pi (u / pitch + k / 3)) across it and 0.6 a sin(4 pi (u / pitch + k / 3)) into it; a
+// strand keeps its place in the section of its part, a disc of 0.42 a, and 2.84 a is the width.
+// As strands end, a falls with the root of the share that is left. Past settings.length parts come
+// together and hang loose. `mesh` may be null: then strands go straight to the tie.
+Groom braid(Groom groom, const BraidSettings& settings, std::uint32_t seed, const Mesh* mesh);
+
 // Strands are drawn to the centre strand of their clump: vertex k to its vertex k, by
 // strength (1 - variation * random) smoothstep(start, 1, position along the strand). Centre strands
 // stay; their roots are at least `spacing` apart, and every strand joins the nearest. With more
