@@ -75,23 +75,6 @@ constexpr std::array kActions{
         "the bodies that hair collides with"},
     ActionRow{Action::show_head, "Show", "Head", ImGuiKey_4, "4", "the mesh that hair grows on"},
     ActionRow{Action::show_hair, "Show", "Hair", ImGuiKey_5, "5", "the strands"},
-    ActionRow{Action::show_shading, "Show", "Light on strands", 0, "", "strands as they are lit"},
-    ActionRow{
-        Action::show_tangents, "Show", "Tangents", 0, "", "directions along strands as colours"},
-    ActionRow{
-        Action::show_normals, "Show", "Normals", 0, "", "directions across strands as colours"},
-    ActionRow{
-        Action::show_levels, "Show", "Levels of detail", 0, "",
-        "from blue to red as it is coarser"},
-    ActionRow{Action::show_strands, "Show", "Strands", 0, "", "each strand in a colour of its own"},
-    ActionRow{
-        Action::show_shadow, "Show", "Shadow", 0, "", "what part of the lights reaches strands"},
-    ActionRow{
-        Action::show_overdraw, "Show", "Overdraw", 0, "",
-        "fragments that a pixel draws: red is full at 8, green at 32, blue at 128"},
-    ActionRow{
-        Action::show_density, "Show", "Density", 0, "",
-        "fragments of strands in front of the head: red is full at 8, green at 32, blue at 128"},
 
     ActionRow{
         Action::tool_camera, "Tools", "Camera", ImGuiKey_C, "C",
@@ -134,6 +117,28 @@ constexpr std::array kActions{
     ActionRow{
         Action::present_immediate, "View", "At once (immediate)", 0, "",
         "as fast as it goes, torn where a picture comes in between"},
+    ActionRow{Action::show_shading, "View", "Strands: light", 0, "", "strands as they are lit"},
+    ActionRow{
+        Action::show_tangents, "View", "Strands: tangents", 0, "",
+        "directions along strands as colours"},
+    ActionRow{
+        Action::show_normals, "View", "Strands: normals", 0, "",
+        "directions across strands as colours"},
+    ActionRow{
+        Action::show_levels, "View", "Strands: levels of detail", 0, "",
+        "from blue to red as it is coarser"},
+    ActionRow{
+        Action::show_strands, "View", "Strands: each its own", 0, "",
+        "each strand in a colour of its own"},
+    ActionRow{
+        Action::show_shadow, "View", "Strands: shadow", 0, "",
+        "what part of the lights reaches strands"},
+    ActionRow{
+        Action::show_overdraw, "View", "Strands: overdraw", 0, "",
+        "fragments that a pixel draws: red is full at 8, green at 32, blue at 128"},
+    ActionRow{
+        Action::show_density, "View", "Strands: density", 0, "",
+        "fragments of strands in front of the head: red is full at 8, green at 32, blue at 128"},
 
     ActionRow{
         Action::compare, "Window", "Compare two settings", kCtrl | ImGuiKey_B, "Ctrl+B",

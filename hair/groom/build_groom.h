@@ -12,10 +12,11 @@
 // one number of points.
 namespace hair::groom {
 
-// The guides that a scene asks for, styled and brushed: from the strands of settings.file or, if that is empty,
-// grown. File names are relative to `directory`, the scene's folder. `mesh` is what the hair grows
-// on: of settings.mesh for a file, where null is nothing, and of settings.grow.mesh for growth,
-// which needs it. Throws engine::Error "path: reason" with the path of the file or of the mesh.
+// The guides that a scene asks for, styled and brushed: from the strands of settings.file or, if
+// that is empty, grown. File names are relative to `directory`, the scene's folder. `mesh` is what
+// the hair grows on: of settings.mesh for a file, where null is nothing, and of settings.grow.mesh
+// for growth, which needs it. Throws engine::Error "path: reason" with the path of the file or of
+// the mesh.
 Groom buildGroom(
     const GroomSettings& settings, const Mesh* mesh, const std::filesystem::path& directory,
     std::uint32_t seed);

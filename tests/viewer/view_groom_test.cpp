@@ -1,3 +1,6 @@
+#include <cmath>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -66,8 +69,23 @@ TEST_F(ViewGroom, LightsAreDragged) {
             {"click": {"item": "Strength", "double": true, "keys": "ctrl"}}, {"key": "ctrl+a"},
             {"type": "0.5"}, {"key": "enter"},
             {"expect": {"setting": {"/shading/lights/0/strength": 0.5},
-                        "other_hash_than": "0.json", "no_problem": true}}]})",
+                        "other_hash_than": "0.json", "no_problem": true}},
+            {"state": "weak.json"},
+            {"drag": {"item": "##picture", "from": [0.608, 0.221], "to": [0.4, 0.25]}},
+            {"expect": {"other_hash_than": "weak.json"}}, {"state": "left.json"},
+            {"key": "ctrl+z"}, {"expect": {"same_hash_as": "weak.json"}}]})",
         "--width 1200 --height 700 -a /camera/field_of_view=45");
+    // It shines from the other side now, from as far away.
+    const auto lightIn = [&](const char* file) {
+        return state(file)["sides"][0]["settings"]["shading"]["lights"][0]["position"]
+            .get<std::vector<double>>();
+    };
+    const std::vector<double> right = lightIn("weak.json"), left = lightIn("left.json");
+    EXPECT_GT(right[0], 1.0);
+    EXPECT_LT(left[0], -1.0);
+    // Distances are from the groom's middle, which is within 0.2 m of the origin.
+    EXPECT_NEAR(
+        std::hypot(left[0], left[1], left[2]), std::hypot(right[0], right[1], right[2]), 0.4);
 }
 
 // The scrubber plays in parts, forward and from the start: to what is played at once.
@@ -89,13 +107,13 @@ TEST_F(ViewGroom, TheTimelinePlaysToAFrame) {
     EXPECT_NEAR(frameOf("back.json"), 12, 3);
 }
 
-// What the menu Show has strands show.
+// What the menu View has strands show.
 TEST_F(ViewGroom, ViewsAreInTheMenu) {
-    for (const std::string view : {"Tangents", "Shadow", "Overdraw", "Density"}) {
+    for (const std::string view : {"tangents", "shadow", "overdraw", "density"}) {
         expectGood(
-            R"({"steps": [{"state": "0.json"}, {"perform": "Show/)" + view +
+            R"({"steps": [{"state": "0.json"}, {"perform": "View/Strands: )" + view +
                 R"("}, {"expect": {"other_hash_than": "0.json", "no_problem": true}},
-                {"perform": "Show/Light on strands"},
+                {"perform": "View/Strands: light"},
                 {"expect": {"same_hash_as": "0.json"}}]})",
             "--width 640 --height 360");
     }
