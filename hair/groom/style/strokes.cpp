@@ -19,7 +19,7 @@ namespace {
 using Points = std::vector<glm::dvec3>;
 
 constexpr double kLeastClearance = 1e-3;  // m, so that what is rounded is still outside
-constexpr double kLeastLeft = 1e-3;  // part of a strand that no cut takes
+constexpr double kLeastUncut = 1e-3;  // part of a strand that no cut takes
 constexpr double kStepsOfRadius = 8.0;  // of a comb
 
 // ---- Distances ----------------------------------------------------------------------------------
@@ -192,7 +192,7 @@ bool cutStrand(
         if (i <= nearest.segment) before += lengths[i];
     }
     before += nearest.share * lengths[nearest.segment + 1];
-    const double left = std::max(whole - strength * (whole - before), kLeastLeft * whole);
+    const double left = std::max(whole - strength * (whole - before), kLeastUncut * whole);
     if (left >= whole) return false;
     setLength(points, widths, left);
     return true;
