@@ -840,24 +840,6 @@ void addReportCommands(const CommandLine& line) {
 
 }  // namespace
 
-std::string shortMessage(const std::exception& error) {
-    constexpr std::size_t kLongest = 480;  // leaves room for what stands before it
-    constexpr std::size_t kEnd = 140;
-    constexpr std::string_view kCut = " [...] ";
-    const std::string_view text = error.what();
-    if (text.size() <= kLongest) return std::string(text);
-    // Not within a character of UTF-8.
-    const auto boundary = [&](std::size_t at) {
-        while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80) ++at;
-        return at;
-    };
-    std::size_t start = kLongest - kEnd - kCut.size();
-    while (start > 0 && (static_cast<unsigned char>(text[start]) & 0xc0) == 0x80) --start;
-    return std::string(text.substr(0, start))
-        .append(kCut)
-        .append(text.substr(boundary(text.size() - kEnd)));
-}
-
 int runCommandLine(int argc, char** argv) {
     CLI::App app("hairbench: measures simulated and rendered hair on Vulkan devices", "hairbench");
     app.set_version_flag("--version", report::versionText());

@@ -1,7 +1,10 @@
 #include <cstddef>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "benchmarks/commands/commands.h"
@@ -13,6 +16,24 @@
 #include "benchmarks/scene/sweep.h"
 
 namespace benchmarks::commands {
+
+std::string shortMessage(const std::exception& error) {
+    constexpr std::size_t kLongest = 480;  // leaves room for what stands before it
+    constexpr std::size_t kEnd = 140;
+    constexpr std::string_view kCut = " [...] ";
+    const std::string_view text = error.what();
+    if (text.size() <= kLongest) return std::string(text);
+    // Not within a character of UTF-8.
+    const auto boundary = [&](std::size_t at) {
+        while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80) ++at;
+        return at;
+    };
+    std::size_t start = kLongest - kEnd - kCut.size();
+    while (start > 0 && (static_cast<unsigned char>(text[start]) & 0xc0) == 0x80) --start;
+    return std::string(text.substr(0, start))
+        .append(kCut)
+        .append(text.substr(boundary(text.size() - kEnd)));
+}
 namespace {
 
 void printStart(

@@ -163,12 +163,12 @@ TEST_F(StrandFeaturePictureTest, BackEndsDrawTheSameAtAnyLevelOfDetail) {
 // otherwise here and there.
 TEST_F(StrandFeaturePictureTest, OtherBackEndsDrawThemToo) {
     if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
-    struct Way {
+    struct Other {
         Backend backend;
         const char* name;
         double most_different;
     };
-    constexpr std::array<Way, 3> kWays{
+    constexpr std::array<Other, 3> kOthers{
         {{Backend::pulling, "pulling", 0.001},
          {Backend::expanded, "expanded", 0.005},
          {Backend::software, "software", 0.02}}};
@@ -186,13 +186,14 @@ TEST_F(StrandFeaturePictureTest, OtherBackEndsDrawThemToo) {
         };
         const auto tessellated = write(Backend::tessellation, "tessellation");
         pairs.emplace_back(tessellated, plain);
-        for (const Way& way : kWays) pairs.emplace_back(tessellated, write(way.backend, way.name));
+        for (const Other& way : kOthers)
+            pairs.emplace_back(tessellated, write(way.backend, way.name));
     }
-    ASSERT_EQ(pairs.size(), kLate.size() * (1 + kWays.size()));
+    ASSERT_EQ(pairs.size(), kLate.size() * (1 + kOthers.size()));
     const std::vector<double> errors = flipErrors(pairs);
-    for (std::size_t i = 0; i < pairs.size(); i += 1 + kWays.size()) {
-        for (std::size_t k = 0; k < kWays.size(); ++k) {
-            const double bound = std::max(kWays[k].most_different, 0.05 * errors.at(i));
+    for (std::size_t i = 0; i < pairs.size(); i += 1 + kOthers.size()) {
+        for (std::size_t k = 0; k < kOthers.size(); ++k) {
+            const double bound = std::max(kOthers[k].most_different, 0.05 * errors.at(i));
             EXPECT_LE(errors.at(i + 1 + k), bound) << pairs[i + 1 + k].second;
         }
     }
