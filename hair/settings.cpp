@@ -116,7 +116,8 @@ const Table& tableOf(const RenderSettings*) {
              "scalp_tint", &S::scalp_tint, 0, 1, "1",
              "how much of its own colour the material that /groom/grow/scalp names has; the rest "
              "is "
-             "that of the mesh's first other material, so that at 0 no edge of it shows"),
+             "that of the material with the most triangles beside it, so that at 0 no edge of it "
+             "shows"),
          list("meshes", &S::meshes, 16, "meshes beside the head"),
          toggle("hair", &S::hair, "draw the strands; without them a frame is its simulation"),
          choice(

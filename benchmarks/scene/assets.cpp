@@ -1,10 +1,13 @@
 #include "benchmarks/scene/assets.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
@@ -57,15 +60,21 @@ void checkMeshes(const hair::RenderSettings& render, const std::filesystem::path
     }
 }
 
-// Gives the material of that name so much of its own colour, the rest of the first other's.
+// Gives the material of that name so much of its own colour, the rest of the one with the most
+// triangles beside it.
 void tintScalp(hair::groom::Mesh& mesh, const std::string& scalp, float own) {
     if (own == 1.0f) return;
     const auto named = [&](const hair::groom::Material& material) {
         return material.name == scalp;
     };
-    const auto other = std::ranges::find_if_not(mesh.materials, named);
-    if (other == mesh.materials.end()) return;
-    const glm::vec3 around = other->base_color;
+    // An importer may have put materials there that no triangle has.
+    std::vector<std::size_t> triangles(mesh.materials.size(), 0);
+    for (const std::uint32_t material : mesh.triangle_materials)
+        if (!named(mesh.materials[material])) ++triangles[material];
+    const auto most = std::ranges::max_element(triangles);
+    if (most == triangles.end() || *most == 0) return;
+    const glm::vec3 around =
+        mesh.materials[static_cast<std::size_t>(most - triangles.begin())].base_color;
     for (hair::groom::Material& material : mesh.materials)
         if (named(material)) material.base_color = glm::mix(around, material.base_color, own);
 }
