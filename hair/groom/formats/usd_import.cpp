@@ -149,7 +149,8 @@ std::vector<std::byte> readStage(const std::filesystem::path& path) {
     try {
         // -B -E: leaves no byte code beside the tool, and nobody's variables change what it does.
         // An absolute path, which is no option whatever it begins with.
-        return engine::runTool({interpreter, "-B", "-E", kTool, std::filesystem::absolute(path).string()});
+        return engine::runTool(
+            {interpreter, "-B", "-E", kTool, std::filesystem::absolute(path).string()});
     } catch (const std::system_error& error) {
         throw engine::Error(
             "reading USD needs the project's Python environment: run scripts/setup --python (" +
