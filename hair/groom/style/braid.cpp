@@ -145,7 +145,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t kPoints = 20;
+    static constexpr std::size_t kPoints = 40;
     static constexpr int kRounds = 4;
     static constexpr double kLeast = 0.002;  // m
     static constexpr double kHeight = 0.006;  // m, of what lies on other hair
