@@ -252,13 +252,15 @@ void Handles::box(glm::vec2 corner, const std::string& text) {
 
 void OptionsLine::place(float width) {
     if (!is_empty_) {
-        ImGui::SameLine();
         const float bar = separates_ ? ImGui::CalcTextSize(kBar).x + spacing() : 0.0f;
-        if (ImGui::GetContentRegionAvail().x < bar + width) {
-            ImGui::NewLine();
-        } else if (separates_) {
-            ImGui::TextDisabled("%s", kBar);
+        const float end = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
+        // The next line has begun. To go back and then find no room would count as contents there.
+        if (ImGui::GetItemRectMax().x + spacing() + bar + width <= end) {
             ImGui::SameLine();
+            if (separates_) {
+                ImGui::TextDisabled("%s", kBar);
+                ImGui::SameLine();
+            }
         }
     }
     is_empty_ = separates_ = false;

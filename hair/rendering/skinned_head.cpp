@@ -116,17 +116,15 @@ SkinnedHead::SkinnedHead(
 }
 
 void SkinnedHead::write(std::uint32_t slot, const StrandView& view) {
-    const std::vector<glm::dvec3> positions = view.deforming->positions(view.time);
-    const std::vector<glm::vec3> normals = view.deforming->normals(positions);
-    std::vector<glm::vec3> moved, turned;
-    moved.reserve(positions.size());
-    turned.reserve(normals.size());
-    for (const glm::dvec3& position : positions)
-        moved.emplace_back(view.carried * glm::dvec4(position, 1.0));
-    for (const glm::vec3& normal : normals)
-        turned.emplace_back(glm::dmat3(view.carried) * glm::dvec3(normal));
-    positions_[slot].write(std::as_bytes(std::span(moved)));
-    normals_[slot].write(std::as_bytes(std::span(turned)));
+    view.deforming->positions(view.time, work_.scratch, work_.positions);
+    view.deforming->normals(work_.positions, work_.scratch, work_.turned);
+    work_.moved.clear();
+    for (const glm::dvec3& position : work_.positions)
+        work_.moved.emplace_back(view.carried * glm::dvec4(position, 1.0));
+    for (glm::vec3& normal : work_.turned)
+        normal = glm::vec3(glm::dmat3(view.carried) * glm::dvec3(normal));
+    positions_[slot].write(std::as_bytes(std::span(work_.moved)));
+    normals_[slot].write(std::as_bytes(std::span(work_.turned)));
 }
 
 void SkinnedHead::record(

@@ -11,6 +11,7 @@
 #include "engine/frame_loop.h"
 #include "engine/pipeline.h"
 #include "hair/gpu_structs.h"
+#include "hair/groom/mesh/deforming_mesh.h"
 #include "hair/rendering/groom_buffers.h"
 #include "hair/rendering/strand_plan.h"
 #include "hair/settings.h"
@@ -45,7 +46,16 @@ public:
     const engine::Buffer& corrections() const { return corrections_; }
 
 private:
+    // Kept, so that a picture takes no memory anew.
+    struct Work {
+        groom::DeformingMesh::Scratch scratch;
+        std::vector<glm::dvec3> positions;  // [vertex], of the mesh, m
+        std::vector<glm::vec3> moved;  // [vertex], in the world
+        std::vector<glm::vec3> turned;
+    };
+
     std::uint32_t strand_count_;
+    Work work_;
     engine::ComputePipeline pipeline_;
     std::array<engine::Buffer, engine::FrameLoop::kMaxSlots> positions_;
     std::array<engine::Buffer, engine::FrameLoop::kMaxSlots> normals_;

@@ -348,7 +348,7 @@ GuideView Simulation::guides() const {
 void Simulation::recordSubsteps(
     engine::Commands& commands, std::uint32_t count, std::uint32_t from_copy, double from,
     double to) const {
-    std::vector<RigidMotion> means;
+    std::span<const RigidMotion> means;
     if (roots_) means = roots_->record(commands, motion_, count, from, to);
     const auto frameAfter = [&](std::uint32_t substep) {
         if (roots_) return toGpu(means[substep]);

@@ -38,40 +38,38 @@ SkinnedRoots::SkinnedRoots(
 
 std::vector<RigidMotion> SkinnedRoots::at(double time) const {
     std::vector<RigidMotion> motions;
-    motions.reserve(bindings_.size());
-    for (const groom::SurfaceMotion& motion : mesh_->motions(bindings_, time))
-        motions.push_back(toMotion(motion));
+    for (const groom::SurfaceMotion& motion : motionsAt(time)) motions.push_back(toMotion(motion));
     return motions;
 }
 
-RigidMotion SkinnedRoots::meanAt(double time) const { return meanOf(at(time)); }
-
-RigidMotion SkinnedRoots::meanOf(std::span<const RigidMotion> motions) const {
-    std::vector<groom::SurfaceMotion> surface;
-    surface.reserve(motions.size());
-    for (const RigidMotion& motion : motions)
-        surface.push_back({motion.rotation, motion.translation});
-    return toMotion(groom::meanMotion(surface, roots_));
+std::span<const groom::SurfaceMotion> SkinnedRoots::motionsAt(double time) const {
+    mesh_->motions(bindings_, time, work_.scratch, work_.motions);
+    return work_.motions;
 }
 
-std::vector<RigidMotion> SkinnedRoots::record(
+RigidMotion SkinnedRoots::meanAt(double time) const {
+    return toMotion(groom::meanMotion(motionsAt(time), roots_));
+}
+
+std::span<const RigidMotion> SkinnedRoots::record(
     engine::Commands& commands, const HeadMotion& head, std::uint32_t substeps, double from,
     double to) const {
-    std::vector<RigidMotion> means;
-    std::vector<gpu::RigidFrame> frames;
-    frames.reserve((std::size_t{substeps} + 1) * roots_.size());
+    work_.means.clear();
+    work_.frames.clear();
     for (std::uint32_t i = 0; i <= substeps; ++i) {
         const double time = from + static_cast<double>(i) / substeps * (to - from);
         const RigidMotion carried = head.at(time);
-        const std::vector<RigidMotion> motions = at(time);
-        for (const RigidMotion& motion : motions) frames.push_back(toGpu(carried * motion));
-        means.push_back(carried * meanOf(motions));
+        const auto motions = motionsAt(time);
+        for (const groom::SurfaceMotion& motion : motions)
+            work_.frames.push_back(toGpu(carried * toMotion(motion)));
+        work_.means.push_back(carried * toMotion(groom::meanMotion(motions, roots_)));
     }
-    assert(frames.size() * sizeof(gpu::RigidFrame) <= frames_.size());
+    const auto frames = std::as_bytes(std::span(work_.frames));
+    assert(frames.size() <= frames_.size());
     commands.barrier(Access::compute_read, Access::transfer_write);
-    commands.write(frames_, std::as_bytes(std::span(frames)));
+    commands.write(frames_, frames);
     commands.barrier(Access::transfer_write, Access::compute_read);
-    return means;
+    return work_.means;
 }
 
 std::uint64_t SkinnedRoots::address(std::uint32_t substep) const {

@@ -8,6 +8,7 @@
 
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
+#include "hair/gpu_structs.h"
 #include "hair/groom/groom.h"
 #include "hair/groom/mesh/deforming_mesh.h"
 #include "hair/simulation/head_motion.h"
@@ -35,8 +36,9 @@ public:
     // Writes the frames of roots at the start of the substeps that divide the time between `from`
     // and `to`, s, evenly, and at the end of the last one; `substeps` of them, not more than in a
     // step. `head` moves the deformed mesh. After all who read the frames of the step before, in
-    // compute; they are then visible to compute. Returns the head's mean motions at these times.
-    std::vector<RigidMotion> record(
+    // compute; they are then visible to compute. Returns the head's mean motions at these times,
+    // there until the next call.
+    std::span<const RigidMotion> record(
         engine::Commands& commands, const HeadMotion& head, std::uint32_t substeps, double from,
         double to) const;
 
@@ -45,11 +47,21 @@ public:
     const engine::Buffer& frames() const { return frames_; }
 
 private:
-    RigidMotion meanOf(std::span<const RigidMotion> motions) const;
+    // There until the next call.
+    std::span<const groom::SurfaceMotion> motionsAt(double time) const;
+
+    // Kept, so that a step takes no memory anew.
+    struct Work {
+        groom::DeformingMesh::Scratch scratch;
+        std::vector<groom::SurfaceMotion> motions;  // [guide]
+        std::vector<RigidMotion> means;  // [substep, and one more]
+        std::vector<gpu::RigidFrame> frames;  // [substep, and one more][guide]
+    };
 
     const groom::DeformingMesh* mesh_;
     std::vector<glm::vec3> roots_;  // [guide], at rest, m
     std::vector<groom::SurfaceBinding> bindings_;  // [guide]
+    mutable Work work_;
     engine::Buffer frames_;  // gpu::RigidFrame [substep, and one more][guide]
 };
 

@@ -20,6 +20,14 @@
 namespace hair::groom {
 namespace {
 
+std::vector<glm::dvec3> positionsAt(const MeshAnimation& animation, double time) {
+    MeshAnimation::Pose pose;
+    animation.poseAt(time, pose);
+    std::vector<glm::dvec3> positions;
+    animation.positions(pose, positions);
+    return positions;
+}
+
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -50,7 +58,7 @@ struct Moved {
     std::vector<glm::dvec3> at(double time) const {
         const TemporaryFolder folder;
         const MeshAnimation animation(file.write(folder), "play");
-        return animation.positions(animation.poseAt(time));
+        return positionsAt(animation, time);
     }
     std::string error() const {
         const TemporaryFolder folder;
@@ -140,7 +148,7 @@ TEST(MeshAnimation, BlendsJoints) {
     const MeshAnimation animation(BendingSheet::write(folder), "play");
     EXPECT_NEAR(animation.duration(), BendingSheet::kTime, kRounding);
     for (const double time : {0.0, 0.1, 0.25, 0.4, 1.0}) {
-        const auto found = animation.positions(animation.poseAt(time));
+        const auto found = positionsAt(animation, time);
         for (std::size_t i = 0; i < found.size(); ++i) {
             const int along = static_cast<int>(i) / (BendingSheet::kAcross + 1);
             const int across = static_cast<int>(i) % (BendingSheet::kAcross + 1);
@@ -226,8 +234,7 @@ TEST(MeshAnimation, RefusesOrPlaysDamagedFiles) {
         const auto damaged = folder.write("damaged.glb", bytes);
         try {
             const MeshAnimation animation(damaged, "play");
-            const auto pose = animation.poseAt(0.1);
-            EXPECT_EQ(animation.positions(pose).size(), animation.vertexCount());
+            EXPECT_EQ(positionsAt(animation, 0.1).size(), animation.vertexCount());
         } catch (const engine::Error& error) {
             EXPECT_THAT(error.what(), HasSubstr("damaged.glb: "));
             ++refused;

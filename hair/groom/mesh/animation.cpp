@@ -376,23 +376,23 @@ MeshAnimation::MeshAnimation(const std::filesystem::path& path, const std::strin
 // ---- At a time ----------------------------------------------------------------------------------
 
 // glTF 2.0, appendix C. Rotations are x, y, z, w and come out as unit quaternions.
-std::vector<double> MeshAnimation::Channel::at(double time) const {
+void MeshAnimation::Channel::at(double time, std::vector<double>& result) const {
     const bool is_cubic = interpolation == Interpolation::cubic_spline;
     const auto value = [&](std::size_t key, std::size_t part) {
         const std::size_t number = is_cubic ? 3 * key + part : key;
         return std::span(values).subspan(number * components, components);
     };
-    const auto copied = [&](std::size_t key) {
+    const auto copy = [&](std::size_t key) {
         const auto found = value(key, 1);
-        return std::vector<double>(found.begin(), found.end());
+        result.assign(found.begin(), found.end());
     };
-    std::vector<double> result;
+    result.clear();
     const auto after =
         static_cast<std::size_t>(std::ranges::upper_bound(times, time) - times.begin());
     if (after == 0) {
-        result = copied(0);
+        copy(0);
     } else if (after == times.size() || interpolation == Interpolation::step) {
-        result = copied(after - 1);
+        copy(after - 1);
     } else {
         const std::size_t k = after - 1;
         const double span = times[k + 1] - times[k];
@@ -421,52 +421,61 @@ std::vector<double> MeshAnimation::Channel::at(double time) const {
             glm::normalize(glm::dquat(result[3], result[0], result[1], result[2]));
         result = {unit.x, unit.y, unit.z, unit.w};
     }
-    return result;
 }
 
-MeshAnimation::Pose MeshAnimation::poseAt(double time) const {
-    std::vector<Node> nodes = nodes_;
-    std::vector<std::vector<double>> weights(nodes_.size());  // animated ones
+void MeshAnimation::poseAt(double time, Pose& pose) const {
+    pose.placings.clear();
+    for (const Node& node : nodes_)
+        pose.placings.push_back({node.translation, node.rotation, node.scale});
+    pose.animated.resize(nodes_.size());
+    for (std::vector<double>& weights : pose.animated) weights.clear();
     for (const Channel& channel : channels_) {
-        const std::vector<double> value = channel.at(time);
-        Node& node = nodes[channel.node];
+        channel.at(time, pose.value);
+        Pose::Placing& node = pose.placings[channel.node];
+        const double* const value = pose.value.data();
         switch (channel.property) {
         case Property::translation:
-            node.translation = glm::make_vec3(value.data());
+            node.translation = glm::make_vec3(value);
             break;
         case Property::rotation:
             node.rotation = glm::dquat(value[3], value[0], value[1], value[2]);
             break;
         case Property::scale:
-            node.scale = glm::make_vec3(value.data());
+            node.scale = glm::make_vec3(value);
             break;
         case Property::weights:
-            weights[channel.node] = value;
+            pose.animated[channel.node].assign(pose.value.begin(), pose.value.end());
             break;
         }
     }
-    std::vector<glm::dmat4> transforms;  // to the scene
-    for (const Node& node : nodes) {
+    pose.transforms.clear();
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        const Node& node = nodes_[i];
+        const Pose::Placing& placing = pose.placings[i];
         glm::dmat4 local = node.matrix;
         if (!node.has_matrix) {
-            local = glm::mat4_cast(node.rotation);
-            for (int axis = 0; axis < 3; ++axis) local[axis] *= node.scale[axis];
-            local[3] = glm::dvec4(node.translation, 1.0);
+            local = glm::mat4_cast(placing.rotation);
+            for (int axis = 0; axis < 3; ++axis) local[axis] *= placing.scale[axis];
+            local[3] = glm::dvec4(placing.translation, 1.0);
         }
-        transforms.push_back(
-            node.parent < 0 ? local : transforms[static_cast<std::size_t>(node.parent)] * local);
+        pose.transforms.push_back(
+            node.parent < 0 ? local
+                            : pose.transforms[static_cast<std::size_t>(node.parent)] * local);
     }
-    Pose pose;
-    for (const Part& part : parts_) {
-        auto& joints = pose.joints.emplace_back();
-        if (!part.is_skinned) joints.push_back(transforms[part.node]);
+    pose.joints.resize(parts_.size());
+    pose.weights.resize(parts_.size());
+    for (std::size_t number = 0; number < parts_.size(); ++number) {
+        const Part& part = parts_[number];
+        std::vector<glm::dmat4>& joints = pose.joints[number];
+        joints.clear();
+        if (!part.is_skinned) joints.push_back(pose.transforms[part.node]);
         for (std::size_t i = 0; i < part.joints.size(); ++i)
-            joints.push_back(transforms[part.joints[i]] * part.inverse_binds[i]);
-        std::vector<double>& own = weights[part.node];
-        pose.weights.push_back(own.empty() ? part.weights : own);
-        pose.weights.back().resize(part.targets.size(), 0.0);
+            joints.push_back(pose.transforms[part.joints[i]] * part.inverse_binds[i]);
+        const std::vector<double>& own = pose.animated[part.node];
+        const std::vector<double>& weights = own.empty() ? part.weights : own;
+        pose.weights[number].assign(weights.begin(), weights.end());
+        pose.weights[number].resize(part.targets.size(), 0.0);
     }
-    return pose;
 }
 
 glm::dvec3
@@ -491,13 +500,12 @@ glm::dvec3 MeshAnimation::position(const Pose& pose, std::size_t vertex) const {
     return placed(parts_[number], pose, number, vertex - parts_[number].first);
 }
 
-std::vector<glm::dvec3> MeshAnimation::positions(const Pose& pose) const {
-    std::vector<glm::dvec3> positions;
+void MeshAnimation::positions(const Pose& pose, std::vector<glm::dvec3>& positions) const {
+    positions.clear();
     positions.reserve(vertex_count_);
     for (std::size_t number = 0; number < parts_.size(); ++number)
         for (std::size_t i = 0; i < parts_[number].positions.size(); ++i)
             positions.push_back(placed(parts_[number], pose, number, i));
-    return positions;
 }
 
 }  // namespace hair::groom

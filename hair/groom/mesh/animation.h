@@ -24,10 +24,22 @@ std::vector<std::string> animationNames(const std::filesystem::path& path);
 // precision.
 class MeshAnimation {
 public:
-    // The scene's nodes and what morph targets weigh, at a time.
+    // The scene's nodes and what morph targets weigh, at a time. One that is used again takes no
+    // memory anew.
     struct Pose {
         std::vector<std::vector<glm::dmat4>> joints;  // [part][joint] of a skin; [part][0] else
         std::vector<std::vector<double>> weights;  // [part][morph target]
+
+        // What they are worked out of.
+        struct Placing {
+            glm::dvec3 translation;  // m
+            glm::dquat rotation;  // unit length
+            glm::dvec3 scale;
+        };
+        std::vector<Placing> placings;  // [node]
+        std::vector<std::vector<double>> animated;  // [node][morph target], or empty
+        std::vector<glm::dmat4> transforms;  // [node], to the scene
+        std::vector<double> value;  // of a channel
     };
 
     // `clip` is the name of one of the file's animations, or its number in animationNames(). Throws
@@ -42,10 +54,10 @@ public:
     double duration() const { return duration_; }
 
     // Before the first keyframe of a channel and after its last these hold.
-    Pose poseAt(double time) const;
+    void poseAt(double time, Pose& pose) const;
     // m
     glm::dvec3 position(const Pose& pose, std::size_t vertex) const;
-    std::vector<glm::dvec3> positions(const Pose& pose) const;
+    void positions(const Pose& pose, std::vector<glm::dvec3>& positions) const;
 
 private:
     enum class Interpolation { step, linear, cubic_spline };
@@ -69,7 +81,7 @@ private:
         std::vector<double> times;  // [key], s, ascending
         std::vector<double> values;  // [key][component]; cubic: [key][in tangent, value, out][...]
 
-        std::vector<double> at(double time) const;
+        void at(double time, std::vector<double>& result) const;
     };
 
     // A primitive.

@@ -122,7 +122,7 @@ DeformingMesh::DeformingMesh(
         joined_.push_back(
             places.try_emplace({rest_[i].x, rest_[i].y, rest_[i].z}, i).first->second);
     const std::vector<glm::dvec3> rest(rest_.begin(), rest_.end());
-    facing_ = facing(rest);
+    facing(rest, facing_);
     const double stretch = meanEdge(triangles_, positions(0.0)) / meanEdge(triangles_, rest);
     if (!(stretch < kMostStretch && stretch > 1.0 / kMostStretch)) {
         std::ostringstream reason;
@@ -154,32 +154,58 @@ std::vector<SurfaceBinding> DeformingMesh::bind(std::span<const glm::vec3> point
     return bindings;
 }
 
-std::vector<SurfaceMotion>
-DeformingMesh::motions(std::span<const SurfaceBinding> bindings, double time) const {
-    const MeshAnimation::Pose pose = animation_.poseAt(clipTime(time));
-    std::vector<SurfaceMotion> motions;
+void DeformingMesh::motions(
+    std::span<const SurfaceBinding> bindings, double time, Scratch& scratch,
+    std::vector<SurfaceMotion>& motions) const {
+    animation_.poseAt(clipTime(time), scratch.pose);
+    motions.clear();
     motions.reserve(bindings.size());
     for (const SurfaceBinding& binding : bindings) {
         std::array<glm::dvec3, 3> corners;
         for (std::size_t i = 0; i < 3; ++i)
-            corners[i] = animation_.position(pose, binding.corners[i]);
+            corners[i] = animation_.position(scratch.pose, binding.corners[i]);
         motions.push_back(motionOf(binding, corners));
     }
-    return motions;
+}
+
+std::vector<SurfaceMotion>
+DeformingMesh::motions(std::span<const SurfaceBinding> bindings, double time) const {
+    Scratch scratch;
+    std::vector<SurfaceMotion> found;
+    motions(bindings, time, scratch, found);
+    return found;
+}
+
+void DeformingMesh::positions(
+    double time, Scratch& scratch, std::vector<glm::dvec3>& positions) const {
+    animation_.poseAt(clipTime(time), scratch.pose);
+    animation_.positions(scratch.pose, positions);
 }
 
 std::vector<glm::dvec3> DeformingMesh::positions(double time) const {
-    return animation_.positions(animation_.poseAt(clipTime(time)));
+    Scratch scratch;
+    std::vector<glm::dvec3> found;
+    positions(time, scratch, found);
+    return found;
+}
+
+void DeformingMesh::normals(
+    std::span<const glm::dvec3> positions, Scratch& scratch,
+    std::vector<glm::vec3>& normals) const {
+    facing(positions, scratch.facing);
+    normals.clear();
+    normals.reserve(positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const glm::dquat turn = shortestTurn(facing_[i], scratch.facing[i]);
+        normals.emplace_back(glm::normalize(turn * glm::dvec3(normals_[i])));
+    }
 }
 
 std::vector<glm::vec3> DeformingMesh::normals(std::span<const glm::dvec3> positions) const {
-    const std::vector<glm::dvec3> now = facing(positions);
-    std::vector<glm::vec3> normals;
-    normals.reserve(now.size());
-    for (std::size_t i = 0; i < now.size(); ++i)
-        normals.emplace_back(
-            glm::normalize(shortestTurn(facing_[i], now[i]) * glm::dvec3(normals_[i])));
-    return normals;
+    Scratch scratch;
+    std::vector<glm::vec3> found;
+    normals(positions, scratch, found);
+    return found;
 }
 
 double DeformingMesh::period() const { return speed_ > 0.0 ? animation_.duration() / speed_ : 0.0; }
@@ -193,8 +219,9 @@ double DeformingMesh::clipTime(double time) const {
 
 // Where the surface round every vertex faces: the sum of its triangles' normals, weighted by their
 // areas, of all vertices at the same place; what has none faces up. Unit length.
-std::vector<glm::dvec3> DeformingMesh::facing(std::span<const glm::dvec3> positions) const {
-    std::vector<glm::dvec3> sums(positions.size(), glm::dvec3(0.0));
+void DeformingMesh::facing(
+    std::span<const glm::dvec3> positions, std::vector<glm::dvec3>& sums) const {
+    sums.assign(positions.size(), glm::dvec3(0.0));
     for (const auto& triangle : triangles_) {
         const auto corners = cornersAt(triangle, positions);
         const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
@@ -205,7 +232,6 @@ std::vector<glm::dvec3> DeformingMesh::facing(std::span<const glm::dvec3> positi
         sum = length > 0.0 ? sum / length : glm::dvec3(0.0, 1.0, 0.0);
     }
     for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = sums[joined_[i]];
-    return sums;
 }
 
 }  // namespace hair::groom

@@ -53,11 +53,26 @@ public:
     // Triangles without area carry nothing. Throws engine::Error for a mesh without any other.
     std::vector<SurfaceBinding> bind(std::span<const glm::vec3> points) const;
 
+    // What is worked out on the way: whoever asks at many times keeps one, and its results', so
+    // that none takes memory anew.
+    struct Scratch {
+        MeshAnimation::Pose pose;
+        std::vector<glm::dvec3> facing;
+    };
+
     // [binding], at a simulated time, s.
+    void motions(
+        std::span<const SurfaceBinding> bindings, double time, Scratch& scratch,
+        std::vector<SurfaceMotion>& motions) const;
     std::vector<SurfaceMotion> motions(std::span<const SurfaceBinding> bindings, double time) const;
-    std::vector<glm::dvec3> positions(double time) const;  // [vertex], m
+    // [vertex], m
+    void positions(double time, Scratch& scratch, std::vector<glm::dvec3>& positions) const;
+    std::vector<glm::dvec3> positions(double time) const;
     // The normals of the mesh, each turned as the surface round its vertex has turned; `positions`
     // as above. Unit length.
+    void normals(
+        std::span<const glm::dvec3> positions, Scratch& scratch,
+        std::vector<glm::vec3>& normals) const;
     std::vector<glm::vec3> normals(std::span<const glm::dvec3> positions) const;
 
     std::span<const glm::vec3> restPositions() const { return rest_; }
@@ -66,7 +81,7 @@ public:
 
 private:
     double clipTime(double time) const;
-    std::vector<glm::dvec3> facing(std::span<const glm::dvec3> positions) const;
+    void facing(std::span<const glm::dvec3> positions, std::vector<glm::dvec3>& sums) const;
 
     MeshAnimation animation_;
     double speed_;
