@@ -136,17 +136,18 @@ Strokes strokesOf(const GroomSettings& settings, const Groom& styled, const Mesh
     return Strokes(settings.edits, mesh, settings.style.clearance, middleOfRoots(styled));
 }
 
-// All strands as guides, or some of them with the others bound to them. Brushes move every strand;
-// which of them are guides is decided before, so that a stroke makes no others.
-Groom withGuides(
-    Groom dense, std::uint32_t count, const Mesh* mesh, std::uint32_t seed,
-    const Strokes& strokes) {
-    std::vector<std::uint32_t> chosen(dense.strand_count);
-    std::iota(chosen.begin(), chosen.end(), 0u);
-    const bool are_all = count == 0 || count == dense.strand_count;
-    if (!are_all) chosen = chooseGuides(dense, count, seed);
-    dense = replay(std::move(dense), strokes);
-    if (are_all) {
+// The strands that are guides: all for a count of 0. Decided before brushes move them, so that a
+// stroke makes no others.
+std::vector<std::uint32_t> guidesOf(const Groom& dense, std::uint32_t count, std::uint32_t seed) {
+    if (count != 0 && count != dense.strand_count) return chooseGuides(dense, count, seed);
+    std::vector<std::uint32_t> all(dense.strand_count);
+    std::iota(all.begin(), all.end(), 0u);
+    return all;
+}
+
+// All strands as guides, or the chosen ones with the others bound to them.
+Groom withGuides(Groom dense, const std::vector<std::uint32_t>& chosen, const Mesh* mesh) {
+    if (chosen.size() == dense.strand_count) {
         dense.bindings = bindStrands(dense, chosen);
         if (dense.root_triangles.empty()) dense.root_triangles = triangulateRoots(dense, mesh);
         return dense;
@@ -217,8 +218,9 @@ Groom fromFile(
         dense = style(std::move(dense), settings.style, seed, mesh);
         file = drawnStrands(std::move(file), unstyled, dense.points);
         const Strokes strokes = strokesOf(settings, dense, mesh);
+        const std::vector<std::uint32_t> chosen = guidesOf(dense, settings.guides, seed);
         replay(file.ends, file.points, strokes);
-        Groom groom = withGuides(std::move(dense), settings.guides, mesh, seed, strokes);
+        Groom groom = withGuides(replay(std::move(dense), strokes), chosen, mesh);
         groom.bound_ends = std::move(file.ends);
         groom.bound_points = std::move(file.points);
         addFixedFile(groom, settings.fixed, directory);
@@ -304,12 +306,13 @@ Groom buildGroom(
             style(grow(*mesh, settings.grow, directory, guides, seed), settings.style, seed, mesh);
         const Strokes strokes = strokesOf(settings, grown, mesh);
         if (settings.grow.strands == 0) return replay(std::move(grown), strokes);
+        const std::vector<std::uint32_t> chosen = guidesOf(grown, guides, seed);
+        grown = replay(std::move(grown), strokes);
         std::vector<glm::vec3> points = grown.points;
         std::vector<std::uint32_t> ends(grown.strand_count);
         for (std::uint32_t i = 0; i < grown.strand_count; ++i)
             ends[i] = (i + 1) * grown.vertices_per_strand;
-        replay(ends, points, strokes);
-        Groom groom = withGuides(std::move(grown), guides, mesh, seed, strokes);
+        Groom groom = withGuides(std::move(grown), chosen, mesh);
         groom.bound_points = std::move(points);
         groom.bound_ends = std::move(ends);
         addFixed(groom, growVellus(*mesh, settings.grow, seed));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <utility>
 
 #include "engine/error.h"
 #include "hair/gpu_structs.h"
@@ -37,14 +38,18 @@ compositePipeline(const RenderSettings& render, const char* fragment_shader) {
 
 // ---- Drawn at once ------------------------------------------------------------------------------
 
-// Fragments go to the target at once.
+// Fragments go to the target at once, over what is there or over black.
 class DirectBlend : public StrandBlend {
 public:
+    enum class Over { picture, black };
+
     DirectBlend(const RenderSettings& render, const char* fragment_shader)
-        : output_{
-              .fragment = fragment_shader,
-              .colors = {{colorFormat(render)}},
-              .samples = render.msaa} {}
+        : DirectBlend(
+              {.fragment = fragment_shader,
+               .colors = {{colorFormat(render)}},
+               .samples = render.msaa},
+              Over::picture) {}
+    DirectBlend(StrandOutput output, Over over) : output_(std::move(output)), over_(over) {}
 
     StrandOutput output() const override { return output_; }
 
@@ -54,15 +59,22 @@ public:
         passes.pass("strands", strands.kind, [&](engine::Commands& commands) {
             strands.prepare(commands);
             target.beginRendering(commands, engine::Load::keep, {}, strands.last);
+            if (over_ == Over::black) {
+                VkClearAttachment black{.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT};
+                black.clearValue.color = {{0.0f, 0.0f, 0.0f, 1.0f}};
+                const VkClearRect all{{{0, 0}, target.color().extent()}, 0, 1};
+                vkCmdClearAttachments(commands.get(), 1, &black, 1, &all);
+            }
             strands.draw(commands);
             target.endRendering(commands, strands.last);
         });
     }
 
-    bool drawsAtOnce() const override { return true; }
+    bool drawsAtOnce() const override { return over_ == Over::picture; }
 
 private:
     StrandOutput output_;
+    Over over_;
 };
 
 // The nearest fragment is seen.
@@ -70,45 +82,19 @@ std::unique_ptr<StrandBlend> makeOpaqueBlend(const BlendContext& context) {
     return std::make_unique<DirectBlend>(context.settings.render, "strands/strand.frag");
 }
 
-// ---- Counted ------------------------------------------------------------------------------------
-
-// Fragments add up over black: those that pass the test of depth in the order in which they are
-// drawn, or all that are in front of what was there before the strands.
-class CountBlend : public StrandBlend {
-public:
-    explicit CountBlend(const RenderSettings& render)
-        : output_{
-              .fragment = "strands/strand_show.frag",
-              .colors = {{colorFormat(render), engine::Blend::add}},
-              .depth_write = render.show == Show::overdraw,
-              .samples = render.msaa} {}
-
-    StrandOutput output() const override { return output_; }
-
-    void record(
-        engine::Passes& passes, const engine::Target& target,
-        const RecordedStrands& strands) const override {
-        passes.pass("strands", strands.kind, [&](engine::Commands& commands) {
-            strands.prepare(commands);
-            target.beginRendering(commands, engine::Load::keep, {}, strands.last);
-            VkClearAttachment black{.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT};
-            black.clearValue.color = {{0.0f, 0.0f, 0.0f, 1.0f}};
-            const VkClearRect all{{{0, 0}, target.color().extent()}, 0, 1};
-            vkCmdClearAttachments(commands.get(), 1, &black, 1, &all);
-            strands.draw(commands);
-            target.endRendering(commands, strands.last);
-        });
-    }
-
-private:
-    StrandOutput output_;
-};
-
-// What /render/show asks for: counts, or a color of the nearest fragment.
+// What /render/show asks for: a color of the nearest fragment, or counts, which add up: of
+// fragments that pass the test of depth in the order in which they are drawn, or of all in front of
+// what was there before the strands.
 std::unique_ptr<StrandBlend> makeShownBlend(const BlendContext& context) {
     const Show show = context.settings.render.show;
     if (show == Show::overdraw || show == Show::density)
-        return std::make_unique<CountBlend>(context.settings.render);
+        return std::make_unique<DirectBlend>(
+            StrandOutput{
+                .fragment = "strands/strand_show.frag",
+                .colors = {{colorFormat(context.settings.render), engine::Blend::add}},
+                .depth_write = show == Show::overdraw,
+                .samples = context.settings.render.msaa},
+            DirectBlend::Over::black);
     return std::make_unique<DirectBlend>(context.settings.render, "strands/strand_show.frag");
 }
 

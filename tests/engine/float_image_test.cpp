@@ -107,15 +107,17 @@ TEST(FloatImage, RefusesAnExrThatIsTooShortForItsSize) {
     const std::vector<float> rgb(3 * 8 * 8, 1.0f);
     writeExr(folder.file("a.exr"), 8, 8, rgb);
     std::string bytes = textOf(folder.file("a.exr"));
-    for (const std::string window : {"dataWindow", "displayWindow"}) {
+    // OpenEXR itself asks for a table of the window's rows.
+    for (const auto& [window, reason] :
+         {std::pair{std::string("dataWindow"), "ends too early"},
+          {std::string("displayWindow"), "ends too early for a picture of its size"}}) {
         std::string huge = bytes;
         // The name, "box2i" and a size, each with its end, then two corners.
         const std::size_t corner = huge.find(window) + window.size() + 1 + 6 + 4 + 8;
         ASSERT_EQ(huge.substr(corner, 8), std::string("\7\0\0\0\7\0\0\0", 8));
         huge.replace(corner, 8, std::string("\xff\x1f\0\0\xff\x1f\0\0", 8));  // 8192 by 8192
         EXPECT_THAT(
-            errorText([&] { readFloatImage(folder.write("huge.exr", huge)); }),
-            HasSubstr("ends too early"))
+            errorText([&] { readFloatImage(folder.write("huge.exr", huge)); }), HasSubstr(reason))
             << window;
     }
 }

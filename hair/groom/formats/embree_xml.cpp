@@ -459,13 +459,17 @@ private:
                               ", expected linear, bezier, bspline, hermite or catmull_rom");
     }
 
+    // Of a curve that moves, what it is at first; null where there is none.
+    const XmlElement*
+    arrayOf(const XmlElement& element, std::string_view name, std::string_view moving) {
+        const XmlElement* const animated = element.child(moving);
+        if (!animated || animated->children.empty()) return element.child(name);
+        left_out_.insert(moving);
+        return &animated->children.front();
+    }
+
     std::vector<glm::vec4> positionsOf(const XmlElement& element) {
-        const XmlElement* positions = element.child("positions");
-        const XmlElement* animated = element.child("animated_positions");
-        if (animated && !animated->children.empty()) {
-            positions = &animated->children.front();
-            left_out_.insert("animated_positions");
-        }
+        const XmlElement* const positions = arrayOf(element, "positions", "animated_positions");
         if (element.child("positions2")) left_out_.insert("positions2");
         if (!positions) failAtLine(element.line, inQuotes(element.name) + " without positions");
         std::vector<glm::vec4> vectors = arrays_.vectors(*positions);
@@ -478,7 +482,7 @@ private:
     // Of each vertex of a Hermite curve three: before it by a third of its tangent, it, and after.
     std::vector<glm::vec4>
     withTangents(const XmlElement& element, const std::vector<glm::vec4>& positions) {
-        const XmlElement* const tangents = element.child("tangents");
+        const XmlElement* const tangents = arrayOf(element, "tangents", "animated_tangents");
         if (!tangents) failAtLine(element.line, "curves of basis 'hermite' without tangents");
         const std::vector<glm::vec4> vectors = arrays_.vectors(*tangents);
         if (vectors.size() != positions.size())

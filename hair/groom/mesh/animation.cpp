@@ -15,6 +15,7 @@
 
 #include "engine/error.h"
 #include "engine/files.h"
+#include "hair/groom/files.h"
 #include "hair/groom/mesh/gltf_model.h"
 
 namespace hair::groom {
@@ -30,9 +31,7 @@ tinygltf::Model loadAnimated(const std::filesystem::path& path) {
 }
 
 bool isGltf(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    for (char& c : extension)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const std::string extension = lowerCaseExtension(path);
     return extension == ".glb" || extension == ".gltf";
 }
 

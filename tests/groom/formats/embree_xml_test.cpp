@@ -111,6 +111,13 @@ TEST(EmbreeXml, SamplesHermiteCurves) {
         errorOfXml(replaced(text, "0 1</indices>", "2</indices>")),
         HasSubstr("a segment of vertices 7 to 10, there are 9"));
     EXPECT_THAT(errorOfXml(replaced(text, "12 1 0 0", "")), HasSubstr("2 tangents, there are 3"));
+    // Where it moves, the first of its shapes.
+    std::string moving = replaced(text, "<tangents>", "<animated_tangents><tangents>");
+    moving = replaced(
+        moving, "</tangents>", "</tangents><tangents>0 0 0 0</tangents></animated_tangents>");
+    const StrandSet first = readXml(moving);
+    EXPECT_EQ(first.points, set.points);
+    EXPECT_THAT(first.warnings, ElementsAre("the scene's 'animated_tangents' are left out"));
 }
 
 // x y z to 2 z, 2 x, 2 y and by (1, 2, 3): lengths twice as long.
