@@ -88,7 +88,9 @@ private:
 
 // What the viewer is made of.
 struct Viewer::Parts {
-    Parts(const ViewOptions& options, const SceneFile& file, const hair::Settings& settings);
+    Parts(
+        const ViewOptions& options, const SceneFile& file, const hair::Settings& settings,
+        measure::HairCache cache);
 
     // ---- viewer.cpp: the window, picture by picture
 

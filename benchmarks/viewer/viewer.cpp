@@ -71,9 +71,10 @@ engine::WindowDescription windowOf(const ViewOptions& options, const Preferences
         .height = as_it_was ? preferences.height : options.height};
 }
 
-hair::Settings settingsOf(const ViewOptions& options) {
+// What is read and grown to check the scene is left in the cache for its first picture.
+hair::Settings settingsOf(const ViewOptions& options, measure::HairCache& cache) {
     scene::Scene scene = scene::loadScene(options.scene.scene);
-    return scene::singleCase(scene, options.scene).settings;
+    return scene::singleCase(scene, options.scene, &cache.assets()).settings;
 }
 
 }  // namespace
@@ -81,7 +82,8 @@ hair::Settings settingsOf(const ViewOptions& options) {
 // ---- The window, picture by picture -------------------------------------------------------------
 
 Viewer::Parts::Parts(
-    const ViewOptions& options, const SceneFile& file, const hair::Settings& settings)
+    const ViewOptions& options, const SceneFile& file, const hair::Settings& settings,
+    measure::HairCache cache)
     : preferences(preferencesOf(options)), driven(!options.script.empty() || options.frames > 0),
       live(options.live), fixed_scale(static_cast<float>(options.scale)),
       window(windowOf(options, preferences.now)),
@@ -93,7 +95,7 @@ Viewer::Parts::Parts(
       timings(*scene_device, &engine::Window::endWait), previews(!driven),
       studio(
           *scene_device, options.shaders.empty() ? HAIRBENCH_SHADER_FOLDER : options.shaders,
-          options.before_drawing, measure::userHairCache(options.scene.cache)),
+          options.before_drawing, std::move(cache)),
       drawing(
           [this, first = true](const Order& order, const Stop& stop) mutable {
               if (std::exchange(first, false) && gives_way) engine::giveWay();
@@ -503,9 +505,12 @@ void Viewer::Parts::drop(const std::filesystem::path& file) {
 
 // ---- What is seen from outside ------------------------------------------------------------------
 
-Viewer::Viewer(const ViewOptions& options)
-    : parts_(
-          std::make_unique<Parts>(options, openScene(options.scene.scene), settingsOf(options))) {}
+Viewer::Viewer(const ViewOptions& options) {
+    measure::HairCache cache = measure::userHairCache(options.scene.cache);
+    const hair::Settings settings = settingsOf(options, cache);
+    parts_ = std::make_unique<Parts>(
+        options, openScene(options.scene.scene), settings, std::move(cache));
+}
 Viewer::~Viewer() {
     // Whoever measures waits for the window between rounds.
     parts_->timings.measuring().cancel();

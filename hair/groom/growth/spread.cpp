@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "hair/groom/parallel.h"
 #include "hair/random.h"
 
 namespace hair::groom {
@@ -164,12 +165,14 @@ std::vector<std::uint32_t> spread(
     // Takes away the most crowded candidate until `count` are left.
     std::vector<double> weights(grid.size(), 0.0);  // [place]
     std::vector<FallingQueue::Entry> entries;
-    for (std::uint32_t place = 0; place < grid.size(); ++place) {
-        if (grid.source(place) >= candidates.size()) continue;
+    inParallel(grid.size(), [&](std::uint32_t place) {
+        if (grid.source(place) >= candidates.size()) return;
         grid.forEachNear(
             place, [&](std::uint32_t, double distance) { weights[place] += weigh(distance); });
-        entries.push_back({weights[place], grid.rank(place), place});
-    }
+    });
+    for (std::uint32_t place = 0; place < grid.size(); ++place)
+        if (grid.source(place) < candidates.size())
+            entries.push_back({weights[place], grid.rank(place), place});
     std::vector<bool> present(candidates.size(), true);
     FallingQueue queue(std::move(entries));
     for (std::size_t left = candidates.size(); left > count; --left) {

@@ -13,6 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "hair/groom/style/clearance.h"
+#include "hair/groom/parallel.h"
 #include "hair/groom/style/displace.h"
 #include "hair/groom/style/style.h"
 #include "hair/random.h"
@@ -145,8 +146,8 @@ public:
     }
 
 private:
-    static constexpr std::size_t kPoints = 40;
-    static constexpr int kRounds = 4;
+    static constexpr std::size_t kPoints = 24;
+    static constexpr int kRounds = 3;
     static constexpr double kLeast = 0.002;  // m
     static constexpr double kHeight = 0.006;  // m, of what lies on other hair
     static constexpr double kFar = 0.25;  // m

@@ -1,4 +1,5 @@
 #include "hair/groom/style/clearance.h"
+#include "hair/groom/parallel.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -51,12 +52,16 @@ struct ClearStrand {
     std::vector<glm::dvec3> points;
     std::vector<double> lengths;  // of the segment that ends in the vertex
     std::vector<double> wanted;  // clearance of the vertex
+    // What was last seen of each vertex: its gap, or a lower bound, and where it was. A gap changes
+    // by no more than its vertex moves.
+    std::vector<double> gaps;
+    std::vector<glm::dvec3> seen;
 
     ClearStrand(
         std::vector<glm::dvec3> strand, double clearance, const Mesh& on,
         const NearestSurface& its_surface)
         : mesh(on), surface(its_surface), points(std::move(strand)), lengths(points.size(), 0.0),
-          wanted(points.size(), 0.0) {
+          wanted(points.size(), 0.0), gaps(points.size(), 0.0), seen(points) {
         double arc = 0.0;
         for (std::size_t i = 1; i < points.size(); ++i) {
             lengths[i] = glm::distance(points[i], points[i - 1]);
@@ -82,8 +87,11 @@ struct ClearStrand {
             for (int turn = 0; turn < kTurns && lengths[i] > 0.0; ++turn) {
                 const glm::dvec3 end = points[i - 1] + lengths[i] * direction;
                 const std::optional<MeshPoint> nearest = surface.within(end, reach);
+                gaps[i] = reach;
+                seen[i] = end;
                 if (!nearest) break;
                 const NearGround ground = groundUnder(end, *nearest, mesh);
+                gaps[i] = ground.gap;
                 depth = std::max(-ground.gap, 0.0);
                 if (ground.gap >= wanted[i] - kClearEnough) break;
                 const double height =
@@ -105,7 +113,11 @@ struct ClearStrand {
         for (int push = 0; push < kMostPushes; ++push) {
             bool clear = true;
             for (std::size_t i = 1; i < points.size(); ++i) {
+                if (gaps[i] - glm::distance(points[i], seen[i]) >= wanted[i] - 0.5 * kNear)
+                    continue;
                 const NearGround ground = groundUnder(points[i], surface(points[i]), mesh);
+                gaps[i] = ground.gap;
+                seen[i] = points[i];
                 if (ground.gap >= wanted[i] - kNear) continue;
                 clear = false;
                 points[i] = ground.position + wanted[i] * ground.outward;

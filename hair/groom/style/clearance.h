@@ -1,10 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <atomic>
-#include <cstdint>
-#include <future>
-#include <thread>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -24,27 +19,5 @@ struct NearGround {
 
 // `nearest` is the point of the mesh that is nearest to the point.
 NearGround groundUnder(const glm::dvec3& point, const MeshPoint& nearest, const Mesh& mesh);
-
-// Does something for each index below `count`, in any order and on all processors; what it throws
-// comes out of here.
-template <class Work>
-void inParallel(std::uint32_t count, Work&& work) {
-    static constexpr std::uint32_t kTaken = 256;  // indices at a time
-    std::atomic<std::uint64_t> next = 0;
-    const auto take = [&] {
-        for (std::uint64_t first = next.fetch_add(kTaken); first < count;
-             first = next.fetch_add(kTaken)) {
-            const std::uint64_t end = std::min<std::uint64_t>(first + kTaken, count);
-            for (std::uint64_t i = first; i < end; ++i) work(static_cast<std::uint32_t>(i));
-        }
-    };
-    const std::uint32_t takers =
-        std::min((count + kTaken - 1) / kTaken, std::thread::hardware_concurrency());
-    std::vector<std::future<void>> others;
-    for (std::uint32_t i = 1; i < takers; ++i)
-        others.push_back(std::async(std::launch::async, take));
-    take();
-    for (std::future<void>& other : others) other.get();
-}
 
 }  // namespace hair::groom

@@ -11,6 +11,7 @@
 
 #include "hair/groom/style/displace.h"
 #include "hair/groom/style/clearance.h"
+#include "hair/groom/parallel.h"
 #include "hair/groom/style/style.h"
 
 namespace hair::groom {
