@@ -33,6 +33,17 @@ class Xforms:
         return self.caches.setdefault(time.GetValue(), UsdGeom.XformCache(time))
 
 
+def metres_per_unit_of(stage):
+    try:
+        return UsdGeom.GetStageMetersPerUnit(stage)
+    except Tf.ErrorException:  # no double
+        unit = stage.GetMetadata(UsdGeom.Tokens.metersPerUnit)
+    if isinstance(unit, bool) or not isinstance(unit, (int, float)):
+        raise Refused(f"metersPerUnit is no number: {unit!r}")
+    # Of a float the decimal that was meant: 0.01, not 0.009999999776.
+    return float(str(np.float32(unit)))
+
+
 class Reader:
     """Reads a stage: `prims`, `metres_per_unit`, `comment`, `warnings`."""
 
@@ -61,17 +72,7 @@ class Reader:
             self.warnings.append(f"{', '.join(sorted(left_out))}: left out")
         if not UsdGeom.StageHasAuthoredMetersPerUnit(self.stage):
             self.warnings.append("the stage states no unit: taken as cm, as USD says")
-        self.metres_per_unit = self._metres_per_unit()
-
-    def _metres_per_unit(self):
-        try:
-            return UsdGeom.GetStageMetersPerUnit(self.stage)
-        except Tf.ErrorException:  # no double
-            unit = self.stage.GetMetadata(UsdGeom.Tokens.metersPerUnit)
-        if isinstance(unit, bool) or not isinstance(unit, (int, float)):
-            raise Refused(f"metersPerUnit is no number: {unit!r}")
-        # Of a float the decimal that was meant: 0.01, not 0.009999999776.
-        return float(str(np.float32(unit)))
+        self.metres_per_unit = metres_per_unit_of(self.stage)
 
     def _warn_of_samples(self, prim):
         count = UsdGeom.BasisCurves(prim).GetPointsAttr().GetNumTimeSamples()

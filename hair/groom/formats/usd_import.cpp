@@ -11,6 +11,7 @@
 #include "engine/error.h"
 #include "engine/run_tool.h"
 #include "hair/groom/formats/binary_file.h"
+#include "hair/groom/mesh/mesh_stream.h"
 
 namespace hair::groom {
 namespace {
@@ -138,23 +139,35 @@ std::vector<std::string> linesOf(const std::string& text) {
     return lines;
 }
 
-// ---- The tool -----------------------------------------------------------------------------------
+// ---- The tools ----------------------------------------------------------------------------------
 
-constexpr const char* kTool = HAIRBENCH_SOURCE_DIR "/hair/groom/formats/usd_curves.py";
+constexpr const char* kTools = HAIRBENCH_SOURCE_DIR "/hair/groom/formats/";
 constexpr const char* kInterpreter = HAIRBENCH_SOURCE_DIR "/.deps/python/bin/python";
 
-std::vector<std::byte> readStage(const std::filesystem::path& path) {
+// What the script writes that is called so with these arguments, read by `parse`.
+template <class Parse>
+auto readStage(
+    const std::string& tool, const std::vector<std::string>& options,
+    const std::filesystem::path& path, const Parse& parse) {
     const char* wanted = std::getenv("HAIRBENCH_PYTHON");
     const std::string interpreter = wanted && *wanted ? wanted : kInterpreter;
+    // -B -E: leaves no byte code beside the tool, and nobody's variables change what it does.
+    // An absolute path, which is no option whatever it begins with.
+    std::vector<std::string> command{interpreter, "-B", "-E", kTools + tool};
+    for (const std::string& option : options) command.push_back(option);
+    command.push_back(std::filesystem::absolute(path).string());
+    std::vector<std::byte> bytes;
     try {
-        // -B -E: leaves no byte code beside the tool, and nobody's variables change what it does.
-        // An absolute path, which is no option whatever it begins with.
-        return engine::runTool(
-            {interpreter, "-B", "-E", kTool, std::filesystem::absolute(path).string()});
+        bytes = engine::runTool(command);
     } catch (const std::system_error& error) {
         throw engine::Error(
             "reading USD needs the project's Python environment: run scripts/setup --python (" +
             std::string(error.what()) + ')');
+    }
+    try {
+        return parse(std::span<const std::byte>(bytes));
+    } catch (const engine::Error& error) {
+        throw engine::Error("what " + tool + " wrote", error.what());
     }
 }
 
@@ -197,12 +210,34 @@ StrandSet readUsdStream(std::span<const std::byte> bytes) {
 StrandSet importUsd(const StrandFile& file) {
     if (file.path.empty())
         throw engine::Error("USD can be read from a file alone, not from memory");
-    const std::vector<std::byte> bytes = readStage(file.path);
-    try {
-        return readUsdStream(bytes);
-    } catch (const engine::Error& error) {
-        throw engine::Error(std::string("what usd_curves.py wrote: ") + error.what());
-    }
+    return readStage("usd_curves.py", {}, file.path, readUsdStream);
+}
+
+// ---- Meshes -------------------------------------------------------------------------------------
+
+Mesh importUsdMesh(const std::filesystem::path& path, Textures) {
+    return readStage("usd_mesh.py", {}, path, [](std::span<const std::byte> bytes) {
+        return readMeshStream(bytes).mesh;
+    });
+}
+
+UsdSamples readUsdSamples(const std::filesystem::path& path) {
+    return readStage("usd_mesh.py", {"--samples"}, path, [](std::span<const std::byte> bytes) {
+        UsdSamples samples;
+        MeshParser parser(bytes);
+        parser.array(samples.times);
+        parser.array(samples.positions);
+        parser.end();
+        const std::size_t count = samples.times.size();
+        if (count == 0 ? !samples.positions.empty() : samples.positions.size() % count != 0)
+            failAt(8 * count + 8, "positions of some of the vertices");
+        for (std::size_t i = 0; i < count; ++i)
+            if (!(i == 0 ? samples.times[i] == 0.0 : samples.times[i] > samples.times[i - 1]) ||
+                !std::isfinite(samples.times[i]))
+                failAt(8 * i + 8, "times don't ascend from 0");
+        requireFinite(samples.positions, 8 * count + 16, "position");
+        return samples;
+    });
 }
 
 }  // namespace hair::groom

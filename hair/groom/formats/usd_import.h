@@ -3,10 +3,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "hair/groom/files.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/mesh/mesh.h"
 
 namespace hair::groom {
 
@@ -14,6 +19,17 @@ namespace hair::groom {
 // .usdc, .usdz), read by usd_curves.py, whose comments say how. Throws engine::Error: where the
 // project's Python environment is missing, for a file that has no path, with the tool's last words.
 StrandSet importUsd(const StrandFile& file);
+
+// The control meshes of every UsdGeomMesh of a stage that is to be rendered, read by usd_mesh.py,
+// whose comments say how, without textures. Its errors don't name the file; as importUsd()'s.
+Mesh importUsdMesh(const std::filesystem::path& path, Textures textures);
+
+// Where the vertices of importUsdMesh() are over time: linear between.
+struct UsdSamples {
+    std::vector<double> times;  // [sample], s, ascending from 0; empty: nothing moves
+    std::vector<glm::vec3> positions;  // [sample][vertex], m
+};
+UsdSamples readUsdSamples(const std::filesystem::path& path);
 
 // What usd_curves.py writes, little-endian: this header, then what it counts, in its order and with
 // nothing between.

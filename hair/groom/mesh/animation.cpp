@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
@@ -34,6 +35,14 @@ bool isGltf(const std::filesystem::path& path) {
     const std::string extension = lowerCaseExtension(path);
     return extension == ".glb" || extension == ".gltf";
 }
+
+bool isUsd(const std::filesystem::path& path) {
+    const std::string extension = lowerCaseExtension(path);
+    return extension == ".usd" || extension == ".usda" || extension == ".usdc" ||
+           extension == ".usdz";
+}
+
+constexpr const char* kUsdClip = "points";
 
 std::vector<std::string> namesOf(const tinygltf::Model& model) {
     std::vector<std::string> names;
@@ -345,8 +354,11 @@ private:
 };
 
 std::vector<std::string> animationNames(const std::filesystem::path& path) {
-    if (!isGltf(path)) return {};
+    if (!isGltf(path) && !isUsd(path)) return {};
     try {
+        if (isUsd(path))
+            return readUsdSamples(path).times.size() > 1 ? std::vector<std::string>{kUsdClip}
+                                                         : std::vector<std::string>{};
         return namesOf(loadAnimated(path));
     } catch (const engine::Error& error) {
         throw engine::Error(path.string(), error.what());
@@ -355,10 +367,21 @@ std::vector<std::string> animationNames(const std::filesystem::path& path) {
 
 MeshAnimation::MeshAnimation(const std::filesystem::path& path, const std::string& clip) {
     try {
+        if (isUsd(path)) {
+            if (clip != kUsdClip)
+                throw engine::Error(
+                    "has no animation '" + clip + "'; of USD all that moves is '" + kUsdClip +
+                    '\'');
+            samples_ = readUsdSamples(path);
+            if (samples_.times.empty()) throw engine::Error("nothing in it moves");
+            vertex_count_ = samples_.positions.size() / samples_.times.size();
+            duration_ = samples_.times.back();
+            return;
+        }
         if (!isGltf(path))
             throw engine::Error(
                 "animations of '" + path.extension().string() +
-                "' files are not read, those of .glb and .gltf are: convert it, with its skin or "
+                "' files are not read, those of glTF and USD are: convert it, with its skin or "
                 "with its frames as morph targets");
         const tinygltf::Model model = loadAnimated(path);
         const tinygltf::Animation& animation = clipOf(model, clip);
@@ -423,6 +446,17 @@ void MeshAnimation::Channel::at(double time, std::vector<double>& result) const 
 }
 
 void MeshAnimation::poseAt(double time, Pose& pose) const {
+    if (!samples_.times.empty()) {
+        const std::vector<double>& times = samples_.times;
+        const auto after =
+            static_cast<std::size_t>(std::ranges::upper_bound(times, time) - times.begin());
+        pose.before = after == 0 ? 0 : after - 1;
+        pose.after = std::min(after, times.size() - 1);
+        pose.share = pose.before == pose.after
+                         ? 0.0
+                         : (time - times[pose.before]) / (times[pose.after] - times[pose.before]);
+        return;
+    }
     pose.placings.clear();
     for (const Node& node : nodes_)
         pose.placings.push_back({node.translation, node.rotation, node.scale});
@@ -493,7 +527,14 @@ MeshAnimation::placed(const Part& part, const Pose& pose, std::size_t number, st
     return sum;
 }
 
+glm::dvec3 MeshAnimation::sampled(const Pose& pose, std::size_t vertex) const {
+    return glm::mix(
+        glm::dvec3(samples_.positions[pose.before * vertex_count_ + vertex]),
+        glm::dvec3(samples_.positions[pose.after * vertex_count_ + vertex]), pose.share);
+}
+
 glm::dvec3 MeshAnimation::position(const Pose& pose, std::size_t vertex) const {
+    if (!samples_.times.empty()) return sampled(pose, vertex);
     const auto after = std::ranges::upper_bound(parts_, vertex, {}, &Part::first);
     const auto number = static_cast<std::size_t>(after - parts_.begin()) - 1;
     return placed(parts_[number], pose, number, vertex - parts_[number].first);
@@ -502,6 +543,8 @@ glm::dvec3 MeshAnimation::position(const Pose& pose, std::size_t vertex) const {
 void MeshAnimation::positions(const Pose& pose, std::vector<glm::dvec3>& positions) const {
     positions.clear();
     positions.reserve(vertex_count_);
+    if (!samples_.times.empty())
+        for (std::size_t i = 0; i < vertex_count_; ++i) positions.push_back(sampled(pose, i));
     for (std::size_t number = 0; number < parts_.size(); ++number)
         for (std::size_t i = 0; i < parts_[number].positions.size(); ++i)
             positions.push_back(placed(parts_[number], pose, number, i));

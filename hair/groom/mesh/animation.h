@@ -13,15 +13,17 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include "hair/groom/formats/usd_import.h"
+
 namespace hair::groom {
 
 // The names of a mesh file's animations, numbers ("0", "1" ...) where they have none. Empty for
 // formats whose animations nobody here plays. Throws engine::Error "path: reason".
 std::vector<std::string> animationNames(const std::filesystem::path& path);
 
-// Where the vertices of a glTF file's meshes are over time: glTF 2.0, sections 3.7.2.2 (morph
-// targets), 3.7.3 (skins), 3.11 and appendix C (animations). Everything is worked out in double
-// precision.
+// Where the vertices of a file's meshes are over time. Of glTF 2.0: sections 3.7.2.2 (morph
+// targets), 3.7.3 (skins), 3.11 and appendix C (animations). Of USD: one clip, "points", of what
+// readUsdSamples() gives. Everything is worked out in double precision.
 class MeshAnimation {
 public:
     // The scene's nodes and what morph targets weigh, at a time. One that is used again takes no
@@ -40,6 +42,10 @@ public:
         std::vector<std::vector<double>> animated;  // [node][morph target], or empty
         std::vector<glm::dmat4> transforms;  // [node], to the scene
         std::vector<double> value;  // of a channel
+
+        // Of USD: between which samples, both the same at the ends.
+        std::size_t before = 0, after = 0;
+        double share = 0.0;  // of the latter
     };
 
     // `clip` is the name of one of the file's animations, or its number in animationNames(). Throws
@@ -103,12 +109,14 @@ private:
 
     static glm::dvec3
     placed(const Part& part, const Pose& pose, std::size_t number, std::size_t vertex);
+    glm::dvec3 sampled(const Pose& pose, std::size_t vertex) const;
 
     std::size_t vertex_count_ = 0;
     double duration_ = 0.0;
     std::vector<Node> nodes_;  // parents first
     std::vector<Channel> channels_;
     std::vector<Part> parts_;  // by their first vertices
+    UsdSamples samples_;  // empty for other formats
 };
 
 }  // namespace hair::groom

@@ -16,6 +16,7 @@
 #include "engine/pictures.h"
 #include "engine/run_tool.h"
 #include "hair/groom/files.h"
+#include "hair/groom/formats/usd_import.h"
 #include "hair/groom/mesh/import_gltf.h"
 #include "hair/groom/mesh/mesh.h"
 #include "hair/groom/mesh/mesh_stream.h"
@@ -67,9 +68,11 @@ Mesh importAssimp(const std::filesystem::path& path, Textures textures) {
 constexpr std::array<std::string_view, 2> gltf_extensions{".glb", ".gltf"};
 constexpr std::array<std::string_view, 6> assimp_extensions{".obj", ".ply", ".stl",
                                                             ".off", ".fbx", ".dae"};
+constexpr std::array<std::string_view, 4> usd_extensions{".usd", ".usda", ".usdc", ".usdz"};
 constexpr std::array mesh_importers{
     MeshImporter{gltf_extensions, importGltf},
     MeshImporter{assimp_extensions, importAssimp},
+    MeshImporter{usd_extensions, importUsdMesh},
 };
 
 const MeshImporter& importerFor(const std::filesystem::path& path) {

@@ -22,7 +22,7 @@ std::span<const MeshImporter> meshImporters();
 
 // Reads a mesh by its extension, in any case. The mesh has at least one triangle, finite positions
 // and texture coordinates, weights from 0 to 1, and unit normals. Lengths are the file's; formats
-// that state their unit (glTF, FBX, COLLADA) come out in metres. Throws engine::Error "path:
+// that state their unit (glTF, FBX, COLLADA, USD) come out in metres. Throws engine::Error "path:
 // reason".
 Mesh importMesh(const std::filesystem::path& path, Textures textures = Textures::skipped);
 
