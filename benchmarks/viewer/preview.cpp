@@ -76,6 +76,7 @@ double PreviewControl::expected(unsigned level) const {
 void PreviewControl::drawn(unsigned level, double milliseconds) {
     if (level > kCoarsestPreview || !(milliseconds > 0.0)) return;
     took_[level] = milliseconds;
+    crawling_ = level == kCoarsestPreview && milliseconds > kCrawl ? crawling_ + 1 : 0;
     if (level != moving_) {
         // A finer picture was drawn since nothing moved: the next move may begin with its level.
         if (level < moving_ && milliseconds < kClearlyWithin) {

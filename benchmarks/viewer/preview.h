@@ -45,6 +45,8 @@ class PreviewControl {
 public:
     static constexpr double kAim = 100.0;  // ms that a picture that moves should take at most
 
+    static constexpr double kCrawl = 1000.0;  // ms
+
     // The level of a scene's first picture, of which nobody knows how long it takes: it is there
     // soon, and a finer one soon after it wherever that is fast.
     static constexpr unsigned kFirst = 4;
@@ -62,6 +64,9 @@ public:
     // longer it waits: nothing can end a picture that is being drawn.
     unsigned still(unsigned shown, double seconds) const;
 
+    // Whether even the coarsest pictures take so long, two in a row, that nobody sees them move.
+    bool crawls() const { return crawling_ >= 2; }
+
     // ms that a level is expected to take.
     double expected(unsigned level) const;
 
@@ -70,6 +75,7 @@ private:
     unsigned moving_ = 0;
     unsigned calm_ = 0;  // pictures in a row that took little
     unsigned patience_ = kPatience;
+    unsigned crawling_ = 0;  // coarsest pictures in a row that took longer than kCrawl
     bool tried_finer_ = false;  // the last change of level was to a finer one
 
     static constexpr unsigned kPatience = 4;

@@ -112,6 +112,7 @@ struct Viewer::Parts {
     void waitForWork();
     void takeWork();
     void holdStill();
+    void pauseIfCrawling();
     void takeNews(const OpenScene::News& news);
     unsigned levelFor(const Order& order);
     double picturesPerSecond() const;
@@ -199,6 +200,7 @@ struct Viewer::Parts {
     std::vector<Waiting> waiting;
     bool previews = true;  // what moves may be drawn coarser
     PreviewControl control;
+    bool paused_crawling = false;  // since the scene was opened
     ShaderStatus shaders;
     double due = 0.0;  // s since the last order, by the window's clock
     double ordered_at = 0.0;  // s, as seconds()

@@ -341,6 +341,7 @@ void Viewer::Parts::takeWork() {
         unseen = true;
     }
     takeNews(news);
+    pauseIfCrawling();
     if (const auto counts = timings.wantsCounts()) {
         const Side* const side = scene.find(*counts);
         if (!side) timings.forgetCounts();
@@ -356,6 +357,15 @@ void Viewer::Parts::takeWork() {
     actOnFollowed();
 }
 
+// A picture that stands still is refined: more to look at than one that hardly moves. Who plays on
+// is left alone.
+void Viewer::Parts::pauseIfCrawling() {
+    if (!previews || driven || paused_crawling || !state.playing || !control.crawls()) return;
+    paused_crawling = true;
+    state.playing = false;
+    message.tell("paused: this device takes over a second for the coarsest picture; Space plays");
+}
+
 void Viewer::Parts::takeNews(const OpenScene::News& news) {
     if (news.failure) {
         // Without a scene there is no viewer.
@@ -363,6 +373,7 @@ void Viewer::Parts::takeNews(const OpenScene::News& news) {
         message.attempt([&] { std::rethrow_exception(news.failure); });
     }
     if (news.opened) {
+        paused_crawling = false;
         state.scrub.reset();
         state.furthest = 0;
         const SceneFile& file = scene.file();

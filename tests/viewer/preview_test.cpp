@@ -86,6 +86,21 @@ TEST(PreviewControl, DrawsTheCoarsestWhereNoneIsFastEnough) {
         EXPECT_EQ(level, kCoarsestPreview);
 }
 
+// By the header: two coarsest pictures in a row over a second.
+TEST(PreviewControl, CrawlsWhereTwoCoarsestPicturesTakeOverASecond) {
+    PreviewControl control;
+    control.drawn(0, 60000.0);
+    control.drawn(kCoarsestPreview, 1500.0);
+    EXPECT_FALSE(control.crawls());
+    control.drawn(kCoarsestPreview, 900.0);
+    control.drawn(kCoarsestPreview, 1500.0);
+    EXPECT_FALSE(control.crawls());
+    control.drawn(kCoarsestPreview, 1500.0);
+    EXPECT_TRUE(control.crawls());
+    control.drawn(kCoarsestPreview, 900.0);
+    EXPECT_FALSE(control.crawls());
+}
+
 // A first picture may take long because something had to be made for it.
 TEST(PreviewControl, ComesBackFromASingleSlowPicture) {
     PreviewControl control;

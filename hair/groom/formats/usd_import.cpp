@@ -153,7 +153,9 @@ auto readStage(
     const std::string interpreter = wanted && *wanted ? wanted : kInterpreter;
     // -B -E: leaves no byte code beside the tool, and nobody's variables change what it does.
     // An absolute path, which is no option whatever it begins with.
-    std::vector<std::string> command{interpreter, "-B", "-E", kTools + tool};
+    std::vector<std::string> command(1, interpreter);
+    for (const char* option : {"-B", "-E"}) command.emplace_back(option);
+    command.push_back(kTools + tool);
     for (const std::string& option : options) command.push_back(option);
     command.push_back(std::filesystem::absolute(path).string());
     std::vector<std::byte> bytes;
