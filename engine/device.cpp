@@ -137,7 +137,7 @@ Device::Device(const DeviceOptions& options)
             device_, info_.compute_family, info_.compute_family == info_.queue_family ? 1 : 0,
             &compute_queue_);
     allocator_ = createAllocator(instance_.get(), info_, device_);
-    if (options.validation == Validation::on)
+    if (options.validation != Validation::off)
         hazards_ = std::make_unique<HazardLog>(instance_.messages());
     memory_ = std::make_unique<MemoryLedger>();
     shaders_ = std::make_unique<ShaderLibrary>();

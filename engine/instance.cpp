@@ -436,7 +436,12 @@ Instance::Instance(Validation validation, const std::vector<std::string>& window
     const bool portability = hasExtension(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
     if (portability) extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
 
-    constexpr std::array enabled{VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+    std::vector enabled{VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+    if (validation == Validation::gpu_assisted) {
+        enabled.push_back(VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_EXT);
+        enabled.push_back(VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_RESERVE_BINDING_SLOT_EXT);
+    }
+    const bool validates = validation != Validation::off;
     const VkDebugUtilsMessengerCreateInfoEXT messenger = messengerInfo(*messages_);
     const VkValidationFeaturesEXT features{
         .sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
@@ -445,7 +450,7 @@ Instance::Instance(Validation validation, const std::vector<std::string>& window
         .pEnabledValidationFeatures = enabled.data(),
         .disabledValidationFeatureCount = 0,
         .pDisabledValidationFeatures = nullptr};
-    if (validation == Validation::on) {
+    if (validates) {
         if (!hasLayer(kValidationLayer)) {
             throw Error("validation was asked for, but the layer is not installed "
                         "(package vulkan-validationlayers)");
@@ -456,7 +461,7 @@ Instance::Instance(Validation validation, const std::vector<std::string>& window
 
     const VkInstanceCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
-        .pNext = validation == Validation::on ? &features : nullptr,
+        .pNext = validates ? &features : nullptr,
         .flags = portability
                      ? VkInstanceCreateFlags{VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR}
                      : VkInstanceCreateFlags{0},
@@ -470,7 +475,7 @@ Instance::Instance(Validation validation, const std::vector<std::string>& window
         throw NoDevice("no Vulkan 1.3 instance: " + resultName(result));
     }
     volkLoadInstance(instance_);
-    if (validation == Validation::on) {
+    if (validates) {
         check(
             vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_),
             "create the validation messenger");

@@ -53,6 +53,7 @@ private:
 enum class Validation {
     off,
     on,  // the Khronos layer with synchronisation validation; an Error if it is not installed
+    gpu_assisted,  // and with checks that it writes into shaders: of addresses, indices and more
 };
 
 // Warnings and errors of the validation layer, in the order they came. Thread-safe.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdlib>
 #include <memory>
 #include <string>
 
@@ -9,15 +10,19 @@
 #include "tests/required.h"
 
 // One validated device for all GPU tests of a program, made for the first and gone before main()
-// returns: later, the validation layer's own globals are gone.
+// returns: later, the validation layer's own globals are gone. With $HAIRBENCH_GPU_ASSISTED shaders
+// are checked, too.
 class GpuEnvironment : public testing::Environment {
 public:
     // Null where there is no Vulkan device; missing() says why.
     static engine::Device* device() {
         if (!device_ && missing_.empty()) {
             try {
-                device_ = std::make_unique<engine::Device>(
-                    engine::DeviceOptions{.wanted = "", .validation = engine::Validation::on});
+                const bool assisted = std::getenv("HAIRBENCH_GPU_ASSISTED");
+                device_ = std::make_unique<engine::Device>(engine::DeviceOptions{
+                    .wanted = "",
+                    .validation =
+                        assisted ? engine::Validation::gpu_assisted : engine::Validation::on});
             } catch (const engine::NoDevice& error) {
                 missing_ = error.what();
             }

@@ -206,7 +206,7 @@ Facts gatherFacts(
     facts.load = loadNow();
     facts.device = report::describeDevice(device);
     facts.build = buildFacts();
-    facts.layers = {.validation = validation == engine::Validation::on, .loaded = loadedLayers()};
+    facts.layers = {.validation = validation != engine::Validation::off, .loaded = loadedLayers()};
     facts.timestamps = timestampFacts(device);
     facts.processor = {
         .governors = scalingGovernors(),

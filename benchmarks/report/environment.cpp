@@ -158,7 +158,7 @@ Environment describeEnvironment(
         .command = std::move(command),
         .started = utcNow(),
         .seed = seed,
-        .validation = validation == engine::Validation::on};
+        .validation = validation != engine::Validation::off};
 }
 
 // ---- Hashes -------------------------------------------------------------------------------------

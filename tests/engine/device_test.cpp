@@ -1,8 +1,15 @@
 #include "engine/device.h"
 
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/commands.h"
+#include "engine/buffer_image.h"
 #include "engine/pipeline.h"
 #include "engine/shaders.h"
 #include "engine/target.h"
@@ -12,6 +19,8 @@ namespace engine {
 namespace {
 
 using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
 
 template <class Exception, class Call>
 std::string messageOf(Call&& call) {
@@ -56,6 +65,33 @@ TEST_F(DeviceTest, RefusesAPictureThatIsTooLarge) {
         messageOf<Unsupported>(
             [&] { Target(device(), {.width = 1u << 20, .height = 4, .msaa = 1, .ssaa = 1}); }),
         HasSubstr("an image side of 1048576 px is over the device's"));
+}
+
+// strands/frames.comp reads guides and their first frames and writes normals, all of them here at
+// one place: in the only buffer that is there, and past its end. What the layer says of that
+// differs from version to version.
+TEST_F(DeviceTest, ChecksAddressesInShadersWhereThatIsAskedFor) {
+    struct Push {
+        std::array<float, 16> head{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+        std::array<VkDeviceAddress, 3> addresses;
+        std::array<std::uint32_t, 2> counts{1, 2};  // guides, vertices of each
+    };
+    const Device checked({.wanted = "", .validation = Validation::gpu_assisted});
+    checked.messages().take();  // newer layers say what they switch on for that
+    const ComputePipeline frames(
+        checked, {.shader = "strands/frames.comp", .push_size = sizeof(Push)});
+    const std::vector<float> zeros(64, 0.0f);
+    const Buffer memory = makeBuffer(checked, std::span(zeros), "frames");
+    const auto messagesOf = [&](VkDeviceAddress at) {
+        checked.runOnce([&](Commands& commands) {
+            commands.bind(frames, Push{.addresses = {at, at, at}});
+            commands.uses({{memory, Access::compute_write}});
+            commands.dispatch(1);
+        });
+        return checked.messages().take();
+    };
+    EXPECT_THAT(messagesOf(memory.address()), IsEmpty());
+    EXPECT_THAT(messagesOf(memory.address() + 4 * zeros.size()), Not(IsEmpty()));
 }
 
 TEST_F(DeviceTest, ListsTheShadersWhenOneIsUnknown) {
