@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "engine/steps.h"
 #include "hair/random.h"
 
 namespace hair::groom {
@@ -162,9 +163,11 @@ std::vector<std::uint32_t> spread(
     };
 
     // Takes away the most crowded candidate until `count` are left.
+    engine::Step step("spreads roots", grid.size() + candidates.size() - count);
     std::vector<double> weights(grid.size(), 0.0);  // [place]
     std::vector<FallingQueue::Entry> entries;
     for (std::uint32_t place = 0; place < grid.size(); ++place) {
+        step.advance();
         if (grid.source(place) >= candidates.size()) continue;
         grid.forEachNear(
             place, [&](std::uint32_t, double distance) { weights[place] += weigh(distance); });
@@ -173,6 +176,7 @@ std::vector<std::uint32_t> spread(
     std::vector<bool> present(candidates.size(), true);
     FallingQueue queue(std::move(entries));
     for (std::size_t left = candidates.size(); left > count; --left) {
+        step.advance();
         const std::uint32_t place = queue.pop([&](std::uint32_t item) { return weights[item]; });
         present[grid.source(place)] = false;
         grid.erase(place);
