@@ -15,11 +15,11 @@
 
 #include "benchmarks/measure/case.h"
 #include "benchmarks/measure/hair_cache.h"
-#include "benchmarks/measure/progress.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/text.h"
 #include "engine/error.h"
 #include "engine/process.h"
+#include "engine/steps.h"
 #include "hair/groom/growth/roots.h"
 #include "hair/rendering/strand_plan.h"
 #include "hair/simulation/solvers.h"
@@ -149,7 +149,7 @@ constexpr double kComparisonFrames = 67;
 // Of any GPU beside a software device.
 constexpr double kDeviceSpeed = 100.0;
 
-// In which another case is begun to be tried.
+// In which another case is begun to be tried, after the first.
 constexpr std::chrono::seconds kTrials{4};
 
 struct Estimate {
@@ -220,6 +220,8 @@ private:
 };
 
 void Trials::tryCase(std::size_t place, Size size) {
+    const std::string name = plan_.cases[place].spec.name;
+    const engine::Step step((size == Size::whole ? "tries " : "tries a smaller ") + name);
     Estimate& estimate = estimates_[place];
     const hair::Settings settings =
         size == Size::whole ? this->settings(place) : smaller(this->settings(place));
@@ -245,9 +247,13 @@ void Trials::play() {
         return work(place).updates + work(place).segments + work(place).samples;
     };
     std::ranges::stable_sort(order, {}, all);
-    measure::Progress progress(order.size());
-    const Clock::time_point start = Clock::now();
-    const auto is_over = [&] { return Clock::now() > start + kTrials; };
+    // From the second trial on: the first one compiles what they have in common.
+    std::optional<Clock::time_point> start;
+    const auto is_over = [&] { return start && Clock::now() > *start + kTrials; };
+    const auto try_case = [&](std::size_t place, Size size) {
+        tryCase(place, size);
+        if (!start) start = Clock::now();
+    };
 
     // Cases with the most work of a kind, made smaller, tell more of the large ones than small
     // ones do.
@@ -258,17 +264,14 @@ void Trials::play() {
             *std::ranges::max_element(order, {}, [&](std::size_t i) { return work(i).*part; }));
     for (const std::size_t place : largest) {
         if (isSmall(settings(place), speed_) || (is_over() && !trials_.empty())) continue;
-        progress.begin("tries a smaller " + plan_.cases[place].spec.name);
-        tryCase(place, Size::smaller);
+        try_case(place, Size::smaller);
     }
     for (const std::size_t place : order) {
         const bool small = isSmall(settings(place), speed_);
         // What the device can't do may be all that is known so far.
         if (is_over() || (!small && !trials_.empty())) break;
-        progress.begin("tries " + plan_.cases[place].spec.name);
-        tryCase(place, small ? Size::whole : Size::smaller);
+        try_case(place, small ? Size::whole : Size::smaller);
     }
-    progress.clear();
 }
 
 void Trials::estimateOthers() {
@@ -318,7 +321,7 @@ void print(const RunPlan& plan, const Trials& trials) {
         std::cout << "at most " << report::shortNumber(seconds / 60.0) << " min\n";
     else
         std::cout << "none of which could be tried\n";
-    if (tried < count)
+    if (tried < count && seconds > 0.0)
         std::cout << tried << " of them tried; others' times are estimated from "
                   << (tried > 0 ? "those" : "a smaller case")
                   << " by counts of guides, strands and samples, and their memory is not known\n";

@@ -130,7 +130,7 @@ protected:
         if (hairbench("devices").status != 0) return skipWithout(Need::device, "no Vulkan device");
     }
 
-    // 2,000 straight strands of a metre, as lists of points of the USC-HairSalon data.
+    // 2,000 straight strands of a metre, in the format of USC-HairSalon.
     std::string writeStrands() const {
         const fs::path path = folder_.file("strands.data");
         std::ofstream file(path, std::ios::binary);
