@@ -12,6 +12,7 @@
 #include "engine/files.h"
 #include "engine/memory.h"
 #include "engine/pipeline.h"
+#include "engine/process.h"
 #include "engine/shaders.h"
 
 namespace engine {
@@ -108,6 +109,7 @@ PipelineCache::~PipelineCache() {
     std::error_code ignored;
     std::filesystem::create_directories(file_.parent_path(), ignored);
     const std::filesystem::path part = file_.string() + "." + std::to_string(getpid());
+    const Leftover leftover(part);
     {
         std::ofstream stream(part, std::ios::binary);
         stream.write(data.data(), static_cast<std::streamsize>(data.size()));
@@ -250,9 +252,11 @@ void Device::runOnce(const std::function<void(Commands&)>& record) const {
     submit.pCommandBufferInfos = &submitted;
     const VkFence fence = fence_.get();
     check(vkQueueSubmit2(queue_, 1, &submit, fence), "submit");
-    check(
-        vkWaitForFences(device_, 1, &fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max()),
-        "wait for the device");
+    waitHeeding([&](std::uint64_t nanoseconds) {
+        const VkResult result = vkWaitForFences(device_, 1, &fence, VK_TRUE, nanoseconds);
+        if (result != VK_TIMEOUT) check(result, "wait for the device");
+        return result != VK_TIMEOUT;
+    });
     if (hazards_) hazards_->finish(hazards_->submissions());
     check(vkResetFences(device_, 1, &fence), "reset a fence");
     vkFreeCommandBuffers(device_, pool_.get(), 1, &buffer);

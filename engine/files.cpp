@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "engine/error.h"
+#include "engine/process.h"
 
 namespace engine {
 namespace {
@@ -171,6 +172,7 @@ void writeFileAtomically(const fs::path& path, const Writer& write, const WriteP
     if (there && !fs::is_regular_file(path, error)) return writeFile(path, path, write, poll);
     const fs::path target = there ? fs::canonical(path, error) : path;
     const fs::path partial(target.string() + ".partial");
+    const Leftover leftover(partial);
     try {
         writeFile(partial, path, write, poll);
         if (there) fs::permissions(partial, fs::status(target).permissions(), error);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <span>
 
@@ -44,15 +43,18 @@ Handle<VkSemaphore, &vkDestroySemaphore> makeTimeline(VkDevice device) {
     return {device, semaphore};
 }
 
+// Ends the program where an interrupt comes meanwhile.
 void waitFor(VkDevice device, VkSemaphore timeline, std::uint64_t value) {
     VkSemaphoreWaitInfo wait{};
     wait.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO;
     wait.semaphoreCount = 1;
     wait.pSemaphores = &timeline;
     wait.pValues = &value;
-    check(
-        vkWaitSemaphores(device, &wait, std::numeric_limits<std::uint64_t>::max()),
-        "wait for a frame");
+    waitHeeding([&](std::uint64_t nanoseconds) {
+        const VkResult result = vkWaitSemaphores(device, &wait, nanoseconds);
+        if (result != VK_TIMEOUT) check(result, "wait for a frame");
+        return result != VK_TIMEOUT;
+    });
 }
 
 // A value of a timeline semaphore.
@@ -200,7 +202,8 @@ public:
         commands.end();
         const ProcessUse used = processUse();
         const Clock::time_point start = Clock::now();
-        submit(device_.queue(), slot_data_.buffer, {timeline_, ++submitted_});
+        submit(device_.queue(), slot_data_.buffer, {timeline_, submitted_ + 1});
+        ++submitted_;
         waitFor(device_.get(), timeline_, submitted_);
         if (device_.hazards()) device_.hazards()->finish(device_.hazards()->submissions());
         const double time = millisecondsBetween(start, Clock::now());
@@ -309,6 +312,11 @@ FrameLoop::FrameLoop(const Device& device, Timing timing, const Overlap& overlap
 }
 
 FrameLoop::~FrameLoop() {
+    try {
+        waitFor(device_.get(), timeline_.get(), submitted_);
+        if (submitted_beside_ > 0) waitFor(device_.get(), beside_.get(), submitted_beside_);
+    } catch (const Error&) {  // a lost device has nothing to wait for
+    }
     vkQueueWaitIdle(device_.queue());
     vkQueueWaitIdle(device_.computeQueue());
     if (device_.hazards()) device_.hazards()->finish(device_.hazards()->submissions());
@@ -354,16 +362,20 @@ void FrameLoop::frame(FunctionRef<void(Passes&)> record) {
     commands.end();
     if (device_.hazards()) slot.submission = device_.hazards()->submissions();
     const Clock::time_point recorded = Clock::now();
-    slot.value = ++submitted_;
+    slot.value = submitted_ + 1;
     slot.record = records_.size() - 1;
     if (beside && device_.hazards()) drawn_[slot.value] = slot.submission;
-    if (passes.leastBeside())
+    // What is not submitted is not counted: nobody waits for it.
+    if (passes.leastBeside()) {
         submit(
-            device_.computeQueue(), slot.beside->buffer, {beside_.get(), ++submitted_beside_},
+            device_.computeQueue(), slot.beside->buffer, {beside_.get(), submitted_beside_ + 1},
             {timeline_.get(), drawn});
+        ++submitted_beside_;
+    }
     submit(
         device_.queue(), slot.buffer, {timeline_.get(), slot.value},
         {beside_.get(), submitted_beside_});
+    submitted_ = slot.value;
     const Clock::time_point submitted = Clock::now();
     result.wait = millisecondsBetween(start, free);
     result.record = millisecondsBetween(free, recorded);

@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "engine/process.h"
 #include "engine/shaders.h"
 
 namespace engine {
@@ -390,12 +391,15 @@ PipelineStore::get(const std::string& key, const std::function<PipelineObjects()
 
 ComputePipeline::ComputePipeline(const Device& device, const ComputeDescription& description)
     : objects_(device.pipelines().get(
-          keyOf(device, description), [&] { return makePipeline(device, description); })) {}
+          keyOf(device, description), [&] { return makePipeline(device, description); })) {
+    checkInterrupted();
+}
 
 GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsDescription& description) {
     for (const std::string& path : description.shaders) requireStage(device, path);
     objects_ = device.pipelines().get(
         keyOf(device, description), [&] { return makePipeline(device, description); });
+    checkInterrupted();
 }
 
 std::set<ShaderBinding> shaderBindings(std::span<const std::uint32_t> code) {

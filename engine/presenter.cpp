@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/buffer_image.h"
+#include "engine/process.h"
 #include "engine/target.h"
 
 namespace engine {
@@ -338,10 +339,11 @@ void Presenter::wait() {
     if (!pending_) return;
     pending_ = false;
     const VkFence done = done_.get();
-    check(
-        vkWaitForFences(
-            device_.get(), 1, &done, VK_TRUE, std::numeric_limits<std::uint64_t>::max()),
-        "wait for the window's picture");
+    waitHeeding([&](std::uint64_t nanoseconds) {
+        const VkResult result = vkWaitForFences(device_.get(), 1, &done, VK_TRUE, nanoseconds);
+        if (result != VK_TIMEOUT) check(result, "wait for the window's picture");
+        return result != VK_TIMEOUT;
+    });
     if (device_.hazards()) device_.hazards()->finish(submission_);
     check(vkResetFences(device_.get(), 1, &done), "reset a fence");
     milliseconds_ = timestamps_->read().back();

@@ -1,28 +1,32 @@
 #include "engine/process.h"
 
+#include <atomic>
+#include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <exception>
 #include <functional>
+#include <iostream>
+#include <mutex>
+#include <set>
 #include <string>
 #include <system_error>
+#include <thread>
+#include <utility>
 
 #include <linux/perf_event.h>
+#include <semaphore.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include "engine/error.h"
+#include "engine/steps.h"
 
 namespace engine {
 namespace {
-
-volatile std::sig_atomic_t interrupt_count = 0;  // a signal handler can reach nothing but a global
-
-extern "C" void onInterrupt(int signal) {
-    interrupt_count = 1;
-    std::signal(signal, SIG_DFL);
-}
 
 // Share of the time that may be missing from a count: threads take turns with counters between two
 // reads of the clock.
@@ -46,17 +50,150 @@ both(const std::optional<double>& a, const std::optional<double>& b, Operation o
 
 // ---- Interrupts ---------------------------------------------------------------------------------
 
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+// Interrupts are the process's: a signal handler can reach nothing but globals.
+std::atomic<bool> interrupt_came = false;
+sem_t interrupt_signal;  // posted by the handler, for watchInterrupts()
+
+static_assert(std::atomic<bool>::is_always_lock_free);  // or a handler must not touch it
+
+// Whose matter an interrupt is: the first one to take it has it.
+enum class Heeded { not_yet, by_work, by_end };
+std::atomic<Heeded> heeded = Heeded::not_yet;
+
+// For work to say that it ends by itself.
+constexpr auto kPatience = 1200ms;
+// For a device to be done with what it was given.
+constexpr auto kDevicePatience = 700ms;
+
+extern "C" void onInterrupt(int signal) {
+    interrupt_came = true;
+    sem_post(&interrupt_signal);
+    std::signal(signal, SIG_DFL);
+}
+
+// What endInterrupted() does last, in files and words.
+struct Ending {
+    std::mutex mutex;
+    std::multiset<std::filesystem::path> leftovers;
+    const LastWords* last_words = nullptr;
+    std::optional<Clock::time_point> came;  // first seen by one who waits
+};
+
+Ending& ending() {
+    static Ending& all = *new Ending;  // never destroyed: threads may need it until the very end
+    return all;
+}
+
+void sayInterrupted() {
+    forgetSteps();
+    std::cerr << "interrupted\n";
+}
+
+[[noreturn]] void leave(int status) {
+    std::multiset<std::filesystem::path> leftovers;
+    {
+        const std::lock_guard lock(ending().mutex);
+        leftovers = ending().leftovers;
+    }
+    std::error_code ignored;
+    for (const std::filesystem::path& each : leftovers) std::filesystem::remove_all(each, ignored);
+    _exit(status);
+}
+
+// A thread of its own.
+[[noreturn]] void watchInterrupts() {
+    while (sem_wait(&interrupt_signal) != 0) {
+    }
+    std::this_thread::sleep_for(kPatience);
+    Heeded now = Heeded::not_yet;
+    if (heeded.compare_exchange_strong(now, Heeded::by_end)) {
+        sayInterrupted();
+        leave(kInterruptedStatus);
+    }
+    for (;;) pause();
+}
+
+}  // namespace
+
 void catchInterrupts() {
+    static std::once_flag once;
+    std::call_once(once, [] {
+        sem_init(&interrupt_signal, 0, 0);
+        std::thread(watchInterrupts).detach();
+    });
     std::signal(SIGINT, onInterrupt);
     std::signal(SIGTERM, onInterrupt);
     std::signal(SIGHUP, onInterrupt);
     std::signal(SIGXFSZ, SIG_IGN);
 }
 
-bool interrupted() { return interrupt_count != 0; }
+bool interrupted() {
+    if (!interrupt_came) return false;
+    Heeded now = Heeded::not_yet;
+    heeded.compare_exchange_strong(now, Heeded::by_work);
+    return true;
+}
 
 void checkInterrupted() {
     if (interrupted()) throw Interrupted();
+}
+
+LastWords::LastWords(std::function<void()> speak) : speak_(std::move(speak)) {
+    const std::lock_guard lock(ending().mutex);
+    before_ = std::exchange(ending().last_words, this);
+}
+
+LastWords::~LastWords() {
+    const std::lock_guard lock(ending().mutex);
+    ending().last_words = before_;
+}
+
+void endInterrupted() {
+    if (heeded.exchange(Heeded::by_end) == Heeded::by_end)
+        for (;;) pause();  // another thread ends the program
+    const LastWords* words{};
+    {
+        const std::lock_guard lock(ending().mutex);
+        words = ending().last_words;
+    }
+    int status = kInterruptedStatus;
+    forgetSteps();
+    try {
+        if (!words) sayInterrupted();
+        for (; words; words = words->before()) words->speak();
+    } catch (const std::exception& error) {
+        std::cerr << "hairbench: " << error.what() << '\n';
+        status = 1;
+    }
+    std::cout.flush();
+    std::fflush(stdout);
+    leave(status);
+}
+
+void endIfLongInterrupted() {
+    if (!interrupt_came) return;
+    {
+        const std::lock_guard lock(ending().mutex);
+        std::optional<Clock::time_point>& came = ending().came;
+        if (!came) came = Clock::now();
+        if (Clock::now() < *came + kDevicePatience) return;
+    }
+    endInterrupted();
+}
+
+Leftover::Leftover(std::filesystem::path path) : path_(std::move(path)) {
+    const std::lock_guard lock(ending().mutex);
+    ending().leftovers.insert(path_);
+}
+
+Leftover::~Leftover() {
+    const std::lock_guard lock(ending().mutex);
+    ending().leftovers.erase(ending().leftovers.find(path_));
 }
 
 // ---- Scratch folders ----------------------------------------------------------------------------
@@ -65,6 +202,7 @@ ScratchFolder::ScratchFolder() {
     std::string path = (std::filesystem::temp_directory_path() / "hairbench-XXXXXX").string();
     if (!mkdtemp(path.data())) throw engine::Error(path, "can't be made");
     path_ = path;
+    leftover_.emplace(path_);
 }
 
 ScratchFolder::~ScratchFolder() {

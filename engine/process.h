@@ -2,16 +2,28 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 // This process: interrupts, scratch folders, and what it uses of the CPU.
 namespace engine {
 
+// ---- Interrupts ---------------------------------------------------------------------------------
+
 // From here on Ctrl-C, termination and a closed terminal are remembered instead of ending the
-// program; a second one ends it. A limit on the size of files becomes an error of who writes.
+// program, which is to heed them within two seconds; a second one ends it at once. A limit on the
+// size of files becomes an error of who writes.
+//
+// Heeded they are in one of three ways, each with the status kInterruptedStatus:
+// - who works asks interrupted() or calls checkInterrupted(), and ends what it does;
+// - who waits for a device (waitHeeding()) that isn't done 0.7 s after the interrupt ends
+//   the program where it stands, by endInterrupted(): a driver's work can't be called off;
+// - where nobody asks for 1.2 s (kPatience), as within a library, a thread ends the program,
+// without
+//   LastWords.
 void catchInterrupts();
 
-// Whether an interrupt came since catchInterrupts().
+// Whether an interrupt came since catchInterrupts(). Who hears so ends its work: nobody else does.
 bool interrupted();
 
 // Thrown to end work that is interrupted.
@@ -19,6 +31,54 @@ class Interrupted {};
 
 // Throws Interrupted where an interrupt came.
 void checkInterrupted();
+
+inline constexpr int kInterruptedStatus = 130;  // as shells have it: 128 + SIGINT
+
+// What a program that ends where it stands says and writes first, for as long as this is there; of
+// several the last one made begins. It is called by the thread that waits for the device, and must
+// not wait for one itself.
+class LastWords {
+public:
+    explicit LastWords(std::function<void()> speak);
+    ~LastWords();
+    LastWords(const LastWords&) = delete;
+    LastWords& operator=(const LastWords&) = delete;
+
+    void speak() const { speak_(); }
+    const LastWords* before() const { return before_; }
+
+private:
+    std::function<void()> speak_;
+    const LastWords* before_ = nullptr;
+};
+
+// Ends the program with kInterruptedStatus, or another where LastWords throw: after these (a line
+// on stderr where there are none) files that nobody keeps are removed, and no object is destroyed.
+[[noreturn]] void endInterrupted();
+
+// Ends the program by endInterrupted() where an interrupt was there 0.7 s ago already.
+void endIfLongInterrupted();
+
+// Waits for a device: `wait` is given the ns that it may take, and says whether all is done.
+template <class Wait>
+void waitHeeding(Wait&& wait) {
+    constexpr std::uint64_t kSlice = 50'000'000;
+    while (!wait(kSlice)) endIfLongInterrupted();
+}
+
+// A file or folder that is removed where the program ends by an interrupt while this is there.
+class Leftover {
+public:
+    explicit Leftover(std::filesystem::path path);
+    ~Leftover();
+    Leftover(const Leftover&) = delete;
+    Leftover& operator=(const Leftover&) = delete;
+
+private:
+    std::filesystem::path path_;
+};
+
+// ---- Scratch folders and counters ---------------------------------------------------------------
 
 // A folder for files that nobody keeps; gone in any case.
 class ScratchFolder {
@@ -32,6 +92,7 @@ public:
 
 private:
     std::filesystem::path path_;
+    std::optional<Leftover> leftover_;
 };
 
 // A counter of the kernel (perf_event_open(2) with `inherit`) for what the thread that makes it,

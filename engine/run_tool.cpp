@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "engine/error.h"
+#include "engine/process.h"
 
 extern "C" char** environ;
 
@@ -150,6 +151,7 @@ void run(const std::vector<std::string>& arguments, const Take& take, const Poll
     std::string text;
     drain(output.read, take, errors.read, text, idle);
     const int status = child.wait();
+    checkInterrupted();  // which ends the child too, where a terminal sends it
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
     const std::string line = WIFEXITED(status) ? lastLine(text) : "";
     throw Error(line.empty() ? arguments.front() + ' ' + describe(status) : line);
@@ -159,12 +161,14 @@ void run(const std::vector<std::string>& arguments, const Take& take, const Poll
 
 std::vector<std::byte> runTool(const std::vector<std::string>& arguments, std::size_t most) {
     std::vector<std::byte> bytes;
-    run(arguments, [&](std::span<const char> part) {
+    const Take take = [&](std::span<const char> part) {
+        checkInterrupted();
         if (part.size() > most - bytes.size())
             throw Error(arguments.front() + " wrote more than " + std::to_string(most) + " bytes");
         const auto read = std::as_bytes(part);
         bytes.insert(bytes.end(), read.begin(), read.end());
-    });
+    };
+    run(arguments, take, checkInterrupted);
     return bytes;
 }
 

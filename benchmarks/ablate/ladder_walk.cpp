@@ -21,6 +21,7 @@
 #include "benchmarks/scene/assets.h"
 #include "engine/error.h"
 #include "engine/process.h"
+#include "engine/steps.h"
 #include "hair/rendering/backends.h"
 
 namespace benchmarks::ablate {
@@ -57,8 +58,9 @@ StillHair::StillHair(
     : case_(device, settings, directory, &cache), mesh_(cache.assets().mesh(settings, directory)),
       assets_(scene::loadRenderAssets(settings, mesh_ ? &*mesh_ : nullptr, directory)) {
     engine::FrameLoop loop(device, engine::Timing::statistics);
+    engine::Step step("plays frames", frame + std::uint64_t{1});
     for (std::uint32_t i = 0; i <= frame; ++i) {
-        engine::checkInterrupted();
+        step.advance();
         loop.frame([&](engine::Passes& passes) { case_.simulate(passes); });
     }
 }
@@ -278,13 +280,15 @@ void measureCase(
     result.counts = hair.counts();
     progress("pipelines");
     LadderWalk ladder(device, hair, settings, result);
+    const auto attribute_done = [&] { attributeCase(ladder.plan(), result); };
+    const engine::LastWords last_words(attribute_done);
     try {
         ladder.walk(laps, progress);
     } catch (const engine::Interrupted&) {
-        attributeCase(ladder.plan(), result);
+        attribute_done();
         throw;
     }
-    attributeCase(ladder.plan(), result);
+    attribute_done();
 }
 
 }  // namespace

@@ -56,7 +56,6 @@ int ablateScene(const AblateOptions& options) {
                                                           : options.out;
     engine::checkWritable(out);
 
-    engine::catchInterrupts();
     const engine::Device device(options.scene.device);
     std::cerr << report::versionOnDevice(device) << '\n';
     ablate::AblationReport report{
@@ -66,9 +65,12 @@ int ablateScene(const AblateOptions& options) {
         .laps = options.passes};
     report.notes = notesFor(report.environment.device);
     measure::Progress progress(plan.cases.size());
-    try {
-        ablateAll(device, plan, options.passes, cache, progress, report.cases);
-    } catch (const engine::Interrupted&) {
+    const auto finish = [&] {
+        engine::writeFileAtomically(out, ablate::ablationText(report));
+        for (const std::string& note : report.notes) std::cout << "note: " << note << '\n';
+        std::cout << "report: " << out.string() << '\n';
+    };
+    const auto finish_interrupted = [&] {
         report.interrupted = true;
         progress.clear();
         const ablate::CaseAblation& interrupted_case = report.cases.back();
@@ -76,15 +78,18 @@ int ablateScene(const AblateOptions& options) {
             std::cout << ablate::ablationTable(interrupted_case) << '\n';
         else
             report.cases.pop_back();
-    }
-    engine::writeFileAtomically(out, ablate::ablationText(report));
-    for (const std::string& note : report.notes) std::cout << "note: " << note << '\n';
-    std::cout << "report: " << out.string() << '\n';
-    if (report.interrupted) {
+        finish();
         std::cerr << "interrupted: " << report.cases.size() << " of " << plan.cases.size()
                   << " cases have results\n";
+    };
+    const engine::LastWords last_words(finish_interrupted);
+    try {
+        ablateAll(device, plan, options.passes, cache, progress, report.cases);
+    } catch (const engine::Interrupted&) {
+        finish_interrupted();
         return report::kInterrupted;
     }
+    finish();
     const bool any_ran = std::ranges::any_of(
         report.cases, [](const auto& each) { return each.status == report::Status::ok; });
     return any_ran ? report::kOk : report::kNothingRan;

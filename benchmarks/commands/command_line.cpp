@@ -3,6 +3,7 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <iostream>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -11,10 +12,12 @@
 #include <CLI/CLI.hpp>
 
 #include "benchmarks/commands/commands.h"
+#include "benchmarks/measure/progress.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/environment.h"
 #include "benchmarks/report/exporters.h"
 #include "benchmarks/viewer/viewer.h"
+#include "engine/process.h"
 #include "hair/groom/files.h"
 
 namespace benchmarks::commands {
@@ -499,7 +502,8 @@ void addRunOptions(CLI::App& command, run::RunOptions& options) {
             "where nobody holds them; both: each case with either (/run/clocks)")
         ->check(CLI::IsMember({"locked", "free", "both"}));
     command.add_flag("--list", options.list, "print the cases' names and stop");
-    command.add_flag("--dry-run", options.dry_run, "say what would run, estimate memory and time");
+    command.add_flag(
+        "--dry-run", options.dry_run, "say what would run, estimate time and memory in seconds");
     command.add_option(
         "--order-seed", options.order_seed,
         "seed of the order in which cases run (default: random)");
@@ -859,7 +863,14 @@ int runCommandLine(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? report::kOk : report::kUsageError;
     }
-    return chosen();
+    engine::catchInterrupts();
+    try {
+        const measure::ProgressLine progress;
+        return chosen();
+    } catch (const engine::Interrupted&) {
+        std::cerr << "interrupted\n";
+        return report::kInterrupted;
+    }
 }
 
 }  // namespace benchmarks::commands

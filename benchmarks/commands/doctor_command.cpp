@@ -11,6 +11,7 @@
 #include "benchmarks/report/report.h"
 #include "engine/files.h"
 #include "engine/process.h"
+#include "engine/steps.h"
 
 namespace benchmarks::commands {
 namespace {
@@ -25,6 +26,7 @@ void examineDevice(const DoctorOptions& options, doctor::DoctorReport& report) {
     report.environment = report::describeEnvironment(
         device, options.command, doctor::doctorSettings().seed, options.device.validation);
     const measure::MeasureHooks hooks{.stop = engine::interrupted};
+    const engine::Step step("examines the machine");
     report.findings =
         doctor::judgeAll(doctor::gatherFacts(device, options.device.validation, hooks));
 }
@@ -51,24 +53,28 @@ int examineMachine(const DoctorOptions& options) {
     if (options.planted && options.pairs == 0)
         throw engine::Error("--planted", "needs --pairs: how large a slowdown to plant");
     if (!options.out.empty()) engine::checkWritable(options.out);
-    engine::catchInterrupts();
     doctor::DoctorReport report;
+    const auto finish = [&] {
+        if (!report.findings.empty()) {
+            if (!options.out.empty())
+                engine::writeFileAtomically(options.out, doctor::doctorReportText(report));
+            std::cout << doctor::doctorText(report);
+            if (!options.out.empty()) std::cout << "report: " << options.out.string() << '\n';
+        }
+        if (report.interrupted) std::cerr << "interrupted\n";
+    };
+    const engine::LastWords last_words([&] {
+        report.interrupted = true;
+        finish();
+    });
     try {
         examineDevice(options, report);
         examineGates(options, report);
     } catch (const engine::Interrupted&) {
         report.interrupted = true;
     }
-    if (!report.findings.empty()) {
-        if (!options.out.empty())
-            engine::writeFileAtomically(options.out, doctor::doctorReportText(report));
-        std::cout << doctor::doctorText(report);
-        if (!options.out.empty()) std::cout << "report: " << options.out.string() << '\n';
-    }
-    if (report.interrupted) {
-        std::cerr << "interrupted\n";
-        return report::kInterrupted;
-    }
+    finish();
+    if (report.interrupted) return report::kInterrupted;
     return doctor::isTrusted(report) ? report::kOk : report::kCheckFailed;
 }
 

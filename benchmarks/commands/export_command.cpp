@@ -16,7 +16,6 @@ int exportScene(const ExportOptions& options) {
     engine::checkWritable(options.mitsuba / "scene.xml");
 
     const engine::Device device(options.scene.device);
-    engine::catchInterrupts();
     try {
         const reference::MitsubaExport written = reference::exportMitsuba(
             device, scene, spec.settings, options.frame, options.mitsuba, cache);

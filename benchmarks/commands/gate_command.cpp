@@ -8,7 +8,6 @@
 #include "benchmarks/gate/session.h"
 #include "benchmarks/report/change.h"
 #include "engine/files.h"
-#include "engine/process.h"
 
 namespace benchmarks::commands {
 namespace {
@@ -38,7 +37,6 @@ void printEnd(const gate::GateRun& run) {
 int gateBuilds(const gate::GateOptions& options) {
     const std::filesystem::path out = reportFile(options);
     engine::checkWritable(out);
-    engine::catchInterrupts();
     const gate::GateRun run = gate::runGate(options);
     // What drivers and commands say need not be UTF-8.
     engine::writeFileAtomically(

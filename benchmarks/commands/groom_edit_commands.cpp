@@ -84,7 +84,6 @@ int editGroom(const EditGroomOptions& options, const GroomEdit& edit) {
         edited.strands = hair::groom::scaleLengths(std::move(edited.strands), unit);
         edited.strands.metres_per_unit = 1.0;
     }
-    engine::catchInterrupts();  // so that nothing half done is left
     try {
         warnOf(
             options.out,

@@ -10,10 +10,12 @@
 #include "benchmarks/commands/commands.h"
 #include "benchmarks/measure/case.h"
 #include "benchmarks/measure/hair_cache.h"
+#include "benchmarks/measure/progress.h"
 #include "benchmarks/measure/start.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/scene/schema.h"
 #include "benchmarks/scene/sweep.h"
+#include "engine/steps.h"
 
 namespace benchmarks::commands {
 
@@ -40,8 +42,11 @@ void printStart(
     const engine::Device& device, const std::filesystem::path& path, scene::Scene& scene,
     measure::HairCache& cache) {
     const scene::CaseSpec spec = scene::singleCase(scene, {.scene = path}, &cache.assets());
-    const measure::Case first(device, spec.settings, scene.directory, &cache);
-    const measure::StartInspection start = measure::inspectStart(first);
+    const measure::StartInspection start = [&] {
+        const engine::Step step("looks at the hair of " + spec.name);
+        const measure::Case first(device, spec.settings, scene.directory, &cache);
+        return measure::inspectStart(first);
+    }();
     const report::StartRecord& record = start.record;
     std::cout << "   " << spec.name << ": " << record.from << ", longest segment "
               << record.stretch.value << " of its rest length, deepest vertex "
@@ -62,7 +67,9 @@ int validateScenes(const ValidateOptions& options) {
     std::optional<engine::Device> device;
     if (options.start) device.emplace(options.device);
     measure::HairCache cache = measure::userHairCache(true);
+    measure::Progress progress(options.scenes.size());
     for (const std::filesystem::path& path : options.scenes) {
+        progress.begin(path.string());
         if (path.string().ends_with(".schema.json")) continue;  // scenes/*.json names it too
         try {
             std::size_t count = 0;
@@ -71,12 +78,14 @@ int validateScenes(const ValidateOptions& options) {
             for (scene::Scene& scene : loaded)
                 count +=
                     scene::selectCases(scene, {.scene = path}, &cache.assets(), &warnings).size();
+            progress.clear();
             for (const std::string& warning : warnings) std::cout << "warning: " << warning << '\n';
             std::cout << path.string() << ": ok, " << count
                       << (count == 1 ? " case\n" : " cases\n");
             if (!device) continue;
             for (scene::Scene& scene : loaded) printStart(*device, path, scene, cache);
         } catch (const engine::Error& error) {
+            progress.clear();
             std::cerr << shortMessage(error) << '\n';
             status = report::kUsageError;
         }

@@ -11,14 +11,16 @@
 #include "engine/error.h"
 #include "engine/files.h"
 #include "engine/process.h"
+#include "engine/steps.h"
 
 namespace benchmarks::commands {
 namespace {
 
 void simulateTo(const engine::Device& device, measure::Case& hair, std::uint32_t frame) {
     engine::FrameLoop loop(device, engine::Timing::statistics);
+    engine::Step step("plays frames", frame + std::uint64_t{1});
     for (std::uint32_t i = 0; i <= frame; ++i) {
-        engine::checkInterrupted();
+        step.advance();
         loop.frame([&](engine::Passes& passes) { hair.simulate(passes); });
     }
 }
@@ -44,7 +46,6 @@ int walkLod(const LodOptions& options) {
     engine::checkWritable(out);
     if (options.reference) reference::checkReferenceTool();
 
-    engine::catchInterrupts();
     const engine::Device device(options.scene.device);
     std::cerr << report::versionOnDevice(device) << '\n';
     lod::LodReport report{
@@ -56,6 +57,19 @@ int walkLod(const LodOptions& options) {
              .document = scene.resolved},
         .frame = options.frame};
     measure::Progress progress(path.steps);
+    const auto finish = [&] {
+        progress.clear();
+        for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
+        engine::writeFileAtomically(out, lod::lodReportText(report));
+        std::cout << lod::lodTable(report) << "report: " << out.string() << '\n';
+        if (report.interrupted)
+            std::cerr << "interrupted after " << report.steps.size() << " of " << path.steps
+                      << " steps\n";
+    };
+    const engine::LastWords last_words([&] {
+        report.interrupted = true;
+        finish();
+    });
     try {
         measure::Case hair(device, settings, scene.directory, &cache);
         simulateTo(device, hair, options.frame);
@@ -71,13 +85,8 @@ int walkLod(const LodOptions& options) {
     } catch (const engine::Interrupted&) {
         report.interrupted = true;
     }
-    progress.clear();
-    for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
-    engine::writeFileAtomically(out, lod::lodReportText(report));
-    std::cout << lod::lodTable(report) << "report: " << out.string() << '\n';
-    if (!report.interrupted) return report::kOk;
-    std::cerr << "interrupted after " << report.steps.size() << " of " << path.steps << " steps\n";
-    return report::kInterrupted;
+    finish();
+    return report.interrupted ? report::kInterrupted : report::kOk;
 }
 
 }  // namespace benchmarks::commands

@@ -26,7 +26,6 @@ int checkPhysics(const PhysicsOptions& options) {
         options.out.empty() ? std::filesystem::path("results/local/physics.json") : options.out;
     engine::checkWritable(out);
 
-    engine::catchInterrupts();
     const engine::Device device(options.device);
     std::cerr << report::versionOnDevice(device) << '\n';
     physics::PhysicsReport report{
@@ -34,10 +33,17 @@ int checkPhysics(const PhysicsOptions& options) {
             report::describeEnvironment(device, options.command, kSeed, options.device.validation),
         .outcomes = {},
         .curves = {}};
+    const auto finish = [&] {
+        engine::writeFileAtomically(out, physics::physicsReportText(report));
+        std::cout << physics::physicsTable(report) << "report: " << out.string() << '\n';
+        if (report.interrupted) std::cerr << "interrupted\n";
+    };
+    const engine::LastWords last_words([&] {
+        report.interrupted = true;
+        finish();
+    });
     physics::runChecks(device, checks, solvers, report);
-    engine::writeFileAtomically(out, physics::physicsReportText(report));
-    std::cout << physics::physicsTable(report) << "report: " << out.string() << '\n';
-    if (report.interrupted) std::cerr << "interrupted\n";
+    finish();
     return physics::exitStatus(report);
 }
 

@@ -22,7 +22,6 @@ int renderReference(const ReferenceOptions& options) {
     engine::checkWritable(options.out);
     reference::checkReferenceTool();
 
-    engine::catchInterrupts();
     try {
         const engine::ScratchFolder folder;
         {

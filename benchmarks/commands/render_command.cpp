@@ -37,14 +37,16 @@ void writePicture(
     }
 }
 
-// Plays a case from its first frame and draws those of the range; `drawn` is called after each.
+// Plays a case from its first frame, the frames being the pieces of `progress`, and draws those of
+// the range; `drawn` is called after each that is.
 void play(
     const engine::Device& device, measure::Case& picture, const scene::FrameRange& range,
-    const std::function<void(std::uint32_t)>& drawn) {
+    measure::Progress& progress, const std::function<void(std::uint32_t)>& drawn) {
     engine::FrameLoop loop(device, engine::Timing::isolated);
     for (std::uint32_t i = 0; i < range.end; ++i) {
         engine::checkInterrupted();
         const bool draws = range.holds(i);
+        progress.begin((draws ? "draws frame " : "plays frame ") + std::to_string(i));
         loop.frame([&](engine::Passes& passes) {
             draws ? picture.frame(passes) : picture.simulate(passes);
         });
@@ -76,19 +78,21 @@ int renderScene(const RenderOptions& options) {
     measure::Case picture(device, spec.settings, scene.directory, &cache);
     for (const std::string& warning : measure::inspectStart(picture).warnings)
         std::cerr << "hairbench: " << warning << '\n';
-    engine::catchInterrupts();
-    measure::Progress progress(range.count());
+    measure::Progress progress(range.end);
     std::uint32_t written = 0;
+    const auto say_interrupted = [&] {
+        std::cerr << "interrupted: " << written << " of " << range.count()
+                  << " pictures are written\n";
+    };
+    const engine::LastWords last_words(say_interrupted);
     try {
-        play(device, picture, range, [&](std::uint32_t frame) {
-            if (paths) progress.begin("frame " + std::to_string(frame));
+        play(device, picture, range, progress, [&](std::uint32_t frame) {
             writePicture(picture, render, file(frame));
             ++written;
         });
     } catch (const engine::Interrupted&) {
         progress.clear();
-        std::cerr << "interrupted: " << written << " of " << range.count()
-                  << " pictures are written\n";
+        say_interrupted();
         return report::kInterrupted;
     }
     progress.clear();

@@ -9,6 +9,7 @@
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/environment.h"
 #include "benchmarks/report/text.h"
+#include "benchmarks/run/estimate.h"
 #include "benchmarks/run/plan.h"
 #include "benchmarks/run/record.h"
 #include "benchmarks/run/run.h"
@@ -54,8 +55,9 @@ int printNothingToRun(const run::RunOptions& options, const run::RunPlan& plan) 
 
 int runScene(const run::RunOptions& options) {
     measure::HairCache cache = measure::userHairCache(options.scene.cache);
-    const run::RunPlan plan =
-        run::planRun(options.scene, options.filter, options.shard, &cache.assets());
+    scene::SceneOptions scene = options.scene;
+    scene.reads_assets = !options.dry_run;  // growing hair takes longer than an estimate may
+    const run::RunPlan plan = run::planRun(scene, options.filter, options.shard, &cache.assets());
     if (options.list) return run::printNames(plan);
     if (options.dry_run) return run::estimateRun(plan, options.scene.device, cache);
     if (plan.cases.empty()) return printNothingToRun(options, plan);
@@ -71,20 +73,25 @@ int runScene(const run::RunOptions& options) {
     engine::checkWritable(out);
     run::checkReferences(plan);
 
-    engine::catchInterrupts();
     engine::processUse();  // counts the threads that begin from here on: those of the device too
     const engine::Device device(options.scene.device);
     std::cerr << report::versionOnDevice(device) << '\n';
-    const run::FinishedRun finished = run::playRun(device, options, plan, out, cache);
-    const scene::Json& report = finished.report.json();
+    const auto print_interrupted = [&](const run::FinishedRun& finished) {
+        printReport(finished.report.json(), out);
+        std::cerr << "interrupted after " << finished.done << " of " << plan.cases.size()
+                  << " cases; --resume goes on\n";
+    };
+    const run::FinishedRun finished =
+        run::playRun(device, options, plan, out, cache, print_interrupted);
+    if (finished.interrupted) {
+        print_interrupted(finished);
+        return report::kInterrupted;
+    }
     if (finished.was_complete)
         std::cout << "nothing left to do: " << out.string() << " is complete\n";
     else
-        printReport(report, out);
-    if (!finished.interrupted) return conclude(options, report, out);
-    std::cerr << "interrupted after " << finished.done << " of " << plan.cases.size()
-              << " cases; --resume goes on\n";
-    return report::kInterrupted;
+        printReport(finished.report.json(), out);
+    return conclude(options, finished.report.json(), out);
 }
 
 }  // namespace benchmarks::commands

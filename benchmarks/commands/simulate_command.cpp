@@ -20,7 +20,6 @@ int simulateScene(const SimulateOptions& options) {
     engine::checkWritable(recording.out);
 
     const engine::Device device(options.scene.device);
-    engine::catchInterrupts();
     groom::Recorded recorded;
     try {
         recorded = groom::recordStrands(device, scene, spec.settings, recording, cache);

@@ -22,10 +22,13 @@ int view(const viewer::ViewOptions& options) {
     viewer::Viewer viewer(options);
     std::optional<viewer::Script> script;
     if (!options.script.empty()) script.emplace(options.script);
-    for (std::uint32_t i = 0; !engine::interrupted(); ++i) {
-        if (script && !script->step(viewer)) break;
-        if (!viewer.frame()) break;
-        if (options.frames > 0 && i + 1 == options.frames) break;
+    try {
+        for (std::uint32_t i = 0; !engine::interrupted(); ++i) {
+            if (script && !script->step(viewer)) break;
+            if (!viewer.frame()) break;
+            if (options.frames > 0 && i + 1 == options.frames) break;
+        }
+    } catch (const engine::Interrupted&) {  // within a step that was long
     }
     if (script && !engine::interrupted()) script->finish();
     for (const std::string& message : viewer.takeMessages()) std::cerr << message << '\n';
@@ -48,7 +51,6 @@ int view(const viewer::ViewOptions& options) {
 }  // namespace
 
 int viewScene(const viewer::ViewOptions& options) {
-    engine::catchInterrupts();
     engine::processUse();  // counts the threads that begin from here on: those of the device too
     try {
         return view(options);

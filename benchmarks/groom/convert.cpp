@@ -130,7 +130,6 @@ void convert(const ConvertOptions& options, const ConvertLog& log) {
             "joined: the roots by " + report::countText(strands.root_triangles.size(), "triangle") +
             (mesh ? " on the mesh" : ", from the roots alone"));
     }
-    engine::catchInterrupts();  // so that nothing half done is left
     warnAll(
         log, options.out,
         hair::groom::exportStrands(strands, options.out, engine::checkInterrupted));

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <utility>
 
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -15,7 +16,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kPlainPeriod{10};
+constexpr std::chrono::milliseconds kLook{500};
+constexpr std::chrono::seconds kLong{2};  // or a step is not shown
+constexpr std::chrono::seconds kPlainPeriod{10};  // between lines where it is no terminal
 
 std::string clockText(double seconds) {
     char text[48];
@@ -54,40 +57,82 @@ std::string progressText(std::size_t number, std::size_t total, std::size_t done
     return text + ", about " + clockText(each * static_cast<double>(total - number + 1)) + " left";
 }
 
+// ---- The line -----------------------------------------------------------------------------------
+
+ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {
+    engine::onceStepsEnd([this] { clear(); });
+    thread_ = std::thread([this] { run(); });
+}
+
+ProgressLine::~ProgressLine() {
+    {
+        const std::lock_guard lock(mutex_);
+        over_ = true;
+    }
+    ends_.notify_all();
+    thread_.join();
+    engine::onceStepsEnd({});
+    clear();
+}
+
+void ProgressLine::run() {
+    std::unique_lock lock(mutex_);
+    while (!ends_.wait_for(lock, kLook, [this] { return over_; })) show();
+}
+
+// Steps that end meanwhile wait until the line is written, and then it is cleared.
+void ProgressLine::show() {
+    const std::lock_guard lock(writing_);
+    const Clock::time_point now = Clock::now();
+    if (written_ && now - *written_ < kPlainPeriod) return;
+    const engine::StepsUnderWay steps = engine::stepsUnderWay();
+    if (steps.text.empty()) return;
+    if (now - steps.start < (terminal_ ? kLong : kPlainPeriod)) return;
+    if (terminal_) {
+        shown_ = true;
+        std::cerr << "\r\033[K" << fitting(steps.text) << std::flush;
+    } else {
+        written_ = now;
+        std::cerr << steps.text << std::endl;
+    }
+}
+
+void ProgressLine::clear() {
+    const std::lock_guard lock(writing_);
+    if (std::exchange(shown_, false)) std::cerr << "\r\033[K" << std::flush;
+}
+
+// ---- Pieces of work -----------------------------------------------------------------------------
+
 Progress::Progress(std::size_t total, std::size_t done)
-    : total_(total), first_(done), index_(done), start_(Clock::now()), written_(start_),
-      terminal_(isatty(STDERR_FILENO) != 0) {}
+    : total_(total), first_(done), start_(Clock::now()), index_(done) {}
 
 void Progress::begin(const std::string& name) {
-    if (begun_) ++index_;
-    begun_ = true;
-    name_ = name;
-    write({});
-}
-
-void Progress::update(const std::string& state) { write(state); }
-
-void Progress::update(const SamplingState& state) { write(samplingText(state)); }
-
-void Progress::clear() const {
-    if (terminal_) std::cerr << "\r\033[K" << std::flush;
-}
-
-void Progress::write(const std::string& state) {
-    if (!terminal_ && Clock::now() - written_ < kPlainPeriod) return;
-    std::string line = remaining() + "  " + name_;
-    if (!state.empty()) line += "  " + state;
-    if (!terminal_) {
-        written_ = Clock::now();
-        std::cerr << line << std::endl;
-        return;
+    {
+        const std::lock_guard lock(mutex_);
+        if (begun_) ++index_;
+        begun_ = true;
+        name_ = name;
+        state_.clear();
     }
-    std::cerr << "\r\033[K" << fitting(std::move(line)) << std::flush;
+    if (!step_) step_.emplace([this] { return words(); });
 }
 
-std::string Progress::remaining() const {
+void Progress::update(const std::string& state) {
+    const std::lock_guard lock(mutex_);
+    state_ = state;
+}
+
+void Progress::update(const SamplingState& state) { update(samplingText(state)); }
+
+void Progress::clear() { step_.reset(); }
+
+std::string Progress::words() const {
+    const std::lock_guard lock(mutex_);
     const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-    return progressText(index_ + 1, total_, index_ - first_, seconds);
+    std::string line = progressText(index_ + 1, total_, index_ - first_, seconds) + "  " + name_;
+    if (!state_.empty()) line += "  " + state_;
+    return line;
 }
 
 }  // namespace benchmarks::measure

@@ -57,6 +57,13 @@ constexpr Check kChecks[] = {
 void runCheck(
     const engine::Device& device, const Check& check, hair::Solver solver, PhysicsReport& report) {
     Findings findings(check.name, solver);
+    const auto keep = [&] {
+        for (const std::string& message : device.messages().take())
+            findings.fail("validation: " + message);
+        std::ranges::copy(findings.outcomes(), std::back_inserter(report.outcomes));
+        std::ranges::copy(findings.curves(), std::back_inserter(report.curves));
+    };
+    const engine::LastWords last_words(keep);
     try {
         check.run(device, solver, findings);
     } catch (const engine::Unsupported& error) {
@@ -66,10 +73,7 @@ void runCheck(
     } catch (const engine::Interrupted&) {
         report.interrupted = true;
     }
-    for (const std::string& message : device.messages().take())
-        findings.fail("validation: " + message);
-    std::ranges::copy(findings.outcomes(), std::back_inserter(report.outcomes));
-    std::ranges::copy(findings.curves(), std::back_inserter(report.curves));
+    keep();
 }
 
 }  // namespace

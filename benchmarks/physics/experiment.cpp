@@ -81,7 +81,7 @@ void Experiment::advance(std::uint32_t steps) {
     // Contact of hair with hair adds to what the air does.
     const bool wind = hasWind(settings_.wind) || simulation_.hasVolume();
     while (steps > 0) {
-        if (engine::interrupted()) throw engine::Interrupted{};
+        engine::checkInterrupted();
         const std::uint32_t batch = std::min(steps, kBatch);
         device_->runOnce([&](engine::Commands& commands) {
             for (std::uint32_t i = 0; i < batch; ++i) {

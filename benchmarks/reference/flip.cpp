@@ -13,6 +13,7 @@
 #include <glm/vec3.hpp>
 
 #include "engine/error.h"
+#include "engine/process.h"
 
 namespace benchmarks::reference {
 namespace {
@@ -123,6 +124,7 @@ Plane filteredAlong(const Plane& plane, const Kernel& kernel, std::array<int, 2>
     Plane result{plane.width, plane.height, {}};
     result.values.reserve(plane.values.size());
     for (int y = 0; y < plane.height; ++y) {
+        engine::checkInterrupted();
         for (int x = 0; x < plane.width; ++x) {
             double sum = 0.0;
             for (int i = -radius; i <= radius; ++i)

@@ -11,6 +11,7 @@
 #include "engine/pictures.h"
 #include "engine/process.h"
 #include "engine/run_tool.h"
+#include "engine/steps.h"
 
 namespace benchmarks::reference {
 namespace {
@@ -46,12 +47,14 @@ void run(
 void runReferenceTool(
     const std::string& script, const std::vector<std::string>& arguments,
     const std::function<void(std::string_view line)>& each_line) {
+    const engine::Step step("runs " + script);
     std::vector<std::string> all{HAIRBENCH_SOURCE_DIR "/benchmarks/reference/" + script};
     all.insert(all.end(), arguments.begin(), arguments.end());
     run(all, each_line);
 }
 
 void checkReferenceTool() {
+    const engine::Step step("looks for Mitsuba");
     run({"-c", "import mitsuba"}, [](std::string_view) {});
 }
 

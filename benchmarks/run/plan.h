@@ -11,11 +11,7 @@
 #include "benchmarks/report/report.h"
 #include "benchmarks/scene/sweep.h"
 
-// Which cases a run plays, in which order, and how long that takes.
-namespace benchmarks::measure {
-class HairCache;
-}  // namespace benchmarks::measure
-
+// Which cases a run plays, and in which order.
 namespace benchmarks::run {
 
 struct RunOptions {
@@ -69,11 +65,5 @@ std::vector<std::size_t> shuffledOrder(std::size_t count, std::uint32_t seed);
 
 // Prints the names of the cases and how many there are. Returns the exit status.
 int printNames(const RunPlan& plan);
-
-// Prints each case with the device memory that it takes and how long measuring it takes at most,
-// and their sum: cases are made and play a few frames. Where there is no device, names alone and
-// why. Returns the exit status.
-int estimateRun(
-    const RunPlan& plan, const engine::DeviceOptions& device, measure::HairCache& cache);
 
 }  // namespace benchmarks::run

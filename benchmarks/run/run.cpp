@@ -84,7 +84,8 @@ void checkReferences(const RunPlan& plan) {
 
 FinishedRun playRun(
     const engine::Device& device, const RunOptions& options, const RunPlan& plan,
-    const std::filesystem::path& out, measure::HairCache& cache) {
+    const std::filesystem::path& out, measure::HairCache& cache,
+    const std::function<void(const FinishedRun&)>& last_words) {
     const report::ReportHeader header = headerOf(options, plan, device);
     if (options.resume)
         if (auto report = completeReport(plan, header, out))
@@ -98,15 +99,22 @@ FinishedRun playRun(
         std::cerr << "going on after " << record.done() << " of " << plan.cases.size()
                   << " cases\n";
     const bool keeps_pictures = options.pictures && record.hasJournal();
-    const bool interrupted =
-        playCases(device, plan, record, keeps_pictures ? out : std::filesystem::path(), cache);
-    scene::Json report = record.report(interrupted);
-    record.write(report);
-    if (!interrupted && record.hasJournal()) removeOtherPictures(report, out);
-    return {
-        .report = scene::Document(std::move(report)),
-        .done = record.done(),
-        .interrupted = interrupted};
+    const auto finish = [&](bool interrupted) {
+        scene::Json report = record.report(interrupted);
+        record.write(report);
+        if (!interrupted && record.hasJournal()) removeOtherPictures(report, out);
+        return FinishedRun{
+            .report = scene::Document(std::move(report)),
+            .done = record.done(),
+            .interrupted = interrupted};
+    };
+    bool interrupted = false;
+    {
+        const engine::LastWords words([&] { last_words(finish(true)); });
+        interrupted =
+            playCases(device, plan, record, keeps_pictures ? out : std::filesystem::path(), cache);
+    }
+    return finish(interrupted);
 }
 
 }  // namespace benchmarks::run

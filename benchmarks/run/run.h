@@ -2,12 +2,17 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 
 #include "benchmarks/run/plan.h"
 #include "benchmarks/scene/json.h"
 #include "engine/device.h"
 
 // A run: its plan's cases played one after another, recorded, and made into a report.
+namespace benchmarks::measure {
+class HairCache;
+}  // namespace benchmarks::measure
+
 namespace benchmarks::run {
 
 // The file that --out names; or results/local/<scene>.json, and <scene>.2of8.json of a shard, so
@@ -25,9 +30,12 @@ struct FinishedRun {
 };
 
 // Plays what a plan has left to do, with progress on stderr, and writes the report to `out`.
+// Where an interrupt finds the device at a long frame, what it would return, whose report is
+// written, is given to `last_words`, and the program ends (engine/process.h).
 // Throws engine::Error, and WriteFailed (record.h).
 FinishedRun playRun(
     const engine::Device& device, const RunOptions& options, const RunPlan& plan,
-    const std::filesystem::path& out, measure::HairCache& cache);
+    const std::filesystem::path& out, measure::HairCache& cache,
+    const std::function<void(const FinishedRun&)>& last_words);
 
 }  // namespace benchmarks::run

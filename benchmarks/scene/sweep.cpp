@@ -258,6 +258,7 @@ std::vector<CaseSpec> selectCases(
     for (const std::string& axis : options.axes) overrides.push_back(parseAxis(axis));
     std::vector<CaseSpec> cases = expand(scene, overrides);
 
+    if (!options.reads_assets) return cases;
     std::set<std::string> checked;
     for (const CaseSpec& each : cases) {
         const hair::GroomSettings& groom = each.settings.groom;

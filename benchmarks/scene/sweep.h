@@ -60,12 +60,13 @@ struct SceneOptions {
     std::optional<double> max_time;  // s
     std::vector<std::string> sets;  // "POINTER=VALUE": fields of every case
     engine::DeviceOptions device;
+    bool reads_assets = true;  // before anything is made of them
     bool cache = true;  // what takes long to make is taken from disk and kept there
 };
 
 // The scene's cases with what the command line changes. Every asset that they name is read once,
-// and meshes and grooms are left in `assets`. What is odd about assets (checkAssets()) is added to
-// `warnings`, each once. Both may be null.
+// where options.reads_assets says so, and meshes and grooms are left in `assets`. What is odd about
+// assets (checkAssets()) is added to `warnings`, each once. Both may be null.
 std::vector<CaseSpec> selectCases(
     Scene& scene, const SceneOptions& options, AssetStore* assets = nullptr,
     std::vector<std::string>* warnings = nullptr);

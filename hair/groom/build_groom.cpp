@@ -15,6 +15,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "engine/error.h"
+#include "engine/steps.h"
 #include "hair/groom/files.h"
 #include "hair/groom/growth/grow.h"
 #include "hair/groom/growth/vellus.h"
@@ -94,7 +95,9 @@ void append(std::vector<Value>& to, const std::vector<Value>& from, std::span<co
 template <class Visit>
 void forEachPlace(const StrandSet& strands, std::span<const std::uint32_t> sizes, Visit&& visit) {
     std::vector<Place> places;
+    engine::Step step("spaces points evenly", strands.strandCount());
     for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
+        step.advance();
         places.resize(sizes[i]);
         if (strands.size(i) == sizes[i]) {
             for (std::uint32_t k = 0; k < sizes[i]; ++k) places[k] = {strands.first(i) + k, 0.0};

@@ -17,6 +17,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "engine/error.h"
+#include "engine/steps.h"
 #include "hair/groom/mesh/depth.h"
 #include "hair/groom/mesh/surface.h"
 
@@ -28,9 +29,11 @@ namespace {
 constexpr std::uint32_t kStrandsAtOnce = 64;
 
 // Calls `work(strand)` for every strand once. `make_work` makes one for each thread, so that it can
-// have memory of its own; what it writes must be the strand's own.
+// have memory of its own; what it writes must be the strand's own. A step of that name.
 template <class MakeWork>
-void forEachStrand(std::uint32_t strands, std::uint32_t threads, MakeWork&& make_work) {
+void forEachStrand(
+    const char* name, std::uint32_t strands, std::uint32_t threads, MakeWork&& make_work) {
+    engine::Step step(name, strands);
     if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
     std::atomic<std::uint32_t> next = 0;
     const auto run = [&] {
@@ -40,6 +43,7 @@ void forEachStrand(std::uint32_t strands, std::uint32_t threads, MakeWork&& make
             if (first >= strands) return;
             const std::uint32_t end = std::min(strands, first + kStrandsAtOnce);
             for (std::uint32_t strand = first; strand < end; ++strand) work(strand);
+            step.advance(end - first);
         }
     };
     const std::uint32_t useful = (strands + kStrandsAtOnce - 1) / kStrandsAtOnce;
@@ -429,7 +433,10 @@ Found findIn(
     Found found{.distances = std::vector<float>(strands.first_samples.back())};
     found.matched.assign(settings.thresholds.size(), std::vector<std::uint32_t>(strands.count()));
     found.together = found.matched;
-    forEachStrand(strands.count(), settings.threads, [&] {
+    const bool counts = kind == MatchedStrands::counted;
+    const char* const step =
+        counts ? "looks for strands in the second groom" : "looks for strands in the first groom";
+    forEachStrand(step, strands.count(), settings.threads, [&] {
         return StrandSearch(strands, others, tree, settings, kind, found);
     });
     return found;
@@ -561,7 +568,7 @@ penetrationOf(const MeasuredStrands& strands, const DepthInside& depths, std::ui
         double deepest = 0.0;
     };
     std::vector<Inside> inside(strands.count());
-    forEachStrand(strands.count(), threads, [&] {
+    forEachStrand("looks for strands in the head", strands.count(), threads, [&] {
         return [&, depthOf = depths](std::uint32_t strand) mutable {
             forEachSample(strands, strand, [&](std::size_t, const StrandSample& sample) {
                 const double depth = depthOf(sample.point);

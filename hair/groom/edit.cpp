@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/error.h"
+#include "engine/steps.h"
 #include "hair/groom/build_groom.h"
 #include "hair/groom/inspect.h"
 #include "hair/groom/mesh/depth.h"
@@ -57,7 +58,9 @@ EditedStrands leaveOut(const StrandSet& strands, const std::vector<StrandTest>& 
     EditedStrands edited;
     for (const StrandTest& test : tests) edited.notes.push_back({"left out: " + test.what, 0});
     std::vector<std::uint32_t> kept;
+    engine::Step step("filters strands", strands.strandCount());
     for (std::uint32_t strand = 0; strand < strands.strandCount(); ++strand) {
+        step.advance();
         const auto failed =
             std::ranges::find_if(tests, [&](const StrandTest& test) { return test.fails(strand); });
         if (failed == tests.end()) {
@@ -212,7 +215,9 @@ StrandSet smoothStrands(StrandSet strands, double length) {
     std::vector<double> lengths;
     std::vector<glm::dvec3> directions;
     std::vector<double> above;  // the diagonal, of the eliminated matrix
+    engine::Step step("smooths strands", strands.strandCount());
     for (std::uint32_t strand = 0; strand < strands.strandCount(); ++strand) {
+        step.advance();
         const std::span<glm::vec3> points = pointsOf(strands, strand);
         segments.clear();
         lengths.clear();

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "engine/error.h"
+#include "engine/steps.h"
 #include "hair/groom/formats/alembic_export.h"
 #include "hair/groom/formats/alembic_import.h"
 #include "hair/groom/formats/cyhair.h"
@@ -197,6 +198,7 @@ const StrandImporter& strandImporterOf(const fs::path& path) {
 }
 
 StrandSet importStrands(const fs::path& path, std::uint32_t points_per_strand) {
+    const engine::Step step("reads " + path.filename().string());
     engine::OpenFile file(path);
     const StrandImporter& importer = importerOf(path, file);
     // The bytes are not filled with zeros first: grooms have hundreds of megabytes.

@@ -15,6 +15,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/error.h"
+#include "engine/steps.h"
 #include "hair/groom/mesh/depth.h"
 #include "hair/groom/mesh/surface.h"
 
@@ -133,7 +134,9 @@ void inspectInside(
     std::uint32_t strands_inside = 0;
     std::size_t points_inside = 0;
     double deepest = 0.0;
+    engine::Step step("looks for strands in the mesh", strands.strandCount());
     for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
+        step.advance();
         std::size_t inside = 0;
         for (const glm::vec3& point : strands.strand(i)) {
             const double depth = depthOf(glm::dvec3(point) * scale);
@@ -154,7 +157,9 @@ MeshFindings inspectOnMesh(const StrandSet& strands, const Mesh& mesh, double me
     const NearestSurface surface(mesh.positions, mesh.triangles);
     std::vector<float> distances;
     distances.reserve(strands.strandCount());
+    engine::Step step("looks for roots on the mesh", strands.strandCount());
     for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
+        step.advance();
         const glm::dvec3 root = glm::dvec3(strands.strand(i)[0]) * metres_per_unit;
         const double distance = surface(root).distance;
         if (distance > kSurfaceTolerance) ++findings.roots_off_surface;
@@ -186,7 +191,9 @@ void inspectLengths(const StrandSet& strands, StrandFindings& findings) {
     std::vector<float> segments;
     lengths.reserve(strands.strandCount());
     segments.reserve(strands.points.size() - strands.strandCount());
+    engine::Step step("measures strands", strands.strandCount());
     for (std::uint32_t i = 0; i < strands.strandCount(); ++i) {
+        step.advance();
         const auto points = strands.strand(i);
         double length = 0.0;
         for (std::size_t k = 1; k < points.size(); ++k) {

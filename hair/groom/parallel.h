@@ -7,19 +7,23 @@
 #include <thread>
 #include <vector>
 
+#include "engine/steps.h"
+
 namespace hair::groom {
 
-// Does something for each index below `count`, in any order and on all processors; what it throws
-// comes out of here.
+// Does something for each index below `count`, in any order and on all processors, as a step of
+// that name; what it throws comes out of here.
 template <class Work>
-void inParallel(std::uint32_t count, Work&& work) {
+void inParallel(const char* name, std::uint32_t count, Work&& work) {
     static constexpr std::uint32_t kTaken = 256;  // indices at a time
+    engine::Step step(name, count);
     std::atomic<std::uint64_t> next = 0;
     const auto take = [&] {
         for (std::uint64_t first = next.fetch_add(kTaken); first < count;
              first = next.fetch_add(kTaken)) {
             const std::uint64_t end = std::min<std::uint64_t>(first + kTaken, count);
             for (std::uint64_t i = first; i < end; ++i) work(static_cast<std::uint32_t>(i));
+            step.advance(end - first);
         }
     };
     const std::uint32_t takers =

@@ -16,6 +16,7 @@
 #include "engine/commands.h"
 #include "engine/error.h"
 #include "engine/pipeline.h"
+#include "engine/steps.h"
 #include "hair/simulation/open_body.h"
 #include "hair/simulation/stiffness.h"
 
@@ -259,9 +260,11 @@ DistanceField::DistanceField(
     };
     run((count + kGroup - 1) / kGroup);
     push.finds_middles = 0;
+    engine::Step step("bakes a distance field, block", count);
     for (; push.first_block < count; push.first_block += push.block_count) {
         push.block_count = std::min(kBlocksPerBatch, count - push.first_block);
         run(push.block_count);
+        step.advance(push.block_count);
     }
 }
 

@@ -17,6 +17,7 @@
 #include "engine/commands.h"
 #include "engine/error.h"
 #include "engine/pipeline.h"
+#include "engine/steps.h"
 #include "hair/groom/mesh/winding_number.h"
 
 namespace hair::simulation {
@@ -85,6 +86,7 @@ std::vector<float> windingsAt(
         .nodes = node_buffer.address(),
         .triangles = triangles.address(),
         .windings = windings.address()};
+    engine::Step step("looks for the inside of an open mesh, block", count);
     for (; push.first_block < count; push.first_block += push.block_count) {
         push.block_count = std::min(kWindingBlocks, count - push.first_block);
         device.runOnce([&](engine::Commands& commands) {
@@ -92,6 +94,7 @@ std::vector<float> windingsAt(
             commands.dispatchGroups(push.block_count);
             commands.barrier(engine::Access::compute_write, engine::Access::anything);
         });
+        step.advance(push.block_count);
     }
     return engine::downloadAs<float>(device, windings);
 }

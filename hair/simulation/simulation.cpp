@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/error.h"
+#include "engine/steps.h"
 #include "hair/gpu_structs.h"
 #include "hair/simulation/stiffness.h"
 
@@ -156,8 +157,10 @@ void Simulation::balanceRest(std::span<const glm::vec3> start) {
     const auto without = parametersWith({});
     engine::upload(*device_, std::as_bytes(std::span(without)), parameters_);
     const std::vector<RigidMotion> placed = rootMotions();
+    engine::Step balancing("balances the rest shape, correction", kMostCorrections);
     bool corrects = true;
     for (int i = 0; i < kMostCorrections && corrects; ++i) {
+        balancing.advance();
         setState(start, start);
         device_->runOnce([&](engine::Commands& commands) {
             wind_.recordCalm(commands, addresses());
@@ -245,6 +248,7 @@ void Simulation::recordStep(engine::Commands& commands, Copy into) {
 void Simulation::settle(std::uint32_t steps) {
     if (!solver_) return;
     const std::uint32_t most = std::max(1u, kSettleBatch / step_.count);
+    engine::Step settling("settles hair, step", steps);
     while (steps > 0) {
         const std::uint32_t batch = std::min(steps, most);
         device_->runOnce([&](engine::Commands& commands) {
@@ -255,6 +259,7 @@ void Simulation::settle(std::uint32_t steps) {
             }
         });
         steps -= batch;
+        settling.advance(batch);
     }
 }
 

@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/steps.h"
 #include "hair/groom/growth/root_density.h"
 #include "hair/groom/growth/roots.h"
 #include "hair/random.h"
@@ -121,7 +122,9 @@ Groom grow(
     groom.root_triangles = std::move(roots.triangles);
     groom.points.reserve(std::size_t{count} * settings.vertices);
     groom.root_normals.reserve(count);
+    engine::Step step("grows strands", count);
     for (std::uint32_t i = 0; i < count; ++i) {
+        step.advance();
         const SurfacePoint& root = roots.points[i];
         double length = settings.length;
         if (length_map) length *= textureAt(*length_map, scalp, root);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "engine/error.h"
+#include "engine/steps.h"
 #include "hair/groom/growth/spread.h"
 #include "hair/groom/growth/triangulate.h"
 
@@ -26,7 +27,9 @@ RootSamples takeSamples(
     RootSamples samples;
     samples.numbers.reserve(count);
     samples.positions.reserve(count);
+    engine::Step step("looks for places of roots");
     for (std::uint32_t i = 0; i < tries && samples.numbers.size() < count; ++i) {
+        step.advance();
         const SurfacePoint sample = rootSample(scalp, seed, i);
         if (!accept(i, sample)) continue;
         samples.numbers.push_back(i);

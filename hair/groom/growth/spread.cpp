@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "engine/steps.h"
 #include "hair/groom/parallel.h"
 #include "hair/random.h"
 
@@ -165,7 +166,7 @@ std::vector<std::uint32_t> spread(
     // Takes away the most crowded candidate until `count` are left.
     std::vector<double> weights(grid.size(), 0.0);  // [place]
     std::vector<FallingQueue::Entry> entries;
-    inParallel(grid.size(), [&](std::uint32_t place) {
+    inParallel("weighs roots", grid.size(), [&](std::uint32_t place) {
         if (grid.source(place) >= candidates.size()) return;
         grid.forEachNear(
             place, [&](std::uint32_t, double distance) { weights[place] += weigh(distance); });
@@ -175,7 +176,9 @@ std::vector<std::uint32_t> spread(
             entries.push_back({weights[place], grid.rank(place), place});
     std::vector<bool> present(candidates.size(), true);
     FallingQueue queue(std::move(entries));
+    engine::Step step("spreads roots", candidates.size() - count);
     for (std::size_t left = candidates.size(); left > count; --left) {
+        step.advance();
         const std::uint32_t place = queue.pop([&](std::uint32_t item) { return weights[item]; });
         present[grid.source(place)] = false;
         grid.erase(place);

@@ -13,6 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/error.h"
+#include "engine/steps.h"
 #include "hair/groom/growth/grow.h"
 #include "hair/groom/growth/parting.h"
 #include "hair/groom/growth/roots.h"
@@ -128,7 +129,9 @@ StrandSet growVellus(const Mesh& mesh, const GrowSettings& settings, std::uint32
     if (settings.parting.strength > 0.0f) parting.emplace(scalp, surface, settings.parting);
     const DirectionField directions(settings, surface, parting ? &*parting : nullptr);
     const Band band(mesh, scalp, surface, vellus.band);
+    engine::Step step("grows vellus hairs");
     for (std::uint32_t i = 0; hairs.ends.size() < count; ++i) {
+        step.advance();
         const std::uint32_t own = hash(seed, i, purpose::vellus_choice);
         const SurfacePoint root = rootSample(band.around(), own, 0);
         const double apart = band.fromEdge(root.position);

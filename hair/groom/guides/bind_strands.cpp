@@ -12,6 +12,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/steps.h"
+
 namespace hair::groom {
 namespace {
 
@@ -289,7 +291,9 @@ bindStrands(const Groom& dense, const std::vector<std::uint32_t>& guides) {
     if (guides.size() < dense.strand_count) bind.emplace(dense, guides);
     std::vector<StrandBinding> bindings(dense.strand_count);
     std::uint32_t next = 0;
+    engine::Step step("binds strands to guides", dense.strand_count);
     for (std::uint32_t strand = 0; strand < dense.strand_count; ++strand) {
+        step.advance();
         if (next < guides.size() && guides[next] == strand) {
             bindings[strand].guides = {next, next, next};
             ++next;

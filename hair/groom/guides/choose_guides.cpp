@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/error.h"
+#include "engine/steps.h"
 #include "hair/random.h"
 
 namespace hair::groom {
@@ -199,7 +200,9 @@ chooseGuides(const Groom& dense, std::uint32_t count, std::uint32_t seed) {
             std::to_string(count) + " guides from");
     if (count == 0) return {};
     Traversal traversal(dense, hash(seed, 0, purpose::guide_choice));
-    for (std::uint32_t chosen = 1; chosen < count && traversal.addFarthest();) ++chosen;
+    engine::Step step("chooses guides", count);
+    for (std::uint32_t chosen = 1; chosen < count && traversal.addFarthest(); ++chosen)
+        step.advance();
     std::vector<std::uint32_t> guides = traversal.guides();
     if (guides.size() < count) addAlike(dense, count, guides);
     std::ranges::sort(guides);

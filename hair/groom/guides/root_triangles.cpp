@@ -12,6 +12,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include "engine/steps.h"
 #include "hair/groom/growth/scalp.h"
 #include "hair/groom/growth/triangulate.h"
 #include "hair/groom/mesh/surface.h"
@@ -446,7 +447,9 @@ std::vector<glm::vec3> rootNormals(const Groom& guides, const Mesh& mesh) {
     const NearestSurface surface(mesh.positions, mesh.triangles);
     std::vector<glm::vec3> normals;
     normals.reserve(guides.strand_count);
+    engine::Step step("looks for what is under roots", guides.strand_count);
     for (std::uint32_t i = 0; i < guides.strand_count; ++i) {
+        step.advance();
         const MeshPoint at = surface(glm::dvec3(guides.strand(i)[0]));
         const auto& corners = mesh.triangles[at.triangle];
         glm::dvec3 sum(0.0);

@@ -15,6 +15,7 @@
 #include "engine/files.h"
 #include "engine/pictures.h"
 #include "engine/run_tool.h"
+#include "engine/steps.h"
 #include "hair/groom/files.h"
 #include "hair/groom/formats/usd_import.h"
 #include "hair/groom/mesh/import_gltf.h"
@@ -155,6 +156,7 @@ std::span<const MeshImporter> meshImporters() { return mesh_importers; }
 
 Mesh importMesh(const std::filesystem::path& path, Textures textures) {
     const MeshImporter& importer = importerFor(path);
+    const engine::Step step("reads " + path.filename().string());
     engine::OpenFile{path};  // what can't be opened is refused in the same words for every format
     try {
         Mesh mesh = importer.import(path, textures);

@@ -233,14 +233,14 @@ Groom braid(Groom groom, const BraidSettings& settings, std::uint32_t seed, cons
     std::vector<std::vector<glm::dvec3>> ways(count);
     std::vector<double> lengths(count);
     std::vector<double> left(count);
-    inParallel(count, [&](std::uint32_t i) {
+    inParallel("leads strands to their braid", count, [&](std::uint32_t i) {
         const auto points = groom.strand(i);
         ways[i] = way_to_tie(glm::dvec3(points[0]), entry.at(places[i], 0.0));
         lengths[i] = AlongStrand(points).length();
         left[i] = std::max(lengths[i] - lengthOf(ways[i]), 0.0);
     });
     const Braid braid(settings, axes, left);
-    inParallel(count, [&](std::uint32_t i) {
+    inParallel("braids strands", count, [&](std::uint32_t i) {
         std::vector<glm::dvec3>& line = ways[i];
         double length = lengthOf(line);
         for (double u = braid.step(); length < lengths[i]; u += braid.step()) {

@@ -146,7 +146,7 @@ bool keepClear(
 
 Groom keepClear(Groom groom, const Mesh& mesh, double clearance) {
     const NearestSurface surface(mesh.positions, mesh.triangles);
-    inParallel(groom.strand_count, [&](std::uint32_t index) {
+    inParallel("keeps strands off the mesh", groom.strand_count, [&](std::uint32_t index) {
         const std::span<const glm::vec3> strand = groom.strand(index);
         std::vector<glm::dvec3> points(strand.begin(), strand.end());
         if (keepClear(points, mesh, surface, clearance))

@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/steps.h"
 #include "hair/groom/groom.h"
 #include "hair/groom/style/style.h"
 #include "hair/random.h"
@@ -23,7 +24,9 @@ namespace {
 // fraction `start` of the strand's length.
 template <class Offsets>
 Groom displace(Groom groom, double start, Offsets&& offsets) {
+    engine::Step step("styles strands", groom.strand_count);
     for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand) {
+        step.advance();
         const AlongStrand along(groom.strand(strand));
         const auto offset = offsets(std::as_const(groom), strand, along);
         glm::vec3* const points =

@@ -311,7 +311,7 @@ glm::vec3 middleOfRoots(const Groom& groom) {
 
 Groom replay(Groom groom, const Strokes& strokes) {
     const std::size_t vertices = groom.vertices_per_strand;
-    inParallel(groom.strand_count, [&](std::uint32_t strand) {
+    inParallel("brushes strands", groom.strand_count, [&](std::uint32_t strand) {
         const auto part = [&](auto& values) {
             return values.empty() ? std::span(values)
                                   : std::span(values).subspan(strand * vertices, vertices);
@@ -323,10 +323,12 @@ Groom replay(Groom groom, const Strokes& strokes) {
 
 void replay(
     std::span<const std::uint32_t> ends, std::span<glm::vec3> points, const Strokes& strokes) {
-    inParallel(static_cast<std::uint32_t>(ends.size()), [&](std::uint32_t strand) {
-        const std::uint32_t first = strand == 0 ? 0 : ends[strand - 1];
-        strokes.replay(points.subspan(first, ends[strand] - first), {});
-    });
+    inParallel(
+        "brushes strands as drawn", static_cast<std::uint32_t>(ends.size()),
+        [&](std::uint32_t strand) {
+            const std::uint32_t first = strand == 0 ? 0 : ends[strand - 1];
+            strokes.replay(points.subspan(first, ends[strand] - first), {});
+        });
 }
 
 }  // namespace hair::groom

@@ -14,6 +14,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/error.h"
+#include "engine/steps.h"
 #include "hair/groom/style/displace.h"
 #include "hair/groom/style/clearance.h"
 #include "hair/random.h"
@@ -110,9 +111,15 @@ std::vector<std::uint32_t> clumpCentres(const Groom& groom, double spacing, std:
         return std::pair(hash(seed, strand, purpose::clump_centre), strand);
     });
     Centres centres(groom, spacing);
-    for (const std::uint32_t strand : order)
+    engine::Step step("looks for clumps", 2 * std::uint64_t{groom.strand_count});
+    for (const std::uint32_t strand : order) {
+        step.advance();
         if (!centres.nearest(strand)) centres.add(strand);
-    for (std::uint32_t i = 0; i < groom.strand_count; ++i) order[i] = centres.nearest(i).value();
+    }
+    for (std::uint32_t i = 0; i < groom.strand_count; ++i) {
+        step.advance();
+        order[i] = centres.nearest(i).value();
+    }
     return order;
 }
 
@@ -122,7 +129,9 @@ void drawToCentres(
     Groom& groom, const std::vector<std::uint32_t>& centres, const ClumpSettings& settings,
     std::uint32_t seed) {
     const std::size_t vertices = groom.vertices_per_strand;
+    engine::Step step("draws strands into clumps", groom.strand_count);
     for (std::uint32_t strand = 0; strand < groom.strand_count; ++strand) {
+        step.advance();
         if (centres[strand] == strand) continue;
         const AlongStrand along(groom.strand(strand));
         const std::span<const glm::vec3> centre = groom.strand(centres[strand]);

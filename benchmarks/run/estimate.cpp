@@ -1,0 +1,353 @@
+#include "benchmarks/run/estimate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/measure/case.h"
+#include "benchmarks/measure/hair_cache.h"
+#include "benchmarks/report/change.h"
+#include "benchmarks/report/text.h"
+#include "engine/error.h"
+#include "engine/process.h"
+#include "engine/steps.h"
+#include "hair/groom/growth/roots.h"
+#include "hair/rendering/strand_plan.h"
+#include "hair/simulation/solvers.h"
+
+namespace benchmarks::run {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// ---- Work ---------------------------------------------------------------------------------------
+
+constexpr std::uint32_t kThesisGuides = 86;  // where a scene names no number
+// Of a file, whose points nobody has counted yet.
+constexpr std::uint32_t kUncountedVertices = 16;
+
+// What a case has at most that is tried as it is on a software device.
+constexpr FrameWork kSmall{.updates = 200'000.0, .segments = 200'000.0, .samples = 400'000.0};
+constexpr double kSmallSettling = 5e6;  // updates
+
+// And one that is made smaller.
+constexpr std::uint32_t kMostStrands = 300;
+constexpr std::uint32_t kMostGuides = 172;
+constexpr std::uint32_t kMostGrownGuides = 20'000;  // by the processor, whatever the device is
+constexpr std::uint32_t kMostDensity = 4;  // of a root triangle
+constexpr double kMostSamples = 200'000.0;  // of the picture
+constexpr std::uint32_t kMostShadowResolution = 256;
+constexpr std::uint32_t kMostEnvironmentLights = 2;
+constexpr std::uint32_t kMostFieldResolution = 32;
+
+// Lights that see the hair or the meshes.
+double shadowViews(const hair::Settings& settings) {
+    const hair::ShadingSettings& shading = settings.shading;
+    if (!shading.shadows.meshes && shading.shadows.hair == hair::HairShadows::none) return 0.0;
+    double views = settings.render.environment.empty() ? 0.0 : shading.environment_lights;
+    for (const hair::LightSettings& light : shading.lights)
+        if (light.shadows) views += light.shadow_samples;
+    return views;
+}
+
+double samplesOf(const hair::RenderSettings& render) {
+    return double(render.width) * render.height * render.ssaa * render.ssaa * render.msaa;
+}
+
+}  // namespace
+
+FrameWork frameWork(const hair::Settings& settings) {
+    const hair::GroomSettings& groom = settings.groom;
+    const double guides = groom.guides == 0 ? kThesisGuides : groom.guides;
+    const std::uint32_t grown = groom.file.empty() ? groom.grow.vertices : kUncountedVertices;
+    const double vertices = groom.vertices == 0 ? grown : groom.vertices;
+    const double views = shadowViews(settings);
+    const double shadow_texels =
+        double(settings.shading.shadows.resolution) * settings.shading.shadows.resolution;
+    FrameWork work{.samples = samplesOf(settings.render) + views * shadow_texels};
+    const hair::SimulationSettings& simulation = settings.simulation;
+    if (simulation.solver != hair::Solver::none)
+        work.updates = guides * vertices * hair::simulation::stepOf(simulation).count *
+                       std::max(1.0, double{settings.run.frame_time} / simulation.time_step);
+    if (settings.render.hair) {
+        const float level = settings.lod.mode == hair::LodMode::forced ? settings.lod.level : 0.0f;
+        const float scale = std::exp2(-level);
+        // Euler's formula of a disc: 2 guides - 2 - those on its edge.
+        const double triangles = std::max(
+            1.0, 2.0 * guides - 2.0 - hair::groom::boundaryRootCount(std::uint32_t(guides)));
+        const double all =
+            settings.strands.source == hair::StrandSource::groom
+                ? std::max<double>(groom.grow.strands, guides) * scale
+                : triangles * hair::rendering::drawnStrands(settings.strands.density, scale);
+        const bool shades = settings.shading.shadows.hair != hair::HairShadows::none;
+        work.segments = (shades ? 1.0 + views : 1.0) * all * (vertices - 1.0) *
+                        hair::rendering::drawnPieces(settings.strands.tessellation, scale).count;
+    }
+    return work;
+}
+
+bool isSmall(const hair::Settings& settings, double speed) {
+    const FrameWork work = frameWork(settings);
+    return work.updates <= speed * kSmall.updates && work.segments <= speed * kSmall.segments &&
+           work.samples <= speed * kSmall.samples &&
+           settings.simulation.settle_steps * work.updates <= speed * kSmallSettling &&
+           settings.groom.grow.strands <= kMostStrands &&
+           settings.groom.guides <= kMostGrownGuides &&
+           std::ranges::all_of(settings.simulation.distance_fields, [&](const auto& field) {
+               return field.resolution <= kMostFieldResolution || speed > 1.0;
+           });
+}
+
+hair::Settings smaller(const hair::Settings& settings) {
+    hair::Settings small = settings;
+    small.groom.grow.strands = std::min(small.groom.grow.strands, kMostStrands);
+    small.groom.guides = std::min(small.groom.guides, kMostGuides);
+    small.strands.density = std::min(small.strands.density, kMostDensity);
+    if (const double samples = samplesOf(small.render); samples > kMostSamples) {
+        const double shrink = std::sqrt(kMostSamples / samples);
+        for (std::uint32_t* side : {&small.render.width, &small.render.height})
+            *side = std::max(1u, static_cast<std::uint32_t>(shrink * *side));
+    }
+    hair::ShadingSettings& shading = small.shading;
+    shading.environment_lights = std::min(shading.environment_lights, kMostEnvironmentLights);
+    shading.shadows.resolution = std::min(shading.shadows.resolution, kMostShadowResolution);
+    small.simulation.settle_steps = 0;
+    small.simulation.rest = hair::RestShape::groom;
+    for (hair::DistanceFieldSettings& field : small.simulation.distance_fields)
+        field.resolution = std::min(field.resolution, kMostFieldResolution);
+    return small;
+}
+
+double mostTimesLonger(const FrameWork& of, const FrameWork& tried) {
+    const auto ratio = [](double a, double b) { return a / std::max(b, 1.0); };
+    return std::max(
+        {ratio(of.updates, tried.updates), ratio(of.segments, tried.segments),
+         ratio(of.samples, tried.samples)});
+}
+
+namespace {
+
+// ---- Cases that are tried -----------------------------------------------------------------------
+
+// Overlapped, isolated, and by the CPU's clock where timestamps are not trusted.
+constexpr double kModes = 3;
+// Of /run/max_time, for the check of the timestamps.
+constexpr double kCheckShare = 0.1;
+// Pictures of /run/compare_backends: one of 64 samples a pixel, tessellation's and two of what is
+// covered.
+constexpr double kComparisonFrames = 67;
+
+// Of any GPU beside a software device.
+constexpr double kDeviceSpeed = 100.0;
+
+// In which another case is begun to be tried, after the first.
+constexpr std::chrono::seconds kTrials{4};
+
+struct Estimate {
+    std::optional<double> frame;  // ms
+    std::optional<std::uint64_t> bytes;
+    bool was_tried = false;  // as it is
+    std::string problem;
+};
+
+struct Trial {
+    FrameWork work;
+    double frame = 0.0;  // ms
+};
+
+// The second frame: the first one compiles pipelines.
+double frameTime(const engine::Device& device, measure::Case& test_case) {
+    engine::FrameLoop loop(device, engine::Timing::isolated);
+    for (int i = 0; i < 2; ++i) {
+        engine::checkInterrupted();
+        loop.frame([&](engine::Passes& passes) { test_case.frame(passes); });
+    }
+    const engine::FrameRecord frame = loop.finish().back();
+    return frame.record + frame.wall;
+}
+
+// Seconds that measuring a case takes if its median is not known well enough before /run/max_time,
+// its timestamps are tested as long as they may be and are not trusted in the end, and every
+// picture that it is compared with has to be drawn. Making the case is not in it. `frame_ms`: of
+// one frame.
+double mostSeconds(const hair::RunSettings& run, double frame_ms) {
+    const double round = (run.warmup + run.frames + 1) * frame_ms / 1e3;
+    // Rounds begin until max_time; the last one is played to its end.
+    const double mode = double{run.max_time} + round;
+    const double compared = run.compare_backends ? round + kComparisonFrames * frame_ms / 1e3 : 0.0;
+    return kModes * mode + kCheckShare * double{run.max_time} + compared;
+}
+
+class Trials {
+public:
+    Trials(const RunPlan& plan, const engine::Device& device, measure::HairCache& cache)
+        : plan_(plan), device_(device), cache_(cache),
+          speed_(device.info().type == "cpu" ? 1.0 : kDeviceSpeed), estimates_(plan.cases.size()) {}
+
+    // Tries cases as long as there is time. Throws Interrupted.
+    void play();
+    // Gives the cases that were not tried what the others say of them.
+    void estimateOthers();
+
+    const std::vector<Estimate>& estimates() const { return estimates_; }
+    std::size_t tried() const {
+        return static_cast<std::size_t>(
+            std::ranges::count_if(estimates_, [](const Estimate& each) { return each.was_tried; }));
+    }
+
+private:
+    const hair::Settings& settings(std::size_t place) const {
+        return plan_.cases[place].spec.settings;
+    }
+    enum class Size { whole, smaller };
+    void tryCase(std::size_t place, Size size);
+
+    const RunPlan& plan_;
+    const engine::Device& device_;
+    measure::HairCache& cache_;
+    double speed_;
+    std::vector<Estimate> estimates_;
+    std::vector<Trial> trials_;
+};
+
+void Trials::tryCase(std::size_t place, Size size) {
+    const std::string name = plan_.cases[place].spec.name;
+    const engine::Step step((size == Size::whole ? "tries " : "tries a smaller ") + name);
+    Estimate& estimate = estimates_[place];
+    const hair::Settings settings =
+        size == Size::whole ? this->settings(place) : smaller(this->settings(place));
+    try {
+        measure::Case test_case(device_, settings, plan_.cases[place].directory, &cache_);
+        const double frame = frameTime(device_, test_case);
+        trials_.push_back({.work = frameWork(settings), .frame = frame});
+        if (size == Size::smaller) return;
+        estimate = {.frame = frame, .bytes = device_.allocatedBytes(), .was_tried = true};
+    } catch (const engine::Unsupported& error) {
+        estimate = {.was_tried = true, .problem = error.what()};
+    } catch (const engine::Error& error) {
+        // A smaller case may lack what this one has: a guide that is pulled at.
+        if (size == Size::whole) estimate = {.was_tried = true, .problem = error.what()};
+    }
+}
+
+void Trials::play() {
+    std::vector<std::size_t> order(estimates_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto work = [&](std::size_t place) { return frameWork(settings(place)); };
+    const auto all = [&](std::size_t place) {
+        return work(place).updates + work(place).segments + work(place).samples;
+    };
+    std::ranges::stable_sort(order, {}, all);
+    // From the second trial on: the first one compiles what they have in common.
+    std::optional<Clock::time_point> start;
+    const auto is_over = [&] { return start && Clock::now() > *start + kTrials; };
+    const auto try_case = [&](std::size_t place, Size size) {
+        tryCase(place, size);
+        if (!start) start = Clock::now();
+    };
+
+    // Cases with the most work of a kind, made smaller, tell more of the large ones than small
+    // ones do.
+    std::set<std::size_t> largest;
+    for (double FrameWork::* const part :
+         {&FrameWork::segments, &FrameWork::updates, &FrameWork::samples})
+        largest.insert(
+            *std::ranges::max_element(order, {}, [&](std::size_t i) { return work(i).*part; }));
+    for (const std::size_t place : largest) {
+        if (isSmall(settings(place), speed_) || (is_over() && !trials_.empty())) continue;
+        try_case(place, Size::smaller);
+    }
+    for (const std::size_t place : order) {
+        const bool small = isSmall(settings(place), speed_);
+        // What the device can't do may be all that is known so far.
+        if (is_over() || (!small && !trials_.empty())) break;
+        try_case(place, small ? Size::whole : Size::smaller);
+    }
+}
+
+void Trials::estimateOthers() {
+    for (std::size_t place = 0; place < estimates_.size(); ++place) {
+        Estimate& estimate = estimates_[place];
+        if (estimate.was_tried) continue;
+        const FrameWork work = frameWork(settings(place));
+        // Each is an upper bound.
+        for (const Trial& trial : trials_) {
+            const double frame = trial.frame * std::max(1.0, mostTimesLonger(work, trial.work));
+            estimate.frame = std::min(frame, estimate.frame.value_or(frame));
+        }
+    }
+}
+
+// ---- Table --------------------------------------------------------------------------------------
+
+void print(const RunPlan& plan, const Trials& trials) {
+    std::vector<report::Column> columns(5);
+    columns[0] = {.title = "case", .numeric = false};
+    columns[1] = {.title = "memory"};
+    columns[2] = {.title = "frame ms"};
+    columns[3] = {.title = "at most s"};
+    columns[4] = {.title = "", .numeric = false};
+    double seconds = 0.0;
+    std::uint64_t bytes = 0;
+    for (std::size_t i = 0; i < plan.cases.size(); ++i) {
+        const Estimate& each = trials.estimates()[i];
+        const std::string about = each.was_tried ? "" : "about ";
+        std::optional<double> most;
+        if (each.frame) most = mostSeconds(plan.cases[i].spec.settings.run, *each.frame);
+        columns[0].cells.push_back(plan.cases[i].spec.name);
+        columns[1].cells.push_back(each.bytes ? report::sizeText(*each.bytes) : "-");
+        columns[2].cells.push_back(each.frame ? about + report::shortNumber(*each.frame) : "-");
+        columns[3].cells.push_back(most ? about + report::shortNumber(*most) : "-");
+        columns[4].cells.push_back(each.problem);
+        seconds += most.value_or(0.0);
+        bytes = std::max(bytes, each.bytes.value_or(0));
+    }
+    for (std::size_t row = 0; row <= plan.cases.size(); ++row)
+        std::cout << report::columnsLine(columns, row);
+    const std::size_t count = plan.cases.size();
+    const std::size_t tried = trials.tried();
+    std::cout << count << (count == 1 ? " case, " : " cases, ");
+    if (bytes > 0) std::cout << "at most " << report::sizeText(bytes) << " at a time, ";
+    if (seconds > 0.0)
+        std::cout << "at most " << report::shortNumber(seconds / 60.0) << " min\n";
+    else
+        std::cout << "none of which could be tried\n";
+    if (tried < count && seconds > 0.0)
+        std::cout << tried << " of them tried; others' times are estimated from "
+                  << (tried > 0 ? "those" : "a smaller case")
+                  << " by counts of guides, strands and samples, and their memory is not known\n";
+}
+
+}  // namespace
+
+int estimateRun(
+    const RunPlan& plan, const engine::DeviceOptions& options, measure::HairCache& cache) {
+    std::optional<engine::Device> device;
+    try {
+        device.emplace(options);
+    } catch (const engine::NoDevice& error) {
+        std::cerr << "hairbench: no estimates: " << error.what() << '\n';
+        return printNames(plan);
+    }
+    Trials trials(plan, *device, cache);
+    int status = report::kOk;
+    try {
+        trials.play();
+    } catch (const engine::Interrupted&) {
+        status = report::kInterrupted;
+    }
+    trials.estimateOthers();
+    print(plan, trials);
+    return status;
+}
+
+}  // namespace benchmarks::run

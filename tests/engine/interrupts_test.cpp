@@ -1,0 +1,156 @@
+// What becomes of an interrupt, and what steps say of where they are. A process that is interrupted
+// is never as before: each test has one of its own.
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "engine/process.h"
+#include "engine/steps.h"
+#include "tests/temporary_folder.h"
+
+namespace engine {
+namespace {
+
+using namespace std::chrono_literals;
+
+class Interrupts : public testing::Test {
+protected:
+    void SetUp() override { GTEST_FLAG_SET(death_test_style, "threadsafe"); }
+
+    // Waits for a device that is never done.
+    [[noreturn]] static void waitForEver() {
+        waitHeeding([](std::uint64_t nanoseconds) {
+            std::this_thread::sleep_for(std::chrono::nanoseconds(nanoseconds));
+            return false;
+        });
+        std::_Exit(1);
+    }
+    static void interrupt() {
+        catchInterrupts();
+        std::raise(SIGTERM);
+    }
+};
+
+TEST_F(Interrupts, EndAWaitForTheDeviceWithLastWords) {
+    const TemporaryFolder folder;
+    const std::filesystem::path left = folder.file("left");
+    EXPECT_EXIT(
+        {
+            const Leftover leftover(left);
+            std::ofstream(left) << "half";
+            const LastWords outer([] { std::cerr << "outer\n"; });
+            const LastWords inner([] { std::cerr << "inner\n"; });
+            interrupt();
+            waitForEver();
+        },
+        testing::ExitedWithCode(130), "inner\nouter\n");
+    EXPECT_FALSE(std::filesystem::exists(left));
+}
+
+TEST_F(Interrupts, LetADeviceThatIsNearlyDoneFinish) {
+    EXPECT_EXIT(
+        {
+            interrupt();
+            int waits = 0;
+            waitHeeding([&](std::uint64_t) { return ++waits > 2; });
+            std::_Exit(interrupted() ? 7 : 1);
+        },
+        testing::ExitedWithCode(7), "");
+}
+
+TEST_F(Interrupts, SayWhatWentWrongWithLastWords) {
+    EXPECT_EXIT(
+        {
+            const LastWords words([] { throw std::runtime_error("the disk is full"); });
+            interrupt();
+            waitForEver();
+        },
+        testing::ExitedWithCode(1), "the disk is full");
+}
+
+TEST_F(Interrupts, EndWhatNeverAsks) {
+    EXPECT_EXIT(
+        {
+            interrupt();
+            for (;;) pause();
+        },
+        testing::ExitedWithCode(130), "interrupted\n");
+}
+
+TEST_F(Interrupts, LeaveTheEndToWhoAsked) {
+    EXPECT_EXIT(
+        {
+            interrupt();
+            try {
+                checkInterrupted();
+            } catch (const Interrupted&) {
+                std::this_thread::sleep_for(2s);  // writes what there is
+                std::_Exit(7);
+            }
+        },
+        testing::ExitedWithCode(7), "");
+}
+
+TEST_F(Interrupts, EndAStepThatAdvances) {
+    EXPECT_EXIT(
+        {
+            Step step("walks", 3);
+            step.advance();
+            interrupt();
+            try {
+                step.advance();
+            } catch (const Interrupted&) {
+                std::_Exit(7);
+            }
+        },
+        testing::ExitedWithCode(7), "");
+}
+
+TEST(Steps, AreThoseUnderWayOutermostFirst) {
+    EXPECT_EQ(stepsUnderWay().text, "");
+    int ends = 0;
+    onceStepsEnd([&] { ++ends; });
+    {
+        std::string words = "case 1";
+        const Step outer([&] { return words; });
+        EXPECT_EQ(stepsUnderWay().start, outer.start());
+        {
+            Step inner("grows strands", 100);
+            inner.advance(30);
+            EXPECT_EQ(stepsUnderWay().text, "case 1  grows strands, 30 of 100");
+            inner.advance(100);  // more than it thought
+            EXPECT_EQ(stepsUnderWay().text, "case 1  grows strands, 100 of 100");
+        }
+        words = "case 2";
+        EXPECT_EQ(stepsUnderWay().text, "case 2");
+        EXPECT_EQ(ends, 0);
+        const Step reads("reads a.hair");
+        EXPECT_EQ(stepsUnderWay().text, "case 2  reads a.hair");
+    }
+    EXPECT_EQ(stepsUnderWay().text, "");
+    EXPECT_EQ(ends, 1);
+    onceStepsEnd({});
+}
+
+TEST(Steps, CountWhatAllThreadsDo) {
+    Step step("walks", 2000);
+    const auto walk = [&] {
+        for (int i = 0; i < 1000; ++i) step.advance();
+    };
+    std::thread other(walk);
+    walk();
+    other.join();
+    EXPECT_EQ(step.text(), "walks, 2000 of 2000");
+}
+
+}  // namespace
+}  // namespace engine
