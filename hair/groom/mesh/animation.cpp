@@ -356,9 +356,11 @@ private:
 std::vector<std::string> animationNames(const std::filesystem::path& path) {
     if (!isGltf(path) && !isUsd(path)) return {};
     try {
-        if (isUsd(path))
-            return readUsdSamples(path).times.size() > 1 ? std::vector<std::string>{kUsdClip}
-                                                         : std::vector<std::string>{};
+        if (isUsd(path)) {
+            std::vector<std::string> names;
+            if (readUsdSamples(path).times.size() > 1) names.emplace_back(kUsdClip);
+            return names;
+        }
         return namesOf(loadAnimated(path));
     } catch (const engine::Error& error) {
         throw engine::Error(path.string(), error.what());
