@@ -72,7 +72,7 @@ engine::WindowDescription windowOf(const ViewOptions& options, const Preferences
 }
 
 hair::Settings settingsOf(const ViewOptions& options) {
-    scene::Scene scene = scene::loadScene(options.scene.scene);
+    scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
     return scene::singleCase(scene, options.scene).settings;
 }
 
@@ -82,9 +82,9 @@ hair::Settings settingsOf(const ViewOptions& options) {
 
 Viewer::Parts::Parts(
     const ViewOptions& options, const SceneFile& file, const hair::Settings& settings)
-    : preferences(preferencesOf(options)), driven(!options.script.empty() || options.frames > 0),
-      live(options.live), fixed_scale(static_cast<float>(options.scale)),
-      window(windowOf(options, preferences.now)),
+    : outside(options.scene.outside), preferences(preferencesOf(options)),
+      driven(!options.script.empty() || options.frames > 0), live(options.live),
+      fixed_scale(static_cast<float>(options.scale)), window(windowOf(options, preferences.now)),
       gives_way(!waitsForDrawing() && computesOnProcessors(options.scene.device)),
       scene_device(makeSceneDevice(options.scene.device, gives_way)),
       device(windowed(options.scene.device)),
@@ -418,7 +418,7 @@ std::filesystem::path Viewer::Parts::suggestedPath() const {
 
 void Viewer::Parts::open(const std::filesystem::path& path) {
     message.attempt([&] {
-        scene.open(openScene(path));
+        scene.open(openScene(path, outside));
         message.tell("opening " + path.string());
     });
 }
@@ -446,7 +446,7 @@ void Viewer::Parts::saveAs(const std::filesystem::path& path) {
 
 void Viewer::Parts::copyArguments() {
     message.attempt([&] {
-        const scene::Scene saved = scene::loadScene(scene.file().path);
+        const scene::Scene saved = scene::loadScene(scene.file().path, scene::Outside::allowed);
         // It may have been saved to another folder than the one that it was opened in.
         const std::string arguments = caseArguments(
             saved,
@@ -504,8 +504,8 @@ void Viewer::Parts::drop(const std::filesystem::path& file) {
 // ---- What is seen from outside ------------------------------------------------------------------
 
 Viewer::Viewer(const ViewOptions& options)
-    : parts_(
-          std::make_unique<Parts>(options, openScene(options.scene.scene), settingsOf(options))) {}
+    : parts_(std::make_unique<Parts>(
+          options, openScene(options.scene.scene, options.scene.outside), settingsOf(options))) {}
 Viewer::~Viewer() {
     // Whoever measures waits for the window between rounds.
     parts_->timings.measuring().cancel();
