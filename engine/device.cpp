@@ -1,12 +1,16 @@
 #include "engine/device.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <limits>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include <unistd.h>
+#include <zlib.h>
 
 #include "engine/commands.h"
 #include "engine/files.h"
@@ -30,9 +34,57 @@ std::filesystem::path cacheFile(const VkPhysicalDeviceProperties& properties) {
     return folder / (name + "-" + std::to_string(properties.driverVersion) + ".bin");
 }
 
-std::vector<char> bytesOf(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
+constexpr std::uintmax_t kMostCacheBytes = std::uintmax_t{256} << 20;  // of all drivers' files
+
+// Behind a driver's data in its file: the version of this, and a checksum of the data, which not
+// every driver looks for.
+std::string sealOf(const std::vector<char>& data) {
+    const auto* const bytes = reinterpret_cast<const Bytef*>(data.data());
+    const std::string sum = std::to_string(crc32_z(0, bytes, data.size()));
+    return "hairbench 1 " + std::string(10 - sum.size(), '0') + sum;
+}
+
+// A driver's data as they were written; empty where the file is damaged or no file.
+std::vector<char> sealedBytes(const std::filesystem::path& file) {
+    std::error_code error;
+    const std::uintmax_t size =
+        std::filesystem::is_regular_file(file, error) ? std::filesystem::file_size(file, error) : 0;
+    const std::size_t seal_size = sealOf({}).size();
+    if (error || size < seal_size || size > kMostCacheBytes) return {};
+    std::vector<char> data(size);
+    std::ifstream(file, std::ios::binary).read(data.data(), static_cast<std::streamsize>(size));
+    const std::string seal(data.end() - static_cast<std::ptrdiff_t>(seal_size), data.end());
+    data.resize(size - seal_size);
+    if (seal != sealOf(data)) return {};
+    std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), error);
+    return data;
+}
+
+// Removes the files that were used longest ago, of drivers that may be gone, where all are too
+// much.
+void trimCaches(const std::filesystem::path& folder) {
+    struct Entry {
+        std::filesystem::path path;
+        std::filesystem::file_time_type used;
+        std::uintmax_t size;
+    };
+    std::vector<Entry> entries;
+    std::uintmax_t bytes = 0;
+    std::error_code error;
+    for (const auto& each : std::filesystem::directory_iterator(folder, error)) {
+        if (!each.path().filename().string().starts_with("pipelines-")) continue;
+        std::error_code gone;  // another process may have removed it
+        const Entry entry{each.path(), each.last_write_time(gone), each.file_size(gone)};
+        if (gone) continue;
+        bytes += entry.size;
+        entries.push_back(entry);
+    }
+    std::ranges::sort(entries, {}, &Entry::used);
+    for (const Entry& entry : entries) {
+        if (bytes <= kMostCacheBytes) break;
+        std::filesystem::remove(entry.path, error);
+        bytes -= entry.size;
+    }
 }
 
 // Whether the data is of this device's driver. Drivers have to check that too, but not every one
@@ -82,7 +134,7 @@ PipelineCache::PipelineCache(VkDevice device, const DeviceInfo& info) : device_(
     VkPhysicalDeviceProperties properties{};
     vkGetPhysicalDeviceProperties(info.handle, &properties);
     file_ = cacheFile(properties);
-    if (!file_.empty()) loaded_ = bytesOf(file_);
+    if (!file_.empty()) loaded_ = sealedBytes(file_);
     if (!belongsTo(loaded_, properties)) loaded_.clear();
 
     const VkPipelineCacheCreateInfo create{
@@ -103,19 +155,27 @@ PipelineCache::~PipelineCache() {
         data.resize(size);
     }
     vkDestroyPipelineCache(device_, cache_, nullptr);
-    if (file_.empty() || data.empty() || data == loaded_) return;
+    if (file_.empty() || data.empty() || data == loaded_ || data.size() > kMostCacheBytes / 4)
+        return;
 
     // Written beside and renamed, so that a second process never reads half a file.
     std::error_code ignored;
     std::filesystem::create_directories(file_.parent_path(), ignored);
     const std::filesystem::path part = file_.string() + "." + std::to_string(getpid());
     const Leftover leftover(part);
+    const std::string seal = sealOf(data);
+    bool written = false;
     {
         std::ofstream stream(part, std::ios::binary);
         stream.write(data.data(), static_cast<std::streamsize>(data.size()));
-        if (!stream) return;
+        stream.write(seal.data(), static_cast<std::streamsize>(seal.size()));
+        stream.close();
+        written = !stream.fail();
     }
-    std::filesystem::rename(part, file_, ignored);
+    std::error_code error;
+    if (written) std::filesystem::rename(part, file_, error);
+    if (!written || error) std::filesystem::remove(part, ignored);
+    trimCaches(file_.parent_path());
 }
 
 // ---- The logical device -------------------------------------------------------------------------

@@ -103,9 +103,21 @@ void writeFile(
     if (poll) poll();
 }
 
+// Whether it is one of the program's own open files, as /dev/stdout and the shell's >(command) are.
+bool isOpenAlready(const fs::path& path) {
+    const fs::path folder = path.parent_path();
+    return folder == "/dev/fd" || folder == "/proc/self/fd" || path == "/dev/stdout" ||
+           path == "/dev/stderr";
+}
+
 // Makes the folder that the file is to be in.
 void makePlaceFor(const fs::path& path) {
     std::error_code error;
+    const fs::file_type type = fs::status(path, error).type();
+    if ((type == fs::file_type::fifo || type == fs::file_type::socket) && !isOpenAlready(path))
+        throw Error(path.string(), "is a pipe or a socket, which waits for its reader");
+    if (type == fs::file_type::block) throw Error(path.string(), "is a disk, not a file to write");
+    error.clear();
     if (path.filename().empty() || fs::is_directory(path, error))
         throw Error(path.string(), "is a folder, not a file to write");
     error.clear();
@@ -169,6 +181,7 @@ void writeFileAtomically(const fs::path& path, const Writer& write, const WriteP
     makePlaceFor(path);
     std::error_code error;
     const bool there = fs::exists(path, error);
+    if (error) fail(path, error.value());  // links in a circle, a name that is too long
     if (there && !fs::is_regular_file(path, error)) return writeFile(path, path, write, poll);
     const fs::path target = there ? fs::canonical(path, error) : path;
     const fs::path partial(target.string() + ".partial");

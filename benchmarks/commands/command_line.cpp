@@ -126,6 +126,12 @@ void addCacheOption(CLI::App& command, scene::SceneOptions& options) {
         "bake distance fields and settle hair anew, and keep neither on disk");
 }
 
+void addOutsideOption(CLI::App& command, scene::Outside& outside) {
+    command.add_flag_callback(
+        "--allow-outside", [&outside] { outside = scene::Outside::allowed; },
+        "let scenes name files outside of their folder");
+}
+
 void addSceneOptions(CLI::App& command, scene::SceneOptions& options) {
     command.add_option("scene", options.scene, "scene file (.json)")->required()->type_name("FILE");
     addRepeated(
@@ -137,6 +143,7 @@ void addSceneOptions(CLI::App& command, scene::SceneOptions& options) {
         ->type_name("POINTER=VALUE");
     addDeviceOptions(command, options.device);
     addCacheOption(command, options);
+    addOutsideOption(command, options.outside);
 }
 
 void addSamplingOptions(CLI::App& command, scene::SceneOptions& options) {
@@ -197,6 +204,7 @@ void addCheckCommands(const CommandLine& line) {
             command.add_option("scenes", options.scenes, "scene files")
                 ->required()
                 ->type_name("FILE...");
+            addOutsideOption(command, options.outside);
             command.add_flag(
                 "--start", options.start,
                 "settle each scene's hair on the device, its axes apart, and say what is wrong "
@@ -543,6 +551,7 @@ void addGateOptions(CLI::App& command, gate::GateOptions& options) {
         ->type_name("POINTER=VALUE");
     addSamplingOptions(command, options.scene);
     addCacheOption(command, options.scene);
+    addOutsideOption(command, options.scene.outside);
     command.add_option(
         "--device", options.scene.device.wanted,
         "index or part of the name of the device (see 'hairbench devices')");

@@ -201,6 +201,7 @@ int viewScene(const viewer::ViewOptions& options);
 
 struct ValidateOptions {
     std::vector<std::filesystem::path> scenes;
+    scene::Outside outside = scene::Outside::refused;
     bool start = false;  // look at the hair of each scene on the device
     engine::DeviceOptions device;  // for that
 };

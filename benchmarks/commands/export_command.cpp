@@ -10,7 +10,7 @@
 namespace benchmarks::commands {
 
 int exportScene(const ExportOptions& options) {
-    scene::Scene scene = scene::loadScene(options.scene.scene);
+    scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
     measure::HairCache cache = measure::userHairCache(options.scene.cache);
     const scene::CaseSpec spec = scene::singleCase(scene, options.scene, &cache.assets());
     engine::checkWritable(options.mitsuba / "scene.xml");

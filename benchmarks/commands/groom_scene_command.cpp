@@ -93,7 +93,8 @@ constexpr std::uint32_t kViewSize = 320;  // px
 
 // The scene's first frame from each of the views, side by side.
 void drawSheet(const GroomSceneOptions& options, const std::vector<hair::CameraSettings>& views) {
-    scene::Scene scene = scene::loadScene(options.out);
+    scene::Scene scene =
+        scene::loadScene(options.out, scene::Outside::allowed);  // hair and head are the user's
     measure::HairCache cache = measure::userHairCache(true);
     hair::Settings settings =
         scene::singleCase(scene, {.scene = options.out}, &cache.assets()).settings;
@@ -119,6 +120,16 @@ void drawSheet(const GroomSceneOptions& options, const std::vector<hair::CameraS
     }
     engine::writePng(options.sheet, width, kViewSize, sheet);
     tell("wrote", options.sheet.string() + ": front, left, back and right");
+}
+
+// What opening the scene takes: hair and head may lie where a scene opens nothing by itself.
+std::string optionsToOpen(const fs::path& scene) {
+    try {
+        scene::loadScene(scene);
+        return {};
+    } catch (const engine::Error&) {
+        return "--allow-outside ";
+    }
 }
 
 int axisNamed(const std::string& name) { return name == "x" ? 0 : name == "y" ? 1 : 2; }
@@ -168,8 +179,8 @@ int makeGroomScene(const GroomSceneOptions& options) {
         std::cerr << "hairbench: " << options.hair.string() << ": " << warning << '\n';
     engine::writeFileAtomically(options.out, scene::changedFields(settings).dump(2) + '\n');
     tell(
-        "wrote",
-        options.out.string() + "; hairbench render " + options.out.string() + " -o picture.png");
+        "wrote", options.out.string() + "; hairbench render " + optionsToOpen(options.out) +
+                     options.out.string() + " -o picture.png");
     if (!options.sheet.empty()) drawSheet(options, made.views);
     return report::kOk;
 }

@@ -74,7 +74,7 @@ int validateScenes(const ValidateOptions& options) {
         try {
             std::size_t count = 0;
             std::vector<std::string> warnings;
-            std::vector<scene::Scene> loaded = scene::loadScenes(path);
+            std::vector<scene::Scene> loaded = scene::loadScenes(path, options.outside);
             for (scene::Scene& scene : loaded)
                 count +=
                     scene::selectCases(scene, {.scene = path}, &cache.assets(), &warnings).size();

@@ -35,7 +35,7 @@ void checkPath(const lod::LodPath& path, const hair::Settings& settings) {
 }  // namespace
 
 int walkLod(const LodOptions& options) {
-    scene::Scene scene = scene::loadScene(options.scene.scene);
+    scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
     measure::HairCache cache = measure::userHairCache(options.scene.cache);
     const scene::CaseSpec spec = scene::singleCase(scene, options.scene, &cache.assets());
     const hair::Settings& settings = spec.settings;

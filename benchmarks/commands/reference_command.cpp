@@ -15,7 +15,7 @@ int renderReference(const ReferenceOptions& options) {
     const std::string extension = hair::groom::lowerCaseExtension(options.out);
     if (extension != ".exr" && extension != ".png")
         throw engine::Error(options.out.string(), "is neither .exr nor .png");
-    scene::Scene scene = scene::loadScene(options.scene.scene);
+    scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
     measure::HairCache cache = measure::userHairCache(options.scene.cache);
     const scene::CaseSpec spec = scene::singleCase(scene, options.scene, &cache.assets());
     const hair::Settings& settings = spec.settings;

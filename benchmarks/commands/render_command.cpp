@@ -68,7 +68,7 @@ int renderScene(const RenderOptions& options) {
     const auto file = [&](std::uint32_t frame) { return paths ? paths->of(frame) : options.out; };
     checkFormat(file(range.first));
 
-    scene::Scene scene = scene::loadScene(options.scene.scene);
+    scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
     measure::HairCache cache = measure::userHairCache(options.scene.cache);
     const scene::CaseSpec spec = scene::singleCase(scene, options.scene, &cache.assets());
     engine::checkWritable(file(range.first));

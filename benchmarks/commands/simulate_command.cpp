@@ -13,7 +13,7 @@ namespace benchmarks::commands {
 
 int simulateScene(const SimulateOptions& options) {
     const groom::RecordingOptions& recording = options.recording;
-    scene::Scene scene = scene::loadScene(options.scene.scene);
+    scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
     measure::HairCache cache = measure::userHairCache(options.scene.cache);
     const scene::CaseSpec spec = scene::singleCase(scene, options.scene, &cache.assets());
     hair::groom::strandExporterOf(recording.out);  // or there is nothing to play for

@@ -225,8 +225,9 @@ std::vector<std::string> runOptions(char name, const GateOptions& options) {
     addRepeated(all, "--set", name == 'A' ? options.a_sets : options.b_sets);
     if (!options.filter.empty()) addRepeated(all, "--filter", {options.filter});
     if (!scene.device.wanted.empty()) addRepeated(all, "--device", {scene.device.wanted});
-    // Where it is asked for alone: programs of before the option do not know it.
+    // Where they are asked for alone: programs of before these options do not know them.
     if (!scene.cache) all.emplace_back("--no-cache");
+    if (scene.outside == scene::Outside::allowed) all.emplace_back("--allow-outside");
     if (scene.frames) addRepeated(all, "--frames", {std::to_string(*scene.frames)});
     if (scene.warmup) addRepeated(all, "--warmup", {std::to_string(*scene.warmup)});
     if (scene.precision) addRepeated(all, "--precision", {scene::decimalText(*scene.precision)});

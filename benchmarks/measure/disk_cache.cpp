@@ -59,7 +59,7 @@ std::optional<std::string> DiskCache::load(const std::string& key) const {
     const fs::path path = fileOf(key);
     std::error_code error;
     const std::uintmax_t size = fs::file_size(path, error);
-    if (error) return std::nullopt;
+    if (error) return std::nullopt;  // nothing, or no regular file
     const auto unusable = [&](const char* reason) {
         warn(key, reason);
         return std::nullopt;
@@ -71,6 +71,7 @@ std::optional<std::string> DiskCache::load(const std::string& key) const {
     file.read(magic.data(), static_cast<std::streamsize>(magic.size()));
     file.read(reinterpret_cast<char*>(&header), sizeof header);
     if (!file || magic != kMagic) return unusable("no entry of this cache");
+    if (size > options_.most_bytes) return unusable("damaged");  // larger than all that is kept
     const std::uintmax_t body = size - kMagic.size() - sizeof header;
     if (header.key_size > body || header.size != body - header.key_size) return unusable("damaged");
     std::string found(header.key_size, '\0');

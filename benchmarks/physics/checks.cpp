@@ -5,13 +5,13 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
-#include <regex>
 
 #include "benchmarks/measure/progress.h"
 #include "benchmarks/physics/experiment.h"
 #include "benchmarks/physics/theory.h"
 #include "benchmarks/report/environment.h"
 #include "benchmarks/scene/json.h"
+#include "benchmarks/scene/pattern.h"
 #include "engine/error.h"
 #include "engine/process.h"
 #include "hair/simulation/solvers.h"
@@ -98,10 +98,10 @@ std::vector<hair::Solver> chosenSolvers(const std::vector<std::string>& names) {
 std::vector<Check> chosenChecks(const std::string& regex) {
     std::vector<Check> chosen;
     try {
-        const std::regex pattern(regex, std::regex::ECMAScript);
+        const scene::Pattern wanted(regex);
         for (const Check& check : allChecks())
-            if (std::regex_search(check.name, pattern)) chosen.push_back(check);
-    } catch (const std::regex_error& error) {
+            if (wanted.isIn(check.name)) chosen.push_back(check);
+    } catch (const engine::Error& error) {
         throw engine::Error("--check " + regex, error.what());
     }
     return chosen;

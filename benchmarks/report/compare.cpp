@@ -9,7 +9,7 @@
 
 #include "benchmarks/report/change.h"
 #include "benchmarks/scene/json.h"
-#include "benchmarks/scene/sweep.h"
+#include "benchmarks/scene/pattern.h"
 #include "engine/error.h"
 
 namespace benchmarks::report {
@@ -78,11 +78,10 @@ Clock judgedClock(bool software_device, std::span<const MetricId> metrics) {
 MetricChoice metricsNamed(const std::string& regex) {
     if (regex.empty()) return {};
     try {
-        return [matches = scene::nameMatcher(regex)](const MetricId& id) {
-            return matches(id.name());
-        };
+        return
+            [wanted = scene::Pattern(regex)](const MetricId& id) { return wanted.isIn(id.name()); };
     } catch (const engine::Error& error) {
-        throw engine::Error("--metrics", error.what());
+        throw engine::Error("--metrics", regex + ": " + error.what());
     }
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -118,6 +119,21 @@ std::string field(const std::string& text) {
     return quoted + '"';
 }
 
+// A text that a spreadsheet would take for a formula gets an apostrophe before it, which makes it a
+// text there, too (OWASP, CSV Injection). Names of scenes and of files are anybody's.
+std::string textField(const std::string& text) {
+    const bool is_formula =
+        !text.empty() && std::string_view("=+-@\t\r\n").find(text.front()) != std::string::npos;
+    return is_formula ? '\'' + text : text;
+}
+
+// The member as a table shows it: numbers as they are.
+std::string memberField(const scene::Json& object, const std::string& member) {
+    const std::string text = cellText(object, member);
+    const auto found = object.find(member);
+    return found != object.end() && found->is_number() ? text : textField(text);
+}
+
 std::string line(const std::vector<std::string>& cells) {
     std::string text = field(cells.front());
     for (const std::string& cell : std::span(cells).subspan(1)) text += ',' + field(cell);
@@ -125,25 +141,26 @@ std::string line(const std::vector<std::string>& cells) {
 }
 
 // RFC 4180, but lines end with LF alone: a row for each metric of each case, with a column for each
-// axis, and a row with the reason for each case that has none. Empty fields are not known.
+// axis, and a row with the reason for each case that has none. Empty fields are not known. No text
+// is a formula to spreadsheets.
 std::string csv(const scene::Json& report) {
     const std::vector<std::string> pointers = axisPointers(report);
     std::vector<std::string> titles{"case"};
-    titles.insert(titles.end(), pointers.begin(), pointers.end());
+    for (const std::string& pointer : pointers) titles.push_back(textField(pointer));
     titles.insert(titles.end(), {"status", "reason", "metric", "samples"});
     titles.insert(titles.end(), std::begin(kMetricMembers), std::end(kMetricMembers));
     std::string text = line(titles);
 
     const auto add = [&](const scene::Json& result, const std::string& name,
                          const scene::Json& metric) {
-        std::vector<std::string> cells{cellText(result, "name")};
+        std::vector<std::string> cells{memberField(result, "name")};
         for (const std::string& pointer : pointers)
-            cells.push_back(cellText(result.at("axes"), pointer));
-        cells.push_back(cellText(result, "status"));
-        cells.push_back(cellText(result, "reason"));
-        cells.push_back(name);
+            cells.push_back(memberField(result.at("axes"), pointer));
+        cells.push_back(memberField(result, "status"));
+        cells.push_back(memberField(result, "reason"));
+        cells.push_back(textField(name));
         cells.push_back(name.empty() ? "" : std::to_string(metric.at("samples").size()));
-        for (const char* member : kMetricMembers) cells.push_back(cellText(metric, member));
+        for (const char* member : kMetricMembers) cells.push_back(memberField(metric, member));
         text += line(cells);
     };
     for (const scene::Json& result : report.at("cases")) {

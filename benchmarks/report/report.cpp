@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -370,7 +372,7 @@ void moveSamplesIn(scene::Json& report, const fs::path& path) {
             const auto member = value.find("samples_file");
             if (member == value.end()) return;
             const auto file_name = member->get<std::string>();
-            const fs::path file = folderOf(path) / file_name;
+            const fs::path file = folderOf(path) / fs::path(file_name).filename();  // beside it
             if (!fs::is_regular_file(file))
                 throw engine::Error(path.string(), "its samples are missing: " + file.string());
             if (!files.contains(file_name)) files[file_name] = readSamples(file);
@@ -393,6 +395,43 @@ bool isReadable(std::string_view schema) {
     return schema.starts_with(mine.substr(0, mine.find('.') + 1));
 }
 
+namespace {
+
+// Absent where the member is; throws engine::Error for what is no number of things.
+std::optional<std::size_t> countAt(const scene::Json& object, const char* member) {
+    const auto found = object.find(member);
+    if (found == object.end()) return std::nullopt;
+    if (!found->is_number_unsigned())
+        throw engine::Error('/' + std::string(member), "is no number of things");
+    return found->get<std::size_t>();
+}
+
+// What a report counts is used as it stands by those who read it. Throws engine::Error for numbers
+// that no sweep has: a case's number that is not below their count, or another's.
+void checkCounts(const scene::Json& report) {
+    const std::optional<std::size_t> count = countAt(report, "case_count");
+    if (const auto shard = report.find("shard"); shard != report.end()) {
+        const std::size_t index = countAt(*shard, "index").value_or(0);
+        if (index < 1 || index > countAt(*shard, "count").value_or(0))
+            throw engine::Error("/shard", "is none");
+    }
+    const auto cases = report.find("cases");
+    if (cases == report.end()) return;
+    std::set<std::size_t> seen;
+    for (const scene::Json& each : *cases) {
+        const std::optional<std::size_t> index = countAt(each, "index");
+        if (!index) continue;  // of an older report
+        if (count && *index >= *count)
+            throw engine::Error(
+                "/cases", "one has the number " + std::to_string(*index) + ", counted from 0, of " +
+                              std::to_string(*count) + " cases");
+        if (!seen.insert(*index).second)
+            throw engine::Error("/cases", "two have the number " + std::to_string(*index));
+    }
+}
+
+}  // namespace
+
 scene::Json readReport(const std::filesystem::path& path) {
     scene::Json report = scene::parseJson(engine::readFile(path), path.string());
     const auto schema = report.is_object() ? report.find("schema") : report.end();
@@ -402,7 +441,11 @@ scene::Json readReport(const std::filesystem::path& path) {
         throw engine::Error(
             path.string(), schema->get<std::string>() + " is not " + std::string(kReportSchema));
     try {
+        checkCounts(report);
         moveSamplesIn(report, path);
+    } catch (const engine::Error& error) {
+        if (std::string_view(error.what()).starts_with(path.string())) throw;
+        throw engine::Error(path.string(), std::string("is damaged: ") + error.what());
     } catch (const scene::Json::exception& error) {
         throw engine::Error(path.string(), std::string("is damaged: ") + error.what());
     }

@@ -97,22 +97,20 @@ bool areAllShards(const std::vector<Part>& parts) {
     return counts.size() == 1 && indices.size() == *counts.begin();
 }
 
-std::vector<std::size_t> missingIndices(const std::vector<scene::Json>& cases, std::size_t count) {
+// "5 of 12 cases are missing: number 1, 4, 7 ... of the sweep, counted from 0"; empty where none
+// is. `count` is what a report says, and nothing is made of that size.
+std::string missingText(const std::vector<scene::Json>& cases, std::size_t count) {
     std::set<std::size_t> found;
-    for (const scene::Json& result : cases) found.insert(indexOf(result));
-    std::vector<std::size_t> missing;
-    for (std::size_t i = 0; i < count; ++i)
-        if (!found.contains(i)) missing.push_back(i);
-    return missing;
-}
-
-// "5 of 12 cases are missing: number 1, 4, 7 ... of the sweep, counted from 0"
-std::string missingText(const std::vector<std::size_t>& missing, std::size_t count) {
-    std::string text = std::to_string(missing.size()) + " of " + std::to_string(count) +
-                       (missing.size() == 1 ? " cases is" : " cases are") + " missing: number ";
-    for (std::size_t i = 0; i < std::min(missing.size(), kMostNamed); ++i)
-        text += (i == 0 ? "" : ", ") + std::to_string(missing[i]);
-    return text + (missing.size() > kMostNamed ? " ..." : "") + " of the sweep, counted from 0";
+    for (const scene::Json& result : cases)
+        if (indexOf(result) < count) found.insert(indexOf(result));
+    const std::size_t missing = count - found.size();
+    if (missing == 0) return {};
+    std::string text = std::to_string(missing) + " of " + std::to_string(count) +
+                       (missing == 1 ? " cases is" : " cases are") + " missing: number ";
+    const std::size_t wanted = std::min(missing, kMostNamed);
+    for (std::size_t i = 0, named = 0; named < wanted; ++i)
+        if (!found.contains(i)) text += (named++ == 0 ? "" : ", ") + std::to_string(i);
+    return text + (missing > wanted ? " ..." : "") + " of the sweep, counted from 0";
 }
 
 scene::Json
@@ -130,8 +128,8 @@ merged(std::vector<Part> parts, const MergeRules& rules, std::vector<std::string
     scene::Json header = std::move(parts.front().report);
     if (header.contains("case_count")) {
         const auto count = header["case_count"].get<std::size_t>();
-        const auto missing = all_shards ? std::vector<std::size_t>() : missingIndices(cases, count);
-        if (!missing.empty()) notes.push_back(missingText(missing, count));
+        const std::string missing = all_shards ? "" : missingText(cases, count);
+        if (!missing.empty()) notes.push_back(missing);
         interrupted = !missing.empty();
     }
     header.erase("shard");

@@ -11,6 +11,7 @@
 
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/environment.h"
+#include "benchmarks/scene/pattern.h"
 #include "benchmarks/scene/scene.h"
 #include "benchmarks/scene/sweep.h"
 #include "engine/error.h"
@@ -45,11 +46,23 @@ report::Shard parseShard(const std::string& text) {
     return shard;
 }
 
+namespace {
+
+scene::Pattern filterOf(const std::string& regex) {
+    try {
+        return scene::Pattern(regex);
+    } catch (const engine::Error& error) {
+        throw engine::Error("--filter " + regex, error.what());
+    }
+}
+
+}  // namespace
+
 RunPlan planRun(
     const scene::SceneOptions& options, const std::string& filter, const std::string& shard_text,
     scene::AssetStore* assets) {
     const report::Shard shard = shard_text.empty() ? report::Shard{} : parseShard(shard_text);
-    std::vector<scene::Scene> scenes = scene::loadScenes(options.scene);
+    std::vector<scene::Scene> scenes = scene::loadScenes(options.scene, options.outside);
     RunPlan plan{
         .name = options.scene.stem().string(), .scene = {}, .seed = scenes.front().settings.seed};
     scene::Json documents = scene::Json::object();
@@ -69,9 +82,9 @@ RunPlan planRun(
                      : recordOf(options.scene, scenes.front().resolved);
     plan.case_count = cases.size();
     plan.cases_hash = report::hashText(all_documents);
-    const auto matches = scene::nameMatcher(filter);
+    const scene::Pattern wanted = filterOf(filter);
     for (PlannedCase& each : cases)
-        if (each.index % shard.count == shard.index - 1 && matches(each.spec.name))
+        if (each.index % shard.count == shard.index - 1 && wanted.isIn(each.spec.name))
             plan.cases.push_back(std::move(each));
     return plan;
 }

@@ -27,7 +27,7 @@ namespace {
 // Returns what is odd about them.
 std::vector<std::string> checkFields(
     const hair::Settings& settings, const std::optional<hair::groom::Mesh>& grown_on,
-    const std::filesystem::path& scene) {
+    const std::filesystem::path& scene, const Reach& reach) {
     const auto pointerTo = [](std::size_t field) {
         return "/simulation/distance_fields/" + std::to_string(field);
     };
@@ -38,7 +38,7 @@ std::vector<std::string> checkFields(
     for (std::size_t i = 0; i < fields.size(); ++i)
         if (fields[i].mesh.empty() && !grown_on)
             refuse(i, "names no mesh, and neither does /groom/mesh");
-    const auto meshes = loadFieldMeshes(settings, grown_on, scene.parent_path());
+    const auto meshes = loadFieldMeshes(settings, grown_on, scene.parent_path(), reach);
     std::vector<std::string> warnings;
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         try {
@@ -79,16 +79,27 @@ void tintScalp(hair::groom::Mesh& mesh, const std::string& scalp, float own) {
         if (named(material)) material.base_color = glm::mix(around, material.base_color, own);
 }
 
+// Of what `owner` names.
+hair::groom::NamedFileCheck checkOf(const Reach& reach, const std::filesystem::path& owner) {
+    return [&reach, owner](const std::filesystem::path& file) { reach.check(file, owner); };
+}
+
+hair::groom::Mesh
+meshOf(const std::filesystem::path& path, hair::groom::Textures textures, const Reach& reach) {
+    return hair::groom::importMesh(path, textures, checkOf(reach, path));
+}
+
 }  // namespace
 
-std::optional<hair::groom::Mesh>
-loadMesh(const hair::Settings& settings, const std::filesystem::path& directory) {
+std::optional<hair::groom::Mesh> loadMesh(
+    const hair::Settings& settings, const std::filesystem::path& directory, const Reach& reach) {
     const hair::GroomSettings& groom = settings.groom;
     const std::string& file = groom.file.empty() ? groom.grow.mesh : groom.mesh;
     if (file.empty()) return std::nullopt;
-    hair::groom::Mesh mesh = hair::groom::importMesh(
+    hair::groom::Mesh mesh = meshOf(
         directory / file,
-        settings.render.head ? hair::groom::Textures::decoded : hair::groom::Textures::skipped);
+        settings.render.head ? hair::groom::Textures::decoded : hair::groom::Textures::skipped,
+        reach);
     tintScalp(mesh, groom.grow.scalp, settings.render.scalp_tint);
     return mesh;
 }
@@ -132,17 +143,17 @@ std::size_t bytesOf(const hair::groom::Mesh& mesh) {
 
 }  // namespace
 
-const std::optional<hair::groom::Mesh>&
-AssetStore::mesh(const hair::Settings& settings, const std::filesystem::path& directory) {
+const std::optional<hair::groom::Mesh>& AssetStore::mesh(
+    const hair::Settings& settings, const std::filesystem::path& directory, const Reach& reach) {
     const std::string key = meshKey(settings, directory);
     if (const auto* known = meshes_.find(key)) return *known;
-    std::optional<hair::groom::Mesh> mesh = loadMesh(settings, directory);
+    std::optional<hair::groom::Mesh> mesh = loadMesh(settings, directory, reach);
     const std::size_t bytes = mesh ? bytesOf(*mesh) : 0;
     return meshes_.add(key, std::move(mesh), bytes);
 }
 
-const hair::groom::Groom&
-AssetStore::groom(const hair::Settings& settings, const std::filesystem::path& directory) {
+const hair::groom::Groom& AssetStore::groom(
+    const hair::Settings& settings, const std::filesystem::path& directory, const Reach& reach) {
     const hair::GroomSettings& groom = settings.groom;
     std::string key = directory.string() + '\n' + writeFields(groom).dump() + '\n' +
                       std::to_string(settings.seed) + '\n' + meshKey(settings, directory);
@@ -150,9 +161,10 @@ AssetStore::groom(const hair::Settings& settings, const std::filesystem::path& d
          {groom.file, groom.grow.scalp, groom.grow.mask, groom.grow.length_map, groom.fixed})
         key += stampOf(directory, file);
     if (const auto* known = grooms_.find(key)) return *known;
-    const std::optional<hair::groom::Mesh>& grown_on = mesh(settings, directory);
-    hair::groom::Groom made =
-        hair::groom::buildGroom(groom, grown_on ? &*grown_on : nullptr, directory, settings.seed);
+    const std::optional<hair::groom::Mesh>& grown_on = mesh(settings, directory, reach);
+    hair::groom::Groom made = hair::groom::buildGroom(
+        groom, grown_on ? &*grown_on : nullptr, directory, settings.seed,
+        checkOf(reach, directory / (groom.file.empty() ? groom.fixed : groom.file)));
     const std::size_t bytes = bytesOf(made.points) + bytesOf(made.widths) +
                               bytesOf(made.root_triangles) + bytesOf(made.bindings) +
                               bytesOf(made.bound_ends) + bytesOf(made.bound_points);
@@ -166,12 +178,13 @@ void AssetStore::trim() {
 
 std::vector<hair::groom::Mesh> loadFieldMeshes(
     const hair::Settings& settings, const std::optional<hair::groom::Mesh>& grown_on,
-    const std::filesystem::path& directory) {
+    const std::filesystem::path& directory, const Reach& reach) {
     std::vector<hair::groom::Mesh> meshes;
     for (const hair::DistanceFieldSettings& field : settings.simulation.distance_fields)
         meshes.push_back(
-            field.mesh.empty() ? grown_on.value()
-                               : hair::groom::importMesh(directory / field.mesh));
+            field.mesh.empty()
+                ? grown_on.value()
+                : meshOf(directory / field.mesh, hair::groom::Textures::skipped, reach));
     return meshes;
 }
 
@@ -194,22 +207,23 @@ std::unique_ptr<hair::groom::DeformingMesh> loadDeforming(
     }
 }
 
-std::optional<hair::groom::StrandSet>
-loadOffsets(const hair::Settings& settings, const std::filesystem::path& directory) {
+std::optional<hair::groom::StrandSet> loadOffsets(
+    const hair::Settings& settings, const std::filesystem::path& directory, const Reach& reach) {
     if (settings.strands.offsets.empty()) return std::nullopt;
-    return hair::groom::importStrands(directory / settings.strands.offsets);
+    const std::filesystem::path file = directory / settings.strands.offsets;
+    return hair::groom::importStrands(file, 0, checkOf(reach, file));
 }
 
 hair::rendering::RenderAssets loadRenderAssets(
     const hair::Settings& settings, const hair::groom::Mesh* head,
-    const std::filesystem::path& directory) {
+    const std::filesystem::path& directory, const Reach& reach) {
     hair::rendering::RenderAssets assets{.head = head};
     for (const hair::MeshSettings& mesh : settings.render.meshes)
         assets.meshes.push_back(
-            hair::groom::importMesh(directory / mesh.file, hair::groom::Textures::decoded));
+            meshOf(directory / mesh.file, hair::groom::Textures::decoded, reach));
     if (settings.render.overlays.bodies) {
         const auto grown_on = head ? std::optional(*head) : std::nullopt;
-        assets.field_meshes = loadFieldMeshes(settings, grown_on, directory);
+        assets.field_meshes = loadFieldMeshes(settings, grown_on, directory, reach);
     }
     if (!settings.strands.texture.empty())
         assets.strand_texture = engine::readImage(directory / settings.strands.texture);
@@ -258,20 +272,21 @@ checkAssets(const hair::Settings& settings, const std::filesystem::path& scene) 
 }
 
 std::vector<std::string> checkAssets(
-    const hair::Settings& settings, const std::filesystem::path& scene, AssetStore& assets) {
+    const hair::Settings& settings, const std::filesystem::path& scene, AssetStore& assets,
+    const Reach& reach) {
     const std::filesystem::path directory = scene.parent_path();
     assets.trim();
-    const std::optional<hair::groom::Mesh>& mesh = assets.mesh(settings, directory);
-    const hair::groom::Groom& groom = assets.groom(settings, directory);
-    std::vector<std::string> warnings = checkFields(settings, mesh, scene);
+    const std::optional<hair::groom::Mesh>& mesh = assets.mesh(settings, directory, reach);
+    const hair::groom::Groom& groom = assets.groom(settings, directory, reach);
+    std::vector<std::string> warnings = checkFields(settings, mesh, scene, reach);
     checkMeshes(settings.render, scene);
-    loadRenderAssets(settings, mesh ? &*mesh : nullptr, directory);
+    loadRenderAssets(settings, mesh ? &*mesh : nullptr, directory, reach);
     loadDeforming(settings, mesh, directory);
     if (const std::string warning = unplayedAnimations(settings, directory); !warning.empty())
         warnings.push_back(scene.string() + ": " + warning);
     if (const std::string warning = stiffBodies(settings); !warning.empty())
         warnings.push_back(scene.string() + ": " + warning);
-    const std::optional<hair::groom::StrandSet> offsets = loadOffsets(settings, directory);
+    const std::optional<hair::groom::StrandSet> offsets = loadOffsets(settings, directory, reach);
     try {
         hair::rendering::checkStrands(settings.strands, groom);
         if (hair::rendering::hasOffsets(settings.strands))

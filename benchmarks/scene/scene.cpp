@@ -174,8 +174,13 @@ struct Loaded {
 
 constexpr std::size_t kMostBases = 16;
 
+void checkValues(const Scene& scene, const Axis& axis) {
+    for (const Document& value : axis.values)
+        checkNamedFiles(value.json(), axis.pointer, scene.directory, scene.reach);
+}
+
 // `opened`: the files that led here.
-Loaded load(const fs::path& path, std::vector<fs::path> opened) {
+Loaded load(const fs::path& path, const Reach& reach, std::vector<fs::path> opened) {
     const std::string text = readScene(path);
     Json document = parseJson(text, path.string());
     return inFile(path, [&] {
@@ -197,7 +202,8 @@ Loaded load(const fs::path& path, std::vector<fs::path> opened) {
                     "/base", base_path.string() + " is built on this file: a cycle");
             Loaded loaded;
             try {
-                loaded = load(base_path, opened);
+                reach.check(base_path);
+                loaded = load(base_path, reach, opened);
             } catch (const engine::Error& error) {
                 throw engine::Error("/base", error.what());
             }
@@ -215,7 +221,22 @@ Loaded load(const fs::path& path, std::vector<fs::path> opened) {
 
 }  // namespace
 
-Scene loadScene(const fs::path& path) { return load(path, {}).scene; }
+Scene loadScene(const fs::path& path, Outside outside) {
+    return loadScene(path, Reach(path, outside));
+}
+
+Scene loadScene(const fs::path& path, const Reach& reach) {
+    Scene scene = load(path, reach, {}).scene;
+    scene.reach = reach;
+    inFile(path, [&] {
+        checkNamedFiles(scene.resolved.json(), "", scene.directory, reach);
+        for (const Axis& axis : scene.axes) {
+            checkValues(scene, axis);
+            for (const Axis& other : axis.tied) checkValues(scene, other);
+        }
+    });
+    return scene;
+}
 
 void setField(Scene& scene, const std::string& pointer, const Json& value) {
     Json document = scene.document.json();

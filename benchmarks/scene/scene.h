@@ -9,6 +9,7 @@
 
 #include "benchmarks/scene/axis.h"
 #include "benchmarks/scene/json.h"
+#include "benchmarks/scene/reach.h"
 #include "hair/settings.h"
 
 // Scene files.
@@ -34,6 +35,7 @@ inline constexpr std::size_t kLargestSceneFile = std::size_t{256} << 20;
 struct Scene {
     std::filesystem::path path;  // as given
     std::filesystem::path directory;  // what file names in the scene are relative to
+    Reach reach;  // where files may lie that it names
     std::string name;  // file name without its extension
     Document document;  // what is written, bases merged, without the three members above
     Document resolved;  // every field, absent ones with their defaults
@@ -44,8 +46,10 @@ struct Scene {
 
 // Reads and checks everything but the rules between fields, which hold for cases: expand() checks
 // those. Throws engine::Error, one line: "<file>: <JSON pointer>: <reason>"; what is wrong in a
-// base is reported as "<file>: /base: <base file>: ...".
-Scene loadScene(const std::filesystem::path& path);
+// base is reported as "<file>: /base: <base file>: ...". A file out of reach is an error before it
+// is opened; the second is of a member of a suite, with the suite's reach.
+Scene loadScene(const std::filesystem::path& path, Outside outside = Outside::refused);
+Scene loadScene(const std::filesystem::path& path, const Reach& reach);
 
 // Sets one field of every case, as if the file had it. Throws engine::Error "<JSON pointer>:
 // <reason>".

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <regex>
 #include <set>
 #include <unordered_set>
 
@@ -52,20 +51,22 @@ void checkMembers(const Json& document) {
 
 bool isSuite(const std::filesystem::path& path) { return !suiteDocument(path).is_null(); }
 
-std::vector<Scene> loadScenes(const std::filesystem::path& path) {
+std::vector<Scene> loadScenes(const std::filesystem::path& path, Outside outside) {
+    const Reach reach(path, outside);
     const Json document = suiteDocument(path);
     std::vector<Scene> scenes;
     if (document.is_null()) {
-        scenes.push_back(loadScene(path));
+        scenes.push_back(loadScene(path, reach));
         return scenes;
     }
     try {
         checkMembers(document);
         for (const Json& file : document["suite"]) {
             const std::filesystem::path member = path.parent_path() / file.get<std::string>();
+            reach.check(member);
             if (isSuite(member))
                 throw engine::Error("/suite", member.string() + " is a suite itself");
-            scenes.push_back(loadScene(member));
+            scenes.push_back(loadScene(member, reach));
             const std::string& name = scenes.back().name;
             if (std::ranges::count(scenes, name, &Scene::name) > 1)
                 throw engine::Error("/suite", "two scenes are called " + name);
@@ -207,16 +208,6 @@ std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides
     return cases;
 }
 
-std::function<bool(const std::string& name)> nameMatcher(const std::string& regex) {
-    try {
-        return [pattern = std::regex(regex, std::regex::ECMAScript)](const std::string& name) {
-            return std::regex_search(name, pattern);
-        };
-    } catch (const std::regex_error& error) {
-        throw engine::Error("--filter " + regex, error.what());
-    }
-}
-
 namespace {
 
 // ---- Cases that the command line selects --------------------------------------------------------
@@ -273,7 +264,7 @@ std::vector<CaseSpec> selectCases(
             files += '\n' + field.mesh;
         if (!checked.insert(files).second) continue;
         for (const std::string& warning :
-             checkAssets(each.settings, scene.path, assets ? *assets : own))
+             checkAssets(each.settings, scene.path, assets ? *assets : own, scene.reach))
             if (warnings && std::ranges::find(*warnings, warning) == warnings->end())
                 warnings->push_back(warning);
     }

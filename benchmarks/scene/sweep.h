@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,8 +22,9 @@ class AssetStore;
 bool isSuite(const std::filesystem::path& path);
 
 // The scene, or all of a suite's in its order. Throws engine::Error: what loadScene() throws, a
-// suite that names none or one twice, another member.
-std::vector<Scene> loadScenes(const std::filesystem::path& path);
+// suite that names none or one twice, another member, a member out of the suite's reach.
+std::vector<Scene>
+loadScenes(const std::filesystem::path& path, Outside outside = Outside::refused);
 
 inline constexpr std::size_t kMaximumCases = 100000;
 
@@ -46,10 +46,6 @@ std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides
 // The scene's resolved document with the values of a case: what the case's settings are read from.
 Document caseDocument(const Scene& scene, std::span<const AxisValue> axes);
 
-// Whether the ECMAScript regular expression is found in a name; an empty one is in all. A malformed
-// one is an engine::Error.
-std::function<bool(const std::string& name)> nameMatcher(const std::string& regex);
-
 // Which cases of a scene, and on what.
 struct SceneOptions {
     std::filesystem::path scene;
@@ -62,6 +58,8 @@ struct SceneOptions {
     engine::DeviceOptions device;
     bool reads_assets = true;  // before anything is made of them
     bool cache = true;  // what takes long to make is taken from disk and kept there
+    Outside outside =
+        Outside::refused;  // files that the scene names, not those of `sets` and `axes`
 };
 
 // The scene's cases with what the command line changes. Every asset that they name is read once,

@@ -407,8 +407,8 @@ std::string readableJson(const scene::Json& document) {
 
 // ---- Scenes, opened and saved -------------------------------------------------------------------
 
-SceneFile openScene(const fs::path& path) {
-    const scene::Scene scene = scene::loadScene(path);
+SceneFile openScene(const fs::path& path, scene::Outside outside) {
+    const scene::Scene scene = scene::loadScene(path, outside);
     return {scene.path, scene.directory, scene.name, scene.settings};
 }
 

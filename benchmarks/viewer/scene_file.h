@@ -51,7 +51,8 @@ struct SceneFile {
 
 // A scene file, or a screenshot that has one in it. No axis of its sweep is applied. Throws
 // engine::Error, one line, also for a suite.
-SceneFile openScene(const std::filesystem::path& path);
+SceneFile
+openScene(const std::filesystem::path& path, scene::Outside outside = scene::Outside::refused);
 
 // What is to be done with a file that was dropped on the window: .json and PNGs with a scene in
 // them, or damaged, are scenes, .exr and .hdr environments, and what strands and meshes are read

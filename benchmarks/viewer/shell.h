@@ -155,6 +155,7 @@ struct Viewer::Parts {
     void toggleColumn(Column& column);
     void compare();
 
+    scene::Outside outside;  // of scenes that are opened
     PreferencesFile preferences;
     bool driven;  // by a script, or for a number of pictures
     bool live = false;  // though it is driven, it doesn't wait for what is drawn

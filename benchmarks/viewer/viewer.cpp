@@ -73,7 +73,7 @@ engine::WindowDescription windowOf(const ViewOptions& options, const Preferences
 
 // What is read and grown to check the scene is left in the cache for its first picture.
 hair::Settings settingsOf(const ViewOptions& options, measure::HairCache& cache) {
-    scene::Scene scene = scene::loadScene(options.scene.scene);
+    scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
     return scene::singleCase(scene, options.scene, &cache.assets()).settings;
 }
 
@@ -84,9 +84,9 @@ hair::Settings settingsOf(const ViewOptions& options, measure::HairCache& cache)
 Viewer::Parts::Parts(
     const ViewOptions& options, const SceneFile& file, const hair::Settings& settings,
     measure::HairCache cache)
-    : preferences(preferencesOf(options)), driven(!options.script.empty() || options.frames > 0),
-      live(options.live), fixed_scale(static_cast<float>(options.scale)),
-      window(windowOf(options, preferences.now)),
+    : outside(options.scene.outside), preferences(preferencesOf(options)),
+      driven(!options.script.empty() || options.frames > 0), live(options.live),
+      fixed_scale(static_cast<float>(options.scale)), window(windowOf(options, preferences.now)),
       gives_way(!waitsForDrawing() && computesOnProcessors(options.scene.device)),
       scene_device(makeSceneDevice(options.scene.device, gives_way)),
       device(windowed(options.scene.device)),
@@ -431,7 +431,7 @@ std::filesystem::path Viewer::Parts::suggestedPath() const {
 
 void Viewer::Parts::open(const std::filesystem::path& path) {
     message.attempt([&] {
-        scene.open(openScene(path));
+        scene.open(openScene(path, outside));
         message.tell("opening " + path.string());
     });
 }
@@ -459,7 +459,7 @@ void Viewer::Parts::saveAs(const std::filesystem::path& path) {
 
 void Viewer::Parts::copyArguments() {
     message.attempt([&] {
-        const scene::Scene saved = scene::loadScene(scene.file().path);
+        const scene::Scene saved = scene::loadScene(scene.file().path, scene::Outside::allowed);
         // It may have been saved to another folder than the one that it was opened in.
         const std::string arguments = caseArguments(
             saved,
@@ -520,7 +520,7 @@ Viewer::Viewer(const ViewOptions& options) {
     measure::HairCache cache = measure::userHairCache(options.scene.cache);
     const hair::Settings settings = settingsOf(options, cache);
     parts_ = std::make_unique<Parts>(
-        options, openScene(options.scene.scene), settings, std::move(cache));
+        options, openScene(options.scene.scene, options.scene.outside), settings, std::move(cache));
 }
 Viewer::~Viewer() {
     // Whoever measures waits for the window between rounds.

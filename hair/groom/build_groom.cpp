@@ -200,18 +200,20 @@ void addFixed(Groom& groom, const StrandSet& strands) {
     }
 }
 
-void addFixedFile(Groom& groom, const std::string& file, const std::filesystem::path& directory) {
+void addFixedFile(
+    Groom& groom, const std::string& file, const std::filesystem::path& directory,
+    const NamedFileCheck& check) {
     if (file.empty() || groom.bound_ends.empty()) return;
-    StrandSet strands = importStrands(directory / file, 0);
+    StrandSet strands = importStrands(directory / file, 0, check);
     place(strands, {});
     addFixed(groom, strands);
 }
 
 Groom fromFile(
     const GroomSettings& settings, const Mesh* mesh, const std::filesystem::path& directory,
-    std::uint32_t seed) {
+    std::uint32_t seed, const NamedFileCheck& check) {
     const std::filesystem::path path = directory / settings.file;
-    StrandSet strands = importStrands(path, settings.points_per_strand);
+    StrandSet strands = importStrands(path, settings.points_per_strand, check);
     try {
         place(strands, settings.placement);
         Polylines file{strands.ends, strands.points};
@@ -226,7 +228,7 @@ Groom fromFile(
         Groom groom = withGuides(replay(std::move(dense), strokes), chosen, mesh);
         groom.bound_ends = std::move(file.ends);
         groom.bound_points = std::move(file.points);
-        addFixedFile(groom, settings.fixed, directory);
+        addFixedFile(groom, settings.fixed, directory, check);
         return groom;
     } catch (const engine::Error& error) {
         throw engine::Error(path.string(), error.what());
@@ -299,8 +301,8 @@ Groom toGroom(StrandSet strands, std::uint32_t vertices) {
 
 Groom buildGroom(
     const GroomSettings& settings, const Mesh* mesh, const std::filesystem::path& directory,
-    std::uint32_t seed) {
-    if (!settings.file.empty()) return fromFile(settings, mesh, directory, seed);
+    std::uint32_t seed, const NamedFileCheck& check) {
+    if (!settings.file.empty()) return fromFile(settings, mesh, directory, seed, check);
     const std::string path = (directory / settings.grow.mesh).string();
     if (!mesh) throw engine::Error(path, "guides are to be grown, but there is no mesh");
     try {
@@ -319,7 +321,7 @@ Groom buildGroom(
         groom.bound_points = std::move(points);
         groom.bound_ends = std::move(ends);
         addFixed(groom, growVellus(*mesh, settings.grow, seed));
-        addFixedFile(groom, settings.fixed, directory);
+        addFixedFile(groom, settings.fixed, directory, check);
         return groom;
     } catch (const engine::Error& error) {
         throw engine::Error(path, error.what());

@@ -6,6 +6,7 @@
 
 #include "hair/groom/groom.h"
 #include "hair/groom/mesh/mesh.h"
+#include "hair/groom/named_files.h"
 #include "hair/settings.h"
 
 // From files or growth to the guides of a scene, and from strands as files hold them to guides with
@@ -16,10 +17,10 @@ namespace hair::groom {
 // that is empty, grown. File names are relative to `directory`, the scene's folder. `mesh` is what
 // the hair grows on: of settings.mesh for a file, where null is nothing, and of settings.grow.mesh
 // for growth, which needs it. Throws engine::Error "path: reason" with the path of the file or of
-// the mesh.
+// the mesh, also for what `check` throws.
 Groom buildGroom(
     const GroomSettings& settings, const Mesh* mesh, const std::filesystem::path& directory,
-    std::uint32_t seed);
+    std::uint32_t seed, const NamedFileCheck& check = {});
 
 // Every strand with `vertices` >= 2 points, evenly spaced by arc length along its polyline, both
 // ends kept to the bit; what its points have is interpolated with them. A strand that has so many

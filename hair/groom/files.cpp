@@ -197,7 +197,8 @@ const StrandImporter& strandImporterOf(const fs::path& path) {
     return importerOf(path, file);
 }
 
-StrandSet importStrands(const fs::path& path, std::uint32_t points_per_strand) {
+StrandSet
+importStrands(const fs::path& path, std::uint32_t points_per_strand, const NamedFileCheck& check) {
     const engine::Step step("reads " + path.filename().string());
     engine::OpenFile file(path);
     const StrandImporter& importer = importerOf(path, file);
@@ -208,7 +209,10 @@ StrandSet importStrands(const fs::path& path, std::uint32_t points_per_strand) {
     file.read(bytes);
     try {
         return importer.read(
-            {.bytes = std::as_bytes(bytes), .path = path, .points_per_strand = points_per_strand});
+            {.bytes = std::as_bytes(bytes),
+             .path = path,
+             .points_per_strand = points_per_strand,
+             .check = check});
     } catch (const engine::Error& error) {
         throw engine::Error(path.string(), error.what());
     }

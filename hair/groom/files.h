@@ -12,6 +12,7 @@
 
 #include "engine/files.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/named_files.h"
 
 // Files of strands: the tables of formats, and whole files by their extension or first bytes.
 namespace hair::groom {
@@ -57,6 +58,7 @@ struct StrandFile {
     std::filesystem::path path;
     // Of formats that can leave it out, such as a PLY of points alone; 0: not known.
     std::uint32_t points_per_strand = 0;
+    NamedFileCheck check{};  // of those other files
 };
 
 // A reader of strands. Its errors begin with the place in the file, "byte N" or "line N", and don't
@@ -82,7 +84,9 @@ std::string readExtensions();
 const StrandImporter& strandImporterOf(const std::filesystem::path& path);
 
 // `points_per_strand`: what the file may leave out, see StrandFile. A format that states it itself
-// takes no notice. Throws engine::Error "path: place: reason".
-StrandSet importStrands(const std::filesystem::path& path, std::uint32_t points_per_strand = 0);
+// takes no notice. Throws engine::Error "path: place: reason", also for what `check` throws.
+StrandSet importStrands(
+    const std::filesystem::path& path, std::uint32_t points_per_strand = 0,
+    const NamedFileCheck& check = {});
 
 }  // namespace hair::groom

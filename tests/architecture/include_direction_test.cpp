@@ -70,6 +70,7 @@ constexpr Rule kRules[] = {
     {"hair/", "imgui"},
     {"benchmarks/", "imgui", "benchmarks/viewer/"},
     {"", "glslang/", "engine/"},
+    {"", "re2/", "benchmarks/scene/pattern."},
     {"", "valijson/", "tests/"},
     {"", "gtest/", "tests/"},
     {"", "gmock/", "tests/"},

@@ -221,6 +221,31 @@ TEST(WriteReport, SaysWhyItCannot) {
     }
 }
 
+// Numbers that readers count by.
+TEST(ReadReport, RefusesCountsThatNoSweepHas) {
+    const TemporaryFolder folder;
+    const auto error = [&](const char* pointer, const scene::Json& value) {
+        scene::Json report = written();
+        report[scene::Json::json_pointer(pointer)] = value;
+        const auto path = folder.write("r.json", report.dump());
+        return folder.relative(errorText([&] { report::readReport(path); }));
+    };
+    EXPECT_EQ(
+        error("/case_count", 1'000'000'000'000'000'000u), "no error");  // nothing is made of it
+    for (const scene::Json& wrong :
+         {scene::Json(-1), scene::Json(1.5), scene::Json(1e300), scene::Json("6"), scene::Json()})
+        EXPECT_EQ(
+            error("/case_count", wrong), "r.json: is damaged: /case_count: is no number of things")
+            << wrong;
+    EXPECT_EQ(
+        error("/case_count", 0),
+        "r.json: is damaged: /cases: one has the number 0, counted from 0, of 0 cases");
+    EXPECT_EQ(error("/cases/1/index", 0), "r.json: is damaged: /cases: two have the number 0");
+    EXPECT_EQ(error("/cases/1/index", -1), "r.json: is damaged: /index: is no number of things");
+    EXPECT_EQ(error("/shard/index", 3), "r.json: is damaged: /shard: is none");
+    EXPECT_EQ(error("/shard/count", 0), "r.json: is damaged: /shard: is none");
+}
+
 TEST(CheckWritable, MakesTheFolderButNotTheFile) {
     const TemporaryFolder folder;
     engine::checkWritable(folder.path() / "a/r.json");

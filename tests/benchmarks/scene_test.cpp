@@ -75,7 +75,8 @@ TEST(Scene, FindsTheFilesOfABaseInAnotherFolder) {
         "lib/bodies.json",
         R"({"simulation": {"distance_fields": [{"mesh": ""}, {"mesh": "body.obj"}]}})");
     const auto load = [&](const char* text) {
-        return scene::loadScene(folder.write("s.json", text)).settings.groom;
+        const auto path = folder.write("s.json", text);
+        return scene::loadScene(path, scene::Outside::allowed).settings.groom;
     };
     EXPECT_EQ(load(R"({"base": "lib/base.json"})").grow.mesh, "m/head.glb");
     EXPECT_EQ(load(R"({"base": "lib/file.json"})").file, "lib/a.hgl");

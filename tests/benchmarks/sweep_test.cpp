@@ -155,17 +155,5 @@ TEST_F(Sweep, VariesHowManyGuidesAreChosenFromAFile) {
         error(R"({"groom": {"file": "a.hgl"}, "sweep": {"/groom/guides": [10, 86]}})"), "no error");
 }
 
-TEST_F(Sweep, IsFilteredByName) {
-    const auto matches = scene::nameMatcher("density:(1|64)$");
-    EXPECT_TRUE(matches("s/density:1"));
-    EXPECT_FALSE(matches("s/density:16"));
-    EXPECT_TRUE(matches("s/density:64"));
-    EXPECT_TRUE(scene::nameMatcher("")("s/density:16"));
-}
-
-TEST_F(Sweep, RefusesAMalformedFilter) {
-    EXPECT_THAT(errorText([] { scene::nameMatcher("(x"); }), testing::StartsWith("--filter (x: "));
-}
-
 }  // namespace
 }  // namespace benchmarks

@@ -1,12 +1,16 @@
 #include "engine/pipeline.h"
 
+#include <chrono>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "engine/shaders.h"
 #include "tests/gpu_fixture.h"
@@ -72,6 +76,60 @@ TEST_F(PipelineCacheTest, IgnoresAFileThatIsNotACache) {
         makeCache();
         EXPECT_EQ(textOf(files()[0]).substr(0, 12), good.substr(0, 12));
     }
+}
+
+// Drivers look at the first bytes alone, and not every one at more.
+TEST_F(PipelineCacheTest, IgnoresDamagedData) {
+    makeCache();
+    ASSERT_EQ(files().size(), 1u);
+    const std::filesystem::path file = files()[0];
+    const std::string good = textOf(file);
+    for (std::size_t i = 0; i < good.size(); ++i) {
+        std::string damaged = good;
+        damaged[i] = static_cast<char>(damaged[i] ^ 1);
+        std::ofstream(file, std::ios::binary) << damaged;
+        makeCache();
+        EXPECT_EQ(textOf(file), good) << i;  // made anew and written
+    }
+    std::ofstream(file, std::ios::binary) << good.substr(0, good.size() - 1);
+    makeCache();
+    EXPECT_EQ(textOf(file), good);
+}
+
+// What nobody writes to would be waited for, and what has no end read for ever.
+TEST_F(PipelineCacheTest, IgnoresWhatIsNoFile) {
+    makeCache();
+    ASSERT_EQ(files().size(), 1u);
+    const std::filesystem::path file = files()[0];
+    const std::string good = textOf(file);
+    std::filesystem::remove(file);
+    ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+    makeCache();
+    EXPECT_EQ(textOf(file), good);
+    std::filesystem::remove(file);
+    std::filesystem::create_symlink("/dev/zero", file);
+    makeCache();
+    EXPECT_EQ(textOf(file), good);
+    std::filesystem::resize_file(file, std::uintmax_t{1} << 40);
+    makeCache();
+    EXPECT_EQ(textOf(file), good);
+}
+
+// Other drivers' files go, those that were used longest ago first.
+TEST_F(PipelineCacheTest, KeepsAQuarterGibibyteOfAll) {
+    const std::filesystem::path folder = folder_.path() / "hairbench";
+    const auto now = std::filesystem::file_time_type::clock::now();
+    const auto add = [&](const char* name, int hours) {
+        const auto path = folder_.write(std::string("hairbench/") + name, "");
+        std::filesystem::resize_file(path, std::uintmax_t{100} << 20);
+        std::filesystem::last_write_time(path, now - std::chrono::hours(hours));
+        return path;
+    };
+    const auto old = add("pipelines-a-1.bin", 3), older = add("pipelines-b-1.bin", 9);
+    const auto young = add("pipelines-c-1.bin", 1), other = add("notes.txt", 20);
+    makeCache();
+    EXPECT_FALSE(std::filesystem::exists(older));
+    for (const auto& kept : {old, young, other}) EXPECT_TRUE(std::filesystem::exists(kept));
 }
 
 TEST_F(PipelineCacheTest, DoesWithoutAFolderToWriteTo) {

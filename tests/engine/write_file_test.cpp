@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "tests/error_text.h"
@@ -140,6 +141,42 @@ TEST(WriteFile, RefusesAFolder) {
     EXPECT_THAT(errorText(write), HasSubstr("is a folder"));
     const auto check = [&] { engine::checkWritable(folder.path()); };
     EXPECT_THAT(errorText(check), HasSubstr("is a folder"));
+}
+
+// Opening a pipe would wait for its reader; what the shell has opened has one.
+TEST(WriteFile, RefusesAPipeByName) {
+    const TemporaryFolder folder;
+    const fs::path pipe = folder.file("pipe");
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    fs::create_symlink("pipe", folder.file("link"));
+    for (const fs::path& path : {pipe, folder.file("link")}) {
+        EXPECT_THAT(errorText([&] { engine::checkWritable(path); }), HasSubstr("is a pipe"));
+        EXPECT_THAT(
+            errorText([&] { engine::writeFileAtomically(path, "text"); }), HasSubstr("is a pipe"));
+    }
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    const std::string open_one = "/dev/fd/" + std::to_string(ends[1]);
+    engine::checkWritable(open_one);
+    engine::writeFileAtomically(open_one, "text");
+    char text[5] = {};
+    EXPECT_EQ(read(ends[0], text, 4), 4);
+    EXPECT_STREQ(text, "text");
+    close(ends[0]);
+    close(ends[1]);
+}
+
+TEST(WriteFile, RefusesLinksInACircleAndLongNames) {
+    const TemporaryFolder folder;
+    fs::create_symlink("b", folder.file("a"));
+    fs::create_symlink("a", folder.file("b"));
+    for (const fs::path& path :
+         {folder.file("a"), folder.file("a/x.json"), folder.file(std::string(300, 'n')),
+          folder.file(std::string(5000, 'n'))}) {
+        EXPECT_NE(errorText([&] { engine::checkWritable(path); }), "no error") << path;
+        EXPECT_NE(errorText([&] { engine::writeFileAtomically(path, "text"); }), "no error")
+            << path;
+    }
 }
 
 TEST(WriteFile, RefusesAFolderThatIsAFile) {

@@ -46,6 +46,29 @@ TEST(Csv, QuotesWhatWouldBreakARow) {
         HasSubstr(",skipped,\"says \"\"no\"\",\nthen stops\",,"));
 }
 
+// Spreadsheets run what begins so (OWASP, CSV Injection). Numbers keep their signs.
+TEST(Csv, HasNoFormulas) {
+    const std::pair<const char*, const char*> rows[] = {
+        {"=1+1", "'=1+1"},
+        {"+1", "'+1"},
+        {"-1", "'-1"},
+        {"@SUM(A1)", "'@SUM(A1)"},
+        {"\t=1", "'\t=1"},
+        {"\r=1", "\"'\r=1\""},
+        {"=HYPERLINK(\"x\")", "\"'=HYPERLINK(\"\"x\"\")\""},
+        {"lost =1", "lost =1"}};
+    Report report = sampleReport();
+    report.cases[0].metrics[0].samples = {-1.5};
+    for (const auto& [text, cell] : rows) {
+        report.cases[1].reason = text;
+        report.cases[2].name = text;
+        const std::string csv = exportReport(reportJson(report), "csv");
+        EXPECT_THAT(csv, HasSubstr(std::string(",skipped,") + cell + ",,"));
+        EXPECT_THAT(csv, HasSubstr(std::string("\n") + cell + ",64,lines,failed,"));
+        EXPECT_THAT(csv, HasSubstr(",-1.5,"));
+    }
+}
+
 TEST(Markdown, HasARowForEachCase) {
     EXPECT_THAT(
         lines(exported("markdown")),

@@ -8,6 +8,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "tests/temporary_folder.h"
 
@@ -81,6 +84,63 @@ TEST_F(DiskCacheTest, TakesNothingDamaged) {
     EXPECT_EQ(kept.load("key"), std::nullopt);
     kept.store("key", "some bytes");
     EXPECT_EQ(kept.load("key"), "some bytes");
+}
+
+// What nobody writes to would be waited for, and what has no end read for ever.
+TEST_F(DiskCacheTest, TakesWhatIsAFileAlone) {
+    const DiskCache kept = cache();
+    kept.store("key", "bytes");
+    const fs::path file = kept.fileOf("key");
+    fs::remove(file);
+    ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+    EXPECT_EQ(kept.load("key"), std::nullopt);
+    fs::remove(file);
+    fs::create_symlink("/dev/zero", file);
+    EXPECT_EQ(kept.load("key"), std::nullopt);
+    fs::remove(file);
+    fs::create_directory(file);
+    EXPECT_EQ(kept.load("key"), std::nullopt);
+    fs::remove(file);
+    // Its sizes are right, and it holds more than the cache may: a file without anything on disk.
+    kept.store("key", "bytes");
+    std::string text = textOf(file);
+    const std::uint64_t huge = std::uint64_t{1} << 40;
+    const std::size_t after_key_size = sizeof "hairbench-cache 1\n" - 1 + sizeof huge;
+    text.replace(after_key_size, sizeof huge, reinterpret_cast<const char*>(&huge), sizeof huge);
+    std::ofstream(file, std::ios::binary) << text;
+    fs::resize_file(file, fs::file_size(file) - 5 + huge);
+    faults_.clear();
+    EXPECT_EQ(kept.load("key"), std::nullopt);
+    EXPECT_THAT(faults_, SizeIs(1));
+}
+
+// As runs that begin together do.
+TEST_F(DiskCacheTest, IsSharedByProcesses) {
+    constexpr int kProcesses = 4;
+    const std::string bytes(20'000, 'x');
+    for (int process = 0; process < kProcesses; ++process) {
+        if (fork() != 0) continue;
+        bool whole = true;
+        const DiskCache kept({.folder = folder_.path() / "cache", .most_bytes = 1 << 20});
+        for (int i = 0; i < 200; ++i) {
+            const std::string key = "key " + std::to_string(i % 10);
+            const auto found = kept.load(key);
+            whole &= !found || *found == bytes + key;
+            kept.store(key, bytes + key);
+        }
+        _exit(whole ? 0 : 1);
+    }
+    for (int process = 0; process < kProcesses; ++process) {
+        int status = -1;
+        ASSERT_GT(wait(&status), 0);
+        EXPECT_EQ(status, 0);
+    }
+    for (int i = 0; i < 10; ++i) {
+        const std::string key = "key " + std::to_string(i);
+        EXPECT_EQ(cache().load(key), bytes + key);
+    }
+    EXPECT_THAT(files(), SizeIs(10));
+    EXPECT_THAT(faults_, IsEmpty());
 }
 
 // As where two keys have one hash.

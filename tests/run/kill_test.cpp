@@ -22,6 +22,7 @@ protected:
         std::mt19937 random(seed);
         int done = 0;
         int early = 0;     // before the first case was done
+        int finished = 0;  // after a case at least
         int between = 0;   // after the run's first case, before its last
         for (int sweep = 0; done < kills; ++sweep) {
             const std::filesystem::path out = folder_.file(std::to_string(sweep) + ".json");
@@ -30,18 +31,21 @@ protected:
             for (std::uint32_t left = 1 + random() % 4; left > 0 && done < kills; --left) {
                 const long before = journalled(out);
                 ChildProcess process(arguments(out, {"--resume"}), log_);
-                // More often early, where a run starts, than late.
                 const double share = static_cast<double>(random() % 1000) / 1000.0;
-                std::this_thread::sleep_for(Seconds(duration * share * share));
+                // Every other one once a case is done, up to two cases later; the rest wherever it
+                // falls, more often early, where a run starts, than late.
+                const bool late = done % 2 == 0;
+                if (late) waitForACase(out, duration);
+                std::this_thread::sleep_for(
+                    Seconds(late ? duration * share * 2.0 / kCases : duration * share * share));
                 process.kill(SIGKILL);
                 if (process.wait() != 128 + SIGKILL) break;  // it was through
                 ++done;
                 const long after = journalled(out);
                 EXPECT_GE(after, before);  // nothing is lost
-                if (after <= 0)
-                    ++early;
-                else if (after > before && after < static_cast<long>(kCases))
-                    ++between;
+                if (after <= 0) ++early;
+                if (after > 0) ++finished;
+                if (after > before && after < static_cast<long>(kCases)) ++between;
             }
             const Outcome outcome = run(out, {"--resume"});
             ASSERT_EQ(outcome.status, 0) << outcome.output;
@@ -49,8 +53,17 @@ protected:
             EXPECT_FALSE(std::filesystem::exists(journalFile(out)));
             std::filesystem::remove(out);
         }
-        std::cout << done << " kills: " << early << " before any case was done, " << between
-                  << " after more cases\n";
+        std::cout << done << " kills: " << early << " before any case was done, " << finished
+                  << " after one at least, " << between << " after more cases\n";
+        EXPECT_GE(2 * finished, done);
+    }
+
+    // At most some times as long as a whole run takes.
+    static void waitForACase(const std::filesystem::path& out, double duration) {
+        const auto start = std::chrono::steady_clock::now();
+        while (journalled(out) < 1 &&
+               Seconds(std::chrono::steady_clock::now() - start).count() < 10.0 * duration)
+            std::this_thread::sleep_for(Seconds(0.005));
     }
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <iterator>
-#include <regex>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -12,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/scene/json.h"
+#include "benchmarks/scene/pattern.h"
 #include "benchmarks/scene/settings_json.h"
 #include "benchmarks/viewer/actions.h"
 #include "benchmarks/viewer/player.h"
@@ -105,33 +105,32 @@ Check readNoProblem(const scene::Json& value, const std::string& pointer, const 
     };
 }
 
-std::regex regexOf(const scene::Json& value, const std::string& pointer) {
+scene::Pattern patternOf(const scene::Json& value, const std::string& pointer) {
     try {
-        return std::regex(textOf(value, pointer));
-    } catch (const std::regex_error&) {
+        return scene::Pattern(textOf(value, pointer));
+    } catch (const engine::Error&) {
         throw engine::Error(pointer, "is no regular expression");
     }
 }
 
-void checkText(const char* what, const std::string& text, const std::regex& wanted) {
-    if (!std::regex_search(text, wanted))
-        fail(std::string(what) + " is \"" + text + "\", which does not match");
+void checkText(const char* what, const std::string& text, const scene::Pattern& wanted) {
+    if (!wanted.isIn(text)) fail(std::string(what) + " is \"" + text + "\", which does not match");
 }
 
 Check readProblem(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
-    return [wanted = regexOf(value, pointer)](const Driver&, const Side& side) {
+    return [wanted = patternOf(value, pointer)](const Driver&, const Side& side) {
         checkText("the problem", side.problem(), wanted);
     };
 }
 
 Check readMessage(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
-    return [wanted = regexOf(value, pointer)](const Driver& driver, const Side&) {
+    return [wanted = patternOf(value, pointer)](const Driver& driver, const Side&) {
         checkText("the message", driver.viewer.message(), wanted);
     };
 }
 
 Check readClipboard(const scene::Json& value, const std::string& pointer, const ScriptFolders&) {
-    return [wanted = regexOf(value, pointer)](const Driver&, const Side&) {
+    return [wanted = patternOf(value, pointer)](const Driver&, const Side&) {
         const char* const text = ImGui::GetClipboardText();
         checkText("the clipboard", text ? text : "", wanted);
     };

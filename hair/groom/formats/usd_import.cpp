@@ -217,7 +217,7 @@ StrandSet importUsd(const StrandFile& file) {
 
 // ---- Meshes -------------------------------------------------------------------------------------
 
-Mesh importUsdMesh(const std::filesystem::path& path, Textures) {
+Mesh importUsdMesh(const std::filesystem::path& path, Textures, const NamedFileCheck&) {
     return readStage("usd_mesh.py", {}, path, [](std::span<const std::byte> bytes) {
         return readMeshStream(bytes).mesh;
     });

@@ -21,8 +21,10 @@ namespace hair::groom {
 StrandSet importUsd(const StrandFile& file);
 
 // The control meshes of every UsdGeomMesh of a stage that is to be rendered, read by usd_mesh.py,
-// whose comments say how, without textures. Its errors don't name the file; as importUsd()'s.
-Mesh importUsdMesh(const std::filesystem::path& path, Textures textures);
+// whose comments say how, without textures; what the stage refers to is not checked. Its errors
+// don't name the file; as importUsd()'s.
+Mesh importUsdMesh(
+    const std::filesystem::path& path, Textures textures, const NamedFileCheck& check);
 
 // Where the vertices of importUsdMesh() are over time: linear between.
 struct UsdSamples {

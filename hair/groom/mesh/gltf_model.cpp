@@ -10,13 +10,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -25,6 +28,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "engine/error.h"
+#include "engine/files.h"
 
 namespace hair::groom {
 namespace {
@@ -249,6 +253,34 @@ bool isRead(const std::string& section, GltfImages images, GltfMotion motion) {
            (motion == GltfMotion::read && isOf(kMotionSections));
 }
 
+// Takes the sections that aren't read out of the document, and says whether there were any.
+bool dropOthers(json& document, GltfImages images, GltfMotion motion) {
+    if (!document.is_object()) return false;
+    bool found = false;
+    for (auto section = document.begin(); section != document.end();) {
+        const bool is_read = isRead(section.key(), images, motion);
+        section = is_read ? std::next(section) : document.erase(section);
+        found |= !is_read;
+    }
+    return found;
+}
+
+// How many brackets are open at most.
+int depthOf(std::string_view text) {
+    int depth = 0;
+    int most = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '"') {
+            for (++i; i < text.size() && text[i] != '"'; ++i) i += text[i] == '\\' ? 1 : 0;
+        } else if (text[i] == '{' || text[i] == '[') {
+            most = std::max(most, ++depth);
+        } else if (text[i] == '}' || text[i] == ']') {
+            --depth;
+        }
+    }
+    return most;
+}
+
 struct Rewritten {
     std::optional<std::string> file;  // absent where it is the file that was given
     std::vector<tinygltf::Image> images;
@@ -260,20 +292,12 @@ Rewritten rewritten(std::string_view file, GltfImages images, GltfMotion motion)
     const GlbChunks chunks = isGlb(file) ? glbChunks(file) : GlbChunks{file, {}};
     const auto offset = static_cast<std::size_t>(chunks.json.data() - file.data());
     if (chunks.json.size() > kMaximumJson) fail(offset, "JSON of 2^31 bytes or more");
-    bool has_others = false;
-    const auto keep = [&](int depth, json::parse_event_t event, json& parsed) {
-        if (depth > kMaximumDepth) {
-            throw engine::Error(
-                "the JSON has more than " + std::to_string(kMaximumDepth) + " levels");
-        }
-        if (depth != 1 || event != json::parse_event_t::key) return true;
-        const auto& key = parsed.get_ref<const std::string&>();
-        if (isRead(key, images, motion)) return true;
-        has_others = true;
-        return false;
-    };
+    if (depthOf(chunks.json) > kMaximumDepth)
+        throw engine::Error("the JSON has more than " + std::to_string(kMaximumDepth) + " levels");
     try {
-        json document = json::parse(chunks.json.begin(), chunks.json.end(), keep);
+        // Not by nlohmann's callback, whose time is the square of an array's length.
+        json document = json::parse(chunks.json.begin(), chunks.json.end());
+        bool has_others = dropOthers(document, images, motion);
         const std::string data = isGlb(file) ? std::string() : takeData(document);
         std::vector<tinygltf::Image> taken = takeImages(document);
         has_others |= nameMissingMatrices(document);
@@ -292,19 +316,46 @@ Rewritten rewritten(std::string_view file, GltfImages images, GltfMotion motion)
     }
 }
 
+// The files that buffers are in: tinygltf opens what it finds by these alone. `user_data` is a
+// FileAccess.
+struct FileAccess {
+    bool allowed = false;
+    const NamedFileCheck& check;
+};
+
+bool isBufferFile(const std::string& path, void* user_data) {
+    const auto& access = *static_cast<const FileAccess*>(user_data);
+    std::error_code error;
+    if (!access.allowed || !std::filesystem::exists(path, error)) return false;
+    if (access.check) access.check(path);
+    return true;
+}
+
+bool readBufferFile(
+    std::vector<unsigned char>* bytes, std::string*, const std::string& path, void* user_data) {
+    if (!static_cast<const FileAccess*>(user_data)->allowed) return false;
+    engine::OpenFile file(path);
+    bytes->resize(file.size());
+    file.read(std::span(reinterpret_cast<char*>(bytes->data()), bytes->size()));
+    return true;
+}
+
 // Later versions of tinygltf have one callback more.
 template <class Callbacks>
-Callbacks noOtherFiles() {
+Callbacks fileCallbacks(FileAccess& access) {
     Callbacks callbacks{};
-    callbacks.FileExists = [](const std::string&, void*) { return false; };
+    callbacks.user_data = &access;
+    callbacks.FileExists = isBufferFile;
     callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
-    callbacks.ReadWholeFile = [](std::vector<unsigned char>*, std::string*, const std::string&,
-                                 void*) { return false; };
+    callbacks.ReadWholeFile = readBufferFile;
     callbacks.WriteWholeFile = [](std::string*, const std::string&,
                                   const std::vector<unsigned char>&, void*) { return false; };
     if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
-        callbacks.GetFileSizeInBytes = [](std::size_t*, std::string*, const std::string&, void*) {
-            return false;
+        callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string& path,
+                                          void* user_data) {
+            if (!static_cast<const FileAccess*>(user_data)->allowed) return false;
+            *size = engine::OpenFile(path).size();
+            return true;
         };
     }
     return callbacks;
@@ -322,14 +373,15 @@ void checkExtensions(const tinygltf::Model& model) {
 
 tinygltf::Model loadGltf(
     std::span<const std::byte> bytes, const std::filesystem::path& path, GltfImages images,
-    GltfMotion motion) {
+    GltfMotion motion, const NamedFileCheck& check) {
     const std::string_view file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (file.size() > std::numeric_limits<std::uint32_t>::max()) fail(0, "4 GiB or more");
     Rewritten other = rewritten(file, images, motion);
     const std::string_view text = other.file ? std::string_view(*other.file) : file;
 
     tinygltf::TinyGLTF loader;
-    if (path.empty()) loader.SetFsCallbacks(noOtherFiles<tinygltf::FsCallbacks>());
+    FileAccess access{.allowed = !path.empty(), .check = check};
+    loader.SetFsCallbacks(fileCallbacks<tinygltf::FsCallbacks>(access));
     tinygltf::Model model;
     std::string error;
     std::string warning;

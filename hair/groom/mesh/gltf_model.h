@@ -22,6 +22,7 @@
 #include <glm/vec4.hpp>
 
 #include "engine/error.h"
+#include "hair/groom/named_files.h"
 
 namespace hair::groom {
 
@@ -51,12 +52,13 @@ enum class GltfImages {
 enum class GltfMotion { skipped, read };
 
 // glTF 2.0, .gltf or, by its first bytes, .glb. Buffers in files of their own are read from the
-// folder of `path`, or refused where that is empty. What nobody here needs is left out. Refuses
-// extensions that the file requires and that change the geometry. Throws engine::Error without
-// naming the file.
+// folder of `path` once `check` has seen them, or refused where that is empty. What nobody here
+// needs is left out. Refuses extensions that the file requires and that change the geometry. Throws
+// engine::Error without naming the file.
 tinygltf::Model loadGltf(
     std::span<const std::byte> bytes, const std::filesystem::path& path,
-    GltfImages images = GltfImages::skipped, GltfMotion motion = GltfMotion::skipped);
+    GltfImages images = GltfImages::skipped, GltfMotion motion = GltfMotion::skipped,
+    const NamedFileCheck& check = {});
 
 // What a glTF file's numbers lead to, with every index and range looked at. Errors begin with what
 // is wrong: "accessor 2: ...".

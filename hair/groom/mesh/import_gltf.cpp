@@ -67,15 +67,18 @@ std::string decodePercents(std::string_view uri) {
 
 // Image `index` of a model that was loaded with GltfImages::named: a PNG or JPEG in a buffer, in
 // base 64, or in a file of `folder`. Throws engine::Error "image 2 'skin': reason".
-engine::Pixels
-decodeGltfImage(const tinygltf::Model& model, int index, const std::filesystem::path& folder) {
+engine::Pixels decodeGltfImage(
+    const tinygltf::Model& model, int index, const std::filesystem::path& folder,
+    const NamedFileCheck& check) {
     const tinygltf::Image& image = at(model.images, index, "image");
     const std::string name = image.name.empty() ? "" : " '" + image.name + "'";
     try {
         if (image.bufferView >= 0) return engine::decodeImage(bytesOfView(model, image.bufferView));
         if (image.uri.empty()) throw engine::Error("has neither a bufferView nor a uri");
         if (image.uri.starts_with("data:")) return engine::decodeImage(bytesOfDataUri(image.uri));
-        return engine::readImage(folder / decodePercents(image.uri));
+        const std::filesystem::path file = folder / decodePercents(image.uri);
+        if (check) check(file);
+        return engine::readImage(file);
     } catch (const engine::Error& error) {
         throw engine::Error(numbered("image", index) + name, error.what());
     }
@@ -115,8 +118,9 @@ Wrap toWrap(int mode) {
 class MaterialReader {
 public:
     MaterialReader(
-        const tinygltf::Model& model, Textures textures, const std::filesystem::path& folder)
-        : model_(model), textures_(textures), folder_(folder) {}
+        const tinygltf::Model& model, Textures textures, const std::filesystem::path& folder,
+        const NamedFileCheck& check)
+        : model_(model), textures_(textures), folder_(folder), check_(check) {}
 
     Material read(const tinygltf::Material& source) {
         const tinygltf::PbrMetallicRoughness& surface = source.pbrMetallicRoughness;
@@ -179,7 +183,7 @@ private:
             numbers_.try_emplace(image, static_cast<std::uint32_t>(pictures_.size()));
         if (!is_new) return known->second;
         const engine::Pixels& added =
-            pictures_.emplace_back(decodeGltfImage(model_, image, folder_));
+            pictures_.emplace_back(decodeGltfImage(model_, image, folder_, check_));
         pixels_ += added.rgba.size() / 4;
         if (pixels_ > kMostPixels)
             throw engine::Error("the images have more than 2^27 pixels in all");
@@ -189,6 +193,7 @@ private:
     const tinygltf::Model& model_;
     Textures textures_;
     const std::filesystem::path& folder_;
+    const NamedFileCheck& check_;
     std::map<int, std::uint32_t> numbers_;  // of images among the pictures
     std::vector<engine::Pixels> pictures_;
     std::size_t pixels_ = 0;
@@ -199,8 +204,9 @@ private:
 // material is matt grey. Textures, where they are wanted, have to be on TEXCOORD_0 without
 // KHR_texture_transform. Throws engine::Error that names the material and the image.
 GltfMaterials readMaterials(
-    const tinygltf::Model& model, Textures textures, const std::filesystem::path& folder) {
-    MaterialReader reader(model, textures, folder);
+    const tinygltf::Model& model, Textures textures, const std::filesystem::path& folder,
+    const NamedFileCheck& check) {
+    MaterialReader reader(model, textures, folder, check);
     std::vector<Material> materials{{.name = "default"}};
     for (std::size_t i = 0; i < model.materials.size(); ++i) {
         try {
@@ -354,17 +360,18 @@ private:
 
 }  // namespace
 
-Mesh importGltf(const std::filesystem::path& path, Textures textures) {
+Mesh importGltf(const std::filesystem::path& path, Textures textures, const NamedFileCheck& check) {
     engine::OpenFile file(path);
     std::vector<char> bytes(file.size());
     file.read(bytes);
     const tinygltf::Model model = loadGltf(
         std::as_bytes(std::span(bytes)), path,
-        textures == Textures::decoded ? GltfImages::named : GltfImages::skipped);
+        textures == Textures::decoded ? GltfImages::named : GltfImages::skipped,
+        GltfMotion::skipped, check);
     MeshReader reader(model);
     forEachPrimitive(model, [&](const GltfPlace& place) { reader.add(place); });
     Mesh mesh = reader.take();
-    GltfMaterials materials = readMaterials(model, textures, path.parent_path());
+    GltfMaterials materials = readMaterials(model, textures, path.parent_path(), check);
     mesh.materials = std::move(materials.materials);
     mesh.pictures = std::move(materials.pictures);
     return mesh;

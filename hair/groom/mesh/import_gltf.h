@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "hair/groom/mesh/mesh.h"
+#include "hair/groom/named_files.h"
 
 namespace hair::groom {
 
@@ -13,6 +14,7 @@ namespace hair::groom {
 // attributes of float scalars from 0 to 1, `_SCALP` as "scalp". Skips other primitives; skins and
 // animations are animation.h's. Refuses sparse accessors and required extensions that change the
 // geometry.
-Mesh importGltf(const std::filesystem::path& path, Textures textures);
+Mesh importGltf(
+    const std::filesystem::path& path, Textures textures, const NamedFileCheck& check = {});
 
 }  // namespace hair::groom

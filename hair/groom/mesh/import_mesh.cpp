@@ -37,7 +37,8 @@ std::filesystem::path readerProgram() {
 }
 
 // Whatever assimp reads, by a child (mesh_reader.cpp).
-Mesh importAssimp(const std::filesystem::path& path, Textures textures) {
+Mesh importAssimp(
+    const std::filesystem::path& path, Textures textures, const NamedFileCheck& check) {
     const std::string program = readerProgram().string();
     ReadMesh read;
     try {
@@ -59,7 +60,9 @@ Mesh importAssimp(const std::filesystem::path& path, Textures textures) {
         if (read.textures[i].empty()) continue;
         mesh.materials[i].base_color_texture = {
             .picture = static_cast<std::uint32_t>(mesh.pictures.size())};
-        mesh.pictures.push_back(engine::readImage(path.parent_path() / read.textures[i]));
+        const std::filesystem::path picture = path.parent_path() / read.textures[i];
+        if (check) check(picture);
+        mesh.pictures.push_back(engine::readImage(picture));
     }
     return mesh;
 }
@@ -116,7 +119,7 @@ void checkVertices(const Mesh& mesh) {
     }
 }
 
-void check(const Mesh& mesh) {
+void checkMesh(const Mesh& mesh) {
     if (mesh.triangles.empty()) throw engine::Error("the mesh has no triangles");
     for (const std::uint32_t material : mesh.triangle_materials) {
         if (material >= mesh.materials.size()) {
@@ -154,13 +157,13 @@ void completeNormals(Mesh& mesh) {
 
 std::span<const MeshImporter> meshImporters() { return mesh_importers; }
 
-Mesh importMesh(const std::filesystem::path& path, Textures textures) {
+Mesh importMesh(const std::filesystem::path& path, Textures textures, const NamedFileCheck& check) {
     const MeshImporter& importer = importerFor(path);
     const engine::Step step("reads " + path.filename().string());
     engine::OpenFile{path};  // what can't be opened is refused in the same words for every format
     try {
-        Mesh mesh = importer.import(path, textures);
-        check(mesh);
+        Mesh mesh = importer.import(path, textures, check);
+        checkMesh(mesh);
         completeNormals(mesh);
         return mesh;
     } catch (const engine::Error& error) {

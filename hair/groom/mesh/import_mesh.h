@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "hair/groom/mesh/mesh.h"
+#include "hair/groom/named_files.h"
 
 namespace hair::groom {
 
@@ -14,7 +15,8 @@ namespace hair::groom {
 // name the file.
 struct MeshImporter {
     std::span<const std::string_view> extensions;  // lower case, with the dot
-    Mesh (*import)(const std::filesystem::path& path, Textures textures);
+    Mesh (*import)(
+        const std::filesystem::path& path, Textures textures, const NamedFileCheck& check);
 };
 
 // A new format is a row here.
@@ -23,7 +25,9 @@ std::span<const MeshImporter> meshImporters();
 // Reads a mesh by its extension, in any case. The mesh has at least one triangle, finite positions
 // and texture coordinates, weights from 0 to 1, and unit normals. Lengths are the file's; formats
 // that state their unit (glTF, FBX, COLLADA, USD) come out in metres. Throws engine::Error "path:
-// reason".
-Mesh importMesh(const std::filesystem::path& path, Textures textures = Textures::skipped);
+// reason", also for what `check` throws.
+Mesh importMesh(
+    const std::filesystem::path& path, Textures textures = Textures::skipped,
+    const NamedFileCheck& check = {});
 
 }  // namespace hair::groom

@@ -177,7 +177,7 @@ ReadMesh read(const std::filesystem::path& path) {
 // No more than what a file of this size can need: assimp's trees of text files are some 40 times as
 // large as the files.
 void limitSelf(std::uintmax_t file_size) {
-    const rlim_t seconds = 10 + file_size / 2'000'000;
+    const rlim_t seconds = 8 + file_size / 2'000'000;
     const rlimit time{.rlim_cur = seconds, .rlim_max = seconds + 1};
     setrlimit(RLIMIT_CPU, &time);
     const rlimit none{.rlim_cur = 0, .rlim_max = 0};

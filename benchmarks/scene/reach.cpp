@@ -1,0 +1,155 @@
+#include "benchmarks/scene/reach.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <variant>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/error.h"
+#include "hair/fields.h"
+#include "hair/settings.h"
+
+namespace benchmarks::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+// ---- Folders ------------------------------------------------------------------------------------
+
+// Where a name leads once links are followed, as far as there is something.
+fs::path placeOf(const fs::path& path) {
+    std::error_code error;
+    const fs::path absolute = fs::absolute(path, error);
+    const fs::path place = fs::weakly_canonical(absolute, error);
+    return error ? absolute.lexically_normal() : place;  // links in a circle: nothing is opened
+}
+
+bool isBelow(const fs::path& file, const fs::path& folder) {
+    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first ==
+           folder.end();
+}
+
+// Not where anybody may put the mark, as in /tmp.
+bool isMarked(const fs::path& folder) {
+    std::error_code error;
+    const fs::perms permissions = fs::status(folder, error).permissions();
+    return !error && (permissions & fs::perms::others_write) == fs::perms::none &&
+           fs::exists(folder / "scene.schema.json", error);
+}
+
+fs::path folderOfScenes(const fs::path& opened) {
+    const fs::path own = placeOf(opened.has_parent_path() ? opened.parent_path() : fs::path("."));
+    for (fs::path folder = own;; folder = folder.parent_path()) {
+        if (isMarked(folder)) return folder;
+        if (folder == folder.parent_path()) return own;
+    }
+}
+
+}  // namespace
+
+Reach::Reach(const fs::path& opened, Outside outside) {
+    if (outside == Outside::refused)
+        folders_ = {folderOfScenes(opened), placeOf(HAIRBENCH_SOURCE_DIR "/scenes")};
+}
+
+void Reach::check(const fs::path& file) const {
+    if (folders_.empty()) return;
+    const fs::path place = placeOf(file);
+    const auto holds = [&](const fs::path& folder) { return isBelow(place, folder); };
+    if (std::ranges::none_of(folders_, holds))
+        throw engine::Error(
+            file.string(),
+            "lies outside of " + folders_.front().string() +
+                ", the scene's folder: where that is meant, --allow-outside opens it");
+}
+
+void Reach::check(const fs::path& file, const fs::path& owner) const {
+    if (!isBelow(placeOf(file), placeOf(owner).parent_path())) check(file);
+}
+
+namespace {
+
+// ---- Names of files -----------------------------------------------------------------------------
+
+using NameVisitor = std::function<void(const std::string& pointer, const std::string& name)>;
+
+// "groom/file" -> "groom", and "file" is left; nothing is left where it was the last.
+std::string_view takeToken(std::string_view& rest) {
+    const std::size_t end = std::min(rest.find('/'), rest.size());
+    const std::string_view token = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    return token;
+}
+
+// Visits the file names in a JSON value of the settings, or of their member at `rest`,
+// "groom/file". `pointer` is where the settings are.
+void visitNames(
+    const Json& value, std::string_view rest, hair::SettingsView settings,
+    const std::string& pointer, const NameVisitor& visit);
+
+void visitNames(
+    const hair::Place&, const Json&, std::string_view, hair::SettingsView, const std::string&,
+    const NameVisitor&) {}
+
+void visitNames(
+    const hair::FileName&, const Json& value, std::string_view, hair::SettingsView,
+    const std::string& pointer, const NameVisitor& visit) {
+    if (value.is_string()) visit(pointer, value.get_ref<const std::string&>());
+}
+
+void visitNames(
+    const hair::Group& row, const Json& value, std::string_view rest, hair::SettingsView settings,
+    const std::string& pointer, const NameVisitor& visit) {
+    visitNames(value, rest, row.in(settings), pointer, visit);
+}
+
+void visitNames(
+    const hair::List& row, const Json& value, std::string_view rest, hair::SettingsView,
+    const std::string& pointer, const NameVisitor& visit) {
+    if (!rest.empty()) {
+        const std::string element = pointer + '/' + std::string(takeToken(rest));
+        return visitNames(value, rest, row.newElement(), element, visit);
+    }
+    for (std::size_t i = 0; value.is_array() && i < value.size(); ++i)
+        visitNames(value[i], "", row.newElement(), pointer + '/' + std::to_string(i), visit);
+}
+
+void visitNames(
+    const Json& value, std::string_view rest, hair::SettingsView settings,
+    const std::string& pointer, const NameVisitor& visit) {
+    const std::string_view token = takeToken(rest);
+    if (token.empty() && !value.is_object()) return;
+    for (const hair::Field& field : settings.fields()) {
+        if (token.empty() ? !value.contains(field.name) : token != field.name) continue;
+        const Json& member = token.empty() ? value.at(field.name) : value;
+        std::visit(
+            [&](const auto& row) {
+                visitNames(row, member, rest, settings, pointer + '/' + field.name, visit);
+            },
+            field.kind);
+    }
+}
+
+}  // namespace
+
+void checkNamedFiles(
+    const Json& value, const std::string& pointer, const fs::path& directory, const Reach& reach) {
+    const hair::Settings defaults;
+    visitNames(
+        value, pointer.empty() ? "" : std::string_view(pointer).substr(1), defaults, "",
+        [&](const std::string& place, const std::string& name) {
+            if (name.empty()) return;
+            try {
+                reach.check(directory / name);
+            } catch (const engine::Error& error) {
+                throw engine::Error(place, error.what());
+            }
+        });
+}
+
+}  // namespace benchmarks::scene

@@ -1,0 +1,40 @@
+#include "benchmarks/scene/pattern.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/error_text.h"
+
+namespace benchmarks {
+namespace {
+
+TEST(Pattern, IsFoundAnywhereInAName) {
+    const scene::Pattern pattern("density:(1|64)$");
+    EXPECT_TRUE(pattern.isIn("s/density:1"));
+    EXPECT_FALSE(pattern.isIn("s/density:16"));
+    EXPECT_TRUE(pattern.isIn("s/density:64"));
+    EXPECT_TRUE(scene::Pattern("").isIn("s/density:16"));
+    EXPECT_TRUE(scene::Pattern("guides:\\d+/.*msaa:1").isIn("thesis/guides:86/msaa:1"));
+}
+
+TEST(Pattern, RefusesWhatIsNone) {
+    for (const char* wrong : {"(x", "[a", "*", "a**b)", "(?=x)", "(a)\\1"})
+        EXPECT_NE(errorText([&] { scene::Pattern{wrong}; }), "no error") << wrong;
+}
+
+// std::regex of libstdc++ recurses once for each character: a megabyte of them ends the program.
+TEST(Pattern, TakesTextsOfAnyLength) {
+    const std::string text(std::size_t{4} << 20, 'a');
+    EXPECT_TRUE(scene::Pattern("^(a|b)*$").isIn(text));
+    EXPECT_FALSE(scene::Pattern("(a|b)*c").isIn(text));
+}
+
+// Where each character doubles the time, forty take an hour.
+TEST(Pattern, TakesTimeByTheTextAlone) {
+    EXPECT_FALSE(scene::Pattern("^(a+)+$").isIn(std::string(100'000, 'a') + 'b'));
+    // What needs more states than there is room for is refused.
+    EXPECT_NE(errorText([] { scene::Pattern("((a{1000}){1000}){1000}"); }), "no error");
+}
+
+}  // namespace
+}  // namespace benchmarks

@@ -1,0 +1,196 @@
+#include "benchmarks/scene/reach.h"
+
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "benchmarks/scene/assets.h"
+#include "benchmarks/scene/sweep.h"
+#include "tests/error_text.h"
+#include "tests/temporary_folder.h"
+
+namespace benchmarks {
+namespace {
+
+namespace fs = std::filesystem;
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+// "in" is the scene's folder, and what is beside it is none of its business.
+class SceneReach : public testing::Test {
+protected:
+    SceneReach() {
+        folder.write("private/head.obj", kTetrahedron);
+        folder.write("private/base.json", "{}");
+        folder.write("in/below/head.obj", kTetrahedron);
+    }
+
+    // What opening a scene of this text, and all its cases' files, fails with.
+    std::string error(const std::string& text, scene::Outside outside = scene::Outside::refused) {
+        const fs::path path = folder.write("in/s.json", text);
+        return folder.relative(errorText([&] {
+            scene::Scene opened = scene::loadScene(path, outside);
+            scene::checkAssets(opened.settings, path, assets, opened.reach);
+        }));
+    }
+
+    static std::string fieldOf(const std::string& mesh) {
+        return R"({"groom": {"grow": {"mesh": ")" HAIRBENCH_SCENES_DIR
+               R"(/assets/head.glb"}}, "simulation": {"distance_fields": [{"mesh": ")" +
+               mesh + "\"}]}}";
+    }
+
+    static constexpr const char* kTetrahedron =
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
+    TemporaryFolder folder;
+    scene::AssetStore assets;
+};
+
+TEST_F(SceneReach, EndsAtItsFolder) {
+    EXPECT_EQ(error(fieldOf("below/head.obj")), "no error");
+    EXPECT_EQ(error(fieldOf("below/../below/head.obj")), "no error");
+    for (const std::string& name :
+         {std::string("../private/head.obj"), folder.file("private/head.obj").string(),
+          std::string("below/../../private/head.obj")})
+        EXPECT_THAT(
+            error(fieldOf(name)), AllOf(
+                                      StartsWith("in/s.json: /simulation/distance_fields/0/mesh: "),
+                                      HasSubstr("lies outside of"), HasSubstr("--allow-outside")))
+            << name;
+    EXPECT_EQ(error(fieldOf("../private/head.obj"), scene::Outside::allowed), "no error");
+}
+
+TEST_F(SceneReach, EndsWhereLinksLeadOut) {
+    fs::create_directory_symlink("../private", folder.file("in/linked"));
+    EXPECT_THAT(error(fieldOf("linked/head.obj")), HasSubstr("lies outside of"));
+    fs::create_symlink("round", folder.file("in/round"));
+    EXPECT_THAT(error(fieldOf("round")), HasSubstr("round: "));
+}
+
+TEST_F(SceneReach, IsThatOfBasesToo) {
+    EXPECT_THAT(
+        error(R"({"base": "../private/base.json"})"),
+        AllOf(StartsWith("in/s.json: /base: "), HasSubstr("lies outside of")));
+    // It is not even looked at.
+    EXPECT_THAT(error(R"({"base": "../../none.json"})"), HasSubstr("lies outside of"));
+    EXPECT_EQ(
+        error(
+            R"({"base": "../private/base.json", "groom": {"grow": {"mesh": ")" HAIRBENCH_SCENES_DIR
+            R"(/assets/head.glb"}}})",
+            scene::Outside::allowed),
+        "no error");
+    EXPECT_EQ(error(R"({"base": ")" HAIRBENCH_SCENES_DIR R"(/smoke.json"})"), "no error");
+}
+
+TEST_F(SceneReach, IsThatOfEveryValueOfAnAxis) {
+    const std::string base = R"({"base": ")" HAIRBENCH_SCENES_DIR R"(/smoke.json", "sweep": {)";
+    for (const char* axis :
+         {R"("/render/environment": ["", "../private/sky.exr"])",
+          R"("/render": [{"environment": "../private/sky.exr"}, {"msaa": 1}])",
+          R"("zip": [{"/strands/density": [1, 2], "/render/environment": ["", "/etc/sky.exr"]}])",
+          R"("cases": [{"/render/environment": "../private/sky.exr"}, {"/strands/density": 2}])"})
+        EXPECT_THAT(error(base + axis + "}}"), HasSubstr("lies outside of")) << axis;
+    EXPECT_EQ(error(base + R"("/render/environment": ["", "below/sky.exr"]}})"), "no error");
+}
+
+TEST_F(SceneReach, IsThatOfTheSuiteForItsMembers) {
+    folder.write("in/below/m.json", fieldOf("../s.obj"));
+    folder.write("in/s.obj", kTetrahedron);
+    const fs::path suite = folder.write("in/all.json", R"({"suite": ["below/m.json"]})");
+    EXPECT_EQ(errorText([&] { scene::loadScenes(suite); }), "no error");
+    EXPECT_THAT(
+        errorText([&] { scene::loadScene(folder.file("in/below/m.json")); }),
+        HasSubstr("lies outside of"));
+    const fs::path other = folder.write("in/other.json", R"({"suite": ["../private/base.json"]})");
+    EXPECT_THAT(errorText([&] { scene::loadScenes(other); }), HasSubstr("lies outside of"));
+    EXPECT_EQ(errorText([&] { scene::loadScenes(other, scene::Outside::allowed); }), "no error");
+}
+
+// The schema beside scenes says that the folder is one of scenes.
+TEST_F(SceneReach, IsTheWholeFolderOfScenes) {
+    const fs::path path = folder.write("in/below/s.json", fieldOf("../far/head.obj"));
+    folder.write("in/far/head.obj", kTetrahedron);
+    const auto load = [&] { return errorText([&] { scene::loadScene(path); }); };
+    EXPECT_THAT(load(), HasSubstr("lies outside of"));
+    folder.write("in/scene.schema.json", "{}");
+    EXPECT_EQ(load(), "no error");
+    folder.write("in/below/scene.schema.json", "{}");  // the nearest counts
+    EXPECT_THAT(load(), HasSubstr("lies outside of"));
+    fs::remove(folder.file("in/below/scene.schema.json"));
+    EXPECT_EQ(load(), "no error");
+    fs::permissions(folder.file("in"), fs::perms::all);  // anybody may have put it there
+    EXPECT_THAT(load(), HasSubstr("lies outside of"));
+}
+
+// 12 bytes: the triangle's corners. Buffers and pictures of a glTF file, textures of an OBJ file.
+TEST_F(SceneReach, IsThatOfFilesThatFilesName) {
+    folder.write("private/buffer.bin", std::string(36, '\0'));
+    const std::string gltf =
+        R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+        "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+        "textures": [{"source": 0}], "images": [{"uri": "IMAGE"}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri": "BUFFER"}]})";
+    const auto meshOf = [&](std::string buffer, std::string image) {
+        std::string text = gltf;
+        text.replace(text.find("BUFFER"), 6, buffer);
+        text.replace(text.find("IMAGE"), 5, image);
+        folder.write("in/m.gltf", text);
+        return R"({"base": ")" HAIRBENCH_SCENES_DIR
+               R"(/smoke.json", "render": {"meshes": [{"file": "m.gltf"}]}})";
+    };
+    EXPECT_THAT(
+        error(meshOf("../private/buffer.bin", "none.png")),
+        AllOf(StartsWith("in/m.gltf: "), HasSubstr("buffer.bin: lies outside of")));
+    EXPECT_THAT(
+        error(meshOf("../private/buffer.bin", "none.png"), scene::Outside::allowed),
+        HasSubstr("none.png: no such file"));
+    folder.write("in/buffer.bin", std::string(36, '\0'));
+    EXPECT_THAT(
+        error(meshOf("buffer.bin", "../private/skin.png")),
+        AllOf(StartsWith("in/m.gltf: "), HasSubstr("skin.png: lies outside of")));
+    EXPECT_THAT(
+        error(meshOf("buffer.bin", "..%2Fprivate%2Fskin.png")), HasSubstr("lies outside of"));
+
+    folder.write("in/m.mtl", "newmtl skin\nmap_Kd ../private/skin.png\n");
+    folder.write(
+        "in/m.obj", std::string("mtllib m.mtl\nusemtl skin\nvt 0 0\n") +
+                        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2/1 3/1\n");
+    EXPECT_THAT(
+        error(R"({"base": ")" HAIRBENCH_SCENES_DIR
+              R"(/smoke.json", "render": {"meshes": [{"file": "m.obj"}]}})"),
+        AllOf(StartsWith("in/m.obj: "), HasSubstr("skin.png: lies outside of")));
+}
+
+// What the user types is the user's own.
+TEST_F(SceneReach, IsNotThatOfTheCommandLine) {
+    const fs::path path =
+        folder.write("in/s.json", R"({"base": ")" HAIRBENCH_SCENES_DIR R"(/smoke.json"})");
+    scene::Scene opened = scene::loadScene(path);
+    const scene::SceneOptions options{
+        .scene = path,
+        .axes = {"/simulation/distance_fields/0/mesh=" + folder.file("private/head.obj").string()},
+        .sets = {"/simulation/distance_fields=[{\"mesh\": \"../private/head.obj\"}]"}};
+    EXPECT_EQ(errorText([&] { scene::selectCases(opened, options); }), "no error");
+}
+
+TEST(ShippedScenes, NameFilesOfTheirFolderAlone) {
+    for (const auto& entry : fs::recursive_directory_iterator(HAIRBENCH_SCENES_DIR)) {
+        const fs::path& path = entry.path();
+        if (path.extension() != ".json" || path.string().ends_with(".schema.json") ||
+            path.parent_path().filename() == "assets")
+            continue;
+        EXPECT_EQ(errorText([&] { scene::loadScenes(path); }), "no error") << path;
+    }
+}
+
+}  // namespace
+}  // namespace benchmarks
