@@ -108,7 +108,8 @@ using Clock = std::chrono::steady_clock;
 // what a long one measures, and short ones are not waited for longer than they take.
 constexpr std::chrono::milliseconds kShortestLook{1};
 constexpr std::chrono::milliseconds kLongestLook{20};
-constexpr std::chrono::seconds kGrace{1};
+// A run that waits for its device ends within a second; this program is to end within two.
+constexpr std::chrono::milliseconds kGrace{1700};
 constexpr int kNotFound = 127;
 
 // A child that is gone in any case.
@@ -164,7 +165,7 @@ private:
 
 // Runs a program to its end, found as the shell finds it, with nothing to read and all that it says
 // in the file `output`. It has a process group of its own: where this program is interrupted, the
-// group is interrupted, killed if it goes on for a second more, and Interrupted thrown.
+// group is interrupted, killed if it goes on for 1.7 s more, and Interrupted thrown.
 // Status 127 where there is no such program.
 ChildEnd runChild(const std::vector<std::string>& command, const std::filesystem::path& output) {
     Child child(command, output);
