@@ -24,7 +24,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 // Floats of values up to 5.
-constexpr double kRounding = 1e-6;
+constexpr double kFloatRounding = 1e-6;
 
 class UsdMeshes : public testing::Test {
 protected:
@@ -56,7 +56,7 @@ private:
 void expectNear(const std::vector<glm::dvec3>& found, const std::vector<glm::dvec3>& expected) {
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i)
-        EXPECT_LT(glm::distance(found[i], expected[i]), kRounding)
+        EXPECT_LT(glm::distance(found[i], expected[i]), kFloatRounding)
             << i << ": " << found[i].x << ' ' << found[i].y << ' ' << found[i].z;
 }
 
@@ -111,7 +111,8 @@ TEST_F(UsdMeshes, RootsGoWithTheirTriangles) {
     const glm::dvec3 root = motions[0](glm::dvec3(roots[0]));
     // Stretched along its slope by sqrt(1.25), the triangle turns as the rotation of the polar
     // decomposition does, which is the one about the first edge.
-    EXPECT_LT(glm::distance(root, on_edge + 0.1 * glm::normalize(glm::dvec3(0, 2, 1))), kRounding);
+    EXPECT_LT(
+        glm::distance(root, on_edge + 0.1 * glm::normalize(glm::dvec3(0, 2, 1))), kFloatRounding);
 }
 
 TEST_F(UsdMeshes, FacesBecomeTrianglesAndSeamsVertices) {
