@@ -1,6 +1,7 @@
 #include "benchmarks/report/report.h"
 
 #include <cmath>
+#include <exception>
 #include <map>
 #include <optional>
 #include <set>
@@ -440,14 +441,18 @@ scene::Json readReport(const std::filesystem::path& path) {
     if (!isReadable(schema->get_ref<const std::string&>()))
         throw engine::Error(
             path.string(), schema->get<std::string>() + " is not " + std::string(kReportSchema));
+    const auto damaged = [&](const std::exception& error) {
+        return engine::Error(path.string(), std::string("is damaged: ") + error.what());
+    };
     try {
         checkCounts(report);
-        moveSamplesIn(report, path);
-    } catch (const engine::Error& error) {
-        if (std::string_view(error.what()).starts_with(path.string())) throw;
-        throw engine::Error(path.string(), std::string("is damaged: ") + error.what());
+    } catch (const std::exception& error) {
+        throw damaged(error);
+    }
+    try {
+        moveSamplesIn(report, path);  // its errors name the file that is meant
     } catch (const scene::Json::exception& error) {
-        throw engine::Error(path.string(), std::string("is damaged: ") + error.what());
+        throw damaged(error);
     }
     return report;
 }
