@@ -295,17 +295,34 @@ Holds inGltf(const fs::path& path) {
     return lines ? Holds::strands : Holds::triangles;
 }
 
-// What is in a file of a format that can hold strands and meshes: OBJ, PLY, glTF. Triangles where
-// the file has any: an OBJ with an `f` line, a glTF with a primitive of triangles (or of no stated
-// mode), a PLY with faces and without an element of strands. (Faces of two corners, as which assimp
-// writes lines, are not told from others.) Of an OBJ it reads up to the first face, of a PLY the
-// header, of a glTF the JSON. A file that can't be read counts as triangles: its import says what
-// is wrong.
+// USD with curves is strands, and so is what can't be read.
+Holds inUsd(const fs::path& file) {
+    try {
+        hair::groom::importStrands(file, 0);
+        return Holds::strands;
+    } catch (const engine::Error&) {
+    }
+    try {
+        hair::groom::importMesh(file);
+        return Holds::triangles;
+    } catch (const engine::Error&) {
+        return Holds::strands;
+    }
+}
+
+// What is in a file of a format that can hold strands and meshes: OBJ, PLY, glTF, USD. Triangles
+// where the file has any: an OBJ with an `f` line, a glTF with a primitive of triangles (or of no
+// stated mode), a PLY with faces and without an element of strands. (Faces of two corners, as which
+// assimp writes lines, are not told from others.) Of an OBJ it reads up to the first face, of a PLY
+// the header, of a glTF the JSON; USD is read whole. Another file that can't be read counts as
+// triangles: its import says
+// what is wrong.
 Holds strandsOrTriangles(const fs::path& file) {
     const std::string extension = hair::groom::lowerCaseExtension(file);
     try {
         if (extension == ".obj") return inObj(file);
         if (extension == ".ply") return inPly(file);
+        if (extension.starts_with(".usd")) return inUsd(file);
         return inGltf(file);
     } catch (const engine::Error&) {
         return Holds::triangles;

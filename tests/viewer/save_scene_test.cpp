@@ -140,7 +140,7 @@ TEST(SaveScene, IsReadAsTheSettingsWithFilesInTheirPlace) {
     settings.groom.guides = 12;
     const fs::path file = folder.file("kept/new/b.json");
     saveScene(settings, folder.file("scenes"), file);
-    const scene::Scene scene = scene::loadScene(file);
+    const scene::Scene scene = scene::loadScene(file, scene::Outside::allowed);
     EXPECT_EQ(scene.settings.groom.guides, 12u);
     EXPECT_EQ(scene.settings.groom.file, "../../scenes/hair/a.hair");
     EXPECT_TRUE(fs::equivalent(
