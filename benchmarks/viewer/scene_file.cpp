@@ -315,8 +315,7 @@ Holds inUsd(const fs::path& file) {
 // stated mode), a PLY with faces and without an element of strands. (Faces of two corners, as which
 // assimp writes lines, are not told from others.) Of an OBJ it reads up to the first face, of a PLY
 // the header, of a glTF the JSON; USD is read whole. Another file that can't be read counts as
-// triangles: its import says
-// what is wrong.
+// triangles: its import says what is wrong.
 Holds strandsOrTriangles(const fs::path& file) {
     const std::string extension = hair::groom::lowerCaseExtension(file);
     try {
