@@ -19,8 +19,7 @@ namespace engine {
 // - who waits for a device (waitHeeding()) that isn't done 0.7 s after the interrupt ends
 //   the program where it stands, by endInterrupted(): a driver's work can't be called off;
 // - where nobody asks for 1.2 s (kPatience), as within a library, a thread ends the program,
-// without
-//   LastWords.
+//   without LastWords.
 void catchInterrupts();
 
 // Whether an interrupt came since catchInterrupts(). Who hears so ends its work: nobody else does.

@@ -133,10 +133,15 @@ def joined(arrays, dtype):
     return np.concatenate(arrays) if arrays else np.empty(0, dtype)
 
 
-def main():
-    # Whatever libraries print must not get into the stream.
+def open_stream():
+    """What was stdout: whatever libraries print must not get into it."""
     stream = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
+    return stream
+
+
+def main():
+    stream = open_stream()
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("stage", help=".usd, .usda, .usdc, .usdz")
     reader = read(parser.parse_args().stage)

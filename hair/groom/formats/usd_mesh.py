@@ -10,7 +10,6 @@ stderr.
 """
 
 import argparse
-import os
 import struct
 import sys
 
@@ -18,7 +17,7 @@ try:
     import numpy as np
     from pxr import Gf, Tf, Usd, UsdGeom, UsdShade, UsdSkel
 
-    from usd_curves import Xforms, metres_per_unit_of, words_of
+    from usd_curves import Xforms, joined, metres_per_unit_of, open_stream, words_of
     from usd_prim import Refused
 except ImportError as error:
     sys.exit(f"{error}: run scripts/setup --python")
@@ -250,11 +249,6 @@ class Reader:
             stream.write(self.metres([mesh.at(time, xforms) for mesh in self.meshes]).tobytes())
 
 
-def joined(arrays, dtype):
-    arrays = [np.ascontiguousarray(array, dtype) for array in arrays]
-    return np.concatenate(arrays) if arrays else np.empty(0, dtype)
-
-
 def count(stream, number):
     stream.write(struct.pack("<Q", number))
 
@@ -269,9 +263,7 @@ def text(stream, words):
 
 
 def main():
-    # Whatever libraries print must not get into the stream.
-    stream = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
-    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
+    stream = open_stream()
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--samples", action="store_true", help="positions over time")
     parser.add_argument("stage", help=".usd, .usda, .usdc, .usdz")
