@@ -15,12 +15,20 @@ VmaAllocationCreateFlags allocationFlags(Usage usage) {
                                    : VMA_ALLOCATION_CREATE_HOST_ACCESS_RANDOM_BIT);
 }
 
+// Whether the device was that memory is taken from.
+bool ownerIsGivenUp(VmaAllocator allocator) {
+    VmaAllocatorInfo info{};
+    vmaGetAllocatorInfo(allocator, &info);
+    return isGivenUp(info.device);
+}
+
 }  // namespace
 
 // ---- Buffers ------------------------------------------------------------------------------------
 
-Buffer::Buffer(const Device& device, const BufferDescription& description)
-    : allocator_(device.allocator()), size_(description.size) {
+Buffer::Buffer(const Device& device, const BufferDescription& description) : Buffer() {
+    allocator_ = device.allocator();
+    size_ = description.size;
     VkBufferCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     create.size = description.size;
@@ -64,7 +72,7 @@ Buffer::Buffer(const Device& device, const BufferDescription& description)
 }
 
 Buffer::~Buffer() {
-    if (buffer_) vmaDestroyBuffer(allocator_, buffer_, allocation_);
+    if (buffer_ && !ownerIsGivenUp(allocator_)) vmaDestroyBuffer(allocator_, buffer_, allocation_);
 }
 
 void Buffer::swap(Buffer& other) noexcept {
@@ -94,12 +102,16 @@ TexelView::TexelView(const Device& device, const Buffer& buffer, VkFormat format
 
 // ---- Images -------------------------------------------------------------------------------------
 
-Image::Image(const Device& device, const ImageDescription& description)
-    : allocator_(device.allocator()), format_(description.format),
+// Nothing yet.
+Image::Image(VmaAllocator_T* allocator, const ImageDescription& description)
+    : allocator_(allocator), format_(description.format),
       extent_{description.width, description.height},
       aspect_(
           description.format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT
-                                                     : VK_IMAGE_ASPECT_COLOR_BIT) {
+                                                     : VK_IMAGE_ASPECT_COLOR_BIT) {}
+
+Image::Image(const Device& device, const ImageDescription& description)
+    : Image(device.allocator(), description) {
     VkImageCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
     create.imageType = VK_IMAGE_TYPE_2D;
@@ -148,7 +160,7 @@ Image::Image(Image&& other) noexcept
 
 Image::~Image() {
     view_ = {};
-    if (image_) vmaDestroyImage(allocator_, image_, allocation_);
+    if (image_ && !ownerIsGivenUp(allocator_)) vmaDestroyImage(allocator_, image_, allocation_);
 }
 
 // ---- Samplers -----------------------------------------------------------------------------------

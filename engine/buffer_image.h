@@ -111,6 +111,8 @@ public:
     VkImageAspectFlags aspect() const { return aspect_; }
 
 private:
+    Image(VmaAllocator_T* allocator, const ImageDescription& description);
+
     VmaAllocator_T* allocator_;
     VmaAllocation_T* allocation_{};
     VkFormat format_;

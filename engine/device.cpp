@@ -5,8 +5,11 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <system_error>
+#include <thread>
+#include <type_traits>
 #include <vector>
 
 #include <unistd.h>
@@ -101,10 +104,30 @@ bool belongsTo(const std::vector<char>& data, const VkPhysicalDeviceProperties& 
 // volk's function pointers, of which there is one set, must do for all of them.
 std::atomic<int> devices_alive = 0;
 
+// Calls what volk's pointer at `kPlace` is by then.
+template <auto* kPlace, class Function = std::remove_pointer_t<decltype(kPlace)>>
+struct ByVolk;
+template <auto* kPlace, class Result, class... Arguments>
+struct ByVolk<kPlace, Result (*)(Arguments...)> {
+    static VKAPI_ATTR Result VKAPI_CALL call(Arguments... arguments) {
+        return (*kPlace)(arguments...);
+    }
+};
+
 VmaAllocator createAllocator(VkInstance instance, const DeviceInfo& info, VkDevice device) {
     VmaVulkanFunctions functions{};
     functions.vkGetInstanceProcAddr = vkGetInstanceProcAddr;
     functions.vkGetDeviceProcAddr = vkGetDeviceProcAddr;
+    // What takes memory goes the way of all other calls, so that tests can make it fail.
+    functions.vkAllocateMemory = ByVolk<&vkAllocateMemory>::call;
+    functions.vkFreeMemory = ByVolk<&vkFreeMemory>::call;
+    functions.vkMapMemory = ByVolk<&vkMapMemory>::call;
+    functions.vkBindBufferMemory = ByVolk<&vkBindBufferMemory>::call;
+    functions.vkBindImageMemory = ByVolk<&vkBindImageMemory>::call;
+    functions.vkCreateBuffer = ByVolk<&vkCreateBuffer>::call;
+    functions.vkDestroyBuffer = ByVolk<&vkDestroyBuffer>::call;
+    functions.vkCreateImage = ByVolk<&vkCreateImage>::call;
+    functions.vkDestroyImage = ByVolk<&vkDestroyImage>::call;
     VmaAllocatorCreateInfo create{};
     create.flags = VMA_ALLOCATOR_CREATE_BUFFER_DEVICE_ADDRESS_BIT;
     create.physicalDevice = info.handle;
@@ -147,6 +170,7 @@ PipelineCache::PipelineCache(VkDevice device, const DeviceInfo& info) : device_(
 }
 
 PipelineCache::~PipelineCache() {
+    if (isGivenUp(device_)) return;
     std::size_t size = 0;
     std::vector<char> data;
     if (vkGetPipelineCacheData(device_, cache_, &size, nullptr) == VK_SUCCESS) {
@@ -182,28 +206,28 @@ PipelineCache::~PipelineCache() {
 
 Device::Device(const DeviceOptions& options)
     : instance_(options.validation, options.window_extensions),
-      info_(chooseDevice(instance_, options.wanted)) {
+      info_(chooseDevice(instance_, options.wanted)), patience_(options.patience) {
     if (!instance_.allowsPresentFences()) info_.features.erase(Feature::present_fences);
     if (options.mask) options.mask(info_);
     if (!has(Feature::mesh_shader)) info_.features.erase(Feature::mesh_statistics);
     std::vector<const char*> extensions;
     if (!options.window_extensions.empty()) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
-    device_ = createDevice(info_, extensions);
+    device_.reset(createDevice(info_, extensions));
     // The functions of one device may be called without the loader between; those of several only
     // through it, which knows whose handle it is given: Instance has just loaded these.
-    if (devices_alive++ == 0) volkLoadDevice(device_);
-    vkGetDeviceQueue(device_, info_.queue_family, 0, &queue_);
+    if (devices_alive++ == 0) volkLoadDevice(get());
+    vkGetDeviceQueue(get(), info_.queue_family, 0, &queue_);
     compute_queue_ = queue_;
     if (has(Feature::second_queue))
         vkGetDeviceQueue(
-            device_, info_.compute_family, info_.compute_family == info_.queue_family ? 1 : 0,
+            get(), info_.compute_family, info_.compute_family == info_.queue_family ? 1 : 0,
             &compute_queue_);
-    allocator_ = createAllocator(instance_.get(), info_, device_);
+    allocator_.reset(createAllocator(instance_.get(), info_, get()));
     if (options.validation != Validation::off)
         hazards_ = std::make_unique<HazardLog>(instance_.messages());
     memory_ = std::make_unique<MemoryLedger>();
     shaders_ = std::make_unique<ShaderLibrary>();
-    cache_ = std::make_unique<PipelineCache>(device_, info_);
+    cache_ = std::make_unique<PipelineCache>(get(), info_);
     pipelines_ = std::make_unique<PipelineStore>();
 
     const VkCommandPoolCreateInfo pool{
@@ -212,24 +236,31 @@ Device::Device(const DeviceOptions& options)
         .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
         .queueFamilyIndex = info_.queue_family};
     VkCommandPool handle{};
-    check(vkCreateCommandPool(device_, &pool, nullptr, &handle), "create a command pool");
-    pool_ = {device_, handle};
+    check(vkCreateCommandPool(get(), &pool, nullptr, &handle), "create a command pool");
+    pool_ = {get(), handle};
     const VkFenceCreateInfo fence{
         .sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, .pNext = nullptr, .flags = 0};
     VkFence fence_handle{};
-    check(vkCreateFence(device_, &fence, nullptr, &fence_handle), "create a fence");
-    fence_ = {device_, fence_handle};
+    check(vkCreateFence(get(), &fence, nullptr, &fence_handle), "create a fence");
+    fence_ = {get(), fence_handle};
 }
 
 Device::~Device() {
-    vkDeviceWaitIdle(device_);
-    pool_ = {};
-    fence_ = {};
-    pipelines_.reset();
-    cache_.reset();
-    vmaDestroyAllocator(allocator_);
-    vkDestroyDevice(device_, nullptr);
+    if (isGivenUp(get()))
+        instance_.abandon();
+    else
+        vkDeviceWaitIdle(get());
+}
+
+void Device::DestroyDevice::operator()(VkDevice device) const {
+    if (!isGivenUp(device)) vkDestroyDevice(device, nullptr);
     --devices_alive;
+}
+
+void Device::DestroyAllocator::operator()(VmaAllocator_T* allocator) const {
+    VmaAllocatorInfo info{};
+    vmaGetAllocatorInfo(allocator, &info);
+    if (!isGivenUp(info.device)) vmaDestroyAllocator(allocator);
 }
 
 std::vector<std::uint32_t> Device::queueFamilies() const {
@@ -261,15 +292,15 @@ bool Device::fragmentCountsAreApproximate() const {
 
 std::uint64_t Device::allocatedBytes() const {
     VmaTotalStatistics statistics{};
-    vmaCalculateStatistics(allocator_, &statistics);
+    vmaCalculateStatistics(allocator(), &statistics);
     return statistics.total.statistics.allocationBytes;
 }
 
 MemoryLedger::Line Device::memoryLine(VmaAllocation_T* allocation, const std::string& name) const {
     VmaAllocationInfo info{};
-    vmaGetAllocationInfo(allocator_, allocation, &info);
+    vmaGetAllocationInfo(allocator(), allocation, &info);
     const VkPhysicalDeviceMemoryProperties* memory{};
-    vmaGetMemoryProperties(allocator_, &memory);
+    vmaGetMemoryProperties(allocator(), &memory);
     const VkMemoryType& type = memory->memoryTypes[info.memoryType];
     const bool device_local = (type.propertyFlags & VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) != 0;
     return {*memory_, {type.heapIndex, device_local, name}, info.size};
@@ -283,7 +314,7 @@ void Device::setName(VkObjectType type, std::uint64_t handle, const std::string&
         .objectType = type,
         .objectHandle = handle,
         .pObjectName = name.c_str()};
-    vkSetDebugUtilsObjectNameEXT(device_, &info);
+    vkSetDebugUtilsObjectNameEXT(get(), &info);
 }
 
 void Device::runOnce(const std::function<void(Commands&)>& record) const {
@@ -294,7 +325,11 @@ void Device::runOnce(const std::function<void(Commands&)>& record) const {
         .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
         .commandBufferCount = 1};
     VkCommandBuffer buffer{};
-    check(vkAllocateCommandBuffers(device_, &allocate, &buffer), "allocate a command buffer");
+    check(vkAllocateCommandBuffers(get(), &allocate, &buffer), "allocate a command buffer");
+    const auto free = [this](VkCommandBuffer each) {
+        if (!isGivenUp(get())) vkFreeCommandBuffers(get(), pool_.get(), 1, &each);
+    };
+    const std::unique_ptr<VkCommandBuffer_T, decltype(free)> owned(buffer, free);
     DescriptorSets sets(*this);
     Commands commands(buffer, sets, hazards());
     commands.begin();
@@ -312,14 +347,35 @@ void Device::runOnce(const std::function<void(Commands&)>& record) const {
     submit.pCommandBufferInfos = &submitted;
     const VkFence fence = fence_.get();
     check(vkQueueSubmit2(queue_, 1, &submit, fence), "submit");
-    waitHeeding([&](std::uint64_t nanoseconds) {
-        const VkResult result = vkWaitForFences(device_, 1, &fence, VK_TRUE, nanoseconds);
-        if (result != VK_TIMEOUT) check(result, "wait for the device");
-        return result != VK_TIMEOUT;
+    await("wait for the device", [&](std::uint64_t nanoseconds) {
+        return vkWaitForFences(get(), 1, &fence, VK_TRUE, nanoseconds);
     });
     if (hazards_) hazards_->finish(hazards_->submissions());
-    check(vkResetFences(device_, 1, &fence), "reset a fence");
-    vkFreeCommandBuffers(device_, pool_.get(), 1, &buffer);
+    check(vkResetFences(get(), 1, &fence), "reset a fence");
+}
+
+std::chrono::steady_clock::time_point Device::beginWait(const char* what) const {
+    if (isGivenUp(get())) throw DeviceSilent(what, "the device was given up");
+    return std::chrono::steady_clock::now();
+}
+
+bool Device::isOver(
+    const char* what, VkResult result, std::chrono::steady_clock::time_point start) const {
+    const bool lacks_memory =
+        result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    if (result != VK_TIMEOUT && !lacks_memory) {
+        check(result, what);
+        return true;
+    }
+    if (std::chrono::steady_clock::now() - start > patience_) {
+        giveUp(get());
+        std::ostringstream seconds;
+        seconds << patience_.count();
+        const std::string reason = "the device did not answer for " + seconds.str() + " s";
+        throw DeviceSilent(what, lacks_memory ? reason + ": " + resultName(result) : reason);
+    }
+    if (lacks_memory) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return false;
 }
 
 }  // namespace engine

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -12,6 +13,7 @@
 #include "engine/error.h"
 #include "engine/hazards.h"
 #include "engine/instance.h"
+#include "engine/process.h"
 
 struct VmaAllocation_T;
 struct VmaAllocator_T;
@@ -28,6 +30,19 @@ class ShaderLibrary;
 class DeviceLost : public Error {
 public:
     using Error::Error;
+};
+
+// The window's surface is gone (VK_ERROR_SURFACE_LOST_KHR), though the window may be there.
+class SurfaceLost : public Error {
+public:
+    using Error::Error;
+};
+
+// The device had nothing to say for longer than DeviceOptions::patience and was given up
+// (giveUp()). What it made is left where it is.
+class DeviceSilent : public DeviceLost {
+public:
+    using DeviceLost::DeviceLost;
 };
 
 // Bytes of device memory by the names of the buffers and images that hold them and by the memory
@@ -107,6 +122,8 @@ struct DeviceOptions {
     // Takes away from what the device says of itself before it is made: what is left is all that
     // is switched on and known. Tests make lesser devices by it.
     std::function<void(DeviceInfo&)> mask{};
+    // For what is submitted at a time. A software device may need minutes for a large frame.
+    std::chrono::duration<double> patience = std::chrono::minutes(10);
 };
 
 // One logical device with its queues, its memory allocator and pipeline cache. Everything else
@@ -122,13 +139,13 @@ public:
     Device& operator=(const Device&) = delete;
 
     VkInstance instance() const { return instance_.get(); }
-    VkDevice get() const { return device_; }
+    VkDevice get() const { return device_.get(); }
     VkQueue queue() const { return queue_; }
     // The second queue, or the first where there is no other (Feature::second_queue).
     VkQueue computeQueue() const { return compute_queue_; }
     // The families of both queues: what both may touch is shared among them.
     std::vector<std::uint32_t> queueFamilies() const;
-    VmaAllocator_T* allocator() const { return allocator_; }
+    VmaAllocator_T* allocator() const { return allocator_.get(); }
     VkPipelineCache pipelineCache() const { return cache_->get(); }
     const DeviceInfo& info() const { return info_; }
     MessageLog& messages() const { return instance_.messages(); }
@@ -165,13 +182,36 @@ public:
     // Records with `record`, submits, and returns when the work is done. For set-up and read-back.
     void runOnce(const std::function<void(Commands&)>& record) const;
 
+    // Waits for the device: `wait` is called with the ns that it may take, and returns the result
+    // of the Vulkan function that waits. What lacks memory for it is tried again. Throws
+    // DeviceLost, and DeviceSilent: at once for a device that was given up. Where an interrupt came
+    // the program ends as waitHeeding() has it. `what`: "wait for a frame".
+    template <class Wait>
+    void await(const char* what, Wait&& wait) const {
+        const auto start = beginWait(what);
+        waitHeeding(
+            [&](std::uint64_t nanoseconds) { return isOver(what, wait(nanoseconds), start); });
+    }
+
 private:
+    std::chrono::steady_clock::time_point beginWait(const char* what) const;
+    bool
+    isOver(const char* what, VkResult result, std::chrono::steady_clock::time_point start) const;
+
+    struct DestroyDevice {
+        void operator()(VkDevice device) const;
+    };
+    struct DestroyAllocator {
+        void operator()(VmaAllocator_T* allocator) const;
+    };
+
     Instance instance_;
     DeviceInfo info_;
-    VkDevice device_{};
+    std::unique_ptr<VkDevice_T, DestroyDevice> device_;
+    std::chrono::duration<double> patience_;
     VkQueue queue_{};
     VkQueue compute_queue_{};
-    VmaAllocator_T* allocator_{};
+    std::unique_ptr<VmaAllocator_T, DestroyAllocator> allocator_;
     std::unique_ptr<HazardLog> hazards_;
     std::unique_ptr<MemoryLedger> memory_;
     std::unique_ptr<ShaderLibrary> shaders_;

@@ -44,16 +44,14 @@ Handle<VkSemaphore, &vkDestroySemaphore> makeTimeline(VkDevice device) {
 }
 
 // Ends the program where an interrupt comes meanwhile.
-void waitFor(VkDevice device, VkSemaphore timeline, std::uint64_t value) {
+void waitFor(const Device& device, VkSemaphore timeline, std::uint64_t value) {
     VkSemaphoreWaitInfo wait{};
     wait.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO;
     wait.semaphoreCount = 1;
     wait.pSemaphores = &timeline;
     wait.pValues = &value;
-    waitHeeding([&](std::uint64_t nanoseconds) {
-        const VkResult result = vkWaitSemaphores(device, &wait, nanoseconds);
-        if (result != VK_TIMEOUT) check(result, "wait for a frame");
-        return result != VK_TIMEOUT;
+    device.await("wait for a frame", [&](std::uint64_t nanoseconds) {
+        return vkWaitSemaphores(device.get(), &wait, nanoseconds);
     });
 }
 
@@ -204,7 +202,7 @@ public:
         const Clock::time_point start = Clock::now();
         submit(device_.queue(), slot_data_.buffer, {timeline_, submitted_ + 1});
         ++submitted_;
-        waitFor(device_.get(), timeline_, submitted_);
+        waitFor(device_, timeline_, submitted_);
         if (device_.hazards()) device_.hazards()->finish(device_.hazards()->submissions());
         const double time = millisecondsBetween(start, Clock::now());
         record_.wall += time;
@@ -233,18 +231,23 @@ public:
             .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
             .queueFamilyIndex = family};
         check(
-            vkCreateCommandPool(device.get(), &create, memory_.callbacks(), &pool_),
+            vkCreateCommandPool(device.get(), &create, memory_->callbacks(), &pool_),
             "create a command pool");
     }
     RecordingPool(const RecordingPool&) = delete;
     RecordingPool& operator=(const RecordingPool&) = delete;
-    ~RecordingPool() { vkDestroyCommandPool(device_.get(), pool_, memory_.callbacks()); }
+    ~RecordingPool() {
+        if (isGivenUp(device_.get()))
+            static_cast<void>(memory_.release());  // the driver has pointers to it
+        else
+            vkDestroyCommandPool(device_.get(), pool_, memory_->callbacks());
+    }
 
     VkCommandPool get() const { return pool_; }
 
 private:
     const Device& device_;
-    RecordingMemory memory_;
+    std::unique_ptr<RecordingMemory> memory_ = std::make_unique<RecordingMemory>();
     VkCommandPool pool_{};
 };
 
@@ -313,12 +316,12 @@ FrameLoop::FrameLoop(const Device& device, Timing timing, const Overlap& overlap
 
 FrameLoop::~FrameLoop() {
     try {
-        waitFor(device_.get(), timeline_.get(), submitted_);
-        if (submitted_beside_ > 0) waitFor(device_.get(), beside_.get(), submitted_beside_);
+        waitFor(device_, timeline_.get(), submitted_);
+        if (submitted_beside_ > 0) waitFor(device_, beside_.get(), submitted_beside_);
+        vkQueueWaitIdle(device_.queue());
+        vkQueueWaitIdle(device_.computeQueue());
     } catch (const Error&) {  // a lost device has nothing to wait for
     }
-    vkQueueWaitIdle(device_.queue());
-    vkQueueWaitIdle(device_.computeQueue());
     if (device_.hazards()) device_.hazards()->finish(device_.hazards()->submissions());
 }
 
@@ -382,7 +385,7 @@ void FrameLoop::frame(FunctionRef<void(Passes&)> record) {
     result.submit = millisecondsBetween(recorded, submitted);
     result.host = threadTime() - host;
     if (timing_ != Timing::overlapped) {
-        waitFor(device_.get(), timeline_.get(), slot.value);
+        waitFor(device_, timeline_.get(), slot.value);
         const Clock::time_point done = Clock::now();
         result.wall = millisecondsBetween(recorded, done);
         result.wait = millisecondsBetween(submitted, done);
@@ -433,7 +436,7 @@ std::vector<FrameRecord> FrameLoop::completed() {
 // Waits for the slot's frame and reads what it measured.
 void FrameLoop::collect(Slot& slot) {
     if (!slot.record) return;
-    waitFor(device_.get(), timeline_.get(), slot.value);
+    waitFor(device_, timeline_.get(), slot.value);
     if (device_.hazards()) device_.hazards()->finish(slot.submission);
     FrameRecord& record = records_[*slot.record];
     slot.record.reset();

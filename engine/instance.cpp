@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cctype>
 #include <cstring>
 #include <iterator>
+#include <mutex>
 #include <ranges>
+#include <set>
 #include <span>
 
 #include <vulkan/vulkan_beta.h>
@@ -31,6 +34,11 @@ constexpr std::array kResultNames{
     std::pair{VK_ERROR_TOO_MANY_OBJECTS, "VK_ERROR_TOO_MANY_OBJECTS"},
     std::pair{VK_ERROR_FORMAT_NOT_SUPPORTED, "VK_ERROR_FORMAT_NOT_SUPPORTED"},
     std::pair{VK_ERROR_UNKNOWN, "VK_ERROR_UNKNOWN"},
+    std::pair{VK_ERROR_OUT_OF_POOL_MEMORY, "VK_ERROR_OUT_OF_POOL_MEMORY"},
+    std::pair{VK_ERROR_FRAGMENTED_POOL, "VK_ERROR_FRAGMENTED_POOL"},
+    std::pair{VK_ERROR_SURFACE_LOST_KHR, "VK_ERROR_SURFACE_LOST_KHR"},
+    std::pair{VK_ERROR_OUT_OF_DATE_KHR, "VK_ERROR_OUT_OF_DATE_KHR"},
+    std::pair{VK_ERROR_INVALID_OPAQUE_CAPTURE_ADDRESS, "VK_ERROR_INVALID_OPAQUE_CAPTURE_ADDRESS"},
 };
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
@@ -387,8 +395,37 @@ std::string resultName(VkResult result) {
     return "VkResult " + std::to_string(static_cast<int>(result));
 }
 
+namespace {
+
+// Devices that were given up: never destroyed, so no other has one's handle.
+struct GivenUp {
+    std::atomic<bool> any = false;
+    std::mutex mutex;
+    std::set<VkDevice> devices;
+};
+
+GivenUp& givenUp() {
+    static GivenUp& all = *new GivenUp;  // devices may be static, too
+    return all;
+}
+
+}  // namespace
+
+bool isGivenUp(VkDevice device) {
+    if (!givenUp().any) return false;
+    const std::lock_guard lock(givenUp().mutex);
+    return givenUp().devices.contains(device);
+}
+
+void giveUp(VkDevice device) {
+    const std::lock_guard lock(givenUp().mutex);
+    givenUp().devices.insert(device);
+    givenUp().any = true;
+}
+
 void check(VkResult result, const char* what) {
     if (result == VK_ERROR_DEVICE_LOST) throw DeviceLost(what, resultName(result));
+    if (result == VK_ERROR_SURFACE_LOST_KHR) throw SurfaceLost(what, resultName(result));
     if (result < VK_SUCCESS) throw Error(what, resultName(result));
 }
 
@@ -476,13 +513,22 @@ Instance::Instance(Validation validation, const std::vector<std::string>& window
     }
     volkLoadInstance(instance_);
     if (validates) {
-        check(
-            vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_),
-            "create the validation messenger");
+        const VkResult result =
+            vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_);
+        if (result != VK_SUCCESS) vkDestroyInstance(instance_, nullptr);
+        check(result, "create the validation messenger");
     }
 }
 
+void Instance::abandon() {
+    static_cast<void>(messages_.release());
+    messages_ = std::make_unique<MessageLog>();
+    messenger_ = {};
+    instance_ = {};
+}
+
 Instance::~Instance() {
+    if (!instance_) return;
     if (messenger_) vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
     vkDestroyInstance(instance_, nullptr);
 }

@@ -23,6 +23,12 @@ std::string resultName(VkResult result);
 // Throws Error "<what>: <result name>" unless the call succeeded.
 void check(VkResult result, const char* what);
 
+// Whether giveUp() was called for the device.
+bool isGivenUp(VkDevice device);
+// From now on nothing that the device made is destroyed, nor the device itself: it never answered,
+// and may still be at work on all of it.
+void giveUp(VkDevice device);
+
 // Owns one Vulkan object that a device made. `Destroy` is the address of volk's function pointer,
 // e.g. Handle<VkSampler, &vkDestroySampler>.
 template <class Object, auto Destroy>
@@ -38,7 +44,7 @@ public:
         return *this;
     }
     ~Handle() {
-        if (object_) (*Destroy)(device_, object_, nullptr);
+        if (object_ && !isGivenUp(device_)) (*Destroy)(device_, object_, nullptr);
     }
 
     Object get() const { return object_; }
@@ -83,6 +89,8 @@ public:
     bool allowsPresentFences() const { return allows_present_fences_; }
     MessageLog& messages() const { return *messages_; }
     std::vector<VkPhysicalDevice> physicalDevices() const;
+    // Leaves it, and the log that it writes to, where they are: a device of it was given up.
+    void abandon();
 
 private:
     std::unique_ptr<MessageLog> messages_;

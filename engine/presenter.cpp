@@ -193,19 +193,22 @@ Swapchain::Swapchain(
 
 std::optional<std::uint32_t> Swapchain::acquire(VkSemaphore acquired) {
     std::uint32_t index = 0;
-    const VkResult result = vkAcquireNextImageKHR(
-        device_.get(), swapchain_.get(), std::numeric_limits<std::uint64_t>::max(), acquired,
-        VK_NULL_HANDLE, &index);
+    VkResult result{};
+    // A window that nobody sees may wait for as long as that.
+    waitHeeding([&](std::uint64_t nanoseconds) {
+        result = vkAcquireNextImageKHR(
+            device_.get(), swapchain_.get(), nanoseconds, acquired, VK_NULL_HANDLE, &index);
+        return result != VK_TIMEOUT && result != VK_NOT_READY;
+    });
     if (result == VK_ERROR_OUT_OF_DATE_KHR) return std::nullopt;
     if (result != VK_SUBOPTIMAL_KHR) check(result, "get the window's next picture");
     Slot& slot = slots_[index];
     if (std::exchange(slot.is_presented, false)) {
         came_back_ = true;
         if (const VkFence shown = slot.shown.get()) {
-            check(
-                vkWaitForFences(
-                    device_.get(), 1, &shown, VK_TRUE, std::numeric_limits<std::uint64_t>::max()),
-                "wait for a picture to be shown");
+            device_.await("wait for a picture to be shown", [&](std::uint64_t nanoseconds) {
+                return vkWaitForFences(device_.get(), 1, &shown, VK_TRUE, nanoseconds);
+            });
             check(vkResetFences(device_.get(), 1, &shown), "reset a fence");
         }
     }
@@ -228,7 +231,7 @@ bool Swapchain::isDone() const {
 void Swapchain::finish() const {
     constexpr std::uint64_t kSecond = 1'000'000'000;  // ns
     const std::vector<VkFence> fences = pending();
-    if (!fences.empty())
+    if (!fences.empty() && !isGivenUp(device_.get()))
         vkWaitForFences(
             device_.get(), static_cast<std::uint32_t>(fences.size()), fences.data(), VK_TRUE,
             kSecond);
@@ -284,16 +287,15 @@ bool Swapchain::present(std::uint32_t index) {
 
 Presenter::Presenter(const Device& device, const Window& window, PresentMode mode)
     : device_(device), window_(window), mode_(mode),
-      surface_(window.createSurface(device.instance())), sets_(device) {
+      surface_(
+          window.createSurface(device.instance()), DestroySurface{device.instance(), device.get()}),
+      sets_(device) {
     VkBool32 presents = VK_FALSE;
     check(
         vkGetPhysicalDeviceSurfaceSupportKHR(
-            device.info().handle, device.info().queue_family, surface_, &presents),
+            device.info().handle, device.info().queue_family, surface_.get(), &presents),
         "ask whether the device can show pictures in a window");
-    if (!presents) {
-        vkDestroySurfaceKHR(device.instance(), surface_, nullptr);
-        throw Error(device.info().name + " can't show pictures in a window");
-    }
+    if (!presents) throw Error(device.info().name + " can't show pictures in a window");
     const VkCommandPoolCreateInfo pool{
         .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
         .pNext = nullptr,
@@ -314,13 +316,25 @@ Presenter::Presenter(const Device& device, const Window& window, PresentMode mod
     timestamps_.emplace(device, 2);
 }
 
-Presenter::~Presenter() {
-    vkQueueWaitIdle(device_.queue());
+Presenter::~Presenter() { dropSwapchains(); }
+
+void Presenter::DestroySurface::operator()(VkSurfaceKHR surface) const {
+    if (!isGivenUp(device)) vkDestroySurfaceKHR(instance, surface, nullptr);
+}
+
+void Presenter::dropSwapchains() {
+    if (!isGivenUp(device_.get())) vkQueueWaitIdle(device_.queue());
     for (const OldSwapchain& old : old_) old.swapchain->finish();
     if (swapchain_) swapchain_->finish();
     old_.clear();
     swapchain_.reset();
-    vkDestroySurfaceKHR(device_.instance(), surface_, nullptr);
+}
+
+// Of the same window.
+void Presenter::renewSurface() {
+    dropSwapchains();
+    surface_.reset();  // a window has one at a time
+    surface_.reset(window_.createSurface(device_.instance()));
 }
 
 std::uint32_t Presenter::imageCount() const {
@@ -333,16 +347,16 @@ void Presenter::setMode(PresentMode mode) {
     retire();
 }
 
-std::vector<PresentMode> Presenter::modes() const { return Swapchain::modes(device_, surface_); }
+std::vector<PresentMode> Presenter::modes() const {
+    return Swapchain::modes(device_, surface_.get());
+}
 
 void Presenter::wait() {
     if (!pending_) return;
     pending_ = false;
     const VkFence done = done_.get();
-    waitHeeding([&](std::uint64_t nanoseconds) {
-        const VkResult result = vkWaitForFences(device_.get(), 1, &done, VK_TRUE, nanoseconds);
-        if (result != VK_TIMEOUT) check(result, "wait for the window's picture");
-        return result != VK_TIMEOUT;
+    device_.await("wait for the window's picture", [&](std::uint64_t nanoseconds) {
+        return vkWaitForFences(device_.get(), 1, &done, VK_TRUE, nanoseconds);
     });
     if (device_.hazards()) device_.hazards()->finish(submission_);
     check(vkResetFences(device_.get(), 1, &done), "reset a fence");
@@ -381,11 +395,12 @@ bool Presenter::prepare() {
     const bool fits = swapchain_ && swapchain_->extent().width == extent.width &&
                       swapchain_->extent().height == extent.height;
     // The surface may know that it was put away before the window does.
-    if (!fits && Swapchain::isEmpty(device_, surface_)) return false;
+    if (!fits && Swapchain::isEmpty(device_, surface_.get())) return false;
     if (!fits) {
         retire();
         swapchain_ = std::make_unique<Swapchain>(
-            device_, surface_, extent, mode_, old_.empty() ? nullptr : old_.back().swapchain.get());
+            device_, surface_.get(), extent, mode_,
+            old_.empty() ? nullptr : old_.back().swapchain.get());
     }
     const VkExtent2D canvas = canvas_ ? canvas_->extent() : VkExtent2D{};
     if (canvas.width != swapchain_->extent().width ||
@@ -405,6 +420,17 @@ bool Presenter::prepare() {
 bool Presenter::frame(
     const std::function<void(Commands&)>& before, const std::function<void(Commands&)>& draw) {
     wait();
+    try {
+        return showFrame(before, draw);
+    } catch (const SurfaceLost&) {
+        wait();
+        renewSurface();
+        return showFrame(before, draw);
+    }
+}
+
+bool Presenter::showFrame(
+    const std::function<void(Commands&)>& before, const std::function<void(Commands&)>& draw) {
     // A window that is being resized may outgrow its images more than once.
     for (int attempt = 0; attempt < 3; ++attempt) {
         if (!prepare()) return false;

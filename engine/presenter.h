@@ -126,6 +126,10 @@ private:
     void wait();
     void retire();
     void dropRetired();
+    void dropSwapchains();
+    void renewSurface();
+    bool showFrame(
+        const std::function<void(Commands&)>& before, const std::function<void(Commands&)>& draw);
     bool prepare();
     void record(
         std::uint32_t index, const std::function<void(Commands&)>& before,
@@ -135,7 +139,12 @@ private:
     const Device& device_;
     const Window& window_;
     PresentMode mode_;
-    VkSurfaceKHR surface_;
+    struct DestroySurface {
+        VkInstance instance{};
+        VkDevice device{};
+        void operator()(VkSurfaceKHR surface) const;
+    };
+    std::unique_ptr<VkSurfaceKHR_T, DestroySurface> surface_;
     Handle<VkCommandPool, &vkDestroyCommandPool> pool_;
     VkCommandBuffer buffer_{};
     DescriptorSets sets_;

@@ -9,8 +9,10 @@
 #include <exception>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <mutex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -89,6 +91,13 @@ Ending& ending() {
     return all;
 }
 
+// Of the work that is under way.
+constexpr Clock::rep kNoEnd = std::numeric_limits<Clock::rep>::max();
+struct {
+    std::atomic<Clock::rep> end = kNoEnd;  // by the clock
+    std::string reason;  // guarded as Ending is
+} time_limit;
+
 void sayInterrupted() {
     forgetSteps();
     std::cerr << "interrupted\n";
@@ -141,7 +150,23 @@ bool interrupted() {
 
 void checkInterrupted() {
     if (interrupted()) throw Interrupted();
+    if (Clock::now().time_since_epoch().count() < time_limit.end) return;
+    const std::lock_guard lock(ending().mutex);
+    throw TimedOut{time_limit.reason};
 }
+
+TimeLimit::TimeLimit(double seconds, const std::string& name) {
+    if (seconds <= 0.0) return;
+    std::ostringstream reason;
+    reason << "not done after " << seconds << " s (" << name << ')';
+    const auto time =
+        std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    const std::lock_guard lock(ending().mutex);
+    time_limit.reason = reason.str();
+    time_limit.end = (Clock::now() + time).time_since_epoch().count();
+}
+
+TimeLimit::~TimeLimit() { time_limit.end = kNoEnd; }
 
 LastWords::LastWords(std::function<void()> speak) : speak_(std::move(speak)) {
     const std::lock_guard lock(ending().mutex);

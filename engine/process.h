@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 
 // This process: interrupts, scratch folders, and what it uses of the CPU.
 namespace engine {
@@ -28,8 +29,24 @@ bool interrupted();
 // Thrown to end work that is interrupted.
 class Interrupted {};
 
-// Throws Interrupted where an interrupt came.
+// Throws Interrupted where an interrupt came, TimedOut where a TimeLimit is over.
 void checkInterrupted();
+
+// Thrown to end work whose time is over.
+struct TimedOut {
+    std::string reason;  // "not done after 60 s (/run/case_timeout)"
+};
+
+// How long what is begun while this is there may go on. There is one at a time. Work that is never
+// asked whether it was interrupted does not hear of it.
+class TimeLimit {
+public:
+    // `seconds`: 0 is no limit. `name`: who set it.
+    TimeLimit(double seconds, const std::string& name);
+    ~TimeLimit();
+    TimeLimit(const TimeLimit&) = delete;
+    TimeLimit& operator=(const TimeLimit&) = delete;
+};
 
 inline constexpr int kInterruptedStatus = 130;  // as shells have it: 128 + SIGINT
 

@@ -155,6 +155,10 @@ const Table& tableOf(const RunSettings*) {
              "max_time", &S::max_time, 0, 86400, "s",
              "time after which no more rounds are begun in a mode; 0: one round"),
          number(
+             "case_timeout", &S::case_timeout, 0, 604800, "s",
+             "time after which a case has failed that is not made and measured, and the next one "
+             "begins: heeded between frames and in what takes long without the device; 0: none"),
+         number(
              "warmup_time", &S::warmup_time, 0, 60, "s",
              "load before a mode is measured on a device that is no processor, at least: its clock "
              "rises"),

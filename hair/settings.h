@@ -107,6 +107,7 @@ struct RunSettings {
     std::uint32_t frames = 10;
     float precision = 0.01f;
     float max_time = 10.0f;
+    float case_timeout = 0.0f;
     float warmup_time = 0.1f;
     float round_time = 0.25f;
     float frame_time = 1.0f / 60.0f;

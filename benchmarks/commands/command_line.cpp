@@ -118,6 +118,16 @@ void addDeviceOptions(CLI::App& command, engine::DeviceOptions& options) {
     command.add_flag_callback(
         "--validate", [&options] { options.validation = engine::Validation::on; },
         "run under the Vulkan validation layer and look for missing barriers; slow");
+    command
+        .add_option_function<double>(
+            "--device-timeout",
+            [&options](double seconds) {
+                options.patience = std::chrono::duration<double>(seconds);
+            },
+            "how long the device may be silent about what it was given before it is taken for lost "
+            "(default 600)")
+        ->type_name("SECONDS")
+        ->check(CLI::PositiveNumber);
 }
 
 void addCacheOption(CLI::App& command, scene::SceneOptions& options) {
@@ -213,8 +223,16 @@ void addCheckCommands(const CommandLine& line) {
                 "--device", options.device.wanted,
                 "for --start: index or part of the name of the device");
         });
-    line.app.add_subcommand("schema", "prints the JSON Schema of scene files")
-        ->callback([&chosen = line.chosen] { chosen = printSchema; });
+    addCommand<SchemaOptions>(
+        line, line.app, "schema", "prints the JSON Schema of scene files", printSchema,
+        [](CLI::App& command, SchemaOptions& options) {
+            command
+                .add_option(
+                    "--markdown", options.examples,
+                    "print a page of every field instead, with examples from the scenes of FOLDER")
+                ->type_name("FOLDER")
+                ->check(CLI::ExistingDirectory);
+        });
     line.app.add_subcommand("devices", "lists the Vulkan devices and what they lack")
         ->callback([&chosen = line.chosen] { chosen = printDevices; });
 }

@@ -206,7 +206,10 @@ struct ValidateOptions {
     engine::DeviceOptions device;  // for that
 };
 int validateScenes(const ValidateOptions& options);
-int printSchema();
+struct SchemaOptions {
+    std::filesystem::path examples;  // of a page of Markdown; empty: JSON Schema
+};
+int printSchema(const SchemaOptions& options);
 int printDevices();
 
 }  // namespace benchmarks::commands

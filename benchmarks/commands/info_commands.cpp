@@ -13,6 +13,7 @@
 #include "benchmarks/measure/progress.h"
 #include "benchmarks/measure/start.h"
 #include "benchmarks/report/change.h"
+#include "benchmarks/scene/field_reference.h"
 #include "benchmarks/scene/schema.h"
 #include "benchmarks/scene/sweep.h"
 #include "engine/steps.h"
@@ -93,8 +94,10 @@ int validateScenes(const ValidateOptions& options) {
     return status;
 }
 
-int printSchema() {
-    std::cout << scene::sceneSchema();
+int printSchema(const SchemaOptions& options) {
+    std::cout
+        << (options.examples.empty() ? scene::sceneSchema()
+                                     : scene::fieldReference(options.examples));
     return report::kOk;
 }
 

@@ -74,18 +74,26 @@ int runScene(const run::RunOptions& options) {
     run::checkReferences(plan);
 
     engine::processUse();  // counts the threads that begin from here on: those of the device too
-    const engine::Device device(options.scene.device);
-    std::cerr << report::versionOnDevice(device) << '\n';
-    const auto print_interrupted = [&](const run::FinishedRun& finished) {
+    run::RunDevice device(options.scene.device);
+    std::cerr << report::versionOnDevice(device.get()) << '\n';
+    const auto print_short = [&](const char* why, const run::FinishedRun& finished) {
         printReport(finished.report.json(), out);
-        std::cerr << "interrupted after " << finished.done << " of " << plan.cases.size()
+        std::cerr << why << " after " << finished.done << " of " << plan.cases.size()
                   << " cases; --resume goes on\n";
+    };
+    const auto print_interrupted = [&](const run::FinishedRun& finished) {
+        print_short("interrupted", finished);
     };
     const run::FinishedRun finished =
         run::playRun(device, options, plan, out, cache, print_interrupted);
     if (finished.interrupted) {
         print_interrupted(finished);
         return report::kInterrupted;
+    }
+    if (!finished.no_device.empty()) {
+        print_short("hairbench: the device is gone", finished);
+        std::cerr << "hairbench: " << finished.no_device << '\n';
+        return report::kNoDevice;
     }
     if (finished.was_complete)
         std::cout << "nothing left to do: " << out.string() << " is complete\n";

@@ -168,6 +168,9 @@ const BackendComparison::Reference& BackendComparison::reference(
         try {
             made.pixels = drawn(device, test_case, settings);
             return made;
+        } catch (const engine::DeviceLost&) {
+            references_.erase(key);
+            throw;
         } catch (const engine::Error& error) {
             made.missing = error.what();
         }

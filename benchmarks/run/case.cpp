@@ -14,6 +14,7 @@
 #include "benchmarks/measure/case.h"
 #include "benchmarks/measure/machine_watch.h"
 #include "engine/error.h"
+#include "engine/process.h"
 #include "engine/pictures.h"
 
 namespace benchmarks::run {
@@ -117,13 +118,15 @@ void keepPicture(
 
 }  // namespace
 
-report::CaseResult runCase(
+PlayedCase runCase(
     const engine::Device& device, const PlannedCase& planned, const measure::MeasureHooks& hooks,
     const std::filesystem::path& report, CaseComparisons& comparisons, measure::HairCache& cache) {
     const hair::RunSettings& run = planned.spec.settings.run;
     const hair::RenderSettings& render = planned.spec.settings.render;
-    report::CaseResult result = emptyResult(planned);
+    PlayedCase played{.result = emptyResult(planned)};
+    report::CaseResult& result = played.result;
     try {
+        const engine::TimeLimit limit(double{run.case_timeout}, "/run/case_timeout");
         measure::Case test_case(device, planned.spec.settings, planned.directory, &cache);
         result.trust.warnings = test_case.warnings();
         const measure::ClockHold clocks(device.info(), run.clocks);
@@ -136,14 +139,19 @@ report::CaseResult runCase(
         if (!report.empty()) keepPicture(picture, render, report, result);
     } catch (const engine::Unsupported& error) {
         result = without(planned, report::Status::skipped, error.what());
+    } catch (const engine::DeviceLost& error) {
+        result = without(planned, report::Status::failed, error.what());
+        played.lost_device = true;
     } catch (const engine::Error& error) {
         result = without(planned, report::Status::failed, error.what());
+    } catch (const engine::TimedOut& over) {
+        result = without(planned, report::Status::failed, over.reason.c_str());
     } catch (const std::bad_alloc&) {
         result = without(planned, report::Status::failed, "the host has not enough memory");
     }
     for (const std::string& message : device.messages().take())
         result.trust.warnings.push_back("validation: " + message);
-    return result;
+    return played;
 }
 
 }  // namespace benchmarks::run

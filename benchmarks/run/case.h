@@ -34,9 +34,14 @@ struct CaseComparisons {
     BackendComparison backends;
 };
 
+struct PlayedCase {
+    report::CaseResult result;
+    bool lost_device = false;  // nothing more can be done with it
+};
+
 // Measures a case. One that can't run here, or that fails, is part of the result with its reason.
 // `report` is the file beside which its picture goes; empty: none is written. Throws Interrupted.
-report::CaseResult runCase(
+PlayedCase runCase(
     const engine::Device& device, const PlannedCase& planned, const measure::MeasureHooks& hooks,
     const std::filesystem::path& report, CaseComparisons& comparisons, measure::HairCache& cache);
 

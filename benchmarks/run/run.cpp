@@ -29,38 +29,61 @@ headerOf(const RunOptions& options, const RunPlan& plan, const engine::Device& d
     return header;
 }
 
-// Whether the user stopped it before the last case.
-bool playCases(
-    const engine::Device& device, const RunPlan& plan, RunRecord& record,
+// What ended it before the last case.
+struct Ended {
+    bool interrupted = false;  // by the user
+    std::string no_device;  // why there is none any more
+};
+
+Ended playCases(
+    RunDevice& device, const RunPlan& plan, RunRecord& record,
     const std::filesystem::path& pictures_of, measure::HairCache& cache) {
     measure::Progress progress(plan.cases.size(), record.done());
     measure::DeviceKnowledge known;
     const measure::MeasureHooks hooks{
-        .stop = engine::interrupted,
+        .stop =
+            [] {
+                engine::checkInterrupted();
+                return false;
+            },
         .progress = [&](const measure::SamplingState& state) { progress.update(state); },
         .known = &known};
     CaseComparisons comparisons;
-    bool interrupted = false;
+    Ended ended;
     try {
         for (const auto& [place, order] : record.remaining()) {
             const PlannedCase& each = plan.cases[place];
             progress.begin(each.spec.name);
-            report::CaseResult result =
-                runCase(device, each, hooks, pictures_of, comparisons, cache);
-            result.order = order;
-            record.add(result);
+            PlayedCase played = runCase(device.get(), each, hooks, pictures_of, comparisons, cache);
+            if (played.lost_device) device.drop();
+            played.result.order = order;
+            record.add(played.result);
         }
     } catch (const engine::Interrupted&) {
-        interrupted = true;
+        ended.interrupted = true;
+    } catch (const engine::NoDevice& error) {
+        ended.no_device = error.what();
     } catch (...) {
         progress.clear();
         throw;
     }
     progress.clear();
-    return interrupted;
+    return ended;
 }
 
 }  // namespace
+
+const engine::Device& RunDevice::get() {
+    if (device_) return *device_;
+    try {
+        device_.emplace(options_);
+    } catch (const engine::Error& error) {
+        if (had_one_) throw engine::NoDevice("no other device", error.what());
+        throw;
+    }
+    had_one_ = true;
+    return *device_;
+}
 
 std::filesystem::path reportFile(const RunOptions& options, const RunPlan& plan) {
     if (!options.out.empty()) return options.out;
@@ -83,10 +106,10 @@ void checkReferences(const RunPlan& plan) {
 }
 
 FinishedRun playRun(
-    const engine::Device& device, const RunOptions& options, const RunPlan& plan,
+    RunDevice& device, const RunOptions& options, const RunPlan& plan,
     const std::filesystem::path& out, measure::HairCache& cache,
     const std::function<void(const FinishedRun&)>& last_words) {
-    const report::ReportHeader header = headerOf(options, plan, device);
+    const report::ReportHeader header = headerOf(options, plan, device.get());
     if (options.resume)
         if (auto report = completeReport(plan, header, out))
             return {
@@ -99,22 +122,24 @@ FinishedRun playRun(
         std::cerr << "going on after " << record.done() << " of " << plan.cases.size()
                   << " cases\n";
     const bool keeps_pictures = options.pictures && record.hasJournal();
-    const auto finish = [&](bool interrupted) {
-        scene::Json report = record.report(interrupted);
+    const auto finish = [&](const Ended& ended) {
+        const bool is_short = ended.interrupted || !ended.no_device.empty();
+        scene::Json report = record.report(is_short);
         record.write(report);
-        if (!interrupted && record.hasJournal()) removeOtherPictures(report, out);
+        if (!is_short && record.hasJournal()) removeOtherPictures(report, out);
         return FinishedRun{
             .report = scene::Document(std::move(report)),
             .done = record.done(),
-            .interrupted = interrupted};
+            .interrupted = ended.interrupted,
+            .no_device = ended.no_device};
     };
-    bool interrupted = false;
+    Ended ended;
     {
-        const engine::LastWords words([&] { last_words(finish(true)); });
-        interrupted =
+        const engine::LastWords words([&] { last_words(finish({.interrupted = true})); });
+        ended =
             playCases(device, plan, record, keeps_pictures ? out : std::filesystem::path(), cache);
     }
-    return finish(interrupted);
+    return finish(ended);
 }
 
 }  // namespace benchmarks::run

@@ -195,6 +195,8 @@ std::vector<DistanceField> bake(
                 1.01f * settings.collision.margin);
         } catch (const engine::Unsupported&) {
             throw;
+        } catch (const engine::DeviceLost&) {
+            throw;
         } catch (const engine::Error& error) {
             throw engine::Error(pointerTo(i), error.what());
         }

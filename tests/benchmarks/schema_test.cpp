@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "benchmarks/scene/field_reference.h"
 #include "benchmarks/scene/sweep.h"
 #include "tests/benchmarks/schema_errors.h"
 #include "tests/error_text.h"
@@ -28,6 +29,28 @@ std::vector<std::filesystem::path> committedScenes() {
 TEST(SceneSchema, IsTheCommittedOne) {
     EXPECT_TRUE(textOf(kScenes / "scene.schema.json") == scene::sceneSchema())
         << "write it anew: hairbench schema > scenes/scene.schema.json";
+}
+
+TEST(FieldReference, IsTheCommittedOne) {
+    EXPECT_TRUE(textOf(HAIRBENCH_SOURCE_DIR "/docs/fields.md") == scene::fieldReference(kScenes))
+        << "write it anew: hairbench schema --markdown scenes > docs/fields.md";
+}
+
+// By hand, from the tables and scenes.
+TEST(FieldReference, SaysWhatAFieldIs) {
+    const TemporaryFolder folder;
+    folder.write(
+        "long.json", R"({"strands": {"density": 8}, "description": "longer than the other"})");
+    folder.write("short.json", R"({"sweep": {"/strands/density": [8, 16]}})");
+    folder.write("lights.json", R"({"shading": {"lights": [{"power": 3}]}})");
+    const std::string page = scene::fieldReference(folder.path());
+    EXPECT_THAT(page, testing::HasSubstr("\n## `/strands`\n"));
+    EXPECT_THAT(
+        page, testing::ContainsRegex(
+                  "\n\\| `/strands/density` \\| 1 to 4096, whole \\| count \\| `64` \\| [^|]+ \\| "
+                  "\\[short.json\\]\\(../scenes/short.json\\) \\|\n"));
+    EXPECT_THAT(page, testing::HasSubstr("\n## `/shading/lights/N`\n"));
+    EXPECT_THAT(page, testing::Not(testing::HasSubstr("`/sweep")));
 }
 
 TEST(CommittedScenes, FitTheSchemaAndExpand) {

@@ -2,12 +2,14 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <imgui.h>
 
 #include "engine/presenter.h"
 #include "engine/ui.h"
+#include "tests/failing_calls.h"
 #include "tests/required.h"
 #include "tests/viewer/virtual_display.h"
 
@@ -73,6 +75,54 @@ TEST_F(WindowTest, ShowsWidgets) {
     EXPECT_EQ(picture.width, 800u);
     EXPECT_EQ(picture.height, 450u);
     EXPECT_GT(presenter.milliseconds(), 0.0);
+}
+
+// The next frame is shown on another surface of the window.
+TEST_F(WindowTest, GoesOnWhereTheSurfaceIsLost) {
+    const std::vector<failing::Call> calls{
+        failing::call<&vkAcquireNextImageKHR>("vkAcquireNextImageKHR", {}),
+        failing::call<&vkQueuePresentKHR>("vkQueuePresentKHR", {}),
+        failing::maker<&vkCreateSwapchainKHR, &vkDestroySwapchainKHR>("vkCreateSwapchainKHR", {})};
+    for (const failing::Call& call : calls)
+        for (const std::size_t after : {std::size_t{0}, std::size_t{2}}) {
+            const bool resized = call.name == "vkCreateSwapchainKHR";
+            SCOPED_TRACE(call.name + " number " + std::to_string(after));
+            const Device& device = make();
+            call.install();
+            failing::plan = {
+                .call = call.name,
+                .result = VK_ERROR_SURFACE_LOST_KHR,
+                .after = resized ? 0 : after};
+            failing::failures = 0;
+            {
+                Presenter presenter(device, window());
+                for (int i = 0; i < 6; ++i) {
+                    window().poll();
+                    EXPECT_TRUE(presenter.frame([](Commands&) {}, [](Commands&) {}));
+                }
+                EXPECT_EQ(failing::failures, 1u);
+                EXPECT_EQ(presenter.picture().width, 640u);
+            }
+            if (call.alive) {
+                EXPECT_EQ(*call.alive, 0);
+            }
+        }
+    failing::plan = {};
+}
+
+// One that is lost again and again is an error, and nothing is left of it.
+TEST_F(WindowTest, SaysThatTheSurfaceIsLost) {
+    const Device& device = make();
+    const auto acquire = failing::call<&vkAcquireNextImageKHR>("vkAcquireNextImageKHR", {});
+    acquire.install();
+    failing::plan = {
+        .call = acquire.name, .result = VK_ERROR_SURFACE_LOST_KHR, .after = 0, .times = 1000};
+    Presenter presenter(device, window());
+    failing::failures = 0;
+    EXPECT_THROW(presenter.frame([](Commands&) {}, [](Commands&) {}), SurfaceLost);
+    EXPECT_EQ(failing::failures, 2u);
+    failing::plan = {};
+    EXPECT_TRUE(presenter.frame([](Commands&) {}, [](Commands&) {}));
 }
 
 // What a present uses lives until it is over, and no longer: with fences, and without them where

@@ -122,13 +122,14 @@ TEST_F(MeasureTest, FailsACaseForWhichThereIsNoMemory) {
                 if (is_full) throw std::bad_alloc();
             }};
     const report::CaseResult failed =
-        run::runCase(device(), planned, hooks, {}, comparisons, cache);
+        run::runCase(device(), planned, hooks, {}, comparisons, cache).result;
     EXPECT_EQ(failed.status, report::Status::failed);
     EXPECT_EQ(failed.reason, "the host has not enough memory");
     EXPECT_EQ(failed.index, 7u);
     is_full = false;
     EXPECT_EQ(
-        run::runCase(device(), planned, hooks, {}, comparisons, cache).status, report::Status::ok);
+        run::runCase(device(), planned, hooks, {}, comparisons, cache).result.status,
+        report::Status::ok);
 }
 
 TEST_F(MeasureTest, TellsHowLongTheDeviceWasAtWork) {
