@@ -270,12 +270,16 @@ void writeExr(
     writeFileAtomically(path, stream.bytes());
 }
 
+FloatPixels decodeFloatImage(std::string_view file) {
+    if (file.starts_with("\x76\x2f\x31\x01")) return decodeExr(file);
+    if (file.starts_with("#?")) return decodeHdr(file);
+    throw Error("neither OpenEXR nor Radiance HDR");
+}
+
 FloatPixels readFloatImage(const std::filesystem::path& path) {
     const std::string bytes = readFile(path);
     try {
-        if (bytes.starts_with("\x76\x2f\x31\x01")) return decodeExr(bytes);
-        if (bytes.starts_with("#?")) return decodeHdr(bytes);
-        throw Error("neither OpenEXR nor Radiance HDR");
+        return decodeFloatImage(bytes);
     } catch (const Error& error) {
         throw Error(path.string(), error.what());
     }

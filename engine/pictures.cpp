@@ -1,5 +1,6 @@
 #include "engine/pictures.h"
 
+#include <algorithm>
 #include <cassert>
 #include <limits>
 #include <memory>
@@ -24,6 +25,55 @@
 #include <stb/stb_image.h>
 
 namespace engine {
+namespace {
+
+// At least so many pixels take a byte, of what stb makes room for before it looks at them. Of PNG
+// deflate makes at most 1032 bytes of one, of 8 pixels each. Of JPEG a block of 64 pixels is a bit
+// at the least, and of two channels either may have every fourth pixel alone. Others have less.
+constexpr std::int64_t kMostPixelsPerByteOfPng = 8 * 1032;
+constexpr std::int64_t kMostPixelsPerByte = 1024;
+
+// Tables of Huffman codes: what one is of, 16 counts of codes of 1 to 16 bits, and as many values.
+// stb writes past the end of its own where there are more codes than bytes have values.
+void checkHuffmanTables(std::string_view tables) {
+    constexpr std::size_t kHead = 17;  // bytes before the values
+    constexpr std::size_t kMostCodes = 256;
+    while (!tables.empty()) {
+        std::size_t codes = 0;
+        for (const char count : tables.substr(1, kHead - 1))
+            codes += static_cast<unsigned char>(count);
+        if (codes > kMostCodes)
+            throw Error("a Huffman table has " + std::to_string(codes) + " codes");
+        if (tables.size() < kHead + codes) throw Error("a Huffman table is cut off");
+        tables.remove_prefix(kHead + codes);
+    }
+}
+
+bool isJpeg(std::string_view file) {
+    const std::size_t start = file.find_first_not_of('\xff');
+    return start != 0 && start < file.size() && file[start] == '\xd8';
+}
+
+// Walks through the segments of a JPEG, those behind coded data among them, where 0xff is followed
+// by 0 or by a restart's mark (ITU-T T.81, annex B). stb finds no others.
+void checkJpegTables(std::string_view file) {
+    constexpr int kHuffmanTables = 0xc4;
+    constexpr int kEnd = 0xd9;
+    const auto byteAt = [&](std::size_t at) { return int{static_cast<unsigned char>(file[at])}; };
+    for (std::size_t at = file.find('\xff'); at < file.size(); at = file.find('\xff', at)) {
+        at = std::min(file.find_first_not_of('\xff', at), file.size());
+        if (file.size() - at < 3 || byteAt(at) == kEnd) return;
+        const int mark = byteAt(at++);
+        if (mark < 0xc0 || (mark >= 0xd0 && mark < kEnd)) continue;  // it has no length
+        const auto length = static_cast<std::size_t>(byteAt(at) << 8 | byteAt(at + 1));
+        if (length < 2) return;  // which stb refuses
+        const std::string_view segment = file.substr(at, length);
+        if (mark == kHuffmanTables) checkHuffmanTables(segment.substr(2));
+        at += segment.size();
+    }
+}
+
+}  // namespace
 
 std::string
 encodePng(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba) {
@@ -49,9 +99,13 @@ Pixels decodeImage(std::string_view file) {
     int width = 0;
     int height = 0;
     int channels = 0;
+    if (isJpeg(file)) checkJpegTables(file);
     if (!stbi_info_from_memory(data, size, &width, &height, &channels))
         throw Error("not a PNG, JPEG, TGA or BMP");
     checkPictureSize(width, height);
+    const std::int64_t most_per_byte = isPng(file) ? kMostPixelsPerByteOfPng : kMostPixelsPerByte;
+    if (std::int64_t{width} * height / most_per_byte > static_cast<std::int64_t>(file.size()))
+        throw Error("ends too early for a picture of its size");
     if (isPng(file)) checkPngData(file);
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(

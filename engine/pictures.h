@@ -29,9 +29,10 @@ struct FloatPixels {
 Pixels decodeImage(std::string_view file);
 Pixels readImage(const std::filesystem::path& path);
 
-// Reads an OpenEXR (channels R, G, B or Y; its display window, black where there is no data) or a
-// Radiance HDR of at most 2^26 pixels; primaries are taken to be sRGB's. Throws Error that names
-// the file.
+// The pixels of an OpenEXR (channels R, G, B or Y; its display window, black where there is no
+// data) or a Radiance HDR of at most 2^26 pixels; primaries are taken to be sRGB's. Throws Error;
+// readFloatImage's names the file.
+FloatPixels decodeFloatImage(std::string_view file);
 FloatPixels readFloatImage(const std::filesystem::path& path);
 
 // The bytes of a PNG file of RGBA pixels, [row][column], top row first. Throws Error.

@@ -383,9 +383,13 @@ void layFrames(
 }
 
 std::vector<Nanoseconds> samplesOf(const MetricReading& metric) {
+    constexpr double kLongest = 1e7;  // ms, three hours: a million of them are counted in ns
     std::vector<Nanoseconds> samples;
-    for (const double sample : metric.samples)
+    for (const double sample : metric.samples) {
+        if (!(sample >= 0.0 && sample <= kLongest))
+            throw engine::Error(metric.name(), "has a sample that is no time of a frame");
         samples.push_back(std::llround(sample * kNanosecondsPerMillisecond));
+    }
     return samples;
 }
 

@@ -19,6 +19,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/report/environment.h"
+#include "benchmarks/report/methods.h"
 #include "benchmarks/report/report.h"
 #include "benchmarks/scene/json.h"
 #include "engine/error.h"
@@ -236,6 +237,16 @@ std::vector<scene::Json> linesToKeep(
     return {};
 }
 
+// Whether all that a report says of a case can be made of it.
+bool canBeReported(const scene::Json& result) {
+    try {
+        report::methodsText({{"cases", scene::Json::array({result})}});
+        return true;
+    } catch (const scene::Json::exception&) {
+        return false;
+    }
+}
+
 // The journal's cases that are the plan's, each once.
 std::vector<scene::Json>
 casesOf(std::span<scene::Json> lines, const RunPlan& plan, const std::string& name) {
@@ -246,7 +257,8 @@ casesOf(std::span<scene::Json> lines, const RunPlan& plan, const std::string& na
         if (!line["index"].is_number_unsigned() || !line["order"].is_number_unsigned())
             return false;
         const auto planned = left.find(line["index"].get<std::size_t>());
-        if (planned == left.end() || line.value("name", scene::Json()) != planned->second)
+        if (planned == left.end() || line.value("name", scene::Json()) != planned->second ||
+            !canBeReported(line))
             return false;
         left.erase(planned);
         return true;

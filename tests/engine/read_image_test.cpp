@@ -111,5 +111,48 @@ TEST(ReadImage, ChecksTheSizeBeforeItDecodes) {
         path.string() + ": 65535 by 65535 pixels are outside [1, 2^26] in all");
 }
 
+// Sizes that are allowed, in files of a few bytes: stb makes room for a JPEG's pixels and for a
+// TGA's, 1 GB and 64 MB, before it finds none.
+TEST(ReadImage, RefusesAPictureThatIsTooShortForItsSize) {
+    const TemporaryFolder folder;
+    std::string tga(18, '\0');
+    tga[2] = 3;
+    tga[13] = tga[15] = 0x1f;  // 7,936 by 7,936
+    tga[16] = 8;
+    // ITU-T T.81, annex B: SOI, and a progressive frame (SOF2) of three channels.
+    const std::string jpeg(
+        "\xff\xd8\xff\xc2\0\x11\x08\x1f\0\x1f\0\3\1\x11\0\2\x11\0\3\x11\0\xff\xd9", 23);
+    for (const std::string& bytes : {tga, jpeg}) {
+        const auto path = folder.write("short.tga", bytes);
+        EXPECT_EQ(
+            errorText([&] { readImage(path); }),
+            path.string() + ": ends too early for a picture of its size");
+    }
+}
+
+// ITU-T T.81, B.2.4.2: 257 codes, one of 2 bits and 256 of 16. stb writes past the end of its own
+// table.
+TEST(ReadImage, RefusesAHuffmanTableOfMoreCodesThanThereAre) {
+    const TemporaryFolder folder;
+    const auto jpeg = [](int last_count) {
+        std::string table("\0\0\1\0\0\0\0\0\0\0\0\0\0\0\0\xff", 16);
+        table += static_cast<char>(last_count);
+        table.append(257, '\0');
+        const std::string length{
+            static_cast<char>((table.size() + 2) >> 8),
+            static_cast<char>((table.size() + 2) & 0xff)};
+        return "\xff\xd8\xff\xc4" + length + table + "\xff\xd9";
+    };
+    const auto path = folder.write("a.jpg", jpeg(1));
+    EXPECT_EQ(
+        errorText([&] { readImage(path); }), path.string() + ": a Huffman table has 257 codes");
+    // One behind fill bytes, and one that its segment does not hold.
+    folder.write("a.jpg", "\xff" + jpeg(1));
+    EXPECT_EQ(
+        errorText([&] { readImage(path); }), path.string() + ": a Huffman table has 257 codes");
+    folder.write("a.jpg", std::string("\xff\xd8\xff\xc4\0\3\0", 7) + std::string(40, '\x20'));
+    EXPECT_EQ(errorText([&] { readImage(path); }), path.string() + ": a Huffman table is cut off");
+}
+
 }  // namespace
 }  // namespace engine

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/error_text.h"
 #include "tests/exporters/exported.h"
 
 namespace benchmarks::report {
@@ -49,6 +50,17 @@ TEST(Perfetto, LaysFramesOneAfterAnother) {
         ElementsAre(
             "frame 0 0.0+2000.0", "cpu.record 0.0+500.0", "cpu.submit 500.0+125.0",
             "frame 1 2000.0+4000.0", "cpu.record 2000.0+250.0", "cpu.submit 2250.0+500.0"));
+}
+
+// Nanoseconds are counted in 63 bits.
+TEST(Perfetto, RefusesWhatIsNoTimeOfAFrame) {
+    for (const double time : {-1.0, 1e13, 1e300}) {
+        Report report = framesAndPasses();
+        report.cases[0].metrics[0].samples[1] = time;
+        EXPECT_EQ(
+            errorText([&] { exportReport(reportJson(report), "perfetto"); }),
+            "frame.time: has a sample that is no time of a frame");
+    }
 }
 
 TEST(Perfetto, NamesCasesAndTracks) {

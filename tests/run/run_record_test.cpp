@@ -145,9 +145,14 @@ TEST_F(Record, LeavesOutWhatIsNoCaseOfTheRun) {
     renamed["index"] = shuffledOrder(4, 1)[3] * 2 + 1;
     scene::Json without = twice;
     without.erase("order");
+    scene::Json misshapen = twice;
+    misshapen["index"] = shuffledOrder(4, 1)[2] * 2 + 1;
+    misshapen["name"] = "s/" + misshapen["index"].dump();
+    ASSERT_TRUE(misshapen["axes"].is_object());
+    misshapen["sampling"] = 5;
     for (const scene::Json& line :
-         {twice, foreign, huge, negative, renamed, without, scene::Json(), scene::Json::object(),
-          scene::Json("text")}) {
+         {twice, foreign, huge, negative, renamed, without, misshapen, scene::Json(),
+          scene::Json::object(), scene::Json("text")}) {
         folder_.write("r.json.journal", before);
         {
             Journal journal(journalFile(out_));

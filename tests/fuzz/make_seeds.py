@@ -1,0 +1,396 @@
+#!/usr/bin/env python3
+"""Writes the files of tests/fuzz/seeds that other programs or descriptions of formats give.
+
+Pictures are Pillow's and OpenEXR's, which are asked for by name in tests/corpus/README.md; meshes,
+their animations and the streams of children are written by hand from their descriptions; reports
+are those of results/, cut to a few cases and samples.
+"""
+import json
+import struct
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SEEDS = ROOT / "tests/fuzz/seeds"
+RECORD_SEPARATOR = "\x1e"
+
+
+def write(target, name, data):
+    path = SEEDS / target / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(data if isinstance(data, bytes) else data.encode())
+
+
+# ---- Pictures ------------------------------------------------------------------------------------
+
+
+def pictures():
+    from io import BytesIO
+
+    from PIL import Image
+
+    rgb = Image.new("RGB", (19, 11))
+    rgb.putdata([(x * 13 % 256, y * 23 % 256, (x * y) % 256) for y in range(11) for x in range(19)])
+    rgba = rgb.convert("RGBA")
+    rgba.putalpha(rgb.convert("L"))
+
+    def save(name, image, kind, **options):
+        data = BytesIO()
+        image.save(data, kind, **options)
+        write("picture", name, data.getvalue())
+
+    save("baseline.jpg", rgb, "JPEG", quality=90)
+    save("progressive.jpg", rgb, "JPEG", quality=60, progressive=True, subsampling=2)
+    save("grey.jpg", rgb.convert("L"), "JPEG", restart_marker_blocks=1)
+    save("cmyk.jpg", rgb.convert("CMYK"), "JPEG")
+    save("rgb.bmp", rgb, "BMP")
+    save("palette.bmp", rgb.convert("P"), "BMP")
+    save("one_bit.bmp", rgb.convert("1"), "BMP")
+    save("rgba.tga", rgba, "TGA")
+    save("runs.tga", rgb, "TGA", compression="tga_rle")
+    save("palette.tga", rgb.convert("P"), "TGA")
+    save("rgba.png", rgba, "PNG")
+    save("palette.png", rgb.convert("P"), "PNG")
+    save("one_bit.png", rgb.convert("1"), "PNG")
+    save("deep_grey.png", Image.new("I;16", (9, 5), 4660), "PNG")
+
+
+def float_pictures():
+    import numpy
+    import OpenEXR
+
+    # Radiance: two rows of eight pixels, run-length encoded, and one of flat pixels.
+    row = b"\x02\x02\x00\x08" + b"\x08abcdefgh" + 3 * b"\x88z"
+    write(
+        "float_picture",
+        "runs.hdr",
+        b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 8\n" + 2 * row)
+    write(
+        "float_picture",
+        "flat.hdr",
+        b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x40\x20\x81\xc8\x64\x32\x8a")
+    light = numpy.arange(24 * 17 * 3, dtype=numpy.float32).reshape(17, 24, 3) / 64
+    for name in ["NO", "RLE", "ZIPS", "ZIP", "PIZ", "PXR24", "B44", "DWAA"]:
+        compression = getattr(OpenEXR, name + "_COMPRESSION")
+        header = {"compression": compression, "type": OpenEXR.scanlineimage}
+        pixels = light.astype(numpy.float16) if name in ["B44", "DWAA"] else light
+        path = SEEDS / "float_picture" / (name.lower() + ".exr")
+        with OpenEXR.File(header, {"RGB": pixels}) as file:
+            file.write(str(path))
+    header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
+    with OpenEXR.File(header, {"Y": light[:, :, 0].copy()}) as file:
+        file.write(str(SEEDS / "float_picture" / "luminance.exr"))
+    header = {
+        "compression": OpenEXR.ZIP_COMPRESSION,
+        "type": OpenEXR.tiledimage,
+        "tiles": OpenEXR.TileDescription(),
+    }
+    with OpenEXR.File(header, {"RGB": light}) as file:
+        file.write(str(SEEDS / "float_picture" / "tiled.exr"))
+
+
+# ---- Meshes --------------------------------------------------------------------------------------
+
+
+class Gltf:
+    """glTF 2.0 of one mesh, with one buffer."""
+
+    def __init__(self):
+        self.data = b""
+        self.views = []
+        self.accessors = []
+
+    def view(self, kind, numbers):
+        start = len(self.data)
+        packed = struct.pack("<%d%s" % (len(numbers), kind), *numbers)
+        self.data += packed + bytes(-len(packed) % 4)
+        self.views.append({"buffer": 0, "byteOffset": start, "byteLength": len(packed)})
+        return len(self.views) - 1
+
+    def accessor(self, kind, component, width, numbers, **more):
+        types = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
+        self.accessors.append({
+            "bufferView": self.view(kind, numbers),
+            "componentType": component,
+            "type": types[width],
+            "count": len(numbers) // width,
+            **more,
+        })
+        return len(self.accessors) - 1
+
+    def floats(self, width, numbers):
+        return self.accessor("f", 5126, width, numbers)
+
+    def binary(self, document):
+        document = {
+            "asset": {"version": "2.0"},
+            "scene": 0,
+            "accessors": self.accessors,
+            "bufferViews": self.views,
+            "buffers": [{"byteLength": len(self.data)}],
+            **document,
+        }
+        text = json.dumps(document, separators=(",", ":")).encode()
+        text += b" " * (-len(text) % 4)
+        chunks = struct.pack("<I4s", len(text), b"JSON") + text
+        chunks += struct.pack("<I4s", len(self.data), b"BIN\0") + self.data
+        return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+
+TRIANGLES = [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]
+
+
+def skin():
+    file = Gltf()
+    identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
+    attributes = {
+        "POSITION": file.floats(3, TRIANGLES),
+        "NORMAL": file.floats(3, 4 * [0, 0, 1]),
+        "TEXCOORD_0": file.floats(2, [0, 0, 1, 0, 1, 1, 0, 1]),
+        "JOINTS_0": file.accessor("B", 5121, 4, 2 * [0, 1, 0, 0] + 2 * [1, 0, 0, 0]),
+        "WEIGHTS_0": file.floats(4, 2 * [0.5, 0.5, 0, 0] + 2 * [1, 0, 0, 0]),
+        "_SCALP": file.floats(1, [0, 0.5, 1, 1]),
+    }
+    indices = file.accessor("H", 5123, 1, [0, 1, 2, 0, 2, 3])
+    binds = file.floats(16, 2 * identity)
+    times = file.floats(1, [0, 0.5, 1])
+    turned = file.floats(4, [0, 0, 0, 1, 0, 0, 0.70710678, 0.70710678, 0, 0, 1, 0])
+    moved = file.floats(3, 3 * [0, 0, 0] + 3 * [0, 1, 0] + 3 * [1, 1, 0])
+    scaled = file.floats(3, [1, 1, 1, 2, 1, 1, 1, 1, 1])
+    return file.binary({
+        "scenes": [{"nodes": [0, 1]}],
+        "nodes": [
+            {"mesh": 0, "skin": 0, "name": "head"},
+            {"children": [2], "translation": [0, 0.5, 0]},
+            {"rotation": [0, 0, 0, 1], "scale": [1, 1, 1]},
+        ],
+        "meshes": [{"primitives": [{"attributes": attributes, "indices": indices}]}],
+        "skins": [{"joints": [1, 2], "inverseBindMatrices": binds}],
+        "animations": [{
+            "name": "nod",
+            "samplers": [
+                {"input": times, "output": turned},
+                {"input": times, "output": moved, "interpolation": "CUBICSPLINE"},
+                {"input": times, "output": scaled, "interpolation": "STEP"},
+            ],
+            "channels": [
+                {"sampler": 0, "target": {"node": 1, "path": "rotation"}},
+                {"sampler": 1, "target": {"node": 2, "path": "translation"}},
+                {"sampler": 2, "target": {"node": 2, "path": "scale"}},
+            ],
+        }],
+    })
+
+
+def morph():
+    file = Gltf()
+    attributes = {"POSITION": file.floats(3, TRIANGLES)}
+    target = file.floats(3, 3 * [0, 0, 1] + [0, 0, 0])
+    file.accessors.append({
+        "componentType": 5126,
+        "type": "VEC3",
+        "count": 4,
+        "sparse": {
+            "count": 1,
+            "indices": {"bufferView": file.view("H", [2]), "componentType": 5123},
+            "values": {"bufferView": file.view("f", [0, 2, 0])},
+        },
+    })
+    sparse = len(file.accessors) - 1
+    times = file.floats(1, [0, 1])
+    weights = file.accessor("B", 5121, 1, [0, 0, 255, 128], normalized=True)
+    return file.binary({
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 4, 5, 1]}],
+        "meshes": [{
+            "primitives": [{
+                "attributes": attributes,
+                "mode": 5,
+                "targets": [{"POSITION": target}, {"POSITION": sparse}],
+                "material": 0,
+            }],
+            "weights": [0.25, 0],
+        }],
+        "materials": [{
+            "name": "skin",
+            "pbrMetallicRoughness": {
+                "baseColorFactor": [0.5, 0.25, 0.125, 1],
+                "roughnessFactor": 0.5,
+            },
+            "alphaMode": "MASK",
+        }],
+        "animations": [{
+            "samplers": [{"input": times, "output": weights}],
+            "channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}}],
+        }],
+    })
+
+
+def sized(data, size):
+    return struct.pack("<Q", len(data) // size) + data
+
+
+def name(text):
+    return sized(text.encode(), 1)
+
+
+def mesh_stream():
+    """hair/groom/mesh/mesh_stream.h: what hairbench_mesh_reader writes of a square."""
+    positions = struct.pack("<12f", *TRIANGLES)
+    normals = struct.pack("<12f", *(4 * [0, 0, 1]))
+    coordinates = struct.pack("<8f", 0, 0, 1, 0, 1, 1, 0, 1)
+    triangles = struct.pack("<6I", 0, 1, 2, 0, 2, 3)
+    stream = sized(positions, 12) + sized(normals, 12) + sized(coordinates, 8)
+    stream += sized(triangles, 12) + sized(struct.pack("<2I", 0, 0), 4)
+    stream += sized(struct.pack("<2I", 0, 0), 4)
+    stream += struct.pack("<Q", 1) + name("head")
+    stream += struct.pack("<Q", 1) + name("bone") + sized(struct.pack("<4f", 0, 0.5, 1, 1), 4)
+    stream += struct.pack("<Q", 1) + name("skin") + struct.pack("<3f", 0.5, 0.25, 0.125)
+    return stream + struct.pack("<Q", 1) + name("skin.png")
+
+
+def usd_stream():
+    """hair/groom/formats/usd_import.h: what usd_curves.py writes of two strands."""
+    sections = [
+        (struct.pack("<2I", 3, 2), 4),
+        (struct.pack("<15f", *range(15)), 12),
+        (struct.pack("<5f", *(5 * [0.001])), 4),
+        (struct.pack("<f", 0.5), 4),
+        (struct.pack("<15f", *(5 * [0.2, 0.1, 0])), 12),
+        (struct.pack("<4f", 0, 0.25, 0.5, 1), 8),
+        (struct.pack("<3I", 0, 1, 1), 12),
+        (struct.pack("<2i", -1, 7), 4),
+        (bytes([1, 0]), 1),
+        (b"a comment", 1),
+        (b"one warning\nanother", 1),
+    ]
+    counts = [len(data) // size for data, size in sections]
+    header = struct.pack("<8sd11Q", b"HBCURVES", 0.01, *counts)
+    return header + b"".join(data for data, _ in sections)
+
+
+# ---- Reports -------------------------------------------------------------------------------------
+
+
+def cut(report, cases):
+    """The report with some of its cases, each with few metrics and samples."""
+    report = dict(report)
+    report["scene"] = dict(report["scene"])
+    run = report["scene"]["document"].get("run", {})
+    report["scene"]["document"] = {"run": run}
+    environment = report["environment"] = dict(report["environment"])
+    environment["device"] = dict(environment["device"], limits={"timestampPeriod": 1.0})
+    report["cases"] = []
+    for each in cases:
+        each = dict(each)
+        metrics = each.get("metrics", {})
+        kept = [key for key in metrics if not key.startswith(("memory", "device"))][:7]
+        each["metrics"] = {
+            key: dict(metrics[key], samples=metrics[key].get("samples", [])[:4]) for key in kept
+        }
+        report["cases"].append(each)
+    return report
+
+
+def text(value):
+    return json.dumps(value, ensure_ascii=False, separators=(",", ":"))
+
+
+def with_sidecar(report):
+    """The report with its first metric's samples beside it."""
+    report = json.loads(json.dumps(report))
+    case = report["cases"][0]
+    metric, value = next(iter(case["metrics"].items()))
+    samples = [1.0, 2.0, 4.0]
+    value.update(median=2.0, sample_count=3, samples_file="report.samples.jsonl")
+    del value["samples"]
+    line = {"case": case["name"], "metric": metric, "samples": samples}
+    return text(report) + RECORD_SEPARATOR + text(line) + "\n"
+
+
+def reports():
+    for path in sorted((ROOT / "results").glob("*.json")):
+        report = json.loads(path.read_text())
+        if not str(report.get("schema", "")).startswith("hairbench-report/"):
+            continue
+        cases = report["cases"]
+        stem = path.stem.split("-")[0] + "_" + path.stem.split("-")[-1][:4]
+        for count in (1, 2):
+            write("report", "%s_%d.json" % (stem, count), text(cut(report, cases[:count])))
+        write("report", stem + "_samples.json", with_sidecar(cut(report, cases[:1])))
+        report["case_count"] = len(cases)
+        parts = []
+        for index in range(2):
+            part = cut(report, [dict(cases[index], index=index)])
+            part["case_count"] = 2
+            part["shard"] = {"index": index + 1, "count": 2}
+            parts.append(text(part))
+        write("merge", stem + ".json", RECORD_SEPARATOR.join(parts))
+
+
+# ---- Journals ------------------------------------------------------------------------------------
+
+
+def journal_line(value):
+    """benchmarks/run/record.h: a value, and the 64-bit FNV-1a of its text."""
+    line = text(value)
+    sum_ = 0xCBF29CE484222325
+    for byte in line.encode():
+        sum_ = (sum_ ^ byte) * 0x100000001B3 % 2**64
+    return '{"hash":"%016x","line":%s}\n' % (sum_, line)
+
+
+def journals():
+    """Of the run that tests/fuzz/targets.cpp makes up."""
+    head = {
+        "schema": "hairbench-journal/2.0.0",
+        "header": {
+            "schema": "hairbench-report/1.4.0",
+            "environment": {
+                "device": {"name": "Soft", "type": "cpu", "driver_version": "22.3.6"},
+                "host": {"processor": "Some CPU"},
+                "build": {"version": "0.1.0", "commit": "abc", "type": "Release"},
+                "command": ["hairbench", "run"],
+                "seed": 7,
+                "validation": False,
+            },
+            "scene": {"path": "s.json", "hash": "0123456789abcdef", "document": {"seed": 7}},
+            "case_count": 8,
+            "order_seed": 11,
+            "shard": {"index": 2, "count": 2},
+        },
+        "cases_hash": "0011223344556677",
+        "filter": "",
+        "planned": 4,
+    }
+    played = json.loads((SEEDS / "report/thesis_ff65_1.json").read_text())["cases"][0]
+    lines = [journal_line(head)]
+    write("journal", "begun.journal", lines[0])
+    for order, index in enumerate([3, 1, 7]):
+        name_ = "s/%d" % index
+        failed = {"name": name_, "axes": {}, "index": index, "order": order, "status": "failed"}
+        whole = dict(played, name=name_, index=index, order=order)
+        lines.append(journal_line(failed if order == 1 else whole))
+        if order == 1:
+            write("journal", "two_cases.journal", "".join(lines))
+    write("journal", "three_cases.journal", "".join(lines))
+
+
+def main():
+    for target, makers in [
+        ("animation", {"skin.glb": skin, "morph.glb": morph}),
+        ("mesh_stream", {"square.bin": mesh_stream}),
+        ("usd_stream", {"two_strands.bin": usd_stream}),
+    ]:
+        for file_name, make in makers.items():
+            write(target, file_name, make())
+    reports()
+    journals()
+    if "--pictures" in sys.argv:
+        (SEEDS / "float_picture").mkdir(parents=True, exist_ok=True)
+        pictures()
+        float_pictures()
+
+
+if __name__ == "__main__":
+    main()
