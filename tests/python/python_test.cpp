@@ -19,7 +19,7 @@ TEST_P(PythonModule, PassesItsTests) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Tests, PythonModule, testing::Values("documents", "groom", "program", "report"),
+    Tests, PythonModule, testing::Values("ci", "documents", "groom", "program", "report"),
     [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
