@@ -197,9 +197,9 @@ bool isProgram(const fs::path& path) {
 }
 
 fs::path programOfBuild(const fs::path& folder, const std::string& context) {
-    for (const fs::path& each : {folder / "benchmarks" / "hairbench", folder / "hairbench"})
-        if (isProgram(each)) return each;
-    throw engine::Error(context, "holds neither benchmarks/hairbench nor hairbench");
+    for (const char* each : {"benchmarks/hairbench", "bin/hairbench", "hairbench"})
+        if (isProgram(folder / each)) return folder / each;
+    throw engine::Error(context, "holds no benchmarks/hairbench, bin/hairbench or hairbench");
 }
 
 // A file name without a slash would be looked for in PATH.

@@ -1,6 +1,5 @@
 #include "benchmarks/reference/picture_errors.h"
 
-#include <cstdlib>
 #include <string>
 #include <system_error>
 
@@ -10,6 +9,7 @@
 #include "engine/error.h"
 #include "engine/pictures.h"
 #include "engine/process.h"
+#include "engine/program_files.h"
 #include "engine/run_tool.h"
 #include "engine/steps.h"
 
@@ -18,24 +18,19 @@ namespace {
 
 // ---- The Python tools ---------------------------------------------------------------------------
 
-std::string interpreter() {
-    const char* wanted = std::getenv("HAIRBENCH_REFERENCE_PYTHON");
-    return wanted && *wanted ? wanted : HAIRBENCH_SOURCE_DIR "/.deps/reference/bin/python";
-}
-
 void run(
     const std::vector<std::string>& arguments,
     const std::function<void(std::string_view line)>& each_line) {
     // -B -E: leaves no byte code beside the tool, and nobody's variables change what it does.
-    std::vector<std::string> all{interpreter(), "-B", "-E"};
+    std::vector<std::string> all{
+        engine::pythonInterpreter("reference", "HAIRBENCH_REFERENCE_PYTHON"), "-B", "-E"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     try {
         engine::runTool(all, each_line, engine::checkInterrupted);
     } catch (const std::system_error& error) {
         throw engine::Error(
-            "this needs the project's Python environment for references: run scripts/setup "
-            "--reference (" +
-            std::string(error.what()) + ')');
+            "this needs the project's Python environment for references: run " +
+            engine::makesPythonEnvironment("reference") + " (" + error.what() + ')');
     } catch (const engine::Error&) {
         engine::checkInterrupted();  // which ends the tool too
         throw;
@@ -48,7 +43,7 @@ void runReferenceTool(
     const std::string& script, const std::vector<std::string>& arguments,
     const std::function<void(std::string_view line)>& each_line) {
     const engine::Step step("runs " + script);
-    std::vector<std::string> all{HAIRBENCH_SOURCE_DIR "/benchmarks/reference/" + script};
+    std::vector<std::string> all{engine::programFile("benchmarks/reference/" + script).string()};
     all.insert(all.end(), arguments.begin(), arguments.end());
     run(all, each_line);
 }

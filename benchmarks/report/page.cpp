@@ -18,6 +18,7 @@
 #include "benchmarks/report/report.h"
 #include "engine/error.h"
 #include "engine/files.h"
+#include "engine/program_files.h"
 
 namespace benchmarks::report {
 namespace {
@@ -26,7 +27,7 @@ namespace {
 constexpr const char* kScripts[] = {"page.js", "figures.js", "backends.js", "details.js"};
 
 std::string readPart(const std::string& name) {
-    return engine::readFile(HAIRBENCH_SOURCE_DIR "/benchmarks/report/page/" + name);
+    return engine::readFile(engine::programFile("benchmarks/report/page/" + name));
 }
 
 // plotly.min.js of a Python environment: lib/python3.N/site-packages/plotly, whichever N.
@@ -121,7 +122,7 @@ scene::Json comparisonsOf(const scene::Json& reports) {
 
 std::optional<std::filesystem::path> findPlotly() {
     const char* wanted = std::getenv("HAIRBENCH_PLOTLY");
-    if (!wanted || !*wanted) return plotlyIn(HAIRBENCH_SOURCE_DIR "/.deps/report");
+    if (!wanted || !*wanted) return plotlyIn(engine::pythonEnvironment("report"));
     std::error_code error;
     if (!std::filesystem::is_regular_file(wanted, error)) return std::nullopt;
     return wanted;
@@ -130,7 +131,8 @@ std::optional<std::filesystem::path> findPlotly() {
 std::string readPlotly() {
     const auto file = findPlotly();
     if (!file)
-        throw engine::Error("report", "this needs plotly.min.js: run scripts/setup --report");
+        throw engine::Error(
+            "report", "this needs plotly.min.js: run " + engine::makesPythonEnvironment("report"));
     return engine::readFile(*file);
 }
 

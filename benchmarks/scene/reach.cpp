@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/error.h"
+#include "engine/program_files.h"
 #include "hair/fields.h"
 #include "hair/settings.h"
 
@@ -52,9 +53,42 @@ fs::path folderOfScenes(const fs::path& opened) {
 
 }  // namespace
 
+// ---- The program's own scenes -------------------------------------------------------------------
+
+fs::path sceneNamed(const fs::path& name) {
+    std::error_code error;
+    const bool is_file = fs::exists(name, error) && !fs::is_directory(name, error);
+    if (is_file || name.empty() || name.is_absolute()) return name;
+    fs::path below = name.lexically_normal();
+    if (*below.begin() == "scenes") below = below.lexically_relative("scenes");
+    if (*below.begin() == "..") return name;
+    for (const char* extension : {"", ".json"}) {
+        const fs::path shipped = engine::programFile("scenes") / (below.string() + extension);
+        if (fs::is_regular_file(shipped, error)) return shipped;
+    }
+    return name;
+}
+
+std::vector<std::string> shippedScenes() {
+    const fs::path folder = engine::programFile("scenes");
+    std::vector<std::string> names;
+    std::error_code error;
+    for (fs::recursive_directory_iterator each(folder, error), end; !error && each != end;
+         each.increment(error)) {
+        const std::string name = each->path().lexically_relative(folder).string();
+        if (name.ends_with(".json") && !name.ends_with(".schema.json") &&
+            !name.starts_with("assets/"))
+            names.push_back(name.substr(0, name.size() - std::string_view(".json").size()));
+    }
+    std::ranges::sort(names);
+    return names;
+}
+
+// ---- Reach --------------------------------------------------------------------------------------
+
 Reach::Reach(const fs::path& opened, Outside outside) {
     if (outside == Outside::refused)
-        folders_ = {folderOfScenes(opened), placeOf(HAIRBENCH_SOURCE_DIR "/scenes")};
+        folders_ = {folderOfScenes(opened), engine::programFile("scenes")};
 }
 
 void Reach::check(const fs::path& file) const {

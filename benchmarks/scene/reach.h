@@ -6,8 +6,18 @@
 
 #include "benchmarks/scene/json.h"
 
-// Which files a scene may name: one that a stranger made ought to open none but its own.
+// Where scenes lie, and which files they may name: one that a stranger made ought to open none but
+// its own.
 namespace benchmarks::scene {
+
+// The file that is meant by the name of a scene: the file of that name where there is one, else
+// the scene of that name that comes with the program: "thesis", "scenes/thesis.json",
+// "portraits/braid". The name as it is where there is neither.
+std::filesystem::path sceneNamed(const std::filesystem::path& name);
+
+// Names of the scenes that come with the program, as sceneNamed() takes them, in alphabetical
+// order: "thesis", "portraits/braid".
+std::vector<std::string> shippedScenes();
 
 // What the user says of files outside: --allow-outside.
 enum class Outside { refused, allowed };

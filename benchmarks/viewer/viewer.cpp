@@ -14,6 +14,7 @@
 #include "benchmarks/viewer/shell.h"
 #include "engine/error.h"
 #include "engine/process.h"
+#include "engine/program_files.h"
 
 namespace benchmarks::viewer {
 namespace {
@@ -94,7 +95,7 @@ Viewer::Parts::Parts(
       area(device), scene(file, settings), scenes(file.directory),
       timings(*scene_device, &engine::Window::endWait), previews(!driven),
       studio(
-          *scene_device, options.shaders.empty() ? HAIRBENCH_SHADER_FOLDER : options.shaders,
+          *scene_device, options.shaders.empty() ? engine::programFile("shaders") : options.shaders,
           options.before_drawing, std::move(cache)),
       drawing(
           [this, first = true](const Order& order, const Stop& stop) mutable {

@@ -99,7 +99,7 @@ TEST(GateRefusals, NameWhatIsWrongWithTheOptions) {
         "gate --a '" + builds.program('A') + "' --scene s.json -o " + builds.reportFile().string();
     EXPECT_THAT(
         hairbench(a + " --b " + empty.path().string()).output,
-        HasSubstr("holds neither benchmarks/hairbench nor hairbench"));
+        HasSubstr("holds no benchmarks/hairbench, bin/hairbench or hairbench"));
     EXPECT_THAT(hairbench(a + " --b 'x {scene}'").output, HasSubstr("has {scene} but no {out}"));
     EXPECT_THAT(
         hairbench(a + " --b 'x {out}' --set-b /seed=2").output,

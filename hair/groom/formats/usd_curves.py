@@ -18,7 +18,7 @@ try:
 
     from usd_prim import Prim, Refused
 except ImportError as error:
-    sys.exit(f"{error}: run scripts/setup --python")
+    sys.exit(f"{error}: this Python lacks what requirements.txt names")
 
 
 class Xforms:

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <limits>
 #include <system_error>
 #include <utility>
 
 #include "engine/error.h"
+#include "engine/program_files.h"
 #include "engine/run_tool.h"
 #include "hair/groom/formats/binary_file.h"
 #include "hair/groom/mesh/mesh_stream.h"
@@ -141,21 +141,16 @@ std::vector<std::string> linesOf(const std::string& text) {
 
 // ---- The tools ----------------------------------------------------------------------------------
 
-constexpr const char* kTools = HAIRBENCH_SOURCE_DIR "/hair/groom/formats/";
-constexpr const char* kInterpreter = HAIRBENCH_SOURCE_DIR "/.deps/python/bin/python";
-
 // What the script writes that is called so with these arguments, read by `parse`.
 template <class Parse>
 auto readStage(
     const std::string& tool, const std::vector<std::string>& options,
     const std::filesystem::path& path, const Parse& parse) {
-    const char* wanted = std::getenv("HAIRBENCH_PYTHON");
-    const std::string interpreter = wanted && *wanted ? wanted : kInterpreter;
     // -B -E: leaves no byte code beside the tool, and nobody's variables change what it does.
     // An absolute path, which is no option whatever it begins with.
-    std::vector<std::string> command(1, interpreter);
+    std::vector<std::string> command(1, engine::pythonInterpreter("python", "HAIRBENCH_PYTHON"));
     for (const char* option : {"-B", "-E"}) command.emplace_back(option);
-    command.push_back(kTools + tool);
+    command.push_back(engine::programFile("hair/groom/formats/" + tool).string());
     for (const std::string& option : options) command.push_back(option);
     command.push_back(std::filesystem::absolute(path).string());
     std::vector<std::byte> bytes;
@@ -163,8 +158,8 @@ auto readStage(
         bytes = engine::runTool(command);
     } catch (const std::system_error& error) {
         throw engine::Error(
-            "reading USD needs the project's Python environment: run scripts/setup --python (" +
-            std::string(error.what()) + ')');
+            "reading USD needs the project's Python environment: run " +
+            engine::makesPythonEnvironment("python") + " (" + error.what() + ')');
     }
     try {
         return parse(std::span<const std::byte>(bytes));

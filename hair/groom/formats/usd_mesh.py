@@ -20,7 +20,7 @@ try:
     from usd_curves import Xforms, joined, metres_per_unit_of, open_stream, words_of
     from usd_prim import Refused
 except ImportError as error:
-    sys.exit(f"{error}: run scripts/setup --python")
+    sys.exit(f"{error}: this Python lacks what requirements.txt names")
 
 MOST = 1 << 31  # bytes of positions over time
 

@@ -14,6 +14,7 @@
 #include "engine/error.h"
 #include "engine/files.h"
 #include "engine/pictures.h"
+#include "engine/program_files.h"
 #include "engine/run_tool.h"
 #include "engine/steps.h"
 #include "hair/groom/files.h"
@@ -27,19 +28,10 @@ namespace {
 
 // ---- Import assimp ------------------------------------------------------------------------------
 
-// Beside the program where it is installed, else where it was built.
-std::filesystem::path readerProgram() {
-    std::error_code error;
-    const auto own = std::filesystem::read_symlink("/proc/self/exe", error);
-    const auto beside = own.parent_path() / "hairbench_mesh_reader";
-    if (!error && std::filesystem::exists(beside, error)) return beside;
-    return HAIRBENCH_MESH_READER;
-}
-
 // Whatever assimp reads, by a child (mesh_reader.cpp).
 Mesh importAssimp(
     const std::filesystem::path& path, Textures textures, const NamedFileCheck& check) {
-    const std::string program = readerProgram().string();
+    const std::string program = engine::helperProgram("hairbench_mesh_reader").string();
     ReadMesh read;
     try {
         // A vertex is 32 bytes, and no format has one in less than one.

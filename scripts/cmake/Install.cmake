@@ -1,0 +1,49 @@
+# `cmake --install` and `cpack`. An installed tree may be moved: programs find what is theirs from
+# where they are (engine/program_files.h), which is why these folders have no variables.
+
+install(TARGETS hairbench RUNTIME DESTINATION bin)
+install(TARGETS hairbench_mesh_reader RUNTIME DESTINATION libexec/hairbench)
+# Python environments are the user's to make, of what is pinned.
+install(PROGRAMS scripts/python-environment DESTINATION libexec/hairbench)
+install(FILES scripts/requirements.txt scripts/requirements-reference.txt
+    scripts/requirements-report.txt
+    DESTINATION libexec/hairbench)
+
+# What is read while the program runs is named as in the source tree.
+install(DIRECTORY scenes DESTINATION share/hairbench PATTERN "make_*.py" EXCLUDE)
+install(DIRECTORY shaders DESTINATION share/hairbench PATTERN "CMakeLists.txt" EXCLUDE)
+install(DIRECTORY benchmarks/report/page DESTINATION share/hairbench/benchmarks/report)
+install(DIRECTORY benchmarks/reference DESTINATION share/hairbench/benchmarks
+    FILES_MATCHING PATTERN "*.py")
+install(DIRECTORY hair/groom/formats DESTINATION share/hairbench/hair/groom
+    FILES_MATCHING PATTERN "*.py" PATTERN "__pycache__" EXCLUDE)
+
+install(FILES README.md DESTINATION share/doc/hairbench)
+install(FILES LICENSE DESTINATION share/doc/hairbench RENAME copyright)
+install(DIRECTORY docs DESTINATION share/doc/hairbench)
+# The forms of reports.
+install(DIRECTORY results DESTINATION share/doc/hairbench
+    FILES_MATCHING PATTERN "README.md" PATTERN "*.schema.json"
+    PATTERN "pictures" EXCLUDE PATTERN "local" EXCLUDE)
+
+# ---- The package
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME hairbench)
+set(CPACK_PACKAGE_VENDOR "hairbench contributors")
+set(CPACK_PACKAGE_CONTACT "hairbench contributors")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Vulkan benchmark and research harness for human hair")
+set(CPACK_PACKAGE_DESCRIPTION
+    "Simulates guide hairs in compute shaders, draws strands made from them, times every pass on
+the GPU and says how far the figures can be trusted. Without a GPU it runs on lavapipe, the
+software device of mesa-vulkan-drivers.")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# Loaded while the program runs, which dpkg-shlibdeps does not see.
+set(CPACK_DEBIAN_PACKAGE_DEPENDS libvulkan1)
+# A device where there is no GPU, the viewer's letters, and what makes Python environments.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "mesa-vulkan-drivers, fonts-dejavu-core, python3-venv")
+include(CPack)
