@@ -47,6 +47,24 @@ class Documents(unittest.TestCase):
         self.assertIn("12 mismatch False", printed)
         self.assertTrue(os.path.getsize("longer.ply") > len(names["groom"].points) * 12)
 
+    def test_the_notebook(self):
+        cells = json.loads((REPOSITORY / "docs" / "notebook.ipynb").read_text())["cells"]
+        self.assertFalse(any(cell.get("outputs") for cell in cells))  # they would be a machine's
+        names, _ = self.play("notebook.ipynb")
+        triangles = names["frame"]["counts.root_triangles"].iloc[0]
+        strands = [triangles * density for density in names["DENSITIES"]]
+        lines = names["axes"].get_lines()
+        self.assertEqual([line.get_label() for line in lines], sorted(names["BACKENDS"]))
+        for line in lines:
+            self.assertEqual(list(line.get_xdata()), strands)
+            self.assertTrue(all(time > 0 for time in line.get_ydata()))
+        # More strands hide more of the head: no two pictures are equal, and none is of one colour.
+        pictures = [panel.get_images()[0].get_array() for panel in names["panels"]]
+        self.assertEqual(len(pictures), len(names["DENSITIES"]))
+        for i, picture in enumerate(pictures):
+            self.assertGreater(picture.std(), 0.01)
+            self.assertFalse(any((picture == other).all() for other in pictures[:i]))
+
 
 if __name__ == "__main__":
     unittest.main()
