@@ -209,4 +209,20 @@ int validateScenes(const ValidateOptions& options);
 int printSchema();
 int printDevices();
 
+struct ScenesOptions {
+    bool names = false;  // alone
+};
+int printScenes(const ScenesOptions& options);
+
+struct CompletionOptions {
+    std::string shell;
+};
+int printCompletion(const CompletionOptions& options);
+
+struct ManualOptions {
+    std::vector<std::string> words;  // of the command, without the program's name
+    std::filesystem::path out;       // folder for its page and all below; empty: stdout
+};
+int printManual(const ManualOptions& options);
+
 }  // namespace benchmarks::commands

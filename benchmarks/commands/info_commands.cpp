@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstddef>
 #include <exception>
 #include <filesystem>
@@ -13,6 +14,8 @@
 #include "benchmarks/measure/progress.h"
 #include "benchmarks/measure/start.h"
 #include "benchmarks/report/change.h"
+#include "benchmarks/scene/reach.h"
+#include "benchmarks/scene/scene.h"
 #include "benchmarks/scene/schema.h"
 #include "benchmarks/scene/sweep.h"
 #include "engine/steps.h"
@@ -91,6 +94,23 @@ int validateScenes(const ValidateOptions& options) {
         }
     }
     return status;
+}
+
+int printScenes(const ScenesOptions& options) {
+    const std::vector<std::string> names = scene::shippedScenes();
+    std::size_t widest = 0;
+    for (const std::string& name : names) widest = std::max(widest, name.size());
+    for (const std::string& name : names) {
+        std::cout << name;
+        if (!options.names) {
+            const std::filesystem::path file = scene::sceneNamed(name);
+            std::cout << std::string(widest + 2 - name.size(), ' ')
+                      << (scene::isSuite(file) ? "a suite of scenes"
+                                               : scene::loadScene(file).settings.description);
+        }
+        std::cout << '\n';
+    }
+    return report::kOk;
 }
 
 int printSchema() {

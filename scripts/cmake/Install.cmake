@@ -18,6 +18,14 @@ install(DIRECTORY benchmarks/reference DESTINATION share/hairbench/benchmarks
 install(DIRECTORY hair/groom/formats DESTINATION share/hairbench/hair/groom
     FILES_MATCHING PATTERN "*.py" PATTERN "__pycache__" EXCLUDE)
 
+set(help_dir "${PROJECT_BINARY_DIR}/help")  # benchmarks/CMakeLists.txt
+install(FILES "${help_dir}/hairbench" DESTINATION share/bash-completion/completions)
+# Where zsh looks below /usr/local, and Debian's below /usr.
+foreach(folder site-functions vendor-completions)
+    install(FILES "${help_dir}/_hairbench" DESTINATION share/zsh/${folder})
+endforeach()
+install(FILES "${help_dir}/hairbench.fish" DESTINATION share/fish/vendor_completions.d)
+install(DIRECTORY "${help_dir}/man1" DESTINATION share/man)
 install(FILES README.md DESTINATION share/doc/hairbench)
 install(FILES LICENSE DESTINATION share/doc/hairbench RENAME copyright)
 install(DIRECTORY docs DESTINATION share/doc/hairbench)

@@ -1,0 +1,327 @@
+#include "benchmarks/commands/command_line_options.h"
+#include "benchmarks/commands/commands.h"
+#include "benchmarks/report/exporters.h"
+
+namespace benchmarks::commands {
+namespace {
+
+// ---- run, gate, ablate, doctor ------------------------------------------------------------------
+
+constexpr const char* kGateNotes =
+    R"(A and B are a build folder, the prefix that a build is installed to, a program, or a command line that
+'run SCENE --out FILE ...' is added to; one with {scene} and {out} in it is taken as it is. Whole processes
+run as A B, B A, A B ...; a sample is a process's median. After 12, 24 and 48 pairs verdicts are passed; it
+is over if no metric is inconclusive or one has regressed. One that is stopped gives the verdicts that were
+passed last. Exit status: 0 nothing is slower, 10 something is, 11 inconclusive (--fail-on inconclusive),
+12 pictures or states differ, 130 interrupted before the first verdict.)";
+
+void addRunOptions(CLI::App& command, run::RunOptions& options) {
+    addSceneOptions(command, options.scene);
+    addSamplingOptions(command, options.scene);
+    command.add_option("--filter", options.filter, "run the cases whose name matches")
+        ->type_name("REGEX");
+    command.add_option("-o,--out", options.out, "report file (default results/local/<scene>.json)")
+        ->type_name("FILE");
+    command
+        .add_option_function<std::string>(
+            "--clocks",
+            [&options](const std::string& clocks) {
+                if (clocks == "both")
+                    options.scene.axes.emplace_back("/run/clocks=locked,free");
+                else
+                    options.scene.sets.push_back("/run/clocks=" + clocks);
+            },
+            "locked: lock the GPU's clocks at what it sustains, where the user may; free: only "
+            "where nobody holds them; both: each case with either (/run/clocks)")
+        ->check(CLI::IsMember({"locked", "free", "both"}));
+    command.add_flag("--list", options.list, "print the cases' names and stop");
+    command.add_flag(
+        "--dry-run", options.dry_run, "say what would run, estimate time and memory in seconds");
+    command.add_option(
+        "--order-seed", options.order_seed,
+        "seed of the order in which cases run (default: random)");
+    command.add_flag("--resume", options.resume, "go on where an interrupted or killed run ended");
+    command
+        .add_option("--shard", options.shard, "run one part of the cases: 2/8 is the second of 8")
+        ->type_name("I/N");
+    command.add_flag_callback(
+        "--no-pictures", [&options] { options.pictures = false; },
+        "no pictures of the cases beside the report");
+    command.add_option("--save-baseline", options.save_baseline, "keep the report under this name")
+        ->type_name("NAME");
+    command
+        .add_option(
+            "--baseline", options.baseline,
+            "compare with the report that --save-baseline kept under this name")
+        ->type_name("NAME");
+    addVerdictOptions(command, options.verdict);
+}
+
+void addGateOptions(CLI::App& command, gate::GateOptions& options) {
+    command.add_option("--a", options.a, "what to compare with")
+        ->required()
+        ->type_name("CMD_OR_BUILD");
+    command.add_option("--b", options.b, "what may be slower")
+        ->required()
+        ->type_name("CMD_OR_BUILD");
+    addScene(command, "--scene", options.scene.scene, "scene file, or the name of a shipped scene")
+        ->type_name("SCENE");
+    // No -a beside --a: newer CLI11 takes them for one name.
+    addRepeated(command, "--axis", options.scene.axes, "replaces or adds an axis of the sweep")
+        ->type_name("POINTER=V1,V2");
+    addRepeated(command, "--set", options.scene.sets, "sets a field of every case of A and B")
+        ->type_name("POINTER=VALUE");
+    addRepeated(command, "--set-a", options.a_sets, "sets a field of every case of A alone")
+        ->type_name("POINTER=VALUE");
+    addRepeated(command, "--set-b", options.b_sets, "sets a field of every case of B alone")
+        ->type_name("POINTER=VALUE");
+    addSamplingOptions(command, options.scene);
+    addCacheOption(command, options.scene);
+    addOutsideOption(command, options.scene.outside);
+    command.add_option(
+        "--device", options.scene.device.wanted,
+        "index or part of the name of the device (see 'hairbench devices')");
+    command.add_option("--filter", options.filter, "run the cases whose name matches")
+        ->type_name("REGEX");
+    command.add_option("--pairs", options.pairs, "pairs before the first verdict (default 12)")
+        ->check(CLI::IsMember({12, 24, 48}));
+    command
+        .add_option(
+            "--calibrate", options.calibration,
+            "pairs of A with itself first: changes that A has by itself count as none (default 0)")
+        ->check(CLI::Range(0, 256));
+    addVerdictOptions(command, options.verdict);
+    command
+        .add_option(
+            "--smallest-share", options.verdict.smallest_share,
+            "passes that are less of their frame decide nothing (default 0.02)")
+        ->check(CLI::Range(0.0, 1.0));
+    command.add_flag(
+        "--all", options.all, "go on after a regression until nothing is inconclusive");
+    command
+        .add_option(
+            "--max-minutes", options.max_minutes,
+            "time after which no process is begun; the verdicts passed last are given")
+        ->check(CLI::PositiveNumber);
+    command.add_option("-o,--out", options.out, "report (default results/local/gate-<scene>.json)")
+        ->type_name("FILE");
+}
+
+void addAblateOptions(CLI::App& command, AblateOptions& options) {
+    addSceneOptions(command, options.scene);
+    addSamplingOptions(command, options.scene);
+    command.add_option("--filter", options.filter, "run the cases whose name matches")
+        ->type_name("REGEX");
+    command.add_option("--passes", options.passes, "times up and down the ladder (default 8)")
+        ->check(CLI::Range(2, 1000));
+    command
+        .add_option("-o,--out", options.out, "report (default results/local/ablation-<scene>.json)")
+        ->type_name("FILE");
+}
+
+void addDoctorOptions(CLI::App& command, DoctorOptions& options) {
+    addDeviceOptions(command, options.device);
+    command
+        .add_option(
+            "--pairs", options.pairs,
+            "pairs of equal processes from which the smallest slowdown that a gate can find here "
+            "is "
+            "estimated (48 for a firm answer; default 0: no estimate)")
+        ->check(CLI::Range(0, 256));
+    command.add_flag(
+        "--planted", options.planted,
+        "plant slowdowns of 1.5 times the smallest in one pass and say whether a gate finds them; "
+        "takes long");
+    command.add_option("-o,--out", options.out, "findings as JSON")->type_name("FILE");
+    command
+        .add_option(
+            "--rules", options.rules,
+            "holds a report against the twelve rules of Hoefler and Belli (SC 2015) instead of "
+            "looking at the machine")
+        ->type_name("REPORT")
+        ->excludes("--pairs")
+        ->excludes("--planted")
+        ->excludes("--out");
+}
+
+}  // namespace
+
+void addMeasuringCommands(const CommandLine& line) {
+    addCommand<run::RunOptions>(
+        line, line.app,
+        {.name = "run",
+         .description = "plays a scene's or a suite's cases and writes a report",
+         .examples =
+             {"hairbench run thesis -a /strands/density=16,32,64 -a /render/msaa=1,4",
+              "hairbench run scenes/thesis.json --filter 'guides:86/.*msaa:1' --out "
+              "results/mine.json",
+              "hairbench run full --resume", "hairbench run thesis --dry-run"}},
+        runScene, addRunOptions);
+    addCommand<gate::GateOptions>(
+        line, line.app,
+        {.name = "gate",
+         .description = "decides whether build B is slower than build A",
+         .examples =
+             {"hairbench gate --a build/old --b build/new --scene smoke",
+              "hairbench gate --a build/new --b build/new --scene smoke --set-b "
+              "/strands/density=32"},
+         .notes = kGateNotes},
+        gateBuilds, addGateOptions);
+    addCommand<AblateOptions>(
+        line, line.app,
+        {.name = "ablate",
+         .description = "measures what each stage of the strands costs, by frames without it",
+         .examples = {"hairbench ablate rest"}},
+        ablateScene, addAblateOptions);
+    addCommand<DoctorOptions>(
+        line, line.app,
+        {.name = "doctor",
+         .description = "says whether timings of this machine can be trusted, and why",
+         .examples =
+             {"hairbench doctor", "hairbench doctor --pairs 48 -o doctor.json",
+              "hairbench doctor --rules results/mine.json"}},
+        examineMachine, addDoctorOptions);
+}
+
+// ---- compare, report, convert, merge ------------------------------------------------------------
+
+namespace {
+
+std::vector<std::string> formatNames() {
+    std::vector<std::string> names;
+    for (const report::Exporter& each : report::exporters()) names.emplace_back(each.name);
+    return names;
+}
+
+std::string formatNotes() {
+    std::string text = "Formats:";
+    for (const report::Exporter& each : report::exporters())
+        text += "\n  " + std::string(each.name) + ": " + each.description;
+    return text;
+}
+
+void addCompareOptions(CLI::App& command, report::CompareOptions& options) {
+    command.add_option("a", options.a, "report to compare with")->type_name("A");
+    command.add_option("b", options.b, "report that may be slower")->type_name("B");
+    command
+        .add_option(
+            "--baseline", options.baseline,
+            "report A is the one that run --save-baseline kept under this name")
+        ->type_name("NAME");
+    command.add_flag("--all", options.all, "list metrics that stayed the same too");
+    command.add_flag("--json", options.json, "print JSON");
+    addVerdictOptions(command, options.verdict);
+}
+
+}  // namespace
+
+void addReportCommands(const CommandLine& line) {
+    addCommand<report::CompareOptions>(
+        line, line.app,
+        {.name = "compare",
+         .description = "compares two reports",
+         .examples =
+             {"hairbench compare old.json new.json",
+              "hairbench compare --baseline main new.json --threshold 3%"}},
+        compareReports, addCompareOptions);
+    addCommand<ReportPageOptions>(
+        line, line.app,
+        {.name = "report",
+         .description = "makes a page of reports (.html) that opens offline",
+         .examples =
+             {"hairbench report results/mine.json -o mine.html",
+              "hairbench report old.json new.json -o both.html"}},
+        writeReportPage, [](CLI::App& command, ReportPageOptions& options) {
+            command.add_option("reports", options.reports, "reports; the first is compared with")
+                ->required()
+                ->type_name("FILE...");
+            command.add_option("-o,--out", options.out, "page to write (.html)")
+                ->required()
+                ->type_name("FILE");
+        });
+    addCommand<ConvertReportOptions>(
+        line, line.app,
+        {.name = "convert",
+         .description = "writes a report in the format of another tool",
+         .examples = {"hairbench convert results/mine.json -f csv -o mine.csv"},
+         .notes = formatNotes()},
+        convertReport, [](CLI::App& command, ConvertReportOptions& options) {
+            command.add_option("report", options.report, "report")->required()->type_name("FILE");
+            command
+                .add_option("-f,--format", options.format, "format to write, one of the list below")
+                ->required()
+                ->check(CLI::IsMember(formatNames()));
+            command.add_option("-o,--out", options.out, "file to write (default stdout)")
+                ->type_name("FILE");
+        });
+    addCommand<MergeOptions>(
+        line, line.app,
+        {.name = "merge",
+         .description = "joins the reports of a sweep's shards",
+         .examples = {"hairbench merge part*.json -o whole.json"}},
+        mergeReports, [](CLI::App& command, MergeOptions& options) {
+            command.add_option("reports", options.reports, "reports of the shards")
+                ->required()
+                ->type_name("FILE...");
+            command.add_option("-o,--out", options.out, "report to write")
+                ->required()
+                ->type_name("FILE");
+            command.add_flag(
+                "--force", options.force, "join what is of other scenes, builds, devices");
+        });
+}
+
+// ---- physics, validate, schema, devices ---------------------------------------------------------
+
+void addCheckCommands(const CommandLine& line) {
+    addCommand<PhysicsOptions>(
+        line, line.app,
+        {.name = "physics",
+         .description = "holds the solvers against theory and writes a report",
+         .examples =
+             {"hairbench physics", "hairbench physics --solver rod --check 'cantilever|catenary'"}},
+        checkPhysics, [](CLI::App& command, PhysicsOptions& options) {
+            addRepeated(
+                command, "--solver", options.solvers, "solver to check; repeatable (default all)")
+                ->type_name("NAME");
+            command.add_option("--check", options.check, "run the checks whose name matches")
+                ->type_name("REGEX");
+            command
+                .add_option(
+                    "--out", options.out, "report file (default results/local/physics.json)")
+                ->type_name("FILE");
+            addDeviceOptions(command, options.device);
+        });
+
+    addCommand<ValidateOptions>(
+        line, line.app,
+        {.name = "validate",
+         .description = "checks scene files and their assets",
+         .examples = {"hairbench validate scenes/*.json", "hairbench validate mine.json --start"}},
+        validateScenes, [](CLI::App& command, ValidateOptions& options) {
+            addScene(command, "scenes", options.scenes, "scene files, or names of shipped scenes")
+                ->type_name("SCENE...");
+            addOutsideOption(command, options.outside);
+            command.add_flag(
+                "--start", options.start,
+                "settle each scene's hair on the device, its axes apart, and say what is wrong "
+                "with it: stretched, inside a body, still moving, not balanced");
+            command.add_option(
+                "--device", options.device.wanted,
+                "for --start: index or part of the name of the device");
+        });
+    addCommand(
+        line, line.app,
+        {.name = "schema",
+         .description = "prints the JSON Schema of scene files",
+         .examples = {"hairbench schema > scene.schema.json"}},
+        printSchema);
+    addCommand(
+        line, line.app,
+        {.name = "devices",
+         .description = "lists the Vulkan devices and what they lack",
+         .examples = {"hairbench devices"}},
+        printDevices);
+}
+
+}  // namespace benchmarks::commands

@@ -1,0 +1,182 @@
+#include "benchmarks/commands/command_line_options.h"
+#include "benchmarks/commands/commands.h"
+#include "benchmarks/viewer/viewer.h"
+
+namespace benchmarks::commands {
+namespace {
+
+constexpr const char* kLodNotes =
+    R"(The hair of one frame stands still; the camera keeps its direction. Error: root mean square of
+the picture with /lod's levels less that of level 0, display values counting from 0 to 1. Popping:
+root mean square of what changes from one place to the next, less what changes at level 0. Coverage: share
+of a square round the hair that it hides, without the head. Times: medians of isolated frames.
+With --reference: whole levels, each lit by one directional light that many degrees from the camera, against level
+0 path-traced; popping is what the last 0.05 of the level change.)";
+
+}  // namespace
+
+void addPictureCommands(const CommandLine& line) {
+    addCommand<viewer::ViewOptions>(
+        line, line.app,
+        {.name = "view",
+         .description = "opens a scene in a window",
+         .examples =
+             {"hairbench view wavy_bob",
+              "hairbench view scenes/strong_wind.json --width 1920 --height 1080"}},
+        viewScene, [](CLI::App& command, viewer::ViewOptions& options) {
+            addSceneOptions(command, options.scene);
+            command.add_option("--width", options.width, "width of the window (default 1600)");
+            command.add_option("--height", options.height, "height of the window (default 900)");
+            command.add_option(
+                "--scale", options.scale, "scale of letters and widgets (default the screen's)");
+            command.add_option(
+                "--frames", options.frames,
+                "frames that the window draws before it closes (default: until it is closed)");
+            command
+                .add_option(
+                    "--screenshot", options.screenshot, "picture of the window's last frame (.png)")
+                ->type_name("FILE");
+            command
+                .add_option(
+                    "--script", options.script,
+                    "steps that drive the viewer as a user would (docs/viewer.md)")
+                ->type_name("FILE");
+            command
+                .add_option(
+                    "--shaders", options.shaders,
+                    "folder whose GLSL is watched and reloaded (default: the program's own)")
+                ->type_name("FOLDER");
+            command
+                .add_option(
+                    "--preferences", options.preferences,
+                    "file that remembers layout and theme (default: the user's own; with --script "
+                    "none)")
+                ->type_name("FILE");
+        });
+    addCommand<RenderOptions>(
+        line, line.app,
+        {.name = "render",
+         .description = "writes pictures of one frame or several",
+         .examples =
+             {"hairbench render strong_wind -o wind.png --frame 60",
+              "hairbench render strong_wind -o out/%04d.png --frames 0:240"}},
+        renderScene, [](CLI::App& command, RenderOptions& options) {
+            addSceneOptions(command, options.scene);
+            command
+                .add_option(
+                    "-o,--out", options.out,
+                    "picture: .png as a display shows it, .exr linear light without exposure and "
+                    "tone map; "
+                    "of several frames with their number in it, as in out/%04d.png")
+                ->required()
+                ->type_name("FILE");
+            CLI::Option* frame =
+                command.add_option("--frame", options.frame, "frame to draw, from 0 (default 0)")
+                    ->check(CLI::Range(0, 1'000'000));
+            command
+                .add_option(
+                    "--frames", options.frames,
+                    "frames to draw: A, A+1 ... below B, or every STEPth")
+                ->type_name("A:B[:STEP]")
+                ->excludes(frame);
+        });
+    addCommand<SimulateOptions>(
+        line, line.app,
+        {.name = "simulate",
+         .description = "plays a scene and writes its strands, without a picture",
+         .examples = {"hairbench simulate nod --frames 60 --export nod.usda"}},
+        simulateScene, [](CLI::App& command, SimulateOptions& options) {
+            addSceneOptions(command, options.scene);
+            command.add_option("--frames", options.recording.frames, "frames to play (default 60)")
+                ->check(CLI::PositiveNumber);
+            command
+                .add_option(
+                    "--export", options.recording.out,
+                    "file; .usda holds every frame, other formats (see 'groom convert') the last")
+                ->required()
+                ->type_name("FILE");
+            command.add_flag(
+                "--guides", options.recording.guides, "the guides instead of the drawn strands");
+        });
+    addCommand<ExportOptions>(
+        line, line.app,
+        {.name = "export",
+         .description = "writes one frame as a scene of another renderer",
+         .examples = {"hairbench export rest --mitsuba rest"}},
+        exportScene, [](CLI::App& command, ExportOptions& options) {
+            addSceneOptions(command, options.scene);
+            command
+                .add_option(
+                    "--mitsuba", options.mitsuba, "folder for a Mitsuba 3 scene (scene.xml)")
+                ->required()
+                ->type_name("DIR");
+            command.add_option("--frame", options.frame, "frame to write, from 0 (default 0)");
+        });
+    addCommand<ReferenceOptions>(
+        line, line.app,
+        {.name = "reference",
+         .description =
+             "path-traces one frame with Mitsuba 3, in the Python environment 'reference'",
+         .examples = {"hairbench reference strong_wind -o truth.exr --samples 256"}},
+        renderReference, [](CLI::App& command, ReferenceOptions& options) {
+            addSceneOptions(command, options.scene);
+            command.add_option("-o,--out", options.out, "picture (.exr linear, .png sRGB)")
+                ->required()
+                ->type_name("FILE");
+            command.add_option("--samples", options.samples, "samples per pixel (default 64)")
+                ->check(CLI::Range(1, 1'000'000));
+            command.add_option("--frame", options.frame, "frame to draw, from 0 (default 0)");
+        });
+    addCommand<DiffOptions>(
+        line, line.app,
+        {.name = "diff",
+         .description =
+             "compares pictures: RMSE, PSNR, SSIM, FLIP; in the Python environment 'reference'",
+         .examples = {"hairbench diff truth.exr picture.png -o difference.png"}},
+        diffPictures, [](CLI::App& command, DiffOptions& options) {
+            command.add_option("a", options.reference, "reference (.png .exr)")
+                ->required()
+                ->type_name("A");
+            command.add_option("b", options.picture, "picture of the same size (.png .exr)")
+                ->required()
+                ->type_name("B");
+            command.add_option("-o,--out", options.out, "FLIP's error map (.png)")
+                ->type_name("FILE");
+            command.add_flag("--json", options.json, "print JSON");
+        });
+    addCommand<LodOptions>(
+        line, line.app,
+        {.name = "lod",
+         .description =
+             "moves the camera away and compares level of detail by distance with full detail",
+         .examples = {"hairbench lod rest --from 0.5 --to 20 --steps 40 -o lod.json"},
+         .notes = kLodNotes},
+        walkLod, [](CLI::App& command, LodOptions& options) {
+            addSceneOptions(command, options.scene);
+            command
+                .add_option("--from", options.from, "first distance from /camera/target, m (0.5)")
+                ->check(CLI::PositiveNumber);
+            command.add_option("--to", options.to, "last distance from /camera/target, m (20)")
+                ->check(CLI::PositiveNumber);
+            command
+                .add_option(
+                    "--steps", options.steps,
+                    "number of distances, each by the same factor farther (40)")
+                ->check(CLI::Range(2u, 10000u));
+            command
+                .add_option("-o,--out", options.out, "report file (default results/local/lod.json)")
+                ->type_name("FILE");
+            command.add_option(
+                "--frame", options.frame, "frame whose hair is drawn, from 0 (default 0)");
+            command.add_flag(
+                "--reference", options.reference,
+                "compare levels with the path-traced level 0, lit from 0, 45, 90 and 180 degrees "
+                "(in the Python environment 'reference')");
+            command
+                .add_option(
+                    "--samples", options.samples, "samples per pixel of the reference (default 64)")
+                ->check(CLI::Range(1u, 1u << 20));
+        });
+}
+
+}  // namespace benchmarks::commands

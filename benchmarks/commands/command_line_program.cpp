@@ -1,0 +1,41 @@
+#include "benchmarks/commands/command_line_options.h"
+#include "benchmarks/commands/commands.h"
+#include "benchmarks/commands/completion.h"
+
+namespace benchmarks::commands {
+
+void addProgramCommands(const CommandLine& line) {
+    addCommand<ScenesOptions>(
+        line, line.app,
+        {.name = "scenes",
+         .description = "lists the scenes that come with the program, and what they are for",
+         .examples = {"hairbench scenes"}},
+        printScenes, [](CLI::App& command, ScenesOptions& options) {
+            command.add_flag("--names", options.names, "their names alone");
+        });
+    addCommand<CompletionOptions>(
+        line, line.app,
+        {.name = "completion",
+         .description = "prints what completes command lines in a shell",
+         .examples = {"hairbench completion bash >> ~/.bash_completion"}},
+        printCompletion, [](CLI::App& command, CompletionOptions& options) {
+            command.add_option("shell", options.shell, "the shell")
+                ->required()
+                ->type_name("SHELL")
+                ->check(CLI::IsMember(shellNames()));
+        });
+    addCommand<ManualOptions>(
+        line, line.app,
+        {.name = "man",
+         .description = "prints the page of the manual of the program or a command",
+         .examples = {"hairbench man run | man -l -", "hairbench man --out man1"}},
+        printManual, [](CLI::App& command, ManualOptions& options) {
+            command.add_option("command", options.words, "the command's words: groom info")
+                ->type_name("COMMAND...");
+            command
+                .add_option("-o,--out", options.out, "folder for this page and all that are below")
+                ->type_name("FOLDER");
+        });
+}
+
+}  // namespace benchmarks::commands

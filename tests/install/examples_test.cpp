@@ -1,0 +1,72 @@
+// The examples of --help are command lines of the commands that they are of.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "benchmarks/commands/command_line.h"
+#include "tests/install/listed_options.h"
+
+namespace benchmarks::commands {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+// The words that a shell hands to the program: up to a pipe or a redirection, without quotes.
+std::vector<std::string> shellWords(const std::string& line) {
+    const std::size_t end = std::min(line.find(" |"), line.find(" >"));
+    const Outcome outcome = runInShell("printf '%s\\n' " + line.substr(0, end));
+    std::vector<std::string> words;
+    std::istringstream lines(outcome.output);
+    for (std::string word; std::getline(lines, word);) words.push_back(word);
+    return words;
+}
+
+TEST(Examples, AreCommandLinesOfTheirCommand) {
+    const CommandHelp program = programHelp();
+    for (const CommandHelp* const command : withCommandsBelow(program)) {
+        EXPECT_THAT(command->examples, Not(IsEmpty())) << typedName(*command);
+        for (const std::string& example : command->examples) {
+            EXPECT_EQ(whyNotParsed(shellWords(example)), "") << example;
+            EXPECT_TRUE(example.starts_with(typedName(*command))) << example;
+        }
+    }
+}
+
+TEST(Examples, AreInTheHelpOfTheirCommand) {
+    const CommandHelp program = programHelp();
+    for (const CommandHelp* const command : withCommandsBelow(program)) {
+        const Outcome help = hairbench(wordsBelow(*command) + " --help");
+        EXPECT_EQ(help.status, 0);
+        for (const std::string& example : command->examples)
+            EXPECT_THAT(help.output, HasSubstr("  " + example + '\n'));
+    }
+}
+
+// So that what parses is worth something.
+TEST(Examples, WouldBeRefusedWithAnOptionThatThereIsNot) {
+    EXPECT_THAT(whyNotParsed({"hairbench", "run", "smoke", "--no-such"}), HasSubstr("--no-such"));
+    EXPECT_THAT(whyNotParsed({"hairbench", "render", "smoke"}), HasSubstr("--out"));
+    EXPECT_THAT(whyNotParsed({"hairbench"}), Not(IsEmpty()));
+}
+
+// What completions and manual are made of is what --help lists.
+TEST(ProgramHelp, HasTheCommandsAndOptionsOfHelp) {
+    const CommandHelp program = programHelp();
+    ASSERT_GT(program.commands.size(), 20u);
+    for (const CommandHelp* const command : withCommandsBelow(program)) {
+        std::set<std::string> options, commands;
+        for (const OptionHelp& option : command->options)
+            options.insert(option.names.begin(), option.names.end());
+        for (const CommandHelp& each : command->commands) commands.insert(each.words.back());
+        EXPECT_EQ(options, listedOptions(*command)) << typedName(*command);
+        EXPECT_EQ(commands, listedCommands(*command)) << typedName(*command);
+    }
+}
+
+}  // namespace
+}  // namespace benchmarks::commands
