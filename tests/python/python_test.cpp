@@ -27,6 +27,6 @@ TEST_P(PythonModule, PassesItsTests) {
 
 INSTANTIATE_TEST_SUITE_P(
     Tests, PythonModule, testing::Values("ci", "documents", "groom", "program", "report"),
-    [](const auto& info) { return info.param; });
+    [](const auto& test) { return test.param; });
 
 }  // namespace
