@@ -11,11 +11,22 @@
 #include <gtest/gtest.h>
 
 // What some tests need and a machine may lack.
-enum class Need { device, validation, gbench, python, report, browser, display, swiftshader, mesh };
+enum class Need {
+    device,
+    validation,
+    gbench,
+    python,
+    module,  // of Python
+    report,
+    browser,
+    display,
+    swiftshader,
+    mesh,  // task and mesh stages
+};
 
-inline constexpr std::array<std::string_view, 9> kNeedNames{
-    "device",  "validation", "gbench",      "python", "report",
-    "browser", "display",    "swiftshader", "mesh"};  // task and mesh stages
+inline constexpr std::array<std::string_view, 10> kNeedNames{
+    "device", "validation", "gbench",  "python",      "module",
+    "report", "browser",    "display", "swiftshader", "mesh"};
 static_assert(kNeedNames.size() == static_cast<std::size_t>(Need::mesh) + 1);
 
 // Whether HAIRBENCH_REQUIRE, names that are separated by commas, has it: scripts/test puts there

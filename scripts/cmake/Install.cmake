@@ -5,8 +5,8 @@ install(TARGETS hairbench RUNTIME DESTINATION bin)
 install(TARGETS hairbench_mesh_reader RUNTIME DESTINATION libexec/hairbench)
 # Python environments are the user's to make, of what is pinned.
 install(PROGRAMS scripts/python-environment DESTINATION libexec/hairbench)
-install(FILES scripts/requirements.txt scripts/requirements-reference.txt
-    scripts/requirements-report.txt
+install(FILES scripts/requirements.txt scripts/requirements-module.txt
+    scripts/requirements-reference.txt scripts/requirements-report.txt
     DESTINATION libexec/hairbench)
 
 # What is read while the program runs is named as in the source tree.

@@ -1,0 +1,10 @@
+"""Reports, hair and runs of hairbench in Python: docs/python.md."""
+
+from .groom import Groom, read_groom, write_groom
+from .program import GateResult, ProgramError, RunResult, gate, program, run, scenes
+from .report import read_report
+
+__all__ = [
+    "GateResult", "Groom", "ProgramError", "RunResult", "gate", "program", "read_groom",
+    "read_report", "run", "scenes", "write_groom",
+]

@@ -1,0 +1,92 @@
+"""Reports of `hairbench run` as pandas frames; results/README.md has every field."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import pandas
+
+SCHEMA = "hairbench-report/1."
+
+# Members of a metric beside its median that are columns under their own names.
+OTHER_FIGURES = (
+    "mad", "mean", "minimum", "first_quartile", "third_quartile", "maximum",
+    "percentile_5", "percentile_95", "percentile_99", "relative_deviation", "effective_samples",
+    "missing_samples")
+
+
+def axis_value(value: Any) -> Any:
+    """A value that frames can group by: lists are tuples, objects JSON."""
+    if isinstance(value, list):
+        return tuple(axis_value(each) for each in value)
+    return json.dumps(value) if isinstance(value, dict) else value
+
+
+def case_columns(case: dict[str, Any]) -> dict[str, Any]:
+    columns = {"case": case["name"]}
+    columns |= {pointer: axis_value(value) for pointer, value in case["axes"].items()}
+    columns |= {
+        "status": case["status"],
+        "reason": case.get("reason"),
+        "backend": case.get("backend", {}).get("name"),
+        "warnings": len(case.get("trust", {}).get("warnings", [])),
+    }
+    return columns | {f"counts.{name}": count for name, count in case.get("counts", {}).items()}
+
+
+def metric_columns(name: str, metric: dict[str, Any]) -> dict[str, Any]:
+    interval = metric.get("interval", {})
+    columns = {
+        "metric": name, "unit": metric["unit"], "hint": metric.get("hint"),
+        "mode": metric.get("mode"), "median": metric.get("median"),
+        "lower": interval.get("lower"), "upper": interval.get("upper"),
+        "confidence": interval.get("confidence"),
+        "samples": metric.get("sample_count", len(metric.get("samples", [])))}
+    return columns | {figure: metric.get(figure) for figure in OTHER_FIGURES}
+
+
+def read_report(path: str | os.PathLike[str]) -> pandas.DataFrame:
+    """A row for each metric of each case; a case that was skipped or failed has one row without.
+
+    Columns: `case`, an axis each under its JSON pointer with its value there, `status`, `reason`,
+    `backend`, `warnings` (how many), `counts.strands` and the like; `metric`, `unit`, `hint`
+    (whether lower or higher is better), `mode`, `median`, the bounds `lower` and `upper` of its
+    interval, `confidence`, and the other figures of a metric under their names. What is not known
+    is missing. `frame.attrs` has `path`, `schema`, `scene`, `environment` and `interrupted`.
+
+    Raises ValueError "path: reason" where the file is no report.
+    """
+    import pandas
+
+    try:
+        report = json.loads(Path(path).read_text(encoding="utf-8"))
+    except ValueError as error:
+        raise ValueError(f"{path}: no JSON: {error}") from None
+    schema = report.get("schema", "") if isinstance(report, dict) else ""
+    if not isinstance(schema, str) or not schema.startswith(SCHEMA):
+        raise ValueError(f"{path}: /schema: {schema!r} is not {SCHEMA}*, a report of hairbench run")
+
+    rows = []
+    for case in report["cases"]:
+        common = case_columns(case)
+        metrics = case.get("metrics") or {}
+        rows += [common | metric_columns(name, metric) for name, metric in metrics.items()]
+        if not metrics:
+            rows.append(common)
+    axes = dict.fromkeys(pointer for case in report["cases"] for pointer in case["axes"])
+    counts = dict.fromkeys(
+        name for row in rows for name in row if name.startswith("counts."))
+    columns = [
+        "case", *axes, "status", "reason", "backend", "warnings", *counts, "metric", "unit", "hint",
+        "mode", "median", "lower", "upper", "confidence", "samples", *OTHER_FIGURES]
+    frame = pandas.DataFrame(rows, columns=columns)
+    for name in columns[columns.index("median"):]:
+        frame[name] = pandas.to_numeric(frame[name])
+    frame.attrs = {
+        "path": str(path), "schema": schema, "scene": report["scene"]["path"],
+        "environment": report["environment"], "interrupted": report.get("interrupted", False)}
+    return frame

@@ -1,0 +1,70 @@
+"""Runs what docs/python.md and docs/notebook.ipynb show, in their order."""
+
+import contextlib
+import io
+import json
+import os
+import re
+import sys
+import tempfile
+import unittest
+
+os.environ["MPLBACKEND"] = "agg"  # pictures without a display
+
+from support import REPOSITORY, need_device  # noqa: E402
+
+
+def examples(name):
+    """The Python of a page of docs/, a piece for each block or cell."""
+    path = REPOSITORY / "docs" / name
+    if path.suffix == ".md":
+        return re.findall(r"^```python\n(.*?)^```$", path.read_text(), re.M | re.S)
+    cells = json.loads(path.read_text())["cells"]
+    return ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
+
+
+class Documents(unittest.TestCase):
+    def play(self, name):
+        """Runs a page's examples in an empty folder; returns their names and what they printed."""
+        need_device(self)
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(holder.name)
+        names, printed = {"__name__": "__main__"}, io.StringIO()
+        pieces = examples(name)
+        self.assertTrue(pieces)
+        with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(sys.stdout):
+            for number, piece in enumerate(pieces):
+                exec(compile(piece, f"{name}[{number}]", "exec"), names)
+        return names, printed.getvalue()
+
+    def test_the_page_on_python(self):
+        names, printed = self.play("python.md")
+        self.assertEqual(names["result"].status, 0)
+        self.assertEqual(len(names["times"]), 2)
+        self.assertTrue((names["times"]["median"] > 0).all())
+        self.assertIn("12 mismatch False", printed)
+        self.assertTrue(os.path.getsize("longer.ply") > len(names["groom"].points) * 12)
+
+    def test_the_notebook(self):
+        cells = json.loads((REPOSITORY / "docs" / "notebook.ipynb").read_text())["cells"]
+        self.assertFalse(any(cell.get("outputs") for cell in cells))  # they would be a machine's
+        names, _ = self.play("notebook.ipynb")
+        triangles = names["frame"]["counts.root_triangles"].iloc[0]
+        strands = [triangles * density for density in names["DENSITIES"]]
+        lines = names["axes"].get_lines()
+        self.assertEqual([line.get_label() for line in lines], sorted(names["BACKENDS"]))
+        for line in lines:
+            self.assertEqual(list(line.get_xdata()), strands)
+            self.assertTrue(all(time > 0 for time in line.get_ydata()))
+        # More strands hide more of the head: no two pictures are equal, and none is of one colour.
+        pictures = [panel.get_images()[0].get_array() for panel in names["panels"]]
+        self.assertEqual(len(pictures), len(names["DENSITIES"]))
+        for i, picture in enumerate(pictures):
+            self.assertGreater(picture.std(), 0.01)
+            self.assertFalse(any((picture == other).all() for other in pictures[:i]))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,204 @@
+"""run() and gate() as calls of the program, and of stand-ins that say and do what is asked."""
+
+import json
+import os
+import tempfile
+import unittest
+from pathlib import Path
+from unittest import mock
+
+from report_test import made_report
+from support import REPOSITORY, hairbench, need_device
+from hairbench.program import option_arguments, scene_arguments
+
+SMOKE = REPOSITORY / "scenes" / "smoke.json"
+
+
+class Arguments(unittest.TestCase):
+    def test_are_the_options_of_the_command_line(self):
+        self.assertEqual(
+            option_arguments({
+                "max_time": 0.5, "no_pictures": True, "resume": False, "filter": None,
+                "set_a": ["/x=1", "/y=2"], "shard": "1/2", "baseline": Path("main")}),
+            ["--max-time", "0.5", "--no-pictures", "--set-a", "/x=1", "--set-a", "/y=2",
+             "--shard", "1/2", "--baseline", "main"])
+
+    def test_are_the_values_of_a_scene(self):
+        self.assertEqual(
+            scene_arguments(
+                {"/strands/density": [16, 32], "/groom/guides": "pow2:6:12",
+                 "/strands/backend": ["lines", "mesh"]},
+                {"/simulation/wind/enabled": False, "/simulation/solver": "rod"}),
+            ["--axis", "/strands/density=16,32", "--axis", "/groom/guides=pow2:6:12",
+             "--axis", "/strands/backend=lines,mesh",
+             "--set", "/simulation/wind/enabled=false", "--set", "/simulation/solver=rod"])
+        with self.assertRaisesRegex(TypeError, "axes: /strands/density: 16 is no list"):
+            scene_arguments({"/strands/density": 16}, None)
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = Path(holder.name)
+
+    def stand_in(self, script):
+        """The program from here on is this shell script."""
+        path = self.folder / "stand_in"
+        path.write_text("#!/bin/sh\n" + script)
+        path.chmod(0o700)
+        changed = mock.patch.dict(os.environ, {"HAIRBENCH_PROGRAM": str(path)})
+        changed.start()
+        self.addCleanup(changed.stop)
+
+
+class Program(InFolder):
+    def test_is_what_the_variable_names(self):
+        self.stand_in("exit 0\n")
+        self.assertEqual(hairbench.program(), (self.folder / "stand_in").resolve())
+        with mock.patch.dict(os.environ, {"HAIRBENCH_PROGRAM": str(self.folder / "absent")}):
+            with self.assertRaisesRegex(FileNotFoundError, "absent is no program"):
+                hairbench.program()
+
+    def test_is_sought_on_the_path(self):
+        self.stand_in("exit 0\n")
+        (self.folder / "hairbench").symlink_to("stand_in")
+        del os.environ["HAIRBENCH_PROGRAM"]
+        with mock.patch.dict(os.environ, {"PATH": str(self.folder)}):
+            self.assertEqual(hairbench.program(), (self.folder / "stand_in").resolve())
+        with mock.patch.dict(os.environ, {"PATH": "/nowhere"}):
+            with self.assertRaisesRegex(FileNotFoundError, "no hairbench on the PATH"):
+                hairbench.program()
+
+    def test_has_scenes_beside_it(self):
+        self.assertTrue((hairbench.scenes() / "smoke.json").is_file())
+        self.stand_in("exit 0\n")
+        with self.assertRaisesRegex(FileNotFoundError, "no scenes beside it"):
+            hairbench.scenes()
+        installed = self.folder / "share" / "hairbench" / "scenes"
+        installed.mkdir(parents=True)
+        (installed / "scene.schema.json").touch()
+        self.assertEqual(hairbench.scenes(), installed.resolve())
+
+
+class Run(InFolder):
+    def test_passes_progress_through(self):
+        self.stand_in('echo "[1/2] one" >&2; echo "[2/2] two" >&2; echo table; exit 0\n')
+        lines = []
+        result = hairbench.run("made.json", out=self.folder / "r.json", progress=lines.append)
+        self.assertEqual(lines, ["[1/2] one", "[2/2] two"])
+        self.assertEqual(result.text, "table\n")
+        self.assertEqual((result.status, result.verdict), (0, "ok"))
+
+    def test_survives_a_program_that_says_a_lot(self):
+        # More than a pipe holds, on both.
+        self.stand_in("seq 100000; seq 100000 >&2\n")
+        result = hairbench.run("made.json", out=self.folder / "r.json", progress=None)
+        self.assertTrue(result.text.endswith("100000\n"))
+
+    def test_raises_what_the_program_says(self):
+        self.stand_in('echo "hairbench: made.json: /x: no such field" >&2; exit 2\n')
+        with self.assertRaises(hairbench.ProgramError) as raised:
+            hairbench.run("made.json", progress=None)
+        self.assertEqual(raised.exception.status, 2)
+        self.assertEqual(str(raised.exception), "made.json: /x: no such field")
+
+    def test_returns_what_a_comparison_finds(self):
+        for status, verdict in ((10, "slower"), (11, "inconclusive"), (12, "differs")):
+            self.stand_in(f"exit {status}\n")
+            result = hairbench.run("made.json", baseline="main", progress=None)
+            self.assertEqual((result.status, result.verdict), (status, verdict))
+        for status in (1, 13, 14, 77, 130):
+            self.stand_in(f"exit {status}\n")
+            with self.assertRaises(hairbench.ProgramError) as raised:
+                hairbench.run("made.json", progress=None)
+            self.assertEqual(raised.exception.status, status)
+
+    def test_an_interrupt_lets_the_program_save_what_is_done(self):
+        saved = self.folder / "saved"
+        self.stand_in(
+            f'trap \'echo done > "{saved}"; exit 130\' INT\necho begun >&2\n'
+            'for i in $(seq 600); do sleep 0.1; done\n')
+
+        def interrupt(_):
+            raise KeyboardInterrupt
+
+        with self.assertRaises(KeyboardInterrupt):
+            hairbench.run("made.json", progress=interrupt)
+        self.assertEqual(saved.read_text(), "done\n")
+
+    def test_measures_a_scene(self):
+        need_device(self)
+        out = self.folder / "smoke.json"
+        result = hairbench.run(
+            SMOKE, out=out, axes={"/render/msaa": [1], "/strands/density": [2, 4]},
+            sets={"/render/width": 64, "/render/height": 36}, max_time=0, frames=2, warmup=2,
+            no_pictures=True, progress=None)
+        self.assertIn(f"report: {out}", result.text)
+        frame = result.frame()
+        self.assertEqual(sorted(frame["/strands/density"].unique()), [2, 4])
+        triangles = frame["counts.root_triangles"].iloc[0]
+        self.assertTrue((frame["counts.strands"] == triangles * frame["/strands/density"]).all())
+        times = frame[frame["metric"] == "frame.time"]
+        self.assertEqual(set(times["unit"]), {"ms"})
+        self.assertTrue((times["median"] > 0).all())
+        self.assertEqual(set(times["samples"]), {2})
+        self.assertEqual(frame.attrs["scene"], str(SMOKE))
+
+    def test_says_what_is_wrong_with_an_argument(self):
+        for arguments, reason in (
+                ({"sets": {"/strands/density": 0}}, "/strands/density: 0 is outside"),
+                ({"no_such_option": 1}, "no-such-option")):
+            with self.assertRaises(hairbench.ProgramError) as raised:
+                hairbench.run(SMOKE, out=self.folder / "r.json", progress=None, **arguments)
+            self.assertEqual(raised.exception.status, 2)
+            self.assertIn(reason, str(raised.exception))
+
+
+class Gate(InFolder):
+    """Builds that measure nothing but write a report that is made here."""
+
+    def side(self, name, factor):
+        report = made_report()
+        case = report["cases"][0]
+        report["cases"] = [case]
+        case["image_hash"] = case["state_hash"] = "00000000000000aa"
+        metric = case["metrics"]["pass.strands.time"]
+        for key in ("median", "mad"):
+            metric[key] *= factor
+        metric["samples"] = [sample * factor for sample in metric["samples"]]
+        del metric["interval"], case["metrics"]["memory.device"]
+        path = self.folder / f"{name}.json"
+        path.write_text(json.dumps(report))
+        return f"cp '{path}' {{out}}; : {{scene}}"
+
+    def gate(self, factor, **options):
+        return hairbench.gate(
+            self.side("a", 1), self.side("b", factor), "made.json", out=self.folder / "gate.json",
+            progress=None, **options)
+
+    def test_finds_what_is_slower(self):
+        result = self.gate(1.25)
+        self.assertEqual((result.status, result.verdict, result.passed), (10, "regressed", False))
+        row = result.frame().iloc[0]
+        self.assertEqual((row["metric"], row["verdict"]), ("pass.strands.time", "regressed"))
+        self.assertAlmostEqual(row["change"], 0.25)
+        self.assertEqual((row["a"], row["b"]), (3.0, 3.75))
+
+    def test_passes_what_is_equal(self):
+        result = self.gate(1, threshold="5%")
+        self.assertEqual((result.status, result.verdict, result.passed), (0, "same", True))
+        self.assertEqual(result.report["decided_at"], 12)
+        self.assertIn("verdict: same", result.text)
+
+    def test_raises_where_a_side_fails(self):
+        with self.assertRaises(hairbench.ProgramError) as raised:
+            hairbench.gate(
+                "echo broken >&2; false {out} {scene}", self.side("b", 1), "made.json",
+                out=self.folder / "gate.json", progress=None)
+        self.assertEqual(raised.exception.status, 1)
+        self.assertIn("broken", str(raised.exception))
+
+
+if __name__ == "__main__":
+    unittest.main()

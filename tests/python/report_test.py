@@ -1,0 +1,145 @@
+"""read_report() against a report made by hand, the JSON of a measured one and README's table."""
+
+import json
+import math
+import tempfile
+import unittest
+from pathlib import Path
+
+from support import REPOSITORY, hairbench
+
+MEASURED = REPOSITORY / "results" / "thesis-llvmpipe-ff656b85a1cb.json"
+
+
+def made_report():
+    metric = {
+        "unit": "ms", "hint": "lower", "mode": "isolated", "median": 3.0, "mad": 0.5,
+        "samples": [2.5, 3.0, 3.5], "interval": {"lower": 2.5, "upper": 3.5, "confidence": 0.75}}
+    return {
+        "schema": "hairbench-report/1.4.0",
+        "environment": {"device": {"name": "Made up"}, "seed": 1},
+        "scene": {"path": "scenes/made.json", "hash": "0123456789abcdef", "document": {}},
+        "cases": [
+            {"name": "made/msaa:1", "axes": {"/render/msaa": 1, "/lights/0/color": [1, 0.5, 0]},
+             "status": "ok", "counts": {"strands": 40}, "statistics": {},
+             "backend": {"name": "lines", "reason": "the scene names it"},
+             "trust": {"warnings": ["one", "two"]},
+             "metrics": {
+                 "pass.strands.time": metric,
+                 "memory.device": {
+                     "unit": "B", "hint": "lower", "median": 4096, "sample_count": 3000,
+                     "samples_file": "x.samples.jsonl"}}},
+            {"name": "made/msaa:8", "axes": {"/render/msaa": 8, "/lights/0/color": [1, 1, 1]},
+             "status": "skipped", "reason": "8 samples"}]}
+
+
+class MadeReport(unittest.TestCase):
+    def read(self, document):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "made.json"
+            path.write_text(document if isinstance(document, str) else json.dumps(document))
+            return hairbench.read_report(path)
+
+    def test_has_a_row_for_each_metric_of_each_case(self):
+        frame = self.read(made_report())
+        self.assertEqual(len(frame), 3)
+        self.assertEqual(list(frame.columns[:3]), ["case", "/render/msaa", "/lights/0/color"])
+        strands = frame[frame["metric"] == "pass.strands.time"].iloc[0]
+        expected = {
+            "case": "made/msaa:1", "/render/msaa": 1, "/lights/0/color": (1, 0.5, 0),
+            "status": "ok", "backend": "lines", "warnings": 2, "counts.strands": 40, "unit": "ms",
+            "hint": "lower", "mode": "isolated", "median": 3.0, "lower": 2.5, "upper": 3.5,
+            "confidence": 0.75, "samples": 3, "mad": 0.5}
+        self.assertEqual({name: strands[name] for name in expected}, expected)
+
+    def test_what_is_not_known_is_missing(self):
+        frame = self.read(made_report())
+        memory = frame[frame["metric"] == "memory.device"].iloc[0]
+        self.assertEqual(memory["median"], 4096)
+        self.assertEqual(memory["samples"], 3000)
+        for name in ("lower", "upper", "confidence", "mad", "mode"):
+            self.assertTrue(frame.isna()[name][memory.name], name)
+
+    def test_keeps_cases_that_did_not_run(self):
+        skipped = self.read(made_report()).iloc[2]
+        self.assertEqual(skipped["status"], "skipped")
+        self.assertEqual(skipped["reason"], "8 samples")
+        self.assertEqual(skipped["/render/msaa"], 8)
+        self.assertTrue(math.isnan(skipped["median"]))
+
+    def test_says_what_it_is_of(self):
+        attrs = self.read(made_report()).attrs
+        self.assertEqual(attrs["environment"]["device"]["name"], "Made up")
+        self.assertEqual(attrs["scene"], "scenes/made.json")
+        self.assertFalse(attrs["interrupted"])
+
+    def test_refuses_what_is_no_report(self):
+        for document, reason in (
+                ("{", "made.json: no JSON: "),
+                ({"schema": "hairbench-gate/1.1.0"}, "/schema: 'hairbench-gate/1.1.0' is not "),
+                ({"schema": "hairbench-report/2.0.0"}, "/schema: 'hairbench-report/2.0.0' is not "),
+                ([], "/schema: '' is not ")):
+            with self.assertRaises(ValueError) as raised:
+                self.read(document)
+            self.assertIn(reason, str(raised.exception))
+
+
+class MeasuredReport(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.document = json.loads(MEASURED.read_text())
+        cls.frame = hairbench.read_report(MEASURED)
+
+    def test_has_all_that_its_json_has(self):
+        rows = self.frame.set_index(["case", "metric"])
+        self.assertTrue(rows.index.is_unique)
+        count = 0
+        for case in self.document["cases"]:
+            for name, metric in case["metrics"].items():
+                row = rows.loc[(case["name"], name)]
+                count += 1
+                self.assertEqual(row["median"], metric["median"])
+                self.assertEqual(row["unit"], metric["unit"])
+                self.assertEqual(row["samples"], len(metric["samples"]))
+                if "interval" in metric:
+                    self.assertEqual(row["upper"], metric["interval"]["upper"])
+                for pointer, value in case["axes"].items():
+                    self.assertEqual(row[pointer], value)
+        self.assertEqual(count, len(self.frame))
+        self.assertGreater(count, 16 * 10)
+
+    # The table there was printed by the program, to three digits.
+    def test_agrees_with_the_table_in_the_readme(self):
+        lines = (REPOSITORY / "README.md").read_text().splitlines()
+        start = next(i for i, line in enumerate(lines) if line.startswith("| density | msaa |"))
+        heads = [each.strip() for each in lines[start].strip("|").split("|")]
+        metrics = {"frame ms": "frame.time", "wind ms": "pass.wind.time",
+                   "simulate ms": "pass.simulate.time", "scene ms": "pass.scene.time",
+                   "strands ms": "pass.strands.time", "points ms": "pass.points.time",
+                   "resolve ms": "pass.resolve.time", "fps": "fps"}
+        compared = 0
+        for line in lines[start + 2:]:
+            if not line.startswith("|"):
+                break
+            cells = [each.strip() for each in line.strip("|").split("|")]
+            row = dict(zip(heads, cells, strict=True))
+            case = self.frame[
+                (self.frame["/strands/density"] == int(row["density"]))
+                & (self.frame["/render/msaa"] == int(row["msaa"]))
+                & (self.frame["/lod/level"] == int(row["level"]))
+                & (self.frame["backend"] == row["back end"])].set_index("metric")
+            self.assertEqual(case["case"].nunique(), 1, line)
+            self.assertTrue((case["counts.strands"] == int(row["strands"])).all(), line)
+            for head, metric in metrics.items():
+                if row[head]:
+                    printed = float(row[head])
+                    self.assertAlmostEqual(
+                        case.loc[metric, "median"] / printed, 1, delta=0.0051, msg=line)
+                    compared += 1
+                else:
+                    self.assertNotIn(metric, case.index)
+        self.assertEqual(compared, 16 * 6 + 8 + 8)
+
+
+if __name__ == "__main__":
+    unittest.main()
