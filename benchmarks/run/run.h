@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <string>
 
 #include "benchmarks/run/plan.h"
-#include "benchmarks/scene/json.h"
 #include "engine/device.h"
 
 // A run: its plan's cases played one after another, recorded, and made into a report.
@@ -23,8 +23,10 @@ std::filesystem::path reportFile(const RunOptions& options, const RunPlan& plan)
 void checkReferences(const RunPlan& plan);
 
 struct FinishedRun {
-    scene::Document report;  // as it was written
+    // For a terminal: the table of the cases, then their warnings; empty where was_complete.
+    std::string summary;
     std::size_t done = 0;  // cases
+    std::size_t measured = 0;  // of these: neither skipped nor failed
     bool interrupted = false;  // by the user: cases are missing
     bool was_complete = false;  // --resume found a report with nothing left to do
 };
