@@ -1,14 +1,10 @@
-#include <algorithm>
 #include <iostream>
-
-#include <nlohmann/json.hpp>
 
 #include "benchmarks/commands/commands.h"
 #include "benchmarks/measure/hair_cache.h"
 #include "benchmarks/report/baseline.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/environment.h"
-#include "benchmarks/report/text.h"
 #include "benchmarks/run/estimate.h"
 #include "benchmarks/run/plan.h"
 #include "benchmarks/run/record.h"
@@ -19,20 +15,14 @@
 namespace benchmarks::commands {
 namespace {
 
-void printReport(const scene::Json& report, const std::filesystem::path& out) {
-    std::cout << report::table(report) << '\n';
-    for (const scene::Json& each : report.at("cases"))
-        for (const scene::Json& warning :
-             each.value("/trust/warnings"_json_pointer, scene::Json::array()))
-            std::cout << each.at("name").get<std::string>() << ": " << warning.get<std::string>()
-                      << '\n';
-    std::cout << "report: " << out.string() << '\n';
+void printReport(const run::FinishedRun& finished, const std::filesystem::path& out) {
+    std::cout << finished.summary << "report: " << out.string() << '\n';
 }
 
 int conclude(
-    const run::RunOptions& options, const scene::Json& report, const std::filesystem::path& out) {
-    const bool any_ran = std::ranges::any_of(
-        report.at("cases"), [](const scene::Json& each) { return each.at("status") == "ok"; });
+    const run::RunOptions& options, const run::FinishedRun& finished,
+    const std::filesystem::path& out) {
+    const bool any_ran = finished.measured > 0;
     int status = any_ran ? report::kOk : report::kNothingRan;
     if (any_ran && !options.baseline.empty())
         status = compareReports(
@@ -77,7 +67,7 @@ int runScene(const run::RunOptions& options) {
     run::RunDevice device(options.scene.device);
     std::cerr << report::versionOnDevice(device.get()) << '\n';
     const auto print_short = [&](const char* why, const run::FinishedRun& finished) {
-        printReport(finished.report.json(), out);
+        printReport(finished, out);
         std::cerr << why << " after " << finished.done << " of " << plan.cases.size()
                   << " cases; --resume goes on\n";
     };
@@ -98,8 +88,8 @@ int runScene(const run::RunOptions& options) {
     if (finished.was_complete)
         std::cout << "nothing left to do: " << out.string() << " is complete\n";
     else
-        printReport(finished.report.json(), out);
-    return conclude(options, finished.report.json(), out);
+        printReport(finished, out);
+    return conclude(options, finished, out);
 }
 
 }  // namespace benchmarks::commands

@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
-#include <utility>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -31,67 +28,78 @@ std::optional<double> numberAt(const Json& object, const char* pointer) {
     return object.at(place).get<double>();
 }
 
-// Of the cases that were measured.
-std::vector<double> valuesOf(
-    const Json& report, const std::function<std::optional<double>(const Json& result)>& value) {
-    std::vector<double> values;
-    for (const Json& result : report.at("cases"))
-        if (const auto each = value(result)) values.push_back(*each);
-    return values;
+}  // namespace
+
+void Methods::Range::add(double value) {
+    least = std::min(least, value);
+    most = std::max(most, value);
 }
 
-std::uint64_t sumOfSampling(const Json& report, const char* member) {
-    std::uint64_t sum = 0;
-    for (const Json& result : report.at("cases"))
-        for (const Json& mode : result.value("sampling", Json::array()))
-            sum += mode.value(member, std::uint64_t{0});
-    return sum;
-}
-
-// "3" or "3 to 17".
-std::string rangeText(const std::vector<double>& values) {
-    const auto [least, most] = std::ranges::minmax(values);
+std::string Methods::Range::text() const {
     const std::string text = shortNumber(least);
     return least == most ? text : text + " to " + shortNumber(most);
 }
 
-std::string machineText(const Json& report) {
+void Methods::add(const Json& result) {
+    const std::string status = result.value("status", "");
+    ++(status == "ok" ? measured_ : status == "skipped" ? skipped_ : failed_);
+    if (status == "ok") {
+        const std::string of_scene = textAt(header_, "/scene/document/run/clocks");
+        const std::string clocks = result.at("axes").value("/run/clocks", of_scene);
+        locked_ += clocks == "locked";
+        free_ += clocks == "free";
+    }
+    std::optional<double> plays;
+    for (const Json& mode : result.value("sampling", Json::array())) {
+        warmup_rounds_ += mode.value("warmup_rounds", std::uint64_t{0});
+        throttled_rounds_ += mode.value("throttled_rounds", std::uint64_t{0});
+        if (mode.contains("plays"))
+            plays = std::max(plays.value_or(0.0), mode["plays"].get<double>());
+    }
+    if (plays) plays_.add(*plays);
+    if (const auto clock = numberAt(result, "/conditions/clock_mhz")) clocks_.add(*clock);
+    if (const auto clock = numberAt(result, "/conditions/lowest_clock_mhz"))
+        lowest_clocks_.add(*clock);
+    if (const auto degrees = numberAt(result, "/conditions/temperature"))
+        temperatures_.add(*degrees);
+    if (const Json::json_pointer place("/trust/warnings");
+        result.contains(place) && !result.at(place).empty())
+        ++warned_;
+}
+
+std::string Methods::machineText() const {
     std::string text =
-        "Times were taken with hairbench " + textAt(report, "/environment/build/version");
-    if (const std::string commit = textAt(report, "/environment/build/commit"); !commit.empty())
+        "Times were taken with hairbench " + textAt(header_, "/environment/build/version");
+    if (const std::string commit = textAt(header_, "/environment/build/commit"); !commit.empty())
         text += " (commit " + commit + ')';
-    text += " on " + textAt(report, "/environment/device/name");
-    std::string driver = textAt(report, "/environment/device/driver");
-    if (const std::string version = textAt(report, "/environment/device/driver_version");
+    text += " on " + textAt(header_, "/environment/device/name");
+    std::string driver = textAt(header_, "/environment/device/driver");
+    if (const std::string version = textAt(header_, "/environment/device/driver_version");
         !version.empty())
         driver += (driver.empty() ? "" : " ") + version;
     if (!driver.empty()) text += " with driver " + driver;
-    if (const std::string processor = textAt(report, "/environment/host/processor");
+    if (const std::string processor = textAt(header_, "/environment/host/processor");
         !processor.empty())
         text += ", host " + processor;
-    if (const std::string system = textAt(report, "/environment/host/system"); !system.empty())
+    if (const std::string system = textAt(header_, "/environment/host/system"); !system.empty())
         text += ", " + system;
     return text + ". ";
 }
 
-std::string casesText(const Json& report) {
-    std::uint64_t measured = 0, failed = 0, skipped = 0;
-    for (const Json& result : report.at("cases")) {
-        const std::string status = result.value("status", "");
-        ++(status == "ok" ? measured : status == "skipped" ? skipped : failed);
-    }
-    std::string text = countText(measured, "case") + " of scene " +
-                       std::filesystem::path(textAt(report, "/scene/path")).filename().string();
-    text += measured == 1 ? " was measured" : " were measured";
-    if (report.contains("order_seed")) text += " in random order";
-    if (skipped > 0) text += ", " + std::to_string(skipped) + " skipped for what the device lacks";
-    if (failed > 0) text += ", " + std::to_string(failed) + " failed";
+std::string Methods::casesText() const {
+    std::string text = countText(measured_, "case") + " of scene " +
+                       std::filesystem::path(textAt(header_, "/scene/path")).filename().string();
+    text += measured_ == 1 ? " was measured" : " were measured";
+    if (header_.contains("order_seed")) text += " in random order";
+    if (skipped_ > 0)
+        text += ", " + std::to_string(skipped_) + " skipped for what the machine lacks";
+    if (failed_ > 0) text += ", " + std::to_string(failed_) + " failed";
     return text + ". ";
 }
 
-std::string roundsText(const Json& report) {
+std::string Methods::roundsText() const {
     const auto run = [&](const char* member) {
-        return numberAt(report, ("/scene/document/run/" + std::string(member)).c_str());
+        return numberAt(header_, ("/scene/document/run/" + std::string(member)).c_str());
     };
     std::string text;
     if (const auto warmup = run("warmup"), frames = run("frames"); warmup && frames)
@@ -99,15 +107,8 @@ std::string roundsText(const Json& report) {
                 countText(static_cast<std::uint64_t>(*warmup), "frame") + " to warm up and " +
                 countText(static_cast<std::uint64_t>(*frames), "measured frame") +
                 ", all rounds the same frames";
-    const std::vector<double> plays = valuesOf(report, [](const Json& result) {
-        std::optional<double> most;
-        for (const Json& mode : result.value("sampling", Json::array()))
-            if (mode.contains("plays"))
-                most = std::max(most.value_or(0.0), mode["plays"].get<double>());
-        return most;
-    });
-    if (!text.empty() && !plays.empty())
-        text += ", " + rangeText(plays) +
+    if (!text.empty() && !plays_.empty())
+        text += ", " + plays_.text() +
                 " times without a pause, after the device's clock had been "
                 "driven up by at least " +
                 shortNumber(run("warmup_time").value_or(0.0)) + " s of load";
@@ -121,74 +122,59 @@ std::string roundsText(const Json& report) {
     return text;
 }
 
-std::string statisticText(const Json& report) {
+std::string Methods::statisticText() const {
     std::string text =
         "Times are medians over all samples, with 95 % intervals by order statistics for as many "
         "independent samples as the dependent ones are worth. ";
-    if (const std::uint64_t rounds = sumOfSampling(report, "warmup_rounds"); rounds > 0)
-        text += countText(rounds, "round") + " at the start of a mode " +
-                (rounds == 1 ? "was" : "were") + " left out as times still settled. ";
-    if (const std::uint64_t rounds = sumOfSampling(report, "throttled_rounds"); rounds > 0)
-        text += countText(rounds, "round") + (rounds == 1 ? " was" : " were") +
+    if (warmup_rounds_ > 0)
+        text += countText(warmup_rounds_, "round") + " at the start of a mode " +
+                (warmup_rounds_ == 1 ? "was" : "were") + " left out as times still settled. ";
+    if (throttled_rounds_ > 0)
+        text += countText(throttled_rounds_, "round") +
+                (throttled_rounds_ == 1 ? " was" : " were") +
                 " left out as heat or power held the device back. ";
     return text;
 }
 
 // What /run/clocks asked for in the cases that were measured.
-std::string clocksChoiceText(const Json& report) {
-    const std::string of_scene = textAt(report, "/scene/document/run/clocks");
-    std::uint64_t locked = 0, free = 0;
-    for (const Json& result : report.at("cases")) {
-        if (result.value("status", "") != "ok") continue;
-        const std::string clocks = result.at("axes").value("/run/clocks", of_scene);
-        locked += clocks == "locked";
-        free += clocks == "free";
-    }
+std::string Methods::clocksChoiceText() const {
     std::string text;
-    if (locked > 0)
+    if (locked_ > 0)
         text += "The device's clocks were locked at what its board sustains in " +
-                countText(locked, "case") + ". ";
-    if (free > 0)
-        text += "The device's clocks were free to change in " + countText(free, "case") + ". ";
+                countText(locked_, "case") + ". ";
+    if (free_ > 0)
+        text += "The device's clocks were free to change in " + countText(free_, "case") + ". ";
     return text;
 }
 
-std::string clocksText(const Json& report) {
-    const auto condition = [&](const char* member) {
-        return valuesOf(report, [&](const Json& result) {
-            return numberAt(result, ("/conditions/" + std::string(member)).c_str());
-        });
-    };
-    const std::vector<double> clocks = condition("clock_mhz");
-    if (clocks.empty()) return "No clock of the device was known. ";
+std::string Methods::clocksText() const {
+    if (clocks_.empty()) return "No clock of the device was known. ";
     std::string text =
-        "Under load the device's shaders ran at " + rangeText(clocks) + " MHz (medians of cases)";
-    if (const std::vector<double> lowest = condition("lowest_clock_mhz"); !lowest.empty())
-        text += ", never below " + shortNumber(std::ranges::min(lowest)) + " MHz";
-    if (const std::vector<double> degrees = condition("temperature"); !degrees.empty())
-        text += ", at " + rangeText(degrees) + " degrees Celsius";
+        "Under load the device's shaders ran at " + clocks_.text() + " MHz (medians of cases)";
+    if (!lowest_clocks_.empty())
+        text += ", never below " + shortNumber(lowest_clocks_.least) + " MHz";
+    if (!temperatures_.empty()) text += ", at " + temperatures_.text() + " degrees Celsius";
     return text + ". ";
 }
 
-std::string trustText(const Json& report) {
-    std::uint64_t warned = 0;
-    for (const Json& result : report.at("cases"))
-        if (const Json::json_pointer place("/trust/warnings");
-            result.contains(place) && !result.at(place).empty())
-            ++warned;
+std::string Methods::trustText() const {
     std::string text =
         "In each case all modes had to end with the same picture and the same guides, and the "
         "passes' timestamps were held against the host's clock";
-    if (warned == 0) return text + ".";
-    return text + "; " + countText(warned, "case") + (warned == 1 ? " has" : " have") +
+    if (warned_ == 0) return text + ".";
+    return text + "; " + countText(warned_, "case") + (warned_ == 1 ? " has" : " have") +
            " warnings in the report.";
 }
 
-}  // namespace
+std::string Methods::text() const {
+    return machineText() + casesText() + roundsText() + clocksChoiceText() + clocksText() +
+           statisticText() + trustText();
+}
 
-std::string methodsText(const scene::Json& report) {
-    return machineText(report) + casesText(report) + roundsText(report) + clocksChoiceText(report) +
-           clocksText(report) + statisticText(report) + trustText(report);
+std::string methodsText(const Json& report) {
+    Methods methods(report);
+    for (const Json& result : report.at("cases")) methods.add(result);
+    return methods.text();
 }
 
 }  // namespace benchmarks::report

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <string>
 
 #include "benchmarks/scene/json.h"
@@ -14,5 +16,42 @@ namespace benchmarks::report {
 // intervals), 9 (the whole setting) and 10 (how time was taken). Says nothing of what the report
 // does not know. `report` is a whole one, without its samples' sidecar if need be.
 std::string methodsText(const scene::Json& report);
+
+// The same of a report whose cases are looked at one by one and not kept.
+class Methods {
+public:
+    // `header` is a report with or without its cases, and outlives this.
+    explicit Methods(const scene::Json& header) : header_(header) {}
+
+    void add(const scene::Json& result);
+    std::string text() const;
+
+private:
+    struct Range {
+        double least = std::numeric_limits<double>::infinity();
+        double most = -std::numeric_limits<double>::infinity();
+
+        bool empty() const { return most < least; }
+        void add(double value);
+        std::string text() const;  // "3" or "3 to 17"
+    };
+
+    std::string machineText() const;
+    std::string casesText() const;
+    std::string roundsText() const;
+    std::string clocksChoiceText() const;
+    std::string clocksText() const;
+    std::string statisticText() const;
+    std::string trustText() const;
+
+    const scene::Json& header_;
+    std::uint64_t measured_ = 0, failed_ = 0, skipped_ = 0;
+    std::uint64_t warned_ = 0;
+    std::uint64_t warmup_rounds_ = 0, throttled_rounds_ = 0;
+    std::uint64_t locked_ = 0, free_ = 0;  // measured, by what /run/clocks asked for
+    Range plays_;
+    Range clocks_, lowest_clocks_;  // MHz
+    Range temperatures_;  // degrees Celsius
+};
 
 }  // namespace benchmarks::report

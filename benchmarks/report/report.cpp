@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <exception>
+#include <functional>
 #include <map>
 #include <optional>
+#include <ostream>
 #include <set>
 #include <sstream>
 #include <string>
@@ -295,17 +297,13 @@ fs::path samplesFile(const fs::path& report) {
 
 using Key = std::pair<std::string, std::string>;  // case, metric
 
-// Calls `visit` with the case's name, the metric's, and the metric, of each.
+// Calls `visit` with the case's name, the metric's, and the metric, of each of a case's.
 template <class Visit>
-void forEachMetric(scene::Json& report, Visit visit) {
-    const auto cases = report.find("cases");
-    if (cases == report.end()) return;
-    for (scene::Json& each : *cases) {
-        const auto metrics = each.find("metrics");
-        if (metrics == each.end()) continue;
-        for (auto& [name, metric] : metrics->items())
-            visit(each.at("name").template get<std::string>(), name, metric);
-    }
+void forEachMetric(scene::Json& result, Visit visit) {
+    const auto metrics = result.find("metrics");
+    if (metrics == result.end()) return;
+    for (auto& [name, metric] : metrics->items())
+        visit(result.at("name").template get<std::string>(), name, metric);
 }
 
 // Puts `value` under `key` in the place of `old_key`.
@@ -337,25 +335,42 @@ bool fits(const scene::Json& metric, const scene::Json& samples) {
                metric.at("median").get<double>();
 }
 
-// Moves what is large out of the report, into the file beside `path`, and returns whether anything
-// was. Throws engine::Error "<path>: <reason>".
-bool moveSamplesOut(scene::Json& report, const fs::path& path) {
-    const fs::path file = samplesFile(path);
-    std::string text;
+// Whether a metric's samples are to lie beside the report.
+bool isLarge(const scene::Json& metric) {
+    const auto samples = metric.find("samples");
+    return samples != metric.end() && samples->size() > kMostSamplesInReport;
+}
+
+// Writes what is large of a case as lines of the samples file.
+void writeLargeSamples(std::ostream& file, scene::Json& result) {
     forEachMetric(
-        report, [&](const std::string& name, const std::string& metric, scene::Json& value) {
-            const auto samples = value.find("samples");
-            if (samples == value.end() || samples->size() <= kMostSamplesInReport) return;
-            const std::size_t count = samples->size();
-            text +=
-                scene::Json{{"case", name}, {"metric", metric}, {"samples", std::move(*samples)}}
-                    .dump(-1, ' ', false, scene::Json::error_handler_t::replace) +
-                '\n';
-            replaceMember(value, "samples", "samples_file", file.filename().string());
-            value["sample_count"] = count;
+        result, [&](const std::string& name, const std::string& metric, scene::Json& value) {
+            if (!isLarge(value)) return;
+            const scene::Json line = {
+                {"case", name}, {"metric", metric}, {"samples", std::move(value["samples"])}};
+            file << line.dump(-1, ' ', false, scene::Json::error_handler_t::replace) << '\n';
         });
-    if (!text.empty()) engine::writeFileAtomically(file, text);
-    return !text.empty();
+}
+
+// Names the samples file in the place of what is large of a case.
+void nameSamplesFile(scene::Json& result, const fs::path& file) {
+    forEachMetric(result, [&](const std::string&, const std::string&, scene::Json& value) {
+        if (!isLarge(value)) return;
+        const std::size_t count = value["samples"].size();
+        replaceMember(value, "samples", "samples_file", file.filename().string());
+        value["sample_count"] = count;
+    });
+}
+
+bool hasLargeSamples(const EachCase& each_case) {
+    bool any = false;
+    each_case([&](scene::Json result) {
+        forEachMetric(
+            result, [&](const std::string&, const std::string&, const scene::Json& metric) {
+                any = any || isLarge(metric);
+            });
+    });
+    return any;
 }
 
 // Removes the samples file of an older report at `path`.
@@ -364,27 +379,29 @@ void removeSamples(const fs::path& path) {
     fs::remove(samplesFile(path), ignored);
 }
 
-// Undoes moveSamplesOut() for a report that was read from `path`. Throws engine::Error where the
+// Undoes nameSamplesFile() for a report that was read from `path`. Throws engine::Error where the
 // file is missing, damaged or of another report.
 void moveSamplesIn(scene::Json& report, const fs::path& path) {
     std::map<std::string, std::map<Key, scene::Json>> files;
-    forEachMetric(
-        report, [&](const std::string& name, const std::string& metric, scene::Json& value) {
-            const auto member = value.find("samples_file");
-            if (member == value.end()) return;
-            const auto file_name = member->get<std::string>();
-            const fs::path file = folderOf(path) / fs::path(file_name).filename();  // beside it
-            if (!fs::is_regular_file(file))
-                throw engine::Error(path.string(), "its samples are missing: " + file.string());
-            if (!files.contains(file_name)) files[file_name] = readSamples(file);
-            scene::Json& samples = files[file_name][{name, metric}];
-            if (!fits(value, samples))
-                throw engine::Error(
-                    path.string(),
-                    file.string() + " is of another report: " + name + ", " + metric);
-            value.erase("sample_count");
-            replaceMember(value, "samples_file", "samples", std::move(samples));
-        });
+    const auto move_in = [&](const std::string& name, const std::string& metric,
+                             scene::Json& value) {
+        const auto member = value.find("samples_file");
+        if (member == value.end()) return;
+        const auto file_name = member->get<std::string>();
+        const fs::path file = folderOf(path) / fs::path(file_name).filename();  // beside it
+        if (!fs::is_regular_file(file))
+            throw engine::Error(path.string(), "its samples are missing: " + file.string());
+        if (!files.contains(file_name)) files[file_name] = readSamples(file);
+        scene::Json& samples = files[file_name][{name, metric}];
+        if (!fits(value, samples))
+            throw engine::Error(
+                path.string(), file.string() + " is of another report: " + name + ", " + metric);
+        value.erase("sample_count");
+        replaceMember(value, "samples_file", "samples", std::move(samples));
+    };
+    const auto cases = report.find("cases");
+    if (cases == report.end()) return;
+    for (scene::Json& result : *cases) forEachMetric(result, move_in);
 }
 
 }  // namespace
@@ -457,18 +474,101 @@ scene::Json readReport(const std::filesystem::path& path) {
     return report;
 }
 
-void writeReport(const scene::Json& report, const std::filesystem::path& path) {
+namespace {
+
+// The text of a value that is a member so many levels deep. What drivers and commands say need not
+// be UTF-8.
+std::string textOf(const scene::Json& value, int level) {
+    const std::string text = value.dump(2, ' ', false, scene::Json::error_handler_t::replace);
+    std::string indented;
+    indented.reserve(text.size());
+    for (const char c : text) {  // within strings there are no line breaks
+        indented += c;
+        if (c == '\n') indented.append(2 * static_cast<std::size_t>(level), ' ');
+    }
+    return indented;
+}
+
+// An object's text, member by member.
+class ObjectText {
+public:
+    explicit ObjectText(std::ostream& stream) : stream_(stream) {}
+
+    // What is written next is the member's value.
+    void key(const std::string& name) {
+        stream_ << (is_empty_ ? "{\n  " : ",\n  ") << textOf(scene::Json(name), 1) << ": ";
+        is_empty_ = false;
+    }
+    void member(const std::string& name, const scene::Json& value) {
+        key(name);
+        stream_ << textOf(value, 1);
+    }
+    void end() { stream_ << (is_empty_ ? "{}\n" : "\n}\n"); }
+
+private:
+    std::ostream& stream_;
+    bool is_empty_ = true;
+};
+
+// Writes a report in which `behind`, called once the cases are written, says what follows them.
+void writeReport(
+    const scene::Json& before, const EachCase& each_case,
+    const std::function<scene::Json()>& behind, const fs::path& path) {
     // What is no file, /dev/stdout or a pipe, has no neighbours.
     std::error_code ignored;
-    const bool is_file =
-        !std::filesystem::exists(path, ignored) || std::filesystem::is_regular_file(path, ignored);
-    scene::Json written = report;
+    const bool is_file = !fs::exists(path, ignored) || fs::is_regular_file(path, ignored);
+    const bool moves_samples = is_file && hasLargeSamples(each_case);
+    const fs::path samples = moves_samples ? samplesFile(path) : fs::path();
     // Before the report, so that nobody sees it without them.
-    const bool moved = is_file && moveSamplesOut(written, path);
-    // What drivers and commands say need not be UTF-8.
-    engine::writeFileAtomically(
-        path, written.dump(2, ' ', false, scene::Json::error_handler_t::replace) + '\n');
-    if (is_file && !moved) removeSamples(path);
+    if (moves_samples)
+        engine::writeFileAtomically(samples, [&](std::ostream& file) {
+            each_case([&](scene::Json result) { writeLargeSamples(file, result); });
+        });
+    engine::writeFileAtomically(path, [&](std::ostream& file) {
+        ObjectText text(file);
+        for (const auto& [name, value] : before.items()) text.member(name, value);
+        text.key("cases");
+        bool is_first = true;
+        each_case([&](scene::Json result) {
+            if (moves_samples) nameSamplesFile(result, samples);
+            file << (is_first ? "[\n    " : ",\n    ") << textOf(result, 2);
+            is_first = false;
+        });
+        file << (is_first ? "[]" : "\n  ]");
+        const scene::Json last = behind();
+        for (const auto& [name, value] : last.items()) text.member(name, value);
+        text.end();
+    });
+    if (is_file && !moves_samples) removeSamples(path);
+}
+
+}  // namespace
+
+void writeReport(const scene::Json& report, const fs::path& path) {
+    scene::Json before = scene::Json::object(), behind = before;
+    bool is_behind = false;
+    for (const auto& [name, value] : report.items()) {
+        if (name == "cases")
+            is_behind = true;
+        else
+            (is_behind ? behind : before)[name] = value;
+    }
+    const EachCase each_case = [&](const auto& visit) {
+        for (const scene::Json& result : report.at("cases")) visit(result);
+    };
+    writeReport(before, each_case, [&] { return behind; }, path);
+}
+
+void writeReport(const scene::Json& header, const EachCase& each_case, const fs::path& path) {
+    std::optional<Methods> methods;
+    const EachCase counted = [&](const auto& visit) {
+        methods.emplace(header);
+        each_case([&](scene::Json result) {
+            methods->add(result);
+            visit(std::move(result));
+        });
+    };
+    writeReport(header, counted, [&] { return scene::Json{{"methods", methods->text()}}; }, path);
 }
 
 }  // namespace benchmarks::report

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -213,6 +214,15 @@ scene::Json readReport(const std::filesystem::path& path);
 // samples go into a file beside it. Creates missing folders. Throws engine::Error
 // "<path>: <reason>".
 void writeReport(const scene::Json& report, const std::filesystem::path& path);
+
+// Calls what it is given with each case of a report, in the report's order, and does so again
+// whenever it is called.
+using EachCase = std::function<void(const std::function<void(scene::Json)>& visit)>;
+
+// Writes the same for assembledReport() of these cases, of which one is in memory at a time.
+// `header` has a report's members up to "interrupted".
+void writeReport(
+    const scene::Json& header, const EachCase& each_case, const std::filesystem::path& path);
 
 // Samples of large metrics lie in a file beside the report, "<report without extension>
 // .samples.jsonl": a line {"case", "metric", "samples"} for each. Such a metric has "samples_file",

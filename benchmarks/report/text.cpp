@@ -4,9 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <set>
+#include <span>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -27,16 +30,41 @@ std::string padded(const std::string& text, std::size_t width, bool right) {
 
 }  // namespace
 
-std::string columnsLine(const std::vector<Column>& columns, std::size_t row) {
-    std::string text;
+namespace {
+
+std::vector<std::size_t> widthsOf(const std::vector<Column>& columns) {
+    std::vector<std::size_t> widths;
     for (const Column& column : columns) {
-        std::size_t width = column.title.size();
-        for (const std::string& cell : column.cells) width = std::max(width, cell.size());
-        const std::string& cell = row == 0 ? column.title : column.cells[row - 1];
-        text += (&column == &columns.front() ? "" : "  ") + padded(cell, width, column.numeric);
+        widths.push_back(column.title.size());
+        for (const std::string& cell : column.cells)
+            widths.back() = std::max(widths.back(), cell.size());
+    }
+    return widths;
+}
+
+std::string
+lineOf(const std::vector<Column>& columns, std::span<const std::size_t> widths, std::size_t row) {
+    std::string text;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        const std::string& cell = row == 0 ? columns[i].title : columns[i].cells[row - 1];
+        text += (i == 0 ? "" : "  ") + padded(cell, widths[i], columns[i].numeric);
     }
     text.erase(text.find_last_not_of(' ') + 1);
     return text + '\n';
+}
+
+}  // namespace
+
+std::string columnsLine(const std::vector<Column>& columns, std::size_t row) {
+    return lineOf(columns, widthsOf(columns), row);
+}
+
+std::string columnsText(const std::vector<Column>& columns) {
+    const std::vector<std::size_t> widths = widthsOf(columns);
+    const std::size_t rows = columns.empty() ? 0 : columns.front().cells.size();
+    std::string text;
+    for (std::size_t row = 0; row <= rows; ++row) text += lineOf(columns, widths, row);
+    return text;
 }
 
 namespace {
@@ -87,84 +115,90 @@ std::string statusCell(const scene::Json& result) {
 
 // ---- Columns of a report ------------------------------------------------------------------------
 
-// Pointers of the axes that have more than one value in the report, in the sweep's order.
-std::vector<std::string> varyingAxes(const scene::Json& cases) {
-    std::vector<std::string> pointers;
-    std::map<std::string, std::set<std::string>> values;
-    for (const scene::Json& result : cases)
-        for (const auto& [pointer, value] : member(result, "axes").items()) {
-            if (values[pointer].empty()) pointers.push_back(pointer);
-            values[pointer].insert(value.dump());
-        }
-    std::erase_if(pointers, [&](const std::string& each) { return values[each].size() < 2; });
-    return pointers;
-}
-
-std::vector<MetricId> passTimes(const scene::Json& cases) {
-    std::vector<MetricId> times;
-    for (const scene::Json& result : cases)
-        for (const auto& [name, metric] : member(result, "metrics").items())
-            if (const MetricId id = metricNamed(name);
-                isPassTime(id) && std::ranges::find(times, id) == times.end())
-                times.push_back(id);
-    return times;
-}
-
-template <class Cell>
-Column column(std::string title, const scene::Json& cases, Cell&& cell) {
-    Column column{.title = std::move(title)};
-    for (const scene::Json& result : cases) column.cells.push_back(cell(result));
-    return column;
-}
-
 // Whether what drew the strands is not to be seen from the axes.
 bool drawnByAnother(const scene::Json& result) {
     const std::string name = text(member(result, "backend"), "name");
     return !name.empty() && text(member(result, "axes"), kBackendAxis) != name;
 }
 
-std::vector<Column> columns(const scene::Json& report) {
+// What decides which columns there are.
+class CasesSeen {
+public:
+    void add(const scene::Json& result) {
+        for (const auto& [pointer, value] : member(result, "axes").items()) {
+            if (values_[pointer].empty()) pointers_.push_back(pointer);
+            values_[pointer].insert(value.dump());
+        }
+        for (const auto& [name, metric] : member(result, "metrics").items()) {
+            const MetricId id = metricNamed(name);
+            if (isPassTime(id) && std::ranges::find(pass_times_, id) == pass_times_.end())
+                pass_times_.push_back(id);
+            has_flip_ = has_flip_ || id == ofImage(Measured::flip);
+        }
+        drawn_by_another_ = drawn_by_another_ || drawnByAnother(result);
+    }
+
+    // Pointers of the axes that have more than one value in the report, in the sweep's order.
+    std::vector<std::string> varyingAxes() const {
+        std::vector<std::string> pointers = pointers_;
+        std::erase_if(
+            pointers, [&](const std::string& each) { return values_.at(each).size() < 2; });
+        return pointers;
+    }
+    const std::vector<MetricId>& passTimes() const { return pass_times_; }
+    bool hasFlip() const { return has_flip_; }
+    bool anyDrawnByAnother() const { return drawn_by_another_; }
+
+private:
+    std::vector<std::string> pointers_;
+    std::map<std::string, std::set<std::string>> values_;
+    std::vector<MetricId> pass_times_;
+    bool has_flip_ = false;
+    bool drawn_by_another_ = false;
+};
+
+// The table's columns with all their cells.
+std::vector<Column> columns(const scene::Json& header, const EachCase& each_case) {
+    CasesSeen seen;
+    each_case([&](const scene::Json& result) { seen.add(result); });
     std::vector<Column> all;
-    const scene::Json& cases = member(report, "cases");
+    std::vector<std::function<std::string(const scene::Json& result)>> cells;
+    enum class Cells { text, numbers };
+    const auto add = [&](std::string title, Cells kind, auto&& cell) {
+        all.push_back({.title = std::move(title), .numeric = kind == Cells::numbers});
+        cells.emplace_back(std::forward<decltype(cell)>(cell));
+    };
     std::vector<std::string> pointers;
     // A suite's scenes vary different things: only names tell their cases apart.
-    if (member(member(member(report, "scene"), "document"), "suite").is_null())
-        pointers = varyingAxes(cases);
+    if (member(member(member(header, "scene"), "document"), "suite").is_null())
+        pointers = seen.varyingAxes();
     const std::vector<std::string> labels = scene::axisLabels(pointers);
     for (std::size_t i = 0; i < pointers.size(); ++i)
-        all.push_back(column(labels[i], cases, [&](const scene::Json& result) {
-            const scene::Json& value = member(member(result, "axes"), pointers[i]);
+        add(labels[i], Cells::numbers, [pointer = pointers[i]](const scene::Json& result) {
+            const scene::Json& value = member(member(result, "axes"), pointer);
             return value.is_null() ? std::string("-") : scene::valueLabel(value);
-        }));
-    if (pointers.empty()) {
-        all.push_back(
-            column("case", cases, [](const scene::Json& result) { return text(result, "name"); }));
-        all.back().numeric = false;
-    }
-    if (std::ranges::any_of(cases, drawnByAnother)) {
-        all.push_back(column("drawn by", cases, [](const scene::Json& result) {
+        });
+    if (pointers.empty())
+        add("case", Cells::text, [](const scene::Json& result) { return text(result, "name"); });
+    if (seen.anyDrawnByAnother())
+        add("drawn by", Cells::text, [](const scene::Json& result) {
             const std::string name = text(member(result, "backend"), "name");
             return name.empty() ? std::string("-") : name;
-        }));
-        all.back().numeric = false;
-    }
+        });
     const auto addMedian = [&](std::string title, const MetricId& metric) {
-        all.push_back(column(std::move(title), cases, [&](const scene::Json& result) {
-            return medianCell(result, metric);
-        }));
+        add(std::move(title), Cells::numbers,
+            [metric](const scene::Json& result) { return medianCell(result, metric); });
     };
     addMedian("fps", ofFrame(Measured::rate));
     addMedian("frame ms", ofFrame(Measured::time));
-    for (const MetricId& time : passTimes(cases)) addMedian(time.pass() + " ms", time);
-    const MetricId flip = ofImage(Measured::flip);
-    if (std::ranges::any_of(cases, [&](const scene::Json& result) {
-            return !member(member(result, "metrics"), flip.name()).is_null();
-        }))
-        addMedian("FLIP", flip);
-    all.push_back(column(
-        "strands", cases, [](const scene::Json& result) { return countCell(result, "strands"); }));
-    all.push_back(column("status", cases, statusCell));
-    all.back().numeric = false;
+    for (const MetricId& time : seen.passTimes()) addMedian(time.pass() + " ms", time);
+    if (seen.hasFlip()) addMedian("FLIP", ofImage(Measured::flip));
+    add("strands", Cells::numbers,
+        [](const scene::Json& result) { return countCell(result, "strands"); });
+    add("status", Cells::text, statusCell);
+    each_case([&](const scene::Json& result) {
+        for (std::size_t i = 0; i < all.size(); ++i) all[i].cells.push_back(cells[i](result));
+    });
     return all;
 }
 
@@ -198,11 +232,13 @@ std::string shortNumber(double number) {
 }
 
 std::string table(const scene::Json& report) {
-    std::string lines = header(report);
-    const std::vector<Column> all = columns(report);
-    for (std::size_t row = 0; row <= member(report, "cases").size(); ++row)
-        lines += columnsLine(all, row);
-    return lines;
+    return table(report, [&](const auto& visit) {
+        for (const scene::Json& result : member(report, "cases")) visit(result);
+    });
+}
+
+std::string table(const scene::Json& report_header, const EachCase& each_case) {
+    return header(report_header) + columnsText(columns(report_header, each_case));
 }
 
 // ---- Quantities ---------------------------------------------------------------------------------

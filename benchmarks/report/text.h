@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "benchmarks/report/report.h"
 #include "benchmarks/scene/json.h"
 
 // Numbers, quantities and tables for a terminal.
@@ -21,6 +22,9 @@ struct Column {
 // One line of the table, wide enough for the widest cell of each column: row 0 the titles, then the
 // cells.
 std::string columnsLine(const std::vector<Column>& columns, std::size_t row);
+
+// All lines of the table, each as columnsLine() has it.
+std::string columnsText(const std::vector<Column>& columns);
 
 // Quantities for people.
 
@@ -50,6 +54,9 @@ std::string sizeText(std::uint64_t bytes);
 // the axes that vary, FPS, the median of the frame and of every pass, strands, and how it went.
 // What is not known is "-".
 std::string table(const scene::Json& report);
+
+// The same of a report's header (headerJson) and its cases, which are looked at one by one.
+std::string table(const scene::Json& header, const EachCase& each_case);
 
 // About three significant digits without an exponent: "1234", "123", "12.3", "1.23", "0.0123".
 std::string shortNumber(double number);

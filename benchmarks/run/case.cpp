@@ -9,8 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "benchmarks/measure/case.h"
 #include "benchmarks/measure/machine_watch.h"
 #include "engine/error.h"
@@ -73,12 +71,10 @@ bool isCasePicture(const std::string& name) {
 
 }  // namespace
 
-void removeOtherPictures(const scene::Json& report, const fs::path& path) {
+void removeOtherPictures(const std::set<std::string>& pictures, const fs::path& report) {
     std::set<std::string> named;
-    for (const scene::Json& each : report.at("cases"))
-        if (each.contains("picture"))
-            named.insert(fs::path(each.at("picture").get<std::string>()).filename().string());
-    const fs::path folder = path.parent_path() / (path.stem().string() + ".pictures");
+    for (const std::string& each : pictures) named.insert(fs::path(each).filename().string());
+    const fs::path folder = report.parent_path() / (report.stem().string() + ".pictures");
     std::error_code ignored;
     std::set<fs::path> stale;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 
@@ -12,7 +13,6 @@
 #include "benchmarks/report/report.h"
 #include "benchmarks/run/backends.h"
 #include "benchmarks/run/plan.h"
-#include "benchmarks/scene/json.h"
 #include "engine/device.h"
 
 // One case of a run: its measurement and the picture beside the report.
@@ -25,8 +25,10 @@ std::string writeCasePicture(
     std::span<const std::uint8_t> pixels, std::uint32_t width, std::uint32_t height,
     const std::filesystem::path& report, std::size_t index);
 
-// Removes the pictures that older runs left beside the report and that it does not name.
-void removeOtherPictures(const scene::Json& report, const std::filesystem::path& path);
+// Removes the pictures that older runs left beside the report and that are none of `pictures`,
+// those that it names.
+void removeOtherPictures(
+    const std::set<std::string>& pictures, const std::filesystem::path& report);
 
 // What the cases of a run are compared with.
 struct CaseComparisons {

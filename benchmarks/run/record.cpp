@@ -90,8 +90,25 @@ int writeAt(int file, std::string_view text, std::uintmax_t offset) {
         text.remove_prefix(static_cast<std::size_t>(taken));
         offset += static_cast<std::uintmax_t>(taken);
     }
-    return fsync(file) == 0 ? 0 : errno;
+    return 0;
 }
+
+// How many bytes there are up to the end of the file, at most as many as there is room for.
+std::size_t readAt(int file, std::span<char> bytes, std::uintmax_t offset) {
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+        const ssize_t taken = pread(
+            file, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
+        if (taken < 0 && errno == EINTR) continue;
+        if (taken <= 0) break;
+        done += static_cast<std::size_t>(taken);
+    }
+    return done;
+}
+
+constexpr std::size_t kPiece = std::size_t{1} << 20;  // B that are read at once
+// B, far beyond a case's: what has no end of a line is some other file.
+constexpr std::size_t kLongestLine = std::size_t{1} << 28;
 
 constexpr std::string_view kBeforeHash = R"({"hash":")";
 constexpr std::string_view kBeforeValue = R"(","line":)";
@@ -124,7 +141,7 @@ std::optional<scene::Json> valueIn(std::string_view line) {
 
 }  // namespace
 
-Journal::Journal(std::filesystem::path path) : path_(std::move(path)) {
+Journal::Journal(std::filesystem::path path, Lasts lasts) : path_(std::move(path)), lasts_(lasts) {
     std::error_code error;
     if (path_.has_parent_path()) std::filesystem::create_directories(path_.parent_path(), error);
     file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
@@ -142,36 +159,62 @@ Journal::~Journal() {
     close(file_);
 }
 
-std::vector<scene::Json> Journal::read() {
-    const std::string text = engine::readFile(path_);
-    std::vector<scene::Json> lines;
+void Journal::read(const std::function<void(scene::Json value, const Place& place)>& visit) {
     damaged_.clear();
     size_ = 0;
     std::size_t number = 1;
-    for (std::size_t end; (end = text.find('\n', size_)) != std::string::npos; ++number) {
-        auto value = valueIn(std::string_view(text).substr(size_, end - size_));
+    const auto take = [&](std::string_view line) {
+        auto value = valueIn(line);
         if (!value && number == 1)
             throw engine::Error(path_.string(), "is no journal of hairbench run");
         if (value)
-            lines.push_back(*std::move(value));
+            visit(*std::move(value), {.begin = size_, .size = line.size()});
         else
             damaged_.push_back(number);
-        size_ = end + 1;
+        size_ += line.size() + 1;
+        ++number;
+    };
+    std::string text;  // what was read behind the last whole line
+    std::vector<char> piece(kPiece);
+    while (true) {
+        const std::size_t taken = readAt(file_, piece, size_ + text.size());
+        if (taken == 0) return;
+        const std::size_t known = text.size();  // without the end of a line
+        text.append(piece.data(), taken);
+        std::size_t begin = 0;
+        for (std::size_t end = text.find('\n', known); end != std::string::npos;
+             end = text.find('\n', begin)) {
+            take(std::string_view(text).substr(begin, end - begin));
+            begin = end + 1;
+        }
+        text.erase(0, begin);
+        if (text.size() > kLongestLine)
+            throw engine::Error(path_.string(), "is no journal of hairbench run");
     }
-    return lines;
 }
 
-void Journal::append(const scene::Json& line) {
+scene::Json Journal::at(const Place& place) const {
+    std::string line(place.size, '\0');
+    const bool is_there = readAt(file_, line, place.begin) == line.size();
+    auto value = is_there ? valueIn(line) : std::nullopt;
+    if (!value) throw engine::Error(path_.string(), "was changed while the run was under way");
+    return *std::move(value);
+}
+
+Journal::Place Journal::append(const scene::Json& line) {
     const std::string text = lineOf(line);
     int error = ftruncate(file_, static_cast<off_t>(size_)) == 0 ? 0 : errno;
     if (error == 0) error = writeAt(file_, text, size_);
+    if (error == 0 && lasts_ == Lasts::crash && fsync(file_) != 0) error = errno;
     if (error != 0) {
         // Should that fail too, the next one who reads leaves the rest out.
         [[maybe_unused]] const int ignored = ftruncate(file_, static_cast<off_t>(size_));
         throw engine::WriteFailed(path_.string() + ": cannot be written: " + std::strerror(error));
     }
-    if (size_ == 0) syncFolderOf(path_);
+    if (size_ == 0 && lasts_ == Lasts::crash) syncFolderOf(path_);
+    const Place place{.begin = size_, .size = text.size() - 1};
     size_ += text.size();
+    return place;
 }
 
 void Journal::clear() { size_ = 0; }
@@ -217,24 +260,25 @@ std::string ofCases(std::size_t done, std::size_t planned) {
     return std::to_string(done) + " of " + std::to_string(planned) + " cases";
 }
 
-// The journal's lines to go on with; none where the run begins anew.
-std::vector<scene::Json> linesToKeep(
-    std::vector<scene::Json> lines, const scene::Json& head, bool resume, const std::string& name) {
-    if (lines.empty()) return {};
-    const auto difference = headDifference(lines.front(), head);
+// Whether to go on with a journal of so many cases. Throws where it is not to be gone on with and
+// not to be replaced either.
+bool goesOn(
+    const scene::Json& journal, std::size_t cases, const scene::Json& head, bool resume,
+    const std::string& name) {
+    const auto difference = headDifference(journal, head);
     if (resume) {
         if (difference) throw engine::Error(name, "can't go on: " + *difference);
-        return lines;
+        return true;
     }
-    if (lines.size() == 1) return {};
-    const std::string done = ofCases(lines.size() - 1, lines.front().at("planned"));
+    if (cases == 0) return false;
+    const std::string done = ofCases(cases, journal.at("planned"));
     if (!difference)
         throw engine::Error(
             name, "there are " + done +
                       " of a run that was not finished: --resume goes on with it, removing the "
                       "file starts anew");
     std::cerr << name << ": replaces " << done << " of another run: " << *difference << '\n';
-    return {};
+    return false;
 }
 
 // Whether all that a report says of a case can be made of it.
@@ -247,37 +291,31 @@ bool canBeReported(const scene::Json& result) {
     }
 }
 
-// The journal's cases that are the plan's, each once.
-std::vector<scene::Json>
-casesOf(std::span<scene::Json> lines, const RunPlan& plan, const std::string& name) {
-    std::map<std::size_t, std::string> left;
-    for (const PlannedCase& each : plan.cases) left.emplace(each.index, each.spec.name);
-    const auto is_left = [&](const scene::Json& line) {
-        if (!line.is_object() || !line.contains("index") || !line.contains("order")) return false;
-        if (!line["index"].is_number_unsigned() || !line["order"].is_number_unsigned())
-            return false;
-        const auto planned = left.find(line["index"].get<std::size_t>());
-        if (planned == left.end() || line.value("name", scene::Json()) != planned->second ||
-            !canBeReported(line))
-            return false;
-        left.erase(planned);
-        return true;
-    };
-    std::vector<scene::Json> cases;
-    for (scene::Json& line : lines) {
-        if (is_left(line))
-            cases.push_back(std::move(line));
-        else
-            std::cerr << name << ": a line is no case of this run, or there twice: left out\n";
+// The cases of a plan that no line of a journal was of yet.
+class CasesLeft {
+public:
+    explicit CasesLeft(const RunPlan& plan) {
+        for (const PlannedCase& each : plan.cases) left_.emplace(each.index, &each.spec.name);
     }
-    return cases;
-}
 
-std::set<std::size_t> indicesOf(const std::vector<scene::Json>& cases) {
-    std::set<std::size_t> indices;
-    for (const scene::Json& each : cases) indices.insert(each.at("index").get<std::size_t>());
-    return indices;
-}
+    // The case's number in the sweep; nothing where the line is none of the plan's cases, or of one
+    // that was taken before.
+    std::optional<std::size_t> take(const scene::Json& line) {
+        if (!line.is_object() || !line.contains("index") || !line.contains("order")) return {};
+        if (!line["index"].is_number_unsigned() || !line["order"].is_number_unsigned()) return {};
+        const auto index = line["index"].get<std::size_t>();
+        const auto planned = left_.find(index);
+        if (planned == left_.end() || line.value("name", scene::Json()) != *planned->second ||
+            !canBeReported(line))
+            return {};
+        left_.erase(planned);
+        return index;
+    }
+    bool has(std::size_t index) const { return left_.contains(index); }
+
+private:
+    std::map<std::size_t, const std::string*> left_;
+};
 
 }  // namespace
 
@@ -286,30 +324,48 @@ fs::path journalFile(const fs::path& report) { return report.string() + ".journa
 RunRecord::RunRecord(
     const RunPlan& plan, const report::ReportHeader& header, const RecordOptions& options)
     : out_(options.out) {
-    if (canHaveJournal(out_))
-        journal_ = std::make_unique<Journal>(journalFile(out_));
-    else if (options.resume)
-        throw engine::Error("--resume", out_.string() + " is no file");
-    const std::string name = journalFile(out_).string();
+    if (!canHaveJournal(out_)) {
+        if (options.resume) throw engine::Error("--resume", out_.string() + " is no file");
+        scratch_ = std::make_unique<engine::ScratchFolder>();
+    }
+    const fs::path file = scratch_ ? scratch_->path() / "journal" : journalFile(out_);
+    journal_ =
+        std::make_unique<Journal>(file, scratch_ ? Journal::Lasts::process : Journal::Lasts::crash);
+    const std::string name = file.string();
     try {
         scene::Json head = journalHead(plan, header, options.filter);
-        std::vector<scene::Json> lines;
-        if (journal_) lines = linesToKeep(journal_->read(), head, options.resume, name);
-        if (!lines.empty()) {
-            head = std::move(lines.front());
+        std::optional<scene::Json> found;
+        std::size_t cases = 0, strays = 0;
+        CasesLeft left(plan);
+        journal_->read([&](scene::Json line, const Journal::Place& place) {
+            if (!found) {
+                found = std::move(line);
+                return;
+            }
+            ++cases;
+            if (const auto index = left.take(line))
+                keep(*index, line.value("status", ""), place);
+            else
+                ++strays;
+        });
+        if (found && goesOn(*found, cases, head, options.resume, name)) {
+            head = *std::move(found);
             for (const std::size_t line : journal_->damaged())
                 std::cerr << name << ": line " << line << " is damaged: left out\n";
-            cases_ = casesOf(std::span(lines).subspan(1), plan, name);
-        } else if (journal_) {
+            for (; strays > 0; --strays)
+                std::cerr << name << ": a line is no case of this run, or there twice: left out\n";
+        } else {
+            left = CasesLeft(plan);
+            done_.clear();
+            measured_ = 0;
             journal_->clear();
             journal_->append(head);
         }
         header_ = std::make_unique<scene::Json>(std::move(head.at("header")));
-        const std::set<std::size_t> done = indicesOf(cases_);
         std::size_t order = 0;
         for (const std::size_t place :
              shuffledOrder(plan.cases.size(), header_->at("order_seed").get<std::uint32_t>())) {
-            if (!done.contains(plan.cases[place].index)) remaining_.push_back({place, order});
+            if (left.has(plan.cases[place].index)) remaining_.push_back({place, order});
             ++order;
         }
     } catch (const scene::Json::exception& error) {
@@ -319,63 +375,73 @@ RunRecord::RunRecord(
 
 RunRecord::~RunRecord() = default;
 
-std::size_t RunRecord::done() const { return cases_.size(); }
+void RunRecord::keep(std::size_t index, const std::string& status, const Journal::Place& line) {
+    done_.push_back({.index = index, .line = line});
+    measured_ += status == report::statusName(report::Status::ok);
+}
 
 void RunRecord::add(const report::CaseResult& result) {
-    scene::Json line = report::caseJson(result);
     try {
-        if (journal_) journal_->append(line);
+        keep(
+            result.index.value(), report::statusName(result.status),
+            journal_->append(report::caseJson(result)));
     } catch (const engine::WriteFailed& error) {
+        if (!hasJournal()) throw;
         throw engine::WriteFailed(
-            std::string(error.what()) + "; " + std::to_string(cases_.size()) +
-            (cases_.size() == 1 ? " case is" : " cases are") +
+            std::string(error.what()) + "; " + std::to_string(done_.size()) +
+            (done_.size() == 1 ? " case is" : " cases are") +
             " kept there: --resume goes on with them");
     }
-    cases_.push_back(std::move(line));
 }
 
-scene::Json RunRecord::report(bool interrupted) const {
-    std::vector<scene::Json> cases = cases_;
-    std::ranges::sort(
-        cases, {}, [](const scene::Json& each) { return each.at("index").get<std::size_t>(); });
-    return report::assembledReport(*header_, std::move(cases), interrupted);
+void RunRecord::eachCase(const std::function<void(scene::Json)>& visit) const {
+    std::vector<Done> cases = done_;
+    std::ranges::sort(cases, {}, &Done::index);
+    for (const Done& each : cases) visit(journal_->at(each.line));
 }
 
-void RunRecord::write(const scene::Json& report) {
+void RunRecord::write(RunEnd end) {
+    scene::Json header = *header_;
+    header["interrupted"] = end == RunEnd::interrupted;
     try {
-        report::writeReport(report, out_);
+        report::writeReport(header, [&](const auto& visit) { eachCase(visit); }, out_);
     } catch (const engine::Error& error) {
-        if (!journal_) throw;
+        if (!hasJournal()) throw;
         throw engine::WriteFailed(
             std::string(error.what()) + "; all is kept in " + journalFile(out_).string() +
             ": --resume writes the report");
     }
-    if (journal_ && !report.at("interrupted").get<bool>()) journal_->remove();
+    if (end == RunEnd::complete) {
+        journal_->remove();
+        done_.clear();
+    }
 }
 
-std::unique_ptr<scene::Json>
-completeReport(const RunPlan& plan, const report::ReportHeader& header, const fs::path& out) {
+std::optional<std::size_t>
+measuredInComplete(const RunPlan& plan, const report::ReportHeader& header, const fs::path& out) {
     std::error_code ignored;
-    if (!fs::is_regular_file(out, ignored) || fs::exists(journalFile(out), ignored)) return nullptr;
-    auto report = std::make_unique<scene::Json>();
+    if (!fs::is_regular_file(out, ignored) || fs::exists(journalFile(out), ignored)) return {};
+    std::size_t measured = 0;
     try {
-        *report = report::readReport(out);
+        const scene::Json report = report::readReport(out);
         const scene::Json wanted = report::headerJson(header);
-        if (report->value("interrupted", false) || identityDifference(*report, wanted) ||
-            report->value("shard", scene::Json()) != wanted.value("shard", scene::Json()))
-            return nullptr;
+        if (report.value("interrupted", false) || identityDifference(report, wanted) ||
+            report.value("shard", scene::Json()) != wanted.value("shard", scene::Json()))
+            return {};
         std::set<std::pair<std::size_t, std::string>> planned;
         for (const PlannedCase& each : plan.cases) planned.emplace(each.index, each.spec.name);
         std::set<std::pair<std::size_t, std::string>> found;
-        for (const scene::Json& each : report->at("cases"))
+        for (const scene::Json& each : report.at("cases")) {
             found.emplace(each.at("index").get<std::size_t>(), each.at("name").get<std::string>());
-        if (planned != found) return nullptr;
+            measured += each.at("status") == report::statusName(report::Status::ok);
+        }
+        if (planned != found) return {};
     } catch (const scene::Json::exception&) {
-        return nullptr;
+        return {};
     } catch (const engine::Error&) {  // another kind of file, or a damaged one
-        return nullptr;
+        return {};
     }
-    return report;
+    return measured;
 }
 
 }  // namespace benchmarks::run

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "benchmarks/report/report.h"
 #include "benchmarks/run/plan.h"
 #include "benchmarks/scene/json.h"
+#include "engine/process.h"
 
 // Journal of a run, from which an interrupted run is resumed.
 namespace benchmarks::run {
@@ -28,23 +30,36 @@ std::optional<std::string> identityDifference(const scene::Json& a, const scene:
 // No two processes have it at a time.
 class Journal {
 public:
+    // What a line outlives once append() returns.
+    enum class Lasts { crash, process };
+
     // Opens it, or makes it with its folder. Throws engine::Error "<path>: <reason>" where another
     // process has it or it can't be opened.
-    explicit Journal(std::filesystem::path path);
+    explicit Journal(std::filesystem::path path, Lasts lasts = Lasts::crash);
     // An empty one is removed.
     ~Journal();
     Journal(const Journal&) = delete;
     Journal& operator=(const Journal&) = delete;
 
-    // The values of the whole lines. Throws engine::Error where the first has none: it is some
-    // other file.
-    std::vector<scene::Json> read();
+    // Where a line is in the file, B.
+    struct Place {
+        std::uintmax_t begin = 0;
+        std::size_t size = 0;  // without its end
+    };
+
+    // Calls `visit` with the values of the whole lines, one after another. Throws engine::Error
+    // where the first has none: it is some other file.
+    void read(const std::function<void(scene::Json value, const Place& place)>& visit);
     // The numbers of the lines, the first is 1, that read() left out.
     const std::vector<std::size_t>& damaged() const { return damaged_; }
 
+    // The value of a line that read() or append() has given. Throws engine::Error where it is not
+    // there any more as it was.
+    scene::Json at(const Place& place) const;
+
     // Appends behind the last whole line. Throws WriteFailed, and leaves those before as
     // they were.
-    void append(const scene::Json& line);
+    Place append(const scene::Json& line);
 
     // Forgets all lines: the next append() is the first.
     void clear();
@@ -54,6 +69,7 @@ public:
 
 private:
     std::filesystem::path path_;
+    Lasts lasts_;
     int file_;
     std::uintmax_t size_ = 0;  // B, of the whole lines
     std::vector<std::size_t> damaged_;
@@ -67,15 +83,19 @@ struct RecordOptions {
     bool resume = false;  // go on with the journal that is there
 };
 
+enum class RunEnd { complete, interrupted };
+
 // What a run has done and has still to do, kept in "<out>.journal" until its report is written, so
 // that a run that was killed can go on. Its first line says whose it is; each other is a case as
 // reports have it, in the order in which they ran. What is none of the plan's, or there twice, is
-// left out with a line on stderr, and so is a damaged line: such a case is played again.
+// left out with a line on stderr, and so is a damaged line: such a case is played again. In memory
+// is of a case only where its line is.
 class RunRecord {
 public:
     // Throws engine::Error "<journal>: <reason>" where the journal is of another run and `resume`
     // is set, or of this one and it is not; WriteFailed as Journal. Without `resume` another run's
-    // is replaced, with a line on stderr. Where `out` is no file (/dev/stdout) there is no journal.
+    // is replaced, with a line on stderr. Where `out` is no file (/dev/stdout) the journal is one
+    // that nobody keeps.
     RunRecord(
         const RunPlan& plan, const report::ReportHeader& header, const RecordOptions& options);
     ~RunRecord();
@@ -88,33 +108,46 @@ public:
     };
     // The cases that are left, in the order that the seed of the run's beginning decides.
     const std::vector<Turn>& remaining() const { return remaining_; }
-    std::size_t done() const;
+    std::size_t done() const { return done_.size(); }
+    // Of these, cases that were measured: neither skipped nor failed.
+    std::size_t measured() const { return measured_; }
     // False where `out` is no file, beside which nothing can be.
-    bool hasJournal() const { return journal_ != nullptr; }
+    bool hasJournal() const { return !scratch_; }
 
     // Throws WriteFailed "<journal>: <reason>; <what is kept>".
     void add(const report::CaseResult& result);
 
-    // All cases in the sweep's order.
-    scene::Json report(bool interrupted) const;
+    // The report but for its cases.
+    const scene::Json& header() const { return *header_; }
+    // Calls `visit` with each case, in the sweep's order. Throws engine::Error where the journal
+    // was changed by others.
+    void eachCase(const std::function<void(scene::Json)>& visit) const;
 
-    // Writes the report; the journal is removed unless it was interrupted. Throws WriteFailed, and
-    // keeps the journal.
-    void write(const scene::Json& report);
+    // Writes the report, all cases in the sweep's order; where the run is complete the journal is
+    // removed, and nothing is left here. Throws WriteFailed, and keeps the journal.
+    void write(RunEnd end);
 
 private:
+    struct Done {
+        std::size_t index = 0;  // in the sweep
+        Journal::Place line;
+    };
+    void keep(std::size_t index, const std::string& status, const Journal::Place& line);
+
     std::filesystem::path out_;
+    std::unique_ptr<engine::ScratchFolder> scratch_;  // of a journal that nobody keeps
     std::unique_ptr<Journal> journal_;
     std::unique_ptr<scene::Json> header_;
-    std::vector<scene::Json> cases_;
+    std::vector<Done> done_;
+    std::size_t measured_ = 0;
     std::vector<Turn> remaining_;
 };
 
 std::filesystem::path journalFile(const std::filesystem::path& report);
 
-// The report at `out` if it is complete and of the same plan on the same build and device, and no
-// journal says that a run is under way.
-std::unique_ptr<scene::Json> completeReport(
+// How many cases of the report at `out` were measured, if it is complete and of the same plan on
+// the same build and device, and no journal says that a run is under way.
+std::optional<std::size_t> measuredInComplete(
     const RunPlan& plan, const report::ReportHeader& header, const std::filesystem::path& out);
 
 }  // namespace benchmarks::run

@@ -3,14 +3,18 @@
 #include <iostream>
 #include <optional>
 #include <random>
+#include <set>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/measure/progress.h"
 #include "benchmarks/report/environment.h"
 #include "benchmarks/report/report.h"
+#include "benchmarks/report/text.h"
 #include "benchmarks/run/case.h"
 #include "benchmarks/run/record.h"
+#include "benchmarks/scene/json.h"
 #include "engine/error.h"
 #include "engine/process.h"
 
@@ -71,6 +75,30 @@ Ended playCases(
     return ended;
 }
 
+FinishedRun finishedRun(const RunRecord& record) {
+    const report::EachCase each_case = [&](const auto& visit) { record.eachCase(visit); };
+    FinishedRun finished{
+        .summary = report::table(record.header(), each_case) + '\n',
+        .done = record.done(),
+        .measured = record.measured()};
+    record.eachCase([&](const scene::Json& each) {
+        for (const scene::Json& warning :
+             each.value("/trust/warnings"_json_pointer, scene::Json::array()))
+            finished.summary +=
+                each.at("name").get<std::string>() + ": " + warning.get<std::string>() + '\n';
+    });
+    return finished;
+}
+
+// Files relative to the report.
+std::set<std::string> picturesOf(const RunRecord& record) {
+    std::set<std::string> pictures;
+    record.eachCase([&](const scene::Json& each) {
+        if (each.contains("picture")) pictures.insert(each.at("picture").get<std::string>());
+    });
+    return pictures;
+}
+
 }  // namespace
 
 const engine::Device& RunDevice::get() {
@@ -111,10 +139,11 @@ FinishedRun playRun(
     const std::function<void(const FinishedRun&)>& last_words) {
     const report::ReportHeader header = headerOf(options, plan, device.get());
     if (options.resume)
-        if (auto report = completeReport(plan, header, out))
+        if (const auto measured = measuredInComplete(plan, header, out))
             return {
-                .report = scene::Document(std::move(*report)),
+                .summary = {},
                 .done = plan.cases.size(),
+                .measured = *measured,
                 .was_complete = true};
     RunRecord record(
         plan, header, {.out = out, .filter = options.filter, .resume = options.resume});
@@ -124,14 +153,13 @@ FinishedRun playRun(
     const bool keeps_pictures = options.pictures && record.hasJournal();
     const auto finish = [&](const Ended& ended) {
         const bool is_short = ended.interrupted || !ended.no_device.empty();
-        scene::Json report = record.report(is_short);
-        record.write(report);
-        if (!is_short && record.hasJournal()) removeOtherPictures(report, out);
-        return FinishedRun{
-            .report = scene::Document(std::move(report)),
-            .done = record.done(),
-            .interrupted = ended.interrupted,
-            .no_device = ended.no_device};
+        FinishedRun finished = finishedRun(record);
+        finished.interrupted = ended.interrupted;
+        finished.no_device = ended.no_device;
+        const std::set<std::string> pictures = picturesOf(record);
+        record.write(is_short ? RunEnd::interrupted : RunEnd::complete);
+        if (!is_short && record.hasJournal()) removeOtherPictures(pictures, out);
+        return finished;
     };
     Ended ended;
     {

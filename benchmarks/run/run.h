@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "benchmarks/run/plan.h"
-#include "benchmarks/scene/json.h"
 #include "engine/device.h"
 
 // A run: its plan's cases played one after another, recorded, and made into a report.
@@ -42,8 +41,10 @@ private:
 };
 
 struct FinishedRun {
-    scene::Document report;  // as it was written
+    // For a terminal: the table of the cases, then their warnings; empty where was_complete.
+    std::string summary;
     std::size_t done = 0;  // cases
+    std::size_t measured = 0;  // of these: neither skipped nor failed
     bool interrupted = false;  // by the user: cases are missing
     // Cases are missing: one lost the device, and this is why there is no other.
     std::string no_device;

@@ -19,7 +19,7 @@ TEST(Methods, NamesDeviceClocksSamplesAndWhatWasLeftOut) {
     const std::string text = methodsText(reportJson(sampleReport()));
     EXPECT_THAT(text, HasSubstr(" on " + sampleReport().environment.device.name));
     EXPECT_THAT(text, HasSubstr("1 case of scene"));
-    EXPECT_THAT(text, HasSubstr("1 skipped for what the device lacks, 1 failed"));
+    EXPECT_THAT(text, HasSubstr("1 skipped for what the machine lacks, 1 failed"));
     EXPECT_THAT(text, HasSubstr("Under load the device's shaders ran at 1500 MHz"));
     EXPECT_THAT(text, HasSubstr("at 61.5 degrees Celsius"));
     EXPECT_THAT(text, HasSubstr("95 % intervals by order statistics"));

@@ -31,6 +31,18 @@ TEST(Table, ShowsVaryingAxesMediansAndStatus) {
         "       lines    -         -        -           -        -  failed: device lost\n");
 }
 
+// Cases that are looked at one by one.
+TEST(Table, IsTheSameOfCasesThatNobodyHolds) {
+    const report::Report whole = sampleReport();
+    EXPECT_EQ(
+        report::table(
+            report::headerJson(whole),
+            [&](const auto& visit) {
+                for (const report::CaseResult& each : whole.cases) visit(report::caseJson(each));
+            }),
+        report::table(report::reportJson(whole)));
+}
+
 TEST(Table, NamesTheCaseWhereNothingVaries) {
     report::Report report = sampleReport();
     report.cases.resize(1);

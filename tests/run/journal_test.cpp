@@ -1,6 +1,8 @@
 #include "benchmarks/run/record.h"
 
 #include <filesystem>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -17,20 +19,30 @@ std::string journalLine(const std::string& json) {
     return R"({"hash":")" + report::hashText(json) + R"(","line":)" + json + "}\n";
 }
 
+std::vector<scene::Json> linesOf(Journal& journal) {
+    std::vector<scene::Json> lines;
+    journal.read(
+        [&](scene::Json line, const Journal::Place&) { lines.push_back(std::move(line)); });
+    return lines;
+}
+
 class JournalFile : public testing::Test {
 protected:
     // The lines that another process finds.
     std::string found() {
         Journal journal(path_);
-        return scene::Json(journal.read()).dump();
+        return scene::Json(linesOf(journal)).dump();
     }
     void append(const std::string& json) {
         Journal journal(path_);
-        journal.read();
+        linesOf(journal);
         journal.append(scene::Json::parse(json));
     }
     std::string error() {
-        return folder_.relative(errorText([&] { Journal(path_).read(); }));
+        return folder_.relative(errorText([&] {
+            Journal journal(path_);
+            linesOf(journal);
+        }));
     }
 
     TemporaryFolder folder_;
@@ -84,7 +96,7 @@ TEST_F(JournalFile, LosesOnlyTheLineThatIsDamaged) {
         EXPECT_EQ(found(), "[[1],[3]]") << damaged.substr(0, 40);
         append("[4]");
         Journal journal(path_);
-        EXPECT_EQ(scene::Json(journal.read()).dump(), "[[1],[3],[4]]");
+        EXPECT_EQ(scene::Json(linesOf(journal)).dump(), "[[1],[3],[4]]");
         EXPECT_THAT(journal.damaged(), testing::ElementsAre(2));
     }
 }
@@ -123,7 +135,7 @@ TEST_F(JournalFile, IsNotLeftEmpty) {
 TEST_F(JournalFile, GoesWhenItIsNotNeeded) {
     append("[1]");
     Journal journal(path_);
-    journal.read();
+    linesOf(journal);
     journal.remove();
     EXPECT_FALSE(std::filesystem::exists(path_));
 }
@@ -133,11 +145,40 @@ TEST_F(JournalFile, BeginsAnewAfterClear) {
     append("[2]");
     {
         Journal journal(path_);
-        journal.read();
+        linesOf(journal);
         journal.clear();
         journal.append(scene::Json::parse("[3]"));
     }
     EXPECT_EQ(textOf(path_), journalLine("[3]"));
+}
+
+// Lines are found again where reading and writing have said that they are.
+TEST_F(JournalFile, FindsEachLineAgain) {
+    const std::string long_text(3 << 20, 'x');  // more than is read at once
+    std::vector<Journal::Place> places;
+    {
+        Journal journal(path_);
+        for (const char* line : {"[1]", "{\"a\":0.1}"})
+            places.push_back(journal.append(scene::Json::parse(line)));
+        places.push_back(journal.append(long_text));
+        places.push_back(journal.append(4));
+        EXPECT_EQ(journal.at(places[1]).dump(), "{\"a\":0.1}");
+    }
+    Journal journal(path_);
+    std::size_t i = 0;
+    journal.read([&](const scene::Json& line, const Journal::Place& place) {
+        ASSERT_LT(i, places.size());
+        EXPECT_EQ(place.begin, places[i].begin);
+        EXPECT_EQ(place.size, places[i].size);
+        EXPECT_EQ(journal.at(place), line);
+        ++i;
+    });
+    EXPECT_EQ(i, 4u);
+    EXPECT_EQ(journal.at(places[2]), long_text);
+    std::filesystem::resize_file(path_, places[3].begin);
+    EXPECT_EQ(
+        folder_.relative(errorText([&] { journal.at(places[3]); })),
+        "a/b/r.json.journal: was changed while the run was under way");
 }
 
 TEST_F(JournalFile, SaysWhyItCannotBeOpened) {

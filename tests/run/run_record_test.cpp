@@ -1,7 +1,13 @@
 #include "benchmarks/run/record.h"
 
 #include <filesystem>
-#include <memory>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -46,6 +52,12 @@ protected:
             record.add({.name = each.spec.name, .index = each.index, .order = order});
         }
     }
+    // What there is of a report that is still under way.
+    static std::string textSoFar(const RunRecord& record) {
+        std::string text = record.header().dump();
+        record.eachCase([&](const scene::Json& each) { text += '\n' + each.dump(); });
+        return text;
+    }
     std::vector<std::size_t> placesLeft(const RunRecord& record) {
         std::vector<std::size_t> places;
         for (const RunRecord::Turn& turn : record.remaining()) places.push_back(turn.place);
@@ -64,16 +76,15 @@ TEST_F(Record, RunsInTheSeedsOrderAndReportsInTheSweeps) {
     RunRecord record = open(false);
     EXPECT_EQ(placesLeft(record), shuffledOrder(4, 1));
     run(record, 4);
-    const scene::Json report = record.report(false);
+    record.write(RunEnd::complete);
+    EXPECT_FALSE(hasJournal());
+    const scene::Json report = report::readReport(out_);
     ASSERT_EQ(report["cases"].size(), 4u);
     for (std::size_t place = 0; place < 4; ++place) {
         const scene::Json& each = report["cases"][place];
         EXPECT_EQ(each["index"], 2 * place + 1);
         EXPECT_EQ(shuffledOrder(4, 1)[each["order"].get<std::size_t>()], place);
     }
-    record.write(report);
-    EXPECT_FALSE(hasJournal());
-    EXPECT_EQ(report::readReport(out_), report);
 }
 
 TEST_F(Record, GoesOnAsIfNothingHadHappened) {
@@ -81,7 +92,7 @@ TEST_F(Record, GoesOnAsIfNothingHadHappened) {
     {
         RunRecord record = open(false);
         run(record, 4);
-        whole = record.report(false).dump();
+        whole = textSoFar(record);
     }
     for (std::size_t before = 0; before <= 4; ++before) {
         std::filesystem::remove(journalFile(out_));
@@ -94,7 +105,7 @@ TEST_F(Record, GoesOnAsIfNothingHadHappened) {
         RunRecord record = open(true);
         EXPECT_EQ(record.done(), before);
         run(record, 4);
-        EXPECT_EQ(record.report(false).dump(), whole);
+        EXPECT_EQ(textSoFar(record), whole);
         header_.order_seed = 1;
         header_.environment.started = sampleReport().environment.started;
     }
@@ -106,7 +117,7 @@ TEST_F(Record, PlaysAgainWhatIsDamaged) {
     {
         RunRecord record = open(false);
         run(record, 4);
-        whole = record.report(false).dump();
+        whole = textSoFar(record);
     }
     std::string text = textOf(journalFile(out_));
     const std::size_t second = text.find('\n', text.find('\n') + 1) + 1;  // of the cases
@@ -120,7 +131,7 @@ TEST_F(Record, PlaysAgainWhatIsDamaged) {
     EXPECT_EQ(record.done(), 3u);
     ASSERT_THAT(placesLeft(record), ElementsAre(shuffledOrder(4, 1)[1]));
     run(record, 1);
-    EXPECT_EQ(record.report(false).dump(), whole);
+    EXPECT_EQ(textSoFar(record), whole);
 }
 
 // Whole lines that are none of the run's.
@@ -133,7 +144,10 @@ TEST_F(Record, LeavesOutWhatIsNoCaseOfTheRun) {
     scene::Json twice;
     {
         Journal journal(journalFile(out_));
-        twice = journal.read()[1];
+        std::size_t line = 0;
+        journal.read([&](scene::Json value, const Journal::Place&) {
+            if (line++ == 1) twice = std::move(value);
+        });
     }
     scene::Json foreign = twice;
     foreign["index"] = 2;  // of the other shard
@@ -156,7 +170,7 @@ TEST_F(Record, LeavesOutWhatIsNoCaseOfTheRun) {
         folder_.write("r.json.journal", before);
         {
             Journal journal(journalFile(out_));
-            journal.read();
+            journal.read([](const scene::Json&, const Journal::Place&) {});
             journal.append(line);
         }
         testing::internal::CaptureStderr();
@@ -172,7 +186,7 @@ TEST_F(Record, KeepsTheJournalOfAnInterruptedRun) {
     {
         RunRecord record = open(false);
         run(record, 1);
-        record.write(record.report(true));
+        record.write(RunEnd::interrupted);
     }
     EXPECT_EQ(report::readReport(out_)["interrupted"], true);
     EXPECT_TRUE(hasJournal());
@@ -261,23 +275,110 @@ TEST_F(Record, IsNotMisledByOtherFiles) {
 
 TEST_F(Record, HasNoJournalBesideWhatIsNoFile) {
     out_ = "/dev/null";
-    EXPECT_FALSE(open(false).hasJournal());
     EXPECT_EQ(error(true), "--resume: /dev/null is no file");
+    RunRecord record = open(false);
+    EXPECT_FALSE(record.hasJournal());
+    run(record, 4);
+    std::vector<std::size_t> indices;
+    record.eachCase([&](const scene::Json& each) { indices.push_back(each["index"]); });
+    EXPECT_THAT(indices, ElementsAre(1, 3, 5, 7));
+    record.write(RunEnd::complete);
+    EXPECT_FALSE(std::filesystem::exists("/dev/null.journal"));
+}
+
+// The same bytes as a report has whose cases are all at hand.
+TEST_F(Record, WritesWhatIsWrittenOfCasesInMemory) {
+    report::Report report = manySamples();  // with a file of their own
+    report.interrupted = true;
+    static_cast<report::ReportHeader&>(report) = header_;
+    plan_.cases.clear();
+    report.cases[1].reason = "\xff is no UTF-8";
+    for (const report::CaseResult& each : report.cases)
+        plan_.cases.push_back({.spec = {.name = each.name}, .directory = {}, .index = *each.index});
+    {
+        RunRecord record = open(false);
+        for (const std::size_t i : {2, 0, 1}) record.add(report.cases[i]);
+        EXPECT_EQ(record.measured(), 1u);
+        record.write(RunEnd::interrupted);
+    }
+    const std::string written = textOf(out_);
+    const std::string samples = textOf(folder_.file("r.samples.jsonl"));
+    report::writeReport(report::reportJson(report), out_);
+    EXPECT_EQ(written, textOf(out_));
+    EXPECT_EQ(samples, textOf(folder_.file("r.samples.jsonl")));
+    EXPECT_EQ(written, [&] {
+        scene::Json whole = scene::Json::parse(textOf(out_));
+        return whole.dump(2) + '\n';
+    }());
+}
+
+// The most memory, kB, that a process has at a time which plays so many cases of the plan and
+// writes their report.
+long peakMemoryOf(const std::function<void()>& play) {
+    int ends[2];
+    if (pipe(ends) != 0) return -1;
+    const pid_t child = fork();
+    if (child == 0) {
+        play();
+        if (testing::Test::HasFailure()) _exit(1);
+        rusage use{};
+        getrusage(RUSAGE_SELF, &use);
+        _exit(::write(ends[1], &use.ru_maxrss, sizeof use.ru_maxrss) > 0 ? 0 : 1);
+    }
+    long peak = -1;
+    close(ends[1]);
+    if (read(ends[0], &peak, sizeof peak) != sizeof peak) peak = -1;
+    close(ends[0]);
+    waitpid(child, nullptr, 0);
+    return peak;
+}
+
+// 10,000 cases take no more memory than a few: each is some bytes to find it by.
+TEST_F(Record, IsFlatInMemory) {
+    constexpr std::size_t kFew = 100;
+    constexpr std::size_t kMany = 10'000;
+    report::CaseResult result = sampleReport().cases[0];
+    result.metrics[0].samples.assign(200, 1.25);  // over 3 kB as JSON in memory
+    plan_.cases.clear();
+    plan_.case_count = kMany;
+    for (std::size_t i = 0; i < kMany; ++i)
+        plan_.cases.push_back(
+            {.spec = {.name = "s/" + std::to_string(i)}, .directory = {}, .index = i});
+    out_ = "/dev/null";  // its journal need not be on the disk after each line, which takes time
+    const auto play = [&](std::size_t count) {
+        RunRecord record = open(false);
+        for (const auto& [place, order] : record.remaining()) {
+            if (count-- == 0) break;
+            result.name = plan_.cases[place].spec.name;
+            result.index = plan_.cases[place].index;
+            result.order = order;
+            record.add(result);
+        }
+        std::size_t found = 0;
+        record.eachCase([&](const scene::Json& each) { found += each.contains("metrics"); });
+        EXPECT_EQ(found, record.done());
+        record.write(RunEnd::complete);
+    };
+    const long few = peakMemoryOf([&] { play(kFew); });
+    const long many = peakMemoryOf([&] { play(kMany); });
+    ASSERT_GT(few, 0);
+    ASSERT_GT(many, 0);
+    EXPECT_LT((many - few) * 1024.0 / (kMany - kFew), 1000.0) << few << " kB, " << many << " kB";
 }
 
 TEST_F(Record, FindsTheCompleteReport) {
     {
         RunRecord record = open(false);
         run(record, 4);
-        record.write(record.report(false));
+        record.write(RunEnd::complete);
     }
     header_.order_seed = 99;
-    EXPECT_TRUE(completeReport(plan_, header_, out_));
+    EXPECT_EQ(measuredInComplete(plan_, header_, out_), 4u);
     const auto is_other = [&](auto change) {
         const RunPlan plan = plan_;
         const report::ReportHeader header = header_;
         change();
-        EXPECT_FALSE(completeReport(plan_, header_, out_));
+        EXPECT_FALSE(measuredInComplete(plan_, header_, out_));
         plan_ = plan;
         header_ = header;
     };
@@ -288,13 +389,13 @@ TEST_F(Record, FindsTheCompleteReport) {
     is_other([&] { plan_.cases.front().index = 0; });
     is_other([&] { folder_.write("r.json.journal", ""); });
     std::filesystem::remove(journalFile(out_));
-    EXPECT_TRUE(completeReport(plan_, header_, out_));
+    EXPECT_EQ(measuredInComplete(plan_, header_, out_), 4u);
     scene::Json interrupted = report::readReport(out_);
     interrupted["interrupted"] = true;
     report::writeReport(interrupted, out_);
-    EXPECT_FALSE(completeReport(plan_, header_, out_));
+    EXPECT_FALSE(measuredInComplete(plan_, header_, out_));
     folder_.write("r.json", "no report");
-    EXPECT_FALSE(completeReport(plan_, header_, out_));
+    EXPECT_FALSE(measuredInComplete(plan_, header_, out_));
 }
 
 }  // namespace
