@@ -1,0 +1,118 @@
+// What the project's pages point to is there.
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = HAIRBENCH_SOURCE_DIR;
+
+std::vector<fs::path> pages() {
+    std::vector<fs::path> found{kRoot / "README.md"};
+    for (const char* const folder : {"docs", "results", "scenes", "tests", ".github"}) {
+        if (!fs::is_directory(kRoot / folder)) continue;
+        for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
+            if (entry.path().extension() == ".md") found.push_back(entry.path());
+    }
+    return found;
+}
+
+// A page without what stands in fences and between backticks: no link is meant there.
+std::string prose(std::istream& page) {
+    static const std::regex code("`[^`]*`");
+    std::string all;
+    std::string line;
+    bool fenced = false;
+    while (std::getline(page, line)) {
+        if (line.starts_with("```"))
+            fenced = !fenced;
+        else if (!fenced)
+            all += std::regex_replace(line, code, "") + '\n';
+    }
+    return all;
+}
+
+// GitHub's anchor of a heading: lower case, blanks are hyphens, other signs are left out.
+std::string anchorOf(const std::string& heading) {
+    std::string anchor;
+    for (const char c : heading) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (std::isalnum(byte) || byte >= 0x80 || c == '_' || c == '-')
+            anchor += static_cast<char>(std::tolower(byte));
+        else if (c == ' ')
+            anchor += '-';
+    }
+    return anchor;
+}
+
+std::set<std::string> anchorsIn(std::istream& page) {
+    std::set<std::string> anchors;
+    std::map<std::string, int> seen;
+    std::string line;
+    bool fenced = false;
+    while (std::getline(page, line)) {
+        if (line.starts_with("```")) fenced = !fenced;
+        const std::size_t hashes = line.find_first_not_of('#');
+        if (fenced || hashes == 0 || hashes == std::string::npos || line[hashes] != ' ') continue;
+        const std::string anchor = anchorOf(line.substr(hashes + 1));
+        const int times = seen[anchor]++;
+        anchors.insert(times == 0 ? anchor : anchor + '-' + std::to_string(times));
+    }
+    return anchors;
+}
+
+// "file: link: reason" of each that leads nowhere.
+std::vector<std::string> brokenLinks(const fs::path& path) {
+    static const std::regex link(R"(\]\(([^)\s]+)\))");
+    std::ifstream page(path);
+    const std::string text = prose(page);
+    std::vector<std::string> broken;
+    for (std::sregex_iterator each(text.begin(), text.end(), link), end; each != end; ++each) {
+        const std::string target = (*each)[1];
+        if (target.find("://") != std::string::npos || target.starts_with("mailto:")) continue;
+        const std::size_t hash = target.find('#');
+        const std::string file = target.substr(0, hash);
+        const fs::path wanted =
+            file.empty() ? path : (path.parent_path() / file).lexically_normal();
+        const std::string name = path.lexically_relative(kRoot).string() + ": " + target;
+        if (!fs::exists(wanted)) {
+            broken.push_back(name + ": no such file");
+            continue;
+        }
+        if (hash == std::string::npos || wanted.extension() != ".md") continue;
+        std::ifstream other(wanted);
+        if (!anchorsIn(other).contains(target.substr(hash + 1)))
+            broken.push_back(name + ": no such heading");
+    }
+    return broken;
+}
+
+TEST(Links, LeadToWhatIsThere) {
+    std::size_t count = 0;
+    for (const fs::path& page : pages()) {
+        ++count;
+        EXPECT_THAT(brokenLinks(page), testing::IsEmpty());
+    }
+    EXPECT_GT(count, 15u);
+}
+
+// As GitHub makes them: its own headings in this project, by hand.
+TEST(Links, AnchorsAreThoseOfGitHub) {
+    EXPECT_EQ(anchorOf("8,704 strands, not 5,568"), "8704-strands-not-5568");
+    EXPECT_EQ(anchorOf("What tests/architecture holds"), "what-testsarchitecture-holds");
+    std::istringstream page("# Twice\n\n```\n# no heading\n```\n## Twice\n#none\n");
+    EXPECT_EQ(anchorsIn(page), (std::set<std::string>{"twice", "twice-1"}));
+}
+
+}  // namespace
