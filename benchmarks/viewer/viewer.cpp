@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <imgui.h>
+#include <unistd.h>
 
 #include "benchmarks/viewer/shell.h"
 #include "engine/error.h"
@@ -427,7 +428,10 @@ void Viewer::Parts::actOnFollowed() {
 std::filesystem::path Viewer::Parts::suggestedPath() const {
     const SceneFile& file = scene.file();
     if (scene.wasSaved()) return file.path;
-    return freeName(file.path.parent_path(), file.name, ".json");
+    // The scenes of an installed program are not the user's.
+    const std::filesystem::path beside = file.path.parent_path();
+    const bool is_users = access(beside.empty() ? "." : beside.c_str(), W_OK) == 0;
+    return freeName(is_users ? beside : std::filesystem::current_path(), file.name, ".json");
 }
 
 void Viewer::Parts::open(const std::filesystem::path& path) {
