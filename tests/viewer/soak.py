@@ -35,7 +35,7 @@ CHANGES = [
     {"/strands/tessellation": 2},
     {"/lod/mode": "forced", "/lod/level": 1},
     {"/shading/model": "marschner"},
-    {"/simulation/solver": "ftl"},
+    {"/simulation/solver": "ftl", "/simulation/rest": "groom"},
     {"/groom/guides": 120},
     {"/camera/field_of_view": 30},
 ]
