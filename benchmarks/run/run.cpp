@@ -50,7 +50,8 @@ bool playCases(
             const PlannedCase& each = plan.cases[place];
             progress.begin(each.spec.name);
             report::CaseResult result =
-                runCase(device, each, hooks, pictures_of, comparisons, cache);
+                runCase(
+                    device, each, hooks, pictures_of, comparisons, cache, plan.max_memory);
             result.order = order;
             record.add(result);
         }
