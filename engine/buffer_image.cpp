@@ -102,6 +102,31 @@ TexelView::TexelView(const Device& device, const Buffer& buffer, VkFormat format
 
 // ---- Images -------------------------------------------------------------------------------------
 
+namespace {
+
+std::uint64_t texelBytes(VkFormat format) {
+    switch (format) {
+    case VK_FORMAT_R16_SFLOAT:
+        return 2;
+    case VK_FORMAT_R16G16B16A16_SFLOAT:
+        return 8;
+    case VK_FORMAT_R32G32B32A32_SFLOAT:
+        return 16;
+    default:  // D32, and colors of 8 bits
+        return 4;
+    }
+}
+
+}  // namespace
+
+std::uint64_t imageBytes(const ImageDescription& description) {
+    std::uint64_t texels = 0;
+    for (std::uint32_t level = 0; level < description.levels; ++level)
+        texels += std::uint64_t{std::max(description.width >> level, 1u)} *
+                  std::max(description.height >> level, 1u);
+    return texels * description.samples * texelBytes(description.format);
+}
+
 // Nothing yet.
 Image::Image(VmaAllocator_T* allocator, const ImageDescription& description)
     : allocator_(allocator), format_(description.format),

@@ -96,6 +96,9 @@ struct ImageDescription {
     std::string name;
 };
 
+// Bytes of an image's texels, of all samples and levels; what a driver adds is not in it.
+std::uint64_t imageBytes(const ImageDescription& description);
+
 // A 2D image with its memory and a view of all of it.
 class Image {
 public:

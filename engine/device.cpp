@@ -130,6 +130,8 @@ VmaAllocator createAllocator(VkInstance instance, const DeviceInfo& info, VkDevi
     functions.vkDestroyImage = ByVolk<&vkDestroyImage>::call;
     VmaAllocatorCreateInfo create{};
     create.flags = VMA_ALLOCATOR_CREATE_BUFFER_DEVICE_ADDRESS_BIT;
+    if (info.features.contains(Feature::memory_budget))
+        create.flags |= VMA_ALLOCATOR_CREATE_EXT_MEMORY_BUDGET_BIT;
     create.physicalDevice = info.handle;
     create.device = device;
     create.instance = instance;
@@ -294,6 +296,22 @@ std::uint64_t Device::allocatedBytes() const {
     VmaTotalStatistics statistics{};
     vmaCalculateStatistics(allocator(), &statistics);
     return statistics.total.statistics.allocationBytes;
+}
+
+std::uint64_t Device::freeBytes() const {
+    const VkPhysicalDeviceMemoryProperties* memory{};
+    vmaGetMemoryProperties(allocator(), &memory);
+    std::vector<VmaBudget> budgets(memory->memoryHeapCount);
+    vmaGetHeapBudgets(allocator(), budgets.data());
+    std::uint64_t largest = 0;
+    std::uint64_t free = 0;
+    for (std::uint32_t i = 0; i < memory->memoryHeapCount; ++i) {
+        const VkMemoryHeap& heap = memory->memoryHeaps[i];
+        if (!(heap.flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) || heap.size <= largest) continue;
+        largest = heap.size;
+        free = budgets[i].budget - std::min(budgets[i].budget, budgets[i].usage);
+    }
+    return free;
 }
 
 MemoryLedger::Line Device::memoryLine(VmaAllocation_T* allocation, const std::string& name) const {

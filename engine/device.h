@@ -167,6 +167,10 @@ public:
     // Bytes of memory that live allocations hold.
     std::uint64_t allocatedBytes() const;
 
+    // Bytes that may still be allocated of the largest heap that is the device's own, as its driver
+    // has it (VK_EXT_memory_budget) or else four fifths of the heap less what is allocated.
+    std::uint64_t freeBytes() const;
+
     // Who holds what of the device's memory: buffers and images enter and leave themselves.
     const MemoryLedger& memory() const { return *memory_; }
     // The code that pipelines are made of from now on.

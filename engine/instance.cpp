@@ -159,6 +159,8 @@ constexpr std::array kFeatures{
         VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME},
     FeatureRow{Feature::second_queue, "second queue that computes", nullptr, nullptr},
     FeatureRow{
+        Feature::memory_budget, "memory budget", nullptr, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME},
+    FeatureRow{
         Feature::present_fences, "fences of presents", nullptr,
         VK_EXT_SWAPCHAIN_MAINTENANCE_1_EXTENSION_NAME},
 };

@@ -124,6 +124,7 @@ enum class Feature {
     calibrated_timestamps,  // a moment by the clocks of device and host at once
     push_descriptors,  // Commands does with descriptor sets where they are missing
     second_queue,  // that computes beside the first one
+    memory_budget,  // how much of its memory is free; guessed by its heap where it is missing
     // Fences that say when a picture in a window is done with; of devices that were made with
     // extensions of windows. Swapchain does with images that come back where they are missing.
     present_fences,

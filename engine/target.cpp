@@ -63,13 +63,10 @@ ImageDescription rendered(
         .name = name};
 }
 
-std::optional<Image> colorOf(const Device& device, const TargetDescription& description) {
-    if (resolveOf(description) == Resolve::none) return std::nullopt;
-    constexpr VkImageUsageFlags kUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
-                                         VK_IMAGE_USAGE_SAMPLED_BIT |
-                                         VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    return std::optional<Image>(
-        std::in_place, device, rendered(description, description.color_format, kUsage, "color"));
+std::optional<Image>
+made(const Device& device, const std::optional<ImageDescription>& description) {
+    if (!description) return std::nullopt;
+    return std::optional<Image>(std::in_place, device, *description);
 }
 
 // Who reads what is rendered, and the output.
@@ -143,35 +140,51 @@ Resolve resolveOf(const TargetDescription& description) {
     return description.msaa > 1 ? Resolve::attachment : Resolve::none;
 }
 
-Target::Target(const Device& device, const TargetDescription& description)
-    : description_(checked(device, description)), color_(colorOf(device, description)),
-      depth_(
-          device, rendered(
-                      description, kDepthFormat,
-                      VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT |
-                          (description.sampled_depth ? VkImageUsageFlags{VK_IMAGE_USAGE_SAMPLED_BIT}
-                                                     : VkImageUsageFlags{}),
-                      "depth")),
-      output_(
-          device, {.format = kOutputFormat,
-                   .width = description.width,
-                   .height = description.height,
-                   .samples = 1,
-                   .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                            VkImageUsageFlags(
-                                resolveOf(description) == Resolve::compute
-                                    ? VK_IMAGE_USAGE_STORAGE_BIT
-                                    : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT),
-                   .name = "output"}) {
-    if (description.color_format == kOutputFormat) return;
-    radiance_.emplace(
-        device, ImageDescription{
-                    .format = kRadianceFormat,
-                    .width = description.width,
-                    .height = description.height,
-                    .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                    .name = "radiance"});
+TargetImages imagesOf(const TargetDescription& description) {
+    constexpr VkImageUsageFlags kColor = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
+                                         VK_IMAGE_USAGE_SAMPLED_BIT |
+                                         VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    const VkImageUsageFlags read_depth =
+        description.sampled_depth ? VkImageUsageFlags{VK_IMAGE_USAGE_SAMPLED_BIT} : 0u;
+    const VkImageUsageFlags written = resolveOf(description) == Resolve::compute
+                                          ? VK_IMAGE_USAGE_STORAGE_BIT
+                                          : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    TargetImages images{
+        .color = std::nullopt,
+        .depth = rendered(
+            description, Target::kDepthFormat,
+            VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | read_depth, "depth"),
+        .output =
+            {.format = Target::kOutputFormat,
+             .width = description.width,
+             .height = description.height,
+             .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | written,
+             .name = "output"},
+        .radiance = std::nullopt};
+    if (resolveOf(description) != Resolve::none)
+        images.color = rendered(description, description.color_format, kColor, "color");
+    if (description.color_format != Target::kOutputFormat)
+        images.radiance = ImageDescription{
+            .format = Target::kRadianceFormat,
+            .width = description.width,
+            .height = description.height,
+            .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+            .name = "radiance"};
+    return images;
 }
+
+std::uint64_t targetBytes(const TargetDescription& description) {
+    const TargetImages images = imagesOf(description);
+    return imageBytes(images.depth) + imageBytes(images.output) +
+           (images.color ? imageBytes(*images.color) : 0) +
+           (images.radiance ? imageBytes(*images.radiance) : 0);
+}
+
+Target::Target(
+    const Device& device, const TargetDescription& description, const TargetImages& images)
+    : description_(checked(device, description)), color_(made(device, images.color)),
+      depth_(device, images.depth), output_(device, images.output),
+      radiance_(made(device, images.radiance)) {}
 
 void Target::beginRendering(
     Commands& commands, Load load, const std::array<float, 3>& background, Last last) const {

@@ -49,6 +49,19 @@ enum class Resolve {
 
 Resolve resolveOf(const TargetDescription& description);
 
+// The images that a target is made of.
+struct TargetImages {
+    std::optional<ImageDescription> color;  // none: the output is
+    ImageDescription depth;
+    ImageDescription output;
+    std::optional<ImageDescription> radiance;  // where color is floats
+};
+
+TargetImages imagesOf(const TargetDescription& description);
+
+// Bytes of all of them (imageBytes()).
+std::uint64_t targetBytes(const TargetDescription& description);
+
 // The images of an offscreen picture: color and depth that passes render into, the output picture
 // (8-bit RGBA, display-referred), which may be the same image as color, and, where color is floats,
 // the mean linear light of each of its pixels.
@@ -59,7 +72,8 @@ public:
     static constexpr VkFormat kRadianceFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 
     // Throws Unsupported where the device lacks the sample count or the size.
-    Target(const Device& device, const TargetDescription& description);
+    Target(const Device& device, const TargetDescription& description)
+        : Target(device, description, imagesOf(description)) {}
 
     // Whether a picture is complete when rendering ends, but for Resolve::compute.
     enum class Last { no, yes };
@@ -90,6 +104,8 @@ public:
     }  // TRANSFER_SRC_OPTIMAL once complete; needs hasRadiance()
 
 private:
+    Target(const Device& device, const TargetDescription& description, const TargetImages& images);
+
     TargetDescription description_;
     std::optional<Image> color_;  // none: the output is
     Image depth_;

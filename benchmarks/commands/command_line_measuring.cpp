@@ -1,6 +1,8 @@
 #include "benchmarks/commands/command_line_options.h"
 #include "benchmarks/commands/commands.h"
+#include "benchmarks/measure/memory_need.h"
 #include "benchmarks/report/exporters.h"
+#include "engine/error.h"
 
 namespace benchmarks::commands {
 namespace {
@@ -37,6 +39,23 @@ void addRunOptions(CLI::App& command, run::RunOptions& options) {
     command.add_flag("--list", options.list, "print the cases' names and stop");
     command.add_flag(
         "--dry-run", options.dry_run, "say what would run, estimate time and memory in seconds");
+    command
+        .add_option_function<std::string>(
+            "--max-memory",
+            [&options](const std::string& size) {
+                options.max_memory = measure::parseMemorySize(size);
+            },
+            "skip cases that need more than SIZE (500M, 2G) of the device's memory, or of the "
+            "host's; on a software device of both together")
+        ->type_name("SIZE")
+        ->check([](const std::string& size) -> std::string {
+            try {
+                measure::parseMemorySize(size);
+                return {};
+            } catch (const engine::Error& error) {
+                return error.what();
+            }
+        });
     command.add_option(
         "--order-seed", options.order_seed,
         "seed of the order in which cases run (default: random)");

@@ -47,7 +47,8 @@ int runScene(const run::RunOptions& options) {
     measure::HairCache cache = measure::userHairCache(options.scene.cache);
     scene::SceneOptions scene = options.scene;
     scene.reads_assets = !options.dry_run;  // growing hair takes longer than an estimate may
-    const run::RunPlan plan = run::planRun(scene, options.filter, options.shard, &cache.assets());
+    run::RunPlan plan = run::planRun(scene, options.filter, options.shard, &cache.assets());
+    plan.max_memory = options.max_memory;
     if (options.list) return run::printNames(plan);
     if (options.dry_run) return run::estimateRun(plan, options.scene.device, cache);
     if (plan.cases.empty()) return printNothingToRun(options, plan);

@@ -224,6 +224,9 @@ scene::Json toJson(const CaseResult& result) {
     put(object, "order", result.order);
     object["status"] = statusName(result.status);
     put(object, "reason", result.reason);
+    if (result.memory_need)
+        object["memory_need"] = {
+            {"device", result.memory_need->device}, {"host", result.memory_need->host}};
     put(object, "backend", result.backend);
     put(object, "start", result.start);
     // A case that was throttled throughout has failed, and what was measured says by how much.

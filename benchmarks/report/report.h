@@ -19,7 +19,7 @@
 // "": empty strings, empty optionals, and numbers that are not finite are left out.
 namespace benchmarks::report {
 
-inline constexpr const char* kReportSchema = "hairbench-report/1.4.0";
+inline constexpr const char* kReportSchema = "hairbench-report/1.5.0";
 
 struct DeviceRecord {
     std::string name;
@@ -151,6 +151,12 @@ struct StartRecord {
     std::optional<std::uint32_t> unbalanced;
 };
 
+// What a case needs at most, B, worked out before it is made (measure/memory_need.h).
+struct MemoryNeed {
+    std::uint64_t device = 0;
+    std::uint64_t host = 0;  // of the program with the case, without a software device's memory
+};
+
 struct CaseResult {
     std::string name;
     std::optional<std::size_t> index;  // in the whole sweep, from 0
@@ -158,6 +164,7 @@ struct CaseResult {
     std::vector<scene::AxisValue> axes;
     Status status = Status::ok;
     std::string reason;  // why it was skipped or failed
+    std::optional<MemoryNeed> memory_need;
     BackendRecord backend;
     std::optional<StartRecord> start;
     // Medians, MAD and the rest are worked out when they are written; those without a finite sample

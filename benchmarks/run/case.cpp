@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <new>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "benchmarks/measure/case.h"
 #include "benchmarks/measure/machine_watch.h"
+#include "benchmarks/measure/memory_need.h"
 #include "engine/error.h"
 #include "engine/process.h"
 #include "engine/pictures.h"
@@ -116,13 +118,20 @@ void keepPicture(
 
 PlayedCase runCase(
     const engine::Device& device, const PlannedCase& planned, const measure::MeasureHooks& hooks,
-    const std::filesystem::path& report, CaseComparisons& comparisons, measure::HairCache& cache) {
+    const std::filesystem::path& report, CaseComparisons& comparisons, measure::HairCache& cache,
+    std::optional<std::uint64_t> max_memory) {
     const hair::RunSettings& run = planned.spec.settings.run;
     const hair::RenderSettings& render = planned.spec.settings.render;
     PlayedCase played{.result = emptyResult(planned)};
     report::CaseResult& result = played.result;
+    std::optional<report::MemoryNeed> need;
     try {
         const engine::TimeLimit limit(double{run.case_timeout}, "/run/case_timeout");
+        need = measure::memoryNeed(device, planned.spec.settings, planned.directory, &cache);
+        if (const std::string reason =
+                measure::whyItDoesNotFit(*need, measure::memoryRooms(device, max_memory));
+            !reason.empty())
+            throw engine::Unsupported(reason);
         measure::Case test_case(device, planned.spec.settings, planned.directory, &cache);
         result.trust.warnings = test_case.warnings();
         const measure::ClockHold clocks(device.info(), run.clocks);
@@ -145,6 +154,7 @@ PlayedCase runCase(
     } catch (const std::bad_alloc&) {
         result = without(planned, report::Status::failed, "the host has not enough memory");
     }
+    result.memory_need = need;
     for (const std::string& message : device.messages().take())
         result.trust.warnings.push_back("validation: " + message);
     return played;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -41,10 +42,12 @@ struct PlayedCase {
     bool lost_device = false;  // nothing more can be done with it
 };
 
-// Measures a case. One that can't run here, or that fails, is part of the result with its reason.
-// `report` is the file beside which its picture goes; empty: none is written. Throws Interrupted.
+// Measures a case. One that can't run here, or that fails, is part of the result with its reason;
+// for lack of memory (measure/memory_need.h), or of `max_memory`, B, it is not even made. `report`
+// is the file beside which its picture goes; empty: none is written. Throws Interrupted.
 PlayedCase runCase(
     const engine::Device& device, const PlannedCase& planned, const measure::MeasureHooks& hooks,
-    const std::filesystem::path& report, CaseComparisons& comparisons, measure::HairCache& cache);
+    const std::filesystem::path& report, CaseComparisons& comparisons, measure::HairCache& cache,
+    std::optional<std::uint64_t> max_memory = {});
 
 }  // namespace benchmarks::run

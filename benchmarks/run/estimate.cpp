@@ -15,6 +15,7 @@
 
 #include "benchmarks/measure/case.h"
 #include "benchmarks/measure/hair_cache.h"
+#include "benchmarks/measure/memory_need.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/text.h"
 #include "engine/error.h"
@@ -154,7 +155,7 @@ constexpr std::chrono::seconds kTrials{4};
 
 struct Estimate {
     std::optional<double> frame;  // ms
-    std::optional<std::uint64_t> bytes;
+    std::optional<std::uint64_t> bytes;  // of the device's memory
     bool was_tried = false;  // as it is
     std::string problem;
 };
@@ -191,7 +192,9 @@ class Trials {
 public:
     Trials(const RunPlan& plan, const engine::Device& device, measure::HairCache& cache)
         : plan_(plan), device_(device), cache_(cache),
-          speed_(device.info().type == "cpu" ? 1.0 : kDeviceSpeed), estimates_(plan.cases.size()) {}
+          speed_(device.info().type == "cpu" ? 1.0 : kDeviceSpeed), estimates_(plan.cases.size()) {
+        findNeeds();
+    }
 
     // Tries cases as long as there is time. Throws Interrupted.
     void play();
@@ -208,6 +211,9 @@ private:
     const hair::Settings& settings(std::size_t place) const {
         return plan_.cases[place].spec.settings;
     }
+    // What is known of all cases before any is made.
+    void findNeeds();
+    bool fits(std::size_t place) const { return estimates_[place].problem.empty(); }
     enum class Size { whole, smaller };
     void tryCase(std::size_t place, Size size);
 
@@ -218,6 +224,21 @@ private:
     std::vector<Estimate> estimates_;
     std::vector<Trial> trials_;
 };
+
+void Trials::findNeeds() {
+    const std::vector<measure::MemoryRoom> rooms = measure::memoryRooms(device_, plan_.max_memory);
+    for (std::size_t place = 0; place < estimates_.size(); ++place) {
+        engine::checkInterrupted();
+        try {
+            const report::MemoryNeed need = measure::memoryNeed(
+                device_, settings(place), plan_.cases[place].directory, &cache_);
+            estimates_[place].bytes = need.device;
+            estimates_[place].problem = measure::whyItDoesNotFit(need, rooms);
+        } catch (const engine::Unsupported& error) {
+            estimates_[place] = {.was_tried = true, .problem = error.what()};
+        }
+    }
+}
 
 void Trials::tryCase(std::size_t place, Size size) {
     const std::string name = plan_.cases[place].spec.name;
@@ -255,6 +276,9 @@ void Trials::play() {
         if (!start) start = Clock::now();
     };
 
+    std::erase_if(order, [&](std::size_t place) { return !fits(place); });
+    if (order.empty()) return;
+
     // Cases with the most work of a kind, made smaller, tell more of the large ones than small
     // ones do.
     std::set<std::size_t> largest;
@@ -277,7 +301,7 @@ void Trials::play() {
 void Trials::estimateOthers() {
     for (std::size_t place = 0; place < estimates_.size(); ++place) {
         Estimate& estimate = estimates_[place];
-        if (estimate.was_tried) continue;
+        if (estimate.was_tried || !fits(place)) continue;
         const FrameWork work = frameWork(settings(place));
         // Each is an upper bound.
         for (const Trial& trial : trials_) {
@@ -304,15 +328,14 @@ void print(const RunPlan& plan, const Trials& trials) {
         std::optional<double> most;
         if (each.frame) most = mostSeconds(plan.cases[i].spec.settings.run, *each.frame);
         columns[0].cells.push_back(plan.cases[i].spec.name);
-        columns[1].cells.push_back(each.bytes ? report::sizeText(*each.bytes) : "-");
+        columns[1].cells.push_back(each.bytes ? about + report::sizeText(*each.bytes) : "-");
         columns[2].cells.push_back(each.frame ? about + report::shortNumber(*each.frame) : "-");
         columns[3].cells.push_back(most ? about + report::shortNumber(*most) : "-");
         columns[4].cells.push_back(each.problem);
         seconds += most.value_or(0.0);
-        bytes = std::max(bytes, each.bytes.value_or(0));
+        if (each.problem.empty()) bytes = std::max(bytes, each.bytes.value_or(0));
     }
-    for (std::size_t row = 0; row <= plan.cases.size(); ++row)
-        std::cout << report::columnsLine(columns, row);
+    std::cout << report::columnsText(columns);
     const std::size_t count = plan.cases.size();
     const std::size_t tried = trials.tried();
     std::cout << count << (count == 1 ? " case, " : " cases, ");
@@ -324,7 +347,8 @@ void print(const RunPlan& plan, const Trials& trials) {
     if (tried < count && seconds > 0.0)
         std::cout << tried << " of them tried; others' times are estimated from "
                   << (tried > 0 ? "those" : "a smaller case")
-                  << " by counts of guides, strands and samples, and their memory is not known\n";
+                  << " by counts of guides, strands and samples, and their memory by sizes of what "
+                     "they keep\n";
 }
 
 }  // namespace

@@ -33,8 +33,9 @@ double mostTimesLonger(const FrameWork& of, const FrameWork& tried);
 // Prints each case with how long measuring it takes at most, and the sum. Cases are tried by two of
 // their frames: those with the most work of a kind made smaller(), then those that are small as
 // they are, until some seconds are over. Other cases' times are estimated from those by
-// mostTimesLonger(), and said to be. The memory is that of cases that were tried as they are. Where
-// there is no device, names alone and why. Returns the exit status.
+// mostTimesLonger(), and said to be. The memory is the device's that cases held which were tried as
+// they are, and of others what they need at most (measure/memory_need.h); those that do not fit are
+// not tried. Where there is no device, names alone and why. Returns the exit status.
 int estimateRun(
     const RunPlan& plan, const engine::DeviceOptions& device, measure::HairCache& cache);
 

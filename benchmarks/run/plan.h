@@ -25,6 +25,7 @@ struct RunOptions {
     bool resume = false;  // go on with the journal beside `out`
     std::string shard;  // "2/8": the second of eight parts; empty: all
     bool pictures = true;  // a picture of each case beside the report
+    std::optional<std::uint64_t> max_memory;  // B, that a case may need; absent: what there is
     std::string save_baseline;  // name; empty: none
     std::string baseline;  // name of what to compare with; empty: nothing
     report::VerdictOptions verdict;
@@ -47,6 +48,7 @@ struct RunPlan {
     std::size_t case_count = 0;      // before --filter and --shard
     std::string cases_hash;  // of all cases' documents: what journals and shards must share
     std::vector<PlannedCase> cases;  // in the sweep's order
+    std::optional<std::uint64_t> max_memory;  // RunOptions::max_memory
 };
 
 // Reads scenes and checks them and their assets. Throws engine::Error for what is wrong with them

@@ -58,7 +58,8 @@ Ended playCases(
         for (const auto& [place, order] : record.remaining()) {
             const PlannedCase& each = plan.cases[place];
             progress.begin(each.spec.name);
-            PlayedCase played = runCase(device.get(), each, hooks, pictures_of, comparisons, cache);
+            PlayedCase played = runCase(
+                device.get(), each, hooks, pictures_of, comparisons, cache, plan.max_memory);
             if (played.lost_device) device.drop();
             played.result.order = order;
             record.add(played.result);

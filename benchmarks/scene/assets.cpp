@@ -130,6 +130,16 @@ std::string meshKey(const hair::Settings& settings, const std::filesystem::path&
            stampOf(directory, meshFile(settings.groom));
 }
 
+std::string groomKey(const hair::Settings& settings, const std::filesystem::path& directory) {
+    const hair::GroomSettings& groom = settings.groom;
+    std::string key = directory.string() + '\n' + writeFields(groom).dump() + '\n' +
+                      std::to_string(settings.seed) + '\n' + meshKey(settings, directory);
+    for (const std::string& file :
+         {groom.file, groom.grow.scalp, groom.grow.mask, groom.grow.length_map, groom.fixed})
+        key += stampOf(directory, file);
+    return key;
+}
+
 template <class Value>
 std::size_t bytesOf(const std::vector<Value>& values) {
     return values.size() * sizeof(Value);
@@ -155,11 +165,7 @@ const std::optional<hair::groom::Mesh>& AssetStore::mesh(
 const hair::groom::Groom& AssetStore::groom(
     const hair::Settings& settings, const std::filesystem::path& directory, const Reach& reach) {
     const hair::GroomSettings& groom = settings.groom;
-    std::string key = directory.string() + '\n' + writeFields(groom).dump() + '\n' +
-                      std::to_string(settings.seed) + '\n' + meshKey(settings, directory);
-    for (const std::string& file :
-         {groom.file, groom.grow.scalp, groom.grow.mask, groom.grow.length_map, groom.fixed})
-        key += stampOf(directory, file);
+    const std::string key = groomKey(settings, directory);
     if (const auto* known = grooms_.find(key)) return *known;
     const std::optional<hair::groom::Mesh>& grown_on = mesh(settings, directory, reach);
     hair::groom::Groom made = hair::groom::buildGroom(
@@ -169,6 +175,16 @@ const hair::groom::Groom& AssetStore::groom(
                               bytesOf(made.root_triangles) + bytesOf(made.bindings) +
                               bytesOf(made.bound_ends) + bytesOf(made.bound_points);
     return grooms_.add(key, std::move(made), bytes);
+}
+
+const std::optional<hair::groom::Mesh>*
+AssetStore::knownMesh(const hair::Settings& settings, const std::filesystem::path& directory) {
+    return meshes_.find(meshKey(settings, directory));
+}
+
+const hair::groom::Groom*
+AssetStore::knownGroom(const hair::Settings& settings, const std::filesystem::path& directory) {
+    return grooms_.find(groomKey(settings, directory));
 }
 
 void AssetStore::trim() {

@@ -38,6 +38,12 @@ public:
         const hair::Settings& settings, const std::filesystem::path& directory,
         const Reach& reach = {});
 
+    // The same where it was made before; null where it wasn't.
+    const std::optional<hair::groom::Mesh>*
+    knownMesh(const hair::Settings& settings, const std::filesystem::path& directory);
+    const hair::groom::Groom*
+    knownGroom(const hair::Settings& settings, const std::filesystem::path& directory);
+
     // Lets go of what was used longest ago, if it is much.
     void trim();
 

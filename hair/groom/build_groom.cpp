@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -236,6 +237,38 @@ Groom fromFile(
 }
 
 }  // namespace
+
+// ---- What is to be made -------------------------------------------------------------------------
+
+GroomSize expectedSize(const GroomSettings& settings, std::uint64_t file_bytes) {
+    constexpr std::uint64_t kPointBytes = sizeof(glm::vec3);
+    const auto or_else = [](std::uint64_t asked, std::uint64_t otherwise) {
+        return asked == 0 ? otherwise : asked;
+    };
+    GroomSize size;
+    if (settings.file.empty()) {
+        const GrowSettings& grow = settings.grow;
+        size.guides = or_else(settings.guides, kThesisGuides);
+        size.vertices_per_guide = grow.vertices;
+        if (grow.strands > 0) {
+            size.guides = std::min<std::uint64_t>(size.guides, grow.strands);
+            size.bound_strands =
+                grow.strands +
+                static_cast<std::uint64_t>(std::llround(double{grow.vellus.share} * grow.strands));
+            size.bound_points = size.bound_strands * grow.vertices;
+        }
+    } else {
+        size.bound_points = file_bytes / kPointBytes;
+        size.bound_strands =
+            size.bound_points / or_else(settings.points_per_strand, kUncountedPoints) + 1;
+        size.guides = std::min<std::uint64_t>(
+            or_else(settings.guides, size.bound_strands), size.bound_strands);
+        size.vertices_per_guide =
+            or_else(settings.vertices, or_else(settings.points_per_strand, kUncountedPoints));
+    }
+    size.root_triangles = 2 * size.guides;  // at most, by Euler's formula of a disc
+    return size;
+}
 
 // ---- Resampling ---------------------------------------------------------------------------------
 

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "hair/groom/groom.h"
+#include "hair/groom/groom_size.h"
 #include "hair/groom/mesh/mesh.h"
 #include "hair/groom/named_files.h"
 #include "hair/settings.h"
@@ -21,6 +22,13 @@ namespace hair::groom {
 Groom buildGroom(
     const GroomSettings& settings, const Mesh* mesh, const std::filesystem::path& directory,
     std::uint32_t seed, const NamedFileCheck& check = {});
+
+// What buildGroom() would make, by the settings and the size of settings.file alone: of grown hair
+// the counts, and of a file what is there if a point takes 12 bytes and a strand has
+// kUncountedPoints where the settings don't say. A file that is compressed may hold more.
+GroomSize expectedSize(const GroomSettings& settings, std::uint64_t file_bytes);
+
+inline constexpr std::uint64_t kUncountedPoints = 16;
 
 // Every strand with `vertices` >= 2 points, evenly spaced by arc length along its polyline, both
 // ends kept to the bit; what its points have is interpolated with them. A strand that has so many

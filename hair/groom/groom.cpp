@@ -2,7 +2,18 @@
 
 #include <algorithm>
 
+#include "hair/groom/groom_size.h"
+
 namespace hair::groom {
+
+GroomSize sizeOf(const Groom& groom) {
+    return {
+        .guides = groom.strand_count,
+        .vertices_per_guide = groom.vertices_per_strand,
+        .root_triangles = groom.root_triangles.size(),
+        .bound_strands = groom.bindings.size(),
+        .bound_points = groom.bound_points.size()};
+}
 
 std::optional<std::uint32_t> commonSize(const StrandSet& strands) {
     if (strands.ends.empty()) return {};

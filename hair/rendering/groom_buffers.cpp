@@ -184,6 +184,28 @@ GroomBuffers::GroomBuffers(
     }
 }
 
+std::uint64_t groomBufferBytes(const Settings& settings, const groom::GroomSize& size) {
+    const StrandSettings& strands = settings.strands;
+    std::uint64_t bytes = size.root_triangles * 3 * sizeof(std::uint32_t);
+    bytes += size.guides * sizeof(glm::vec3);  // normals
+    if (strands.width == WidthSource::groom) bytes += size.vertices() * sizeof(float);
+    if (strands.source == StrandSource::groom) {
+        bytes += size.bound_strands * sizeof(gpu::BoundStrand);
+        bytes += (size.bound_points + 1) * sizeof(glm::uvec2);  // residuals
+        bytes += size.vertices() * (sizeof(glm::vec3) + sizeof(glm::vec4));  // tangents, turns
+    }
+    if (strands.randomness == Randomness::thesis) bytes += strands.density * sizeof(glm::vec2);
+    if (hasOffsets(strands)) {
+        const GrowSettings& grow = settings.groom.grow;
+        const double length =  // m; hair in files is rarely longer
+            settings.groom.file.empty() ? double{grow.length} * (1.0 + grow.length_variation) : 1.0;
+        bytes += offsetBytes(strands, length);
+        bytes += size.guides * sizeof(gpu::RootFrame) + size.vertices() * sizeof(glm::vec3);
+    }
+    if (!settings.simulation.animation.clip.empty()) bytes += size.vertices() * sizeof(glm::vec4);
+    return bytes;
+}
+
 void checkStrands(const StrandSettings& settings, const groom::Groom& groom) {
     if (settings.width == WidthSource::groom && groom.widths.empty())
         throw engine::Error("/strands/width", "is groom, but the groom has no widths");

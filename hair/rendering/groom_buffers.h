@@ -7,6 +7,7 @@
 #include "engine/buffer_image.h"
 #include "engine/device.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/groom_size.h"
 #include "hair/groom/mesh/deforming_mesh.h"
 #include "hair/settings.h"
 
@@ -76,6 +77,9 @@ private:
     engine::Buffer rest_guides_;
     StrandView view_;
 };
+
+// B that GroomBuffers of a groom take at most, and FramesPass for it.
+std::uint64_t groomBufferBytes(const Settings& settings, const groom::GroomSize& size);
 
 // Whether the groom has what the strands are to be drawn with. Throws engine::Error
 // "<JSON pointer>: <reason>".

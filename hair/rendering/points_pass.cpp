@@ -74,6 +74,10 @@ void checkPoints(const StrandPlan& plan) {
             "/strands/backend", "up to " + std::to_string(points) + " points are too many");
 }
 
+std::uint64_t pointsBytes(const StrandSettings& strands, const StrandPlan& plan) {
+    return kPointBytes * plan.strands() * pointsPerStrand(strands, plan);
+}
+
 PointsPass::PointsPass(
     const engine::Device& device, const Settings& settings, const StrandPlan& plan, bool culls)
     : push_{
@@ -90,9 +94,7 @@ PointsPass::PointsPass(
       blocks_(
           plan.triangles *
           divideUp(plan.forced_density, evaluatedBlock(device, settings.strands, plan))),
-      points_(pointsBuffer(
-          device, kPointBytes * push_.strands * pointsPerStrand(settings.strands, plan),
-          "strands' points")),
+      points_(pointsBuffer(device, pointsBytes(settings.strands, plan), "strands' points")),
       pieces_(pointsBuffer(device, sizeof(std::uint32_t) * push_.strands, "strands' pieces")),
       bounds_(pointsBuffer(device, sizeof(gpu::HairBounds), "strands' bounds")),
       evaluate_(device, evaluateStage(device, settings, plan)) {

@@ -17,6 +17,9 @@ namespace hair::rendering {
 // Throws engine::Unsupported for more strands than shaders number.
 void checkPoints(const StrandPlan& plan);
 
+// B that the points of all drawn strands take.
+std::uint64_t pointsBytes(const StrandSettings& strands, const StrandPlan& plan);
+
 // The points of all drawn strands, each evaluated once, for every picture of a frame: the camera's
 // and the lights'. Levels of detail are the camera's in all of them. 16 bytes a point.
 class PointsPass {

@@ -8,6 +8,7 @@
 
 #include "engine/buffer_image.h"
 #include "hair/rendering/lights.h"
+#include "hair/rendering/software_backend.h"
 
 namespace hair::rendering {
 namespace {
@@ -139,6 +140,29 @@ gpu::PictureParameters pictureParameters(
             view.greatest_width_scale > 0.0f ? 1.0f / view.greatest_width_scale : 0.0f,
         .seed = settings.seed,
         .blend = settings.strands.blend};
+}
+
+std::uint64_t rendererBytes(const Settings& settings, const StrandPlan& plan) {
+    constexpr std::uint64_t kWholeBlock = 8;  // strands that are looked at together, at most
+    std::uint64_t bytes = targetBytes(rendered(settings)) + shadowMapBytes(settings);
+    if (!settings.render.hair) return bytes;
+    bytes += transparencyBytes(settings.render);
+    const std::uint64_t strands = plan.strands();
+    const Backend backend = settings.strands.backend;
+    if (readsPoints(settings))
+        bytes += pointsBytes(settings.strands, plan) + sizeof(std::uint32_t) * strands;
+    if (backend == Backend::software)
+        bytes += softwareSizes(
+                     rendered(settings), (strands + kWholeBlock) * plan.segments *
+                                             std::uint64_t{plan.forced_tessellation})
+                     .sum();
+    // Lists of strands: of the camera's picture, and of depth and opacity of lights' maps.
+    const std::uint64_t lists = (backend == Backend::expanded ? 1 : 0) +
+                                (hasHairMaps(settings) && readsPoints(settings) ? 2 : 0);
+    bytes += lists * sizeof(std::uint32_t) * strands;
+    if (!settings.simulation.animation.clip.empty())
+        bytes += strands * (sizeof(glm::vec4) + sizeof(gpu::CarriedRoot));
+    return bytes;
 }
 
 Renderer::Renderer(

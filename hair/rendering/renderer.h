@@ -42,6 +42,10 @@ gpu::PictureParameters pictureParameters(
     const Settings& settings, const StrandPlan& plan, const StrandView& view,
     const PictureBuffers& buffers);
 
+// B of device memory that a Renderer's images and strands take, but for its assets. The settings
+// have the back end that draws them.
+std::uint64_t rendererBytes(const Settings& settings, const StrandPlan& plan);
+
 // Draws pictures of a head of hair: the passes frames (where strands are offset), points (where a
 // back end draws from them), mesh_shadow and hair_shadow (where asked for), scene, strands,
 // composite (where fragments are blended at the end), overlay (where asked for) and resolve (where

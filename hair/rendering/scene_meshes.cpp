@@ -129,6 +129,15 @@ MeshGeometry::MeshGeometry(const engine::Device& device, const groom::Mesh& mesh
     }
 }
 
+std::uint64_t meshBytes(const groom::Mesh& mesh) {
+    std::uint64_t bytes = mesh.positions.size() * 2 * sizeof(glm::vec3) +  // normals, too
+                          mesh.texture_coordinates.size() * sizeof(glm::vec2) +
+                          mesh.triangles.size() * sizeof(mesh.triangles[0]);
+    for (const engine::Pixels& picture : mesh.pictures)
+        bytes += picture.rgba.size() + picture.rgba.size() / 3;  // smaller levels
+    return bytes;
+}
+
 // ---- Materials ----------------------------------------------------------------------------------
 
 MeshMaterials::MeshMaterials(

@@ -43,6 +43,9 @@ struct MeshGeometry {
     std::vector<Part> parts;
 };
 
+// B of a mesh's triangles and pictures on the device.
+std::uint64_t meshBytes(const groom::Mesh& mesh);
+
 // What mesh shaders sample of a material, at the first bindings: base colour, metallic and
 // roughness, normals.
 inline constexpr std::uint32_t kMaterialImages = 3;

@@ -192,17 +192,30 @@ uploadBuffer(const engine::Device& device, std::size_t size, const std::string& 
     return {device, {.size = size, .usage = engine::Usage::upload, .name = name}};
 }
 
-engine::Image atlasImage(
-    const engine::Device& device, const ShadowAtlas* atlas, VkFormat format,
-    VkImageUsageFlags usage, const std::string& name) {
+engine::ImageDescription atlasImage(
+    const ShadowAtlas* atlas, VkFormat format, VkImageUsageFlags usage, const std::string& name) {
     const VkExtent2D extent = atlas ? atlas->extent() : VkExtent2D{1, 1};
     return {
-        device,
-        {.format = format,
-         .width = extent.width,
-         .height = extent.height,
-         .usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT,
-         .name = name}};
+        .format = format,
+        .width = extent.width,
+        .height = extent.height,
+        .usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT,
+        .name = name};
+}
+
+// `atlas` is null where there are no such maps.
+engine::ImageDescription depthOfMeshes(const ShadowAtlas* atlas) {
+    return atlasImage(
+        atlas, engine::Target::kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+        "depth of meshes");
+}
+engine::ImageDescription depthOfHair(const ShadowAtlas* atlas) {
+    return atlasImage(
+        atlas, engine::Target::kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+        "depth of hair");
+}
+engine::ImageDescription opacityOfHair(const ShadowAtlas* atlas) {
+    return atlasImage(atlas, kLayerFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, "opacity of hair");
 }
 
 void toRead(engine::Commands& commands, const engine::Image& image, VkImageLayout from) {
@@ -328,6 +341,25 @@ bool hasHairMaps(const Settings& settings) {
            !mapsOfLights(settings).empty();
 }
 
+std::uint64_t shadowMapBytes(const Settings& settings) {
+    Settings lit = settings;
+    // To hair an environment is further lights; meshes have a map of each, too.
+    if (!settings.render.environment.empty())
+        lit.shading.lights.resize(
+            settings.shading.lights.size() + settings.shading.environment_lights,
+            LightSettings{.type = LightType::directional});
+    const std::vector<MapOfLight> maps = mapsOfLights(lit);
+    if (maps.empty()) return 0;
+    const ShadowAtlas atlas{
+        static_cast<std::uint32_t>(maps.size()), settings.shading.shadows.resolution};
+    std::uint64_t bytes = 0;
+    if (settings.shading.shadows.meshes) bytes += engine::imageBytes(depthOfMeshes(&atlas));
+    if (hasHairMaps(lit))
+        bytes +=
+            engine::imageBytes(depthOfHair(&atlas)) + engine::imageBytes(opacityOfHair(&atlas));
+    return bytes;
+}
+
 void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas) {
     const VkPhysicalDeviceLimits& limits = device.info().limits;
     const std::uint32_t most = std::min(
@@ -352,15 +384,9 @@ ShadowPass::ShadowPass(
       hair_maps_(hasHairMaps(settings) && plan.strands() > 0),
       atlas_(checkedAtlas(
           device, static_cast<std::uint32_t>(maps_.size()), settings.shading.shadows.resolution)),
-      mesh_depths_(atlasImage(
-          device, mesh_maps_ ? &atlas_ : nullptr, engine::Target::kDepthFormat,
-          VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, "depth of meshes")),
-      hair_depths_(atlasImage(
-          device, hair_maps_ ? &atlas_ : nullptr, engine::Target::kDepthFormat,
-          VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, "depth of hair")),
-      hair_layers_(atlasImage(
-          device, hair_maps_ ? &atlas_ : nullptr, kLayerFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
-          "opacity of hair")),
+      mesh_depths_(device, depthOfMeshes(mesh_maps_ ? &atlas_ : nullptr)),
+      hair_depths_(device, depthOfHair(hair_maps_ ? &atlas_ : nullptr)),
+      hair_layers_(device, opacityOfHair(hair_maps_ ? &atlas_ : nullptr)),
       sampler_(device, {.filter = VK_FILTER_NEAREST}),
       images_{{&mesh_depths_, &sampler_}, {&hair_depths_, &sampler_}, {&hair_layers_, &sampler_}},
       mesh_color_(meanColor(settings, assets)), written_(maps_.size() * kPictureStride) {

@@ -78,6 +78,9 @@ LightSettings lightSample(const LightSettings& light, const glm::vec3& seen, std
 // Whether there are maps of hair.
 bool hasHairMaps(const Settings& settings);
 
+// B of all lights' maps, those of an environment's lights among them.
+std::uint64_t shadowMapBytes(const Settings& settings);
+
 // Throws engine::Unsupported where the device has no such images.
 void checkAtlas(const engine::Device& device, const ShadowAtlas& atlas);
 

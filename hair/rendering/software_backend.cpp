@@ -30,14 +30,8 @@ std::uint32_t checkedSamples(const engine::Device& device, std::uint32_t samples
     return samples;
 }
 
-std::size_t sampleCount(const engine::Target& target) {
-    const VkExtent2D extent = target.color().extent();
-    return std::size_t{extent.width} * extent.height * target.description().msaa;
-}
-
-std::size_t tileCount(const engine::Target& target) {
-    const VkExtent2D extent = target.color().extent();
-    return std::size_t{divideUp(extent.width, gpu::kTile)} * divideUp(extent.height, gpu::kTile);
+std::size_t sampleCount(const engine::TargetDescription& target) {
+    return std::size_t{target.width} * target.ssaa * target.height * target.ssaa * target.msaa;
 }
 
 engine::Buffer
@@ -87,8 +81,8 @@ engine::Constants softwareConstants(const BackendContext& context, std::uint32_t
 // The points as texels, for stages that have the variant: those with 64-bit atomics. Null where
 // points or samples are too many for the device to fetch so.
 const engine::TexelView* texelsOf(const BackendContext& context) {
-    const bool fits =
-        sampleCount(*context.target) <= context.device.info().limits.maxTexelBufferElements;
+    const std::size_t samples = sampleCount(context.target->description());
+    const bool fits = samples <= context.device.info().limits.maxTexelBufferElements;
     return fits && isPacked(context.device) ? context.points->texels() : nullptr;
 }
 
@@ -144,22 +138,40 @@ engine::GraphicsDescription showStage(const BackendContext& context) {
 
 }  // namespace
 
+SoftwareSizes softwareSizes(const engine::TargetDescription& target, std::uint64_t pieces) {
+    const std::size_t samples = kSampleBytes * sampleCount(target);
+    const std::size_t tiles = std::size_t{divideUp(target.width * target.ssaa, gpu::kTile)} *
+                              divideUp(target.height * target.ssaa, gpu::kTile);
+    return {
+        .samples = samples,
+        .colors = target.color_format == engine::Target::kOutputFormat ? 0 : samples,
+        .list = sizeof(std::uint32_t) * pieces,
+        .large = sizeof(std::uint32_t) * gpu::kMostLargePieces,
+        .tiles = sizeof(std::uint32_t) * tiles,
+        .windows = kSampleBytes * tiles};
+}
+
 SoftwareBackend::SoftwareBackend(const BackendContext& context)
+    : SoftwareBackend(
+          context,
+          softwareSizes(
+              context.target->description(),
+              std::uint64_t{divideUp(context.points->strandCount(), foundBlock(context))} *
+                  foundBlock(context) * context.plan.segments * context.plan.forced_tessellation)) {
+}
+
+SoftwareBackend::SoftwareBackend(const BackendContext& context, const SoftwareSizes& sizes)
     : target_(*context.target), points_(*context.points),
       samples_per_pixel_(checkedSamples(context.device, context.output.samples)),
       block_(foundBlock(context)), blocks_(divideUp(points_.strandCount(), block_)),
       pieces_per_strand_(context.plan.segments * context.plan.forced_tessellation),
       is_packed_(isPacked(context.device)), texels_(texelsOf(context)),
-      samples_(softwareBuffer(context.device, kSampleBytes * sampleCount(target_), "samples")),
+      samples_(softwareBuffer(context.device, sizes.samples, "samples")),
       counts_(softwareBuffer(context.device, sizeof(gpu::PieceCounts), "counts")),
-      list_(softwareBuffer(
-          context.device, sizeof(std::uint32_t) * blocks_ * block_ * pieces_per_strand_, "list")),
-      large_(softwareBuffer(
-          context.device, sizeof(std::uint32_t) * gpu::kMostLargePieces, "large pieces")),
-      tiles_(softwareBuffer(
-          context.device, sizeof(std::uint32_t) * tileCount(target_), "depths of tiles")),
-      windows_(
-          softwareBuffer(context.device, kSampleBytes * tileCount(target_), "depths of windows")),
+      list_(softwareBuffer(context.device, sizes.list, "list")),
+      large_(softwareBuffer(context.device, sizes.large, "large pieces")),
+      tiles_(softwareBuffer(context.device, sizes.tiles, "depths of tiles")),
+      windows_(softwareBuffer(context.device, sizes.windows, "depths of windows")),
       clear_(context.device, clearStage(context)),
       find_tiles_(context.device, texelStage(context, "tiles", 1)),
       find_windows_(context.device, texelStage(context, "windows", 1)),
@@ -171,8 +183,7 @@ SoftwareBackend::SoftwareBackend(const BackendContext& context)
               ? divideUp(target_.color().extent().width, pixelGroup(context.device))
               : 1),
       shade_(context.device, shadeStage(context)), show_(context.device, showStage(context)) {
-    if (target_.hasRadiance())
-        colors_ = softwareBuffer(context.device, kSampleBytes * sampleCount(target_), "colors");
+    if (sizes.colors > 0) colors_ = softwareBuffer(context.device, sizes.colors, "colors");
     if (!texels_) return;
     sample_texels_ = {context.device, samples_, VK_FORMAT_R32G32_UINT};
     tile_texels_ = {context.device, tiles_, VK_FORMAT_R32_UINT};

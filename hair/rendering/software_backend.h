@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -8,11 +9,27 @@
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "engine/pipeline.h"
+#include "engine/target.h"
 #include "hair/gpu_structs.h"
 #include "hair/rendering/backends.h"
 #include "hair/rendering/points_pass.h"
 
 namespace hair::rendering {
+
+// Bytes of what `software` keeps for each sample, pixel and piece of strand.
+struct SoftwareSizes {
+    std::size_t samples = 0;
+    std::size_t colors = 0;  // 0 without linear light
+    std::size_t list = 0;
+    std::size_t large = 0;
+    std::size_t tiles = 0;
+    std::size_t windows = 0;
+
+    std::size_t sum() const { return samples + colors + list + large + tiles + windows; }
+};
+
+// `pieces`: of all strands that a dispatch looks at, whole blocks of them.
+SoftwareSizes softwareSizes(const engine::TargetDescription& target, std::uint64_t pieces);
 
 // Strands rasterised in compute, opaque, from their points. Pieces of strands leave their number
 // and depth at the samples that they cover, by atomic minima; each sample that shows a strand is
@@ -40,6 +57,8 @@ public:
     std::optional<ExpectedCounts> expected() const override { return std::nullopt; }
 
 private:
+    SoftwareBackend(const BackendContext& context, const SoftwareSizes& sizes);
+
     // What every stage knows; it adds the addresses of what it touches, and no others.
     gpu::SoftwarePush push(const StrandPicture& picture) const;
     void clear(engine::Commands& commands, const StrandPicture& picture) const;

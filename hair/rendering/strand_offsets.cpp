@@ -184,6 +184,9 @@ std::uint32_t intervalsFor(
     return static_cast<std::uint32_t>(std::ceil(count * intervals_each));
 }
 
+// What starts slowly has to be seen starting slowly.
+constexpr std::uint32_t kLeastIntervals = 32;
+
 std::uint32_t samplesFor(
     const StrandSettings& settings, double length, const std::optional<groom::StrandSet>& model) {
     std::uint32_t intervals = model ? model->size(0) - 1 : 1;
@@ -199,8 +202,6 @@ std::uint32_t samplesFor(
                            settings.variation.frequency * length, kSamplesPerChange,
                            "/strands/variation/frequency", "changes of direction"));
     }
-    // What starts slowly has to be seen starting slowly.
-    constexpr std::uint32_t kLeastIntervals = 32;
     return std::clamp(intervals + 1, kLeastIntervals + 1, StrandOffsets::kMostSamples);
 }
 
@@ -266,6 +267,24 @@ void FramesPass::record(engine::Commands& commands, const StrandView& view) cons
 
 bool hasOffsets(const StrandSettings& settings) {
     return curls(settings) || varies(settings) || !settings.offsets.empty();
+}
+
+std::uint64_t offsetBytes(const StrandSettings& settings, double length) {
+    constexpr double kModelIntervals = 63.0;
+    double intervals = settings.offsets.empty() ? 1.0 : kModelIntervals;
+    if (curls(settings)) {
+        const double turns =
+            settings.curl.frequency * (1.0 + settings.curl.frequency_variation) * length;
+        intervals = std::max(intervals, turns * kSamplesPerTurn);
+    }
+    if (varies(settings))
+        intervals = std::max(intervals, settings.variation.frequency * length * kSamplesPerChange);
+    const auto samples = static_cast<std::uint32_t>(std::clamp(
+        std::ceil(intervals) + 1.0, kLeastIntervals + 1.0, double{StrandOffsets::kMostSamples}));
+    const std::uint32_t profiles =
+        settings.offsets.empty() ? StrandOffsets::kProfiles : StrandOffsets::kMostProfiles;
+    return std::uint64_t{std::min(profiles, kMostValues / samples)} * (samples + 2) *
+           sizeof(glm::vec3);
 }
 
 StrandOffsets makeStrandOffsets(

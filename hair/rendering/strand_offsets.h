@@ -70,6 +70,10 @@ struct StrandOffsets {
 // Whether strands are drawn off their smooth shape at all.
 bool hasOffsets(const StrandSettings& settings);
 
+// B of a table of offsets for guides of a mean length, m, where a model has kMostProfiles strands
+// of 64 points: for who does not know the groom yet.
+std::uint64_t offsetBytes(const StrandSettings& settings, double length);
+
 // Curls, variation and the offsets of `model`, added up. Frequencies are per metre of the guides'
 // mean length at rest, which stands for the length of every strand, and the model's offsets grow
 // with it. `model` is what settings.offsets names, null if that is empty; up to kMostProfiles of

@@ -135,15 +135,22 @@ std::unique_ptr<StrandBlend> makeDiscardedBlend() { return std::make_unique<Disc
 // 4 GiB of nodes: what 32-bit offsets reach.
 constexpr std::uint64_t kMostNodes = (std::uint64_t{1} << 32u) / sizeof(gpu::FragmentNode);
 
-std::uint32_t pixelCount(const engine::Target& target) {
-    const VkExtent2D extent = target.color().extent();
-    return extent.width * extent.height;
+// That are rendered.
+std::uint64_t pixelCount(const RenderSettings& render) {
+    return std::uint64_t{render.width} * render.ssaa * render.height * render.ssaa;
+}
+
+// What lists of fragments have for each pixel, and how many fragments they have room for.
+std::uint64_t headBytes(const RenderSettings& render) {
+    return sizeof(std::uint32_t) * pixelCount(render);
+}
+std::uint64_t nodeCount(const RenderSettings& render) {
+    return render.list_length * pixelCount(render);
 }
 
 std::uint32_t capacity(const BlendContext& context) {
     context.device.require(engine::Feature::fragment_stores, "/render/transparency: fragment_list");
-    const std::uint64_t nodes =
-        std::uint64_t{context.settings.render.list_length} * pixelCount(context.target);
+    const std::uint64_t nodes = nodeCount(context.settings.render);
     if (nodes > kMostNodes) {
         throw engine::Unsupported(
             "fragment_list", std::to_string(nodes) + " fragments do not fit 4 GiB");
@@ -160,8 +167,7 @@ public:
     explicit ListBlend(const BlendContext& context)
         : device_(context.device), samples_(context.settings.render.msaa),
           capacity_(capacity(context)),
-          heads_(storage(
-              device_, sizeof(std::uint32_t) * pixelCount(context.target), "fragment heads")),
+          heads_(storage(device_, headBytes(context.settings.render), "fragment heads")),
           nodes_(storage(device_, sizeof(gpu::FragmentNode) * capacity_, "fragment nodes")),
           counter_(storage(device_, sizeof(std::uint32_t), "fragment counter")),
           lists_(engine::makeBuffer(
@@ -250,6 +256,10 @@ constexpr VkFormat kSumFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat kRevealedFormat = VK_FORMAT_R16_SFLOAT;
 constexpr std::uint64_t kBytesPerSample = 8 + 2;
 
+std::uint64_t weightedBytes(const RenderSettings& render) {
+    return kBytesPerSample * render.msaa * pixelCount(render);
+}
+
 engine::Image sumImage(const BlendContext& context, VkFormat format, const char* name) {
     const VkExtent2D extent = context.target.color().extent();
     return {
@@ -278,7 +288,7 @@ const engine::Device& checked(const engine::Device& device) {
 class WeightedBlend : public StrandBlend {
 public:
     explicit WeightedBlend(const BlendContext& context)
-        : samples_(context.settings.render.msaa),
+        : samples_(context.settings.render.msaa), bytes_(weightedBytes(context.settings.render)),
           range_(engine::makeBuffer(
               checked(context.device),
               std::span<const gpu::BlendRange>(
@@ -311,9 +321,7 @@ public:
 
     std::uint64_t fragments() const override { return range_.address(); }
 
-    std::uint64_t bytes() const override {
-        return kBytesPerSample * samples_ * sum_.extent().width * sum_.extent().height;
-    }
+    std::uint64_t bytes() const override { return bytes_; }
 
 private:
     void sumUp(
@@ -356,6 +364,7 @@ private:
     }
 
     std::uint32_t samples_;
+    std::uint64_t bytes_;
     engine::Buffer range_;  // gpu::BlendRange
     engine::Image sum_;
     engine::Image revealed_;
@@ -417,6 +426,17 @@ std::uint32_t environmentCode(const Settings& settings) {
 }
 
 }  // namespace
+
+std::uint64_t transparencyBytes(const RenderSettings& render) {
+    switch (render.transparency) {
+    case Transparency::fragment_list:
+        return headBytes(render) + sizeof(gpu::FragmentNode) * nodeCount(render);
+    case Transparency::weighted_blended:
+        return weightedBytes(render);
+    default:
+        return 0;
+    }
+}
 
 engine::Constants shadingConstants(const Settings& settings) {
     const ShadingSettings& shading = settings.shading;

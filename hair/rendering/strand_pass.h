@@ -61,6 +61,9 @@ public:
     virtual std::optional<ListedFragments> listed() const { return std::nullopt; }
 };
 
+// B of what transparency takes beside a picture's target.
+std::uint64_t transparencyBytes(const RenderSettings& render);
+
 // The specialization constants of shaders/shading/options.glsl.
 engine::Constants shadingConstants(const Settings& settings);
 

@@ -216,6 +216,12 @@ fieldsOf(const SimulationSettings& settings, const std::vector<DistanceField>& f
 
 }  // namespace
 
+std::uint64_t fieldBytes(std::uint32_t resolution) {
+    // Points, and a cell of padding on either side.
+    const std::uint64_t side = std::uint64_t{resolution} + 3;
+    return side * side * side * sizeof(float);
+}
+
 DistanceField::DistanceField(
     const engine::Device& device, const groom::BodyMesh& mesh, std::uint32_t resolution,
     float padding)

@@ -61,6 +61,9 @@ private:
     std::string warning_;
 };
 
+// B of a DistanceField at most, of a mesh that is as wide and as deep as high.
+std::uint64_t fieldBytes(std::uint32_t resolution);
+
 // What hair collides with, on the device: capsules and distance fields.
 class Bodies {
 public:

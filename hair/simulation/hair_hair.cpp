@@ -121,6 +121,10 @@ std::size_t cellCount(const SimulationSettings& settings) {
     return cellCount(settings.hair_hair.resolution);
 }
 
+std::size_t sumBytes(const SimulationSettings& settings) {
+    return cellCount(settings) * 4 * sizeof(std::int32_t);
+}
+
 std::size_t blockCount(const SimulationSettings& settings) {
     return cellCount(((settings.hair_hair.resolution - 1) >> gpu::kVolumeBlockBits) + 1);
 }
@@ -188,6 +192,11 @@ double meanRestDensity(const groom::Groom& groom, const VolumeGrid& grid) {
     return sum / gpu::kVolumeGrids;
 }
 
+std::uint64_t hairHairBytes(const groom::GroomSize& size, const SimulationSettings& settings) {
+    return size.vertices() * (sizeof(float) + sizeof(gpu::VolumeSample) + sizeof(glm::vec4)) +
+           sumBytes(settings) + blockCount(settings) * sizeof(gpu::VolumeBlock);
+}
+
 HairHair::HairHair(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const gpu::Step& step)
@@ -196,8 +205,7 @@ HairHair::HairHair(
           device, std::span<const float>(toFloat(lengthShares(groom))), "volume shares")),
       samples_(
           device, {.size = vertex_count_ * sizeof(gpu::VolumeSample), .name = "volume samples"}),
-      sums_(
-          device, {.size = cellCount(settings) * 4 * sizeof(std::int32_t), .name = "volume sums"}),
+      sums_(device, {.size = sumBytes(settings), .name = "volume sums"}),
       blocks_(
           device,
           {.size = blockCount(settings) * sizeof(gpu::VolumeBlock), .name = "volume blocks"}),

@@ -10,6 +10,7 @@
 #include "engine/pipeline.h"
 #include "hair/gpu_structs.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/groom_size.h"
 #include "hair/settings.h"
 #include "hair/simulation/guide_view.h"
 #include "hair/simulation/head_motion.h"
@@ -32,6 +33,9 @@ std::vector<double> lengthShares(const groom::Groom& groom);
 
 // Mean over the groom's length and both grids of the density at rest, shares per cell.
 double meanRestDensity(const groom::Groom& groom, const VolumeGrid& grid);
+
+// B of device memory that HairHair takes.
+std::uint64_t hairHairBytes(const groom::GroomSize& size, const SimulationSettings& settings);
 
 // Contact of hair with hair as between parts of a fluid, on grids that move with the head
 // (Petrovic, Henne and Anderson 2005, Volumetric methods for simulation and rendering of hair).

@@ -83,6 +83,25 @@ std::uint32_t FixedStep::stepsFor(double frame_time) {
 
 // ---- Guides on the device -----------------------------------------------------------------------
 
+std::uint64_t simulationBytes(
+    const engine::DeviceInfo& device, const groom::GroomSize& size,
+    const SimulationSettings& settings) {
+    // At rest, two copies of positions and of previous ones, accelerations.
+    constexpr std::uint64_t kGuideVectors = 6;
+    constexpr std::uint64_t kSettledVectors = 2;  // positions and previous ones
+    const std::uint64_t vectors = sizeof(glm::vec4) * size.vertices();
+    const SolverSizes solver = solverSizes(device, size, settings);
+    std::uint64_t bytes = (kGuideVectors + kSettledVectors) * vectors + solver.all + solver.state;
+    if (settings.wind.mode == WindMode::drag) bytes += vectors;  // the air
+    if (settings.collision.parts != CollisionParts::vertices) bytes += vectors;  // starts
+    if (hairActsOnHair(settings)) bytes += hairHairBytes(size, settings) + vectors;  // and settled
+    if (hasSkinnedRoots(settings))
+        bytes += (stepOf(settings).count + 1) * size.guides * sizeof(gpu::RigidFrame);
+    for (const DistanceFieldSettings& field : settings.distance_fields)
+        bytes += fieldBytes(field.resolution);
+    return bytes;
+}
+
 Simulation::Simulation(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     std::uint32_t seed, std::span<const groom::Mesh> field_meshes, const MadeBefore& made,

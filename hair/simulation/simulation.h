@@ -14,6 +14,7 @@
 #include "engine/buffer_image.h"
 #include "engine/commands.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/groom_size.h"
 #include "hair/groom/mesh/deforming_mesh.h"
 #include "hair/groom/mesh/mesh.h"
 #include "hair/settings.h"
@@ -63,6 +64,11 @@ struct MadeBefore {
     std::span<const BakedField* const> fields{};  // [distance field], null: not there; or empty
     const SettledState* settled = nullptr;  // null: not there
 };
+
+// B of device memory that a Simulation takes, its distance fields as fieldBytes() has them.
+std::uint64_t simulationBytes(
+    const engine::DeviceInfo& device, const groom::GroomSize& size,
+    const SimulationSettings& settings);
 
 // The guides on the device and the compute passes that move them. A time step is recordWind,
 // recordVolume where hasVolume, recordPulls where hasPulls, then recordStep. Simulated time is the

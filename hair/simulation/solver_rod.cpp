@@ -160,26 +160,32 @@ static_assert(offsetof(gpu::RodParameters, damping) == 64);
 // free in it: then the same case has the same dispatches every time.
 constexpr std::uint64_t kScratchShare = 16;
 
-std::size_t scratchOfStrand(const groom::Groom& groom, std::uint32_t rows) {
-    return sizeof(glm::vec4) * rows * groom.vertices_per_strand;
+std::uint64_t scratchOfStrand(const groom::GroomSize& size, std::uint32_t rows) {
+    return sizeof(glm::vec4) * rows * size.vertices_per_guide;
 }
 
 // Strands in a dispatch: all of them, or whole groups whose scratch memory fits, at least one.
-std::uint32_t
-strandsInDispatch(const engine::DeviceInfo& device, const groom::Groom& groom, std::uint32_t rows) {
+std::uint32_t strandsInDispatch(
+    const engine::DeviceInfo& device, const groom::GroomSize& size, std::uint32_t rows) {
     const std::uint64_t scratch = std::min<std::uint64_t>(
         device.limits.maxStorageBufferRange, device.local_bytes / kScratchShare);
-    const std::uint64_t groups = scratch / (gpu::kRodGroupSize * scratchOfStrand(groom, rows));
+    const std::uint64_t groups = scratch / (gpu::kRodGroupSize * scratchOfStrand(size, rows));
     const std::uint64_t most = gpu::kRodGroupSize * std::max<std::uint64_t>(groups, 1);
-    return static_cast<std::uint32_t>(std::min<std::uint64_t>(most, groom.strand_count));
+    return static_cast<std::uint32_t>(std::min(most, size.guides));
+}
+
+std::uint64_t motionBytes(const groom::GroomSize& size) {
+    return sizeof(glm::vec4) * gpu::kRodMotionRows * size.vertices();
+}
+std::uint64_t accelerationBytes(const groom::GroomSize& size) {
+    return sizeof(glm::vec4) * gpu::kRodAccelerationRows * size.vertices();
 }
 
 std::optional<engine::Buffer>
 accelerationsOf(const engine::Device& device, const groom::Groom& groom, RodIntegrator integrator) {
     if (integrator == RodIntegrator::implicit_euler) return {};
     return engine::Buffer(
-        device, {.size = sizeof(glm::vec4) * gpu::kRodAccelerationRows * groom.points.size(),
-                 .name = "rod accelerations"});
+        device, {.size = accelerationBytes(sizeOf(groom)), .name = "rod accelerations"});
 }
 
 // How `rod` keeps segments out of bodies.
@@ -189,6 +195,17 @@ std::uint32_t segmentsOf(const SimulationSettings& settings) {
 }
 
 }  // namespace
+
+SolverSizes
+rodSizes(const engine::DeviceInfo& device, const groom::GroomSize& size, const RodMethod& method) {
+    SolverSizes sizes{.all = 0, .state = motionBytes(size)};
+    if (method.integrator != RodIntegrator::implicit_euler) sizes.state += accelerationBytes(size);
+    sizes.all = sizes.state + sizeof(glm::vec4) * gpu::kRodSegmentRows * size.vertices() +
+                sizeof(float) * size.guides +
+                scratchOfStrand(size, method.scratch_rows) *
+                    strandsInDispatch(device, size, method.scratch_rows);
+    return sizes;
+}
 
 RodMethod rodMethod(const SimulationSettings& settings) {
     return {
@@ -242,16 +259,14 @@ RodSolver::RodSolver(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const gpu::Step& step, const RodMethod& method, const RodRest& rest)
     : balance_(rest.balance), strand_count_(groom.strand_count),
-      most_strands_(strandsInDispatch(device.info(), groom, method.scratch_rows)),
+      most_strands_(strandsInDispatch(device.info(), sizeOf(groom), method.scratch_rows)),
       segments_(
           engine::makeBuffer(device, std::span<const glm::vec4>(rest.segments), "rod segments")),
       units_(engine::makeBuffer(device, std::span<const float>(rest.units), "rod units")),
-      motion_(
-          device, {.size = sizeof(glm::vec4) * gpu::kRodMotionRows * groom.points.size(),
-                   .name = "rod motion"}),
+      motion_(device, {.size = motionBytes(sizeOf(groom)), .name = "rod motion"}),
       accelerations_(accelerationsOf(device, groom, method.integrator)),
       scratch_(
-          device, {.size = scratchOfStrand(groom, method.scratch_rows) * most_strands_,
+          device, {.size = scratchOfStrand(sizeOf(groom), method.scratch_rows) * most_strands_,
                    .name = "rod scratch"}),
       parameters_(engine::makeBuffer(
           device,

@@ -37,6 +37,10 @@ RodMethod positionBasedMethod(const SimulationSettings& settings);
 // edges.
 RodMethod augmentedMassSpringMethod(const SimulationSettings& settings);
 
+// B of device memory that RodSolver keeps for guides.
+SolverSizes
+rodSizes(const engine::DeviceInfo& device, const groom::GroomSize& size, const RodMethod& method);
+
 // Elastic rods of /simulation/material by one of those methods. Positions are output alone; the
 // state is in orientations, velocities and edges. Strands work in units of their own and positions
 // are sums of edges, so that 32 bits are enough. The first segment leaves the follicle as it does

@@ -277,6 +277,11 @@ engine::ComputePipeline pipelineOf(const engine::Device& device, const ShapePlan
 
 }  // namespace
 
+// Goals, edges and stiffness.
+std::uint64_t shapeBytes(const groom::GroomSize& size) {
+    return size.vertices() * (2 * sizeof(glm::vec4) + sizeof(float));
+}
+
 ShapeSolver::ShapeSolver(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const gpu::Step& step)

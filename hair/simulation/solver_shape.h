@@ -23,6 +23,9 @@ struct ShapePlan {
     std::uint32_t strands_per_group = 0;
 };
 
+// B of device memory that ShapeSolver keeps for guides.
+std::uint64_t shapeBytes(const groom::GroomSize& size);
+
 // The thesis's solver: Verlet, then global, local (Han and Harada 2012) and length constraints
 // (thesis section 3), lengths by direct solves unless its iterations are asked for.
 class ShapeSolver : public GuideSolver {

@@ -45,7 +45,25 @@ struct Row {
     double longest_substep;  // of its own choice, s
     std::unique_ptr<GuideSolver> (*make)(
         const engine::Device&, const groom::Groom&, const SimulationSettings&, const gpu::Step&);
+    SolverSizes (*sizes)(
+        const engine::DeviceInfo&, const groom::GroomSize&, const SimulationSettings&);
 };
+
+SolverSizes noSizes(const engine::DeviceInfo&, const groom::GroomSize&, const SimulationSettings&) {
+    return {};
+}
+
+SolverSizes
+sizesOfShapes(const engine::DeviceInfo&, const groom::GroomSize& size, const SimulationSettings&) {
+    return {.all = shapeBytes(size), .state = 0};
+}
+
+template <RodMethod (*kMethod)(const SimulationSettings&)>
+SolverSizes sizesOfRods(
+    const engine::DeviceInfo& device, const groom::GroomSize& size,
+    const SimulationSettings& settings) {
+    return rodSizes(device, size, kMethod(settings));
+}
 
 template <class Made>
 std::unique_ptr<GuideSolver> make(
@@ -71,13 +89,16 @@ std::unique_ptr<GuideSolver> makeRods(
 constexpr double kWholeStep = std::numeric_limits<double>::infinity();  // however long
 
 constexpr Row kSolvers[] = {
-    {Solver::none, kWholeStep, makeNone},
-    {Solver::shape, kWholeStep, make<ShapeSolver>},
-    {Solver::ftl, kWholeStep, make<FtlSolver>},
-    {Solver::rod, 1.0 / 480.0, makeRods<rodMethod>},
-    {Solver::stable_cosserat, 1.0 / 960.0, makeRods<stableCosseratMethod>},
-    {Solver::position_based_rod, 1.0 / 1920.0, makeRods<positionBasedMethod>},
-    {Solver::augmented_mass_spring, 1.0 / 480.0, makeRods<augmentedMassSpringMethod>},
+    {Solver::none, kWholeStep, makeNone, noSizes},
+    {Solver::shape, kWholeStep, make<ShapeSolver>, sizesOfShapes},
+    {Solver::ftl, kWholeStep, make<FtlSolver>, noSizes},
+    {Solver::rod, 1.0 / 480.0, makeRods<rodMethod>, sizesOfRods<rodMethod>},
+    {Solver::stable_cosserat, 1.0 / 960.0, makeRods<stableCosseratMethod>,
+     sizesOfRods<stableCosseratMethod>},
+    {Solver::position_based_rod, 1.0 / 1920.0, makeRods<positionBasedMethod>,
+     sizesOfRods<positionBasedMethod>},
+    {Solver::augmented_mass_spring, 1.0 / 480.0, makeRods<augmentedMassSpringMethod>,
+     sizesOfRods<augmentedMassSpringMethod>},
 };
 
 const Row& rowOf(Solver solver) {
@@ -99,6 +120,12 @@ std::unique_ptr<GuideSolver> makeSolver(
     const engine::Device& device, const groom::Groom& groom, const SimulationSettings& settings,
     const gpu::Step& step) {
     return rowOf(settings.solver).make(device, groom, settings, step);
+}
+
+SolverSizes solverSizes(
+    const engine::DeviceInfo& device, const groom::GroomSize& size,
+    const SimulationSettings& settings) {
+    return rowOf(settings.solver).sizes(device, size, settings);
 }
 
 gpu::Step stepOf(const SimulationSettings& settings) {

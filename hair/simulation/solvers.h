@@ -10,6 +10,7 @@
 #include "engine/commands.h"
 #include "hair/gpu_structs.h"
 #include "hair/groom/groom.h"
+#include "hair/groom/groom_size.h"
 #include "hair/settings.h"
 
 // The solvers: what moves guides, and the table of them.
@@ -65,6 +66,16 @@ public:
 inline bool hasSkinnedRoots(const SimulationSettings& settings) {
     return !settings.animation.clip.empty();
 }
+
+// B of device memory that a solver keeps for guides.
+struct SolverSizes {
+    std::uint64_t all = 0;
+    std::uint64_t state = 0;  // of these, what state() gives
+};
+
+SolverSizes solverSizes(
+    const engine::DeviceInfo& device, const groom::GroomSize& size,
+    const SimulationSettings& settings);
 
 // The settings' solver; null where nothing moves: `none` without keyframes or animation. Throws
 // Unsupported for what the device can't do.

@@ -26,7 +26,7 @@ scene::Json written() { return scene::Json::parse(writtenText(sampleReport())); 
 
 TEST(Report, KeepsTheContractsNames) {
     const scene::Json report = written();
-    EXPECT_EQ(report["schema"], "hairbench-report/1.4.0");
+    EXPECT_EQ(report["schema"], "hairbench-report/1.5.0");
     EXPECT_EQ(
         report["environment"]["device"].dump(),
         R"({"name":"Soft","type":"cpu","driver":"llvmpipe","driver_version":"22.3.6",)"
@@ -56,6 +56,8 @@ TEST(Report, KeepsTheContractsNames) {
     EXPECT_EQ(result["counts"].dump(), R"({"guides":86,"strands":8704})");
     EXPECT_EQ(result["backend"].dump(), R"({"name":"tessellation","reason":"the scene names it"})");
     EXPECT_FALSE(report["cases"][1].contains("backend"));
+    EXPECT_EQ(result["memory_need"].dump(), R"({"device":2097152,"host":134217728})");
+    EXPECT_FALSE(report["cases"][1].contains("memory_need"));
     EXPECT_EQ(
         result["start"].dump(),
         R"({"from":"relaxed","rest":"balanced","stretch":{"guide":4,"guides":2,"value":1.25},)"

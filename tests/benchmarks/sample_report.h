@@ -43,6 +43,7 @@ inline report::Report sampleReport() {
          .axes =
              {{"/strands/density", scene::Document(64)},
               {"/strands/backend", scene::Document("tessellation")}},
+         .memory_need = report::MemoryNeed{.device = 2097152, .host = 134217728},
          .backend = {.name = "tessellation", .reason = "the scene names it"},
          .start =
              report::StartRecord{

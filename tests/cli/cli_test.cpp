@@ -137,6 +137,25 @@ TEST(Cli, DryRunEstimatesAndWritesNothing) {
     EXPECT_FALSE(fs::exists(out));
 }
 
+TEST(Cli, SkipsCasesThatNeedMoreMemoryThanTheyMayTake) {
+    if (!hasDevice()) return skipWithout(Need::device, "no Vulkan device");
+    const TemporaryFolder folder;
+    const std::string smoke = "run " + shippedScene("smoke.json");
+    const Outcome estimated = hairbench(smoke + " --dry-run --max-memory 1M");
+    EXPECT_EQ(estimated.status, 0);
+    EXPECT_THAT(
+        estimated.output,
+        testing::ContainsRegex("smoke/msaa:4 +about [0-9.]+ MB .*needs about [0-9.]+ [MG]iB of "
+                               "[a-z ]*memory; 1.0 MiB are free .--max-memory."));
+    const Outcome run =
+        hairbench(smoke + " --max-memory 1M -o '" + folder.file("r.json").string() + "'");
+    EXPECT_EQ(run.status, 14);
+    EXPECT_THAT(run.output, HasSubstr("skipped: needs about "));
+    const Outcome wrong = hairbench(smoke + " --max-memory lots");
+    EXPECT_EQ(wrong.status, 2);
+    EXPECT_THAT(wrong.output, HasSubstr("'lots' is no size, as 500M and 2G are"));
+}
+
 TEST(Cli, SetsFieldsWithoutNamingCasesAfterThem) {
     const Outcome outcome =
         hairbench("run " + shippedScene("smoke.json") + " --set /strands/density=8 --list");

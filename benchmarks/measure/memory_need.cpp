@@ -1,0 +1,366 @@
+#include "benchmarks/measure/memory_need.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "benchmarks/measure/hair_cache.h"
+#include "engine/error.h"
+#include "engine/frame_loop.h"
+#include "hair/groom/build_groom.h"
+#include "hair/groom/groom.h"
+#include "hair/rendering/backend_choice.h"
+#include "hair/rendering/groom_buffers.h"
+#include "hair/rendering/renderer.h"
+#include "hair/rendering/scene_meshes.h"
+#include "hair/rendering/strand_plan.h"
+#include "hair/simulation/simulation.h"
+
+namespace benchmarks::measure {
+namespace {
+
+namespace fs = std::filesystem;
+
+// ---- What files hold ----------------------------------------------------------------------------
+
+// Vertices and triangles take no more on a device than in a file, and a picture in it, as PNG or
+// JPEG, up to eight times as much.
+constexpr std::uint64_t kMeshGrowth = 8;
+// B while a distance field of it is baked: its part of the tree, its corners and normals.
+constexpr std::uint64_t kBakedTriangle = 160;
+// Pictures of few colours.
+constexpr std::uint64_t kPictureGrowth = 32;
+constexpr std::uint64_t kEnvironmentGrowth = 16;
+
+// 0 where there is no such file: what is missing is said by who reads it.
+std::uint64_t fileBytes(const fs::path& directory, const std::string& name) {
+    if (name.empty()) return 0;
+    const auto size = [](const fs::path& path) -> std::uint64_t {
+        std::error_code none;
+        const std::uintmax_t bytes = fs::file_size(path, none);
+        return none ? 0 : bytes;
+    };
+    const fs::path path = directory / name;
+    if (path.extension() != ".gltf") return size(path);
+    return size(path) + size(fs::path(path).replace_extension(".bin"));
+}
+
+// The mesh that hair grows on.
+const std::string& grownOn(const hair::Settings& settings) {
+    const hair::GroomSettings& groom = settings.groom;
+    return groom.file.empty() ? groom.grow.mesh : groom.mesh;
+}
+
+// ---- The parts of a case ------------------------------------------------------------------------
+
+// Buffers of parameters and tables, and what drivers make of images' and buffers' sizes.
+constexpr std::uint64_t kSmallBuffers = std::uint64_t{512} << 10;
+constexpr double kPadding = 1.1;
+
+// The program, its libraries and pipelines; a software device compiles shaders itself.
+constexpr std::uint64_t kProgram = std::uint64_t{128} << 20;
+constexpr std::uint64_t kSoftwareDevice = std::uint64_t{192} << 20;
+
+// B of the host's memory: a case's and the cache's copies, what they are made of and from, and what
+// is uploaded.
+constexpr std::uint64_t kHostVertex = 96;  // of a guide
+constexpr std::uint64_t kHostBalancedVertex = 256;  // where its rest shape is balanced in double
+constexpr std::uint64_t kHostStrand = 224;  // bound to guides
+constexpr std::uint64_t kHostPoint = 96;  // of such a strand
+constexpr std::uint64_t kHostPixel = 32;  // of the picture
+constexpr std::uint64_t kHostComparedPixel = 256;  // in double, by FLIP
+constexpr std::uint64_t kFileCopies = 3;  // text, values, strands
+
+hair::groom::GroomSize groomSize(
+    const hair::Settings& settings, const fs::path& directory, const hair::groom::Groom* known) {
+    if (known) return sizeOf(*known);
+    hair::groom::GroomSize size =
+        hair::groom::expectedSize(settings.groom, fileBytes(directory, settings.groom.file));
+    // Strands that follow the head.
+    if (!settings.groom.fixed.empty() && size.bound_strands > 0) {
+        hair::GroomSettings fixed;
+        fixed.file = settings.groom.fixed;
+        const auto more =
+            hair::groom::expectedSize(fixed, fileBytes(directory, settings.groom.fixed));
+        size.bound_strands += more.bound_strands;
+        size.bound_points += more.bound_points;
+    }
+    return size;
+}
+
+hair::rendering::StrandPlan planOf(
+    const engine::Device& device, const hair::Settings& settings,
+    const hair::groom::GroomSize& size) {
+    std::uint32_t limit = device.info().limits.maxTessellationGenerationLevel;
+    hair::StrandSettings strands = settings.strands;
+    std::uint64_t triangles = size.root_triangles;
+    if (strands.source == hair::StrandSource::groom) {
+        strands.density = static_cast<std::uint32_t>(size.bound_strands);
+        triangles = limit = 1;
+    }
+    return hair::rendering::planStrands(
+        static_cast<std::uint32_t>(triangles),
+        static_cast<std::uint32_t>(size.vertices_per_guide - 1), strands, settings.lod, limit);
+}
+
+// Of the pictures that /run/compare_backends holds a case's against: backends.cpp.
+std::uint64_t comparedBytes(hair::Settings settings, const hair::rendering::StrandPlan& plan) {
+    settings.strands.backend = hair::Backend::tessellation;
+    settings.render.msaa = 4;
+    settings.render.ssaa = 4;
+    const std::uint64_t covered = hair::rendering::rendererBytes(settings, plan);
+    settings.render.msaa = 1;
+    settings.render.ssaa = 8;
+    return std::max(covered, hair::rendering::rendererBytes(settings, plan));
+}
+
+// The largest buffer that goes to the device, or picture that comes from it, at a time.
+std::uint64_t stagingBytes(
+    const hair::Settings& settings, const hair::groom::GroomSize& size, std::uint64_t mesh) {
+    const std::uint64_t pixels = std::uint64_t{settings.render.width} * settings.render.height;
+    constexpr std::uint64_t kPixel = 4, kBoundStrand = 56, kResidual = 8, kRodSegments = 32;
+    std::uint64_t strands = 0;
+    if (settings.strands.source == hair::StrandSource::groom)
+        strands = std::max(kBoundStrand * size.bound_strands, kResidual * size.bound_points);
+    return std::max({kPixel * pixels, strands, kRodSegments * size.vertices(), mesh});
+}
+
+}  // namespace
+
+report::MemoryNeed memoryNeed(
+    const engine::Device& device, const hair::Settings& settings, const fs::path& directory,
+    HairCache* cache) {
+    const hair::groom::Groom* groom =
+        cache ? cache->assets().knownGroom(settings, directory) : nullptr;
+    const std::optional<hair::groom::Mesh>* mesh =
+        cache ? cache->assets().knownMesh(settings, directory) : nullptr;
+    const hair::groom::GroomSize size = groomSize(settings, directory, groom);
+    const hair::rendering::StrandPlan plan = planOf(device, settings, size);
+    hair::Settings drawn = settings;
+    if (settings.render.hair)
+        drawn.strands.backend = hair::rendering::chooseBackend(device, settings, plan, {}).backend;
+
+    const std::uint64_t mesh_file = fileBytes(directory, grownOn(settings));
+    std::uint64_t head = 0;
+    if (settings.render.head) {
+        if (mesh)
+            head = *mesh ? hair::rendering::meshBytes(**mesh) : 0;
+        else
+            head = kMeshGrowth * mesh_file;
+    }
+    std::uint64_t assets = head + kPictureGrowth * fileBytes(directory, settings.strands.texture) +
+                           kEnvironmentGrowth * fileBytes(directory, settings.render.environment);
+    for (const hair::MeshSettings& each : settings.render.meshes)
+        assets += kMeshGrowth * fileBytes(directory, each.file);
+    if (!settings.simulation.animation.clip.empty())  // positions and normals of each frame
+        assets += engine::FrameLoop::kMaxSlots *
+                  (mesh && *mesh ? (*mesh)->positions.size() * 2 * sizeof(glm::vec3) : mesh_file);
+    std::uint64_t fields = 0;
+    std::uint64_t baking = 0;  // of one after another
+    for (const hair::DistanceFieldSettings& each : settings.simulation.distance_fields) {
+        fields += hair::simulation::fieldBytes(each.resolution);
+        const bool is_known =
+            mesh && *mesh && (each.mesh.empty() || each.mesh == grownOn(settings));
+        baking = std::max(
+            baking, is_known ? kBakedTriangle * (*mesh)->triangles.size()
+                             : kMeshGrowth * (each.mesh.empty() ? mesh_file
+                                                                : fileBytes(directory, each.mesh)));
+    }
+
+    std::uint64_t all =
+        hair::simulation::simulationBytes(device.info(), size, settings.simulation) +
+        hair::rendering::groomBufferBytes(settings, size) +
+        hair::rendering::rendererBytes(drawn, plan) + assets;
+    if (settings.run.compare_backends) all += comparedBytes(drawn, plan);
+    // Fields are baked before there is anything else.
+    all = std::max(all + stagingBytes(settings, size, head), fields + baking);
+    report::MemoryNeed need;
+    need.device = kSmallBuffers + static_cast<std::uint64_t>(kPadding * static_cast<double>(all));
+
+    const bool balanced = settings.simulation.rest == hair::RestShape::balanced;
+    const std::uint64_t pixel = settings.run.compare_backends || !settings.run.reference.empty()
+                                    ? kHostComparedPixel
+                                    : kHostPixel;
+    need.host = kProgram + (device.info().type == "cpu" ? kSoftwareDevice : 0) +
+                size.vertices() * (balanced ? kHostBalancedVertex : kHostVertex) +
+                size.bound_strands * kHostStrand + size.bound_points * kHostPoint +
+                pixel * settings.render.width * settings.render.height + 2 * fields +
+                kFileCopies * (assets + baking + fileBytes(directory, settings.groom.file));
+    return need;
+}
+
+// ---- How much there is --------------------------------------------------------------------------
+
+namespace {
+
+// Absent where there is no such file, or no number in it: "max".
+std::optional<std::uint64_t> numberIn(const fs::path& path) {
+    std::ifstream file(path);
+    std::uint64_t number = 0;
+    if (!(file >> number)) return std::nullopt;
+    return number;
+}
+
+// The value behind a key of a file of lines "key value ...".
+std::optional<std::uint64_t> valueIn(const fs::path& path, const std::string& key) {
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);) {
+        std::istringstream words(line);
+        std::string name;
+        std::uint64_t value = 0;
+        if (words >> name >> value && name == key) return value;
+    }
+    return std::nullopt;
+}
+
+// What version 1 says instead of no limit: 2^63 rounded to pages.
+constexpr std::uint64_t kNoLimit = std::uint64_t{1} << 62;
+
+// How one version of control groups calls its files.
+struct GroupFiles {
+    const char* limit;
+    const char* use;
+    const char* reclaimable;  // in memory.stat: pages of files that can be read again
+};
+constexpr GroupFiles kVersion1{
+    "memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"};
+constexpr GroupFiles kVersion2{"memory.max", "memory.current", "inactive_file"};
+
+// The least that is left by a group and those that it is in. Within a container the path that the
+// process has outside of it is not there, and its own group is the root.
+std::optional<std::uint64_t>
+leastLeft(const fs::path& mount, const std::string& group, const GroupFiles& files) {
+    std::optional<std::uint64_t> least;
+    fs::path below = fs::path(group).relative_path();
+    while (true) {
+        const fs::path folder = mount / below;
+        const auto limit = numberIn(folder / files.limit);
+        if (limit && *limit < kNoLimit) {
+            const std::uint64_t use = numberIn(folder / files.use).value_or(0);
+            const std::uint64_t again =
+                valueIn(folder / "memory.stat", files.reclaimable).value_or(0);
+            const std::uint64_t held = use - std::min(use, again);
+            const std::uint64_t left = *limit - std::min(*limit, held);
+            least = std::min(left, least.value_or(left));
+        }
+        if (below.empty()) return least;
+        below = below.parent_path();
+    }
+}
+
+}  // namespace
+
+std::optional<std::uint64_t> freeInControlGroup(const fs::path& root) {
+    const fs::path mounts = root / "sys/fs/cgroup";
+    std::optional<std::uint64_t> least;
+    std::ifstream groups(root / "proc/self/cgroup");
+    // "4:memory:/path", or of version 2 "0::/path".
+    for (std::string line; std::getline(groups, line);) {
+        const std::size_t first = line.find(':');
+        const std::size_t second = line.find(':', first + 1);
+        if (first == std::string::npos || second == std::string::npos) continue;
+        const std::string controllers = line.substr(first + 1, second - first - 1);
+        const std::string group = line.substr(second + 1);
+        std::optional<std::uint64_t> left;
+        if (controllers.empty())
+            left = leastLeft(mounts, group, kVersion2);
+        else if ((',' + controllers + ',').find(",memory,") != std::string::npos)
+            left = leastLeft(mounts / "memory", group, kVersion1);
+        if (left) least = std::min(*left, least.value_or(*left));
+    }
+    return least;
+}
+
+std::optional<std::uint64_t> availableMemory(const fs::path& root) {
+    const auto kibibytes = valueIn(root / "proc/meminfo", "MemAvailable:");
+    if (!kibibytes) return std::nullopt;
+    return *kibibytes * 1024;
+}
+
+std::vector<MemoryRoom>
+memoryRooms(const engine::Device& device, std::optional<std::uint64_t> most) {
+    using Of = MemoryRoom::Of;
+    std::vector<MemoryRoom> rooms;
+    const bool is_host = device.info().type == "cpu";
+    if (most) {
+        if (is_host) {
+            rooms.push_back({Of::both, *most, "--max-memory"});
+        } else {
+            rooms.push_back({Of::device, *most, "--max-memory"});
+            rooms.push_back({Of::host, *most, "--max-memory"});
+        }
+    }
+    rooms.push_back({Of::device, device.freeBytes(), "the device's budget"});
+    const Of of = is_host ? Of::both : Of::host;
+    if (const auto left = freeInControlGroup())
+        rooms.push_back({of, *left, "the control group's limit"});
+    if (const auto available = availableMemory())
+        rooms.push_back({of, *available, "what the host has available"});
+    return rooms;
+}
+
+namespace {
+
+// "3.1 GiB", "210 MiB".
+std::string binarySize(std::uint64_t bytes) {
+    constexpr std::array kUnits{"KiB", "MiB", "GiB", "TiB"};
+    double size = static_cast<double>(bytes) / 1024.0;
+    std::size_t unit = 0;
+    for (; size >= 999.5 && unit + 1 < kUnits.size(); ++unit) size /= 1024.0;
+    std::array<char, 32> text{};
+    const int decimals = size < 9.95 ? 1 : 0;
+    std::snprintf(text.data(), text.size(), "%.*f %s", decimals, size, kUnits[unit]);
+    return text.data();
+}
+
+}  // namespace
+
+std::string whyItDoesNotFit(const report::MemoryNeed& need, const std::vector<MemoryRoom>& rooms) {
+    for (const MemoryRoom& room : rooms) {
+        using Of = MemoryRoom::Of;
+        const std::uint64_t needed =
+            (room.of == Of::host ? 0 : need.device) + (room.of == Of::device ? 0 : need.host);
+        if (needed <= room.bytes) continue;
+        const char* const what = room.of == Of::device ? "device memory"
+                                 : room.of == Of::host ? "the host's memory"
+                                                       : "memory";
+        return "needs about " + binarySize(needed) + " of " + what + "; " + binarySize(room.bytes) +
+               " are free (" + room.source + ')';
+    }
+    return {};
+}
+
+std::uint64_t parseMemorySize(const std::string& text) {
+    const auto refuse = [&]() -> std::uint64_t {
+        throw engine::Error("'" + text.substr(0, 40) + "' is no size, as 500M and 2G are");
+    };
+    double number = 0.0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, number, std::chars_format::fixed);
+    if (error != std::errc() || !(number > 0.0)) return refuse();
+    std::string unit(rest, end);
+    std::ranges::transform(
+        unit, unit.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    double factor = 1.0;
+    if (!unit.empty() && unit != "B") {
+        constexpr std::string_view kPrefixes = "KMGT";
+        const std::size_t power = kPrefixes.find(unit.front());
+        const std::string suffix = unit.substr(1);
+        if (power == std::string_view::npos || (!suffix.empty() && suffix != "B" && suffix != "IB"))
+            return refuse();
+        factor = std::pow(suffix == "B" ? 1000.0 : 1024.0, static_cast<double>(power + 1));
+    }
+    const double bytes = number * factor;
+    if (!(bytes >= 1.0) || bytes >= 0x1p63) return refuse();
+    return static_cast<std::uint64_t>(bytes);
+}
+
+}  // namespace benchmarks::measure

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+
+// Counts of a groom, for who works out sizes before there is one.
+namespace hair::groom {
+
+struct Groom;
+
+// How much of a groom there is, as far as memory goes.
+struct GroomSize {
+    std::uint64_t guides = 0;
+    std::uint64_t vertices_per_guide = 0;
+    std::uint64_t root_triangles = 0;
+    std::uint64_t bound_strands = 0;
+    std::uint64_t bound_points = 0;
+
+    std::uint64_t vertices() const { return guides * vertices_per_guide; }
+};
+
+GroomSize sizeOf(const Groom& groom);
+
+}  // namespace hair::groom
