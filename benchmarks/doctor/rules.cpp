@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/report/text.h"
+#include "engine/error.h"
 
 namespace benchmarks::doctor {
 namespace {
@@ -241,7 +242,7 @@ const char* ruleVerdictName(RuleVerdict verdict) {
     return "author";
 }
 
-std::vector<RuleFinding> judgeRules(const scene::Json& report) {
+std::vector<RuleFinding> judgeRules(const scene::Json& report) try {
     const Judged judged(report);
     std::vector<RuleFinding> findings;
     for (const Rule& rule : kRules) {
@@ -249,6 +250,8 @@ std::vector<RuleFinding> judgeRules(const scene::Json& report) {
         findings.back().rule = rule.name;
     }
     return findings;
+} catch (const Json::exception& error) {
+    throw engine::Error("the report can't be judged", error.what());
 }
 
 bool meetsRules(const std::vector<RuleFinding>& findings) {

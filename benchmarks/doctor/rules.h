@@ -24,7 +24,8 @@ struct RuleFinding {
     std::string seen;  // what of the report meets it, lacks, or has to be said beside it
 };
 
-// One finding for each rule, in their order. `report` is as report::readReport() gives it.
+// One finding for each rule, in their order. `report` is as report::readReport() gives it. Throws
+// engine::Error for one that is damaged.
 std::vector<RuleFinding> judgeRules(const scene::Json& report);
 
 // Whether none is not met.

@@ -36,7 +36,8 @@ std::filesystem::path baselineFile(const std::string& name, const std::string& s
 }
 
 std::string sceneNameOf(const scene::Json& report) {
-    const std::string path = report.at("scene").at("path");
+    const std::string path = scene::textAt(report, "/scene/path");
+    if (path.empty()) throw engine::Error("/scene/path", "the report names no scene");
     return std::filesystem::path(path).stem().string();
 }
 

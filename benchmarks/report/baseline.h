@@ -17,7 +17,8 @@ std::filesystem::path baselineFile(const std::string& name, const std::string& s
 // pictures stay where they are.
 void saveBaseline(const std::string& name, const std::filesystem::path& report);
 
-// "scenes/thesis.json" -> "thesis": what the report's scene is kept under.
+// "scenes/thesis.json" -> "thesis": what the report's scene is kept under. Throws engine::Error for
+// a report that names none.
 std::string sceneNameOf(const scene::Json& report);
 
 }  // namespace benchmarks::report

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/report/backends.h"
+#include "benchmarks/report/baseline.h"
 #include "benchmarks/report/compare.h"
 #include "benchmarks/report/environment.h"
 #include "benchmarks/report/metric.h"
@@ -97,8 +98,7 @@ void addMetrics(const scene::Json& report, scene::Json& pass_times, scene::Json&
 std::string titleOf(const scene::Json& reports) {
     std::vector<std::string> names;
     for (const scene::Json& report : reports) {
-        const std::string name =
-            std::filesystem::path(report.at("scene").at("path").get<std::string>()).stem().string();
+        const std::string name = sceneNameOf(report);
         if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     }
     std::string title;

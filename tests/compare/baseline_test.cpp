@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "benchmarks/report/report.h"
 #include "tests/compare/made_report.h"
@@ -31,6 +32,13 @@ TEST_F(Baseline, RefusesNamesThatAreNoFolders) {
         EXPECT_NE(errorText([&] { baselineFile(name, "thesis"); }), "no error") << name;
     for (const char* const name : {"main", "v1.2", "2030-01-02", "my build"})
         EXPECT_EQ(errorText([&] { baselineFile(name, "thesis"); }), "no error") << name;
+}
+
+TEST_F(Baseline, IsOfAReportThatNamesItsScene) {
+    EXPECT_EQ(sceneNameOf({{"scene", {{"path", "scenes/thesis.json"}}}}), "thesis");
+    for (const scene::Json& report : {scene::Json::object(), scene::Json{{"scene", 5}}})
+        EXPECT_EQ(
+            errorText([&] { sceneNameOf(report); }), "/scene/path: the report names no scene");
 }
 
 TEST_F(Baseline, KeepsAllSamplesInOneFile) {

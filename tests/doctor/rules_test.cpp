@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/error_text.h"
+
 namespace benchmarks::doctor {
 namespace {
 
@@ -63,6 +65,20 @@ TEST(Rules, AreTwelveOfWhichAReportCanMeetNine) {
     EXPECT_THAT(
         rulesText(findings),
         HasSubstr("9 of 12 rules are met by the report, 0 are not, 3 are for who writes"));
+}
+
+TEST(Rules, SayWhatTheyCannotJudge) {
+    for (const auto& [pointer, value] :
+         {std::pair{"/interrupted", Json(5)},
+          {"/cases/0/metrics/fps/mean", Json::array()},
+          {"/environment", Json()}}) {
+        Json report = rulesReport();
+        report[Json::json_pointer(pointer)] = value;
+        EXPECT_THAT(
+            errorText([&] { judgeRules(report); }),
+            testing::StartsWith("the report can't be judged: "))
+            << pointer;
+    }
 }
 
 // Each fault is one of the rule that it is about, and of no other.

@@ -492,7 +492,9 @@ std::vector<Target> allTargets() {
     all.push_back(
         {"mesh",
          readMesh,
-         {{"tests/corpus/gltf", {}}, {"tests/fuzz/seeds/animation", {}}, {"scenes/assets", gltf}},
+         {{"tests/corpus/gltf/trimesh_head_and_lines.glb", {}},
+          {"tests/fuzz/seeds/animation", {}},
+          {"scenes/assets", gltf}},
          {.length = 16384}});
     all.push_back(
         {"animation",
@@ -528,6 +530,7 @@ std::vector<Target> allTargets() {
 std::vector<fs::path> filesIn(const fs::path& folder) {
     std::vector<fs::path> files;
     std::error_code ignored;
+    if (fs::is_regular_file(folder, ignored)) return {folder};
     for (const auto& entry : fs::directory_iterator(folder, ignored))
         if (entry.is_regular_file()) files.push_back(entry.path());
     std::ranges::sort(files);

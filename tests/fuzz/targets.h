@@ -13,7 +13,7 @@ namespace fuzz {
 
 // Where files lie to start from, below the project's folder.
 struct Seeds {
-    std::string folder;
+    std::string folder;  // or one file
     std::vector<std::string> extensions;  // with the dot; empty: all files
 };
 

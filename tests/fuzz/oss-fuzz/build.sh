@@ -23,7 +23,7 @@ cmake --build "$build" --target fuzzers
 
 fuzzers=$build/tests/fuzz/fuzzers
 mkdir -p "$OUT"/lib "$OUT"/scenes/portraits
-ldd "$fuzzers" | awk '$2 == "=>" && $3 ~ /^\// && $1 !~ /^lib(c|m|dl|rt|pthread)\.so/ {print $3}' |
+ldd "$fuzzers" | awk '$2 == "=>" && $3 ~ /^\// && $1 !~ /^lib(c|m|dl|rt|pthread|resolv)\.so/ {print $3}' |
     xargs cp -L -t "$OUT/lib"
 # On which the target of scenes builds others.
 cp "$project"/scenes/*.json "$OUT/scenes"
