@@ -171,8 +171,8 @@ void addMeasuringCommands(const CommandLine& line) {
         {.name = "run",
          .description = "plays a scene's or a suite's cases and writes a report",
          .examples =
-             {"hairbench run thesis -a /strands/density=16,32,64 -a /render/msaa=1,4",
-              "hairbench run scenes/thesis.json --filter 'guides:86/.*msaa:1' --out "
+             {"hairbench run scenes/thesis.json -a /strands/density=16,32,64 -a /render/msaa=1,4",
+              "hairbench run thesis --filter 'guides:86/.*msaa:1' --out "
               "results/mine.json",
               "hairbench run full --resume", "hairbench run thesis --dry-run"}},
         runScene, addRunOptions);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -180,6 +181,30 @@ TEST_F(SceneReach, IsNotThatOfTheCommandLine) {
         .axes = {"/simulation/distance_fields/0/mesh=" + folder.file("private/head.obj").string()},
         .sets = {"/simulation/distance_fields=[{\"mesh\": \"../private/head.obj\"}]"}};
     EXPECT_EQ(errorText([&] { scene::selectCases(opened, options); }), "no error");
+}
+
+TEST(ShippedScenes, AreNamedFromAnywhere) {
+    const fs::path thesis = fs::canonical(HAIRBENCH_SCENES_DIR "/thesis.json");
+    for (const char* name : {"thesis", "thesis.json", "scenes/thesis", "./scenes/thesis.json"})
+        EXPECT_EQ(scene::sceneNamed(name), thesis) << name;
+    EXPECT_EQ(
+        scene::sceneNamed("portraits/braid"),
+        fs::canonical(HAIRBENCH_SCENES_DIR "/portraits/braid.json"));
+    for (const char* name : {"", "no_such_scene", "portraits", "../scenes/thesis", "/thesis"})
+        EXPECT_EQ(scene::sceneNamed(name), name);
+    const std::vector<std::string> all = scene::shippedScenes();
+    EXPECT_THAT(all, testing::IsSupersetOf({"full", "portraits/braid", "thesis"}));
+    for (const std::string& name : all) EXPECT_TRUE(fs::is_regular_file(scene::sceneNamed(name)));
+}
+
+TEST(ShippedScenes, GiveWayToTheUsersFiles) {
+    const TemporaryFolder folder;
+    folder.write("thesis", "{}");
+    const fs::path before = fs::current_path();
+    fs::current_path(folder.path());
+    EXPECT_EQ(scene::sceneNamed("thesis"), "thesis");
+    EXPECT_NE(scene::sceneNamed("thesis.json"), "thesis.json");
+    fs::current_path(before);
 }
 
 TEST(ShippedScenes, NameFilesOfTheirFolderAlone) {
