@@ -35,7 +35,6 @@ def instructions(text):
 
 class Podman:
     def __init__(self, folder):
-        self.folder = folder
         run("podman", "build", "--tag", IMAGE, "--file", CONTAINERFILE, REPOSITORY)
 
     def start(self, arguments, results):
@@ -45,6 +44,9 @@ class Podman:
     def command(self):
         said = run("podman", "image", "inspect", IMAGE, stdout=subprocess.PIPE).stdout
         return json.loads(said)[0]["Config"]["Cmd"]
+
+    def give_back(self):
+        run("podman", "image", "rm", IMAGE, stdout=subprocess.DEVNULL)
 
 
 class Buildah:
@@ -59,6 +61,9 @@ class Buildah:
     def command(self):
         said = run("buildah", "inspect", self.container, stdout=subprocess.PIPE).stdout
         return json.loads(said)["OCIv1"]["config"]["Cmd"]
+
+    def give_back(self):
+        run("buildah", "rm", self.container, stdout=subprocess.DEVNULL)
 
 
 class Roots:
@@ -125,6 +130,9 @@ class Roots:
     def command(self):
         return self.arguments
 
+    def give_back(self):
+        pass  # the folder goes
+
 
 def main():
     engine = Podman if shutil.which("podman") else Buildah if shutil.which("buildah") else Roots
@@ -142,9 +150,11 @@ def main():
         if statuses != ["ok", "ok"]:
             sys.exit(f"container test: the cases of smoke.json are {statuses}, not two that are ok")
         # What the image does by itself, without the minutes that it takes.
-        cases = image.start([*image.command(), "--list"], results).split()
+        listed = image.start([*image.command(), "--list"], results)
+        cases = [line for line in listed.splitlines() if line.startswith("thesis/")]
         if len(cases) != 16:
             sys.exit(f"container test: the image's own command has {len(cases)} cases, not 16")
+        image.give_back()
         print(f"container test: made in {made - begun:.0f} s ({engine.__name__.lower()}), measured "
               f"two cases in {measured - made:.0f} s on {report['environment']['device']['name']}")
     finally:
