@@ -74,6 +74,37 @@ private:
 // channel of two bytes at least.
 constexpr std::int64_t kMostPixelsPerByte = 1032 / 2;
 
+// Walks through the attributes of a file's headers (OpenEXR File Layout): OpenEXR makes room for
+// what one says of its size, up to 2 GB, before it reads it.
+void checkExrHeaders(std::string_view file) {
+    constexpr std::size_t kStart = 8;  // behind the magic number and the version
+    constexpr unsigned char kManyParts = 0x10;  // of the version's second byte
+    const auto fail = [] { throw Error("ends too early for its header"); };
+    if (file.size() < kStart) fail();
+    const bool has_parts = static_cast<unsigned char>(file[5]) & kManyParts;
+    std::string_view rest = file.substr(kStart);
+    const auto takeText = [&] {
+        const std::size_t size = rest.find('\0');
+        if (size == rest.npos) fail();
+        rest.remove_prefix(size + 1);
+        return size;
+    };
+    for (;;) {
+        if (takeText() == 0) {  // the end of a header
+            if (!has_parts || rest.empty() || rest.front() == '\0') return;
+            continue;
+        }
+        takeText();  // the type
+        std::uint32_t size = 0;
+        if (rest.size() < sizeof size) fail();
+        for (std::size_t i = sizeof size; i-- > 0;)
+            size = size << 8 | static_cast<unsigned char>(rest[i]);
+        rest.remove_prefix(sizeof size);
+        if (size > rest.size()) fail();
+        rest.remove_prefix(size);
+    }
+}
+
 struct Size {
     std::int64_t width;
     std::int64_t height;
@@ -111,6 +142,7 @@ Imf::Slice slice(float* rgb, const Imath::Box2i& window, std::size_t channel) {
 }
 
 FloatPixels decode(std::string_view bytes) {
+    checkExrHeaders(bytes);
     MemoryInput stream(bytes);
     Imf::InputFile file(stream, 0);
     const Imf::Header& header = file.header();

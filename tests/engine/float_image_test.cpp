@@ -122,6 +122,20 @@ TEST(FloatImage, RefusesAnExrThatIsTooShortForItsSize) {
     }
 }
 
+// 2 GB for an attribute of the header.
+TEST(FloatImage, RefusesAnExrThatIsTooShortForItsHeader) {
+    const TemporaryFolder folder;
+    writeExr(folder.file("a.exr"), 2, 2, std::vector<float>(12, 1.0f));
+    std::string bytes = textOf(folder.file("a.exr"));
+    const std::string before("compression\0compression\0", 24);  // name and type
+    const std::size_t size = bytes.find(before) + before.size();
+    ASSERT_EQ(bytes.substr(size, 4), std::string("\1\0\0\0", 4));
+    bytes.replace(size, 4, "\xff\xff\xff\x7f");
+    EXPECT_THAT(
+        errorText([&] { readFloatImage(folder.write("huge.exr", bytes)); }),
+        HasSubstr("ends too early for its header"));
+}
+
 TEST(FloatImage, NamesTheFileThatItCannotRead) {
     const TemporaryFolder folder;
     EXPECT_EQ(errorText([] { readFloatImage("no.exr"); }), "no.exr: no such file");
