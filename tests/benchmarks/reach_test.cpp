@@ -184,6 +184,9 @@ TEST_F(SceneReach, IsNotThatOfTheCommandLine) {
 }
 
 TEST(ShippedScenes, AreNamedFromAnywhere) {
+    const TemporaryFolder folder;
+    const fs::path before = fs::current_path();
+    fs::current_path(folder.path());
     const fs::path thesis = fs::canonical(HAIRBENCH_SCENES_DIR "/thesis.json");
     for (const char* name : {"thesis", "thesis.json", "scenes/thesis", "./scenes/thesis.json"})
         EXPECT_EQ(scene::sceneNamed(name), thesis) << name;
@@ -195,6 +198,7 @@ TEST(ShippedScenes, AreNamedFromAnywhere) {
     const std::vector<std::string> all = scene::shippedScenes();
     EXPECT_THAT(all, testing::IsSupersetOf({"full", "portraits/braid", "thesis"}));
     for (const std::string& name : all) EXPECT_TRUE(fs::is_regular_file(scene::sceneNamed(name)));
+    fs::current_path(before);
 }
 
 TEST(ShippedScenes, GiveWayToTheUsersFiles) {
