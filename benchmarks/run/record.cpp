@@ -162,6 +162,7 @@ Journal::~Journal() {
 void Journal::read(const std::function<void(scene::Json value, const Place& place)>& visit) {
     damaged_.clear();
     size_ = 0;
+    ends_there_ = false;
     std::size_t number = 1;
     const auto take = [&](std::string_view line) {
         auto value = valueIn(line);
@@ -203,7 +204,9 @@ scene::Json Journal::at(const Place& place) const {
 
 Journal::Place Journal::append(const scene::Json& line) {
     const std::string text = lineOf(line);
-    int error = ftruncate(file_, static_cast<off_t>(size_)) == 0 ? 0 : errno;
+    int error = 0;
+    if (!std::exchange(ends_there_, false) && ftruncate(file_, static_cast<off_t>(size_)) != 0)
+        error = errno;
     if (error == 0) error = writeAt(file_, text, size_);
     if (error == 0 && lasts_ == Lasts::crash && fsync(file_) != 0) error = errno;
     if (error != 0) {
@@ -214,10 +217,14 @@ Journal::Place Journal::append(const scene::Json& line) {
     if (size_ == 0 && lasts_ == Lasts::crash) syncFolderOf(path_);
     const Place place{.begin = size_, .size = text.size() - 1};
     size_ += text.size();
+    ends_there_ = true;
     return place;
 }
 
-void Journal::clear() { size_ = 0; }
+void Journal::clear() {
+    size_ = 0;
+    ends_there_ = false;
+}
 
 void Journal::remove() {
     unlink(path_.c_str());

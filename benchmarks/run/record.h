@@ -72,6 +72,7 @@ private:
     Lasts lasts_;
     int file_;
     std::uintmax_t size_ = 0;  // B, of the whole lines
+    bool ends_there_ = false;  // where false, something may be behind them
     std::vector<std::size_t> damaged_;
 };
 

@@ -287,7 +287,7 @@ std::string percent(double share) {
 }
 
 // The columns that a table of passes has room for.
-struct Layout {
+struct PanelLayout {
     bool compared = false;
     bool history = false;
     bool share = false;
@@ -295,7 +295,7 @@ struct Layout {
     int columns() const { return 2 + (compared ? 2 : 0) + (history ? 1 : 0) + (share ? 1 : 0); }
 };
 
-Layout layoutFor(const PassRows& rows, bool compared) {
+PanelLayout layoutFor(const PassRows& rows, bool compared) {
     const auto width = [](const char* text) {
         return ImGui::CalcTextSize(text).x + 2.0f * ImGui::GetStyle().CellPadding.x;
     };
@@ -303,7 +303,7 @@ Layout layoutFor(const PassRows& rows, bool compared) {
     for (const TimeSeries& pass : rows.passes) name = std::max(name, width(pass.name.c_str()));
     float room = ImGui::GetContentRegionAvail().x - name - width("0.0000");
     if (compared) room -= width("0.0000") + width("B / A");
-    Layout layout{.compared = compared};
+    PanelLayout layout{.compared = compared};
     const float history = std::max(kLeastHistory * ImGui::GetFontSize(), width("history"));
     layout.history = room >= history;
     if (layout.history) room -= history;
@@ -343,7 +343,7 @@ struct Row {
     std::string help;
 };
 
-void show(const Row& row, const Layout& layout) {
+void show(const Row& row, const PanelLayout& layout) {
     const double median = row.series.summary.median;
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -370,7 +370,7 @@ void show(const Row& row, const Layout& layout) {
         rightText(report::shortNumber(row.compared->summary.median / median));
 }
 
-void titles(const Layout& layout) {
+void titles(const PanelLayout& layout) {
     ImGui::TableNextRow();
     const auto title = [](const char* text) {
         ImGui::TableNextColumn();
@@ -386,7 +386,7 @@ void titles(const Layout& layout) {
     title("B / A");
 }
 
-bool beginTable(const char* id, const Layout& layout) {
+bool beginTable(const char* id, const PanelLayout& layout) {
     if (!ImGui::BeginTable(id, layout.columns(), ImGuiTableFlags_SizingFixedFit)) return false;
     // Names are as wide as they are where a history takes the rest of the room.
     ImGui::TableSetupColumn(
@@ -407,7 +407,7 @@ void bar(const PassRows& rows) {
 // yet. What has no room is left out, the share first; the tooltip of the name has it all.
 void passTable(const PassRows& rows, const PassRows* compared, const TimeSeries* ui) {
     bar(rows);
-    const Layout layout = layoutFor(rows, compared != nullptr);
+    const PanelLayout layout = layoutFor(rows, compared != nullptr);
     const ImU32 plain = ImGui::GetColorU32(ImGuiCol_Text);
     if (!beginTable("##pass table", layout)) return;
     titles(layout);
