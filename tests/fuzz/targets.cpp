@@ -461,9 +461,10 @@ void resume(std::string_view journal) {
             {.name = plan().cases[place].spec.name,
              .index = plan().cases[place].index,
              .order = order});
-    const scene::Json made = record.report(false);
-    expect(made.at("cases").size() == plan().cases.size(), "a report has every case");
-    record.write(made);
+    std::size_t cases = 0;
+    record.eachCase([&](const scene::Json&) { ++cases; });
+    expect(cases == plan().cases.size(), "a report has every case");
+    record.write(run::RunEnd::complete);
     allowRefusal([&] { useReport(report::readReport(out)); });
 }
 
