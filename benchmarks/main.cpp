@@ -1,3 +1,4 @@
+#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -59,7 +60,8 @@ int main(int argc, char** argv) {
     openMissingStreams();
     const int status = statusOf(argc, argv);
     std::cout.flush();
-    if (std::cout) return status;
+    // Another thread's flush may have failed: then the file alone knows.
+    if (std::cout && std::ferror(stdout) == 0) return status;
     return fail(
         "", "standard output can't be written",
         status == report::kOk ? report::kInternalError : status);
