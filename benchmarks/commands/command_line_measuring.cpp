@@ -340,8 +340,7 @@ void addCheckCommands(const CommandLine& line) {
                 .add_option(
                     "--markdown", options.examples,
                     "print a page of every field instead, with examples from the scenes of FOLDER")
-                ->type_name("FOLDER")
-                ->check(CLI::ExistingDirectory);
+                ->type_name("FOLDER");
         });
     addCommand(
         line, line.app,

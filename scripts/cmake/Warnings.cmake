@@ -9,6 +9,10 @@ set(CMAKE_C_VISIBILITY_PRESET hidden)
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
+# Messages name files from the top of the source tree, and no program of ours names the machine that
+# built it.
+set(HAIRBENCH_SHORT_NAMES "-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=")
+
 # Every target of ours calls this; it also applies the sanitizers when they are asked for.
 function(hairbench_warnings target)
     hairbench_sanitizers(${target})
