@@ -1,11 +1,9 @@
 #include "benchmarks/measure/memory_need.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -13,6 +11,7 @@
 #include <utility>
 
 #include "benchmarks/measure/hair_cache.h"
+#include "benchmarks/report/text.h"
 #include "engine/error.h"
 #include "engine/frame_loop.h"
 #include "hair/groom/build_groom.h"
@@ -307,22 +306,6 @@ memoryRooms(const engine::Device& device, std::optional<std::uint64_t> most) {
     return rooms;
 }
 
-namespace {
-
-// "3.1 GiB", "210 MiB".
-std::string binarySize(std::uint64_t bytes) {
-    constexpr std::array kUnits{"KiB", "MiB", "GiB", "TiB"};
-    double size = static_cast<double>(bytes) / 1024.0;
-    std::size_t unit = 0;
-    for (; size >= 999.5 && unit + 1 < kUnits.size(); ++unit) size /= 1024.0;
-    std::array<char, 32> text{};
-    const int decimals = size < 9.95 ? 1 : 0;
-    std::snprintf(text.data(), text.size(), "%.*f %s", decimals, size, kUnits[unit]);
-    return text.data();
-}
-
-}  // namespace
-
 std::string whyItDoesNotFit(const report::MemoryNeed& need, const std::vector<MemoryRoom>& rooms) {
     for (const MemoryRoom& room : rooms) {
         using Of = MemoryRoom::Of;
@@ -332,8 +315,8 @@ std::string whyItDoesNotFit(const report::MemoryNeed& need, const std::vector<Me
         const char* const what = room.of == Of::device ? "device memory"
                                  : room.of == Of::host ? "the host's memory"
                                                        : "memory";
-        return "needs about " + binarySize(needed) + " of " + what + "; " + binarySize(room.bytes) +
-               " are free (" + room.source + ')';
+        return "needs about " + report::sizeText(needed) + " of " + what + "; " +
+               report::sizeText(room.bytes) + " are free (" + room.source + ')';
     }
     return {};
 }

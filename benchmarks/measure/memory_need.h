@@ -45,7 +45,7 @@ std::optional<std::uint64_t> availableMemory(const std::filesystem::path& root =
 std::vector<MemoryRoom>
 memoryRooms(const engine::Device& device, std::optional<std::uint64_t> most);
 
-// Why a case does not fit: "needs about 3.1 GiB of device memory; 2.0 GiB are free (--max-memory)".
+// Why a case does not fit: "needs about 3.10 GB of device memory; 2.15 GB are free (--max-memory)".
 // Empty where it does.
 std::string whyItDoesNotFit(const report::MemoryNeed& need, const std::vector<MemoryRoom>& rooms);
 

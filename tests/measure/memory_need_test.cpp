@@ -177,19 +177,19 @@ TEST(MemoryRoom, IsWhatTheHostHasAvailable) {
 
 TEST(MemoryRoom, SaysWhatDoesNotFit) {
     using Of = MemoryRoom::Of;
-    const MemoryNeed need{.device = 3u << 30, .host = 100u << 20};
+    const MemoryNeed need{.device = 3'000'000'000, .host = 100'000'000};
     EXPECT_EQ(
         whyItDoesNotFit(
-            need, {{Of::device, std::uint64_t{4} << 30, "budget"},
-                   {Of::device, std::uint64_t{2} << 30, "--max-memory"}}),
-        "needs about 3.0 GiB of device memory; 2.0 GiB are free (--max-memory)");
+            need,
+            {{Of::device, 4'000'000'000, "budget"}, {Of::device, 2'000'000'000, "--max-memory"}}),
+        "needs about 3.00 GB of device memory; 2.00 GB are free (--max-memory)");
     EXPECT_EQ(
-        whyItDoesNotFit(need, {{Of::host, 50u << 20, "limit"}}),
-        "needs about 100 MiB of the host's memory; 50 MiB are free (limit)");
+        whyItDoesNotFit(need, {{Of::host, 50'000'000, "limit"}}),
+        "needs about 100 MB of the host's memory; 50.0 MB are free (limit)");
     EXPECT_EQ(
-        whyItDoesNotFit(need, {{Of::both, 3u << 30, "limit"}}),
-        "needs about 3.1 GiB of memory; 3.0 GiB are free (limit)");
-    EXPECT_EQ(whyItDoesNotFit(need, {{Of::both, std::uint64_t{4} << 30, "limit"}}), "");
+        whyItDoesNotFit(need, {{Of::both, 3'000'000'000, "limit"}}),
+        "needs about 3.10 GB of memory; 3.00 GB are free (limit)");
+    EXPECT_EQ(whyItDoesNotFit(need, {{Of::both, 4'000'000'000, "limit"}}), "");
     EXPECT_EQ(whyItDoesNotFit(need, {}), "");
 }
 
@@ -242,7 +242,7 @@ TEST_F(NoRoom, IsSkippedWithTheFigure) {
     EXPECT_EQ(skipped.status, report::Status::skipped);
     EXPECT_THAT(
         skipped.reason,
-        testing::MatchesRegex("needs about [0-9.]+ [MG]iB of (device )?memory; 1.0 MiB are free "
+        testing::MatchesRegex("needs about [0-9.]+ [MG]B of (device )?memory; 1.05 MB are free "
                               "\\(--max-memory\\)"));
     ASSERT_TRUE(skipped.memory_need);
     EXPECT_GT(skipped.memory_need->device, 512u * 512 * 8);  // color and depth
