@@ -18,8 +18,10 @@ namespace hair::groom {
 namespace {
 
 constexpr auto kNone = TriangleNet::kNone;
-constexpr auto after = TriangleNet::after;
-constexpr auto before = TriangleNet::before;
+
+// Functions, so that no variable of a file that is compiled together with this one shadows them.
+std::uint32_t after(std::uint32_t corner) { return TriangleNet::after(corner); }
+std::uint32_t before(std::uint32_t corner) { return TriangleNet::before(corner); }
 
 // How far beyond straight the way past a vertex may bend for the edge there to count as inside,
 // rad.
