@@ -31,6 +31,7 @@ PAGES = {
     "How it works": ["docs/physics", "docs/rendering", "docs/references", "docs/thesis"],
     "The source": [
         "docs/design",
+        "docs/extending",
         "docs/dependencies",
         "tests/corpus/README",
         "tests/golden/README",

@@ -18,22 +18,35 @@ import time
 BOX = re.compile(r"^```sh run\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
+def project_files(project: pathlib.Path) -> list[str]:
+    """What git has, and what it would take, from the top of the project."""
+    listed = subprocess.run(
+        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        cwd=project,
+        check=True,
+        capture_output=True,
+        text=True,
+    ).stdout
+    return [each for each in listed.split("\0") if each and (project / each).is_file()]
+
+
+def copy_project(project: pathlib.Path, folder: pathlib.Path) -> None:
+    for each in project_files(project):
+        copy = folder / each
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(project / each, copy)
+
+
 def main() -> int:
     project, program = (pathlib.Path(each).resolve() for each in sys.argv[1:])
-    listed = subprocess.run(
-        ["git", "ls-files", "-z"], cwd=project, check=True, capture_output=True, text=True
-    ).stdout
-    files = [each for each in listed.split("\0") if each and (project / each).is_file()]
+    files = project_files(project)
     count, failures = 0, []
     for page in ["README.md", *sorted(each for each in files if re.fullmatch(r"docs/.*\.md", each))]:
         boxes = BOX.findall((project / page).read_text(encoding="utf-8"))
         if not boxes:
             continue
         with tempfile.TemporaryDirectory(prefix="hairbench-docs-") as folder:
-            for each in files:
-                copy = pathlib.Path(folder) / each
-                copy.parent.mkdir(parents=True, exist_ok=True)
-                shutil.copy2(project / each, copy)
+            copy_project(project, pathlib.Path(folder))
             for box in boxes:
                 start = time.monotonic()
                 ended = subprocess.run(
