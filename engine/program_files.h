@@ -20,7 +20,7 @@ std::filesystem::path programFile(std::string_view name);
 // A program that this one runs. It need not be there.
 std::filesystem::path helperProgram(std::string_view name);
 
-// The folder of a Python environment of the project, "python", "reference" or "report": in .deps
+// The folder of a Python environment of the project, "python" or "reference": in .deps
 // of the source tree, or where that has none in the user's own data ($XDG_DATA_HOME/hairbench or
 // ~/.local/share/hairbench). It need not be there.
 std::filesystem::path pythonEnvironment(const std::string& name);

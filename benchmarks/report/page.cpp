@@ -31,17 +31,6 @@ std::string readPart(const std::string& name) {
     return engine::readFile(engine::programFile("benchmarks/report/page/" + name));
 }
 
-// plotly.min.js of a Python environment: lib/python3.N/site-packages/plotly, whichever N.
-std::optional<std::filesystem::path> plotlyIn(const std::filesystem::path& environment) {
-    std::error_code error;
-    for (const auto& each : std::filesystem::directory_iterator(environment / "lib", error)) {
-        const std::filesystem::path file =
-            each.path() / "site-packages/plotly/package_data/plotly.min.js";
-        if (std::filesystem::is_regular_file(file, error)) return file;
-    }
-    return std::nullopt;
-}
-
 std::string replaced(std::string_view text, char what, std::string_view with) {
     std::string result;
     for (const char each : text)
@@ -122,17 +111,24 @@ scene::Json comparisonsOf(const scene::Json& reports) {
 
 std::optional<std::filesystem::path> findPlotly() {
     const char* wanted = std::getenv("HAIRBENCH_PLOTLY");
-    if (!wanted || !*wanted) return plotlyIn(engine::pythonEnvironment("report"));
+    const auto places = wanted && *wanted
+                            ? std::vector<std::filesystem::path>{wanted}
+                            : std::vector<std::filesystem::path>{
+                                  engine::programFile("benchmarks/report/page/plotly-basic.min.js"),
+                                  engine::programFile(".deps/plotly/plotly-basic.min.js")};
     std::error_code error;
-    if (!std::filesystem::is_regular_file(wanted, error)) return std::nullopt;
-    return wanted;
+    for (const std::filesystem::path& each : places)
+        if (std::filesystem::is_regular_file(each, error)) return each;
+    return std::nullopt;
 }
 
 std::string readPlotly() {
     const auto file = findPlotly();
     if (!file)
         throw engine::Error(
-            "report", "this needs plotly.min.js: run " + engine::makesPythonEnvironment("report"));
+            "report",
+            "plotly-basic.min.js is missing, which a page draws with: scripts/setup fetches it "
+            "before the build, or HAIRBENCH_PLOTLY names one");
     return engine::readFile(*file);
 }
 

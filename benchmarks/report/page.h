@@ -19,11 +19,12 @@ struct PageParts {
     std::string page;  // HTML with places: @title@, @style@, @data@, @plotly@, @script@
     std::string style;  // CSS
     std::string script;  // JavaScript, all of it one function's body
-    std::string plotly;  // plotly.min.js
+    std::string plotly;  // plotly-basic.min.js
 };
 
-// plotly.min.js: the file that HAIRBENCH_PLOTLY names, or the one in the environment that
-// scripts/setup --report makes; nothing where there is none.
+// plotly.js, its basic bundle at the least: the file that HAIRBENCH_PLOTLY names, else
+// plotly-basic.min.js as it is installed with the program, or as scripts/setup fetched it; nothing
+// where there is none.
 std::optional<std::filesystem::path> findPlotly();
 
 // The text of findPlotly(). Throws engine::Error, which says what to run, where there is none.

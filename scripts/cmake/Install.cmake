@@ -6,13 +6,18 @@ install(TARGETS hairbench_mesh_reader RUNTIME DESTINATION libexec/hairbench)
 # Python environments are the user's to make, of what is pinned.
 install(PROGRAMS scripts/python-environment DESTINATION libexec/hairbench)
 install(FILES scripts/requirements.txt scripts/requirements-module.txt
-    scripts/requirements-reference.txt scripts/requirements-report.txt
+    scripts/requirements-reference.txt
     DESTINATION libexec/hairbench)
 
 # What is read while the program runs is named as in the source tree.
 install(DIRECTORY scenes DESTINATION share/hairbench PATTERN "make_*.py" EXCLUDE)
 install(DIRECTORY shaders DESTINATION share/hairbench PATTERN "CMakeLists.txt" EXCLUDE)
 install(DIRECTORY benchmarks/report/page DESTINATION share/hairbench/benchmarks/report)
+# What pages draw with. All else works without it, where scripts/setup could not fetch it.
+install(FILES .deps/plotly/plotly-basic.min.js
+    DESTINATION share/hairbench/benchmarks/report/page OPTIONAL)
+install(FILES .deps/plotly/LICENSE
+    DESTINATION share/doc/hairbench RENAME copyright-plotly.js OPTIONAL)
 install(DIRECTORY benchmarks/reference DESTINATION share/hairbench/benchmarks
     FILES_MATCHING PATTERN "*.py")
 install(DIRECTORY hair/groom/formats DESTINATION share/hairbench/hair/groom

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # fresh_root.sh PACKAGE: installs a .deb with all that it recommends in a fresh minimal root of this
 # system's release, where there is no source tree. There, as a user who has nothing, a shipped scene is
-# measured, a mesh is read, and a window is opened. Prints how long it took. Needs mmdebstrap and the
+# measured, its report made a page, a mesh is read, and a window is opened. Prints how long it took. Needs mmdebstrap and the
 # distribution's mirror, and root or the right to make user namespaces.
 set -euo pipefail
 package=$(realpath "$1")
@@ -25,6 +25,7 @@ as() { setpriv --reuid somebody --regid somebody --init-groups "$@"; }
 as hairbench run smoke --max-time 1
 echo "first result after $((SECONDS - start)) s"
 as test -s results/local/smoke.json
+as hairbench report results/local/smoke.json -o page.html
 as hairbench schema | cmp - /usr/share/hairbench/scenes/scene.schema.json
 printf '%s\n' 'o scalp' 'v 0 0 0' 'v 1 0 0' 'v 0 1 0' 'v 0 0 1' 'f 1 3 2' 'f 1 2 4' 'f 1 4 3' 'f 2 3 4' >head.obj
 echo '{"groom": {"grow": {"mesh": "head.obj"}}}' >scene.json

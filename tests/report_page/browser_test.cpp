@@ -40,7 +40,7 @@ TEST_F(PageInBrowser, PlotsTheReportsFigures) {
     EXPECT_EQ(said.at("bars"), true);
     EXPECT_EQ(said.at("passes"), Json::parse(R"([["simulate",5],["strands",5],["resolve",5]])"));
     EXPECT_NEAR(said.at("strands").get<double>(), 0.7 * 47.0, 1e-3 * 47.0);
-    EXPECT_EQ(said.at("samples"), Json::parse(R"([["scatter",60],["histogram",60]])"));
+    EXPECT_EQ(said.at("samples"), Json::parse(R"([["scatter",60],["bar",30]])"));
     // Coloured by density. In time and error (3.25, 1/16) beats all but (47, 1/32).
     EXPECT_EQ(
         said.at("quality"),
@@ -210,15 +210,35 @@ TEST_F(PageInBrowser, ShowsTheSamplesOfTheCaseThatIsAskedFor) {
         await settle();
         say("name", document.getElementById("samples-name").value);
         say("least", Math.min(...figure("samples-plot")[0].y));
-        for (const kind of ["violin", "box"]) {
+        const spread = async (kind) => {
             await choose("samples-kind", kind);
-            say(kind, figure("samples-plot")[1].type);
-        }
+            return figure("samples-plot")[1];
+        };
+        say("counts", [...(await spread("histogram")).x]);
+        const {x, y} = await spread("cumulative");
+        say("cumulative", [x.length, x[29], y[0], x[59], y[59]]);
+        const box = (await spread("box")).y.filter((each) => each !== null);
+        say("box", [Math.min(...box), Math.max(...box)]);
     )");
     EXPECT_EQ(said.at("name"), "known/density:16/msaa:4");
     EXPECT_NEAR(said.at("least").get<double>(), 0.99 * 3.25, 1e-3 * 3.25);
-    EXPECT_EQ(said.at("violin"), "violin");
-    EXPECT_EQ(said.at("box"), "box");
+    // 60 multiples of the golden ratio, from 1 % below 3.25 ms to 1 % above: by the theorem of
+    // three gaps 0.0213 of the width apart at most, 0.0131 but for five places, so that each of 30
+    // bins has one to three.
+    int count = 0;
+    for (const Json& each : said.at("counts")) {
+        EXPECT_NEAR(each.get<int>(), 2, 1);
+        count += each.get<int>();
+    }
+    EXPECT_EQ(count, 60);
+    EXPECT_EQ(said.at("cumulative")[0], 60);
+    EXPECT_EQ(said.at("cumulative")[1], 50.0);
+    EXPECT_NEAR(said.at("cumulative")[2].get<double>(), 0.99 * 3.25, 1e-3 * 3.25);
+    EXPECT_EQ(said.at("cumulative")[3], 100.0);
+    EXPECT_NEAR(said.at("cumulative")[4].get<double>(), 1.01 * 3.25, 1e-3 * 3.25);
+    // From the 5th to the 95th percentile: 90 % of the whole width, a gap off at most.
+    EXPECT_NEAR(said.at("box")[0].get<double>(), 0.991 * 3.25, 0.0213 * 0.02 * 3.25);
+    EXPECT_NEAR(said.at("box")[1].get<double>(), 1.009 * 3.25, 0.0213 * 0.02 * 3.25);
 }
 
 // Names, values, reasons and descriptions are texts, whatever is in them.

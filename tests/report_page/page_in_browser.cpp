@@ -90,8 +90,7 @@ Json inBrowser(const std::string& page, const std::string& steps, int width) {
 }  // namespace
 
 void PageInBrowser::SetUp() {
-    if (!findPlotly())
-        return skipWithout(Need::report, "no Plotly; scripts/setup --report installs it");
+    if (!findPlotly()) return skipWithout(Need::report, "no Plotly; scripts/setup fetches it");
     if (!findBrowser())
         return skipWithout(Need::browser, "no Chromium; scripts/setup --browser installs it");
 }

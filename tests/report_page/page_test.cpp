@@ -186,13 +186,12 @@ TEST(ReportPage, SaysWhatToRunWherePlotlyIsMissing) {
         said = error.what();
     }
     setenv("HAIRBENCH_PLOTLY", before.c_str(), 1);  // empty: as if it were not set
-    EXPECT_THAT(said, HasSubstr("scripts/setup --report"));
+    EXPECT_THAT(said, HasSubstr("scripts/setup fetches it"));
     EXPECT_THAT(said, Not(HasSubstr("\n")));
 }
 
 TEST(ReportPage, IsOneFileWithTheWholeOfPlotly) {
-    if (!findPlotly())
-        return skipWithout(Need::report, "no Plotly; scripts/setup --report installs it");
+    if (!findPlotly()) return skipWithout(Need::report, "no Plotly; scripts/setup fetches it");
     const TemporaryFolder folder;
     const auto report = writeWithPictures(knownReport(), folder.path() / "a.json", 200);
     const auto page = folder.path() / "new/page.html";

@@ -412,8 +412,8 @@ function buildSampleControls() {
             samples.name, change("name")),
         choice("metric", "samples-metric", metrics.map((name) => [name, name]), samples.metric,
             change("metric")),
-        choice("as", "samples-kind", [["histogram", "histogram"], ["violin", "violin"],
-            ["box", "box"]], samples.kind, change("kind")));
+        choice("as", "samples-kind", Object.keys(kSpreads).map((name) => [name, name]),
+            samples.kind, change("kind")));
 }
 
 // Called from a point or a row somewhere else on the page.
@@ -456,18 +456,70 @@ function orderTrace(row, values, hue) {
     };
 }
 
-function spreadTrace(row, values, hue) {
-    const common = {name: plain(row.report.label), legendgroup: row.report.label, showlegend: false,
-        y: values, xaxis: "x2"};
-    if (samples.kind === "histogram")
-        return {...common, type: "histogram", nbinsy: 30, opacity: severalReports ? 0.6 : 0.9,
-            marker: {color: hue, line: {color: color("card"), width: 0.5}}};
-    if (samples.kind === "violin")
-        return {...common, type: "violin", line: {color: hue}, box: {visible: true},
-            points: false, spanmode: "hard"};
-    return {...common, type: "box", boxpoints: "outliers", line: {color: hue},
-        marker: {color: hue}};
+const kBins = 30;
+
+// Equal bins of which the first ends at the least value and the last at the greatest of all reports,
+// so that bars of several reports stand side by side.
+function histogramTrace(common, values, range, hue) {
+    const width = (range[1] - range[0]) / kBins || 1;
+    const counts = new Array(kBins).fill(0);
+    for (const value of values)
+        ++counts[Math.min(kBins - 1, Math.floor((value - range[0]) / width))];
+    const ends = counts.map((_, bin) => [range[0] + bin * width, range[0] + (bin + 1) * width]);
+    return {...common, type: "bar", orientation: "h", x: counts, width,
+        y: ends.map(([lower, upper]) => (lower + upper) / 2),
+        opacity: severalReports ? 0.6 : 0.9,
+        marker: {color: hue, line: {color: color("card"), width: 0.5}},
+        hovertext: ends.map(([lower, upper], bin) => plain(
+            `${counted(counts[bin], "sample")} from ${number(lower)} to ${number(upper)}`)),
+        hoverinfo: "text", textposition: "none"};
 }
+
+// The share of the samples that are not above a value.
+function cumulativeTrace(common, values, hue) {
+    const sorted = [...values].sort((a, b) => a - b);
+    return {...common, type: "scatter", mode: "lines", line: {color: hue, width: 2, shape: "vh"},
+        x: sorted.map((_, place) => 100 * (place + 1) / sorted.length), y: sorted,
+        hovertemplate: "%{x:.3~g} % are at most %{y:.4~g}<extra></extra>"};
+}
+
+// Quartiles and the 5th and 95th percentile as the report has them: a box with its whiskers, as one
+// line that gaps interrupt.
+function boxTrace(common, row, hue) {
+    const metric = row.metrics[samples.metric], size = shownUnit(metric.unit).size;
+    const points = [], at = row.reportIndex;
+    const line = (...ends) => points.push(...ends, [null, null]);
+    const across = (name, half) => line([at - half, metric[name]], [at + half, metric[name]]);
+    if (metric.first_quartile !== undefined) {
+        const {first_quartile: lower, third_quartile: upper} = metric;
+        line([at - 0.3, lower], [at + 0.3, lower], [at + 0.3, upper], [at - 0.3, upper],
+            [at - 0.3, lower]);
+        for (const [name, quartile] of [["percentile_5", lower], ["percentile_95", upper]])
+            if (metric[name] !== undefined) {
+                line([at, quartile], [at, metric[name]]);
+                across(name, 0.15);
+            }
+    }
+    across("median", 0.3);
+    const known = (text, name) => metric[name] === undefined ? ""
+        : `${text}: ${plain(quantity(metric[name], metric.unit))}`;
+    return {...common, type: "scatter", mode: "lines", line: {color: hue, width: 2},
+        x: points.map(([place]) => place),
+        y: points.map(([, value]) => value === null ? null : value / size),
+        text: [known("95th percentile", "percentile_95"), known("third quartile", "third_quartile"),
+            known("median", "median"), known("first quartile", "first_quartile"),
+            known("5th percentile", "percentile_5")].filter(Boolean).join("<br>"),
+        hoverinfo: "text"};
+}
+
+// What is drawn beside the samples in order.
+const kSpreads = {
+    histogram: {title: "samples", trace: (common, row, values, range, hue) =>
+        histogramTrace(common, values, range, hue)},
+    cumulative: {title: "% of the samples", trace: (common, row, values, range, hue) =>
+        cumulativeTrace(common, values, hue)},
+    box: {title: "", trace: (common, row, values, range, hue) => boxTrace(common, row, hue)},
+};
 
 // The median as a line, its interval as a band.
 function medianShapes(row, hue) {
@@ -498,22 +550,28 @@ function sampleNote(row) {
 function drawSamples() {
     const div = byId("samples-plot"), found = sampleRows();
     const traces = [], shapes = [];
+    const unit = metricUnits.get(samples.metric), size = shownUnit(unit).size;
+    const valuesOf = (row) => row.metrics[samples.metric].samples.map((value) => value / size);
+    const all = found.flatMap(valuesOf);
+    const range = [Math.min(...all), Math.max(...all)];
+    const kind = kSpreads[samples.kind];
     for (const row of found) {
-        const metric = row.metrics[samples.metric], size = shownUnit(metric.unit).size;
-        const values = metric.samples.map((value) => value / size);
-        const hue = seriesColor(row.reportIndex);
-        traces.push(orderTrace(row, values, hue), spreadTrace(row, values, hue));
+        const values = valuesOf(row), hue = seriesColor(row.reportIndex);
+        const common = {name: plain(row.report.label), legendgroup: row.report.label,
+            showlegend: false, xaxis: "x2"};
+        traces.push(orderTrace(row, values, hue), kind.trace(common, row, values, range, hue));
         shapes.push(...medianShapes(row, hue));
     }
-    const unit = metricUnits.get(samples.metric);
     drawFigure(div, traces, {
         barmode: "overlay", shapes, height: 420, legend: legendStyle(div, "report"),
         xaxis: axisStyle({title: "sample, in order", domain: [0, 0.66]}),
-        xaxis2: axisStyle({title: samples.kind === "histogram" ? "samples" : "", domain: [0.7, 1]}),
+        xaxis2: axisStyle({title: kind.title, domain: [0.7, 1],
+            ...(samples.kind === "box" ? {showticklabels: false, showgrid: false} : {})}),
         yaxis: axisStyle({title: plain(metricTitle(samples.metric ?? "", unit))}),
     });
     byId("samples-note").textContent = found.map(sampleNote).join(" ") +
-        (found.length ? " Dashed: the median; band: its interval." : "");
+        (found.length ? " Dashed: the median; band: its interval." : "") +
+        (samples.kind === "box" ? " Box: the quartiles; whiskers: 5th and 95th percentile." : "");
 }
 
 // ---- Quality and cost: error against time -------------------------------------------------------
