@@ -26,7 +26,7 @@ TEST_P(PythonModule, PassesItsTests) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Tests, PythonModule, testing::Values("ci", "documents", "groom", "program", "report"),
+    Tests, PythonModule, testing::Values("ci", "documents", "groom", "program", "report", "thesis"),
     [](const auto& test) { return test.param; });
 
 }  // namespace
