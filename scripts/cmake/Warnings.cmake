@@ -1,7 +1,8 @@
 # What our own targets are compiled with; libraries of others are left alone.
 
 option(HAIRBENCH_WERROR "Treat warnings in our own code as errors" ON)
-option(HAIRBENCH_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
+set(HAIRBENCH_SANITIZE "" CACHE STRING
+    "Sanitizers to build with, as -fsanitize takes them: address,undefined or thread")
 
 # Hidden by default, project-wide: assimp pulls in a library that exports its own tinygltf, and the
 # two would otherwise be merged when the program starts.
@@ -52,7 +53,7 @@ function(hairbench_sanitizers target)
     if(NOT HAIRBENCH_SANITIZE)
         return()
     endif()
-    set(sanitizers -fsanitize=address,undefined)
+    set(sanitizers -fsanitize=${HAIRBENCH_SANITIZE})
     target_compile_options(${target} PRIVATE
         ${sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS)

@@ -16,3 +16,8 @@ const char* __lsan_default_suppressions(void) { return "leak:libVkLayer_khronos_
 // Says nothing when it did.
 __attribute__((visibility("default"))) const char* __lsan_default_options(void);
 const char* __lsan_default_options(void) { return "print_suppressions=0"; }
+
+// Races are looked for between accesses of our own code. The drivers, layers and libraries that it calls
+// are not compiled with the thread sanitizer, which does not see by what they order theirs.
+__attribute__((visibility("default"))) const char* __tsan_default_options(void);
+const char* __tsan_default_options(void) { return "ignore_noninstrumented_modules=1"; }
