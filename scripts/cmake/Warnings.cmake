@@ -48,6 +48,11 @@ function(hairbench_warnings target)
     endif()
 endfunction()
 
+# By itself: precompiled headers of programs are none of C.
+if(HAIRBENCH_SANITIZE)
+    add_library(sanitized_programs OBJECT "${CMAKE_CURRENT_LIST_DIR}/sanitized_programs.c")
+endif()
+
 # The link option is PUBLIC: whoever links a sanitized library needs the run-time library too.
 function(hairbench_sanitizers target)
     if(NOT HAIRBENCH_SANITIZE)
@@ -60,6 +65,6 @@ function(hairbench_sanitizers target)
     target_link_options(${target} PUBLIC ${sanitizers})
     get_target_property(type ${target} TYPE)
     if(type STREQUAL "EXECUTABLE")
-        target_sources(${target} PRIVATE "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/sanitized_programs.c")
+        target_link_libraries(${target} PRIVATE sanitized_programs)
     endif()
 endfunction()
