@@ -28,7 +28,14 @@ PAGES = {
         "docs/performance",
     ],
     "Reports": ["results/README", "docs/report_page", "docs/python"],
-    "How it works": ["docs/physics", "docs/rendering", "docs/references", "docs/thesis"],
+    "How it works": [
+        "docs/frame",
+        "docs/physics",
+        "docs/rendering",
+        "docs/optics",
+        "docs/references",
+        "docs/thesis",
+    ],
     "The source": [
         "docs/design",
         "docs/extending",

@@ -107,6 +107,72 @@ TEST(Links, LeadToWhatIsThere) {
     EXPECT_GT(count, 15u);
 }
 
+// What stands between backticks in a page and looks like a file in a folder. A shader may be named
+// from shaders/, a test from tests/, and a part "x" stands for a name of the reader's own.
+std::set<std::string> filesNamedIn(std::istream& page) {
+    static const std::regex file(
+        R"(`([A-Za-z0-9_.-]+(?:/[A-Za-z0-9_.-]+)*/[A-Za-z0-9_.-]+\.)"
+        R"((?:cpp|h|glsl|comp|vert|frag|geom|tesc|tese|task|mesh|py|md|js|sh|json))`)");
+    static const std::regex placeholder(R"((^|[/_])x[_.])");
+    std::set<std::string> files;
+    std::string line;
+    bool fenced = false;
+    while (std::getline(page, line)) {
+        if (line.starts_with("```")) fenced = !fenced;
+        if (fenced) continue;
+        for (std::sregex_iterator each(line.begin(), line.end(), file), end; each != end; ++each)
+            if (const std::string name = (*each)[1]; !std::regex_search(name, placeholder))
+                files.insert(name);
+    }
+    return files;
+}
+
+bool isFile(const fs::path& page, const std::string& name) {
+    for (const fs::path& folder : {kRoot, kRoot / "shaders", kRoot / "tests", page.parent_path()})
+        if (fs::is_regular_file(folder / name)) return true;
+    return false;
+}
+
+TEST(Links, FilesThatPagesNameAreThere) {
+    // A library's header, a file that a patch adds, reports that readers make.
+    const std::set<std::string> others{"re2/re2.h", "hair/groom/formats/csv.cpp"};
+    std::size_t count = 0;
+    for (const fs::path& path : pages()) {
+        std::ifstream page(path);
+        for (const std::string& name : filesNamedIn(page)) {
+            if (others.contains(name) || name.starts_with("results/local/")) continue;
+            ++count;
+            EXPECT_TRUE(isFile(path, name)) << path.lexically_relative(kRoot) << ": " << name;
+        }
+    }
+    EXPECT_GT(count, 200u);
+}
+
+// The names by which files of a folder record passes.
+void addPassNames(const fs::path& folder, std::set<std::string>& names) {
+    static const std::regex recorded(R"re(passes\.pass\(\s*"([a-z_]+)")re");
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        if (entry.path().extension() != ".cpp") continue;
+        std::stringstream text;
+        text << std::ifstream(entry.path()).rdbuf();
+        const std::string all = text.str();
+        for (std::sregex_iterator each(all.begin(), all.end(), recorded), end; each != end; ++each)
+            names.insert((*each)[1]);
+    }
+}
+
+TEST(Pages, TheFramesHasEveryPass) {
+    std::set<std::string> names;
+    addPassNames(kRoot / "hair", names);
+    addPassNames(kRoot / "benchmarks", names);
+    names.erase("limit");  // measures the device, and is in no frame
+    EXPECT_GE(names.size(), 15u);
+    std::stringstream page;
+    page << std::ifstream(kRoot / "docs/frame.md").rdbuf();
+    for (const std::string& name : names)
+        EXPECT_THAT(page.str(), testing::HasSubstr('`' + name + '`'));
+}
+
 // As GitHub makes them: its own headings in this project, by hand.
 TEST(Links, AnchorsAreThoseOfGitHub) {
     EXPECT_EQ(anchorOf("8,704 strands, not 5,568"), "8704-strands-not-5568");
