@@ -36,8 +36,12 @@ VkShaderStageFlagBits stageOf(const std::string& path) {
     throw Error("shader '" + path + "'", "its extension names no stage");
 }
 
-ShaderModule loadModule(const Device& device, const std::string& path) {
-    const std::span<const std::uint32_t> code = device.shaders().code(path);
+ShaderModule
+loadModule(const Device& device, const std::string& path, const ShaderExtensions& extensions) {
+    const std::shared_ptr<const ShaderCode> extended =
+        extensions.empty() ? nullptr : device.shaders().extended(path, extensions);
+    const std::span<const std::uint32_t> code =
+        extended ? std::span(*extended) : device.shaders().code(path);
     const VkShaderModuleCreateInfo create{
         .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
         .pNext = nullptr,
@@ -198,7 +202,7 @@ PipelineObjects makePipeline(const Device& device, const ComputeDescription& des
     objects.layout =
         makeLayout(device, objects.push_stages, description.push_size, objects.images.get());
 
-    const ShaderModule module = loadModule(device, description.shader);
+    const ShaderModule module = loadModule(device, description.shader, description.extensions);
     const Specialization specialization(description.constants);
     VkComputePipelineCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
@@ -230,7 +234,7 @@ PipelineObjects makePipeline(const Device& device, const GraphicsDescription& de
     std::vector<ShaderModule> modules;
     std::vector<VkPipelineShaderStageCreateInfo> stages;
     for (const std::string& path : description.shaders) {
-        modules.push_back(loadModule(device, path));
+        modules.push_back(loadModule(device, path, description.extensions));
         stages.push_back(stageInfo(stageOf(path), modules.back(), specialization));
     }
 
@@ -318,8 +322,11 @@ public:
     void add(Value value) {
         bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
     }
-    void add(const Device& device, const std::string& shader) {
-        const std::span<const std::uint32_t> code = device.shaders().code(shader);
+    void add(const Device& device, const std::string& shader, const ShaderExtensions& extensions) {
+        const std::shared_ptr<const ShaderCode> extended =
+            extensions.empty() ? nullptr : device.shaders().extended(shader, extensions);
+        const std::span<const std::uint32_t> code =
+            extended ? std::span(*extended) : device.shaders().code(shader);
         const std::string_view text(reinterpret_cast<const char*>(code.data()), code.size_bytes());
         bytes_.append(shader).push_back('\0');
         add(text.size());
@@ -341,7 +348,7 @@ private:
 
 std::string keyOf(const Device& device, const ComputeDescription& description) {
     PipelineKey key;
-    key.add(device, description.shader);
+    key.add(device, description.shader, description.extensions);
     key.add(description.constants);
     key.add(description.push_size);
     key.add(description.combined_images);
@@ -353,7 +360,8 @@ std::string keyOf(const Device& device, const ComputeDescription& description) {
 
 std::string keyOf(const Device& device, const GraphicsDescription& description) {
     PipelineKey key;
-    for (const std::string& shader : description.shaders) key.add(device, shader);
+    for (const std::string& shader : description.shaders)
+        key.add(device, shader, description.extensions);
     key.add(description.constants);
     key.add(description.push_size);
     key.add(description.topology);

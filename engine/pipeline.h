@@ -35,9 +35,13 @@ struct Constant {
 // those that are missing keep the shader's default.
 using Constants = std::vector<Constant>;
 
+struct ShaderExtension;
+using ShaderExtensions = std::vector<std::shared_ptr<const ShaderExtension>>;
+
 struct ComputeDescription {
     std::string shader;  // path under shaders/, e.g. "simulation/wind.comp"
     Constants constants;
+    ShaderExtensions extensions{};  // shaders.h: of those that the shader calls
     std::uint32_t push_size = 0;  // B
     // Either images with their samplers, at bindings 0 .., or sampled ones without and storage ones
     // after them.
@@ -110,6 +114,7 @@ struct GraphicsDescription {
     // One per stage, by extension: .vert .tesc .tese .geom .frag, or .task .mesh .frag.
     std::vector<std::string> shaders;
     Constants constants;  // the same for every stage
+    ShaderExtensions extensions{};  // each of the stages that call it
     std::uint32_t push_size = 0;  // B
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     std::uint32_t patch_control_points = 0;  // with PATCH_LIST

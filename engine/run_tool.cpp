@@ -1,8 +1,10 @@
 #include "engine/run_tool.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <fstream>
 #include <span>
 #include <system_error>
 #include <utility>
@@ -10,6 +12,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -76,6 +79,7 @@ public:
         posix_spawn_file_actions_destroy(&actions);
         if (error != 0) failWith(error, pointers.front());
     }
+    explicit Child(pid_t id) : id_(id) {}
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
     ~Child() {
@@ -157,7 +161,70 @@ void run(const std::vector<std::string>& arguments, const Take& take, const Poll
     throw Error(line.empty() ? arguments.front() + ' ' + describe(status) : line);
 }
 
+// ---- A copy of this process ---------------------------------------------------------------------
+
+// B of addresses that this process has.
+std::size_t addressSpace() {
+    std::ifstream pages("/proc/self/statm");
+    std::size_t count = 0;
+    pages >> count;
+    return count * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+void limit(__rlimit_resource resource, rlim_t value) {
+    rlimit limits{};
+    if (getrlimit(resource, &limits) != 0) return;
+    limits.rlim_cur = std::min(limits.rlim_max, value);
+    setrlimit(resource, &limits);
+}
+
+[[noreturn]] void
+workAndEnd(const std::function<std::string()>& work, const ChildLimits& limits, int output) {
+    signal(SIGINT, SIG_IGN);  // of a terminal: the parent ends this child
+    signal(SIGXCPU, SIG_DFL);
+    limit(RLIMIT_CORE, 0);
+    limit(RLIMIT_CPU, limits.seconds);
+    limit(RLIMIT_AS, addressSpace() + limits.bytes);
+    std::string bytes;
+    try {
+        bytes = work();
+    } catch (...) {
+        _exit(1);
+    }
+    for (std::size_t done = 0; done < bytes.size();) {
+        const ssize_t count = write(output, bytes.data() + done, bytes.size() - done);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) _exit(1);
+        done += static_cast<std::size_t>(count);
+    }
+    _exit(0);  // nothing of the parent's is destroyed
+}
+
+std::string describe(int status, const ChildLimits& limits) {
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+        return "not done after " + std::to_string(limits.seconds) + " s of the processor";
+    return describe(status);
+}
+
 }  // namespace
+
+std::string runApart(const std::function<std::string()>& work, const ChildLimits& limits) {
+    Pipe output;
+    const pid_t id = fork();
+    if (id < 0) failWith(errno, "fork");
+    if (id == 0) workAndEnd(work, limits, output.write.get());
+    Child child(id);
+    output.write.close();
+    std::string bytes, none;
+    File no_errors(-1);
+    drain(
+        output.read, [&](std::span<const char> part) { bytes.append(part.data(), part.size()); },
+        no_errors, none, checkInterrupted);
+    const int status = child.wait();
+    checkInterrupted();
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return bytes;
+    throw Error(describe(status, limits));
+}
 
 std::vector<std::byte> runTool(const std::vector<std::string>& arguments, std::size_t most) {
     std::vector<std::byte> bytes;

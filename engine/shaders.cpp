@@ -5,6 +5,7 @@
 #include <cstring>
 #include <memory>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include <glslang/Public/ResourceLimits.h>
@@ -13,6 +14,7 @@
 
 #include "engine/error.h"
 #include "engine/pipeline.h"
+#include "engine/run_tool.h"
 
 namespace engine {
 namespace {
@@ -127,6 +129,66 @@ void setTarget(glslang::TShader& shader, EShLanguage stage) {
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
 }
 
+// The strings of an extension's unit. Errors name a declaration's line as the file's.
+struct ExtensionUnit {
+    ExtensionUnit(const ShaderExtension& extension, const ReadShader& read)
+        : head("#version 460\n" + read(extension.interface).value_or("")),
+          texts{head.c_str(), extension.declarations.c_str(), extension.text.c_str()},
+          lengths{
+              static_cast<int>(head.size()), static_cast<int>(extension.declarations.size()),
+              static_cast<int>(extension.text.size())},
+          names{extension.interface.c_str(), extension.name.c_str(), extension.name.c_str()} {}
+
+    std::string head;
+    std::array<const char*, 3> texts;
+    std::array<int, 3> lengths;
+    std::array<const char*, 3> names;
+};
+
+// An error of putting units together: it has no line, and is of an extension, as the program's own
+// units fit. "name(u1;" is how glslang calls a function there.
+ShaderError linkError(const std::string& log, const ShaderExtensions& extensions) {
+    static const std::regex signature(R"(\n\s*(\w+)\()");
+    const std::string& file = extensions.front()->name;
+    std::smatch match;
+    if (!std::regex_search(log, match, signature)) return {file, 0, firstError(log, file).text};
+    if (log.find("Multiple function bodies") != std::string::npos)
+        return {file, 0, "'" + match[1].str() + "' is a function of the program's own: rename it"};
+    return {
+        file, 0, "has no function '" + match[1].str() + "' with the parameters that are asked for"};
+}
+
+// ---- Compiling apart ----------------------------------------------------------------------------
+
+// What compiling a stranger's text may take. A compiler can be kept busy for ever by a short one.
+constexpr ChildLimits kCompileLimits{.seconds = 20, .bytes = std::size_t{2} << 30};
+
+std::string bytesOf(const CompiledShader& compiled) {
+    if (compiled.error) {
+        const std::string& text = compiled.error->text;  // glslang ends some with a space
+        return 'E' + std::to_string(compiled.error->line) + '\n' + compiled.error->file + '\n' +
+               text.substr(0, text.find_last_not_of(' ') + 1);
+    }
+    return 'C' + std::string(
+                     reinterpret_cast<const char*>(compiled.code.data()),
+                     compiled.code.size() * sizeof(std::uint32_t));
+}
+
+// Throws the error.
+ShaderCode codeOf(const std::string& bytes) {
+    if (bytes.starts_with('E')) {
+        const std::size_t line = bytes.find('\n');
+        const std::size_t file = bytes.find('\n', line + 1);
+        const std::string number = bytes.substr(1, line - 1);
+        throw Error(
+            bytes.substr(line + 1, file - line - 1) + (number == "0" ? "" : ':' + number),
+            bytes.substr(file + 1));
+    }
+    ShaderCode code((bytes.size() - 1) / sizeof(std::uint32_t));
+    std::memcpy(code.data(), bytes.data() + 1, code.size() * sizeof(std::uint32_t));
+    return code;
+}
+
 // ---- Sources in SPIR-V --------------------------------------------------------------------------
 
 // A text of SPIR-V: UTF-8, four bytes a word, with a zero at its end.
@@ -150,12 +212,63 @@ std::span<const std::uint32_t> ShaderLibrary::code(std::string_view path) const 
     return replaced == replacements_.end() ? shaderCode(path) : replaced->second;
 }
 
+std::shared_ptr<const ShaderCode>
+ShaderLibrary::extended(std::string_view path, const ShaderExtensions& extensions) const {
+    const std::span<const std::uint32_t> own = code(path);
+    const auto as_it_is = [&] {
+        return std::make_shared<const ShaderCode>(own.begin(), own.end());
+    };
+    if (extensions.empty()) return as_it_is();
+    const ShaderSources sources = shaderSources(own);
+    ShaderExtensions called;
+    std::string key(path);
+    for (const auto& extension : extensions) {
+        if (!sources.contains(extension->interface)) continue;
+        called.push_back(extension);
+        for (const std::string* part :
+             {&extension->interface, &extension->declarations, &extension->name, &extension->text})
+            key += '\0' + std::to_string(part->size()) + '\0' + *part;
+    }
+    if (called.empty()) return as_it_is();
+    for (const auto& [file, text] : sources) key += '\0' + text;
+
+    const std::lock_guard lock(mutex_);
+    if (const auto known = extended_.find(key); known != extended_.end()) return known->second;
+    const std::string name(path);
+    const std::string bytes = [&] {
+        try {
+            return runApart(
+                [&] {
+                    const auto read = [&](const std::string& file) -> std::optional<std::string> {
+                        const auto found = sources.find(file);
+                        if (found == sources.end()) return std::nullopt;
+                        return found->second;
+                    };
+                    return bytesOf(ShaderCompiler().compile(name, read, called));
+                },
+                kCompileLimits);
+        } catch (const Error& error) {
+            throw Error(
+                called.front()->name, "could not be compiled: " + std::string(error.what()));
+        }
+    }();
+    auto code = std::make_shared<const ShaderCode>(codeOf(bytes));
+    const std::set<ShaderBinding> had = shaderBindings(own);
+    for (const ShaderBinding& binding : shaderBindings(*code))
+        if (!had.contains(binding))
+            throw Error(called.front()->name, "asks for a buffer or an image, which it can't have");
+    if (extended_.size() >= kMostExtended) extended_.clear();
+    extended_.emplace(std::move(key), code);
+    return code;
+}
+
 // ---- Compiling ----------------------------------------------------------------------------------
 
 ShaderCompiler::ShaderCompiler() { glslang::InitializeProcess(); }
 ShaderCompiler::~ShaderCompiler() { glslang::FinalizeProcess(); }
 
-CompiledShader ShaderCompiler::compile(const std::string& path, const ReadShader& read) const {
+CompiledShader ShaderCompiler::compile(
+    const std::string& path, const ReadShader& read, const ShaderExtensions& extensions) const {
     const EShLanguage stage = stageOf(path);
     CompiledShader compiled{.code = {}, .files = {path}, .error = {}};
     const std::optional<std::string> text = read(path);
@@ -170,6 +283,9 @@ CompiledShader ShaderCompiler::compile(const std::string& path, const ReadShader
     glslang::TShader shader(stage);
     shader.setStringsWithLengthsAndNames(&string, &length, &name, 1);
     setTarget(shader, stage);
+    std::string macros;
+    for (const auto& extension : extensions) macros += "#define " + extension->macro + " 1\n";
+    shader.setPreamble(macros.c_str());
     GlslIncluder includer(read);
     const bool parsed =
         shader.parse(GetDefaultResources(), kDefaultVersion, false, kMessages, includer);
@@ -179,14 +295,33 @@ CompiledShader ShaderCompiler::compile(const std::string& path, const ReadShader
         return compiled;
     }
 
+    // Before the program, which is of them.
+    std::vector<ExtensionUnit> units;
+    std::vector<std::unique_ptr<glslang::TShader>> parts;
     glslang::TProgram program;
+    units.reserve(extensions.size());
+    for (const auto& extension : extensions) {
+        const ExtensionUnit& unit = units.emplace_back(*extension, read);
+        glslang::TShader& part = *parts.emplace_back(std::make_unique<glslang::TShader>(stage));
+        part.setStringsWithLengthsAndNames(
+            unit.texts.data(), unit.lengths.data(), unit.names.data(),
+            static_cast<int>(unit.texts.size()));
+        setTarget(part, stage);
+        if (!part.parse(GetDefaultResources(), kDefaultVersion, false, kMessages)) {
+            compiled.error = firstError(part.getInfoLog(), extension->name);
+            return compiled;
+        }
+        program.addShader(&part);
+    }
+    // Last: what it says of the stage is taken over where units before say nothing.
     program.addShader(&shader);
     if (!program.link(kMessages) || !program.mapIO()) {
-        compiled.error = firstError(program.getInfoLog(), path);
+        compiled.error = extensions.empty() ? firstError(program.getInfoLog(), path)
+                                            : linkError(program.getInfoLog(), extensions);
         return compiled;
     }
     glslang::SpvOptions options;
-    options.generateDebugInfo = true;
+    options.generateDebugInfo = extensions.empty();
     spv::SpvBuildLogger logger;
     glslang::GlslangToSpv(*program.getIntermediate(stage), compiled.code, &logger, &options);
     return compiled;

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +18,18 @@ namespace engine {
 
 using ShaderCode = std::vector<std::uint32_t>;  // SPIR-V
 
+// GLSL that does not come with the program: functions that an entry point calls. It is a
+// compilation unit of its own, so that it sees nothing of the program's shaders but `interface`,
+// which declares what both sides define: none of their names, buffers or extensions.
+struct ShaderExtension {
+    std::string interface;  // "extension/shading.glsl": entry points that include it call it
+    std::string macro;  // that is defined for them
+    std::string declarations;  // before the text, each on the line of the file that it is from
+    std::string name;  // of the file, as errors have it
+    std::string text;
+};
+using ShaderExtensions = std::vector<std::shared_ptr<const ShaderExtension>>;
+
 // The code that pipelines are made of: what was compiled into the program (shaderCode()), or what
 // took its place since.
 class ShaderLibrary {
@@ -27,13 +41,24 @@ public:
     // known ones.
     std::span<const std::uint32_t> code(std::string_view path) const;
 
+    // The same with those of the extensions that it calls, which are compiled at their first time.
+    // Throws Error "<file>:<line>: <reason>" for one that does not compile. Thread-safe but for
+    // replace().
+    std::shared_ptr<const ShaderCode>
+    extended(std::string_view path, const ShaderExtensions& extensions) const;
+
     // These and no others are replaced from now on; paths that the program has no code of are
     // added. Pipelines that exist keep their code.
     void replace(Replacements replacements) { replacements_ = std::move(replacements); }
     const Replacements& replacements() const { return replacements_; }
 
 private:
+    static constexpr std::size_t kMostExtended = 256;
+
     Replacements replacements_;
+    mutable std::mutex mutex_;
+    // By all that they were compiled of.
+    mutable std::map<std::string, std::shared_ptr<const ShaderCode>> extended_;
 };
 
 // What the compiler says of a shader.
@@ -66,7 +91,11 @@ public:
 
     // `path` is an entry point with its stage as its extension: "strands/strand.frag". Includes are
     // relative to the folder of shaders too, whoever includes them.
-    CompiledShader compile(const std::string& path, const ReadShader& read) const;
+    // With extensions that the entry point calls the code is of all of them together, and has no
+    // sources in it; an error is in the file that it says, under the extension's name.
+    CompiledShader compile(
+        const std::string& path, const ReadShader& read,
+        const ShaderExtensions& extensions = {}) const;
 };
 
 // The SPIR-V of an entry point under shaders/, compiled into the program: "simulation/wind.comp".

@@ -46,6 +46,11 @@ Field fileName(const char* name, std::string Settings::* member, const char* hel
 }
 
 template <class Settings>
+Field extensionFile(const char* name, std::string Settings::* member, const char* help) {
+    return {name, help, ExtensionFile{{{{placeOf(member)}}}}};
+}
+
+template <class Settings>
 Field toggle(const char* name, bool Settings::* member, const char* help) {
     return {name, help, Toggle{{placeOf(member)}}};
 }
@@ -63,6 +68,21 @@ Field choice(
     for (const Named<Enum>& each : names)
         known.push_back({static_cast<int>(each.value), each.name});
     return {name, help, Choice(placeOf(member), kChoiceAccess<Enum>, std::move(known))};
+}
+
+template <class Settings, class Enum>
+Field choiceOrFile(
+    const char* name, Enum Settings::* member, std::initializer_list<Named<Enum>> names,
+    Enum of_file, std::string Settings::* file, const char* help) {
+    Field field = choice(name, member, names, help);
+    field.kind =
+        ChoiceOrFile(std::get<Choice>(field.kind), static_cast<int>(of_file), {placeOf(file)});
+    return field;
+}
+
+template <class Settings>
+Field parameters(const char* name, ExtensionParameters Settings::* member, const char* help) {
+    return {name, help, Parameters{{placeOf(member)}}};
 }
 
 template <class Settings, class Nested>

@@ -15,6 +15,10 @@ bool differsIn(const Choice& row, SettingsView a, SettingsView b) {
     return row.chosen(a) != row.chosen(b);
 }
 
+bool differsIn(const ChoiceOrFile& row, SettingsView a, SettingsView b) {
+    return row.chosen(a) != row.chosen(b) || row.file.in(a) != row.file.in(b);
+}
+
 bool differsIn(const Group& row, SettingsView a, SettingsView b) {
     return differ(row.in(a), row.in(b));
 }
@@ -38,6 +42,16 @@ std::optional<std::size_t> Choice::chosen(SettingsView settings) const {
 
 void Choice::choose(SettingsRef settings, std::size_t index) const {
     access_->set(address(settings), names[index].value);
+}
+
+void ChoiceOrFile::chooseFile(SettingsRef settings, const std::string& path) const {
+    access_->set(address(settings), of_file);
+    file.in(settings) = path;
+}
+
+void ChoiceOrFile::chooseName(SettingsRef settings, std::size_t index) const {
+    choose(settings, index);
+    file.in(settings).clear();
 }
 
 SettingsView List::newElement() const { return elements_->defaults(); }

@@ -11,6 +11,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "hair/extension.h"
+
 // The members of settings structs at run time. A row of a struct's table gives JSON reading, range
 // check, JSON Schema, report echo and the viewer's widget, by code that knows the kinds of rows
 // below and no struct. The tables are beside the structs: settings.cpp has that of settings.h.
@@ -101,6 +103,9 @@ struct Text : Member<std::string> {};
 // The path of a file, relative to the scene file; empty where there is none.
 struct FileName : Text {};
 
+// One of GLSL, which is read with the scene: ExtensionParameters.
+struct ExtensionFile : FileName {};
+
 struct Toggle : Member<bool> {};
 
 template <class Enum>
@@ -125,9 +130,28 @@ public:
 
     std::vector<Named<int>> names;
 
-private:
+protected:
     const Access* access_;
 };
+
+// A choice, or a file that does the same: in JSON its path, relative to the scene file, which ends
+// in `extension`. The enumerator `of_file` is chosen then, and has no name.
+struct ChoiceOrFile : Choice {
+    ChoiceOrFile(Choice choice, int value, Member<std::string> path)
+        : Choice(std::move(choice)), of_file(value), file(path) {}
+
+    static constexpr const char* kExtension = ".glsl";
+
+    void chooseFile(SettingsRef settings, const std::string& path) const;
+    void chooseName(SettingsRef settings, std::size_t index) const;
+
+    int of_file;
+    Member<std::string> file;  // empty where another is chosen
+};
+
+// The parameters of an extension: a JSON object of numbers and vectors, whose names and ranges are
+// the file's.
+struct Parameters : Member<ExtensionParameters> {};
 
 // A nested settings struct: a JSON object with its own table.
 class Group : public Place {
@@ -182,7 +206,8 @@ private:
 
 using Kind = std::variant<
     Number<float>, Number<std::uint32_t>, Number<std::int32_t>, Number<std::uint64_t>,
-    Number<glm::vec3>, OneOf, Text, FileName, Toggle, Choice, Group, List>;
+    Number<glm::vec3>, OneOf, Text, FileName, ExtensionFile, Toggle, Choice, ChoiceOrFile,
+    Parameters, Group, List>;
 
 struct Field {
     const char* name;

@@ -74,7 +74,8 @@ inline constexpr std::size_t kCount<ShadingModel> = counted<ShadingModel>(
     {{ShadingModel::phong, gpu::kModelPhong},
      {ShadingModel::kajiya_kay, gpu::kModelKajiyaKay},
      {ShadingModel::marschner, gpu::kModelMarschner},
-     {ShadingModel::dual_scattering, gpu::kModelDualScattering}});
+     {ShadingModel::dual_scattering, gpu::kModelDualScattering},
+     {ShadingModel::extension, gpu::kModelExtension}});
 
 template <>
 inline constexpr std::size_t kCount<HairShadows> = counted<HairShadows>(

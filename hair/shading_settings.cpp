@@ -75,16 +75,22 @@ const Table& tableOf(const ShadowSettings*) {
 const Table& tableOf(const ShadingSettings*) {
     using S = ShadingSettings;
     static const Table table = tableWith<S>(
-        {choice(
+        {choiceOrFile(
              "model", &S::model,
              {{ShadingModel::phong, "phong"},
               {ShadingModel::kajiya_kay, "kajiya_kay"},
               {ShadingModel::marschner, "marschner"},
               {ShadingModel::dual_scattering, "dual_scattering"}},
+             ShadingModel::extension, &S::model_file,
              "how a strand is lit; phong: thesis (5), (6); kajiya_kay: Kajiya and Kay 1989; "
              "marschner: light that a fibre reflects and lets through once (R, TT, TRT), d'Eon et "
              "al. 2011 and Chiang et al. 2016; dual_scattering: marschner and what other strands "
-             "scatter, Zinke et al. 2008"),
+             "scatter, Zinke et al. 2008; a file of GLSL (.glsl), relative to the scene file: "
+             "docs/extending_scenes.md"),
+         parameters(
+             "model_parameters", &S::model_parameters,
+             "parameters of the file that model names, by the names, ranges and units that it "
+             "declares"),
          choice(
              "color_from", &S::color_from,
              {{ColorSource::rgb, "rgb"}, {ColorSource::melanin, "melanin"}},

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
+
+#include "hair/extension.h"
 
 // How strands are lit: settings.h has the other parameters and says how to add one.
 namespace hair {
@@ -45,12 +48,15 @@ struct ShadowSettings {
 
 const Table& tableOf(const ShadowSettings*);
 
-enum class ShadingModel { phong, kajiya_kay, marschner, dual_scattering };
+// extension: that of model_file.
+enum class ShadingModel { phong, kajiya_kay, marschner, dual_scattering, extension };
 enum class ColorSource { rgb, melanin };
 
 // Hair's color is that of much hair after all scattering.
 struct ShadingSettings {
     ShadingModel model = ShadingModel::phong;
+    std::string model_file;
+    ExtensionParameters model_parameters;
     ColorSource color_from = ColorSource::rgb;
     glm::vec3 color{0.95f, 0.9f, 0.625f};
     float eumelanin = 1.3f;

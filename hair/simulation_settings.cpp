@@ -371,6 +371,14 @@ const Table& tableOf(const SimulationSettings*) {
          group("augmented_mass_spring", &S::augmented_mass_spring, "augmented mass-spring model"),
          group("material", &S::material, "material of a hair, for rods and the drag of the wind"),
          group("wind", &S::wind, "wind"),
+         extensionFile(
+             "force", &S::force,
+             "file of GLSL (.glsl) that accelerates guides beside gravity and wind, but not while "
+             "they settle; relative to the scene file: docs/extending_scenes.md; empty: none"),
+         parameters(
+             "force_parameters", &S::force_parameters,
+             "parameters of the file that force names, by the names, ranges and units that it "
+             "declares"),
          group("collision", &S::collision, "contact with bodies"),
          list("colliders", &S::colliders, 65536, "capsules that push guides out"),
          list("distance_fields", &S::distance_fields, 8, "meshes that push guides out"),

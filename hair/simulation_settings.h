@@ -6,6 +6,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "hair/extension.h"
+
 // The parameters of the simulation: settings.h has the others and says how to add one.
 namespace hair {
 
@@ -247,6 +249,8 @@ struct SimulationSettings {
     AugmentedMassSpringSettings augmented_mass_spring;
     MaterialSettings material;
     WindSettings wind;
+    std::string force;
+    ExtensionParameters force_parameters;
     CollisionSettings collision;
     std::vector<Collider> colliders;
     std::vector<DistanceFieldSettings> distance_fields;

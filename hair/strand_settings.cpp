@@ -111,6 +111,15 @@ const Table& tableOf(const StrandSettings*) {
              "offsets", &S::offsets,
              "strands whose offsets from their own smooth shape are added to drawn ones, relative "
              "to the scene file; empty: none"),
+         extensionFile(
+             "offset_function", &S::offset_function,
+             "file of GLSL (.glsl) that offsets drawn strands, relative to the scene file: "
+             "docs/extending_scenes.md; empty: none"),
+         parameters(
+             "offset_parameters", &S::offset_parameters,
+             "parameters of the file that offset_function names, by the names, ranges and units "
+             "that it "
+             "declares"),
          number(
              "opacity", &S::opacity, 0, 1, "1",
              "opacity of a strand, which /render/transparency makes use of"),

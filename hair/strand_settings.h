@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <string>
 
+#include "hair/extension.h"
+
 // How strands are made from guides: settings.h has the other parameters and says how to add one.
 namespace hair {
 
@@ -66,6 +68,8 @@ struct StrandSettings {
     StrandCurlSettings curl;
     StrandVariationSettings variation;
     std::string offsets;
+    std::string offset_function;
+    ExtensionParameters offset_parameters;
     float opacity = 1.0f;
     std::string texture;
     Curve curve = Curve::bspline;

@@ -6,6 +6,7 @@
 #include "benchmarks/measure/hair_cache.h"
 #include "benchmarks/report/environment.h"
 #include "benchmarks/scene/assets.h"
+#include "benchmarks/scene/extensions.h"
 #include "engine/buffer_image.h"
 #include "engine/error.h"
 #include "hair/groom/build_groom.h"
@@ -41,22 +42,23 @@ hair::simulation::Simulation simulationOf(
 Case::Case(
     const engine::Device& device, const hair::Settings& settings,
     const std::filesystem::path& directory, HairCache* cache)
-    : device_(device), settings_(settings), directory_(directory),
+    : device_(device), settings_(scene::withExtensions(settings, directory)), directory_(directory),
       mesh_(
-          cache ? cache->assets().mesh(settings, directory) : scene::loadMesh(settings, directory)),
+          cache ? cache->assets().mesh(settings_, directory)
+                : scene::loadMesh(settings_, directory)),
       groom_(
-          cache ? cache->assets().groom(settings, directory)
+          cache ? cache->assets().groom(settings_, directory)
                 : hair::groom::buildGroom(
-                      settings.groom, pointerTo(mesh_), directory, settings.seed)),
-      deforming_(scene::loadDeforming(settings, mesh_, directory)),
+                      settings_.groom, pointerTo(mesh_), directory, settings_.seed)),
+      deforming_(scene::loadDeforming(settings_, mesh_, directory)),
       simulation_(simulationOf(
-          device, groom_, settings, scene::loadFieldMeshes(settings, mesh_, directory),
+          device, groom_, settings_, scene::loadFieldMeshes(settings_, mesh_, directory),
           deforming_.get(), cache)),
-      fixed_step_(double{settings.simulation.time_step}),
-      groom_buffers_(std::make_unique<hair::rendering::GroomBuffers>(groomBuffers(settings))),
+      fixed_step_(double{settings_.simulation.time_step}),
+      groom_buffers_(std::make_unique<hair::rendering::GroomBuffers>(groomBuffers(settings_))),
       renderer_(std::make_unique<hair::rendering::Renderer>(
-          device, settings, view(),
-          scene::loadRenderAssets(settings, pointerTo(mesh_), directory))) {}
+          device, settings_, view(),
+          scene::loadRenderAssets(settings_, pointerTo(mesh_), directory))) {}
 
 hair::rendering::GroomBuffers Case::groomBuffers(const hair::Settings& settings) const {
     return {
@@ -64,7 +66,8 @@ hair::rendering::GroomBuffers Case::groomBuffers(const hair::Settings& settings)
         deforming_.get()};
 }
 
-void Case::setDrawing(const hair::Settings& settings) {
+void Case::setDrawing(const hair::Settings& unread) {
+    const hair::Settings settings = scene::withExtensions(unread, directory_);
     auto buffers = std::make_unique<hair::rendering::GroomBuffers>(groomBuffers(settings));
     auto renderer = std::make_unique<hair::rendering::Renderer>(
         device_, settings, viewOf(*buffers),
@@ -81,7 +84,9 @@ void Case::setCamera(const hair::CameraSettings& camera) {
 
 void Case::carryOn(const hair::SimulationSettings& settings) {
     simulation_.carryOn(settings);
+    const auto file = settings_.simulation.force_parameters.file;
     settings_.simulation = settings;
+    settings_.simulation.force_parameters.file = file;
 }
 
 void Case::simulate(engine::Passes& passes) {
@@ -98,6 +103,11 @@ void Case::simulate(engine::Passes& passes) {
         if (simulation_.hasVolume()) {
             passes.pass("volume", engine::PassKind::compute, [&](engine::Commands& commands) {
                 simulation_.recordVolume(commands);
+            });
+        }
+        if (blows && simulation_.hasForce()) {
+            passes.pass("force", engine::PassKind::compute, [&](engine::Commands& commands) {
+                simulation_.recordForce(commands);
             });
         }
         if (blows && simulation_.hasPulls()) {
@@ -173,7 +183,8 @@ hair::rendering::StrandPoints Case::strands() const {
     return hair::rendering::evaluateStrandPoints(device_, settings_, view());
 }
 
-hair::rendering::Renderer Case::rendererOf(const hair::Settings& settings) const {
+hair::rendering::Renderer Case::rendererOf(const hair::Settings& unread) const {
+    const hair::Settings settings = scene::withExtensions(unread, directory_);
     return {
         device_, settings, view(), scene::loadRenderAssets(settings, pointerTo(mesh_), directory_)};
 }

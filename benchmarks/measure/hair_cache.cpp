@@ -90,12 +90,16 @@ std::string fieldKey(
 std::string stateKey(
     const std::string& basis, const hair::groom::Groom& groom, const hair::Settings& settings,
     const std::vector<std::string>& meshes) {
+    // A force that the scene brings along does not act while hair settles.
+    scene::Json simulation = scene::writeFields(settings.simulation);
+    simulation.erase("force");
+    simulation.erase("force_parameters");
     Key key("settled state");
     for (const std::string& mesh : meshes) key.add("mesh", mesh);
     return key.add("guides", std::to_string(groom.strand_count))
                .add("points", hashOf(groom.points))
                .add("seed", std::to_string(settings.seed))
-               .add("settings", scene::writeFields(settings.simulation).dump())
+               .add("settings", simulation.dump())
                .text() +
            basis;
 }

@@ -483,6 +483,11 @@ MitsubaExport exportMitsuba(
     const auto write = [&](const std::string& name, const auto& writer) {
         engine::writeFileAtomically(folder / name, writer, engine::checkInterrupted);
     };
+    if (settings.shading.model == hair::ShadingModel::extension)
+        throw engine::Error(
+            scene.path.string(),
+            "/shading/model: " + settings.shading.model_file +
+                " is the scene's own, and what is path-traced are fibres: set another for it");
     MitsubaParts parts;
     MitsubaExport result;
     measure::Case played(device, settings, scene.directory, &cache);

@@ -1,6 +1,9 @@
 #include "benchmarks/report/environment.h"
 
+#include <array>
+#include <bit>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
@@ -176,5 +179,68 @@ std::string hashBytes(std::span<const std::byte> bytes) {
 }
 
 std::string hashText(std::string_view text) { return hashBytes(std::as_bytes(std::span(text))); }
+
+namespace {
+
+constexpr std::size_t kShaBlock = 64;  // B
+using ShaState = std::array<std::uint32_t, 8>;
+
+// The first 32 bits of the fractional parts of a root of the first primes.
+template <std::size_t count>
+std::array<std::uint32_t, count> primeRoots(double exponent) {
+    std::array<std::uint32_t, count> roots{};
+    std::size_t found = 0;
+    for (std::uint32_t number = 2; found < count; ++number) {
+        bool prime = true;
+        for (std::uint32_t i = 2; i * i <= number; ++i) prime = prime && number % i != 0;
+        if (!prime) continue;
+        // A double has 21 bits more than the 32 and the whole part take.
+        const double root = std::pow(static_cast<double>(number), exponent);
+        roots[found++] =
+            static_cast<std::uint32_t>(std::floor((root - std::floor(root)) * 4294967296.0));
+    }
+    return roots;
+}
+
+void addShaBlock(ShaState& state, const unsigned char* block) {
+    static const auto constants = primeRoots<64>(1.0 / 3.0);
+    std::array<std::uint32_t, 64> words{};
+    for (std::size_t i = 0; i < 16; ++i)
+        for (std::size_t byte = 0; byte < 4; ++byte) words[i] = words[i] << 8 | block[4 * i + byte];
+    for (std::size_t i = 16; i < words.size(); ++i) {
+        const std::uint32_t a = words[i - 15], b = words[i - 2];
+        words[i] = words[i - 16] + (std::rotr(a, 7) ^ std::rotr(a, 18) ^ a >> 3) + words[i - 7] +
+                   (std::rotr(b, 17) ^ std::rotr(b, 19) ^ b >> 10);
+    }
+    auto [a, b, c, d, e, f, g, h] = state;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const std::uint32_t first = h + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) +
+                                    ((e & f) ^ (~e & g)) + constants[i] + words[i];
+        const std::uint32_t second =
+            (std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22)) + ((a & b) ^ (a & c) ^ (b & c));
+        h = std::exchange(g, std::exchange(f, std::exchange(e, d + first)));
+        d = std::exchange(c, std::exchange(b, std::exchange(a, first + second)));
+    }
+    const ShaState mixed{a, b, c, d, e, f, g, h};
+    for (std::size_t i = 0; i < state.size(); ++i) state[i] += mixed[i];
+}
+
+}  // namespace
+
+std::string sha256(std::string_view text) {
+    std::string padded(text);
+    padded += '\x80';
+    padded.resize((padded.size() + 8 + kShaBlock - 1) / kShaBlock * kShaBlock - 8);
+    const std::uint64_t bits = std::uint64_t{text.size()} * 8;
+    for (int shift = 56; shift >= 0; shift -= 8) padded += static_cast<char>(bits >> shift);
+    ShaState state = primeRoots<8>(0.5);
+    for (std::size_t i = 0; i < padded.size(); i += kShaBlock)
+        addShaBlock(state, reinterpret_cast<const unsigned char*>(padded.data()) + i);
+    std::string digits;
+    for (const std::uint32_t word : state)
+        for (int shift = 28; shift >= 0; shift -= 4)
+            digits += "0123456789abcdef"[word >> shift & 0xf];
+    return digits;
+}
 
 }  // namespace benchmarks::report

@@ -40,4 +40,7 @@ Environment describeEnvironment(
 std::string hashBytes(std::span<const std::byte> bytes);
 std::string hashText(std::string_view text);
 
+// SHA-256 (FIPS 180-4) of the text, as 64 lower-case hex digits: what sha256sum says of a file.
+std::string sha256(std::string_view text);
+
 }  // namespace benchmarks::report

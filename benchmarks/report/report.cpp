@@ -224,6 +224,11 @@ scene::Json toJson(const CaseResult& result) {
     put(object, "order", result.order);
     object["status"] = statusName(result.status);
     put(object, "reason", result.reason);
+    for (const ExtensionRecord& extension : result.extensions)
+        object["extensions"].push_back(
+            {{"pointer", extension.pointer},
+             {"file", extension.file},
+             {"sha256", extension.sha256}});
     if (result.memory_need)
         object["memory_need"] = {
             {"device", result.memory_need->device}, {"host", result.memory_need->host}};

@@ -19,7 +19,7 @@
 // "": empty strings, empty optionals, and numbers that are not finite are left out.
 namespace benchmarks::report {
 
-inline constexpr const char* kReportSchema = "hairbench-report/1.5.0";
+inline constexpr const char* kReportSchema = "hairbench-report/1.6.0";
 
 struct DeviceRecord {
     std::string name;
@@ -157,6 +157,13 @@ struct MemoryNeed {
     std::uint64_t host = 0;  // of the program with the case, without a software device's memory
 };
 
+// A file of GLSL that the case was played with: docs/extending_scenes.md.
+struct ExtensionRecord {
+    std::string pointer;  // of the field that names it
+    std::string file;  // as the field has it
+    std::string sha256;
+};
+
 struct CaseResult {
     std::string name;
     std::optional<std::size_t> index;  // in the whole sweep, from 0
@@ -165,6 +172,7 @@ struct CaseResult {
     Status status = Status::ok;
     std::string reason;  // why it was skipped or failed
     std::optional<MemoryNeed> memory_need;
+    std::vector<ExtensionRecord> extensions;
     BackendRecord backend;
     std::optional<StartRecord> start;
     // Medians, MAD and the rest are worked out when they are written; those without a finite sample

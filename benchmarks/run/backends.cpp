@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/reference/flip.h"
+#include "benchmarks/scene/extensions.h"
 #include "benchmarks/scene/settings_json.h"
 #include "engine/error.h"
 #include "engine/frame_loop.h"
@@ -158,7 +159,8 @@ const BackendComparison::Reference& BackendComparison::reference(
     const engine::Device& device, const measure::Case& test_case, hair::Settings settings,
     std::span<const Backend> ways, const std::string& state) {
     settings.strands.backend = ways.front();
-    const std::string key = state + scene::writeSettings(settings).dump();
+    std::string key = state + scene::writeSettings(settings).dump();
+    for (const scene::NamedExtension& each : scene::namedExtensions(settings)) key += each.text;
     const auto found = references_.find(key);
     if (found != references_.end()) return found->second;
     if (references_.size() >= kMostReferences) references_.clear();

@@ -13,6 +13,8 @@
 #include "benchmarks/measure/case.h"
 #include "benchmarks/measure/machine_watch.h"
 #include "benchmarks/measure/memory_need.h"
+#include "benchmarks/report/environment.h"
+#include "benchmarks/scene/extensions.h"
 #include "engine/error.h"
 #include "engine/process.h"
 #include "engine/pictures.h"
@@ -134,6 +136,8 @@ PlayedCase runCase(
             throw engine::Unsupported(reason);
         measure::Case test_case(device, planned.spec.settings, planned.directory, &cache);
         result.trust.warnings = test_case.warnings();
+        for (const scene::NamedExtension& each : scene::namedExtensions(test_case.settings()))
+            result.extensions.push_back({each.pointer, each.file, report::sha256(each.text)});
         const measure::ClockHold clocks(device.info(), run.clocks);
         const auto picture = measure::measure(device, test_case, run, hooks, result);
         if (!run.reference.empty())

@@ -12,6 +12,7 @@
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/scene/extensions.h"
 #include "benchmarks/scene/settings_json.h"
 #include "engine/error.h"
 #include "hair/fields.h"
@@ -308,6 +309,7 @@ std::vector<std::string> checkAssets(
         if (hair::rendering::hasOffsets(settings.strands))
             hair::rendering::makeStrandOffsets(
                 settings.strands, groom, offsets ? &*offsets : nullptr, settings.seed);
+        checkExtensions(settings);
     } catch (const engine::Error& error) {
         throw engine::Error(scene.string(), error.what());
     }

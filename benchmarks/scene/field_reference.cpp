@@ -96,6 +96,7 @@ std::string valuesOf(const Json& schema) {
         }
         return all;
     }
+    if (schema.contains("anyOf")) return valuesOf(schema["anyOf"][0]) + ", file";
     const Json type = schema.value("type", Json());
     const std::string name =
         type.is_array() ? type.at(0).get<std::string>() : type.get<std::string>();
@@ -105,6 +106,7 @@ std::string valuesOf(const Json& schema) {
         if (schema.contains("minItems")) return schema["minItems"].dump() + " × " + of;
         return "list of up to " + schema["maxItems"].dump() + ' ' + of;
     }
+    if (name == "object") return "by the file";
     if (name == "string") return "text";
     if (name == "boolean") return "`true`, `false`";
     const std::string range = schema["minimum"].dump() + " to " + schema["maximum"].dump();

@@ -137,6 +137,14 @@ void visitNames(
 }
 
 void visitNames(
+    const hair::ChoiceOrFile&, const Json& value, std::string_view, hair::SettingsView,
+    const std::string& pointer, const NameVisitor& visit) {
+    if (value.is_string() &&
+        value.get_ref<const std::string&>().ends_with(hair::ChoiceOrFile::kExtension))
+        visit(pointer, value.get_ref<const std::string&>());
+}
+
+void visitNames(
     const hair::Group& row, const Json& value, std::string_view rest, hair::SettingsView settings,
     const std::string& pointer, const NameVisitor& visit) {
     visitNames(value, rest, row.in(settings), pointer, visit);

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/scene/extensions.h"
 #include "benchmarks/scene/json.h"
 #include "benchmarks/scene/settings_json.h"
 #include "engine/error.h"
@@ -106,12 +107,13 @@ const std::string* stringMember(const Json& document, const char* key) {
     return &member->get_ref<const std::string&>();
 }
 
-Scene makeScene(const fs::path& path, Json document) {
+Scene makeScene(const fs::path& path, Json document, const Reach& reach) {
     Scene scene;
     scene.path = path;
     scene.directory = path.parent_path();
     scene.name = path.stem().string();
     scene.settings = readSettings(document);
+    loadExtensions(scene.settings, scene.directory, reach);
     Json resolved = writeSettings(scene.settings);
     if (const auto member = document.find("sweep"); member != document.end()) {
         SweepMember sweep = readSweep(*member, resolved);
@@ -134,6 +136,12 @@ void moveFileName(
     const fs::path file = row.in(settings);
     if (!file.empty() && file.is_relative())
         object[name] = (folder / file).lexically_normal().string();
+}
+
+void moveFileName(
+    Json& object, const char* name, const fs::path& folder, const hair::ChoiceOrFile& row,
+    hair::SettingsView settings) {
+    moveFileName(object, name, folder, hair::FileName{{row.file}}, settings);
 }
 
 void moveFileName(
@@ -214,7 +222,7 @@ Loaded load(const fs::path& path, const Reach& reach, std::vector<fs::path> open
             mergePatch(merged, document, everyMember());
             document = std::move(merged);
         }
-        Scene scene = makeScene(path, document);
+        Scene scene = makeScene(path, document, reach);
         return Loaded{.scene = std::move(scene), .document = std::move(document)};
     });
 }
@@ -238,10 +246,35 @@ Scene loadScene(const fs::path& path, const Reach& reach) {
     return scene;
 }
 
+namespace {
+
+// Takes parameters away that the settings don't have.
+void dropParameters(Json& document, const Json& settings) {
+    for (const ExtensionField& field : kExtensionFields) {
+        const Json::json_pointer pointer(field.parameters);
+        if (!document.contains(pointer)) continue;
+        const Json written = document[pointer];
+        for (const auto& [name, value] : written.items())
+            if (!settings.at(pointer).contains(name)) document[pointer].erase(name);
+    }
+}
+
+}  // namespace
+
 void setField(Scene& scene, const std::string& pointer, const Json& value) {
     Json document = scene.document.json();
     document[Json::json_pointer(pointer)] = value;
     scene.settings = readSettings(document);
+    // What the user names may lie anywhere. Another file need not have the parameters of the one
+    // before.
+    const auto names = [&](const ExtensionField& field) {
+        return (std::string(field.pointer) + '/').starts_with(pointer + '/');
+    };
+    const bool other = std::ranges::any_of(kExtensionFields, names);
+    loadExtensions(
+        scene.settings, scene.directory, {},
+        other ? UnknownParameters::dropped : UnknownParameters::refused);
+    if (other) dropParameters(document, writeSettings(scene.settings));
     scene.document = Document(std::move(document));
     scene.resolved = Document(writeSettings(scene.settings));
 }

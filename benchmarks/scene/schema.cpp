@@ -313,6 +313,23 @@ Json fieldSchema(const char* help, const hair::Choice& row, hair::SettingsView) 
     return {{"description", help}, {"enum", names}};
 }
 
+Json fieldSchema(const char* help, const hair::ChoiceOrFile& row, hair::SettingsView defaults) {
+    const Json names = fieldSchema(help, static_cast<const hair::Choice&>(row), defaults)["enum"];
+    const Json file = {
+        {"type", "string"}, {"pattern", std::string("\\") + hair::ChoiceOrFile::kExtension + '$'}};
+    return {{"description", help}, {"anyOf", {{{"enum", names}}, file}}};
+}
+
+// Its members are the file's that another field names.
+Json fieldSchema(const char* help, const hair::Parameters&, hair::SettingsView) {
+    const Json number = {{"type", "number"}};
+    const Json vector = {{"type", "array"}, {"items", number}, {"minItems", 3}, {"maxItems", 3}};
+    return {
+        {"description", help},
+        {"type", "object"},
+        {"additionalProperties", {{"anyOf", {number, vector, {{"type", "null"}}}}}}};
+}
+
 Json fieldSchema(const char* help, const hair::Group& row, hair::SettingsView defaults) {
     Json schema = {{"description", help}};
     schema.update(objectSchema(row.in(defaults), Removal::possible));
@@ -330,6 +347,8 @@ Json fieldSchema(const char* help, const hair::List& row, hair::SettingsView) {
 void allowNull(Json& schema) {
     if (schema.contains("enum"))
         schema["enum"].push_back(nullptr);
+    else if (schema.contains("anyOf"))
+        schema["anyOf"].push_back({{"type", "null"}});
     else
         schema["type"] = Json::array({schema["type"], "null"});
 }

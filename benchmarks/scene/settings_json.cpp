@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include <nlohmann/json.hpp>
@@ -42,10 +43,7 @@ void checkNumber(
     if (!std::isfinite(number)) throw engine::Error(pointer, shown(number) + " is not finite");
     if (whole && std::trunc(number) != number)
         throw engine::Error(pointer, shown(number) + " is not an integer");
-    if (number < range.minimum || number > range.maximum)
-        throw engine::Error(
-            pointer, shown(number) + " is outside [" + shown(range.minimum) + ", " +
-                         shown(range.maximum) + "]" + withUnit(range.unit));
+    checkInRange(pointer, number, range);
 }
 
 void readFields(
@@ -117,6 +115,45 @@ void read(
     }
     throw engine::Error(
         pointer, unknownName("unknown name \"" + escapedToken(name) + '"', name, known));
+}
+
+void read(
+    const Json& value, const std::string& pointer, const hair::ChoiceOrFile& row,
+    hair::SettingsRef settings) {
+    if (value.is_string()) {
+        const auto& name = value.get_ref<const std::string&>();
+        if (name.ends_with(hair::ChoiceOrFile::kExtension)) {
+            row.chooseFile(settings, name);
+            return;
+        }
+    }
+    row.file.in(settings).clear();
+    read(value, pointer, static_cast<const hair::Choice&>(row), settings);
+}
+
+// Ranges are the file's: extensions.h.
+void read(
+    const Json& value, const std::string& pointer, const hair::Parameters& row,
+    hair::SettingsRef settings) {
+    if (!value.is_object()) throw mismatch(pointer, "an object", value);
+    constexpr hair::Range kAny{
+        std::numeric_limits<float>::lowest(), std::numeric_limits<float>::max(), "1"};
+    hair::ExtensionParameters& parameters = row.in(settings);
+    parameters = {};
+    for (const auto& [name, member] : value.items()) {
+        const std::string here = pointer + '/' + escapedToken(name);
+        hair::ExtensionValue read{.name = name, .is_vector = member.is_array(), .value = {}};
+        if (member.is_array() && member.size() != 3)
+            throw mismatch(here, "a number or an array of 3 numbers", member);
+        for (int i = 0; i < (read.is_vector ? 3 : 1); ++i) {
+            const Json& number = read.is_vector ? member[static_cast<std::size_t>(i)] : member;
+            checkNumber(
+                number, read.is_vector ? here + '/' + std::to_string(i) : here, Numbers::real,
+                kAny);
+            read.value[i] = number.get<float>();
+        }
+        parameters.values.push_back(std::move(read));
+    }
 }
 
 void read(
@@ -208,6 +245,18 @@ Json writeField(const hair::Choice& row, hair::SettingsView settings) {
     return row.names[*chosen].name;
 }
 
+Json writeField(const hair::ChoiceOrFile& row, hair::SettingsView settings) {
+    if (const std::string& file = row.file.in(settings); !file.empty()) return file;
+    return writeField(static_cast<const hair::Choice&>(row), settings);
+}
+
+Json writeField(const hair::Parameters& row, hair::SettingsView settings) {
+    Json object = Json::object();
+    for (const hair::ExtensionValue& each : row.in(settings).values)
+        object[each.name] = each.is_vector ? valueJson(each.value) : valueJson(each.value.x);
+    return object;
+}
+
 Json writeField(const hair::Group& row, hair::SettingsView settings) {
     return writeFields(row.in(settings));
 }
@@ -260,6 +309,13 @@ Json writeFields(hair::SettingsView settings) {
 
 Json changedFields(const hair::Settings& settings) {
     return changedFields(settings, hair::Settings{});
+}
+
+void checkInRange(const std::string& pointer, double number, const hair::Range& range) {
+    if (number >= range.minimum && number <= range.maximum) return;
+    throw engine::Error(
+        pointer, shown(number) + " is outside [" + shown(range.minimum) + ", " +
+                     shown(range.maximum) + "]" + withUnit(range.unit));
 }
 
 Json cleanNumber(double value) {

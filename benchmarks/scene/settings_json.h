@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 
 #include "benchmarks/scene/json.h"
@@ -8,6 +9,7 @@
 
 namespace hair {
 class SettingsView;
+struct Range;
 }  // namespace hair
 
 // Settings as JSON, by the tables of hair/settings.h.
@@ -34,6 +36,9 @@ Json writeFields(hair::SettingsView settings);
 // A list is there whole where anything in it differs, its elements without what is as in a new one.
 // Floats are compared by their bits.
 Json changedFields(const hair::Settings& settings);
+
+// Throws engine::Error "<JSON pointer>: 0 is outside [1, 4096] count" for a number that is.
+void checkInRange(const std::string& pointer, double number, const hair::Range& range);
 
 // Without a fraction if it has none, so that 64 stays 64 and a name or a schema reads well.
 Json cleanNumber(double value);

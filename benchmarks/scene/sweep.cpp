@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/scene/assets.h"
+#include "benchmarks/scene/extensions.h"
 #include "benchmarks/scene/json.h"
 #include "benchmarks/scene/schema.h"
 #include "benchmarks/scene/settings_json.h"
@@ -166,10 +167,42 @@ std::string caseName(
     return name;
 }
 
+// Whether the field is an axis, or a group of which it is.
+bool isSwept(std::span<const AxisValue> axes, const ExtensionField& field) {
+    return std::ranges::any_of(axes, [&](const AxisValue& axis) {
+        return (std::string(field.pointer) + '/').starts_with(axis.pointer + '/');
+    });
+}
+
 Json patched(const Scene& scene, std::span<const AxisValue> axes) {
     Json document = scene.resolved.json();
-    for (const AxisValue& axis : axes) patch(document, axis.pointer, axis.value.json());
+    // The scene's own file may have completed its parameters: another one's defaults are others.
+    for (const ExtensionField& field : kExtensionFields)
+        if (isSwept(axes, field)) {
+            const Json::json_pointer parameters(field.parameters);
+            document[parameters] = scene.document.json().value(parameters, Json::object());
+        }
+    for (const AxisValue& axis : axes) {
+        const auto own = std::ranges::find_if(kExtensionFields, [&](const ExtensionField& field) {
+            return isSwept(axes, field) && axis.pointer.starts_with(field.parameters);
+        });
+        if (own == std::end(kExtensionFields))
+            patch(document, axis.pointer, axis.value.json());
+        else
+            document[Json::json_pointer(axis.pointer)] = axis.value.json();
+    }
     return document;
+}
+
+// The settings of a case. Where a sweep varies the file, each takes the parameters that it has.
+hair::Settings settingsOf(const Scene& scene, std::span<const AxisValue> axes) {
+    hair::Settings settings = readSettings(patched(scene, axes));
+    const bool swept = std::ranges::any_of(
+        kExtensionFields, [&](const ExtensionField& field) { return isSwept(axes, field); });
+    loadExtensions(
+        settings, scene.directory, {},
+        swept ? UnknownParameters::dropped : UnknownParameters::refused);
+    return settings;
 }
 
 }  // namespace
@@ -194,7 +227,7 @@ std::vector<CaseSpec> expand(const Scene& scene, std::span<const Axis> overrides
             spec.axes = combination(axes, i);
             spec.name = caseName(scene.name, labels, spec.axes);
             context = scene.path.string() + (axes.empty() ? "" : ": " + spec.name);
-            spec.settings = axes.empty() ? scene.settings : readSettings(patched(scene, spec.axes));
+            spec.settings = axes.empty() ? scene.settings : settingsOf(scene, spec.axes);
             if (!axes.empty() && isExcluded(spec.settings, scene.exclusions)) continue;
             checkSettings(spec.settings);
             if (!names.insert(spec.name).second) throw engine::Error("two cases have this name");
@@ -262,6 +295,8 @@ std::vector<CaseSpec> selectCases(
         for (const auto& mesh : each.settings.render.meshes) files += '\n' + mesh.file;
         for (const auto& field : each.settings.simulation.distance_fields)
             files += '\n' + field.mesh;
+        for (const NamedExtension& extension : namedExtensions(each.settings))
+            files += '\n' + extension.file;
         if (!checked.insert(files).second) continue;
         for (const std::string& warning :
              checkAssets(each.settings, scene.path, assets ? *assets : own, scene.reach))

@@ -10,6 +10,7 @@
 
 #include "benchmarks/measure/metrics.h"
 #include "benchmarks/report/environment.h"
+#include "benchmarks/scene/extensions.h"
 #include "benchmarks/scene/schema.h"
 #include "benchmarks/scene/settings_json.h"
 #include "engine/device.h"
@@ -78,8 +79,16 @@ Player::Player(
     const std::filesystem::path& directory, measure::HairCache* cache, unsigned level)
     : device_(device), directory_(directory), cache_(cache), settings_(settings),
       case_(caseOf(settings)), isolated_(device, engine::Timing::isolated),
-      overlapped_(device, engine::Timing::overlapped), level_(level) {
+      overlapped_(device, engine::Timing::overlapped), level_(level),
+      files_(directory.empty() ? std::filesystem::path(".") : directory) {
+    watch();
     seek(0);
+}
+
+// A text that is not watched yet is that of the case.
+void Player::watch() {
+    for (const scene::NamedExtension& each : scene::namedExtensions(case_->settings()))
+        files_.watch(each.file, each.text);
 }
 
 std::unique_ptr<measure::Case> Player::caseOf(const hair::Settings& settings) const {
@@ -131,6 +140,19 @@ void Player::drawWith(const hair::Settings& settings) {
 }
 
 void Player::rebuild() { replace(caseOf(settings_), settings_); }
+
+bool Player::reread() {
+    constexpr auto kBetweenLooks = std::chrono::milliseconds(250);
+    const auto now = std::chrono::steady_clock::now();
+    if (now < next_look_) return false;
+    next_look_ = now + kBetweenLooks;
+    watch();
+    if (!files_.look()) return false;
+    hair::Settings settings = settings_;
+    scene::rereadExtensions(settings, directory_);
+    replace(caseOf(settings), settings);
+    return true;
+}
 
 void Player::replace(std::unique_ptr<measure::Case> other, const hair::Settings& settings) {
     coarse_ = {};
@@ -302,7 +324,8 @@ Side::Side(std::uint64_t id, const hair::Settings& settings, const std::filesyst
 void Side::edit(const hair::Settings& settings, Edit edit) {
     if (!edit.changed) return;
     wanted_ = settings;
-    history_.edit(documentOf(settings), edit.continues);
+    scene::rereadExtensions(wanted_, directory_);
+    history_.edit(documentOf(wanted_), edit.continues);
     continues_ = edit.continues;
     ++revision_;
 }
@@ -316,12 +339,14 @@ void Side::settle() {
 
 void Side::undo() {
     wanted_ = scene::readSettings(history_.undo().json());
+    scene::rereadExtensions(wanted_, directory_);
     continues_ = false;
     ++revision_;
 }
 
 void Side::redo() {
     wanted_ = scene::readSettings(history_.redo().json());
+    scene::rereadExtensions(wanted_, directory_);
     continues_ = false;
     ++revision_;
 }
@@ -339,6 +364,7 @@ SideOrder Side::order() const {
 void Side::take(SideReply reply, Beside beside) {
     answered_ = reply.revision;
     problem_ = std::move(reply.problem);
+    if (reply.reread) scene::rereadExtensions(wanted_, directory_);
     if (reply.restarts_timings) timings_.clear();
     if (reply.timed && beside == Beside::nothing)
         timings_.add(reply.timed->record, reply.timed->timing, reply.timed->number);

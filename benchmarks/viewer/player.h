@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <exception>
 #include <filesystem>
@@ -21,6 +22,7 @@
 #include "benchmarks/viewer/edit.h"
 #include "benchmarks/viewer/picking.h"
 #include "benchmarks/viewer/preview.h"
+#include "benchmarks/viewer/shader_reload.h"
 #include "benchmarks/viewer/timings.h"
 #include "engine/frame_loop.h"
 
@@ -119,6 +121,9 @@ public:
     // Makes everything anew, for shaders that changed, up to the frame that was reached. Throws as
     // Case, and keeps what was there.
     void rebuild();
+    // The same where one of the scene's own files of GLSL was saved since it was read; false where
+    // none was. Looks at them a few times a second.
+    bool reread();
 
     // Plays and draws the next frame. `timing` is isolated or overlapped.
     void next(engine::Timing timing = engine::Timing::isolated);
@@ -154,6 +159,8 @@ private:
     std::unique_ptr<measure::Case> caseOf(const hair::Settings& settings) const;
     void replace(std::unique_ptr<measure::Case> other, const hair::Settings& settings);
 
+    void watch();
+
     const engine::Device& device_;
     std::filesystem::path directory_;
     measure::HairCache* cache_;
@@ -170,6 +177,8 @@ private:
     unsigned drawn_level_ = 0;
     bool outdated_ = false;  // the settings are no longer those of the picture
     std::uint64_t pictures_ = 0;
+    WatchedFiles files_;
+    std::chrono::steady_clock::time_point next_look_;
 };
 
 // The documents that a scene has been, for undo and redo.
@@ -221,6 +230,7 @@ struct SideReply {
     std::uint64_t revision = 0;  // of the settings that were followed, or refused
     std::string problem;  // why they were refused; empty: they were not
     std::exception_ptr failure;  // why a side that was not played before is not there; or null
+    bool reread = false;  // files that the settings name have other texts now
     bool restarts_timings = false;  // frames before are of other settings
     std::optional<TimedFrame> timed;
     std::optional<Shown> shown;  // where another picture was drawn

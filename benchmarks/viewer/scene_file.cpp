@@ -89,7 +89,8 @@ void addChanges(
     if (wanted.is_object()) {
         for (const auto& [key, value] : wanted.items())
             addChanges(
-                original.at(key), value, pointer + '/' + scene::escapedToken(key), axes, arguments);
+                original.value(key, scene::Json()), value, pointer + '/' + scene::escapedToken(key),
+                axes, arguments);
         return;
     }
     if (original.dump() == wanted.dump()) return;
@@ -183,6 +184,11 @@ void visitFileNames(const hair::Place&, hair::SettingsRef, const FileNameVisitor
 void visitFileNames(
     const hair::FileName& row, hair::SettingsRef settings, const FileNameVisitor& visit) {
     visit(row.in(settings));
+}
+
+void visitFileNames(
+    const hair::ChoiceOrFile& row, hair::SettingsRef settings, const FileNameVisitor& visit) {
+    visit(row.file.in(settings));
 }
 
 void visitFileNames(

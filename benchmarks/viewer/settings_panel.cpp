@@ -219,6 +219,31 @@ bool editValue(
     return changed;
 }
 
+// Names, and below them a file: the entry is its path.
+bool editValue(
+    const char* label, const char* name, const hair::ChoiceOrFile& row,
+    hair::SettingsRef settings) {
+    std::string& file = row.file.in(settings);
+    const std::optional<std::size_t> chosen = row.chosen(settings);
+    const char* const shown = chosen ? row.names[*chosen].name : file.c_str();
+    if (!ImGui::BeginCombo(label, shown)) return false;
+    bool changed = false;
+    for (std::size_t i = 0; i < row.names.size(); ++i) {
+        if (!ImGui::Selectable(row.names[i].name, i == chosen)) continue;
+        changed = i != chosen;
+        row.chooseName(settings, i);
+    }
+    std::string path = file;
+    textInput((std::string("##") + name + "/file").c_str(), path, "or a file (.glsl)");
+    if (ImGui::IsItemDeactivatedAfterEdit() && path != file &&
+        path.ends_with(hair::ChoiceOrFile::kExtension)) {
+        row.chooseFile(settings, path);
+        changed = true;
+    }
+    ImGui::EndCombo();
+    return changed;
+}
+
 // ---- The value as it was ------------------------------------------------------------------------
 
 template <class Value>
@@ -228,6 +253,13 @@ void reset(const hair::Member<Value>& row, hair::SettingsRef settings, hair::Set
 
 void reset(const hair::Choice& row, hair::SettingsRef settings, hair::SettingsView before) {
     if (const auto chosen = row.chosen(before)) row.choose(settings, *chosen);
+}
+
+void reset(const hair::ChoiceOrFile& row, hair::SettingsRef settings, hair::SettingsView before) {
+    if (const auto chosen = row.chosen(before))
+        row.chooseName(settings, *chosen);
+    else
+        row.chooseFile(settings, row.file.in(before));
 }
 
 // ---- What a row looks like ----------------------------------------------------------------------
@@ -311,6 +343,45 @@ private:
         });
     }
 
+    // What the file declares, as if each were a struct of one member.
+    void show(
+        const hair::Field& field, const hair::Parameters& row, hair::SettingsRef settings,
+        hair::SettingsView original) {
+        hair::ExtensionParameters& parameters = row.in(settings);
+        if (!parameters.file || parameters.values.empty()) return;
+        const auto& before = row.in(original).values;
+        const FieldMark mark = markOf(hair::differ(field, settings, original));
+        inside(field.name, shownName(field.name), field.help, mark, [&] {
+            for (std::size_t i = 0; i < parameters.values.size(); ++i) {
+                const hair::ExtensionParameter& declared = parameters.file->parameters.at(i);
+                const auto same =
+                    std::ranges::find(before, declared.name, &hair::ExtensionValue::name);
+                showParameter(
+                    declared, parameters.values[i],
+                    same != before.end()
+                        ? *same
+                        : hair::ExtensionValue{
+                              declared.name, declared.is_vector, declared.original});
+            }
+        });
+    }
+
+    void showParameter(
+        const hair::ExtensionParameter& declared, hair::ExtensionValue& value,
+        const hair::ExtensionValue& before) {
+        static const hair::Table none(nullptr, {});
+        const hair::SettingsRef now(none, &value);
+        const hair::SettingsView then(none, &before);
+        const hair::Range range{declared.minimum, declared.maximum, declared.unit.c_str()};
+        const auto showAs = [&](const auto& row) {
+            show({declared.name.c_str(), declared.help.c_str(), row}, row, now, then);
+        };
+        if (declared.is_vector)
+            showAs(hair::Number<glm::vec3>{{hair::Place(&value, &value.value)}, range});
+        else
+            showAs(hair::Number<float>{{hair::Place(&value, &value.value.x)}, range});
+    }
+
     // True where the element is to be removed.
     bool showElement(std::size_t index, hair::SettingsRef element, hair::SettingsView before) {
         const std::string name = std::to_string(index);
@@ -353,6 +424,10 @@ private:
             return true;
         if (const auto* const group = std::get_if<hair::Group>(&field.kind))
             return findsIn(field.name, group->in(settings));
+        if (const auto* const own = std::get_if<hair::Parameters>(&field.kind))
+            return std::ranges::any_of(own->in(settings).values, [&](const auto& value) {
+                return searchable(value.name).find(search_) != std::string::npos;
+            });
         if (const auto* const list = std::get_if<hair::List>(&field.kind))
             return list->size(settings) > 0 &&
                    findsIn(std::string(field.name) + "/0", list->at(settings, 0));

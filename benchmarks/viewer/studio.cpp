@@ -75,6 +75,19 @@ void Studio::follow(Played& played, const SideOrder& order, SideReply& reply) {
     reply.restarts_timings |= differInMoreThanCamera(before, played.player.settings());
 }
 
+// The last good text is drawn until a new one is.
+void Studio::reread(Played& played, SideReply& reply) {
+    try {
+        if (!played.player.reread()) return;
+        played.problem.clear();
+    } catch (const engine::DeviceLost&) {
+        throw;
+    } catch (const engine::Error& error) {
+        played.problem = error.what();
+    }
+    reply.reread = reply.restarts_timings = true;
+}
+
 // Sides that are no longer wanted go, and new ones come.
 void Studio::admit(const Order& order, Reply& reply) {
     std::erase_if(played_, [&](const auto& entry) {
@@ -117,6 +130,7 @@ void Studio::play(const Order& order, const Stop& stop, Reply& reply) {
         Player& player = found->second->player;
         player.setLevel(order.level);
         const std::uint64_t before = player.pictures();
+        reread(*found->second, side);
         follow(*found->second, order.sides[i], side);
         side.problem = found->second->problem;
         if (order.seek) player.seek(*order.seek, stop);

@@ -85,6 +85,7 @@ private:
     void reloadShaders();
     void admit(const Order& order, Reply& reply);
     void make(const SideOrder& order, unsigned level, SideReply& reply);
+    static void reread(Played& played, SideReply& reply);
     static void follow(Played& played, const SideOrder& order, SideReply& reply);
     void play(const Order& order, const Stop& stop, Reply& reply);
     static void advance(Player& player, const Order& order, const Stop& stop, SideReply& reply);

@@ -489,8 +489,11 @@ engine::GraphicsDescription strandPipeline(const BackendContext& context) {
     engine::Constants constants = strandConstants(context.strands, context.plan);
     constants.emplace_back(gpu::kPixelSamplesConstant, output.samples);
     constants.insert(constants.end(), output.shading.begin(), output.shading.end());
+    engine::ShaderExtensions extensions = strandExtensions(context.strands);
+    extensions.insert(extensions.end(), output.extensions.begin(), output.extensions.end());
     return {
         .constants = constants,
+        .extensions = extensions,
         .push_size = pushSize(stages),
         .colors = colors,
         .depth_format = output.depth_format,
@@ -510,7 +513,7 @@ void declareStrands(engine::Commands& commands, const gpu::PictureParameters& pi
 }
 
 engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan) {
-    return {
+    engine::Constants constants{
         {gpu::kCurveConstant, shaderCode(strands.curve)},
         {gpu::kTaperConstant, shaderCode(strands.taper)},
         {gpu::kLodModeConstant, shaderCode(plan.lod_mode)},
@@ -525,7 +528,15 @@ engine::Constants strandConstants(const StrandSettings& strands, const StrandPla
         {gpu::kMergedHairsConstant, plan.merged_hairs},
         {gpu::kOwnColorsConstant, plan.own_colors},
         {gpu::kResidualsConstant, plan.residuals},
-        {gpu::kSkinnedStrandsConstant, plan.skinned}};
+        {gpu::kSkinnedStrandsConstant, plan.skinned},
+        {gpu::kOffsetReachConstant, functionReach(strands)}};
+    const engine::Constants own = extensionConstants(strands.offset_parameters);
+    constants.insert(constants.end(), own.begin(), own.end());
+    return constants;
+}
+
+engine::ShaderExtensions strandExtensions(const StrandSettings& strands) {
+    return shaderExtensions(strands.offset_parameters);
 }
 
 // ---- Watched stages -----------------------------------------------------------------------------

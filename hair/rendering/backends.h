@@ -89,6 +89,7 @@ struct StrandOutput {
     bool depth_write = true;
     std::uint32_t samples = 1;
     engine::Constants shading;  // shadingConstants
+    engine::ShaderExtensions extensions{};  // that shade
     std::uint32_t sampled_images = 0;
 };
 
@@ -130,6 +131,8 @@ void declareStrands(engine::Commands& commands, const gpu::PictureParameters& pi
 
 // The specialization constants of every shader that includes strands/strand.glsl.
 engine::Constants strandConstants(const StrandSettings& strands, const StrandPlan& plan);
+// What they call of the scene.
+engine::ShaderExtensions strandExtensions(const StrandSettings& strands);
 
 // Where watched stages leave a trace: a condition on what an invocation made decides whether it is
 // added up. Drivers can't know it, so that they must do the work of all. Sums are atomic, so they

@@ -170,8 +170,11 @@ GroomBuffers::GroomBuffers(
             view_.offset_reach = std::max(view_.offset_reach, kOvershoot * glm::length(value));
         view_.offset_profiles = offsets.profiles;
         view_.offset_samples = offsets.samples;
-        view_.root_frames = upload(root_frames_, rootFrames(groom), "root frames");
     }
+    if (hasFrames(settings.strands))
+        view_.root_frames = upload(root_frames_, rootFrames(groom), "root frames");
+    view_.radius += functionReach(settings.strands);
+    view_.offset_reach += functionReach(settings.strands);
     if (deforming) {
         std::vector<glm::vec4> rest;
         for (const glm::vec3& point : groom.points) rest.emplace_back(point, 0.0f);
@@ -200,6 +203,8 @@ std::uint64_t groomBufferBytes(const Settings& settings, const groom::GroomSize&
         const double length =  // m; hair in files is rarely longer
             settings.groom.file.empty() ? double{grow.length} * (1.0 + grow.length_variation) : 1.0;
         bytes += offsetBytes(strands, length);
+    }
+    if (hasFrames(strands)) {
         bytes += size.guides * sizeof(gpu::RootFrame) + size.vertices() * sizeof(glm::vec3);
     }
     if (!settings.simulation.animation.clip.empty()) bytes += size.vertices() * sizeof(glm::vec4);
@@ -209,6 +214,8 @@ std::uint64_t groomBufferBytes(const Settings& settings, const groom::GroomSize&
 void checkStrands(const StrandSettings& settings, const groom::Groom& groom) {
     if (settings.width == WidthSource::groom && groom.widths.empty())
         throw engine::Error("/strands/width", "is groom, but the groom has no widths");
+    if (!settings.offset_function.empty() && !settings.offset_parameters.file)
+        throw engine::Error("/strands/offset_function", "names a file that was not read");
     if (settings.source == StrandSource::groom && groom.bindings.empty())
         throw engine::Error("/strands/source", "is groom, but the groom has no bindings");
 }

@@ -60,6 +60,7 @@ evaluateStage(const engine::Device& device, const Settings& settings, const Stra
         .shader = readsPairs(device) ? "strands/points/evaluate_packed.comp"
                                      : "strands/points/evaluate.comp",
         .constants = constants,
+        .extensions = strandExtensions(settings.strands),
         .push_size = sizeof(gpu::PointsPush)};
 }
 

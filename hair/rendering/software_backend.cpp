@@ -95,6 +95,7 @@ softwareStage(const BackendContext& context, const std::string& name, std::uint3
     return {
         .shader = shaderOf(context, name, ".comp"),
         .constants = softwareConstants(context, block),
+        .extensions = context.output.extensions,
         .push_size = sizeof(gpu::SoftwarePush)};
 }
 

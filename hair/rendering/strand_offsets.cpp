@@ -269,6 +269,14 @@ bool hasOffsets(const StrandSettings& settings) {
     return curls(settings) || varies(settings) || !settings.offsets.empty();
 }
 
+bool hasFrames(const StrandSettings& settings) {
+    return hasOffsets(settings) || !settings.offset_function.empty();
+}
+
+float functionReach(const StrandSettings& settings) {
+    return extensionNumber(settings.offset_parameters, "reach");
+}
+
 std::uint64_t offsetBytes(const StrandSettings& settings, double length) {
     constexpr double kModelIntervals = 63.0;
     double intervals = settings.offsets.empty() ? 1.0 : kModelIntervals;

@@ -69,6 +69,10 @@ struct StrandOffsets {
 
 // Whether strands are drawn off their smooth shape at all.
 bool hasOffsets(const StrandSettings& settings);
+// Whether they are offset along frames: by a table, or by a function of the scene's own.
+bool hasFrames(const StrandSettings& settings);
+// How far that function takes them at most, m: its parameter `reach`. 0 without one.
+float functionReach(const StrandSettings& settings);
 
 // B of a table of offsets for guides of a mean length, m, where a model has kMostProfiles strands
 // of 64 points: for who does not know the groom yet.

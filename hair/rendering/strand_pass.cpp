@@ -405,6 +405,7 @@ std::unique_ptr<StrandBlend> makeBlend(const BlendContext& context) {
 
 StrandOutput shaded(StrandOutput output, const Settings& settings) {
     output.shading = shadingConstants(settings);
+    output.extensions = shaderExtensions(settings.shading.model_parameters);
     output.sampled_images = kStrandImages;
     return output;
 }
@@ -441,7 +442,9 @@ std::uint64_t transparencyBytes(const RenderSettings& render) {
 engine::Constants shadingConstants(const Settings& settings) {
     const ShadingSettings& shading = settings.shading;
     const RenderSettings& render = settings.render;
-    return {
+    if (shading.model == ShadingModel::extension && !shading.model_parameters.file)
+        throw engine::Error("/shading/model", "names a file that was not read");
+    engine::Constants constants{
         {gpu::kModelConstant, shaderCode(shading.model)},
         {gpu::kLightCountConstant, static_cast<std::uint32_t>(shading.lights.size())},
         {gpu::kMeshShadowsConstant, shading.shadows.meshes},
@@ -454,6 +457,9 @@ engine::Constants shadingConstants(const Settings& settings) {
         {gpu::kShowConstant, shaderCode(render.show)},
         {gpu::kLightKindsConstant, lightKinds(settings)},
         {gpu::kFarFieldConstant, shading.far_field}};
+    const engine::Constants own = extensionConstants(shading.model_parameters);
+    constants.insert(constants.end(), own.begin(), own.end());
+    return constants;
 }
 
 StrandTexture::StrandTexture(

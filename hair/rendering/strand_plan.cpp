@@ -144,8 +144,10 @@ planStrands(const StrandView& view, const Settings& settings, std::uint32_t isol
     plan.residuals = strands.source == StrandSource::groom && view.residuals != 0;
     plan.skinned = view.deforming != nullptr;
     plan.merged_hairs = drawsMergedHairs(settings);
-    plan.own_colors =
-        settings.shading.strand_variation > 0.0f || settings.shading.tip_lightening > 0.0f;
+    // A model of the scene's own may ask where on a strand it is, as colours of its own do.
+    plan.own_colors = settings.shading.strand_variation > 0.0f ||
+                      settings.shading.tip_lightening > 0.0f ||
+                      settings.shading.model == ShadingModel::extension;
     plan.greatest_width = view.greatest_width * (plan.merged_hairs ? gpu::kMostMergedSpread : 1.0f);
     return plan;
 }

@@ -57,6 +57,7 @@ StrandPoints evaluateStrandPoints(
     const engine::ComputePipeline pipeline(
         device, {.shader = "strands/evaluate.comp",
                  .constants = strandConstants(settings.strands, result.plan),
+                 .extensions = strandExtensions(settings.strands),
                  .push_size = sizeof(gpu::StrandPointsPush)});
     const engine::Buffer parameters(
         device, {.size = sizeof(gpu::PictureParameters),

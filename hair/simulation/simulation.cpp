@@ -131,6 +131,8 @@ Simulation::Simulation(
     if (deforming) roots_.emplace(device, groom, *deforming, step_.count);
     if (!settings.animation.clip.empty() && !roots_)
         throw engine::Error("/simulation/animation/clip", "is set, but hair grows on no mesh");
+    if (solver_ && !settings.force.empty())
+        force_.emplace(device, strand_count_ * vertices_per_strand_, settings);
     if (hasPulls()) pulls_.emplace(pullPassOf(settings));
     if (hasSegmentPass(settings))
         segments_.emplace(device, strand_count_, vertices_per_strand_, settings);
@@ -210,6 +212,10 @@ void Simulation::recordWind(engine::Commands& commands) const {
 
 void Simulation::recordVolume(engine::Commands& commands) const {
     if (hair_hair_) hair_hair_->record(commands, addresses(), poseAt(time() + double{step_.whole}));
+}
+
+void Simulation::recordForce(engine::Commands& commands) const {
+    if (force_) force_->record(commands, addresses(), time());
 }
 
 void Simulation::recordPulls(engine::Commands& commands) const {

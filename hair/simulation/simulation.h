@@ -20,6 +20,7 @@
 #include "hair/settings.h"
 #include "hair/simulation/bodies.h"
 #include "hair/simulation/condition.h"
+#include "hair/simulation/force.h"
 #include "hair/simulation/guide_view.h"
 #include "hair/simulation/hair_hair.h"
 #include "hair/simulation/head_motion.h"
@@ -71,7 +72,8 @@ std::uint64_t simulationBytes(
     const SimulationSettings& settings);
 
 // The guides on the device and the compute passes that move them. A time step is recordWind,
-// recordVolume where hasVolume, recordPulls where hasPulls, then recordStep. Simulated time is the
+// recordVolume where hasVolume, recordForce where hasForce, recordPulls where hasPulls, then
+// recordStep. Simulated time is the
 // number of recorded steps times the time step: nothing depends on frames or clocks. Solver `none`
 // keeps the guides at rest on the head, and records nothing where that stands still. Between
 // submissions the device's work is ordered by the barriers that are recorded here. Borrows the
@@ -104,9 +106,14 @@ public:
     // Adds the accelerations that hair gives hair. After recordWind.
     void recordVolume(engine::Commands& commands) const;
 
+    // Whether the scene brings a force along: /simulation/force.
+    bool hasForce() const { return force_.has_value(); }
+    // Adds its accelerations. After recordVolume.
+    void recordForce(engine::Commands& commands) const;
+
     // Whether a hand pulls at some time.
     bool hasPulls() const { return !settings_.pulls.empty(); }
-    // Adds the accelerations of hands that pull now. After recordVolume.
+    // Adds the accelerations of hands that pull now. After recordForce.
     void recordPulls(engine::Commands& commands) const;
 
     // One time step under gravity and the air and accelerations recorded last. Positions are then
@@ -114,7 +121,8 @@ public:
     // the other copy of the guides, those after it into the same.
     void recordStep(engine::Commands& commands, Copy into = Copy::other);
 
-    // Simulates steps without wind and hands and waits for them; time stands still.
+    // Simulates steps without wind, the scene's own force and hands and waits for them; time stands
+    // still.
     void settle(std::uint32_t steps);
 
     // Back to the state after construction, after all that was recorded or submitted before.
@@ -191,6 +199,7 @@ private:
     engine::Buffer accelerations_;
     engine::Buffer parameters_;  // gpu::GuideParameters [copy]
     WindPass wind_;
+    std::optional<ForcePass> force_;
     std::optional<PullPass> pulls_;  // from the first pull on
     std::optional<HairHair> hair_hair_;
     std::optional<SegmentPass> segments_;  // where they keep out of bodies

@@ -91,7 +91,7 @@ vec3 shadeSurface(PictureParameters picture, Surface surface, vec3 normal, vec3 
         vec3 mirrored = environmentLight(picture, reflect(-to_eye, normal));
         sum += picture.ambient *
                (diffuse * environmentLight(picture, normal) + straight * mirrored);
-    } else if (kModel == kModelPhong || kModel == kModelKajiyaKay) {
+    } else if (kModel != kModelMarschner && kModel != kModelDualScattering) {
         sum += picture.ambient * (diffuse + straight) * around;
     }
     return sum;

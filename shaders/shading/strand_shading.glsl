@@ -4,6 +4,7 @@
 
 #include "common/across.glsl"
 #include "common/picture.glsl"
+#include "extension/shading.glsl"
 #include "shading/dual_scattering.glsl"
 #include "shading/environment.glsl"
 #include "shading/fiber_bsdf.glsl"
@@ -233,10 +234,58 @@ vec3 shadeFiber(PictureParameters picture, StrandFragment fragment) {
     return sum;
 }
 
+// ---- A model that the scene brings along ----
+
+#ifdef HAIRBENCH_EXTENDED_SHADING
+
+// The picture that the functions below are asked about.
+PictureParameters extended_picture;
+
+uint lightCount() { return kLightCount; }
+
+HairLight hairLight(HairPoint point, uint light) {
+    if (light >= kLightCount) return HairLight(vec3(0.0, 1.0, 0.0), vec3(0.0), 0.0);
+    LightSample at = lightAt(pictureLight(extended_picture, light), point.position);
+    float visible = 1.0;
+    if (kMeshShadows != 0u || kHairShadows != kHairShadowsNone) {
+        Receiver receiver = Receiver(point.position, vec3(0.0), point.tangent, point.width,
+                                     passedOpaque(extended_picture));
+        visible = visibility(lightPath(extended_picture, light, receiver));
+    }
+    return HairLight(at.to_light, at.color, visible);
+}
+
+HairShading hairShading() {
+    float ambient = kEnvironment != kEnvironmentNone ? 0.0 : extended_picture.ambient;
+    return HairShading(ambient, extended_picture.diffuse, extended_picture.specular,
+                       extended_picture.exponent);
+}
+
+// sRGB's curve, IEC 61966-2-1:1999.
+vec3 workingColor(vec3 display) {
+    if (kLinearLight == 0u) return display;
+    vec3 curved = pow((display + 0.055) / 1.055, vec3(2.4));
+    return mix(curved, display / 12.92, lessThanEqual(display, vec3(0.04045)));
+}
+
+vec3 shadeExtended(PictureParameters picture, StrandFragment fragment, vec3 hair_color) {
+    extended_picture = picture;
+    return shadeHair(HairPoint(fragment.position, fragment.tangent, cylinderNormal(fragment),
+                               fragment.to_eye, fragment.across, fragment.along, fragment.width,
+                               hair_color));
+}
+
+#endif
+
 // The point in working colours. `hair_color` is the picture's, or with a texture's factor and a
 // strand's own.
 vec3 shadeStrand(PictureParameters picture, StrandFragment fragment, vec3 hair_color) {
     vec3 sum;
+#ifdef HAIRBENCH_EXTENDED_SHADING
+    if (kModel == kModelExtension) {
+        sum = shadeExtended(picture, fragment, hair_color);
+    } else
+#endif
     if (kModel == kModelPhong || kModel == kModelKajiyaKay) {
         sum = shadeOpaque(picture, fragment, hair_color);
     } else {

@@ -48,6 +48,7 @@ const uint kModelPhong = 0u;
 const uint kModelKajiyaKay = 1u;
 const uint kModelMarschner = 2u;
 const uint kModelDualScattering = 3u;
+const uint kModelExtension = 4u;  // of a file that the scene names
 
 // What hair throws on hair and meshes (HairShadows).
 const uint kHairShadowsNone = 0u;
@@ -132,6 +133,14 @@ const uint kStrandTextureConstant = 23u;
 const uint kShowConstant = 24u;
 const uint kLightKindsConstant = 25u;
 const uint kFarFieldConstant = 34u;
+
+// The first constants of the parameters of files that a scene names, of three each: hair/extension.h.
+const uint kShadingParameterConstant = 64u;
+const uint kOffsetParameterConstant = 128u;
+const uint kForceParameterConstant = 192u;
+
+// Of an offset that the scene brings along: strands/strand.glsl.
+const uint kOffsetReachConstant = 36u;
 
 // Constant of environment/background.frag.
 const uint kBackgroundLinearLightConstant = 0u;

@@ -112,6 +112,16 @@ struct WindPush {
     float magnitude;  // thesis eq. 13
 };
 
+// Purpose of the random numbers of forces that a scene brings along.
+const uint kForcePurpose = 0x464f5243u;
+
+// Push constants of simulation/force.comp.
+struct ForcePush {
+    Address guides;  // GuideParameters
+    Address accelerations;  // m/s^2, added to
+    float time;  // s, of the start of the time step
+};
+
 // Purpose of the random numbers that are the seeds of the turbulence's octaves.
 const uint kTurbulencePurpose = 0x54555242u;
 

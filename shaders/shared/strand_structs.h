@@ -8,6 +8,7 @@ const uint kRootPurpose = 0x524f4f54u;    // where strands lie in their root tri
 const uint kOrderPurpose = 0x4f524452u;   // the order of a groom's strands
 const uint kOffsetPurpose = 0x4f464653u;  // which profile of offsets a strand has
 const uint kMergedPurpose = 0x4d524744u;  // the hairs that a strand of a coarser level stands for
+const uint kExtensionPurpose = 0x45585445u;  // hairRandom() of extension/offset.glsl
 const uint kColorPurpose = 0x434f4c52u;  // the colors by which a picture tells strands apart
 
 // Invocations in a workgroup of strands/frames.comp and strands/turns.comp, and of

@@ -3,6 +3,7 @@
 #define HAIRBENCH_STRAND_GLSL
 
 #include "common/picture.glsl"
+#include "extension/offset.glsl"
 #include "shading/options.glsl"
 #include "strands/collision.glsl"
 #include "strands/curve.glsl"
@@ -70,6 +71,43 @@ void offsetPoint(PictureParameters picture, StrandPatch strand_patch, PatchStran
     point.tangent = tangent;
 }
 
+#ifdef HAIRBENCH_EXTENDED_OFFSET
+
+layout(constant_id = kOffsetReachConstant) const float kOffsetReach = 0.0;  // m
+
+float hairRandom(HairPlace place, uint which) {
+    return random01(place.strand, which, kExtensionPurpose);
+}
+
+// Not longer than the host knows of.
+vec3 boundedOffset(HairPlace place) {
+    vec3 offset = offsetHair(place);
+    float size = length(offset);
+    if (!(size <= 1e30)) return vec3(0.0);  // NaN, infinite
+    return size > kOffsetReach ? offset * (kOffsetReach / size) : offset;
+}
+
+// The same by a function of the scene's, whose slope is taken between two places beside the point.
+void extendPoint(PictureParameters picture, StrandPatch strand_patch, PatchStrand strand, float t,
+                 inout StrandPoint point) {
+    const float kBeside = 1.0 / 1024.0;  // of the strand
+    uint number = hash(strand_patch.key, strand.index, kExtensionPurpose);
+    float from = max(point.along - kBeside, 0.0);
+    float to = min(point.along + kBeside, 1.0);
+    vec3 value = boundedOffset(HairPlace(point.along, number));
+    vec3 slope = (boundedOffset(HairPlace(to, number)) - boundedOffset(HairPlace(from, number))) /
+                 (to - from);
+    uint guide = strand.guides[heaviestCorner(strand.weights)];
+    mat3 frame = strandFrame(picture, guide, strand_patch.segment, t, point.tangent);
+    precise vec3 position = point.position + frame * value;  // strands/curve.glsl
+    precise vec3 tangent =
+        point.tangent + frame * (slope / float(picture.vertices_per_guide - 1));
+    point.position = position;
+    point.tangent = tangent;
+}
+
+#endif
+
 // Moves a point of the guides' mean to the strand of the file. That the turn changes along the
 // strand is left out of the tangent, as above; at rest it doesn't change. A strand that follows the
 // head alone is its root and its residual.
@@ -136,6 +174,9 @@ StrandPoint pointOnStrand(PictureParameters picture, StrandPatch strand_patch, P
     point.position += strand.lift;
     if (kOffsets != 0) offsetPoint(picture, strand_patch, strand, t, point);
     if (kResiduals != 0) addResidual(picture, strand_patch, strand, t, point);
+#ifdef HAIRBENCH_EXTENDED_OFFSET
+    extendPoint(picture, strand_patch, strand, t, point);
+#endif
     if (kSkinnedStrands != 0) correctRoot(picture, strand_patch, strand, point);
     return point;
 }

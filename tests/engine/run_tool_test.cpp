@@ -3,7 +3,11 @@
 #include <string>
 #include <system_error>
 
+#include <atomic>
+#include <csignal>
+
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "tests/error_text.h"
 
@@ -21,6 +25,44 @@ TEST(RunTool, ReturnsWhatTheProgramWrites) {
     EXPECT_EQ(
         std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
         std::string("a\0b", 3));
+}
+
+TEST(RunApart, ReturnsWhatTheWorkReturns) {
+    const std::string much(1000000, 'x');
+    int here = 1;
+    EXPECT_EQ(
+        runApart(
+            [&] {
+                here = 2;
+                return much;
+            },
+            {.seconds = 10, .bytes = std::size_t{1} << 30}),
+        much);
+    EXPECT_EQ(here, 1);  // it was a copy
+}
+
+TEST(RunApart, EndsWhatTakesTooMuchOrCrashes) {
+    const auto failed = [](const std::function<std::string()>& work) {
+        return errorText([&] { runApart(work, {.seconds = 1, .bytes = std::size_t{1} << 28}); });
+    };
+    EXPECT_EQ(
+        failed([] {
+            for (std::atomic<int> i = 0; i >= 0;) {
+            }
+            return std::string();
+        }),
+        "not done after 1 s of the processor");
+    EXPECT_EQ(failed([]() -> std::string { _exit(3); }), "ended with status 3");
+    EXPECT_EQ(failed([]() -> std::string { throw Error("anything"); }), "ended with status 1");
+    EXPECT_EQ(
+        failed([] {
+            kill(getpid(), SIGSEGV);
+            return std::string();
+        }),
+        "ended by signal 11");
+#if !defined(__SANITIZE_ADDRESS__)
+    EXPECT_EQ(failed([] { return std::string(std::size_t{1} << 30, 'x'); }), "ended with status 1");
+#endif
 }
 
 // More than a pipe holds (64 KiB on Linux) on both of its outputs.

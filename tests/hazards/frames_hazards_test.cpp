@@ -157,6 +157,13 @@ TEST_F(FramesHazards, AreNoneInAnySceneOrFeatureAndNoBarrierIsSuperfluous) {
     segments.simulation.colliders = {{.radius = 0.05f}};
     segments.simulation.substeps = 3;  // each after the one before
     silent("segments", segments);
+    // What scenes bring along: docs/extending_scenes.md.
+    hair::Settings extended = everything();
+    extended.simulation.force = "extended/vortex.glsl";
+    extended.strands.offset_function = "extended/crimped.glsl";
+    extended.shading.model = hair::ShadingModel::extension;
+    extended.shading.model_file = "extended/toon.glsl";
+    silent("a scene's own functions", extended);
     // Strands that keep what their guides' mean lacks.
     const TemporaryFolder folder;
     for (const hair::Backend backend : {hair::Backend::tessellation, hair::Backend::expanded}) {

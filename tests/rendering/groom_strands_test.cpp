@@ -89,7 +89,7 @@ protected:
     }
 };
 
-constexpr StrandSettings kGroomStrands{
+const StrandSettings kGroomStrands{
     .source = StrandSource::groom, .tessellation = 4, .width = WidthSource::groom};
 
 TEST_F(GroomStrandsTest, AreTheSumsOfTheirGuides) {

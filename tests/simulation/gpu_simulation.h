@@ -24,6 +24,7 @@ inline void advance(const engine::Device& device, Simulation& simulation, int st
         for (int i = 0; i < steps; ++i) {
             simulation.recordWind(commands);
             if (simulation.hasVolume()) simulation.recordVolume(commands);
+            if (simulation.hasForce()) simulation.recordForce(commands);
             if (simulation.hasPulls()) simulation.recordPulls(commands);
             simulation.recordStep(commands);
         }

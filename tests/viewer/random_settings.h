@@ -119,6 +119,13 @@ private:
         if (chance(share_)) row.choose(settings, below(row.names.size()));
     }
 
+    // Files of GLSL are read with a scene: these would not be there.
+    void changeRow(const hair::ChoiceOrFile& row, hair::SettingsRef settings) {
+        if (chance(share_)) row.chooseName(settings, below(row.names.size()));
+    }
+    void changeRow(const hair::ExtensionFile&, hair::SettingsRef) {}
+    void changeRow(const hair::Parameters&, hair::SettingsRef) {}
+
     void changeRow(const hair::Group& row, hair::SettingsRef settings) { change(row.in(settings)); }
 
     void changeRow(const hair::List& row, hair::SettingsRef settings) {

@@ -66,12 +66,12 @@ public:
             return fromEdge(whole_.positions[triangle[0]]) <= width_ + longest;
         };
         double sum = 0.0;
-        double before = 0.0;
+        double so_far = 0.0;
         std::vector<std::array<std::uint32_t, 3>> triangles;
         std::vector<double> areas;
         for (std::size_t i = 0; i < whole_.triangles.size(); ++i) {
-            const double area = whole_.cumulative_areas[i] - before;
-            before = whole_.cumulative_areas[i];
+            const double area = whole_.cumulative_areas[i] - so_far;
+            so_far = whole_.cumulative_areas[i];
             if (!isNear(whole_.triangles[i])) continue;
             triangles.push_back(whole_.triangles[i]);
             areas.push_back(sum += area);

@@ -1,0 +1,248 @@
+#include "hair/extension.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <locale>
+#include <optional>
+#include <regex>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include "engine/error.h"
+#include "engine/pipeline.h"
+#include "engine/shaders.h"
+#include "hair/gpu_structs.h"
+
+namespace hair {
+namespace {
+
+// ---- What an extension may say ------------------------------------------------------------------
+
+// The text with comments as spaces, lines as they are.
+std::string withoutComments(const std::string& text) {
+    std::string code = text;
+    enum class In { words, line, block } in = In::words;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const std::string_view two = std::string_view(text).substr(i, 2);
+        if (in == In::words && (two == "//" || two == "/*")) {
+            in = two == "//" ? In::line : In::block;
+            code[i] = code[i + 1] = ' ';
+            ++i;
+        } else if (in == In::block && two == "*/") {
+            in = In::words;
+            code[i] = code[i + 1] = ' ';
+            ++i;
+        } else if (text[i] == '\n') {
+            if (in == In::line) in = In::words;
+        } else if (in != In::words) {
+            code[i] = ' ';
+        }
+    }
+    return code;
+}
+
+engine::Error errorAt(const std::string& name, std::size_t line, const std::string& reason) {
+    return {name + ':' + std::to_string(line), reason};
+}
+
+// Words by which a shader would reach memory that nobody gave it.
+constexpr std::array kRefused{"buffer", "layout", "shared", "uniform"};
+// Directives of a preprocessor that stay within the text.
+constexpr std::array kDirectives{"define", "undef", "if",   "ifdef",
+                                 "ifndef", "elif",  "else", "endif"};
+
+bool isOneOf(const std::string& word, const auto& words) {
+    return std::ranges::find(words, word) != words.end();
+}
+
+void checkWords(const std::string& name, const std::string& text) {
+    static const std::regex word(R"([A-Za-z_]\w*)");
+    static const std::regex directive(R"(\s*#\s*(\w*).*)");
+    std::istringstream lines(withoutComments(text));
+    std::smatch match;
+    std::size_t number = 0;
+    for (std::string line; std::getline(lines, line);) {
+        ++number;
+        if (line.find('\\') != std::string::npos)
+            throw errorAt(name, number, "'\\' has no place in a file that a scene names");
+        if (line.find("##") != std::string::npos)
+            throw errorAt(name, number, "'##' has no place in a file that a scene names");
+        if (std::regex_match(line, match, directive) && !isOneOf(match[1], kDirectives))
+            throw errorAt(
+                name, number, '#' + match[1].str() + " has no place in a file that a scene names");
+        for (std::sregex_iterator each(line.begin(), line.end(), word), end; each != end; ++each)
+            if (isOneOf(each->str(), kRefused))
+                throw errorAt(
+                    name, number,
+                    '\'' + each->str() +
+                        "' has no place in a file that a scene names: it reads "
+                        "its parameters and what its functions are given");
+    }
+}
+
+// ---- Declarations of parameters -----------------------------------------------------------------
+
+constexpr const char* kForm =
+    "a parameter is declared so: // @parameter NAME DEFAULT [LEAST, MOST] UNIT: meaning";
+
+std::optional<double> numberIn(const std::string& text) {
+    std::istringstream stream(text);
+    stream.imbue(std::locale::classic());
+    double number = 0.0;
+    stream >> number;
+    if (stream.fail() || !(stream >> std::ws).eof() || !std::isfinite(number)) return std::nullopt;
+    return number;
+}
+
+// "0.5", or "(0.1, 0.2, 0.3)".
+bool readOriginal(const std::string& text, ExtensionParameter& parameter) {
+    static const std::regex vector(R"(\(([^,]*),([^,]*),([^,]*)\))");
+    std::smatch parts;
+    parameter.is_vector = std::regex_match(text, parts, vector);
+    for (int i = 0; i < (parameter.is_vector ? 3 : 1); ++i) {
+        const std::string part =
+            parameter.is_vector ? parts[static_cast<std::size_t>(i) + 1].str() : text;
+        const std::optional<double> number = numberIn(part);
+        if (!number) return false;
+        parameter.original[i] = static_cast<float>(*number);
+        if (*number < parameter.minimum || *number > parameter.maximum) return false;
+    }
+    return true;
+}
+
+ExtensionParameter
+parameterIn(const std::string& name, std::size_t line, const std::string& declaration) {
+    static const std::regex form(
+        R"(\s+([a-z][a-z0-9_]*)\s+(\([^)]*\)|[^\s\[]+)\s*\[([^,\]]+),([^\]]+)\]\s*(\S+):\s*(.*\S)\s*)");
+    std::smatch parts;
+    if (!std::regex_match(declaration, parts, form)) throw errorAt(name, line, kForm);
+    const std::optional<double> minimum = numberIn(parts[3]), maximum = numberIn(parts[4]);
+    if (!minimum || !maximum || *minimum >= *maximum)
+        throw errorAt(name, line, "[" + parts[3].str() + "," + parts[4].str() + "] is no range");
+    ExtensionParameter parameter{
+        .name = parts[1],
+        .minimum = *minimum,
+        .maximum = *maximum,
+        .unit = parts[5],
+        .help = parts[6]};
+    if (!readOriginal(parts[2], parameter))
+        throw errorAt(
+            name, line, parts[2].str() + " is neither a number nor (x, y, z) within the range");
+    return parameter;
+}
+
+// ---- What shaders are made of -------------------------------------------------------------------
+
+struct Part {
+    const char* interface;
+    const char* macro;
+    std::uint32_t first_constant;
+};
+
+Part partOf(ExtensionKind kind) {
+    switch (kind) {
+    case ExtensionKind::shading:
+        return {
+            "extension/shading.glsl", "HAIRBENCH_EXTENDED_SHADING", gpu::kShadingParameterConstant};
+    case ExtensionKind::offset:
+        return {
+            "extension/offset.glsl", "HAIRBENCH_EXTENDED_OFFSET", gpu::kOffsetParameterConstant};
+    case ExtensionKind::force:
+        break;
+    }
+    return {"extension/force.glsl", "HAIRBENCH_EXTENDED_FORCE", gpu::kForceParameterConstant};
+}
+
+std::uint32_t constantOf(ExtensionKind kind, std::size_t parameter) {
+    return partOf(kind).first_constant + 3 * static_cast<std::uint32_t>(parameter);
+}
+
+std::string literal(float value) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text.precision(9);
+    text << std::scientific << value;
+    return text.str();
+}
+
+// On one line, which is the one that it was declared on.
+std::string declarationOf(const ExtensionParameter& parameter, std::uint32_t constant) {
+    const auto scalar = [&](const std::string& name, int component) {
+        return "layout(constant_id = " +
+               std::to_string(constant + static_cast<std::uint32_t>(component)) + ") const float " +
+               name + " = " + literal(parameter.original[component]) + "; ";
+    };
+    if (!parameter.is_vector) return scalar(parameter.name, 0);
+    std::string text;
+    for (int i = 0; i < 3; ++i) text += scalar(parameter.name + '_' + "xyz"[i], i);
+    return text + "const vec3 " + parameter.name + " = vec3(" + parameter.name + "_x, " +
+           parameter.name + "_y, " + parameter.name + "_z);";
+}
+
+}  // namespace
+
+Extension parseExtension(ExtensionKind kind, const std::string& name, std::string text) {
+    checkWords(name, text);
+    static const std::regex line_form(R"(\s*//\s*@parameter\b(.*))");
+    Extension extension{.kind = kind, .parameters = {}, .shader = {}};
+    std::istringstream lines(text);
+    std::string declarations;
+    std::size_t number = 0;
+    std::smatch match;
+    for (std::string line; std::getline(lines, line); declarations += '\n') {
+        ++number;
+        if (line.ends_with('\r')) line.pop_back();
+        if (!std::regex_match(line, match, line_form)) continue;
+        ExtensionParameter parameter = parameterIn(name, number, match[1]);
+        if (std::ranges::count(extension.parameters, parameter.name, &ExtensionParameter::name) > 0)
+            throw errorAt(name, number, '\'' + parameter.name + "' is declared twice");
+        if (extension.parameters.size() == kMostExtensionParameters)
+            throw errorAt(
+                name, number,
+                "more than " + std::to_string(kMostExtensionParameters) + " parameters");
+        declarations += declarationOf(parameter, constantOf(kind, extension.parameters.size()));
+        extension.parameters.push_back(std::move(parameter));
+    }
+    const Part part = partOf(kind);
+    extension.shader = std::make_shared<const engine::ShaderExtension>(engine::ShaderExtension{
+        .interface = part.interface,
+        .macro = part.macro,
+        .declarations = std::move(declarations),
+        .name = name,
+        .text = std::move(text)});
+    return extension;
+}
+
+engine::ShaderExtensions shaderExtensions(const ExtensionParameters& parameters) {
+    if (!parameters.file) return {};
+    return {parameters.file->shader};
+}
+
+engine::Constants extensionConstants(const ExtensionParameters& parameters) {
+    engine::Constants constants;
+    if (!parameters.file) return constants;
+    const std::vector<ExtensionParameter>& declared = parameters.file->parameters;
+    for (std::size_t i = 0; i < declared.size(); ++i) {
+        const auto set =
+            std::ranges::find(parameters.values, declared[i].name, &ExtensionValue::name);
+        const glm::vec3 value = set == parameters.values.end() ? declared[i].original : set->value;
+        const std::uint32_t first = constantOf(parameters.file->kind, i);
+        for (int component = 0; component < (declared[i].is_vector ? 3 : 1); ++component)
+            constants.emplace_back(first + static_cast<std::uint32_t>(component), value[component]);
+    }
+    return constants;
+}
+
+float extensionNumber(const ExtensionParameters& parameters, const char* name) {
+    const auto set = std::ranges::find(parameters.values, name, &ExtensionValue::name);
+    if (set != parameters.values.end()) return set->value.x;
+    if (!parameters.file) return 0.0f;
+    const auto& declared = parameters.file->parameters;
+    const auto found = std::ranges::find(declared, name, &ExtensionParameter::name);
+    return found == declared.end() ? 0.0f : found->original.x;
+}
+
+}  // namespace hair
