@@ -11,6 +11,7 @@ PAGES = {
     "Begin": ["docs/tutorial", "docs/install", "docs/faq"],
     "Scenes": [
         "docs/fields",
+        "docs/extending_scenes",
         "docs/grooms",
         "docs/groom_compare",
         "docs/viewer",
