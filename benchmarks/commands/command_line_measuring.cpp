@@ -161,6 +161,16 @@ void addDoctorOptions(CLI::App& command, DoctorOptions& options) {
         ->excludes("--pairs")
         ->excludes("--planted")
         ->excludes("--out");
+    command
+        .add_option(
+            "--reports", options.reports,
+            "says of reports instead whether they may be kept: of the form that their schema says, "
+            "and to be trusted or marked")
+        ->type_name("REPORT...")
+        ->excludes("--pairs")
+        ->excludes("--planted")
+        ->excludes("--out")
+        ->excludes("--rules");
 }
 
 }  // namespace
@@ -198,7 +208,8 @@ void addMeasuringCommands(const CommandLine& line) {
          .description = "says whether timings of this machine can be trusted, and why",
          .examples =
              {"hairbench doctor", "hairbench doctor --pairs 48 -o doctor.json",
-              "hairbench doctor --rules results/mine.json"}},
+              "hairbench doctor --rules results/mine.json",
+              "hairbench doctor --reports results/*.json"}},
         examineMachine, addDoctorOptions);
 }
 
@@ -249,9 +260,14 @@ void addReportCommands(const CommandLine& line) {
          .description = "makes a page of reports (.html) that opens offline",
          .examples =
              {"hairbench report results/mine.json -o mine.html",
-              "hairbench report old.json new.json -o both.html"}},
+              "hairbench report old.json new.json -o both.html",
+              "hairbench report results/*.json -o index.html"}},
         writeReportPage, [](CLI::App& command, ReportPageOptions& options) {
-            command.add_option("reports", options.reports, "reports; the first is compared with")
+            command
+                .add_option(
+                    "reports", options.reports,
+                    "reports of any devices and scenes; each is compared with the first of "
+                    "its scene")
                 ->required()
                 ->type_name("FILE...");
             command.add_option("-o,--out", options.out, "page to write (.html)")

@@ -68,6 +68,7 @@ struct DoctorOptions {
     bool planted = false;  // look for planted slowdowns too
     std::filesystem::path out;  // findings as JSON; empty: none
     std::filesystem::path rules;  // a report that is held against rules instead; empty: none
+    std::vector<std::filesystem::path> reports;  // that are examined instead; empty: none
     std::vector<std::string> command;
 };
 int examineMachine(const DoctorOptions& options);

@@ -5,6 +5,7 @@
 #include "benchmarks/doctor/facts.h"
 #include "benchmarks/doctor/play_pairs.h"
 #include "benchmarks/doctor/report.h"
+#include "benchmarks/doctor/reports.h"
 #include "benchmarks/doctor/rules.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/environment.h"
@@ -41,9 +42,29 @@ void examineGates(const DoctorOptions& options, doctor::DoctorReport& report) {
     report.findings.push_back(doctor::judgePlanted(report.planted));
 }
 
+int examineReports(const std::vector<std::filesystem::path>& reports) {
+    int status = report::kOk;
+    for (const std::filesystem::path& path : reports) {
+        if (path.string().ends_with(".schema.json")) continue;  // results/*.json names it too
+        std::string said;
+        bool accepted = false;
+        try {
+            const doctor::ReportExamination examination = doctor::examineReport(path);
+            accepted = doctor::isAccepted(examination);
+            said = path.string() + ": " + doctor::examinationText(examination);
+        } catch (const engine::Error& error) {
+            said = shortMessage(error);
+        }
+        (accepted ? std::cout : std::cerr) << said << '\n';
+        if (!accepted) status = report::kCheckFailed;
+    }
+    return status;
+}
+
 }  // namespace
 
 int examineMachine(const DoctorOptions& options) {
+    if (!options.reports.empty()) return examineReports(options.reports);
     if (!options.rules.empty()) {
         const std::vector<doctor::RuleFinding> findings =
             doctor::judgeRules(report::readReport(options.rules));

@@ -13,6 +13,9 @@ int writeReportPage(const ReportPageOptions& options) {
     const report::PageParts parts = report::readPageParts(report::readPlotly());
     const scene::Json data = report::pageData(options.reports);
     engine::writeFileAtomically(options.out, report::assemblePage(parts, data));
+    for (const scene::Json& each : data.at("left_out"))
+        std::cerr << "hairbench: left out " << each.at("file").get<std::string>() << ": "
+                  << each.at("reason").get<std::string>() << ", no report of hairbench run\n";
     std::size_t missing = 0;
     for (const scene::Json& report : data.at("reports"))
         for (const scene::Json& each : report.at("cases"))

@@ -14,6 +14,7 @@
 #include "benchmarks/report/backends.h"
 #include "benchmarks/report/baseline.h"
 #include "benchmarks/report/compare.h"
+#include "benchmarks/report/devices.h"
 #include "benchmarks/report/environment.h"
 #include "benchmarks/report/metric.h"
 #include "benchmarks/report/report.h"
@@ -25,7 +26,8 @@ namespace benchmarks::report {
 namespace {
 
 // In the order in which the page has them: what a script uses while it is read stands before it.
-constexpr const char* kScripts[] = {"page.js", "figures.js", "backends.js", "details.js"};
+constexpr const char* kScripts[] = {
+    "page.js", "figures.js", "backends.js", "devices.js", "details.js"};
 
 std::string readPart(const std::string& name) {
     return engine::readFile(engine::programFile("benchmarks/report/page/" + name));
@@ -95,14 +97,51 @@ std::string titleOf(const scene::Json& reports) {
     return title;
 }
 
-// The first report with each of the others.
-scene::Json comparisonsOf(const scene::Json& reports) {
+// Each report with the first of its scene, where they have cases in common.
+scene::Json comparisonsOf(const scene::Json& reports, const std::vector<OnDevice>& devices) {
     scene::Json comparisons = scene::Json::array();
-    for (std::size_t i = 1; i < reports.size(); ++i)
-        comparisons.push_back(comparisonJson(
-            compareReports(reports[0], reports[i], VerdictOptions{}), reports[0].at("file"),
-            reports[i].at("file")));
+    for (const OnDevice& each : devices) {
+        if (each.first == each.report) continue;
+        const scene::Json& first = reports[each.first];
+        const scene::Json& other = reports[each.report];
+        const ReportComparison found = compareReports(first, other, VerdictOptions{});
+        if (found.common_cases == 0) continue;
+        comparisons.push_back(comparisonJson(found, first.at("file"), other.at("file")));
+        comparisons.back()["with"] = each.first;
+        comparisons.back()["report"] = each.report;
+    }
     return comparisons;
+}
+
+// Why a file that is none of our reports is left out: "hairbench-physics/1.0.0". Nothing where it
+// is not known what it is.
+std::optional<std::string> otherKind(const std::filesystem::path& file) {
+    const scene::Json found = scene::parseJson(engine::readFile(file), file.string());
+    if (!found.is_object()) return std::nullopt;
+    const std::string schema = scene::textAt(found, "/schema");
+    if (schema.starts_with("hairbench-") && !schema.starts_with("hairbench-report/")) return schema;
+    if (scene::textAt(found, "/$schema").find("json-schema.org") != std::string::npos)
+        return "a JSON Schema";
+    return std::nullopt;
+}
+
+// The reports of runs among the files, and which are left out.
+void readReports(
+    std::span<const std::filesystem::path> files, std::vector<std::filesystem::path>& of_runs,
+    scene::Json& reports, scene::Json& left_out) {
+    for (const std::filesystem::path& file : files) try {
+            reports.push_back(readReport(file));
+            of_runs.push_back(file);
+        } catch (const engine::Error&) {
+            const std::optional<std::string> kind = otherKind(file);
+            if (!kind) throw;
+            left_out.push_back({{"file", file.filename().string()}, {"reason", *kind}});
+        }
+    if (reports.empty())
+        throw engine::Error(
+            files.front().string(), "is no report of hairbench run but " +
+                                        left_out.front().at("reason").get<std::string>() +
+                                        (files.size() > 1 ? ", nor is any other of these" : ""));
 }
 
 }  // namespace
@@ -174,19 +213,26 @@ scene::Json pageData(std::span<const std::filesystem::path> files) {
     scene::Json pictures = scene::Json::object();
     scene::Json pass_times = scene::Json::object();
     scene::Json image_metrics = scene::Json::object();
-    for (const std::filesystem::path& file : files) try {
-            scene::Json report = readReport(file);
-            report["label"] = labelOf(reports.size());
+    scene::Json left_out = scene::Json::array();
+    std::vector<std::filesystem::path> of_runs;
+    readReports(files, of_runs, reports, left_out);
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+        scene::Json& report = reports[i];
+        const std::filesystem::path& file = of_runs[i];
+        try {
+            report["label"] = labelOf(i);
             report["file"] = file.filename().string();
             addPictures(report, file, pictures);
             addMetrics(report, pass_times, image_metrics);
             if (const auto backends = compareBackends(report))
                 report["backends"] = backendsJson(*backends);
-            reports.push_back(std::move(report));
         } catch (const scene::Json::exception& error) {
             throw engine::Error(file.string(), error.what());
         }
-    scene::Json comparisons = comparisonsOf(reports);
+    }
+    const std::vector<OnDevice> devices =
+        compareDevices(reports.get_ref<const scene::Json::array_t&>());
+    scene::Json comparisons = comparisonsOf(reports, devices);
     const std::string title = titleOf(reports);
     return {
         {"title", title},
@@ -194,7 +240,9 @@ scene::Json pageData(std::span<const std::filesystem::path> files) {
         {"pass_times", std::move(pass_times)},
         {"image_metrics", std::move(image_metrics)},
         {"pictures", std::move(pictures)},
-        {"comparisons", std::move(comparisons)}};
+        {"comparisons", std::move(comparisons)},
+        {"devices", devicesJson(devices)},
+        {"left_out", std::move(left_out)}};
 }
 
 // ---- Page ---------------------------------------------------------------------------------------

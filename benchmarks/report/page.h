@@ -49,8 +49,11 @@ std::optional<std::string> pictureUri(const std::filesystem::path& file);
 //   pass_times     name of a pass's time -> the pass
 //   image_metrics  name of a picture's error -> true
 //   pictures       `picture_id` -> data URI; equal files once
-//   comparisons[]  of the first report with each of the others, as `hairbench compare --json` says
-// Throws engine::Error for a report that cannot be read.
+//   comparisons[]  of each report with the first of its scene, as `hairbench compare --json` says,
+//                  and their places in reports[]: `with` the first and `report`
+//   devices[]      of each report, as devicesJson() says
+//   left_out[]     files that are of another kind: `file`, `reason`
+// Throws engine::Error for a report that cannot be read, and where all are left out.
 scene::Json pageData(std::span<const std::filesystem::path> reports);
 
 // ---- Page ---------------------------------------------------------------------------------------

@@ -131,11 +131,11 @@ else()
 endif()
 hairbench_header_only(tinygltf tiny_gltf.h)
 hairbench_header_only(stb stb_image_write.h stb)
+hairbench_header_only(valijson valijson/validator.hpp)
 
 # ---- tests only
 if(BUILD_TESTING OR NOT DEFINED BUILD_TESTING)
     find_package(GTest CONFIG REQUIRED)
-    hairbench_header_only(valijson valijson/validator.hpp)
     # SwiftShader comes with Chromium, whose description of it has a path that only Chromium
     # understands: tests have the loader read this one (VK_DRIVER_FILES).
     find_library(HAIRBENCH_SWIFTSHADER vk_swiftshader NO_DEFAULT_PATH

@@ -34,7 +34,9 @@ install(DIRECTORY "${help_dir}/man1" DESTINATION share/man)
 install(FILES README.md DESTINATION share/doc/hairbench)
 install(FILES LICENSE DESTINATION share/doc/hairbench RENAME copyright)
 install(DIRECTORY docs DESTINATION share/doc/hairbench)
-# The forms of reports.
+# The forms of reports, to read and for `doctor --reports`.
+install(DIRECTORY results DESTINATION share/hairbench
+    FILES_MATCHING PATTERN "*.schema.json" PATTERN "pictures" EXCLUDE PATTERN "local" EXCLUDE)
 install(DIRECTORY results DESTINATION share/doc/hairbench
     FILES_MATCHING PATTERN "README.md" PATTERN "*.schema.json"
     PATTERN "pictures" EXCLUDE PATTERN "local" EXCLUDE)

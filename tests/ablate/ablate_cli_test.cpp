@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/benchmarks/schema_errors.h"
+#include "benchmarks/report/schema_errors.h"
 #include "tests/cli/run_hairbench.h"
 #include "tests/required.h"
 #include "tests/temporary_folder.h"
@@ -41,7 +41,7 @@ TEST_F(AblateCli, WritesAReport) {
     EXPECT_THAT(outcome.output, HasSubstr("skipped: /strands/backend: "));
     const std::string text = textOf(folder_.file("report.json"));
     EXPECT_THAT(
-        benchmarks::schemaErrors(
+        benchmarks::report::schemaErrors(
             textOf(HAIRBENCH_SCENES_DIR "/../results/ablation.schema.json"), text),
         IsEmpty());
     const nlohmann::json cases = nlohmann::json::parse(text).at("cases");

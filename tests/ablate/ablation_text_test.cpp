@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/report/schema_errors.h"
 #include "tests/ablate/made_up_times.h"
 #include "tests/benchmarks/sample_report.h"
-#include "tests/benchmarks/schema_errors.h"
 #include "tests/temporary_folder.h"
 
 namespace benchmarks::ablate {
@@ -92,8 +92,8 @@ TEST(AblationText, LeavesOutWhatIsNotKnown) {
 
 TEST(AblationSchema, DescribesTheReport) {
     const std::string schema = textOf(kSchemaFile);
-    EXPECT_THAT(schemaErrors(schema, ablationText(sampleAblation())), IsEmpty());
-    EXPECT_THAT(schemaErrors(schema, ablationText(sampleAblation(2))), IsEmpty());
+    EXPECT_THAT(report::schemaErrors(schema, ablationText(sampleAblation())), IsEmpty());
+    EXPECT_THAT(report::schemaErrors(schema, ablationText(sampleAblation(2))), IsEmpty());
 }
 
 TEST(AblationSchema, FindsWhatIsWrong) {
@@ -105,7 +105,7 @@ TEST(AblationSchema, FindsWhatIsWrong) {
         scene::Json report = written();
         const scene::Json::json_pointer place(pointer);
         report[place.parent_pointer()].erase(place.back());
-        EXPECT_THAT(schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
+        EXPECT_THAT(report::schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
     }
     const std::pair<const char*, scene::Json> replaced[] = {
         {"/schema", "hairbench-report/1.0.0"},
@@ -118,7 +118,7 @@ TEST(AblationSchema, FindsWhatIsWrong) {
     for (const auto& [pointer, value] : replaced) {
         scene::Json report = written();
         report[scene::Json::json_pointer(pointer)] = value;
-        EXPECT_THAT(schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
+        EXPECT_THAT(report::schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
     }
 }
 

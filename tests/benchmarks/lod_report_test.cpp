@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/report/schema_errors.h"
 #include "tests/benchmarks/sample_report.h"
-#include "tests/benchmarks/schema_errors.h"
 #include "tests/temporary_folder.h"
 
 namespace benchmarks {
@@ -80,11 +80,13 @@ TEST(LodReport, LeavesOutWhatIsNotKnown) {
     interrupted.steps.clear();
     interrupted.interrupted = true;
     EXPECT_FALSE(scene::Json::parse(lod::lodReportText(interrupted)).contains("totals"));
-    EXPECT_THAT(schemaErrors(textOf(kSchemaFile), lod::lodReportText(interrupted)), IsEmpty());
+    EXPECT_THAT(
+        report::schemaErrors(textOf(kSchemaFile), lod::lodReportText(interrupted)), IsEmpty());
 }
 
 TEST(LodSchema, DescribesTheReport) {
-    EXPECT_THAT(schemaErrors(textOf(kSchemaFile), lod::lodReportText(sampleLod())), IsEmpty());
+    EXPECT_THAT(
+        report::schemaErrors(textOf(kSchemaFile), lod::lodReportText(sampleLod())), IsEmpty());
 }
 
 TEST(LodSchema, FindsWhatIsWrong) {
@@ -96,7 +98,7 @@ TEST(LodSchema, FindsWhatIsWrong) {
         scene::Json report = written();
         const scene::Json::json_pointer place(pointer);
         report[place.parent_pointer()].erase(place.back());
-        EXPECT_THAT(schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
+        EXPECT_THAT(report::schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
     }
     const std::pair<const char*, scene::Json> replaced[] = {
         {"/schema", "hairbench-report/1.0.0"},
@@ -109,7 +111,7 @@ TEST(LodSchema, FindsWhatIsWrong) {
     for (const auto& [pointer, value] : replaced) {
         scene::Json report = written();
         report[scene::Json::json_pointer(pointer)] = value;
-        EXPECT_THAT(schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
+        EXPECT_THAT(report::schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
     }
 }
 

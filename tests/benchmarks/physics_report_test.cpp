@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/report/schema_errors.h"
 #include "tests/benchmarks/sample_report.h"
-#include "tests/benchmarks/schema_errors.h"
 #include "tests/temporary_folder.h"
 
 namespace benchmarks::physics {
@@ -89,7 +89,8 @@ TEST(PhysicsReport, LeavesOutWhatIsNotKnown) {
 }
 
 TEST(PhysicsSchema, DescribesTheReport) {
-    EXPECT_THAT(schemaErrors(textOf(kSchemaFile), physicsReportText(samplePhysics())), IsEmpty());
+    EXPECT_THAT(
+        report::schemaErrors(textOf(kSchemaFile), physicsReportText(samplePhysics())), IsEmpty());
 }
 
 TEST(PhysicsSchema, FindsWhatIsWrong) {
@@ -100,7 +101,7 @@ TEST(PhysicsSchema, FindsWhatIsWrong) {
         scene::Json report = written();
         const scene::Json::json_pointer place(pointer);
         report[place.parent_pointer()].erase(place.back());
-        EXPECT_THAT(schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
+        EXPECT_THAT(report::schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
     }
     const std::pair<const char*, scene::Json> replaced[] = {
         {"/schema", "hairbench-report/1.0.0"}, {"/outcomes/0/verdict", "great"},
@@ -109,7 +110,7 @@ TEST(PhysicsSchema, FindsWhatIsWrong) {
     for (const auto& [pointer, value] : replaced) {
         scene::Json report = written();
         report[scene::Json::json_pointer(pointer)] = value;
-        EXPECT_THAT(schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
+        EXPECT_THAT(report::schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
     }
 }
 
@@ -118,7 +119,7 @@ TEST(PhysicsReport, CommittedOnesFitTheSchema) {
     for (const auto& entry : std::filesystem::directory_iterator(kSchemaFile.parent_path())) {
         const std::string name = entry.path().filename().string();
         if (!name.starts_with("physics-") || !name.ends_with(".json")) continue;
-        EXPECT_THAT(schemaErrors(schema, textOf(entry.path())), IsEmpty()) << name;
+        EXPECT_THAT(report::schemaErrors(schema, textOf(entry.path())), IsEmpty()) << name;
     }
 }
 

@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/report/schema_errors.h"
 #include "engine/files.h"
 #include "tests/benchmarks/sample_report.h"
-#include "tests/benchmarks/schema_errors.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
@@ -155,7 +155,8 @@ TEST(Report, SurvivesTextThatIsNotUtf8) {
 }
 
 TEST(ReportSchema, DescribesTheReport) {
-    EXPECT_THAT(schemaErrors(textOf(kReportSchemaFile), writtenText(sampleReport())), IsEmpty());
+    EXPECT_THAT(
+        report::schemaErrors(textOf(kReportSchemaFile), writtenText(sampleReport())), IsEmpty());
 }
 
 TEST(ReportSchema, FindsWhatIsWrong) {
@@ -168,7 +169,7 @@ TEST(ReportSchema, FindsWhatIsWrong) {
         scene::Json report = written();
         const scene::Json::json_pointer place(pointer);
         report[place.parent_pointer()].erase(place.back());
-        EXPECT_THAT(schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
+        EXPECT_THAT(report::schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
     }
     const std::pair<const char*, scene::Json> replaced[] = {
         {"/schema", "hairbench-report/2"},
@@ -192,7 +193,7 @@ TEST(ReportSchema, FindsWhatIsWrong) {
     for (const auto& [pointer, value] : replaced) {
         scene::Json report = written();
         report[scene::Json::json_pointer(pointer)] = value;
-        EXPECT_THAT(schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
+        EXPECT_THAT(report::schemaErrors(schema, report.dump()), Not(IsEmpty())) << pointer;
     }
 }
 
@@ -268,7 +269,7 @@ TEST(Report, CommittedOnesFitTheSchema) {
             !scene::Json::parse(textOf(entry.path()))["schema"].get<std::string>().starts_with(
                 "hairbench-report/"))  // of another kind
             continue;
-        EXPECT_THAT(schemaErrors(schema, textOf(entry.path())), IsEmpty()) << entry.path();
+        EXPECT_THAT(report::schemaErrors(schema, textOf(entry.path())), IsEmpty()) << entry.path();
         ++count;
     }
     EXPECT_GT(count, 0u);

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/report/schema_errors.h"
 #include "tests/benchmarks/sample_report.h"
-#include "tests/benchmarks/schema_errors.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
@@ -48,10 +48,10 @@ TEST_F(SamplesFile, FitsTheSchema) {
     write(manySamples());
     const auto schema =
         std::filesystem::path(HAIRBENCH_SCENES_DIR) / "../results/report.schema.json";
-    EXPECT_THAT(schemaErrors(textOf(schema), textOf(file_)), IsEmpty());
+    EXPECT_THAT(report::schemaErrors(textOf(schema), textOf(file_)), IsEmpty());
     scene::Json neither = inFile();
     neither["cases"][0]["metrics"]["frame.time"].erase("samples_file");
-    EXPECT_THAT(schemaErrors(textOf(schema), neither.dump()), testing::Not(IsEmpty()));
+    EXPECT_THAT(report::schemaErrors(textOf(schema), neither.dump()), testing::Not(IsEmpty()));
 }
 
 TEST_F(SamplesFile, IsNotThereWhereNothingIsLarge) {

@@ -4,9 +4,9 @@
 
 #include <gmock/gmock.h>
 
+#include "benchmarks/report/schema_errors.h"
 #include "benchmarks/scene/field_reference.h"
 #include "benchmarks/scene/sweep.h"
-#include "tests/benchmarks/schema_errors.h"
 #include "tests/error_text.h"
 #include "tests/temporary_folder.h"
 
@@ -56,7 +56,7 @@ TEST(FieldReference, SaysWhatAFieldIs) {
 TEST(CommittedScenes, FitTheSchemaAndExpand) {
     EXPECT_THAT(committedScenes(), Not(IsEmpty()));
     for (const auto& path : committedScenes()) {
-        EXPECT_THAT(schemaErrors(scene::sceneSchema(), textOf(path)), IsEmpty()) << path;
+        EXPECT_THAT(report::schemaErrors(scene::sceneSchema(), textOf(path)), IsEmpty()) << path;
         const auto expand_all = [&] {
             for (const scene::Scene& scene : scene::loadScenes(path)) scene::expand(scene);
         };
@@ -81,7 +81,7 @@ class BadDocument : public testing::TestWithParam<const char*> {};
 
 // What the reader refuses the schema refuses too, as far as a schema can tell.
 TEST_P(BadDocument, BreaksTheSchema) {
-    EXPECT_THAT(schemaErrors(scene::sceneSchema(), GetParam()), Not(IsEmpty()));
+    EXPECT_THAT(report::schemaErrors(scene::sceneSchema(), GetParam()), Not(IsEmpty()));
     const TemporaryFolder folder;
     const auto path = folder.write("s.json", GetParam());
     EXPECT_NE(errorText([&] { scene::loadScene(path); }), "no error");
@@ -112,7 +112,7 @@ TEST(SceneSchema, AcceptsWhatTheReaderAccepts) {
                        "cases": [{"/strands/density": 2}, {"/lod/level": 1}],
                        "exclude": [{"/seed": [1], "/lod/level": [0, 1]}]}})",
          R"({"simulation": {"colliders": [{"a": [0, 0, 0], "radius": 1}, {}]}, "render": {"msaa": 8}})"}) {
-        EXPECT_THAT(schemaErrors(scene::sceneSchema(), text), IsEmpty()) << text;
+        EXPECT_THAT(report::schemaErrors(scene::sceneSchema(), text), IsEmpty()) << text;
         const TemporaryFolder folder;
         EXPECT_EQ(errorText([&] { scene::loadScene(folder.write("s.json", text)); }), "no error");
     }
@@ -120,7 +120,7 @@ TEST(SceneSchema, AcceptsWhatTheReaderAccepts) {
 
 TEST(SceneSchema, AcceptsRemovals) {
     EXPECT_THAT(
-        schemaErrors(
+        report::schemaErrors(
             scene::sceneSchema(),
             R"({"base": "a.json", "groom": null, "strands": {"curve": null, "density": null},
                                  "render": {"msaa": null}, "camera": {"up": null}, "sweep": null})"),

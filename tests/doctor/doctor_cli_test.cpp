@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/doctor/checks.h"
-#include "tests/benchmarks/schema_errors.h"
+#include "benchmarks/report/schema_errors.h"
 #include "tests/cli/run_hairbench.h"
 #include "tests/required.h"
 #include "tests/temporary_folder.h"
@@ -28,7 +28,8 @@ TEST(DoctorCommand, SaysTheSameInItsTableItsReportAndItsStatus) {
     ASSERT_TRUE(outcome.status == 0 || outcome.status == 3) << outcome.output;
     const std::string text = textOf(out);
     EXPECT_THAT(
-        schemaErrors(textOf(HAIRBENCH_SOURCE_DIR "/results/doctor.schema.json"), text), IsEmpty());
+        report::schemaErrors(textOf(HAIRBENCH_SOURCE_DIR "/results/doctor.schema.json"), text),
+        IsEmpty());
     const auto report = nlohmann::json::parse(text);
     EXPECT_EQ(report["trusted"], outcome.status == 0);
     ASSERT_EQ(report["findings"].size(), doctorChecks().size());

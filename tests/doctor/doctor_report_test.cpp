@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/report/schema_errors.h"
 #include "tests/benchmarks/sample_report.h"
-#include "tests/benchmarks/schema_errors.h"
 #include "tests/temporary_folder.h"
 
 namespace benchmarks::doctor {
@@ -34,15 +34,16 @@ DoctorReport sampleDoctor() {
 
 TEST(DoctorReport, IsWhatItsSchemaSays) {
     const std::string schema = textOf(kSchemaFile);
-    EXPECT_THAT(schemaErrors(schema, doctorReportText(sampleDoctor())), IsEmpty());
+    EXPECT_THAT(report::schemaErrors(schema, doctorReportText(sampleDoctor())), IsEmpty());
     DoctorReport least;
     least.findings = {{"power", Health::unknown, "nothing", ""}};
-    EXPECT_THAT(schemaErrors(schema, doctorReportText(least)), IsEmpty());
+    EXPECT_THAT(report::schemaErrors(schema, doctorReportText(least)), IsEmpty());
 }
 
 TEST(DoctorReport, IsMoreThanItsSchemaAllowsWithoutFindings) {
     EXPECT_THAT(
-        schemaErrors(textOf(kSchemaFile), doctorReportText(DoctorReport())), Not(IsEmpty()));
+        report::schemaErrors(textOf(kSchemaFile), doctorReportText(DoctorReport())),
+        Not(IsEmpty()));
 }
 
 TEST(DoctorReport, LeavesOutWhatIsNotKnown) {

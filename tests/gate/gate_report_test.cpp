@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "benchmarks/report/change.h"
-#include "tests/benchmarks/schema_errors.h"
+#include "benchmarks/report/schema_errors.h"
 #include "tests/gate/fake_builds.h"
 #include "tests/required.h"
 
@@ -12,7 +12,7 @@ namespace {
 using testing::IsEmpty;
 
 std::vector<std::string> errorsOf(const FakeBuilds& builds) {
-    return schemaErrors(
+    return report::schemaErrors(
         textOf(HAIRBENCH_SOURCE_DIR "/results/gate.schema.json"), textOf(builds.reportFile()));
 }
 
@@ -69,7 +69,7 @@ TEST(GateReport, IsOfItsSchemaHoweverTheGateEnds) {
 }
 
 TEST(GateReport, SchemaRefusesWhatIsNoReport) {
-    EXPECT_FALSE(schemaErrors(
+    EXPECT_FALSE(report::schemaErrors(
                      textOf(HAIRBENCH_SOURCE_DIR "/results/gate.schema.json"),
                      R"({"schema": "hairbench-gate/1.0.0"})")
                      .empty());
@@ -161,7 +161,7 @@ TEST(GateReport, IsOfItsSchemaForARealGate) {
     if (gate.status == 77) return skipWithout(Need::device, "no Vulkan device");
     EXPECT_EQ(gate.status, 0) << gate.output;
     EXPECT_THAT(
-        schemaErrors(textOf(HAIRBENCH_SOURCE_DIR "/results/gate.schema.json"), textOf(out)),
+        report::schemaErrors(textOf(HAIRBENCH_SOURCE_DIR "/results/gate.schema.json"), textOf(out)),
         IsEmpty());
     EXPECT_THAT(scene::Json::parse(textOf(out))["changes"], testing::Not(IsEmpty()));
 }

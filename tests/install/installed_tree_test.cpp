@@ -94,6 +94,9 @@ TEST_F(InstalledTree, RunsAShippedScene) {
     ASSERT_EQ(outcome.status, 0) << outcome.output;
     const fs::path report = own.file("work/results/local/smoke.json");
     EXPECT_EQ(nlohmann::json::parse(textOf(report)).at("cases").size(), 1u);
+    EXPECT_THAT(  // by the schema that is installed, whatever the doctor says of this machine
+        run("doctor --reports results/local/smoke.json").output,
+        HasSubstr("results/local/smoke.json: "));
 
     if (!fs::exists(HAIRBENCH_SOURCE_DIR "/.deps/plotly/plotly-basic.min.js"))
         return skipWithout(Need::report, "no Plotly; scripts/setup fetches it");

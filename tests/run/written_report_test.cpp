@@ -1,8 +1,8 @@
 // What a real run writes.
 #include <set>
 
+#include "benchmarks/report/schema_errors.h"
 #include "benchmarks/scene/json.h"
-#include "tests/benchmarks/schema_errors.h"
 #include "tests/run/tiny_sweep.h"
 
 namespace benchmarks::run {
@@ -29,7 +29,7 @@ protected:
 
 TEST_F(WrittenReport, FitsTheSchema) {
     smoke("");
-    EXPECT_THAT(schemaErrors(schema(), textOf(out_)), IsEmpty());
+    EXPECT_THAT(report::schemaErrors(schema(), textOf(out_)), IsEmpty());
     // What is not known is absent.
     EXPECT_THAT(textOf(out_), testing::Not(HasSubstr("null")));
 }
@@ -45,7 +45,7 @@ TEST_F(WrittenReport, DiffersFromCaseToCase) {
 
 TEST_F(WrittenReport, FitsTheSchemaWhateverBecameOfCases) {
     ASSERT_EQ(run(out_).status, 0);
-    EXPECT_THAT(schemaErrors(schema(), textOf(out_)), IsEmpty());
+    EXPECT_THAT(report::schemaErrors(schema(), textOf(out_)), IsEmpty());
 }
 
 TEST_F(WrittenReport, HasItsPicturesBesideIt) {
@@ -74,7 +74,7 @@ TEST_F(WrittenReport, HasNoPicturesWhereNoneAreWanted) {
 TEST_F(WrittenReport, MovesManySamplesIntoAFileOfTheirOwn) {
     smoke("-a /render/msaa=1 --frames 2001 --set /render/width=32 --set /render/height=32 "
           "--set /groom/guides=4 --set /render/hair=false --set /render/head=false");
-    EXPECT_THAT(schemaErrors(schema(), textOf(out_)), IsEmpty());
+    EXPECT_THAT(report::schemaErrors(schema(), textOf(out_)), IsEmpty());
     EXPECT_TRUE(std::filesystem::exists(folder_.file("smoke.samples.jsonl")));
     const scene::Json report = report::readReport(out_);
     EXPECT_GE(report["cases"][0]["metrics"]["frame.time"]["samples"].size(), 2001u);

@@ -7,9 +7,9 @@
 #include "benchmarks/commands/commands.h"
 #include "benchmarks/report/change.h"
 #include "benchmarks/report/report.h"
+#include "benchmarks/report/schema_errors.h"
 #include "benchmarks/report/text.h"
 #include "benchmarks/viewer/measure_panel.h"
-#include "tests/benchmarks/schema_errors.h"
 #include "tests/gpu_fixture.h"
 #include "tests/temporary_folder.h"
 #include "tests/viewer/made_up_frames.h"
@@ -51,7 +51,7 @@ TEST_F(TimingsReport, FitsTheSchema) {
     saved(frozen(statistics));
     const std::string schema =
         textOf(std::filesystem::path(HAIRBENCH_SOURCE_DIR) / "results/report.schema.json");
-    EXPECT_THAT(schemaErrors(schema, textOf(file_)), IsEmpty());
+    EXPECT_THAT(report::schemaErrors(schema, textOf(file_)), IsEmpty());
 }
 
 TEST_F(TimingsReport, HasTheSamplesThatWentIn) {

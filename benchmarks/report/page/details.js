@@ -104,7 +104,7 @@ const kComparisonColumns = [
 
 function drawComparison() {
     const found = page.comparisons[comparison.place];
-    const other = page.reports[comparison.place + 1];
+    const first = page.reports[found.with], other = page.reports[found.report];
     const all = [...found.mismatches.map(() => "mismatch"),
         ...found.changes.map((each) => each.verdict)];
     const chips = Object.keys(kVerdicts).map((verdict) => [verdict,
@@ -117,7 +117,7 @@ function drawComparison() {
             }, {dataset: {verdict}}));
     showOnly(byId("comparison-head"),
         element("p", {class: "lead"},
-            `A: ${page.reports[0].file}, ${other.label}: ${other.file}. Overall: `,
+            `${first.label}: ${first.file}, ${other.label}: ${other.file}. Overall: `,
             verdictBadge(found.verdict)),
         element("div", {class: "chips", role: "group", "aria-label": "Verdicts"}, chips),
         found.warnings.length ? element("details", {class: "warnings",
@@ -145,11 +145,13 @@ function buildComparison() {
         section.remove();
         return;
     }
-    const others = page.comparisons.map((_, place) => [place,
-        `${page.reports[place + 1].label}: ${page.reports[place + 1].file}`]);
+    const others = page.comparisons.map((each, place) => {
+        const first = page.reports[each.with], other = page.reports[each.report];
+        return [place, `${other.label}: ${other.file}, with ${first.label}`];
+    });
     showOnly(section, heading("Comparison"),
         others.length > 1 ? element("div", {class: "controls"},
-            choice("with A", "comparison-other", others, 0, (place) => {
+            choice("reports", "comparison-other", others, 0, (place) => {
                 comparison.place = Number(place);
                 drawComparison();
             })) : "",
@@ -464,9 +466,9 @@ function buildEnvironment() {
 // ---- The page -----------------------------------------------------------------------------------
 
 function buildContents() {
-    const sections = [["scaling", "Scaling"], ["passes", "Passes"], ["distributions", "Samples"],
-        ["quality", "Quality"], ["backends", "Back ends"], ["comparison", "Comparison"], ["pictures", "Pictures"],
-        ["cases", "Cases"], ["environment", "Environment"]];
+    const sections = [["devices", "Devices"], ["scaling", "Scaling"], ["passes", "Passes"], ["distributions", "Samples"],
+        ["quality", "Quality"], ["backends", "Back ends"], ["comparison", "Comparison"],
+        ["pictures", "Pictures"], ["cases", "Cases"], ["environment", "Environment"]];
     showOnly(byId("contents"), ...sections.filter(([id]) => byId(id)).map(
         ([id, text]) => element("a", {href: `#${id}`}, text)));
 }
@@ -474,6 +476,7 @@ function buildContents() {
 startTheme();
 buildSummary();
 buildFilter();
+buildDevices();
 buildScaling();
 buildPasses();
 buildSamples();

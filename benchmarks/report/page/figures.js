@@ -8,6 +8,7 @@ const scaling = {held: new Map()};  // pointer -> text of the value it is held a
 function followsFrom(axis, x) {
     const seen = new Map();
     return rows.every((row) => {
+        if (row.values[x.pointer] === undefined) return true;  // of another scene
         const at = valueText(row.values[x.pointer]), value = valueText(row.values[axis.pointer]);
         if (!seen.has(at)) seen.set(at, value);
         return seen.get(at) === value;
@@ -19,14 +20,15 @@ function freeAxes() {
     return axes.filter((axis) => axis !== x && !followsFrom(axis, x));
 }
 
-function suitsLog(values) {
+function suitsLog(all) {
+    const values = all.filter((value) => value !== undefined);
     return values.every((value) => value > 0) && Math.max(...values) >= 8 * Math.min(...values);
 }
 
-// How many of an axis's values have figures.
+// How many of an axis's values have figures that the filter shows.
 function measuredValues(axis) {
-    return new Set(rows.filter((row) => row.status === "ok")
-        .map((row) => valueText(row.values[axis.pointer]))).size;
+    return new Set(filteredOk().map((row) => row.values[axis.pointer])
+        .filter((value) => value !== undefined).map(valueText)).size;
 }
 
 function startScaling() {
@@ -43,20 +45,26 @@ function startScaling() {
     holdOthers();
 }
 
-// More lines than anyone tells apart: the other axes are held at their first value.
+// More lines than anyone tells apart: the other axes are held at the values of the first case shown.
 function holdOthers() {
+    const shown = filteredOk();
+    const texts = (axis) => new Set(shown.map((row) => valueText(row.values[axis.pointer])));
     const others = freeAxes().filter(
         (axis) => ![scaling.color, scaling.facet, kReportAxis].includes(axis.pointer));
-    const colors = axisOf.get(scaling.color)?.values.length ?? 1;
-    const lines = others.reduce((product, axis) => product * axis.values.length, colors);
+    const colors = axisOf.has(scaling.color) ? texts(axisOf.get(scaling.color)).size : 1;
+    const lines = others.reduce((product, axis) => product * texts(axis).size, colors);
     scaling.held.clear();
-    if (lines > Math.max(6, colors))
-        for (const axis of others) scaling.held.set(axis.pointer, valueText(axis.values[0]));
+    if (lines <= Math.max(6, colors)) return;
+    const first = shown.find((row) => row.values[scaling.x] !== undefined);
+    for (const axis of first ? others : [])
+        scaling.held.set(axis.pointer, valueText(first.values[axis.pointer]));
 }
 
 function scalingRows() {
-    return filteredOk().filter((row) => row.metrics[scaling.metric] && [...scaling.held].every(
-        ([pointer, text]) => valueText(row.values[pointer]) === text));
+    return filteredOk().filter((row) => row.metrics[scaling.metric] &&
+        row.values[scaling.x] !== undefined && [...scaling.held].every(([pointer, text]) =>
+        // What an older report does not know is as it is held.
+        row.values[pointer] === undefined || valueText(row.values[pointer]) === text));
 }
 
 // Lines of the plot: the rows that differ in x only.
@@ -168,8 +176,9 @@ function facetAxes(div, facets) {
     const x = axisOf.get(scaling.x), count = Math.max(1, facets.length);
     const columns = Math.min(count, Math.max(1, Math.floor(div.clientWidth / 330)));
     const across = Math.ceil(count / columns);
-    const ticks = x.numeric && x.values.length <= 10
-        ? {tickmode: "array", tickvals: x.values, ticktext: x.values.map(String)} : {};
+    const values = x.values.filter((value) => value !== undefined);
+    const ticks = x.numeric && values.length <= 10
+        ? {tickmode: "array", tickvals: values, ticktext: values.map(String)} : {};
     const layout = {
         height: across === 1 ? 460 : 60 + 320 * across,
         annotations: [], grid: {rows: across, columns, pattern: "independent",
@@ -262,7 +271,14 @@ function buildScaling() {
         element("p", {class: "note", id: "scaling-note"}));
     buildScalingControls();
     drawScaling();
-    onFilterChange(drawScaling);
+    onFilterChange(() => {
+        // Another scene has other axes.
+        if (severalScenes && !scalingRows().length && filteredOk().length) {
+            startScaling();
+            buildScalingControls();
+        }
+        drawScaling();
+    });
     onThemeChange(drawScaling);
     byId("scaling-plot").on("plotly_click",
         (event) => showSamplesOf(event.points[0].customdata, scaling.metric));

@@ -109,6 +109,42 @@ const page = JSON.parse(byId("data").textContent);
 const kReportAxis = "report";
 const severalReports = page.reports.length > 1;
 
+// "scenes/thesis.json" is "thesis".
+function sceneName(report) {
+    return (report.scene?.path ?? "").split("/").at(-1).replace(/\.json$/, "");
+}
+const severalScenes = new Set(page.reports.map(sceneName)).size > 1;
+
+// A device of one name is another one with another driver.
+function deviceName(report) {
+    const {name, driver_version} = report.environment?.device ?? {};
+    const twin = page.reports.some((each) => each.environment?.device?.name === name &&
+        each.environment.device.driver_version !== driver_version);
+    return twin ? `${name}, ${driver_version}` : name;
+}
+
+// What drew the strands; older reports know only what was asked for.
+function drawnBy(report, each) {
+    return each.backend?.name ?? each.axes["/strands/backend"] ??
+        report.scene?.document?.strands?.backend;
+}
+
+// The value in a document that a JSON pointer names (RFC 6901).
+function valueAt(document, pointer) {
+    return pointer.split("/").slice(1).reduce(
+        (value, token) => value?.[token.replaceAll("~1", "/").replaceAll("~0", "~")], document);
+}
+
+// A case's value on an axis that only another report's sweep has is its scene's.
+const sweptPointers = [...new Set(page.reports.flatMap((report) => report.cases.flatMap(
+    (each) => Object.keys(each.axes))))];
+function allValues(report, each) {
+    const filled = sweptPointers.map((pointer) => [pointer,
+        each.axes[pointer] ?? valueAt(report.scene?.document, pointer)]);
+    return {[kReportAxis]: report.label,
+        ...Object.fromEntries(filled.filter(([, value]) => value !== undefined))};
+}
+
 // One row a case of a report; the report counts as one more axis where there are several.
 const rows = page.reports.flatMap((report, index) => report.cases.map((each, place) => ({
     ...each,
@@ -118,15 +154,23 @@ const rows = page.reports.flatMap((report, index) => report.cases.map((each, pla
     id: `${index}:${each.name}`,
     metrics: each.metrics ?? {},
     warnings: each.trust?.warnings ?? [],
-    values: severalReports ? {[kReportAxis]: report.label, ...each.axes} : each.axes,
+    facets: {scene: sceneName(report), device: deviceName(report),
+        backend: drawnBy(report, each)},
+    values: severalReports ? allValues(report, each) : each.axes,
 })));
 
 function axisValues(pointer) {
     const values = new Map();
     for (const row of rows) values.set(valueText(row.values[pointer]), row.values[pointer]);
     const found = [...values.values()];
-    if (found.every((value) => typeof value === "number")) found.sort((a, b) => a - b);
+    if (areNumbers(found)) found.sort((a, b) => a - b);
     return found;
+}
+
+// Cases of other scenes have no value on an axis, which sort() puts last.
+function areNumbers(values) {
+    const known = values.filter((value) => value !== undefined);
+    return known.length > 0 && known.every((value) => typeof value === "number");
 }
 
 // "/strands/density" is "density", unless two axes would be called the same.
@@ -144,7 +188,7 @@ const axes = pointers.map((pointer) => {
         pointer,
         label: axisLabel(pointer, pointers),
         values,
-        numeric: values.every((value) => typeof value === "number"),
+        numeric: areNumbers(values),
     };
 }).filter((axis) => axis.values.length > 1);
 const axisOf = new Map(axes.map((axis) => [axis.pointer, axis]));
@@ -153,16 +197,20 @@ const sweptAxes = axes.filter((axis) => axis.pointer !== kReportAxis);
 
 // What tells a case from the others, by name: "density 64, msaa 4".
 function caseLabel(row, among = axes) {
+    if (severalScenes) return `${row.report.label}: ${row.name}`;
     const parts = among.map((axis) => `${axis.label} ${valueText(row.values[axis.pointer])}`);
     return parts.length ? parts.join(", ") : row.name;
 }
 
 // A case by its values alone, "64 \u00b7 4"; caseValuesTitle() says of which axes.
 function caseValues(row, among = axes) {
+    if (severalScenes) return caseLabel(row);
     const parts = among.map((axis) => valueText(row.values[axis.pointer]));
     return parts.length ? parts.join(" \u00b7 ") : row.name;
 }
-function caseValuesTitle(among = axes) { return among.map((axis) => axis.label).join(" \u00b7 "); }
+function caseValuesTitle(among = axes) {
+    return severalScenes ? "case" : among.map((axis) => axis.label).join(" \u00b7 ");
+}
 
 const metricUnits = new Map();
 for (const row of rows)
@@ -406,6 +454,7 @@ function reportCard(report) {
             ["Sampling", seconds > 0 ? `${number(seconds)} s` : undefined],
             ["Warnings", warned ? `${counted(warned, "case")} with warnings` : "none"],
         ]),
+        report.untrusted ? note(`\u26a0 Not to be trusted: ${report.untrusted}`) : "",
         report.interrupted
             ? note("The run was stopped: these are the cases that were done.") : "",
         report.environment?.validation
@@ -432,12 +481,16 @@ function buildSummary() {
     const [first] = page.reports;
     byId("title").textContent = page.title;
     const description = first.scene?.document?.description;
-    byId("description").textContent = description ?? "";
+    byId("description").textContent = severalScenes ? "" : description ?? "";
     showOnly(byId("reports"), ...page.reports.map(reportCard));
     const warnings = rows.flatMap((row) => row.warnings.map((text) => [text, row]));
     const left = rows.filter((row) => row.status !== "ok")
         .map((row) => [`${row.status}: ${row.reason ?? "no reason was given"}`, row]);
     showOnly(byId("findings"),
+        page.left_out.length ? element("div", {},
+            note("Left out, for they are no reports of hairbench run:"),
+            element("ul", {}, page.left_out.map(({file, reason}) =>
+                element("li", {}, `${file}: ${reason}`)))) : "",
         findings(`\u26a0 ${counted(warnings.length, "warning")}`, warnings),
         findings(`${counted(left.length, "case")} without figures`, left));
 }
@@ -466,8 +519,11 @@ function textMatcher(text) {
     }
 }
 
+const kFacets = [["scene", "scene"], ["device", "device"], ["backend", "back end"]];
+
 function filterValue(row, key) {
-    return key === "status" ? row.status : valueText(row.values[key]);
+    if (key === "status") return row.status;
+    return valueText(key in row.facets ? row.facets[key] : row.values[key]);
 }
 
 function filteredRows() {
@@ -486,9 +542,9 @@ function filterChanged() {
 }
 
 function chipsOf(key, label, texts) {
-    const hidden = new Set();
+    const hidden = filter.hidden.get(key) ?? new Set();
     filter.hidden.set(key, hidden);
-    const chips = texts.map((text) => toggle(text, true, (on) => {
+    const chips = texts.map((text) => toggle(text, !hidden.has(text), (on) => {
         if (on) hidden.delete(text);
         else hidden.add(text);
         filterChanged();
@@ -509,8 +565,15 @@ function buildFilter() {
             }, 150);
         }});
     const statuses = [...new Set(rows.map((row) => row.status))];
-    const groups = axes.map(
-        (axis) => chipsOf(axis.pointer, axis.label, axis.values.map(valueText)));
+    const facets = severalReports ? kFacets.map(([key, label]) => [key, label,
+        [...new Set(rows.map((row) => filterValue(row, key)))]])
+        .filter(([, , texts]) => texts.length > 1) : [];
+    // Figures of several scenes at once say nothing: they start with the first.
+    if (severalScenes) filter.hidden.set("scene", new Set(page.reports.map(sceneName).filter(
+        (name) => name !== sceneName(page.reports[0]))));
+    const groups = [
+        ...facets.map(([key, label, texts]) => chipsOf(key, label, texts)),
+        ...axes.map((axis) => chipsOf(axis.pointer, axis.label, axis.values.map(valueText)))];
     if (statuses.length > 1) groups.push(chipsOf("status", "status", statuses));
     const reset = element("button", {type: "button", id: "filter-reset", onclick: () => {
         box.value = filter.text = "";
@@ -524,5 +587,6 @@ function buildFilter() {
             element("output", {id: "filter-count", "aria-live": "polite"}), reset),
         groups.length ? element("details", {open: innerWidth >= 800},
             element("summary", {}, "by axis"), groups) : "");
-    byId("filter-count").textContent = `${rows.length} of ${counted(rows.length, "case")}`;
+    byId("filter-count").textContent =
+        `${filteredRows().length} of ${counted(rows.length, "case")}`;
 }

@@ -1,4 +1,6 @@
-#include "tests/benchmarks/schema_errors.h"
+#include "benchmarks/report/schema_errors.h"
+
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
@@ -7,7 +9,22 @@
 #include <valijson/validation_results.hpp>
 #include <valijson/validator.hpp>
 
-namespace benchmarks {
+namespace benchmarks::report {
+namespace {
+
+// valijson's tokens are <root>, [name] and [number], names of some releases with quotes.
+std::string pointerOf(const std::vector<std::string>& context) {
+    std::string pointer;
+    for (std::string_view token : context) {
+        if (!token.starts_with('[')) continue;
+        token = token.substr(1, token.size() - 2);
+        if (token.starts_with('"')) token = token.substr(1, token.size() - 2);
+        pointer.append("/").append(token);
+    }
+    return pointer;
+}
+
+}  // namespace
 
 std::vector<std::string> schemaErrors(const std::string& schema, const std::string& document) {
     using Adapter = valijson::adapters::NlohmannJsonAdapter;
@@ -19,12 +36,9 @@ std::vector<std::string> schemaErrors(const std::string& schema, const std::stri
     valijson::ValidationResults results;
     valijson::Validator().validate(compiled, Adapter(document_json), &results);
     std::vector<std::string> errors;
-    for (valijson::ValidationResults::Error error; results.popError(error);) {
-        std::string place;
-        for (const std::string& token : error.context) place += token;
-        errors.push_back(place + ": " + error.description);
-    }
+    for (valijson::ValidationResults::Error error; results.popError(error);)
+        errors.push_back(pointerOf(error.context) + ": " + error.description);
     return errors;
 }
 
-}  // namespace benchmarks
+}  // namespace benchmarks::report
