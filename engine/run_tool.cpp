@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <csignal>
 #include <fstream>
+#include <new>
 #include <span>
 #include <system_error>
 #include <utility>
@@ -178,6 +179,8 @@ void limit(__rlimit_resource resource, rlim_t value) {
     setrlimit(resource, &limits);
 }
 
+constexpr int kOutOfMemory = 12;  // status of a copy: ENOMEM
+
 [[noreturn]] void
 workAndEnd(const std::function<std::string()>& work, const ChildLimits& limits, int output) {
     signal(SIGINT, SIG_IGN);  // of a terminal: the parent ends this child
@@ -188,6 +191,8 @@ workAndEnd(const std::function<std::string()>& work, const ChildLimits& limits, 
     std::string bytes;
     try {
         bytes = work();
+    } catch (const std::bad_alloc&) {
+        _exit(kOutOfMemory);
     } catch (...) {
         _exit(1);
     }
@@ -203,6 +208,8 @@ workAndEnd(const std::function<std::string()>& work, const ChildLimits& limits, 
 std::string describe(int status, const ChildLimits& limits) {
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
         return "not done after " + std::to_string(limits.seconds) + " s of the processor";
+    if (WIFEXITED(status) && WEXITSTATUS(status) == kOutOfMemory)
+        return "not done with " + std::to_string(limits.bytes >> 20) + " MiB of memory";
     return describe(status);
 }
 

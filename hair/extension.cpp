@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <locale>
@@ -50,12 +51,35 @@ engine::Error errorAt(const std::string& name, std::size_t line, const std::stri
 
 // Words by which a shader would reach memory that nobody gave it.
 constexpr std::array kRefused{"buffer", "layout", "shared", "uniform"};
-// Directives of a preprocessor that stay within the text.
-constexpr std::array kDirectives{"define", "undef", "if",   "ifdef",
-                                 "ifndef", "elif",  "else", "endif"};
+// Words before a call that are no type of what is declared.
+constexpr std::array kBeforeCalls{"return", "else", "do", "case"};
 
 bool isOneOf(const std::string& word, const auto& words) {
     return std::ranges::find(words, word) != words.end();
+}
+
+// Longer ones are nobody's, and std::regex, which has a frame on the stack for each letter, can't
+// take them.
+constexpr std::size_t kLongestLine = 1000;
+
+// Lines are what ends with '\n', to the compiler as here: it would also end one, and a comment, at
+// a '\r' alone.
+void checkLines(const std::string& name, const std::string& text) {
+    std::size_t number = 1, length = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '\n') {
+            ++number;
+            length = 0;
+            continue;
+        }
+        if (++length > kLongestLine)
+            throw errorAt(
+                name, number, "is longer than " + std::to_string(kLongestLine) + " letters");
+        const bool ends = text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n';
+        const bool control = static_cast<unsigned char>(text[i]) < ' ' || text[i] == '\x7f';
+        if (control && text[i] != '\t' && !ends)
+            throw errorAt(name, number, "has a control character");
+    }
 }
 
 void checkWords(const std::string& name, const std::string& text) {
@@ -68,9 +92,7 @@ void checkWords(const std::string& name, const std::string& text) {
         ++number;
         if (line.find('\\') != std::string::npos)
             throw errorAt(name, number, "'\\' has no place in a file that a scene names");
-        if (line.find("##") != std::string::npos)
-            throw errorAt(name, number, "'##' has no place in a file that a scene names");
-        if (std::regex_match(line, match, directive) && !isOneOf(match[1], kDirectives))
+        if (std::regex_match(line, match, directive))
             throw errorAt(
                 name, number, '#' + match[1].str() + " has no place in a file that a scene names");
         for (std::sregex_iterator each(line.begin(), line.end(), word), end; each != end; ++each)
@@ -80,6 +102,89 @@ void checkWords(const std::string& name, const std::string& text) {
                     '\'' + each->str() +
                         "' has no place in a file that a scene names: it reads "
                         "its parameters and what its functions are given");
+    }
+}
+
+struct Token {
+    std::string text;  // a word, or a single other letter
+    std::size_t line = 1;
+
+    bool isWord() const {
+        return std::isalpha(static_cast<unsigned char>(text[0])) || text[0] == '_';
+    }
+};
+
+std::vector<Token> tokensOf(const std::string& code) {
+    const auto isIn = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+    };
+    std::vector<Token> tokens;
+    std::size_t line = 1;
+    for (std::size_t i = 0; i < code.size(); ++i) {
+        if (code[i] == '\n') ++line;
+        if (std::isspace(static_cast<unsigned char>(code[i]))) continue;
+        std::size_t end = i + 1;
+        if (isIn(code[i]))
+            while (end < code.size() && isIn(code[end])) ++end;
+        tokens.push_back({code.substr(i, end - i), line});
+        i = end - 1;
+    }
+    return tokens;
+}
+
+// Variables and functions that two units declare are the same ones to the linker. A function that
+// is declared and not defined would be the program's own of that name, were there
+// one: some of them take addresses. Whether what stands before the name at `at` makes it a
+// declaration's: "float f(", "float[2] f(", "struct S { float x; } f(".
+bool isDeclared(const std::vector<Token>& tokens, std::size_t at, bool after_struct) {
+    if (at == 0) return false;
+    const Token& before = tokens[at - 1];
+    if (before.isWord()) return !isOneOf(before.text, kBeforeCalls);
+    return before.text == "]" || (before.text == "}" && after_struct);
+}
+
+void checkFunctions(const std::string& name, const std::string& text) {
+    const std::vector<Token> tokens = tokensOf(withoutComments(text));
+    enum class Block { body, members, list };
+    std::vector<Block> blocks;  // those that are open
+    bool after_struct = false;
+    std::size_t start = 0;  // of what is declared outside of functions
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        if (tokens[i].text == "{") {
+            const bool is_struct = (i >= 1 && tokens[i - 1].text == "struct") ||
+                                   (i >= 2 && tokens[i - 2].text == "struct");
+            const bool is_list = i >= 1 && tokens[i - 1].text == "=";
+            blocks.push_back(is_struct ? Block::members : is_list ? Block::list : Block::body);
+        }
+        if (tokens[i].text == "}" && !blocks.empty()) {
+            const Block closed = blocks.back();
+            after_struct = closed == Block::members;
+            blocks.pop_back();
+            if (blocks.empty() && closed == Block::body) start = i + 1;  // a function's end
+        }
+        if (tokens[i].text == ";" && blocks.empty()) {
+            const bool is_struct = i > 0 && tokens[i - 1].text == "}" && after_struct;
+            if (start < i && tokens[start].text != "const" && !is_struct)
+                throw errorAt(
+                    name, tokens[start].line,
+                    "what is declared outside of functions has to be const, or would be the "
+                    "program's own of that name");
+            start = i + 1;
+        }
+        if (tokens[i].text != "(" || i == 0 || !tokens[i - 1].isWord() ||
+            !isDeclared(tokens, i - 1, after_struct))
+            continue;
+        std::size_t end = i, depth = 0;
+        for (; end < tokens.size(); ++end) {
+            if (tokens[end].text == "(") ++depth;
+            if (tokens[end].text == ")" && --depth == 0) break;
+        }
+        if (end + 1 >= tokens.size() || tokens[end + 1].text != "{")
+            throw errorAt(
+                name, tokens[i - 1].line,
+                '\'' + tokens[i - 1].text +
+                    "' is declared and not defined, which has no place in "
+                    "a file that a scene names");
     }
 }
 
@@ -185,7 +290,9 @@ std::string declarationOf(const ExtensionParameter& parameter, std::uint32_t con
 }  // namespace
 
 Extension parseExtension(ExtensionKind kind, const std::string& name, std::string text) {
+    checkLines(name, text);
     checkWords(name, text);
+    checkFunctions(name, text);
     static const std::regex line_form(R"(\s*//\s*@parameter\b(.*))");
     Extension extension{.kind = kind, .parameters = {}, .shader = {}};
     std::istringstream lines(text);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include "benchmarks/scene/assets.h"
 #include "benchmarks/scene/sweep.h"
@@ -189,7 +190,33 @@ TEST_F(SceneExtensions, SeesItsInterfaceAlone) {
         body("# extension GL_EXT_buffer_reference : require"),
         at + "#extension has no place in a file that a scene names");
     EXPECT_EQ(body("ab\\"), at + "'\\' has no place in a file that a scene names");
-    EXPECT_EQ(body("#define AB a##b"), at + "'##' has no place in a file that a scene names");
+    EXPECT_EQ(body("#define AB 1"), at + "#define has no place in a file that a scene names");
+    // The linker would find the program's functions, some of which take addresses.
+    for (const char* const declaration :
+         {"void storePair(uvec2 at, uint index, uvec2 pair);", "float[2] storePair(uvec2 at);",
+          "struct S { float x; } storePair(uvec2 at);", "const vec3 storePair(uvec2 at) ;"})
+        EXPECT_EQ(
+            body(declaration), at + "'storePair' is declared and not defined, which has no place "
+                                    "in a file that a scene names");
+    EXPECT_EQ(
+        body("if (point.along > 2.0) {} normalize(point.color); do {} while (false);"), "no error");
+    for (const char* const global :
+         {"vec4 extended_picture;", "float extended_picture[1] = {1.0};",
+          "const float one = 1.0; float two = 2.0;",
+          "struct PictureParameters { vec3 eye; } extended_picture;"})
+        EXPECT_THAT(
+            modelError("\n" + std::string(global) + "\n"),
+            testing::StartsWith(at + "what is declared outside of functions has to be const"));
+    EXPECT_EQ(
+        modelError("struct Pair { float a; float b; };\nconst float kOne[2] = float[2](1.0, 2.0);\n"
+                   "float[2] both(Pair p) { return float[2](p.a, p.b); }\n"
+                   "vec3 shadeHair(HairPoint point) {\n    Pair p = Pair(kOne[0], 2.0);\n"
+                   "    return vec3(both(p)[0]);\n}\n"),
+        "no error");
+    // To the compiler a comment ends at a carriage return.
+    EXPECT_EQ(
+        body("// \r#extension GL_EXT_buffer_reference : require"), at + "has a control character");
+    EXPECT_EQ(body("//" + std::string(60000, 'x')), at + "is longer than 1000 letters");
     for (const char* const word : {"layout", "buffer", "uniform", "shared"})
         EXPECT_THAT(
             body("    " + std::string(word) + " x;"),

@@ -485,4 +485,32 @@ TEST_F(CliRun, RendersThePictureThatItMeasures) {
     EXPECT_GT(fs::file_size(picture), 1000u);
 }
 
+// docs/extending_scenes.md. The hash is what sha256sum says of the file.
+TEST(Cli, ReportsSayWhichFilesOfGlslCasesWerePlayedWith) {
+    if (!hasDevice()) return skipWithout(Need::device, "no Vulkan device");
+    const TemporaryFolder folder;
+    folder.write("own.glsl", "vec3 shadeHair(HairPoint point) { return point.color; }\n");
+    const fs::path scene = folder.write("own.json", R"({
+        "base": ")" HAIRBENCH_SCENES_DIR R"(/smoke.json",
+        "render": {"width": 64, "height": 48},
+        "strands": {"density": 4},
+        "run": {"warmup": 2, "frames": 1, "frame_time": 0, "max_time": 0},
+        "sweep": {"/render/msaa": null,
+                  "/shading/model": ["own.glsl", "phong"]}
+    })");
+    const fs::path report = folder.file("report.json");
+    const Outcome outcome =
+        hairbench("run '" + scene.string() + "' --no-pictures --out '" + report.string() + "'");
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    const nlohmann::json cases = reportOf(report).at("cases");
+    ASSERT_EQ(cases.size(), 2u);
+    const nlohmann::json expected = {
+        {{"pointer", "/shading/model"},
+         {"file", "own.glsl"},
+         {"sha256", "77c2ab07d3d57418d191e707720170786107e50769b11d404f6e54b716f08b5b"}}};
+    EXPECT_EQ(cases.at(0).at("axes").at("/shading/model"), "own.glsl");
+    EXPECT_EQ(cases.at(0).at("extensions"), expected);
+    EXPECT_FALSE(cases.at(1).contains("extensions"));
+}
+
 }  // namespace

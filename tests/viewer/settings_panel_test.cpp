@@ -1,6 +1,7 @@
 #include "benchmarks/viewer/settings_panel.h"
 
 #include <algorithm>
+#include <memory>
 
 #include <gtest/gtest.h>
 
@@ -139,6 +140,31 @@ TEST_F(SettingsPanel, KeepsNamesAndWidgetsWithinTheNarrowestColumn) {
             EXPECT_LE(item.rect.right, 270.0f) << item.label;
         }
     }
+}
+
+// docs/extending_scenes.md.
+TEST_F(SettingsPanel, ShowsAFilesParameters) {
+    for (hair::Settings* settings : {&settings_, &original_}) {
+        settings->shading.model = hair::ShadingModel::extension;
+        settings->shading.model_file = "mine.glsl";
+        hair::ExtensionParameters& parameters = settings->shading.model_parameters;
+        parameters.file = std::make_shared<const hair::Extension>(hair::parseExtension(
+            hair::ExtensionKind::shading, "mine.glsl",
+            "// @parameter bands 3 [1, 12] count: steps\n"
+            "// @parameter tint (0.5, 0.25, 1) [0, 1] 1: of the shade\n"));
+        parameters.values = {
+            {"bands", false, glm::vec3(3.0f)}, {"tint", true, {0.5f, 0.25f, 1.0f}}};
+    }
+    search_ = "bands";
+    show();
+    EXPECT_NE(find("##/shading/model_parameters/bands"), nullptr);
+    EXPECT_NE(find("##/shading/model_parameters/tint/2"), nullptr);
+    EXPECT_EQ(find("##/shading/model_parameters/bands/reset"), nullptr);
+
+    settings_.shading.model_parameters.values[0].value.x = 5.0f;
+    show();
+    click("##/shading/model_parameters/bands/reset");
+    EXPECT_EQ(settings_.shading.model_parameters.values[0].value.x, 3.0f);
 }
 
 }  // namespace

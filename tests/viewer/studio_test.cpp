@@ -1,7 +1,9 @@
 // What the thread that draws does with orders, without the thread.
 #include "benchmarks/viewer/studio.h"
 
+#include <chrono>
 #include <exception>
+#include <thread>
 #include <utility>
 
 #include <gmock/gmock.h>
@@ -9,6 +11,7 @@
 #include "benchmarks/viewer/preview.h"
 #include "tests/golden/features.h"
 #include "tests/gpu_fixture.h"
+#include "tests/temporary_folder.h"
 
 namespace benchmarks::viewer {
 namespace {
@@ -189,6 +192,54 @@ TEST_F(StudioTest, CountsTheSideThatWasAskedFor) {
     const Reply reply = perform(order);
     ASSERT_TRUE(reply.counted.has_value());
     EXPECT_EQ(reply.counted->statistics.size(), engine::statisticNames(device()).size());
+}
+
+// A file of GLSL beside the scene: docs/extending_scenes.md.
+TEST_F(StudioTest, DrawsByAFileOnceItIsSaved) {
+    const TemporaryFolder folder;
+    const auto write = [&](const std::string& body) {
+        folder.write("mine.glsl", "vec3 shadeHair(HairPoint point) {\n" + body + "\n}\n");
+    };
+    write("return vec3(1.0, 0.0, 0.0);");
+    hair::Settings settings = hair::plainSettings();
+    settings.groom.grow.mesh = HAIRBENCH_SCENES_DIR "/assets/head.glb";
+    settings.render.head = false;
+    settings.strands.density = 8;
+    settings.shading.model = hair::ShadingModel::extension;
+    settings.shading.model_file = "mine.glsl";
+    SideOrder own = side(1, settings);
+    own.directory = folder.path();
+    const Order order{.sides = {own}};
+    const auto shows = [](const Shown& shown, const std::array<int, 3>& color) {
+        for (std::size_t i = 0; i < shown.picture.size(); i += 4)
+            if (shown.picture[i] == color[0] && shown.picture[i + 1] == color[1] &&
+                shown.picture[i + 2] == color[2])
+                return true;
+        return false;
+    };
+    // The next reply that has heard of a save; files are looked at twice, a quarter of a second
+    // apart.
+    const auto afterSave = [&] {
+        for (int i = 0; i < 100; ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+            SideReply reply = std::move(perform(order).sides.front());
+            if (reply.reread) return reply;
+        }
+        return SideReply{};
+    };
+    EXPECT_TRUE(shows(*perform(order).sides.front().shown, {255, 0, 0}));
+
+    write("return colour;");
+    const SideReply wrong = afterSave();
+    EXPECT_THAT(wrong.problem, HasSubstr("mine.glsl:2: 'colour' : undeclared identifier"));
+    EXPECT_FALSE(wrong.shown.has_value());  // the last good one stays
+
+    write("return vec3(0.0, 1.0, 0.0);");
+    const SideReply right = afterSave();
+    EXPECT_EQ(right.problem, "");
+    ASSERT_TRUE(right.shown.has_value());
+    EXPECT_TRUE(shows(*right.shown, {0, 255, 0}));
+    EXPECT_FALSE(shows(*right.shown, {255, 0, 0}));
 }
 
 }  // namespace
