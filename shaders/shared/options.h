@@ -134,7 +134,7 @@ const uint kShowConstant = 24u;
 const uint kLightKindsConstant = 25u;
 const uint kFarFieldConstant = 34u;
 
-// The first constants of the parameters of files that a scene names, of three each: hair/extension.h.
+// First constants of the parameters of files that a scene names, three each: hair/extension.h.
 const uint kShadingParameterConstant = 64u;
 const uint kOffsetParameterConstant = 128u;
 const uint kForceParameterConstant = 192u;
