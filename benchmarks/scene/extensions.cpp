@@ -85,7 +85,7 @@ void checkReach(const hair::Extension& extension) {
             "declares no parameter `reach`, a number from 0 m on that no offset is longer than");
 }
 
-void load(
+void loadOne(
     const std::string& file, hair::ExtensionParameters& parameters, const ExtensionField& field,
     const std::filesystem::path& directory, const Reach& reach, UnknownParameters unknown) {
     parameters.file = nullptr;
@@ -136,7 +136,7 @@ void loadExtensions(
     UnknownParameters unknown) {
     for (const ExtensionField& field : kExtensionFields) {
         const auto [file, parameters] = named(settings, field.kind);
-        load(file, parameters, field, directory, reach, unknown);
+        loadOne(file, parameters, field, directory, reach, unknown);
     }
 }
 
