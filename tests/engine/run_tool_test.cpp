@@ -61,7 +61,9 @@ TEST(RunApart, EndsWhatTakesTooMuchOrCrashes) {
         }),
         "ended by signal 11");
 #if !defined(__SANITIZE_ADDRESS__)
-    EXPECT_EQ(failed([] { return std::string(std::size_t{1} << 30, 'x'); }), "not done with 256 MiB of memory");
+    EXPECT_EQ(
+        failed([] { return std::string(std::size_t{1} << 30, 'x'); }),
+        "not done with 256 MiB of memory");
 #endif
 }
 
