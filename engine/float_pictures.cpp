@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -74,36 +77,108 @@ private:
 // channel of two bytes at least.
 constexpr std::int64_t kMostPixelsPerByte = 1032 / 2;
 
-// Walks through the attributes of a file's headers (OpenEXR File Layout): OpenEXR makes room for
-// what one says of its size, up to 2 GB, before it reads it.
-void checkExrHeaders(std::string_view file) {
-    constexpr std::size_t kStart = 8;  // behind the magic number and the version
-    constexpr unsigned char kManyParts = 0x10;  // of the version's second byte
-    const auto fail = [] { throw Error("ends too early for its header"); };
-    if (file.size() < kStart) fail();
-    const bool has_parts = static_cast<unsigned char>(file[5]) & kManyParts;
-    std::string_view rest = file.substr(kStart);
-    const auto takeText = [&] {
-        const std::size_t size = rest.find('\0');
-        if (size == rest.npos) fail();
-        rest.remove_prefix(size + 1);
-        return size;
-    };
-    for (;;) {
-        if (takeText() == 0) {  // the end of a header
-            if (!has_parts || rest.empty() || rest.front() == '\0') return;
-            continue;
+// Walks through the attributes of a file's headers (OpenEXR File Layout). OpenEXR makes room for
+// what one says of its size, up to 2 GB, before it reads it, and reads of some types what it finds
+// rather than what the size says, so that all behind it is read as something else.
+class ExrHeaders {
+public:
+    explicit ExrHeaders(std::string_view file) : rest_(file) {}
+
+    // Throws where OpenEXR would read more or less of an attribute than its size, or past the end.
+    void check() {
+        take(5);  // the magic number, and the version's first byte
+        constexpr unsigned char kManyParts = 0x10;
+        const bool has_parts = static_cast<unsigned char>(take(3).front()) & kManyParts;
+        for (;;) {
+            if (takeName().empty()) {  // the end of a header
+                if (!has_parts || rest_.empty() || rest_.front() == '\0') return;
+                continue;
+            }
+            const std::string_view type = takeName();
+            const std::size_t size = takeNumber();
+            checkValue(type, take(size));
         }
-        takeText();  // the type
-        std::uint32_t size = 0;
-        if (rest.size() < sizeof size) fail();
-        for (std::size_t i = sizeof size; i-- > 0;)
-            size = size << 8 | static_cast<unsigned char>(rest[i]);
-        rest.remove_prefix(sizeof size);
-        if (size > rest.size()) fail();
-        rest.remove_prefix(size);
     }
-}
+
+private:
+    [[noreturn]] static void fail() { throw Error("ends too early for its header"); }
+
+    std::string_view take(std::size_t size) {
+        if (size > rest_.size()) fail();
+        const std::string_view taken = rest_.substr(0, size);
+        rest_.remove_prefix(size);
+        return taken;
+    }
+
+    std::string_view takeName() {
+        constexpr std::size_t kLongest = 255;
+        const std::size_t size = rest_.substr(0, kLongest + 1).find('\0');
+        if (size == rest_.npos) fail();
+        const std::string_view name = take(size);
+        take(1);
+        return name;
+    }
+
+    std::uint32_t takeNumber() {
+        const std::string_view bytes = take(sizeof(std::uint32_t));
+        std::uint32_t number = 0;
+        for (std::size_t i = bytes.size(); i-- > 0;)
+            number = number << 8 | static_cast<unsigned char>(bytes[i]);
+        return number;
+    }
+
+    static void checkValue(std::string_view type, std::string_view value) {
+        struct Fixed {
+            std::string_view type;
+            std::size_t size;
+        };
+        static constexpr auto kFixed = std::to_array<Fixed>(
+            {{"box2f", 16},
+             {"box2i", 16},
+             {"chromaticities", 32},
+             {"compression", 1},
+             {"deepImageState", 1},
+             {"double", 8},
+             {"envmap", 1},
+             {"float", 4},
+             {"int", 4},
+             {"keycode", 28},
+             {"lineOrder", 1},
+             {"m33d", 72},
+             {"m33f", 36},
+             {"m44d", 128},
+             {"m44f", 64},
+             {"rational", 8},
+             {"tiledesc", 9},
+             {"timecode", 8},
+             {"v2d", 16},
+             {"v2f", 8},
+             {"v2i", 8},
+             {"v3d", 24},
+             {"v3f", 12},
+             {"v3i", 12}});
+        const auto fixed = std::ranges::find(kFixed, type, &Fixed::type);
+        if (fixed != kFixed.end() && fixed->size != value.size())
+            throw Error("its header has a " + std::string(type) + " of another size");
+        ExrHeaders inside(value);
+        if (type == "chlist") {
+            constexpr std::size_t kChannel = 16;
+            while (!inside.takeName().empty()) inside.take(kChannel);
+            if (!inside.rest_.empty()) fail();
+        } else if (type == "stringvector") {
+            while (!inside.rest_.empty()) inside.take(inside.takeNumber());
+        } else if (type == "preview") {
+            const std::uint64_t width = inside.takeNumber();
+            const std::uint64_t height = inside.takeNumber();
+            constexpr std::size_t kPixel = 4;
+            if (width > inside.rest_.size() || height > inside.rest_.size() ||
+                width * height * kPixel != inside.rest_.size())
+                fail();
+        }
+    }
+
+    std::string_view rest_;
+};
 
 struct Size {
     std::int64_t width;
@@ -142,7 +217,7 @@ Imf::Slice slice(float* rgb, const Imath::Box2i& window, std::size_t channel) {
 }
 
 FloatPixels decode(std::string_view bytes) {
-    checkExrHeaders(bytes);
+    ExrHeaders(bytes).check();
     MemoryInput stream(bytes);
     Imf::InputFile file(stream, 0);
     const Imf::Header& header = file.header();
