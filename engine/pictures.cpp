@@ -4,6 +4,9 @@
 #include <cassert>
 #include <limits>
 #include <memory>
+#include <set>
+#include <string>
+#include <string_view>
 
 #include "engine/error.h"
 #include "engine/files.h"
@@ -33,21 +36,51 @@ namespace {
 constexpr std::int64_t kMostPixelsPerByteOfPng = 8 * 1032;
 constexpr std::int64_t kMostPixelsPerByte = 1024;
 
-// Tables of Huffman codes: what one is of, 16 counts of codes of 1 to 16 bits, and as many values.
-// stb writes past the end of its own where there are more codes than bytes have values.
-void checkHuffmanTables(std::string_view tables) {
-    constexpr std::size_t kHead = 17;  // bytes before the values
-    constexpr std::size_t kMostCodes = 256;
-    while (!tables.empty()) {
-        std::size_t codes = 0;
-        for (const char count : tables.substr(1, kHead - 1))
-            codes += static_cast<unsigned char>(count);
-        if (codes > kMostCodes)
-            throw Error("a Huffman table has " + std::to_string(codes) + " codes");
-        if (tables.size() < kHead + codes) throw Error("a Huffman table is cut off");
-        tables.remove_prefix(kHead + codes);
+// The Huffman tables of a JPEG, of which stb believes two things: that one has no more codes than
+// bytes have values, or it writes past the end of its own, and that a scan's are there.
+class HuffmanTables {
+public:
+    // A segment of them: what one is of, 16 counts of codes of 1 to 16 bits, and as many values.
+    void define(std::string_view tables) {
+        constexpr std::size_t kHead = 17;  // bytes before the values
+        constexpr std::size_t kMostCodes = 256;
+        while (!tables.empty()) {
+            std::size_t codes = 0;
+            for (const char count : tables.substr(1, kHead - 1))
+                codes += static_cast<unsigned char>(count);
+            if (codes > kMostCodes)
+                throw Error("a Huffman table has " + std::to_string(codes) + " codes");
+            if (tables.size() < kHead + codes) throw Error("a Huffman table is cut off");
+            defined_.insert(static_cast<unsigned char>(tables.front()));
+            tables.remove_prefix(kHead + codes);
+        }
     }
-}
+
+    // A scan's head: how many channels, each with its tables, and the coefficients. Those of a
+    // progressive one are the first, which has a table for its first bits alone, or the others.
+    void check(std::string_view scan, bool progressive) const {
+        const auto byteAt = [&](std::size_t at) {
+            return at < scan.size() ? int{static_cast<unsigned char>(scan[at])} : 0;
+        };
+        const auto channels = static_cast<std::size_t>(byteAt(0));
+        if (scan.size() != 4 + 2 * channels) return;  // which stb refuses
+        const bool first = byteAt(1 + 2 * channels) == 0;
+        const bool refines = byteAt(3 + 2 * channels) >> 4 != 0;
+        constexpr int kOthers = 0x10;  // of what a table is, beside its number
+        for (std::size_t i = 0; i < channels; ++i) {
+            const int tables = byteAt(2 + 2 * i);
+            const bool has_first = defined_.contains(tables >> 4);
+            const bool has_others = defined_.contains(kOthers | (tables & 0xf));
+            const bool needs_first = progressive ? first && !refines : true;
+            const bool needs_others = progressive ? !first : true;
+            if ((needs_first && !has_first) || (needs_others && !has_others))
+                throw Error("a scan names a Huffman table that is not there");
+        }
+    }
+
+private:
+    std::set<int> defined_;
+};
 
 bool isJpeg(std::string_view file) {
     const std::size_t start = file.find_first_not_of('\xff');
@@ -57,8 +90,12 @@ bool isJpeg(std::string_view file) {
 // Walks through the segments of a JPEG, those behind coded data among them, where 0xff is followed
 // by 0 or by a restart's mark (ITU-T T.81, annex B). stb finds no others.
 void checkJpegTables(std::string_view file) {
+    constexpr int kProgressive = 0xc2;
     constexpr int kHuffmanTables = 0xc4;
     constexpr int kEnd = 0xd9;
+    constexpr int kScan = 0xda;
+    HuffmanTables tables;
+    bool progressive = false;
     const auto byteAt = [&](std::size_t at) { return int{static_cast<unsigned char>(file[at])}; };
     for (std::size_t at = file.find('\xff'); at < file.size(); at = file.find('\xff', at)) {
         at = std::min(file.find_first_not_of('\xff', at), file.size());
@@ -68,7 +105,10 @@ void checkJpegTables(std::string_view file) {
         const auto length = static_cast<std::size_t>(byteAt(at) << 8 | byteAt(at + 1));
         if (length < 2) return;  // which stb refuses
         const std::string_view segment = file.substr(at, length);
-        if (mark == kHuffmanTables) checkHuffmanTables(segment.substr(2));
+        if (segment.size() < 2) return;
+        progressive = progressive || mark == kProgressive;
+        if (mark == kHuffmanTables) tables.define(segment.substr(2));
+        if (mark == kScan) tables.check(segment.substr(2), progressive);
         at += segment.size();
     }
 }
