@@ -376,10 +376,36 @@ def journals():
     write("journal", "three_cases.journal", "".join(lines))
 
 
+# ---- PLY ------------------------------------------------------------------------------------------
+
+
+def ply_header(form, *elements):
+    return "\n".join(["ply", f"format {form} 1.0", *elements, "end_header", ""]).encode()
+
+
+CORNERS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]
+PLACES = ["element vertex 4", "property float x", "property float y", "property float z"]
+
+
+def ply_text():
+    faces = ["element face 2", "property uchar flags", "property list uchar int vertex_indices"]
+    rows = [" ".join(map(str, corner)) for corner in CORNERS] + ["7 3 0 1 2", "7 4 0 1 3 2"]
+    return ply_header("ascii", *PLACES, *faces) + "\n".join(rows).encode()
+
+
+def ply_strip():
+    strip = ["element tristrips 1", "property list int int vertex_indices"]
+    values = struct.pack(">12f", *(value for corner in CORNERS for value in corner))
+    indices = [0, 1, 2, -1, 1, 3, 2]
+    return (ply_header("binary_big_endian", *PLACES, *strip) + values
+            + struct.pack(">8i", len(indices), *indices))
+
+
 def main():
     for target, makers in [
         ("animation", {"skin.glb": skin, "morph.glb": morph}),
         ("mesh_stream", {"square.bin": mesh_stream}),
+        ("ply_faces", {"faces.ply": ply_text, "strip.ply": ply_strip}),
         ("usd_stream", {"two_strands.bin": usd_stream}),
     ]:
         for file_name, make in makers.items():

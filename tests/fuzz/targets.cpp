@@ -28,7 +28,9 @@
 #include "engine/error.h"
 #include "engine/pictures.h"
 #include "engine/png_text.h"
+#include "hair/extension.h"
 #include "hair/groom/files.h"
+#include "hair/groom/formats/ply.h"
 #include "hair/groom/formats/usd_import.h"
 #include "hair/groom/mesh/animation.h"
 #include "hair/groom/mesh/deforming_mesh.h"
@@ -197,6 +199,9 @@ void readMeshStream(std::string_view bytes) {
     expect(read.textures.size() == mesh.materials.size(), "materials have textures");
 }
 
+// What is held against a PLY before assimp has it.
+void readPlyFaces(std::string_view bytes) { hair::groom::checkPlyFaces(asBytes(bytes)); }
+
 // ---- Pictures -----------------------------------------------------------------------------------
 
 std::uint32_t bigEndian(std::string_view bytes) {
@@ -307,6 +312,21 @@ const fs::path& sceneFolder() {
         return own;
     }();
     return folder;
+}
+
+// A file of GLSL that a scene names, up to what is compiled.
+void readExtension(std::string_view bytes) {
+    using hair::ExtensionKind;
+    for (const ExtensionKind kind :
+         {ExtensionKind::shading, ExtensionKind::offset, ExtensionKind::force}) {
+        const hair::Extension read = hair::parseExtension(kind, "fuzzed.glsl", std::string(bytes));
+        for (const hair::ExtensionParameter& each : read.parameters)
+            for (int i = 0; i < (each.is_vector ? 3 : 1); ++i)
+                expect(
+                    each.minimum <= double{each.original[i]} &&
+                        double{each.original[i]} <= each.maximum,
+                    "a parameter is in its range");
+    }
 }
 
 // A sweep may have 100,000 cases, for which nobody waits here.
@@ -502,6 +522,10 @@ std::vector<Target> allTargets() {
          readAnimation,
          {{"tests/fuzz/seeds/animation", {}}, {"scenes/assets", gltf}},
          {.length = 16384}});
+    all.push_back(
+        {"ply_faces",
+         readPlyFaces,
+         {{"tests/corpus/ply", {}}, {"tests/fuzz/seeds/ply_faces", {}}}});
     all.push_back({"mesh_stream", readMeshStream, {{"tests/fuzz/seeds/mesh_stream", {}}}});
     all.push_back(
         {"picture",
@@ -522,6 +546,7 @@ std::vector<Target> allTargets() {
           {"scenes/portraits", {".json"}},
           {"scenes/truth", {".json"}},
           {"tests/fuzz/seeds/scene", {}}}});
+    all.push_back({"extension", readExtension, {{"scenes/extended", {".glsl"}}}});
     all.push_back({"report", readReport, {{"tests/fuzz/seeds/report", {}}}, json});
     all.push_back({"merge", mergeReports, {{"tests/fuzz/seeds/merge", {}}}, json});
     all.push_back({"journal", readJournal, {{"tests/fuzz/seeds/journal", {}}}, json});

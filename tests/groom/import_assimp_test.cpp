@@ -289,8 +289,7 @@ TEST(ImportMesh, ListsTheFormatsItKnows) {
     }
 }
 
-// ---- What assimp was not made for
-// ----------------------------------------------------------------
+// ---- What assimp was not made for ---------------------------------------------------------------
 
 std::string plyOf(const std::string& vertices, const std::string& faces, const std::string& rows) {
     return "ply\nformat ascii 1.0\nelement vertex " + vertices +
@@ -339,6 +338,42 @@ TEST(ImportAssimp, RefusesWhatItsReaderDiesOf) {
         EXPECT_EQ(text.find('\n'), std::string::npos) << text;
         EXPECT_LT(text.size(), 400u) << text;
     }
+}
+
+// Of a face that names the vertex after the last assimp makes a triangle with what lies behind the
+// vertices in memory.
+TEST(ImportAssimp, RefusesCornersOfAPlyThatAreNoVertices) {
+    const TemporaryFolder folder;
+    const std::string vertices = "0 0 0\n0 0 1\n1 0 0\n1 0 1\n";
+    const auto text = [&](const std::string& rows) {
+        return folder.write("mesh.ply", plyOf("4", "2", vertices + "3 0 1 2\n" + rows + "\n"));
+    };
+    EXPECT_EQ(importMesh(text("3 1 3 2")).triangles.size(), 2u);
+    for (const auto& [row, reason] :
+         {std::pair{"3 1 4 2", "line 15: vertex 4 is named, there are 4"},
+          {"3 1 -1 2", "line 15: vertex -1 is named, there are 4"},
+          {"0", "line 15: a face has no corners"}}) {
+        const auto path = text(row);
+        EXPECT_EQ(errorText([&] { importMesh(path); }), path.string() + ": " + reason);
+    }
+    // 4 vertices of 12 bytes and a face of 13, from the 141st byte, by the format's description.
+    const auto bytes = [&](char corner) {
+        std::string file =
+            "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\n"
+            "property float y\nproperty float z\nelement face 1\n"
+            "property list uchar int vertex_indices\nend_header\n";
+        for (const float value : {0.f, 0.f, 0.f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f, 1.f})
+            file.append(reinterpret_cast<const char*>(&value), sizeof(value));
+        file.append({3, 0, 0, 0, 0, 1, 0, 0, 0, corner, 0, 0, 0});
+        return folder.write("bytes.ply", file);
+    };
+    EXPECT_EQ(importMesh(bytes(3)).triangles.size(), 1u);
+    const auto path = bytes(4);
+    EXPECT_THAT(
+        errorText([&] { importMesh(path); }),
+        testing::AllOf(
+            StartsWith(path.string() + ": byte "),
+            testing::EndsWith(": vertex 4 is named, there are 4")));
 }
 
 // What a program writes that a file has taken over.

@@ -73,6 +73,10 @@ constexpr std::array kTypes{
     TypeRow{PlyType::float64, "double", "float64", 8},
 };
 
+std::string_view textOf(std::span<const std::byte> file) {
+    return {reinterpret_cast<const char*>(file.data()), file.size()};
+}
+
 std::size_t sizeOf(PlyType type) { return kTypes[static_cast<std::size_t>(type)].size; }
 
 bool isInteger(PlyType type) { return type < PlyType::float32; }
@@ -733,6 +737,62 @@ private:
     StrandSet set_;
 };
 
+// ---- Faces
+// ----------------------------------------------------------------------------------------
+
+constexpr std::string_view kStrips = "tristrips";
+
+template <class Source>
+void checkCorners(Source& source, const PlyProperty& list, std::uint64_t vertices, bool is_strip) {
+    const std::size_t size = takeLength(source, list);
+    if (size == 0) throw engine::Error(Source::place(source.position()), "a face has no corners");
+    for (std::size_t i = 0; i < size; ++i) {
+        const double index = source.take(list.type);
+        if (is_strip && index == -1.0) continue;  // where another strip begins
+        if (!(index >= 0.0 && index < static_cast<double>(vertices)))
+            throw engine::Error(
+                Source::place(source.position()),
+                "vertex " + std::to_string(static_cast<std::int64_t>(index)) +
+                    " is named, there are " + std::to_string(vertices));
+    }
+}
+
+template <class Source>
+void checkFaces(const PlyHeader& header, Source source) {
+    const std::uint64_t vertices = plyVertices(header).count;
+    for (const PlyElement& element : header.elements) {
+        source.expect(element);
+        const bool is_strip = element.name == kStrips;
+        const PlyProperty* const list = indexList(element);
+        if (!list || !(is_strip || element.name == kFaces)) {
+            source.skip(element);
+            continue;
+        }
+        for (std::uint64_t i = 0; i < element.count; ++i) {
+            source.beginElement();
+            for (const PlyProperty& property : element.properties)
+                if (&property == list)
+                    checkCorners(source, property, vertices, is_strip);
+                else
+                    skipProperty(source, property);
+            source.endElement();
+        }
+    }
+}
+
+// Calls `use` with the values after the header.
+template <class Use>
+auto withValues(const PlyHeader& header, std::span<const std::byte> file, const Use& use) {
+    switch (header.format) {
+    case PlyFormat::ascii:
+        return use(PlyText(textOf(file).substr(header.size), header.lines));
+    case PlyFormat::little_endian:
+        return use(PlyBytes<std::endian::little>(file, header.size));
+    default:
+        return use(PlyBytes<std::endian::big>(file, header.size));
+    }
+}
+
 }  // namespace
 
 std::vector<std::string> exportPly(const StrandSet& strands, std::ostream& out) {
@@ -786,18 +846,15 @@ PlyHeader readPlyHeader(std::string_view file) {
 }
 
 StrandSet importPly(const StrandFile& file) {
-    const std::string_view text(
-        reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size());
-    const PlyHeader header = readPlyHeader(text);
-    const std::uint32_t points = file.points_per_strand;
-    switch (header.format) {
-    case PlyFormat::ascii:
-        return Body(header, points, PlyText(text.substr(header.size), header.lines)).read();
-    case PlyFormat::little_endian:
-        return Body(header, points, PlyBytes<std::endian::little>(file.bytes, header.size)).read();
-    default:
-        return Body(header, points, PlyBytes<std::endian::big>(file.bytes, header.size)).read();
-    }
+    const PlyHeader header = readPlyHeader(textOf(file.bytes));
+    return withValues(header, file.bytes, [&](const auto& values) {
+        return Body(header, file.points_per_strand, values).read();
+    });
+}
+
+void checkPlyFaces(std::span<const std::byte> file) {
+    const PlyHeader header = readPlyHeader(textOf(file));
+    withValues(header, file, [&](const auto& values) { checkFaces(header, values); });
 }
 
 }  // namespace hair::groom

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <ostream>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,11 @@ std::vector<std::string> exportPly(const StrandSet& strands, std::ostream& out);
 
 // A StrandImporter's `read`.
 StrandSet importPly(const StrandFile& file);
+
+// Throws engine::Error "place: reason" where a mesh's file names a vertex that isn't there, has a
+// face without corners, or is too short or no PLY: readers of meshes take the first for one that is
+// there.
+void checkPlyFaces(std::span<const std::byte> file);
 
 enum class PlyFormat { ascii, little_endian, big_endian };
 
@@ -62,8 +68,8 @@ struct PlyElement {
 struct PlyHeader {
     PlyFormat format;
     std::vector<PlyElement> elements;
-    std::string comment;    // lines
-    std::size_t size = 0;   // bytes
+    std::string comment;  // lines
+    std::size_t size = 0;  // bytes
     std::size_t lines = 0;
 
     const PlyElement* find(std::string_view element) const;

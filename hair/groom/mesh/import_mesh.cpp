@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "engine/run_tool.h"
 #include "engine/steps.h"
 #include "hair/groom/files.h"
+#include "hair/groom/formats/ply.h"
 #include "hair/groom/formats/usd_import.h"
 #include "hair/groom/mesh/import_gltf.h"
 #include "hair/groom/mesh/mesh.h"
@@ -28,9 +30,14 @@ namespace {
 
 // ---- Import assimp ------------------------------------------------------------------------------
 
-// Whatever assimp reads, by a child (mesh_reader.cpp).
+// Whatever assimp reads, by a child (mesh_reader.cpp). Of a PLY's vertices it takes whatever
+// follows them in memory for more.
 Mesh importAssimp(
     const std::filesystem::path& path, Textures textures, const NamedFileCheck& check) {
+    if (lowerCaseExtension(path) == ".ply") {
+        const std::string file = engine::readFile(path);
+        checkPlyFaces(std::as_bytes(std::span(file)));
+    }
     const std::string program = engine::helperProgram("hairbench_mesh_reader").string();
     ReadMesh read;
     try {
