@@ -22,7 +22,7 @@ import sys
 import tempfile
 import zlib
 
-from run_commands import copy_project
+from run_commands import copy_project, run_box
 
 BOX = re.compile(r"^```sh patched\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
@@ -213,13 +213,7 @@ def main() -> int:
     for (name, check), box in zip(CHECKS.items(), boxes):
         made = tempfile.mkdtemp(prefix=f"hairbench-{name}-")
         (pathlib.Path(made) / "scenes").symlink_to(tree / "scenes")
-        ended = subprocess.run(
-            ["sh", "-eu", "-c", f'PATH="{programs}:$PATH"\n{box}'],
-            cwd=made,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-        )
+        ended = run_box(box, pathlib.Path(made), programs)
         try:
             expect(ended.returncode == 0, f"status {ended.returncode} of\n{box}{ended.stdout}")
             check(pathlib.Path(made))

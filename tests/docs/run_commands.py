@@ -37,6 +37,18 @@ def copy_project(project: pathlib.Path, folder: pathlib.Path) -> None:
         shutil.copy2(project / each, copy)
 
 
+def run_box(box: str, folder: pathlib.Path, programs: pathlib.Path) -> "subprocess.CompletedProcess[str]":
+    """Runs a box's commands in folder, which find what is in programs; what they say is in stdout."""
+    return subprocess.run(
+        ["sh", "-eu", "-c", f'PATH="{programs}:$PATH"\n{box}'],
+        cwd=folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+    )
+
+
 def main() -> int:
     project, program = (pathlib.Path(each).resolve() for each in sys.argv[1:])
     files = project_files(project)
@@ -49,14 +61,7 @@ def main() -> int:
             copy_project(project, pathlib.Path(folder))
             for box in boxes:
                 start = time.monotonic()
-                ended = subprocess.run(
-                    ["sh", "-eu", "-c", f'PATH="{program.parent}:$PATH"\n{box}'],
-                    cwd=folder,
-                    stdout=subprocess.PIPE,
-                    stderr=subprocess.STDOUT,
-                    text=True,
-                    errors="replace",
-                )
+                ended = run_box(box, pathlib.Path(folder), program.parent)
                 count += 1
                 print(f"{page}, box {boxes.index(box) + 1}: {time.monotonic() - start:.1f} s", flush=True)
                 if ended.returncode != 0:

@@ -117,6 +117,18 @@ inline groom::Groom oneTriangle(const std::vector<glm::vec3>& guide) {
     return oneTriangle({guide, guide, guide});
 }
 
+// Three parallel guides of 0.3 m, upward.
+inline groom::Groom uprightGroom() {
+    std::array<std::vector<glm::vec3>, 3> guides;
+    for (int v = 0; v < 16; ++v) {
+        const float height = 0.02f * static_cast<float>(v);
+        guides[0].emplace_back(0.0f, height, 0.0f);
+        guides[1].emplace_back(0.05f, height, 0.0f);
+        guides[2].emplace_back(0.0f, height, 0.05f);
+    }
+    return oneTriangle(guides);
+}
+
 // Three guides with their roots at the unit vectors, so that a strand's root is its barycentric
 // coordinates, under any number of root triangles.
 inline groom::Groom unitTriangles(std::uint32_t triangles) {

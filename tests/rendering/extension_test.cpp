@@ -191,18 +191,6 @@ TEST_F(ShadingExtensions, AFileThatWasNotReadIsAnError) {
 
 class OffsetExtensions : public GpuTest {
 protected:
-    // Three parallel guides of 0.3 m, upward.
-    static groom::Groom upright() {
-        std::array<std::vector<glm::vec3>, 3> guides;
-        for (int v = 0; v < 16; ++v) {
-            const float height = 0.02f * static_cast<float>(v);
-            guides[0].emplace_back(0.0f, height, 0.0f);
-            guides[1].emplace_back(0.05f, height, 0.0f);
-            guides[2].emplace_back(0.0f, height, 0.05f);
-        }
-        return rendering::oneTriangle(guides);
-    }
-
     static rendering::StrandPoints evaluate(const std::string& text) {
         Settings settings{.strands = {.density = 8, .tessellation = 3}};
         if (!text.empty()) {
@@ -210,7 +198,7 @@ protected:
             settings.strands.offset_parameters =
                 read(ExtensionKind::offset, "// @parameter reach 0.02 [0, 1] m: most\n" + text);
         }
-        const rendering::DeviceHair hair(device(), upright(), settings);
+        const rendering::DeviceHair hair(device(), rendering::uprightGroom(), settings);
         return rendering::evaluateStrandPoints(device(), settings, hair.view());
     }
 };

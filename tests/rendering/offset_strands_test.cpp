@@ -28,20 +28,9 @@ protected:
     }
 };
 
+// 12 turns of the upright guides.
 constexpr StrandCurlSettings kCurl{
     .radius = 0.004f, .frequency = 40.0f, .frequency_variation = 0.0f, .start = 0.2f};
-
-// Parallel guides of 0.3 m: 12 turns.
-groom::Groom straight() {
-    std::array<std::vector<glm::vec3>, 3> guides;
-    for (int v = 0; v < 16; ++v) {
-        const float height = 0.02f * static_cast<float>(v);
-        guides[0].emplace_back(0.0f, height, 0.0f);
-        guides[1].emplace_back(0.05f, height, 0.0f);
-        guides[2].emplace_back(0.0f, height, 0.05f);
-    }
-    return oneTriangle(guides);
-}
 
 // Of the tangled guides too, in all that an offset is made of. Points within 0.5 m as in
 // strand_points_test.cpp; the frame of a guide is good to 1e-4 rad (frames_pass_test.cpp) of an
@@ -77,8 +66,8 @@ TEST_F(OffsetStrandsTest, AgreeWithTheReference) {
 // too.
 TEST_F(OffsetStrandsTest, CurlsHaveTheirRadiusAndTurns) {
     const Settings settings{.strands = {.density = 8, .tessellation = 16, .curl = kCurl}};
-    const StrandPoints curled = evaluate(straight(), settings);
-    const StrandPoints smooth = evaluateSmooth(straight(), settings);
+    const StrandPoints curled = evaluate(uprightGroom(), settings);
+    const StrandPoints smooth = evaluateSmooth(uprightGroom(), settings);
     for (std::uint32_t strand = 0; strand < 8; ++strand) {
         double angle = 0.0;
         glm::dvec3 last(0.0);
@@ -105,7 +94,7 @@ TEST_F(OffsetStrandsTest, CurlsHaveTheirRadiusAndTurns) {
 // degrees.
 TEST_F(OffsetStrandsTest, TangentsAreThoseOfTheCurls) {
     const StrandPoints points =
-        evaluate(straight(), {.strands = {.density = 8, .tessellation = 64, .curl = kCurl}});
+        evaluate(uprightGroom(), {.strands = {.density = 8, .tessellation = 64, .curl = kCurl}});
     Extremes slopes;
     for (std::uint32_t i = 0; i < 8 * 15 * 63; ++i) {
         const std::uint32_t strand = i / 945;
