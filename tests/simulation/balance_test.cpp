@@ -109,7 +109,8 @@ TEST_F(BalancedRest, BodiesKeepNoHairFartherAwayThanItStarts) {
         const glm::vec3 below{0.125f, 1.599f - 10.0f, -0.05f};
         settings.colliders = {{.a = below, .b = below, .radius = 10.0f}};
         groom::Groom level{.strand_count = 1, .vertices_per_strand = 12};
-        const auto points = groomed().strand(3);
+        const groom::Groom all = groomed();
+        const auto points = all.strand(3);
         level.points.assign(points.begin(), points.end());
         EXPECT_LT(moved(level, settings), 0.001) << int(solver);
         settings.wind = {.strength = 300.0f, .direction = {0.0f, -1.0f, 0.0f}, .cone_angle = 0.0f};
