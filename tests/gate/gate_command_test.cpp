@@ -97,7 +97,8 @@ TEST(GateCommand, EndsWhenItsAnswerIsKnown) {
     EXPECT_EQ(builds.report()["decided_at"], 12);
     EXPECT_THAT(gate.output, HasSubstr("decides nothing"));
     EXPECT_THAT(gate.output, HasSubstr("2 regressed, 0 improved, 0 same, 1 inconclusive"));
-    for (const scene::Json& time : builds.report()["times"])
+    const scene::Json report = builds.report();
+    for (const scene::Json& time : report["times"])
         EXPECT_EQ(time.value("decides", true), time["metric"] != "pass.wind.time");
     const FakeBuilds all = slowStrands();
     EXPECT_EQ(all.gate("--all").status, 10);
