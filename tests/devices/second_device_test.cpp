@@ -81,8 +81,10 @@ TEST_F(SwiftShader, DrawsStrandsAsTheOtherDeviceDoes) {
                 const fs::path picture = folder_.path() / (name + backend + samples + ".png");
                 const std::string arguments =
                     "render " + shippedScene("rest.json") + "--set /strands/backend=" + backend +
-                    " --set /render/ssaa=1 --set /render/msaa=" + samples +
-                    " --set /simulation/solver=none --frame 1 -o '" + picture.string() + "'";
+                    " --set /render/width=640 --set /render/height=360 --set /render/ssaa=1"
+                    " --set /render/msaa=" +
+                    samples + " --set /simulation/solver=none --frame 1 -o '" + picture.string() +
+                    "'";
                 const Outcome outcome = here ? run(arguments) : hairbench(arguments);
                 EXPECT_EQ(outcome.status, 0) << outcome.output;
                 return picture;
