@@ -356,7 +356,15 @@ TEST(ImportAssimp, RefusesCornersOfAPlyThatAreNoVertices) {
         const auto path = text(row);
         EXPECT_EQ(errorText([&] { importMesh(path); }), path.string() + ": " + reason);
     }
-    // 4 vertices of 12 bytes and a face of 13, from the 141st byte, by the format's description.
+    // What its list is called otherwise, and of a type that numbers nothing.
+    const auto path_of_floats = folder.write(
+        "floats.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 1\nproperty list uchar float vertex_index\n"
+        "end_header\n0 0 0\n0 0 1\n1 0 0\n3 0 1 nan\n");
+    EXPECT_EQ(
+        errorText([&] { importMesh(path_of_floats); }),
+        path_of_floats.string() + ": line 13: a face's corners are no integers");
     const auto bytes = [&](char corner) {
         std::string file =
             "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\n"

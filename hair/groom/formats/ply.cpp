@@ -737,23 +737,25 @@ private:
     StrandSet set_;
 };
 
-// ---- Faces
-// ----------------------------------------------------------------------------------------
+// ---- Faces --------------------------------------------------------------------------------------
 
 constexpr std::string_view kStrips = "tristrips";
 
 template <class Source>
 void checkCorners(Source& source, const PlyProperty& list, std::uint64_t vertices, bool is_strip) {
     const std::size_t size = takeLength(source, list);
-    if (size == 0) throw engine::Error(Source::place(source.position()), "a face has no corners");
+    const auto refuse = [&](const std::string& reason) {
+        throw engine::Error(Source::place(source.position()), reason);
+    };
+    if (size == 0) refuse("a face has no corners");
+    if (!isInteger(list.type)) refuse("a face's corners are no integers");
     for (std::size_t i = 0; i < size; ++i) {
         const double index = source.take(list.type);
         if (is_strip && index == -1.0) continue;  // where another strip begins
-        if (!(index >= 0.0 && index < static_cast<double>(vertices)))
-            throw engine::Error(
-                Source::place(source.position()),
+        if (index < 0.0 || index >= static_cast<double>(vertices))
+            refuse(
                 "vertex " + std::to_string(static_cast<std::int64_t>(index)) +
-                    " is named, there are " + std::to_string(vertices));
+                " is named, there are " + std::to_string(vertices));
     }
 }
 
@@ -763,15 +765,14 @@ void checkFaces(const PlyHeader& header, Source source) {
     for (const PlyElement& element : header.elements) {
         source.expect(element);
         const bool is_strip = element.name == kStrips;
-        const PlyProperty* const list = indexList(element);
-        if (!list || !(is_strip || element.name == kFaces)) {
+        if (!is_strip && element.name != kFaces) {
             source.skip(element);
             continue;
         }
         for (std::uint64_t i = 0; i < element.count; ++i) {
             source.beginElement();
             for (const PlyProperty& property : element.properties)
-                if (&property == list)
+                if (property.count_type && std::ranges::count(kListProperties, property.name) > 0)
                     checkCorners(source, property, vertices, is_strip);
                 else
                     skipProperty(source, property);
