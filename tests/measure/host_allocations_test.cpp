@@ -23,18 +23,19 @@ thread_local std::uint64_t allocations = 0;
 
 void* counted(std::size_t bytes) {
     ++allocations;
-    if (void* const memory = std::malloc(bytes > 0 ? bytes : 1)) return memory;
+    return std::malloc(bytes > 0 ? bytes : 1);
+}
+
+void* countedOrThrown(std::size_t bytes) {
+    if (void* const memory = counted(bytes)) return memory;
     throw std::bad_alloc();
 }
 
 }  // namespace
 
-void* operator new(std::size_t bytes) { return counted(bytes); }
-void* operator new[](std::size_t bytes) { return counted(bytes); }
-void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
-    ++allocations;
-    return std::malloc(bytes > 0 ? bytes : 1);
-}
+void* operator new(std::size_t bytes) { return countedOrThrown(bytes); }
+void* operator new[](std::size_t bytes) { return countedOrThrown(bytes); }
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept { return counted(bytes); }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete[](void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }

@@ -273,6 +273,16 @@ void skipProperty(Source& source, const PlyProperty& property) {
     for (std::size_t i = 0; i < values; ++i) source.take(property.type);
 }
 
+// Throws where what was taken last is none of so many vertices.
+template <class Source>
+void checkVertex(const Source& source, double index, std::uint64_t vertices) {
+    if (index >= 0.0 && index < static_cast<double>(vertices)) return;
+    throw engine::Error(
+        Source::place(source.position()), "vertex " +
+                                              std::to_string(static_cast<std::int64_t>(index)) +
+                                              " is named, there are " + std::to_string(vertices));
+}
+
 std::string truncated(const PlyElement& element, std::size_t room) {
     return "truncated: " + std::to_string(element.count) + " of element " + inQuotes(element.name) +
            " are expected, " + std::to_string(room) + " bytes are left";
@@ -642,13 +652,8 @@ private:
 
     std::uint32_t takeVertex(PlyType type) {
         const double index = source_.take(type);
-        if (index >= 0.0 && index < static_cast<double>(vertex_count_)) {
-            return static_cast<std::uint32_t>(index);
-        }
-        throw engine::Error(
-            Source::place(source_.position()),
-            "vertex " + std::to_string(static_cast<std::int64_t>(index)) + " is named, there are " +
-                std::to_string(vertex_count_));
+        checkVertex(source_, index, vertex_count_);
+        return static_cast<std::uint32_t>(index);
     }
 
     void readStrands(const PlyElement& element) {
@@ -752,10 +757,7 @@ void checkCorners(Source& source, const PlyProperty& list, std::uint64_t vertice
     for (std::size_t i = 0; i < size; ++i) {
         const double index = source.take(list.type);
         if (is_strip && index == -1.0) continue;  // where another strip begins
-        if (index < 0.0 || index >= static_cast<double>(vertices))
-            refuse(
-                "vertex " + std::to_string(static_cast<std::int64_t>(index)) +
-                " is named, there are " + std::to_string(vertices));
+        checkVertex(source, index, vertices);
     }
 }
 
