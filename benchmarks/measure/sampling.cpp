@@ -17,19 +17,30 @@ using engine::Timing;
 // ---- Plays of one mode --------------------------------------------------------------------------
 
 RoundPlayer::RoundPlayer(
-    std::unique_ptr<Player> player, const hair::RunSettings& run, Counts counts)
-    : player_(std::move(player)), warmup_(run.warmup), frames_(run.frames), counts_(counts) {}
+    std::unique_ptr<Player> player, const hair::RunSettings& run, Counts counts,
+    std::uint32_t queue)
+    : player_(std::move(player)), warmup_(run.warmup), frames_(run.frames), counts_(counts),
+      queue_(queue) {}
 
 std::vector<FrameRecord> RoundPlayer::round() {
     if (plays_ == 1) firstEnd();
     player_->reset();
-    player_->frame();
-    if (plays_ == 0) first_frame_ = player_->finish().front().interval;
+    std::uint32_t next = 0;
+    if (plays_ == 0) {
+        player_->frame();
+        first_frame_ = player_->finish().front().interval;
+        next = 1;
+    }
+    if (warmup_ < queue_ + next) {
+        for (std::uint32_t i = warmup_; i < queue_; ++i) player_->frame();
+        player_->reset();
+        next = 0;
+    }
     const bool counts = plays_ == 0 && counts_ == Counts::last_frame;
     // The interval of the last frame contains the wait for it: one more frame is drawn than
     // measured.
     const std::uint32_t timed = warmup_ + frames_ + (counts ? 0 : 1);
-    for (std::uint32_t i = 1; i < timed; ++i) player_->frame();
+    for (std::uint32_t i = next; i < timed; ++i) player_->frame();
     std::vector<FrameRecord> frames = player_->finish();
     if (counts)
         player_->count();
@@ -267,6 +278,14 @@ namespace {
 
 // ---- A mode of a case ---------------------------------------------------------------------------
 
+// Overlapped frames that are begun before an interval is as long as a frame: until slots are used
+// again nothing waits. A wait for one frame of lavapipe's ends when all are done that were
+// submitted, so its first wait is for two of them where two may be in flight.
+std::uint32_t queueOf(const Stage& stage, engine::Timing timing, const hair::RunSettings& run) {
+    if (timing != engine::Timing::overlapped) return 0;
+    return run.frames_in_flight + (stage.isProcessor() ? 1 : 0);
+}
+
 report::Mode modeOf(engine::Timing timing) {
     switch (timing) {
     case engine::Timing::overlapped:
@@ -309,7 +328,8 @@ SampledMode sampleMode(
     const MeasureHooks& hooks, report::CaseResult& result) {
     using Counts = RoundPlayer::Counts;
     RoundPlayer player(
-        stage.player(timing), run, rule.counts ? Counts::last_frame : Counts::nothing);
+        stage.player(timing), run, rule.counts ? Counts::last_frame : Counts::nothing,
+        queueOf(stage, timing, run));
     const bool follows = timing == Timing::wall_clock && rule.max_time <= 0.0;
     const bool streams = !stage.isProcessor() && rule.max_time > 0.0 && run.round_time > 0.0f;
     SamplingRule this_rule = rule;

@@ -26,9 +26,11 @@ public:
     // (Player::count()). Not where frames overlap: it ends the interval of the one before.
     enum class Counts { nothing, last_frame };
 
+    // `queue`: how many frames have to be begun, without a wait for all between them, before the
+    // first that counts; where fewer are to warm up, others are played first.
     RoundPlayer(
         std::unique_ptr<Player> player, const hair::RunSettings& run,
-        Counts counts = Counts::nothing);
+        Counts counts = Counts::nothing, std::uint32_t queue = 0);
 
     // One play, waited for: the frames that count.
     std::vector<engine::FrameRecord> round();
@@ -57,6 +59,7 @@ private:
     std::uint32_t warmup_;
     std::uint32_t frames_;
     Counts counts_;
+    std::uint32_t queue_;
     std::uint64_t plays_ = 0;
     double first_frame_ = 0.0;
     std::vector<engine::FrameRecord> complete_;  // of a stream, from the first frame of a play on

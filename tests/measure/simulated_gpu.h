@@ -53,6 +53,7 @@ struct GpuModel {
     bool stamps_shifted = false;  // a pass's time is that of the pass before
     bool calibrated = true;  // host and device can read a clock together
     bool processor = false;  // it says that it is one
+    bool waits_for_all = false;  // a wait for a frame ends when all are done that were submitted
 
     double most_age = 0.1;  // s, of a clock reading
     bool tells_age = false;
@@ -213,7 +214,8 @@ private:
     private:
         // Waits for the oldest frame.
         void collect() {
-            if (in_flight_.front() > gpu_.now_) gpu_.now_ = in_flight_.front() + gpu_.latency();
+            const double done = gpu_.model_.waits_for_all ? in_flight_.back() : in_flight_.front();
+            if (done > gpu_.now_) gpu_.now_ = done + gpu_.latency();
             in_flight_.pop_front();
         }
 

@@ -322,6 +322,7 @@ TEST(SimulatedGpu, ACounterThatWrapsIsNoFault) {
 GpuModel processor() {
     GpuModel model;
     model.processor = true;
+    model.waits_for_all = true;
     model.slow = model.fast;
     model.passes = {{"wind", 4e6}, {"simulate", 20e6}, {"strands", 80e6}};
     return model;
@@ -346,13 +347,14 @@ TimestampJudgement judged(SimulatedGpu& gpu, double seconds, DeviceKnowledge* kn
 
 using Verdict = TimestampJudgement::Verdict;
 
-// Overlapped and isolated 2 to warm up, 2 that count and the one that ends them; on a processor, or
+// Overlapped and isolated 2 to warm up, 2 that count and the one that ends them, and the first
+// frame of all twice; on a processor one more before them, which fills the queue, and there, or
 // where there are no timestamps, 2 more by the CPU's clock.
-TEST(SimulatedGpu, AskedForCountsACaseIsTwelveFramesAtMost) {
+TEST(SimulatedGpu, AskedForCountsACaseIsFourteenFramesAtMost) {
     GpuModel unstamped;
     unstamped.valid_bits = 0;
     for (const auto& [model, frames] :
-         {std::pair{GpuModel{}, 10u}, std::pair{processor(), 12u}, std::pair{unstamped, 12u}}) {
+         {std::pair{GpuModel{}, 11u}, std::pair{processor(), 14u}, std::pair{unstamped, 13u}}) {
         SimulatedGpu gpu(model, 21);
         const report::CaseResult result =
             measuredOn(gpu, {.warmup = 2, .frames = 2, .max_time = 0.0f});
@@ -362,6 +364,27 @@ TEST(SimulatedGpu, AskedForCountsACaseIsTwelveFramesAtMost) {
             EXPECT_EQ(metricIn(result, name)->samples.size(), 2u) << name;
         }
     }
+}
+
+// Nothing waits until as many frames are begun as may be in flight, and the first frame of all is
+// waited for: neither may be among the intervals, of which there may be one. A frame is 52.5 ms,
+// the host's part of it two latencies of at most 60 us and 7 us.
+TEST(SimulatedGpu, AFewFramesInTheFirstRoundHaveTheirWholeTime) {
+    for (const bool is_processor : {false, true})
+        for (const std::uint32_t warmup : {2u, 3u, 6u})
+            for (const std::uint32_t frames : {1u, 2u, 5u}) {
+                GpuModel model = processor();
+                model.processor = model.waits_for_all = is_processor;
+                model.tail = 0.0;
+                SimulatedGpu gpu(model, 29);
+                const report::CaseResult result =
+                    measuredOn(gpu, {.warmup = warmup, .frames = frames, .max_time = 0.0f});
+                const report::Metric* times = metricIn(result, "frame.time");
+                ASSERT_TRUE(times);
+                EXPECT_EQ(times->samples.size(), frames);
+                for (const double time : times->samples)
+                    EXPECT_NEAR(time, gpu.truth(), 0.127) << is_processor << ' ' << warmup;
+            }
 }
 
 // However short the time and however long the frames; and what had time was looked at.
