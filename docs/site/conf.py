@@ -8,7 +8,7 @@ html_theme = "furo"
 # Pages are read where they lie, and all of them have their place here: Sphinx warns of one that has
 # not, and of links that lead nowhere, and scripts/docs takes warnings for errors.
 PAGES = {
-    "Begin": ["docs/tutorial", "docs/install", "docs/faq"],
+    "Begin": ["docs/tutorial", "docs/install", "docs/gallery", "docs/faq"],
     "Scenes": [
         "docs/fields",
         "docs/extending_scenes",
