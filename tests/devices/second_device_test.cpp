@@ -71,7 +71,8 @@ TEST_F(SwiftShader, SkipsStrandsWithTheirReason) {
 }
 
 // Back ends that need none of the stages that it lacks. Edges of strands fall on either side of a
-// sample by rounding, and so does shading of steep strands.
+// sample by rounding, and so does shading of steep strands. A quarter of the scene's strands, as
+// they are what SwiftShader takes its time for; they leave about 0.0066, all of them 0.008.
 TEST_F(SwiftShader, DrawsStrandsAsTheOtherDeviceDoes) {
     if (pythonInterpreter().empty()) return skipWithout(Need::python, kNoPython);
     if (hairbench("devices").status != 0) return skipWithout(Need::device, "no other device");
@@ -81,7 +82,8 @@ TEST_F(SwiftShader, DrawsStrandsAsTheOtherDeviceDoes) {
                 const fs::path picture = folder_.path() / (name + backend + samples + ".png");
                 const std::string arguments =
                     "render " + shippedScene("rest.json") + "--set /strands/backend=" + backend +
-                    " --set /render/width=640 --set /render/height=360 --set /render/ssaa=1"
+                    " --set /strands/density=16 --set /render/width=640 --set /render/height=360"
+                    " --set /render/ssaa=1"
                     " --set /render/msaa=" +
                     samples + " --set /simulation/solver=none --frame 1 -o '" + picture.string() +
                     "'";
@@ -89,7 +91,7 @@ TEST_F(SwiftShader, DrawsStrandsAsTheOtherDeviceDoes) {
                 EXPECT_EQ(outcome.status, 0) << outcome.output;
                 return picture;
             };
-            EXPECT_LE(flipErrors({{draw("there", false), draw("here", true)}})[0], 0.01)
+            EXPECT_LE(flipErrors({{draw("there", false), draw("here", true)}})[0], 0.0085)
                 << backend << " " << samples;
         }
     }
