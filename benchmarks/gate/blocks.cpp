@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -112,14 +113,30 @@ constexpr std::chrono::milliseconds kLongestLook{20};
 constexpr std::chrono::milliseconds kGrace{1700};
 constexpr int kNotFound = 127;
 
+// This program's environment with another folder for temporary files.
+std::vector<std::string> environmentWith(const std::filesystem::path& temporary) {
+    std::vector<std::string> all{"TMPDIR=" + temporary.string()};
+    for (char** each = environ; *each; ++each)
+        if (!std::string_view(*each).starts_with("TMPDIR=")) all.emplace_back(*each);
+    return all;
+}
+
+// As posix_spawn wants them.
+std::vector<char*> pointersTo(const std::vector<std::string>& words) {
+    std::vector<char*> pointers;
+    for (const std::string& each : words) pointers.push_back(const_cast<char*>(each.c_str()));
+    pointers.push_back(nullptr);
+    return pointers;
+}
+
 // A child that is gone in any case.
 class Child {
 public:
-    Child(const std::vector<std::string>& command, const std::filesystem::path& output) {
-        std::vector<char*> arguments;
-        for (const std::string& each : command)
-            arguments.push_back(const_cast<char*>(each.c_str()));  // posix_spawn's interface
-        arguments.push_back(nullptr);
+    Child(
+        const std::vector<std::string>& command, const std::filesystem::path& output,
+        const std::filesystem::path& temporary) {
+        const std::vector<char*> arguments = pointersTo(command);
+        const std::vector<std::string> environment = environmentWith(temporary);
         posix_spawn_file_actions_t actions;
         posix_spawn_file_actions_init(&actions);
         posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -129,8 +146,9 @@ public:
         posix_spawnattr_t attributes;
         posix_spawnattr_init(&attributes);
         posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-        error_ =
-            posix_spawnp(&id_, arguments.front(), &actions, &attributes, arguments.data(), environ);
+        error_ = posix_spawnp(
+            &id_, arguments.front(), &actions, &attributes, arguments.data(),
+            pointersTo(environment).data());
         posix_spawnattr_destroy(&attributes);
         posix_spawn_file_actions_destroy(&actions);
         if (error_ != 0) id_ = 0;
@@ -163,12 +181,14 @@ private:
     int error_ = 0;
 };
 
-// Runs a program to its end, found as the shell finds it, with nothing to read and all that it says
-// in the file `output`. It has a process group of its own: where this program is interrupted, the
-// group is interrupted, killed if it goes on for 1.7 s more, and Interrupted thrown.
-// Status 127 where there is no such program.
-ChildEnd runChild(const std::vector<std::string>& command, const std::filesystem::path& output) {
-    Child child(command, output);
+// Runs a program to its end, found as the shell finds it, with nothing to read, all that it says in
+// the file `output` and its temporary files in the folder `temporary`. It has a process group of
+// its own: where this program is interrupted, the group is interrupted, killed if it goes on
+// for 1.7 s more, and Interrupted thrown. Status 127 where there is no such program.
+ChildEnd runChild(
+    const std::vector<std::string>& command, const std::filesystem::path& output,
+    const std::filesystem::path& temporary) {
+    Child child(command, output, temporary);
     if (child.error() == ENOENT || child.error() == EACCES || child.error() == ENOEXEC)
         return {.status = kNotFound};
     if (child.error() != 0)
@@ -348,10 +368,12 @@ BlockReport BlockRunner::run(const Side& side, std::uint32_t seed) {
     const fs::path folder = scratch_.path() / "block";
     std::error_code ignored;
     fs::remove_all(folder, ignored);
-    fs::create_directories(folder);
+    // Within the block's folder, so that what a run leaves that had to be killed goes with it.
+    const fs::path temporary = folder / "temporary";
+    fs::create_directories(temporary);
     const fs::path report = folder / "report.json";
     const fs::path log = folder / "output.txt";
-    const ChildEnd end = runChild(blockCommand(side, scene_, report, seed), log);
+    const ChildEnd end = runChild(blockCommand(side, scene_, report, seed), log, temporary);
     if (!wroteReport(end))
         throw BlockFailed(failureText(side, end, log), exitStatusFor(end.status));
     try {

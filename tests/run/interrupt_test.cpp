@@ -1,4 +1,5 @@
 // Signals that reach the program within its long steps.
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -270,6 +271,33 @@ TEST(InterruptedRun, HasTheCasesThatAreDone) {
     ASSERT_EQ(report["cases"].size(), 1u);
     EXPECT_EQ(report["cases"][0]["status"], "ok");
     EXPECT_TRUE(fs::exists(out.string() + ".journal"));
+}
+
+// A run that heeds no interrupt is killed, and can't take away what it has written by then.
+TEST(InterruptedGate, LeavesNothingOfARunThatHadToBeKilled) {
+    const TemporaryFolder folder;
+    const fs::path scratch = folder.file("scratch");
+    fs::create_directory(scratch);
+    const fs::path stubborn = folder.file("stubborn.sh");
+    std::ofstream(stubborn) << "trap '' INT TERM\ntouch \"$TMPDIR/left\"\nsleep 300\n";
+    const auto left = [&] {
+        const fs::recursive_directory_iterator files(scratch), end;
+        return std::any_of(
+            files, end, [](const auto& file) { return file.path().filename() == "left"; });
+    };
+    setenv("TMPDIR", scratch.c_str(), 1);
+    TerminalProcess process(
+        {"gate", "--scene", scene("smoke.json"), "--a", "sh '" + stubborn.string() + "'", "--b",
+         HAIRBENCH_PROGRAM},
+        folder.file("stdout"));
+    unsetenv("TMPDIR");
+    ASSERT_TRUE(process.shows("warm-up, A")) << process.shown();
+    for (int i = 0; i < 1000 && !left(); ++i) usleep(10'000);
+    ASSERT_TRUE(left());
+    process.kill(SIGINT);
+    EXPECT_LT(process.end(), kHeeded);
+    EXPECT_EQ(process.status(), 130) << process.shown();
+    EXPECT_TRUE(fs::is_empty(scratch));
 }
 
 }  // namespace
