@@ -32,9 +32,10 @@ Settings wideStrand(ShadingModel model, double azimuth) {
 
 class ShadingModelPictures : public GpuTest {
 protected:
-    // Green of a row of pixels.
-    static std::vector<double> across(const Settings& settings) {
-        const groom::Groom groom = oneTriangle({{0, -1, 0}, {0, 0, 0}, {0, 1, 0}});
+    // Green of a row of pixels that shows a strand, 2 m long, from this way up.
+    static std::vector<double>
+    across(const Settings& settings, const glm::vec3& up = {0.0f, 1.0f, 0.0f}) {
+        const groom::Groom groom = oneTriangle({-up, glm::vec3(0.0f), up});
         const std::vector<float> light = drawLinear(device(), settings, groom);
         std::vector<double> row;
         for (std::uint32_t x = 0; x < kWidth; ++x) row.push_back(light[3 * (2 * kWidth + x) + 1]);
@@ -46,9 +47,30 @@ protected:
 
     static double brightestPlace(const Settings& settings) {
         const std::vector<double> row = across(settings);
+        EXPECT_GT(std::ranges::max(row), 0.0) << "nothing is lit";
         return place(static_cast<std::size_t>(std::ranges::max_element(row) - row.begin()));
     }
 };
+
+// Whichever way it goes: where it is level or upright its quads' ends are along rows of samples.
+TEST_F(ShadingModelPictures, NoneHasAHoleInAStrandThatFillsThePicture) {
+    Settings settings = wideStrand(ShadingModel::phong, 0.0);
+    settings.strands.root_width = settings.strands.tip_width = 0.3f;
+    settings.shading.ambient = 1.0f;
+    for (const Backend backend :
+         {Backend::tessellation, Backend::pulling_geometry, Backend::pulling, Backend::expanded,
+          Backend::software}) {
+        settings.strands.backend = backend;
+        for (int turn = 0; turn < 16; ++turn) {
+            // Exact where the strand is level or upright.
+            const int x = turn % 8 < 4 ? turn % 4 : 4 - turn % 4;
+            const int y = turn % 8 < 4 ? 4 - turn % 4 : -(turn % 4);
+            const glm::vec3 up = (turn < 8 ? 0.25f : -0.25f) * glm::vec3(x, y, 0.0f);
+            for (const double value : across(settings, up))
+                ASSERT_GT(value, 0.1) << backendName(backend) << ' ' << up.x << ' ' << up.y;
+        }
+    }
+}
 
 // n . l of a cylinder: cos(azimuth - arc sine of the place).
 TEST_F(ShadingModelPictures, PhongIsMattOnACylinder) {

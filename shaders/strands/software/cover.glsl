@@ -39,8 +39,9 @@ void makeEdges(PieceQuad quad, inout Cover cover) {
     vec4 run = down.yzwx - down;
     vec4 rise = across.yzwx - across;
     float area = dot(down, across.yzwx - across.wxyz);
-    cover.lower = greaterThan(area > 0.0 ? run : -run, vec4(0.0));
+    // An edge along rows, too, bounds them from the side that it would if it leant a little.
     run = mix(run, vec4(1e-6), lessThan(abs(run), vec4(1e-6)));
+    cover.lower = greaterThan(area > 0.0 ? run : -run, vec4(0.0));
     cover.slopes = rise / run;
     cover.starts = across - cover.slopes * down;
     vec2 size = vec2(push.width, push.height);
