@@ -82,12 +82,6 @@ private:
     engine::GraphicsPipeline pipeline_;
 };
 
-// Whether lines are rectangles a pixel wide. Lavapipe says so, and draws a pixel in every row, or
-// column.
-bool drawsRectangles(const engine::DeviceInfo& device) {
-    return device.limits.strictLines == VK_TRUE && device.driver_id != VK_DRIVER_ID_MESA_LLVMPIPE;
-}
-
 // Strands as lines a pixel wide. Of what they cover of a pixel, opaque ones take as many of its
 // samples, at random: one is a dotted line.
 class LinesBackend : public StrandBackend {
@@ -112,7 +106,7 @@ private:
     static engine::GraphicsDescription describe(const BackendContext& context) {
         engine::GraphicsDescription description = strandPipeline(context);
         description.constants.emplace_back(
-            gpu::kStrictLinesConstant, drawsRectangles(context.device.info()));
+            gpu::kStrictLinesConstant, context.device.info().limits.strictLines == VK_TRUE);
         description.constants.emplace_back(gpu::kLinesConstant, true);
         const bool is_opaque = context.output.fragment == "strands/strand.frag";
         description.shaders = {
