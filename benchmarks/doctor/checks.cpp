@@ -56,7 +56,8 @@ std::string clockText(const ClockFacts& clocks) {
                    ? megahertz(*clocks.highest_mhz)
                    : megahertz(*clocks.lowest_mhz) + " to " + megahertz(*clocks.highest_mhz);
     else
-        text = "shader clock unknown";
+        text = clocks.taken_for_idle ? "unknown: the driver takes the device for idle"
+                                     : "shader clock unknown";
     if (const auto base = clocks.conditions.base_clock_mhz) text += " of " + megahertz(*base);
     if (clocks.held) text += ", held by the administrator";
     if (const auto degrees = clocks.conditions.temperature)

@@ -187,8 +187,10 @@ TimestampFacts timestampFacts(const engine::Device& device) {
 ClockFacts clockFacts(const std::vector<measure::ClockReading>& readings) {
     ClockFacts facts;
     measure::addClocks(readings, facts.conditions);
-    for (const measure::ClockReading& reading : readings) {
-        if (reading.idle || !reading.clock_mhz) continue;
+    const std::vector<measure::ClockReading> busy = measure::readingsAtWork(readings);
+    facts.taken_for_idle = busy.empty() && !readings.empty();
+    for (const measure::ClockReading& reading : busy) {
+        if (!reading.clock_mhz) continue;
         const double clock = *reading.clock_mhz;
         facts.lowest_mhz = std::min(facts.lowest_mhz.value_or(clock), clock);
         facts.highest_mhz = std::max(facts.highest_mhz.value_or(clock), clock);

@@ -41,6 +41,7 @@ struct ClockFacts {
     std::optional<double> lowest_mhz;  // of the shaders, while frames were drawn
     std::optional<double> highest_mhz;
     bool held = false;  // an administrator set them
+    bool taken_for_idle = false;  // by the driver, whatever was drawn, so that nothing is known
     report::Conditions conditions;
 };
 

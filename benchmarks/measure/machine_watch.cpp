@@ -96,11 +96,20 @@ void ClockSampler::sampleUntilStopped() {
     }
 }
 
-void addClocks(const std::vector<ClockReading>& readings, report::Conditions& conditions) {
-    std::vector<ClockReading> busy;
-    std::ranges::copy_if(readings, std::back_inserter(busy), [](const ClockReading& each) {
+std::vector<ClockReading> readingsAtWork(const std::vector<ClockReading>& readings) {
+    std::vector<ClockReading> found;
+    std::ranges::copy_if(readings, std::back_inserter(found), [](const ClockReading& each) {
         return !each.idle && each.load.value_or(1.0) >= kIdleLoad;
     });
+    if (found.empty())
+        std::ranges::copy_if(readings, std::back_inserter(found), [](const ClockReading& each) {
+            return each.load.value_or(0.0) >= kIdleLoad;
+        });
+    return found;
+}
+
+void addClocks(const std::vector<ClockReading>& readings, report::Conditions& conditions) {
+    const std::vector<ClockReading> busy = readingsAtWork(readings);
     for (const ClockReading& each : busy)
         if (each.clock_mhz)
             conditions.lowest_clock_mhz =

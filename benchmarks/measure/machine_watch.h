@@ -51,8 +51,12 @@ private:
 // A device that had work for less of the time than this was idle.
 inline constexpr double kIdleLoad = 0.2;
 
-// Medians of what the readings know that were taken under load, the lowest clock among them, and
-// every throttle reason of theirs, each once. Readings of an idle device tell nothing.
+// Those of a device at work; others tell nothing. Where the driver calls the device idle in all of
+// them, those whose load says otherwise.
+std::vector<ClockReading> readingsAtWork(const std::vector<ClockReading>& readings);
+
+// Medians of what the readings know that were taken at work, the lowest clock among them, and every
+// throttle reason of theirs, each once.
 void addClocks(const std::vector<ClockReading>& readings, report::Conditions& conditions);
 
 // Whether a driver's throttle reason is heat or power; others, as a clock that somebody set, are no

@@ -121,6 +121,8 @@ const Fault kFaults[] = {
      },
      "1200 MHz to 1500 MHz"},
     {"clocks", Health::warn, [](Facts& f) { f.clocks = ClockFacts{}; }, "unknown"},
+    {"clocks", Health::warn, [](Facts& f) { f.clocks = ClockFacts{.taken_for_idle = true}; },
+     "takes the device for idle"},
     {"processor", Health::unknown, [](Facts& f) { f.processor.governors.clear(); }, "unknown"},
     {"processor", Health::warn,
      [](Facts& f) { f.processor.governors = {"performance", "schedutil"}; }, "schedutil"},

@@ -90,6 +90,18 @@ TEST(AddClocks, LeavesOutReadingsOfAnIdleDevice) {
     EXPECT_THAT(conditions.throttle_reasons, ElementsAre("power cap", "power brake"));
 }
 
+TEST(AddClocks, TakesTheLoadsWordWhereADriverCallsADeviceIdleThroughout) {
+    report::Conditions conditions;
+    addClocks(
+        {{.clock_mhz = 1900, .load = 0.9, .idle = true},
+         {.clock_mhz = 345, .load = 0.1, .idle = true},
+         {.clock_mhz = 1980, .temperature = 40, .load = 1.0, .idle = true}},
+        conditions);
+    EXPECT_EQ(conditions.clock_mhz, 1940.0);
+    EXPECT_EQ(conditions.lowest_clock_mhz, 1900.0);
+    EXPECT_EQ(conditions.temperature, 40.0);
+}
+
 TEST(AddClocks, KnowsNothingOfADeviceThatWasIdleThroughout) {
     report::Conditions conditions;
     addClocks(
