@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -122,8 +123,9 @@ struct DeviceOptions {
     // Takes away from what the device says of itself before it is made: what is left is all that
     // is switched on and known. Tests make lesser devices by it.
     std::function<void(DeviceInfo&)> mask{};
-    // For what is submitted at a time. A software device may need minutes for a large frame.
-    std::chrono::duration<double> patience = std::chrono::minutes(10);
+    // For what is submitted at a time; absent: ten minutes, an hour of a software device, which may
+    // need many minutes for a large frame.
+    std::optional<std::chrono::duration<double>> patience{};
 };
 
 // One logical device with its queues, its memory allocator and pipeline cache. Everything else

@@ -78,7 +78,7 @@ void addDeviceOptions(CLI::App& command, engine::DeviceOptions& options) {
                 options.patience = std::chrono::duration<double>(seconds);
             },
             "how long the device may be silent about what it was given before it is taken for lost "
-            "(default 600)")
+            "(default 600, of a software device 3600)")
         ->type_name("SECONDS")
         ->check(CLI::PositiveNumber);
 }

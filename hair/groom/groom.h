@@ -46,14 +46,16 @@ struct Groom {
     std::vector<glm::vec3> bound_points;  // [point], strand after strand, m, root first
 
     std::uint32_t segmentsPerStrand() const { return vertices_per_strand - 1; }
-    std::span<const glm::vec3> strand(std::uint32_t index) const {
+    std::span<const glm::vec3> strand(std::uint32_t index) const& {
         return std::span(points).subspan(
             std::size_t{index} * vertices_per_strand, vertices_per_strand);
     }
-    std::span<const glm::vec3> boundStrand(std::size_t binding) const {
+    std::span<const glm::vec3> strand(std::uint32_t) const&& = delete;  // of a groom that is kept
+    std::span<const glm::vec3> boundStrand(std::size_t binding) const& {
         const std::uint32_t first = binding == 0 ? 0 : bound_ends[binding - 1];
         return std::span(bound_points).subspan(first, bound_ends[binding] - first);
     }
+    std::span<const glm::vec3> boundStrand(std::size_t) const&& = delete;
 };
 
 // What strands may have: nothing, one value everywhere, or a value for each point.
@@ -90,9 +92,10 @@ struct StrandSet {
     std::uint32_t strandCount() const { return static_cast<std::uint32_t>(ends.size()); }
     std::uint32_t first(std::uint32_t strand) const { return strand == 0 ? 0 : ends[strand - 1]; }
     std::uint32_t size(std::uint32_t strand) const { return ends[strand] - first(strand); }
-    std::span<const glm::vec3> strand(std::uint32_t strand) const {
+    std::span<const glm::vec3> strand(std::uint32_t strand) const& {
         return std::span(points).subspan(first(strand), size(strand));
     }
+    std::span<const glm::vec3> strand(std::uint32_t) const&& = delete;
 };
 
 // The number of points that every strand has; absent where they differ or there are no strands.
