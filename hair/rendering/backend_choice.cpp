@@ -29,10 +29,9 @@ constexpr std::array kBackendLimits{
 constexpr std::array kOnProcessors{Backend::software, Backend::tessellation,     Backend::expanded,
                                    Backend::mesh,     Backend::pulling_geometry, Backend::pulling};
 
-// By what stages cost: compute has all of the device, task and mesh stages most of it, tessellation
-// and geometry stages the little fixed hardware that feeds them.
+// As measured on an H200 (docs/performance.md).
 constexpr std::array kOnGraphicsProcessors{Backend::software,     Backend::expanded,
-                                           Backend::mesh,         Backend::pulling,
+                                           Backend::pulling,      Backend::mesh,
                                            Backend::tessellation, Backend::pulling_geometry};
 
 // Why the back end can't draw the case; nothing where it can.

@@ -184,11 +184,15 @@ TEST_F(MeasureTest, KeepsTheSamplesOfAllRounds) {
         rounds += mode.rounds + mode.warmup_rounds;
         throttled += mode.throttled_rounds;
     }
-    EXPECT_GE(told, rounds);
+    // A GPU plays on while the first round of a mode is looked at.
+    EXPECT_GE(told + result.sampling.size(), rounds);
     EXPECT_LE(told, rounds + throttled);
     EXPECT_EQ(modes.size(), result.sampling.size());
-    EXPECT_EQ(samplesOf(result, "frame.time"), 5 * result.sampling[0].rounds);
-    EXPECT_EQ(samplesOf(result, "frame.isolated.time"), 5 * result.sampling[1].rounds);
+    const auto samplesIn = [](const report::Sampling& mode) {
+        return 5 * mode.rounds * mode.plays;
+    };
+    EXPECT_EQ(samplesOf(result, "frame.time"), samplesIn(result.sampling[0]));
+    EXPECT_EQ(samplesOf(result, "frame.isolated.time"), samplesIn(result.sampling[1]));
     EXPECT_GE(result.sampling[0].seconds, 0.2);
 }
 

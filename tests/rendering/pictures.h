@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -16,15 +17,18 @@ namespace hair::rendering {
 
 using Pixels = std::vector<std::uint8_t>;  // [row][column] RGBA, top row first
 
-// Of two pictures of one size.
-inline std::size_t differingPixels(const Pixels& a, const Pixels& b) {
+// Of two pictures of one size: pixels of which a color is more than so many steps off.
+inline std::size_t differingPixels(const Pixels& a, const Pixels& b, int steps = 0) {
     if (a.size() != b.size() || a.empty())
         throw std::invalid_argument(
             "cannot compare pictures of " + std::to_string(a.size() / 4) + " and " +
             std::to_string(b.size() / 4) + " pixels");
     std::size_t count = 0;
     for (std::size_t i = 0; i < a.size(); i += 4) {
-        count += a[i] != b[i] || a[i + 1] != b[i + 1] || a[i + 2] != b[i + 2];
+        const auto differs = [&](std::size_t channel) {
+            return std::abs(a[i + channel] - b[i + channel]) > steps;
+        };
+        count += differs(0) || differs(1) || differs(2);
     }
     return count;
 }

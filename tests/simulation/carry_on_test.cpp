@@ -4,10 +4,12 @@
 
 #include "engine/error.h"
 #include "tests/gpu_fixture.h"
+#include "tests/largest_difference.h"
 #include "tests/simulation/closed_meshes.h"
 #include "tests/simulation/gpu_simulation.h"
 #include "tests/simulation/motions.h"
 #include "tests/simulation/pulls.h"
+#include "tests/simulation/rounding.h"
 
 // Simulation::carryOn: other wind, colliders, motion and pulls on the way.
 namespace hair::simulation {
@@ -59,9 +61,20 @@ TEST_F(CarryOn, WithTheSameSettingsChangesNothing) {
 }
 
 // A simulation that has been other settings' for 7 steps and one that is made for the new ones and
-// put into its state at the same time go on alike, bit for bit: to each new thing and back.
+// put into its state at the same time go on alike: to each new thing and back. On a processor it is
+// so bit for bit; a GPU's compiler rounds otherwise where bodies may be met, though there are none.
 TEST_F(CarryOn, GoesOnLikeANewSimulationInItsState) {
     const groom::Groom groom = wavyGroom(9, 8);
+    const auto expectAlike = [&](const std::vector<glm::vec3>& found,
+                                 const std::vector<glm::vec3>& expected,
+                                 const SimulationSettings& settings) {
+        if (device().info().type == "cpu")
+            EXPECT_EQ(found, expected);
+        else
+            EXPECT_LT(
+                largestDifference(found, expected),
+                2.0 * roundingAfter(10, groom, settings, 3).bound());
+    };
     for (const Solver solver : kSolversOfPositions)
         for (const Change& change : kChanges)
             for (const auto& [from, to] :
@@ -80,8 +93,8 @@ TEST_F(CarryOn, GoesOnLikeANewSimulationInItsState) {
                 advance(device(), carried_on, 10);
                 advance(device(), fresh, 10);
                 advance(device(), unchanged, 10);
-                EXPECT_EQ(carried_on.readPositions(), fresh.readPositions());
-                EXPECT_EQ(carried_on.readPrevious(), fresh.readPrevious());
+                expectAlike(carried_on.readPositions(), fresh.readPositions(), settings);
+                expectAlike(carried_on.readPrevious(), fresh.readPrevious(), settings);
                 EXPECT_NE(carried_on.readPositions(), unchanged.readPositions());
             }
 }

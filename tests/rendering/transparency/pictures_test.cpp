@@ -32,11 +32,16 @@ protected:
     }
 };
 
+// On processors to the bit. A GPU's compiler rounds otherwise in another stage
+// (backend_picture_test), which may take a sum of weights to the next step.
 TEST_F(TransparentPictureTest, BackEndsAgree) {
+    const bool is_processor = device().info().type == "cpu";
     for (Settings settings : allKinds()) {
         const Pixels tessellated = drawCase(device(), settings);
         settings.strands.backend = Backend::pulling_geometry;
-        EXPECT_EQ(differingPixels(tessellated, drawCase(device(), settings)), 0u)
+        EXPECT_LE(
+            differingPixels(tessellated, drawCase(device(), settings), is_processor ? 0 : 1),
+            is_processor ? 0u : tessellated.size() / 4 / 1000)
             << static_cast<int>(settings.render.transparency);
     }
 }
