@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -106,10 +108,14 @@ PassFacts examinePasses(const engine::Device& device, const measure::MeasureHook
     // A busy machine only ever adds time outside the passes or between them: the round whose sum is
     // nearest to the wall clock tells most of the device.
     PassFacts facts;
-    const measure::EmptySubmission empty = measure::measureEmptySubmission(stage);
+    std::optional<measure::EmptySubmission> empty;
     double nearest = INFINITY;
     for (int i = 0; i < kRounds; ++i) {
-        const measure::PassSum sum = measure::passSums(player.round(), empty);
+        const std::vector<engine::FrameRecord> frames = player.round();
+        if (!empty)
+            empty = measure::measureEmptySubmission(
+                stage, frames.back().device.value_or(frames.back().wall));
+        const measure::PassSum sum = measure::passSums(frames, *empty);
         if (!sum.over_wall || std::abs(*sum.over_wall - 1.0) >= nearest) continue;
         nearest = std::abs(*sum.over_wall - 1.0);
         facts.sum = sum;

@@ -118,7 +118,11 @@ std::vector<std::uint8_t> measureFrames(
         {report::ofFrame(report::Measured::first_time),
          {overlapped.first_frame},
          report::Mode::overlapped});
-    addPassSum(isolated.frames, measureEmptySubmission(stage), stage.isProcessor(), result);
+    addPassSum(
+        isolated.frames,
+        measureEmptySubmission(
+            stage, medianOf(isolated.frames, [](auto& f) { return f.device.value_or(f.wall); })),
+        stage.isProcessor(), result);
     // Of whatever else the device does meanwhile too, which is nothing on a machine of one's own.
     if (const auto watts = medianConditions(overlapped.conditions).power_w)
         result.metrics.push_back(

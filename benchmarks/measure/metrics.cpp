@@ -179,8 +179,8 @@ void addPassSum(
             text += report::shortNumber(*sum.over_device) + " of the device's time for the frame";
         if (sum.over_device && sum.over_work) text += " and to ";
         if (sum.over_work)
-            text +=
-                report::shortNumber(*sum.over_work) + " of its wall clock less an empty submission";
+            text += report::shortNumber(*sum.over_work) +
+                    " of its wall clock less what a submission takes";
         result.trust.warnings.push_back(std::move(text));
     }
 }

@@ -1,7 +1,9 @@
 #include "benchmarks/measure/stage.h"
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <span>
 #include <thread>
 #include <utility>
@@ -81,16 +83,25 @@ private:
     bool reset_ = false;
 };
 
-// Frames without a pass leave no picture.
+// Frames of no pass of the case leave no picture.
 class EmptyPlayer : public Player {
 public:
-    EmptyPlayer(const engine::Device& device, const MeasureHooks& hooks, engine::Timing timing)
-        : hooks_(hooks), loop_(device, timing) {}
+    EmptyPlayer(
+        const engine::Device& device, const MeasureHooks& hooks, engine::Timing timing,
+        std::uint32_t steps)
+        : hooks_(hooks), loop_(device, timing) {
+        if (steps > 0) work_.emplace(device, steps);
+    }
 
     void reset() override {}
     void frame() override {
         if (hooks_.stop()) throw engine::Interrupted();
-        loop_.frame([](engine::Passes&) {});
+        loop_.frame([&](engine::Passes& passes) {
+            if (work_)
+                passes.pass("work", engine::PassKind::compute, [&](engine::Commands& commands) {
+                    work_->record(commands);
+                });
+        });
     }
     void count() override { frame(); }
     std::vector<engine::FrameRecord> completed() override { return loop_.completed(); }
@@ -100,14 +111,37 @@ public:
 private:
     const MeasureHooks& hooks_;
     engine::FrameLoop loop_;
+    std::optional<BusyWork> work_;
 };
 
 constexpr int kEmptyFrames = 32;
+constexpr double kLongestWait = 2.0;  // ms
+constexpr std::uint32_t kFewestSteps = 256;
+constexpr std::uint32_t kMostSteps = 1u << 30;
+
+// Steps of work that take the device about so many ms; 0 without timestamps.
+std::uint32_t stepsThatTake(Stage& stage, double wanted) {
+    std::uint32_t steps = kFewestSteps;
+    while (steps < kMostSteps) {
+        const std::unique_ptr<Player> player = stage.emptyPlayer(engine::Timing::isolated, steps);
+        player->frame();
+        player->frame();
+        const std::optional<double> time = player->finish().back().device;
+        if (!time) return 0;
+        if (*time >= 0.8 * wanted) break;
+        // What is long enough to be told from a barrier says how much more is needed.
+        const double factor = *time > 0.2 * wanted ? wanted / *time : 4.0;
+        steps = static_cast<std::uint32_t>(factor * steps) + 1;
+    }
+    return steps;
+}
 
 }  // namespace
 
-EmptySubmission measureEmptySubmission(Stage& stage) {
-    const std::unique_ptr<Player> player = stage.emptyPlayer(engine::Timing::isolated);
+EmptySubmission measureEmptySubmission(Stage& stage, double frame) {
+    const std::uint32_t steps =
+        stage.isProcessor() ? 0 : stepsThatTake(stage, std::min(frame, kLongestWait));
+    const std::unique_ptr<Player> player = stage.emptyPlayer(engine::Timing::isolated, steps);
     for (int i = 0; i < kEmptyFrames; ++i) player->frame();
     return emptySubmission(player->finish());
 }
@@ -132,8 +166,8 @@ std::unique_ptr<Player> DeviceStage::player(engine::Timing timing, const Planted
         device_, test_case_, hooks_, timing, overlap, planted, counted_);
 }
 
-std::unique_ptr<Player> DeviceStage::emptyPlayer(engine::Timing timing) {
-    return std::make_unique<EmptyPlayer>(device_, hooks_, timing);
+std::unique_ptr<Player> DeviceStage::emptyPlayer(engine::Timing timing, std::uint32_t steps) {
+    return std::make_unique<EmptyPlayer>(device_, hooks_, timing, steps);
 }
 
 double DeviceStage::seconds() {

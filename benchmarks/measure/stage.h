@@ -65,8 +65,8 @@ public:
     virtual std::unique_ptr<Player> player(engine::Timing timing) = 0;
     // The case's frames with this work and no other.
     virtual std::unique_ptr<Player> player(engine::Timing timing, const PlantedWork& planted) = 0;
-    // Frames without a pass.
-    virtual std::unique_ptr<Player> emptyPlayer(engine::Timing timing) = 0;
+    // Frames of nothing but a pass of so many steps of BusyWork; of 0 without a pass.
+    virtual std::unique_ptr<Player> emptyPlayer(engine::Timing timing, std::uint32_t steps) = 0;
 
     // Whether frames are made by the processors that also record them: there no clock has to be
     // driven up, and a frame takes so long that what is between frames does not matter.
@@ -93,8 +93,10 @@ public:
     virtual report::Conditions conditions() = 0;
 };
 
-// Plays empty frames.
-EmptySubmission measureEmptySubmission(Stage& stage);
+// Plays frames without a pass. On a GPU with timestamps they have work that is as long as a frame
+// of the case, `frame` ms, or 2 ms where that is longer: whoever has waited for a millisecond wakes
+// up later than who has for some microseconds.
+EmptySubmission measureEmptySubmission(Stage& stage, double frame);
 
 // A case on a device. All must outlive it, and it its players.
 class DeviceStage : public Stage {
@@ -108,7 +110,7 @@ public:
     // name.
     std::unique_ptr<Player> player(engine::Timing timing) override;
     std::unique_ptr<Player> player(engine::Timing timing, const PlantedWork& planted) override;
-    std::unique_ptr<Player> emptyPlayer(engine::Timing timing) override;
+    std::unique_ptr<Player> emptyPlayer(engine::Timing timing, std::uint32_t steps) override;
     bool isProcessor() const override { return device_.info().type == "cpu"; }
     double seconds() override;
     void pause(double seconds) override;

@@ -49,7 +49,8 @@ double passSumOverWall(std::span<const engine::FrameRecord> isolated) {
 
 EmptySubmission emptySubmission(std::span<const engine::FrameRecord> empty) {
     std::vector<double> walls;
-    for (const engine::FrameRecord& frame : empty) walls.push_back(frame.wall);
+    for (const engine::FrameRecord& frame : empty)
+        walls.push_back(frame.wall - frame.device.value_or(0.0));
     const double median = report::quantile(walls, 0.5);
     return {median, report::quantile(walls, 0.95) - median};
 }

@@ -31,7 +31,7 @@ double passSum(const engine::FrameRecord& frame);
 // passes are all of the frame, the timestamps are right, and submitting takes no time.
 double passSumOverWall(std::span<const engine::FrameRecord> isolated);
 
-// What submitting nothing and waiting for it takes: from empty isolated frames.
+// What submitting and waiting take beside the work: from isolated frames of known work, or none.
 struct EmptySubmission {
     double median = 0.0;  // ms
     double spread = 0.0;  // ms, from the median to the 95th percentile
@@ -43,7 +43,7 @@ EmptySubmission emptySubmission(std::span<const engine::FrameRecord> empty);
 struct PassSum {
     std::optional<double> over_wall;
     std::optional<double> over_device;  // over the device's own first-to-last stamp
-    std::optional<double> over_work;  // over the wall clock less an empty submission
+    std::optional<double> over_work;  // over the wall clock less what a submission takes
     // Whether the passes are not the whole of the frame: by more than kTrustTolerance of the
     // device's time, or of the wall clock by more than that and what submissions vary by.
     bool incomplete = false;

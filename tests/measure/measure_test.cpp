@@ -164,6 +164,26 @@ TEST_F(MeasureTest, HashesWhatTheLastFrameLeaves) {
     EXPECT_EQ(result.state_hash, report::hashBytes(std::as_bytes(std::span(guides))));
 }
 
+// 256 times the work, of which a pass of nothing is the least part.
+TEST_F(MeasureTest, FramesOfWorkAloneTakeLongerTheMoreItIs) {
+    const hair::Settings settings = smallCase();
+    Case test_case(device(), settings, HAIRBENCH_SOURCE_DIR "/scenes");
+    const MeasureHooks hooks{.stop = [] { return false; }};
+    DeviceStage stage(device(), test_case, settings.run, hooks);
+    const auto timeOf = [&](std::uint32_t steps) {
+        const auto player = stage.emptyPlayer(engine::Timing::isolated, steps);
+        player->frame();
+        player->frame();
+        return player->finish().back();
+    };
+    EXPECT_TRUE(timeOf(0).passes.empty());
+    const engine::FrameRecord little = timeOf(256);
+    const engine::FrameRecord much = timeOf(65536);
+    ASSERT_TRUE(little.device && much.device);
+    EXPECT_GT(*much.device, *little.device);
+    EXPECT_GE(much.wall, *much.device);
+}
+
 // Every sample of every round is kept, and the hooks are told of each round.
 TEST_F(MeasureTest, KeepsTheSamplesOfAllRounds) {
     hair::Settings settings = smallCase();

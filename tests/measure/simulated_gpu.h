@@ -40,6 +40,8 @@ struct GpuModel {
     double record = 5e-6, submit = 2e-6;  // s of the CPU for a frame
     double least_latency = 20e-6, most_latency = 60e-6;  // s, of submitting and of waking up
     double tail = 0.01;  // share of latencies that are ten times as long
+    double sleeps_after = 1e9;  // s of a wait after which waking up takes `sleep` longer
+    double sleep = 0.0;  // s
     double stalls = 0.0;  // a second: the compositor has the device
     double stall = 2e-3;  // s
 
@@ -87,8 +89,8 @@ public:
     std::unique_ptr<Player> player(engine::Timing timing, const PlantedWork& planted) override {
         return std::make_unique<Frames>(*this, timing, planted, false);
     }
-    std::unique_ptr<Player> emptyPlayer(engine::Timing timing) override {
-        return std::make_unique<Frames>(*this, timing, PlantedWork{}, true);
+    std::unique_ptr<Player> emptyPlayer(engine::Timing timing, std::uint32_t steps) override {
+        return std::make_unique<Frames>(*this, timing, PlantedWork{"", steps}, true);
     }
     bool isProcessor() const override { return model_.processor; }
     bool runsBesideThought() const override { return false; }
@@ -215,7 +217,10 @@ private:
         // Waits for the oldest frame.
         void collect() {
             const double done = gpu_.model_.waits_for_all ? in_flight_.back() : in_flight_.front();
-            if (done > gpu_.now_) gpu_.now_ = done + gpu_.latency();
+            if (done > gpu_.now_) {
+                const bool slept = done - gpu_.now_ > gpu_.model_.sleeps_after;
+                gpu_.now_ = done + gpu_.latency() + (slept ? gpu_.model_.sleep : 0.0);
+            }
             in_flight_.pop_front();
         }
 
@@ -240,8 +245,14 @@ private:
         // All passes in one submission that reaches the device at `arrival`; when it is done.
         double play(engine::FrameRecord& record, double arrival) {
             double time = std::max(arrival, gpu_.busy_until_);
-            if (empty_) return time;
             const double first = time;
+            if (empty_) {
+                if (planted_.steps > 0)
+                    time = gpu_.work(planted_.steps * gpu_.model_.cycles_per_step, time);
+                if (planted_.steps > 0 && gpu_.model_.valid_bits > 0)
+                    record.device = between(first, time);
+                return time;
+            }
             const double share =
                 timing_ == engine::Timing::overlapped ? 1.0 - gpu_.model_.overlap : 1.0;
             std::vector<double> times;

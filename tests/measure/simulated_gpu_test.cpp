@@ -191,6 +191,21 @@ TEST(SimulatedGpu, AShortFrameIsNoReasonToDoubtItsPasses) {
     EXPECT_NEAR(medianIn(result, "frame.overlap"), 0.0, 0.01 * gpu.truth());
 }
 
+// A host that has waited for more than 0.3 ms wakes up 0.15 ms later, as one with an H200 did: of a
+// frame of 0.8 ms 0.23 ms are its submission, and nothing is wrong with its passes.
+TEST(SimulatedGpu, AHostThatFallsAsleepIsNoReasonToDoubtPasses) {
+    GpuModel model;
+    model.passes = {{"simulate", 84e3}, {"strands", 1500e3}};
+    model.sleeps_after = 0.3e-3;
+    model.sleep = 0.15e-3;
+    SimulatedGpu gpu(model, 11);
+    const report::CaseResult result = measuredOn(gpu);
+    EXPECT_LT(result.trust.pass_sum_over_wall.value(), 0.8);
+    EXPECT_NEAR(result.trust.pass_sum_over_work.value(), 1.0, 0.05);
+    EXPECT_NEAR(result.trust.empty_submission.value(), 0.232, 0.03);
+    EXPECT_THAT(result.trust.warnings, IsEmpty());
+}
+
 // A third of the passes' time is hidden where frames overlap.
 TEST(SimulatedGpu, OverlapIsFound) {
     GpuModel model;

@@ -114,7 +114,7 @@ TEST(PageData, NamesTheFileThatIsNoReport) {
 
 TEST(PageData, ReadsReportsOfTheFirstVersion) {
     const scene::Json data =
-        pageData({{HAIRBENCH_SOURCE_DIR "/results/simulation_scale-llvmpipe-76a39ca40bba.json"}});
+        pageData({{HAIRBENCH_SOURCE_DIR "/tests/fuzz/seeds/report/simulation_scale_76a3_1.json"}});
     EXPECT_EQ(data.at("reports")[0].at("schema"), "hairbench-report/1.0.0");
     EXPECT_EQ(data.at("title"), "simulation_scale");
 }

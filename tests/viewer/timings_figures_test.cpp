@@ -134,7 +134,7 @@ TEST(TimingsFigures, SayHowFarPassesAreTheFrame) {
     const report::CaseResult bad = frameMetrics(history, "discrete");
     EXPECT_THAT(
         bad.trust.warnings,
-        Contains(HasSubstr("0.500 of its wall clock less an empty submission")));
+        Contains(HasSubstr("0.500 of its wall clock less what a submission takes")));
 }
 
 TEST(TimingsFigures, OfNothingAreNone) {
