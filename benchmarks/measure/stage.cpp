@@ -119,18 +119,20 @@ constexpr double kLongestWait = 2.0;  // ms
 constexpr std::uint32_t kFewestSteps = 256;
 constexpr std::uint32_t kMostSteps = 1u << 30;
 
-// Steps of work that take the device about so many ms; 0 without timestamps.
+// Steps of work that take the device about so many ms; 0 without timestamps. Where these stand
+// still the host's clock ends the search.
 std::uint32_t stepsThatTake(Stage& stage, double wanted) {
     std::uint32_t steps = kFewestSteps;
     while (steps < kMostSteps) {
         const std::unique_ptr<Player> player = stage.emptyPlayer(engine::Timing::isolated, steps);
         player->frame();
         player->frame();
-        const std::optional<double> time = player->finish().back().device;
-        if (!time) return 0;
-        if (*time >= 0.8 * wanted) break;
+        const engine::FrameRecord last = player->finish().back();
+        if (!last.device) return 0;
+        const double time = *last.device;
+        if (time >= 0.8 * wanted || last.wall >= 4.0 * kLongestWait) break;
         // What is long enough to be told from a barrier says how much more is needed.
-        const double factor = *time > 0.2 * wanted ? wanted / *time : 4.0;
+        const double factor = time > 0.25 * wanted ? wanted / time : 4.0;
         steps = static_cast<std::uint32_t>(factor * steps) + 1;
     }
     return steps;

@@ -206,6 +206,17 @@ TEST(SimulatedGpu, AHostThatFallsAsleepIsNoReasonToDoubtPasses) {
     EXPECT_THAT(result.trust.warnings, IsEmpty());
 }
 
+// Work is not made longer and longer until stamps that stand still have seen it: 32 frames of some
+// 8 to 32 ms.
+TEST(SimulatedGpu, StampsThatStandStillEndNoSearch) {
+    GpuModel model;
+    model.stamp_rate = 0.0;
+    SimulatedGpu gpu(model, 13);
+    const double begin = gpu.seconds();
+    measureEmptySubmission(gpu, 1.0);
+    EXPECT_LT(gpu.seconds() - begin, 1.5);
+}
+
 // A third of the passes' time is hidden where frames overlap.
 TEST(SimulatedGpu, OverlapIsFound) {
     GpuModel model;
