@@ -29,6 +29,8 @@ bool isBefore(Nodes list, float depth_a, uint a, float depth_b, uint b) {
 }
 
 void main() {
+    // Its pixel may lie outside the picture, past the end of the heads.
+    if (gl_HelperInvocation) return;
     FragmentLists lists = Lists(push.fragments).lists;
     uvec2 pixel = uvec2(gl_FragCoord.xy);
     uint head = Heads(lists.heads).heads[pixel.y * lists.width + pixel.x];

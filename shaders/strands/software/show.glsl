@@ -6,6 +6,8 @@
 layout(location = 0) out vec4 color;
 
 void main() {
+    // Its pixel may lie outside the picture, past the end of the samples.
+    if (gl_HelperInvocation) return;
     uint index = sampleIndex(uvec2(gl_FragCoord.xy), push.choice);
     uvec2 seen = fetchSample(index);
     if (seen.x == kNoPiece) discard;
