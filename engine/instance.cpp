@@ -46,7 +46,11 @@ constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(
     VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
     const VkDebugUtilsMessengerCallbackDataEXT* data, void* log) {
-    static_cast<MessageLog*>(log)->add(data->pMessage);
+    // Layers since 1.4 leave the identifier (VUID-..., SYNC-HAZARD-...) out of the text.
+    const std::string id = data->pMessageIdName ? data->pMessageIdName : "";
+    std::string text = data->pMessage;
+    if (text.find(id) == std::string::npos) text = id + ": " + text;
+    static_cast<MessageLog*>(log)->add(text);
     return VK_FALSE;
 }
 
