@@ -1,6 +1,7 @@
 #include "engine/device.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstring>
 #include <fstream>
@@ -12,6 +13,7 @@
 #include <type_traits>
 #include <vector>
 
+#include <sys/resource.h>
 #include <unistd.h>
 #include <zlib.h>
 
@@ -114,6 +116,27 @@ struct ByVolk<kPlace, Result (*)(Arguments...)> {
     }
 };
 
+// Returns the most bytes of each heap, where a limit on the size of files is one on device memory.
+// Lavapipe of Mesa 23 and later keeps all of it in one file and ignores that the file cannot grow,
+// so memory past RLIMIT_FSIZE ends the process by SIGBUS. Half of the limit is left for the gaps
+// between blocks and for what the driver takes itself. Throws Error where the rest is too little.
+std::optional<VkDeviceSize> fileMemoryLimit(const DeviceInfo& info) {
+    if (info.driver_id != VK_DRIVER_ID_MESA_LLVMPIPE || info.driver_version.starts_with("Mesa 22"))
+        return std::nullopt;
+    rlimit limit{};
+    if (getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+        return std::nullopt;
+    constexpr rlim_t kKibibyte = 1024;  // as ulimit counts
+    constexpr rlim_t kLeast = 256 * 1024 * kKibibyte;
+    if (limit.rlim_cur < kLeast)
+        throw Error(
+            info.name, "this driver keeps its memory in a file, and files may have " +
+                           std::to_string(limit.rlim_cur / kKibibyte) +
+                           " KiB at most here: raise the limit to 256 MiB or more (ulimit -f " +
+                           std::to_string(kLeast / kKibibyte) + ")");
+    return limit.rlim_cur / 2;
+}
+
 VmaAllocator createAllocator(VkInstance instance, const DeviceInfo& info, VkDevice device) {
     VmaVulkanFunctions functions{};
     functions.vkGetInstanceProcAddr = vkGetInstanceProcAddr;
@@ -137,6 +160,11 @@ VmaAllocator createAllocator(VkInstance instance, const DeviceInfo& info, VkDevi
     create.instance = instance;
     create.vulkanApiVersion = VK_API_VERSION_1_3;
     create.pVulkanFunctions = &functions;
+    std::array<VkDeviceSize, VK_MAX_MEMORY_HEAPS> limits{};
+    if (const auto limit = fileMemoryLimit(info)) {
+        limits.fill(*limit);
+        create.pHeapSizeLimit = limits.data();
+    }
     VmaAllocator allocator{};
     check(vmaCreateAllocator(&create, &allocator), "create the memory allocator");
     return allocator;
@@ -216,6 +244,7 @@ Device::Device(const DeviceOptions& options)
     if (!has(Feature::mesh_shader)) info_.features.erase(Feature::mesh_statistics);
     std::vector<const char*> extensions;
     if (!options.window_extensions.empty()) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    fileMemoryLimit(info_);  // before the driver takes any memory
     device_.reset(createDevice(info_, extensions));
     // The functions of one device may be called without the loader between; those of several only
     // through it, which knows whose handle it is given: Instance has just loaded these.

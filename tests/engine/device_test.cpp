@@ -1,6 +1,8 @@
 #include "engine/device.h"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -8,11 +10,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
 #include "engine/commands.h"
 #include "engine/buffer_image.h"
 #include "engine/pipeline.h"
 #include "engine/shaders.h"
 #include "engine/target.h"
+#include "tests/error_text.h"
 #include "tests/gpu_fixture.h"
 
 namespace engine {
@@ -58,6 +63,36 @@ TEST_F(DeviceTest, RefusesASampleCountThatItLacks) {
         messageOf<Unsupported>(
             [&] { Target(device(), {.width = 4, .height = 4, .msaa = 64, .ssaa = 1}); }),
         HasSubstr("no 64-sample images"));
+}
+
+// Lavapipe of Mesa 23 and later keeps its memory in one file and would end the process by SIGBUS.
+TEST_F(DeviceTest, TreatsALimitOnTheSizeOfFilesAsOneOnMemoryInFiles) {
+    const bool is_in_file = device().info().driver_id == VK_DRIVER_ID_MESA_LLVMPIPE &&
+                            !device().info().driver_version.starts_with("Mesa 22");
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto limited = [&](rlim_t mebibytes, const auto& action) {
+        const rlimit limit{.rlim_cur = mebibytes << 20, .rlim_max = before.rlim_max};
+        ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+        action();
+        setrlimit(RLIMIT_FSIZE, &before);
+    };
+    std::string error;
+    limited(255, [&] { error = errorText([] { const Device refused({.wanted = ""}); }); });
+    EXPECT_THAT(
+        error, is_in_file ? HasSubstr("files may have 261120 KiB at most here: raise the limit")
+                          : HasSubstr("no error"));
+    limited(256, [&] {
+        const Device small({.wanted = ""});
+        EXPECT_TRUE(!is_in_file || small.freeBytes() <= 128u << 20) << small.freeBytes();
+        // More than there may be: refused, or there where memory is in no file.
+        error = errorText([&] {
+            const Buffer large(
+                small, {.size = 300u << 20, .usage = Usage::readback, .name = "large"});
+            std::ranges::fill(large.mapped(), std::byte{1});
+        });
+    });
+    EXPECT_EQ(error == "no error", !is_in_file) << error;
 }
 
 TEST_F(DeviceTest, RefusesAPictureThatIsTooLarge) {
