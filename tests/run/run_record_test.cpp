@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "benchmarks/report/report.h"
 #include "tests/benchmarks/sample_report.h"
 #include "tests/error_text.h"
+#include "tests/printed_text.h"
 #include "tests/temporary_folder.h"
 
 namespace benchmarks::run {
@@ -123,15 +125,14 @@ TEST_F(Record, PlaysAgainWhatIsDamaged) {
     const std::size_t second = text.find('\n', text.find('\n') + 1) + 1;  // of the cases
     text.replace(second, 4, "null");
     folder_.write("r.json.journal", text);
-    testing::internal::CaptureStderr();
-    RunRecord record = open(true);
+    std::unique_ptr<RunRecord> record;
     EXPECT_THAT(
-        testing::internal::GetCapturedStderr(),
+        printedText(Printed::to_stderr, [&] { record.reset(new RunRecord(open(true))); }),
         HasSubstr("r.json.journal: line 3 is damaged: left out\n"));
-    EXPECT_EQ(record.done(), 3u);
-    ASSERT_THAT(placesLeft(record), ElementsAre(shuffledOrder(4, 1)[1]));
-    run(record, 1);
-    EXPECT_EQ(textSoFar(record), whole);
+    EXPECT_EQ(record->done(), 3u);
+    ASSERT_THAT(placesLeft(*record), ElementsAre(shuffledOrder(4, 1)[1]));
+    run(*record, 1);
+    EXPECT_EQ(textSoFar(*record), whole);
 }
 
 // Whole lines that are none of the run's.
@@ -173,10 +174,8 @@ TEST_F(Record, LeavesOutWhatIsNoCaseOfTheRun) {
             journal.read([](const scene::Json&, const Journal::Place&) {});
             journal.append(line);
         }
-        testing::internal::CaptureStderr();
-        EXPECT_EQ(open(true).done(), 2u) << line;
         EXPECT_THAT(
-            testing::internal::GetCapturedStderr(),
+            printedText(Printed::to_stderr, [&] { EXPECT_EQ(open(true).done(), 2u) << line; }),
             HasSubstr("a line is no case of this run, or there twice: left out"))
             << line;
     }
@@ -259,10 +258,8 @@ TEST_F(Record, ReplacesTheJournalOfAnotherRun) {
         run(record, 3);
     }
     header_.environment.build.commit = "def";
-    testing::internal::CaptureStderr();
-    EXPECT_EQ(open(false).done(), 0u);
     EXPECT_THAT(
-        testing::internal::GetCapturedStderr(),
+        printedText(Printed::to_stderr, [&] { EXPECT_EQ(open(false).done(), 0u); }),
         HasSubstr("r.json.journal: replaces 3 of 4 cases of another run: commit of the build: abc "
                   "is not def\n"));
 }

@@ -11,6 +11,7 @@
 #include "benchmarks/report/text.h"
 #include "benchmarks/viewer/measure_panel.h"
 #include "tests/gpu_fixture.h"
+#include "tests/printed_text.h"
 #include "tests/temporary_folder.h"
 #include "tests/viewer/made_up_frames.h"
 
@@ -84,14 +85,15 @@ TEST_F(TimingsReport, SaysThatItIsTheViewers) {
 
 TEST_F(TimingsReport, IsReadByTheOtherCommands) {
     EXPECT_THAT(report::table(saved(frozen())), HasSubstr("made_up"));
-    testing::internal::CaptureStdout();  // they print what they did
-    EXPECT_EQ(
-        commands::compareReports({.a = file_, .b = file_, .baseline = {}, .verdict = {}}),
-        report::kOk);
-    EXPECT_EQ(
-        commands::writeReportPage({.reports = {file_}, .out = folder_.file("page.html")}),
-        report::kOk);
-    EXPECT_THAT(testing::internal::GetCapturedStdout(), testing::Not(IsEmpty()));
+    const std::string printed = printedText(Printed::to_stdout, [&] {
+        EXPECT_EQ(
+            commands::compareReports({.a = file_, .b = file_, .baseline = {}, .verdict = {}}),
+            report::kOk);
+        EXPECT_EQ(
+            commands::writeReportPage({.reports = {file_}, .out = folder_.file("page.html")}),
+            report::kOk);
+    });
+    EXPECT_THAT(printed, testing::Not(IsEmpty()));
     EXPECT_THAT(textOf(folder_.file("page.html")), HasSubstr("made_up"));
 }
 
