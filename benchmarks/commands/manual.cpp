@@ -129,7 +129,7 @@ struct Variable {
 constexpr auto kVariables = std::to_array<Variable>({
     {"HAIRBENCH_PYTHON", "the interpreter that USD is read with"},
     {"HAIRBENCH_REFERENCE_PYTHON", "the interpreter of 'hairbench reference' and 'hairbench diff'"},
-    {"HAIRBENCH_PLOTLY", "the plotly-basic.min.js, or a larger bundle, of 'hairbench report'"},
+    {"HAIRBENCH_PLOTLY", "the plotly.js of 'hairbench report': any bundle, packed by gzip or not"},
     {"HAIRBENCH_BASELINES",
      "the folder of 'run --save-baseline' (default results/local/baselines)"},
     {"XDG_CACHE_HOME", "has hairbench/, what is made once and kept (default ~/.cache)"},

@@ -153,8 +153,8 @@ std::optional<std::filesystem::path> findPlotly() {
     const auto places = wanted && *wanted
                             ? std::vector<std::filesystem::path>{wanted}
                             : std::vector<std::filesystem::path>{
-                                  engine::programFile("benchmarks/report/page/plotly-basic.min.js"),
-                                  engine::programFile(".deps/plotly/plotly-basic.min.js")};
+                                  engine::programFile("benchmarks/report/page/plotly.min.js.gz"),
+                                  engine::programFile(".deps/plotly/plotly.min.js.gz")};
     std::error_code error;
     for (const std::filesystem::path& each : places)
         if (std::filesystem::is_regular_file(each, error)) return each;
@@ -166,19 +166,19 @@ std::string readPlotly() {
     if (!file)
         throw engine::Error(
             "report",
-            "plotly-basic.min.js is missing, which a page draws with: scripts/setup fetches it "
-            "before the build, or HAIRBENCH_PLOTLY names one");
+            "plotly.min.js.gz is missing, which a page draws with: scripts/setup fetches it "
+            "before the build, or HAIRBENCH_PLOTLY names a plotly.js");
     return engine::readFile(*file);
 }
 
-PageParts readPageParts(std::string plotly) {
+PageParts readPageParts(std::string_view plotly) {
     std::string script;
     for (const char* name : kScripts) script += readPart(name) + '\n';
     return {
         .page = readPart("page.html"),
         .style = readPart("page.css"),
         .script = std::move(script),
-        .plotly = std::move(plotly)};
+        .plotly = base64(plotly)};
 }
 
 // ---- Data ---------------------------------------------------------------------------------------

@@ -19,19 +19,20 @@ struct PageParts {
     std::string page;  // HTML with places: @title@, @style@, @data@, @plotly@, @script@
     std::string style;  // CSS
     std::string script;  // JavaScript, all of it one function's body
-    std::string plotly;  // plotly-basic.min.js
+    std::string plotly;  // plotly.js, packed by gzip or not, in base64
 };
 
-// plotly.js, its basic bundle at the least: the file that HAIRBENCH_PLOTLY names, else
-// plotly-basic.min.js as it is installed with the program, or as scripts/setup fetched it; nothing
-// where there is none.
+// The file of plotly.js: the one that HAIRBENCH_PLOTLY names, else plotly.min.js.gz as it is
+// installed with the program or as scripts/setup fetched it. The basic bundle is enough. Returns
+// nothing where there is none.
 std::optional<std::filesystem::path> findPlotly();
 
-// The text of findPlotly(). Throws engine::Error, which says what to run, where there is none.
+// The bytes of findPlotly(). Throws engine::Error, which says what to run, where there is none.
 std::string readPlotly();
 
-// `plotly` with the page, style and script from the project's folder.
-PageParts readPageParts(std::string plotly);
+// The page, style and script from the project's folder, with `plotly`: the bytes of plotly.js,
+// packed by gzip or not.
+PageParts readPageParts(std::string_view plotly);
 
 // ---- Data ---------------------------------------------------------------------------------------
 

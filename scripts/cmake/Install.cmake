@@ -14,7 +14,7 @@ install(DIRECTORY scenes DESTINATION share/hairbench PATTERN "make_*.py" EXCLUDE
 install(DIRECTORY shaders DESTINATION share/hairbench PATTERN "CMakeLists.txt" EXCLUDE)
 install(DIRECTORY benchmarks/report/page DESTINATION share/hairbench/benchmarks/report)
 # What pages draw with. All else works without it, where scripts/setup could not fetch it.
-install(FILES .deps/plotly/plotly-basic.min.js
+install(FILES .deps/plotly/plotly.min.js.gz
     DESTINATION share/hairbench/benchmarks/report/page OPTIONAL)
 install(FILES .deps/plotly/LICENSE
     DESTINATION share/doc/hairbench RENAME copyright-plotly.js OPTIONAL)

@@ -98,7 +98,7 @@ TEST_F(InstalledTree, RunsAShippedScene) {
         run("doctor --reports results/local/smoke.json").output,
         HasSubstr("results/local/smoke.json: "));
 
-    if (!fs::exists(HAIRBENCH_SOURCE_DIR "/.deps/plotly/plotly-basic.min.js"))
+    if (!fs::exists(HAIRBENCH_SOURCE_DIR "/.deps/plotly/plotly.min.js.gz"))
         return skipWithout(Need::report, "no Plotly; scripts/setup fetches it");
     const Outcome page = run("report results/local/smoke.json -o page.html");
     EXPECT_EQ(page.status, 0) << page.output;

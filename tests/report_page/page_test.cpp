@@ -26,7 +26,7 @@ using testing::Not;
 
 constexpr const char* kHostile = "</script><script>window.pwned = 1</script><!-- \"quoted\" \u00fc";
 
-// The page in place of Plotly, which has the addresses of maps' tiles in it.
+// A page whose Plotly is a comment: the whole one has the addresses of maps' tiles in it.
 std::string pageWithoutPlotly(const scene::Json& data) {
     return assemblePage(readPageParts("/* plotly */"), data);
 }

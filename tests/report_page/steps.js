@@ -2,6 +2,7 @@
 const wait = (ms) => new Promise((done) => setTimeout(done, ms));
 const said = {};
 const say = (name, value) => { said[name] = value === undefined ? null : value; };
+await ready;  // the page's own promise
 const settle = () => wait(400);  // the text filter waits for 150 ms without a key
 const choose = async (id, value) => {
     const list = document.getElementById(id);

@@ -320,7 +320,15 @@ function legendStyle(div, title) {
         : style;
 }
 
+// Stands in for Plotly where the browser cannot unpack it.
+function drawNothing(div) {
+    div.textContent = "This browser cannot draw the figures: it lacks DecompressionStream, which"
+        + " Chrome has since 80, Firefox since 113 and Safari since 16.4. The tables are complete.";
+    div.on = () => {};
+}
+
 function drawFigure(div, traces, layout) {
+    if (typeof Plotly === "undefined") return drawNothing(div);
     const fonts = {family: "inherit", size: 13, color: color("text")};
     return Plotly.react(div, traces, {
         font: fonts, paper_bgcolor: color("card"), plot_bgcolor: color("card"),
