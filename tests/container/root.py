@@ -11,19 +11,38 @@ def run(*command, **options):
     return subprocess.run(command, check=True, text=True, **options)
 
 
+def mirror():
+    """The archive that this machine's own apt installs from, and its components."""
+    said = run("apt-get", "indextargets", "--format", "$(REPO_URI) $(COMPONENT)", "Created-By: Packages",
+               stdout=subprocess.PIPE).stdout
+    found = [line.split() for line in said.splitlines() if "security" not in line]
+    uris = [uri for uri, component in found if component == "main" and uri.startswith("http")]
+    if not uris:
+        sys.exit("container test: apt on this machine names no archive; apt-get update makes its lists")
+    return uris[0], sorted({component for uri, component in found if uri == uris[0]})
+
+
 def make(root, suite, *packages):
     """A root of the suite with what is essential, apt, and these packages alone, from where this
     machine's own apt gets packages."""
     sources = [
         path for path in (Path("/etc/apt/sources.list"), *Path("/etc/apt").glob(
             "sources.list.d/*.sources")) if path.is_file() and suite in path.read_text()]
+    if not sources:  # this machine is of another release
+        uri, components = mirror()
+        sources = [f"deb {uri} {suite} {' '.join(components)}"]
     include = [f"--include={','.join(packages)}"] if packages else []
     run("mmdebstrap", "--quiet", "--variant=minbase", *include, suite, root, *sources)
 
 
-def inside(root, command, **options):
-    """Runs a command there, with processes and an environment of its own."""
+def command_inside(root, command):
+    """The command that runs a command there, with processes, devices and an environment of its own."""
     path = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
-    return run("unshare", "--mount", "--pid", "--fork", f"--mount-proc={root}/proc", "chroot", root,
-               "/usr/bin/env", "-i", f"PATH={path}", "HOME=/root", "LC_ALL=C.UTF-8", *command,
-               **options)
+    mounts = f"mount --rbind /dev {root}/dev && mount --rbind /sys {root}/sys && exec \"$@\""
+    return ["unshare", "--mount", "--pid", "--fork", f"--mount-proc={root}/proc", "sh", "-c", mounts, "sh", "chroot",
+            root, "/usr/bin/env", "-i", f"PATH={path}", "HOME=/root", "LC_ALL=C.UTF-8", *command]
+
+
+def inside(root, command, **options):
+    """Runs a command there, as command_inside() says."""
+    return run(*command_inside(root, command), **options)
