@@ -18,7 +18,7 @@ constexpr const char* kReferenceBackend = "tessellation";
 
 // ---- Cases --------------------------------------------------------------------------------------
 
-// The number of strands follows from them.
+// Whether the field at this pointer changes the number of strands.
 bool isOfSize(std::string_view pointer) {
     return pointer.starts_with("/groom/") || pointer.starts_with("/lod/") ||
            pointer == "/strands/density";
@@ -30,7 +30,8 @@ std::optional<std::string> backendOf(const scene::Json& result) {
     return value->get<std::string>();
 }
 
-// The case's axes but the back end's and, where `sizes` is false, those of size.
+// Returns the case's axes without the back end's and, where `sizes` is false, without those that
+// change the number of strands.
 scene::Json otherAxes(const scene::Json& result, bool sizes) {
     scene::Json axes = scene::Json::object();
     for (const auto& [pointer, value] : result.at("axes").items())

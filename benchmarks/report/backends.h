@@ -9,42 +9,42 @@
 #include "benchmarks/report/statistics.h"
 #include "benchmarks/scene/json.h"
 
-// Strand back ends of one report held against each other: how their cost grows with the strands,
-// and how it compares with that of `tessellation`.
+// Compares the strand back ends in one report: how their cost grows with the number of strands, and
+// how it compares with the cost of `tessellation`.
 namespace benchmarks::report {
 
 inline constexpr const char* kBackendAxis = "/strands/backend";
 
-// ms, of the passes points and strands: strands.time, or where the report lacks it the sum of the
-// two passes' medians, of which no interval is known.
+// Time in ms of the passes points and strands: the metric strands.time. Where the report lacks it,
+// the sum of the two passes' medians, which has no interval.
 struct BackendTime {
     double median;
-    std::optional<double> lower;  // of the median's interval
+    std::optional<double> lower;  // bounds of the median's interval
     std::optional<double> upper;
     double confidence = 0.0;
 };
 
 struct BackendPoint {
-    std::string name;  // the case's
-    double strands;  // drawn
+    std::string name;  // of the case
+    double strands;  // number of strands drawn
     BackendTime time;
 };
 
-// The measured cases of a back end that differ in how many strands there are: in /groom,
-// /strands/density and /lod alone.
+// The measured cases of one back end that differ only in the number of strands, which the axes in
+// /groom, /strands/density and /lod set.
 struct BackendLine {
     std::string backend;
     std::vector<std::pair<std::string, scene::Document>> held;  // the other axes and their values
-    std::vector<BackendPoint> points;  // by strands
-    // Time over strands, at the level 0.05; absent of fewer than two numbers of strands.
+    std::vector<BackendPoint> points;  // sorted by strands
+    // Time over strand count, with an interval at level 0.05. Needs at least two counts.
     std::optional<PowerLaw> law;
 };
 
-// A case's time over that of the case that differs in the back end alone, `tessellation`.
+// A case's time over the time of the same case with the back end `tessellation`.
 struct BackendRatio {
-    std::string name;  // the case's
+    std::string name;  // of the case
     double ratio;
-    // Of the two medians' intervals, so that it holds with the sum of their confidences less 1.
+    // From the intervals of both medians. Its confidence is the sum of theirs less 1 (Bonferroni).
     std::optional<double> lower;
     std::optional<double> upper;
     double confidence = 0.0;
@@ -55,7 +55,8 @@ struct BackendFigures {
     std::vector<BackendRatio> ratios;
 };
 
-// Absent where the report has fewer than two back ends. Thrown by nlohmann: what is no report.
+// Returns nothing for a report with fewer than two back ends. nlohmann throws if it is not a
+// report.
 std::optional<BackendFigures> compareBackends(const scene::Json& report);
 
 scene::Json backendsJson(const BackendFigures& figures);

@@ -17,7 +17,8 @@ std::filesystem::path baselineFolder() {
     return folder && *folder ? folder : "results/local/baselines";
 }
 
-// A folder's name everywhere, and no way out of the baselines' folder.
+// Throws engine::Error unless the name is a valid folder name on every system. It must not lead out
+// of the baselines' folder.
 void checkName(const std::string& name) {
     if (name.empty() || name.starts_with('.') || name.starts_with('-'))
         throw engine::Error(
@@ -44,8 +45,8 @@ std::string sceneNameOf(const scene::Json& report) {
 void saveBaseline(const std::string& name, const std::filesystem::path& report) {
     scene::Json copy = readReport(report);
     for (scene::Json& each : copy.at("cases"))
-        each.erase("picture");  // which is relative to the report
-    // What drivers and commands say need not be UTF-8.
+        each.erase("picture");  // its path is relative to the report
+    // Texts from drivers and the command line need not be UTF-8.
     engine::writeFileAtomically(
         baselineFile(name, sceneNameOf(copy)),
         copy.dump(2, ' ', false, scene::Json::error_handler_t::replace) + '\n');

@@ -24,7 +24,8 @@ bool isAbove(std::span<const double> differences, double bound) {
     return signedRankP(differences, bound).greater <= signedRankP(differences, -bound).less;
 }
 
-// Twice the smaller one-sided p: that the median is above the band, or below it.
+// Two-sided p-value for the median lying outside the band: twice the smaller one-sided p-value, for
+// above and below.
 double outsideP(std::span<const double> differences, double bound) {
     const double above = signedRankP(differences, bound).greater;
     const double below = signedRankP(differences, -bound).less;
@@ -113,7 +114,7 @@ std::string quantityText(double value, const std::string& unit) {
     return (whole ? std::to_string(std::llround(value)) : shortNumber(value)) + ' ' + unit;
 }
 
-// Of those that decide.
+// Counts only the changes that decide.
 std::size_t countOf(std::span<const Change> changes, Verdict verdict) {
     return static_cast<std::size_t>(std::ranges::count_if(changes, [&](const Change& each) {
         return each.decides && each.comparison.verdict == verdict;
@@ -129,7 +130,7 @@ scene::Json changeJson(const Change& change) {
     putFinite(object, "a", change.a);
     putFinite(object, "b", change.b);
     putFinite(object, "change", comparison.change);
-    if (std::isfinite(comparison.upper)) {  // else nothing is known of either end
+    if (std::isfinite(comparison.upper)) {  // otherwise neither bound is known
         putFinite(object, "lower", comparison.lower);
         putFinite(object, "upper", comparison.upper);
     }
@@ -204,9 +205,9 @@ namespace {
 // ---- Medians of two single processes ------------------------------------------------------------
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kSmallestLevel = 1e-9;  // below it nobody asks
+constexpr double kSmallestLevel = 1e-9;  // the bisection stops here
 
-// Samples with what their number is worth, which takes long to find out.
+// Samples with their effective number, which is slow to compute.
 struct Sample {
     std::span<const double> values;
     double effective;
@@ -219,8 +220,8 @@ struct RatioInterval {
     double upper;
 };
 
-// Where ln of the ratio of the medians lies, as compareMedians() says; infinite where it may lie
-// anywhere.
+// Returns the interval of ln of the ratio of the medians, as compareMedians() describes it;
+// infinite where it is not known.
 RatioInterval ratioInterval(const Sample& a, const Sample& b, double alpha) {
     const MedianInterval of_a = medianInterval(a.values, alpha / 2.0, a.effective);
     const MedianInterval of_b = medianInterval(b.values, alpha / 2.0, b.effective);
@@ -234,7 +235,8 @@ bool isOutside(const RatioInterval& interval, double bound) {
     return interval.lower > bound || interval.upper < -bound;
 }
 
-// The interval only grows as the level falls.
+// Bisects for the smallest level at which the interval lies outside the band. A lower level always
+// gives a wider interval.
 double smallestLevel(const Sample& a, const Sample& b, double bound) {
     double outside = 1.0;
     if (!isOutside(ratioInterval(a, b, outside), bound)) return 1.0;

@@ -9,15 +9,15 @@
 #include "benchmarks/report/statistics.h"
 #include "benchmarks/scene/json.h"
 
-// Whether B is slower than A: verdicts on metrics, and the exit statuses that they give.
+// Decides whether B is slower than A: verdicts on metrics, and the exit statuses that they give.
 namespace benchmarks::report {
 
-// When a comparison fails.
+// Options that decide when a comparison fails.
 struct VerdictOptions {
-    double threshold = 0.02;  // a change of this share matters to nobody
+    double threshold = 0.02;  // smaller changes, as a share, do not count
     bool fail_on_inconclusive = false;
     std::string metrics;  // regex of the metrics that count; empty: all times
-    // A pass that is less of its frame than this is shown and decides nothing (gate).
+    // A pass with a smaller share of its frame than this is shown but decides nothing (gate).
     double smallest_share = 0.02;
 };
 
@@ -26,100 +26,104 @@ enum class Verdict { regressed, improved, same, inconclusive, mismatch };
 const char* verdictName(Verdict verdict);
 
 struct VerdictRule {
-    double threshold = 0.02;  // a change of this share matters to nobody
-    double alpha = 0.05;      // over all tries and metrics: see statistics.h
-    std::size_t first_pairs = 12;  // of the first try: one of kStages; a later one leaves each
-                                   // try's level as it is, and the whole below alpha
+    double threshold = 0.02;  // smaller changes, as a share, do not count
+    double alpha = 0.05;  // over all tries and metrics: see statistics.h
+    std::size_t first_pairs = 12;  // first try: one of kStages; a later one leaves each try's level
+                                   // unchanged and the total below alpha
 };
 
-// What changes of one metric count: max(threshold, 3 * 1.4826 * MAD of ln(A2/A1) over the pairs of
-// an A/A calibration), a share; three standard deviations of a pair if they are normal. The
-// threshold if there was no calibration.
+// Returns tau, the smallest change of one metric that counts, as a share:
+// max(threshold, 3 * 1.4826 * MAD of ln(A2/A1) over the pairs of an A/A calibration). For normal
+// pairs, the second term is three standard deviations. Without a calibration, returns the
+// threshold.
 double decisiveChange(double threshold, std::span<const double> calibration);
 
-// What the pairs say of one metric.
+// The result of comparing one metric over all pairs.
 struct Comparison {
     Verdict verdict;
-    double change;  // median of B/A - 1, a share; NaN if nothing is known
-    double lower;  // its interval at the try's level, shares; infinite if too few pairs
+    double change;  // median of B/A - 1, a share; NaN if unknown
+    double lower;  // interval at the try's level, shares; infinite with too few pairs
     double upper;
-    double decisive_change;  // tau: below it, changes count as none
-    double p;  // that the median lies outside +-tau, adjusted over all metrics
-    std::size_t pairs = 0;  // that the verdict was passed at; 0: none was
+    double decisive_change;  // tau: smaller changes do not count
+    double p;  // for the median lying outside +-tau, adjusted over all metrics
+    std::size_t pairs = 0;  // at which the gate decided; otherwise 0
 };
 
-// Verdicts on several metrics at once, each of which has one difference ln(B/A) a pair and its own
+// Gives verdicts on several metrics at once. Each has one difference ln(B/A) per pair and its own
 // tau. With b = ln(1 + tau) and a = alpha / 3, the level of each try:
 //   regressed, improved   the median of the differences lies above b, below -b: two-sided exact
-//                         signed-rank tests at level a after Benjamini and Hochberg. For a single
-//                         metric this is to say that its interval with confidence 1 - a lies there
+//                         signed-rank tests at level a, adjusted by Benjamini and Hochberg. For a
+//                         single metric, its interval with confidence 1 - a then lies there
 //   same                  the interval lies inside (-b, b)
 //   inconclusive          otherwise
-// Larger is worse, for every metric. A function of its arguments only, so that a verdict can be
-// worked out again from a report.
+// Larger is worse for every metric. The result depends only on the arguments, so a verdict can be
+// recomputed from a report.
 std::vector<Comparison> compare(
     std::span<const std::vector<double>> differences, std::span<const double> decisive_changes,
     double alpha);
 
-// What a comparison says of one metric of one case.
+// The change of one metric of one case.
 struct Change {
     std::string case_name;
     MetricId metric;
     std::string unit;
     double a = 0.0;  // medians, in the unit
     double b = 0.0;
-    // Compares the cost: a time as it is, a rate by 1 / rate. A positive change is worse.
+    // Compares the cost: a time itself, or 1 / rate for a rate. A positive change is worse.
     Comparison comparison;
-    bool decides = true;  // whether the whole verdict depends on it
-    bool by_clock = false;  // the time changed and its cycles did not: the device's clock did
+    bool decides = true;  // whether the overall verdict depends on it
+    bool by_clock = false;  // the time changed but its cycles did not: the device's clock changed
 };
 
 // {"case", "metric", "unit", "a", "b", "change", "lower", "upper", "decisive_change", "p",
-// "verdict"}; bounds that are not known are absent.
+// "verdict"}. Unknown bounds are left out.
 scene::Json changeJson(const Change& change);
 
 enum class ShowCases { yes, no };
 
-// A row for each: case, metric, A, B, the change with its interval and tau in percent, verdict.
-// Empty where there are none.
+// Returns a table with a row for each change: case, metric, A, B, the change with its interval and
+// tau in percent, verdict. Empty without changes.
 std::string changesTable(std::span<const Change> changes, ShowCases show_cases);
 
-// "1 regressed, 0 improved, 7 same, 2 inconclusive", of those that decide.
+// "1 regressed, 0 improved, 7 same, 2 inconclusive". Counts only the changes that decide.
 std::string verdictCounts(std::span<const Change> changes);
 
-// "regressed" if any that decides is; then "inconclusive", if any is, then "improved", then "same".
+// Returns "regressed" if any change that decides is, otherwise "inconclusive" if any is, otherwise
+// "improved" if any is, otherwise "same".
 Verdict overallVerdict(std::span<const Change> changes);
 
-// The exit status that goes with it.
+// Returns the exit status for a verdict.
 int verdictStatus(Verdict verdict, bool fail_on_inconclusive);
 
-// How two medians of independent samples compare, each known from one process alone, before other
-// metrics are taken into account. With confidence 1 - alpha at least the true change lies between
-// `lower` and `upper`: both medians lie inside their intervals of confidence 1 - alpha / 2 with
-// that probability (Bonferroni), whatever the distributions. The bounds are -1 and infinity where
-// either has too few samples, or where a bound of a median is not positive. `p` is the smallest
+// Compares two medians of independent samples, each from a single process, before the correction
+// for other metrics. The true change lies between `lower` and `upper` with confidence of at least
+// 1 - alpha: with that probability, both medians lie inside their intervals of confidence
+// 1 - alpha / 2 (Bonferroni), whatever the distributions. The bounds are -1 and infinity where
+// either side has too few samples or a bound of a median is not positive. `p` is the smallest
 // level, in steps of 1 %, at which the interval of ln(B/A) lies outside +-ln(1 + decisive_change),
-// 1 if none does; the verdict is inconclusive. Samples are taken to be as dependent as they look.
+// or 1 if there is none. The verdict is inconclusive. The dependence between samples is estimated
+// from the samples.
 Comparison compareMedians(
     std::span<const double> a, std::span<const double> b, double decisive_change, double alpha);
 
-// Adjusts the p-values of all comparisons as Benjamini and Hochberg do, and passes the verdicts:
-// regressed or improved where p is then at most alpha, same where the interval lies inside
+// Adjusts the p-values of all comparisons by Benjamini and Hochberg, and sets the verdicts:
+// regressed or improved where the adjusted p is at most alpha, same where the interval lies inside
 // +-ln(1 + tau), inconclusive otherwise.
 void passVerdicts(std::span<Comparison> comparisons, double alpha);
 
-// What the program's exit status means. Verdicts keep off 1 and 2: make turns every failure into 2.
+// Exit statuses of the program. Verdicts avoid 1 and 2, because make turns every failure into 2.
 inline constexpr int kOk = 0;
 inline constexpr int kInternalError = 1;
-inline constexpr int kUsageError = 2;  // of the command line, or an invalid scene
-inline constexpr int kCheckFailed = 3;  // a gated check of the physics or of doctor did not pass
+inline constexpr int kUsageError = 2;  // wrong command line, or an invalid scene
+inline constexpr int kCheckFailed = 3;  // a gated check of physics or doctor did not pass
 inline constexpr int kRegressed = 10;  // something became slower
-inline constexpr int kInconclusive = 11;  // nothing is known to be slower, but not all is known;
-                                          // where --fail-on inconclusive asks for it
+inline constexpr int kInconclusive = 11;  // nothing is known to be slower, but some changes are
+                                          // undecided; only with --fail-on inconclusive
 inline constexpr int kMismatch = 12;  // pictures or states differ
-inline constexpr int kNoBaseline = 13;  // the baseline is missing or of something else
+inline constexpr int kNoBaseline = 13;  // the baseline is missing, of another device, or has
+                                        // nothing in common
 inline constexpr int kNothingRan = 14;  // every case was skipped, failed or filtered out
 inline constexpr int kNoDevice = 77;  // no suitable Vulkan device
-inline constexpr int kInterrupted = 130;  // Ctrl-C; what was done is saved
+inline constexpr int kInterrupted = 130;  // Ctrl-C; finished cases are saved
 
 }  // namespace benchmarks::report

@@ -37,7 +37,7 @@ bool isTrue(const scene::Json& report, const char* pointer) {
     return scene::textAt(report, pointer) == "true";
 }
 
-// Whether both reports name the same device and kind of device; its driver may have changed.
+// Compares the device's name and type only; its driver may have changed.
 bool isSameDevice(const scene::Json& a, const scene::Json& b) {
     for (const char* const pointer : {"/environment/device/name", "/environment/device/type"})
         if (scene::textAt(a, pointer) != scene::textAt(b, pointer)) return false;
@@ -171,7 +171,7 @@ std::vector<double> costs(const MetricReading& metric) {
     return values;
 }
 
-// What is counted and not timed is known exactly, whatever the number of samples.
+// Byte counts are exact, whatever the number of samples.
 bool isExact(const MetricReading& reading) { return reading.unit == "B"; }
 
 Comparison exactComparison(double a, double b, double decisive_change) {
@@ -239,7 +239,8 @@ public:
     ReportComparison& found() { return found_; }
 
 private:
-    // Passes are not the same in all versions: what was one may have become part of another.
+    // Passes differ between versions: a pass of one version may be part of another pass in the
+    // next.
     void countPassesOf(
         const char* which, const std::vector<MetricReading>& metrics,
         const std::vector<MetricReading>& others) {
@@ -273,7 +274,7 @@ private:
     MetricChoice judged_;
     double shortest_ = kShortestTime;  // ms
     ReportComparison found_;
-    std::map<std::string, std::size_t> only_;  // "A: pass.wind.time": cases
+    std::map<std::string, std::size_t> only_;  // "A: pass.wind.time" -> number of cases
 };
 
 void addUnmatched(

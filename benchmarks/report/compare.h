@@ -13,75 +13,76 @@
 // Comparison of two reports, each of one process.
 namespace benchmarks::report {
 
-// Why times of two reports may differ though the code does not: "device: X and Y", one line for
-// each of device, driver, processor, the build's type, the scene, validation, and a report that was
-// interrupted. A member that either report lacks is not known to differ.
+// Returns the reasons why times of two reports may differ although the code does not: one line
+// "device: X and Y" for each difference in device, driver, processor, build type, scene,
+// validation, and one for a report that was interrupted. A member that either report lacks does not
+// count as a difference.
 std::vector<std::string> environmentDifferences(const scene::Json& a, const scene::Json& b);
 
-// Whether the report's device is the processor itself, where CPU time is what passes cost.
+// Whether the device is the processor itself, so that CPU time measures the cost of passes.
 bool isSoftwareDevice(const scene::Json& environment);
 
-// Where a time is shorter in both builds it is not judged: 2 % of it are 1 us, which is the step of
-// coarse timestamps and less than it takes to wake a thread.
+// Times below this in both builds are not judged. 2 % of it is 1 us: one step of coarse timestamps,
+// and less than a thread takes to wake.
 inline constexpr double kShortestTime = 0.05;  // ms
 
-// The same of a device that is no processor: its timestamps are finer, and what disturbs a
-// processor's work does not lie between them.
+// The same limit for a GPU: its timestamps are finer, and interruptions of the host do not fall
+// between them.
 inline constexpr double kShortestStamped = 0.002;  // ms
 
 enum class Judgement { judged, too_short, not_wanted };
 
-// What times are of.
+// The clock that a time is measured by.
 enum class Clock {
     wall,
-    processor,  // what all threads used: on a software device what a pass costs, whoever else is at
-                // work on the machine; it does not see that threads wait for each other
+    processor,  // CPU time of all threads. On a software device this is the cost of a pass even
+                // when other programs run, but it leaves out the time that threads wait for each
+                // other.
 };
 
-// What is judged unless --metrics says otherwise: the processor's time on a software device whose
-// reports have it. `metrics` are those that both reports have.
+// Returns the clock whose times are judged unless --metrics says otherwise: CPU time on a software
+// device if the reports have it. `metrics` are those in both reports.
 Clock judgedClock(bool software_device, std::span<const MetricId> metrics);
 
-// Which metrics count.
+// Decides whether a metric counts.
 using MetricChoice = std::function<bool(const MetricId&)>;
 
-// The metrics in whose name a regex is found; an empty function for an empty one. Throws
-// engine::Error
-// "--metrics: ..." for a malformed one.
+// Returns a choice of the metrics with a match of the regex in their name, or an empty function for
+// an empty regex. Throws engine::Error "--metrics: ..." for a malformed one.
 MetricChoice metricsNamed(const std::string& regex);
 
-// The times of frames and passes by the wall clock, or their CPU time and their instructions.
+// Chooses the wall-clock times of frames and passes, or their CPU times and instructions.
 MetricChoice timesBy(Clock clock);
 
-// Judges a metric that two reports have. A metric of which neither less nor more is better is not
-// judged, nor a time below `shortest`, ms.
+// Decides whether to judge a metric that both reports have. Metrics without a better direction are
+// not judged, nor are times below `shortest`, ms.
 Judgement judgementOf(
     const MetricChoice& chosen, const MetricReading& a, const MetricReading& b, double shortest);
 
-// Larger is worse: a value in the metric's unit, or 1 / value where higher is better.
+// Returns a value for which larger is worse: `value` itself, or 1 / value where higher is better.
 double costOf(const Metric& metric, double value);
 
-// What a case made, as its report says.
+// The outcome of a case in its report.
 struct CaseOutcome {
     std::string name;
     std::string status;  // "ok", "skipped", "failed"
     std::string reason;  // why it was not ok
-    std::string image_hash;  // may be empty: not known
+    std::string image_hash;  // empty if unknown
     std::string state_hash;
 };
 
-// Something of a case that differs between two reports, so that their times say nothing.
+// A difference between two reports' results of a case. It makes their times incomparable.
 struct Mismatch {
     std::string case_name;
-    std::string what;  // "picture", "state", or "status" where only one played it
+    std::string what;  // "picture", "state", or "status" where only one of them ran
     std::string a;  // hashes, or "failed: reason"
     std::string b;
 };
 
-// Reads the outcome from a case's object in a report.
+// Reads the outcome from a case object of a report.
 CaseOutcome caseOutcome(const scene::Json& result);
 
-// Hashes that either report does not know agree. Of a case that neither played nothing differs.
+// An unknown hash matches any other. Returns nothing for a case that ran in neither report.
 std::vector<Mismatch> mismatches(const CaseOutcome& a, const CaseOutcome& b);
 
 // "thesis/msaa:4: the pictures differ: 0123456789abcdef and fedcba9876543210"
@@ -90,38 +91,39 @@ std::string mismatchText(const Mismatch& mismatch);
 // {"case", "what", "a", "b"}
 scene::Json mismatchJson(const Mismatch& mismatch);
 
-// Two reports of one process each, held against each other.
+// Comparison of two reports, each of one process.
 
 struct CompareOptions {
     std::filesystem::path a;  // empty where `baseline` is given
     std::filesystem::path b;
     std::string baseline;
     VerdictOptions verdict;
-    bool all = false;  // rows of what stayed the same too
+    bool all = false;  // also show rows without a change
     bool json = false;
 };
 
 struct ReportComparison {
     std::vector<std::string> warnings;  // why the two may not be comparable
-    bool same_device = true;  // name and type
-    std::size_t common_cases = 0;  // that both have, by name
-    // "only in A: thesis/msaa:4"; of cases that both have, "only in A: pass.wind.time, of 2 cases"
+    bool same_device = true;  // compares name and type
+    std::size_t common_cases = 0;  // cases in both reports, by name
+    // "only in A: thesis/msaa:4"; for metrics of common cases "only in A: pass.wind.time, of 2
+    // cases"
     std::vector<std::string> unmatched;
     std::vector<Mismatch> mismatches;
     std::vector<Change> changes;  // of cases without a mismatch
     std::vector<Change> too_short;  // not judged: see kShortestTime
 };
 
-// Verdicts over all metrics of all cases that both played, at level 5 %. It knows nothing of the
-// noise between processes. Throws engine::Error for a report that lacks what reports must have, or
-// a malformed regex.
+// Gives verdicts on all metrics of all cases that ran in both reports, at level 5 %. Does not
+// account for noise between processes. Throws engine::Error for a malformed regex or a report that
+// lacks a required member.
 ReportComparison
 compareReports(const scene::Json& a, const scene::Json& b, const VerdictOptions& options);
 
-// `mismatch` if there is one, otherwise as overallVerdict().
+// Returns `mismatch` if there is a mismatch, otherwise the overall verdict of the changes.
 Verdict overallVerdict(const ReportComparison& comparison);
 
-// "hairbench-comparison/1.0.0": all of it, and the names of the two.
+// Returns the whole comparison, with the names of both reports, as "hairbench-comparison/1.0.0".
 scene::Json
 comparisonJson(const ReportComparison& comparison, const std::string& a, const std::string& b);
 

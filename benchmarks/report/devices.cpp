@@ -18,14 +18,14 @@ namespace {
 
 using Pointers = std::set<std::string>;
 
-// The axes of all cases.
+// Adds the axes of all cases.
 void addAxes(Pointers& pointers, const scene::Json& report) {
     for (const scene::Json& each : report.at("cases"))
         for (const auto& [pointer, value] : each.at("axes").items()) pointers.insert(pointer);
 }
 
-// What a case played: the member of a suite that it is of, and on each axis its own value or, where
-// its sweep has no such axis, the scene's.
+// Returns a key of the case's settings: its suite member, and its value on each axis. If its sweep
+// lacks an axis, the scene's value counts.
 std::string
 playedBy(const scene::Json& report, const scene::Json& result, const Pointers& pointers) {
     const auto name = result.at("name").get<std::string>();
@@ -41,7 +41,7 @@ playedBy(const scene::Json& report, const scene::Json& result, const Pointers& p
     return played.dump(-1, ' ', false, scene::Json::error_handler_t::replace);
 }
 
-// What was played -> median time of its frames, ms.
+// Returns the median frame time of each case in ms, by the keys from playedBy().
 std::map<std::string, double> frameTimes(const scene::Json& report, const Pointers& pointers) {
     const scene::Json::json_pointer place("/metrics/" + ofFrame(Measured::time).name() + "/median");
     std::map<std::string, double> times;

@@ -28,7 +28,8 @@ struct Limit {
     Number VkPhysicalDeviceLimits::* member;
 };
 
-// What decides which cases run here, and how their draws, groups and buffers are cut.
+// Limits that decide which cases run on this device, and how draws, work groups and buffers are
+// split.
 constexpr Limit<std::uint32_t> kCounts[] = {
     {"maxTessellationGenerationLevel", &VkPhysicalDeviceLimits::maxTessellationGenerationLevel},
     {"maxTessellationPatchSize", &VkPhysicalDeviceLimits::maxTessellationPatchSize},
@@ -43,7 +44,7 @@ constexpr Limit<std::uint32_t> kCounts[] = {
     {"framebufferDepthSampleCounts", &VkPhysicalDeviceLimits::framebufferDepthSampleCounts},
 };
 
-// "10de:2336", as the PCI registry writes it; vendors without a PCI number are above 10000.
+// "10de:2336", as in the PCI registry. Vendors without a PCI number have ids above 10000 (hex).
 std::string idOf(VkPhysicalDevice device) {
     VkPhysicalDeviceProperties properties{};
     vkGetPhysicalDeviceProperties(device, &properties);
@@ -185,7 +186,7 @@ namespace {
 constexpr std::size_t kShaBlock = 64;  // B
 using ShaState = std::array<std::uint32_t, 8>;
 
-// The first 32 bits of the fractional parts of a root of the first primes.
+// Returns the first 32 fractional bits of a root of each of the first primes.
 template <std::size_t count>
 std::array<std::uint32_t, count> primeRoots(double exponent) {
     std::array<std::uint32_t, count> roots{};
@@ -194,7 +195,8 @@ std::array<std::uint32_t, count> primeRoots(double exponent) {
         bool prime = true;
         for (std::uint32_t i = 2; i * i <= number; ++i) prime = prime && number % i != 0;
         if (!prime) continue;
-        // A double has 21 bits more than the 32 and the whole part take.
+        // A double has 53 bits. The whole part takes at most 3 and the result 32, so rounding does
+        // no harm.
         const double root = std::pow(static_cast<double>(number), exponent);
         roots[found++] =
             static_cast<std::uint32_t>(std::floor((root - std::floor(root)) * 4294967296.0));

@@ -12,35 +12,35 @@
 // Describes the device, host and build of a report.
 namespace benchmarks::report {
 
-// What a report says of a device. Its limits are Vulkan's, and, where a driver is right only up to
-// fewer vertices in a tessellated draw than they allow, "maxTessellatedVertices".
+// Describes a device for a report. The limits are Vulkan's. Where a driver handles only fewer
+// vertices in a tessellated draw correctly, "maxTessellatedVertices" gives its limit.
 DeviceRecord describeDevice(const engine::Device& device);
 
 // The program's version and commit, e.g. "hairbench 0.1.0 (1a2b3c4)".
 std::string versionText();
 
-// What runs where: "hairbench 0.1.0 (abc) on llvmpipe (llvmpipe 22.3.6)".
+// The version and the device: "hairbench 0.1.0 (abc) on llvmpipe (llvmpipe 22.3.6)".
 std::string versionOnDevice(const engine::Device& device);
 
-// The processor's model, as Linux tells it; empty where it does not.
+// Returns the processor's model from /proc/cpuinfo; empty if it is unknown.
 std::string processorName();
 
-// What this program was built from and how.
+// Returns the source version, compiler and flags of this build.
 BuildRecord describeBuild();
 
-// What a report says of the machine, the device, the program and the command line. The start is
-// now.
+// Describes the machine, device, program and command line for a report. Takes the current time as
+// the start.
 Environment describeEnvironment(
     const engine::Device& device, std::vector<std::string> command, std::uint64_t seed,
     engine::Validation validation);
 
 // 64-bit FNV-1a (Fowler, Noll and Vo 1991) of the bytes in memory order, as 16 lower-case hex
-// digits. Reports use it for pictures, simulation states and documents: it tells whether two runs
-// made the same thing, and is no protection against someone who wants two things to look the same.
+// digits. Reports use it for pictures, simulation states and documents to tell whether two runs
+// gave the same result. It does not protect against deliberate collisions.
 std::string hashBytes(std::span<const std::byte> bytes);
 std::string hashText(std::string_view text);
 
-// SHA-256 (FIPS 180-4) of the text, as 64 lower-case hex digits: what sha256sum says of a file.
+// SHA-256 (FIPS 180-4) of the text, as 64 lower-case hex digits, like the output of sha256sum.
 std::string sha256(std::string_view text);
 
 }  // namespace benchmarks::report

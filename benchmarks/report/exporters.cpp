@@ -22,18 +22,18 @@ namespace {
 
 // ---- What formats take from a report ------------------------------------------------------------
 
-// What exporters take from a written report. A member that a report must have and has not is
-// thrown by nlohmann: exportReport() makes it an engine::Error.
+// Exporters throw nlohmann's exception for a report that lacks a required member. exportReport()
+// turns it into an engine::Error.
 
 struct Reading {
     std::string case_name;
     MetricReading metric;
-    // The metric in the report, which has to outlive this: statistics of the samples, in the unit.
-    // What an older report does not say is absent.
+    // The metric in the report, which must outlive this: statistics of the samples, in its unit.
+    // Older reports lack some of them.
     const scene::Json* statistics;
 };
 
-// Every metric of every case that ran, in the report's order.
+// Returns every metric of every case that ran, in the report's order.
 std::vector<Reading> readings(const scene::Json& report) {
     std::vector<Reading> found;
     for (const scene::Json& result : report.at("cases")) {
@@ -47,12 +47,12 @@ std::vector<Reading> readings(const scene::Json& report) {
     return found;
 }
 
-// "<case>/<metric>", which no two readings share.
+// "<case>/<metric>", unique in a report.
 std::string benchmarkName(const Reading& reading) {
     return reading.case_name + '/' + reading.metric.name();
 }
 
-// The pointers of all cases' axes, each once.
+// Returns the pointers of the axes of all cases, without duplicates.
 std::vector<std::string> axisPointers(const scene::Json& report) {
     std::vector<std::string> pointers;
     for (const scene::Json& result : report.at("cases"))
@@ -61,22 +61,22 @@ std::vector<std::string> axisPointers(const scene::Json& report) {
     return pointers;
 }
 
-// The member's text without quotes, as a table shows it: "" where it is absent.
+// Returns the member's text without quotes, or "" if it is absent.
 std::string cellText(const scene::Json& object, const std::string& member) {
     const auto found = object.find(member);
     if (found == object.end()) return "";
     return found->is_string() ? found->get<std::string>() : found->dump();
 }
 
-// JSON with LF at its end. What drivers say need not be UTF-8.
+// Returns the JSON with a line feed at its end. Texts from drivers need not be UTF-8.
 std::string documentText(const scene::Json& document) {
     return document.dump(1, ' ', false, scene::Json::error_handler_t::replace) + '\n';
 }
 
 // ---- Bencher Metric Format ----------------------------------------------------------------------
 
-// A measure of bencher. It knows `latency`, in ns, smaller is better, and `throughput`, in
-// operations per second, larger is better; others are made when they first come.
+// A measure of Bencher. Bencher knows `latency`, in ns, smaller is better, and `throughput`, in
+// operations per second, larger is better. It adds others when it first sees them.
 struct Measure {
     std::string name;
     double scale;
@@ -89,8 +89,8 @@ Measure measureOf(const Metric& metric) {
     return {metric.name(), 1.0};
 }
 
-// Bencher Metric Format: times as `latency` in ns, rates as `throughput`, memory as `bytes`; lower
-// and upper value are the quartiles.
+// Exports Bencher Metric Format: times as `latency` in ns, rates as `throughput`, memory as
+// `bytes`. The lower and upper values are the quartiles.
 std::string bmf(const scene::Json& report) {
     scene::Json document = scene::Json::object();
     for (const Reading& reading : readings(report)) {
@@ -119,15 +119,15 @@ std::string field(const std::string& text) {
     return quoted + '"';
 }
 
-// A text that a spreadsheet would take for a formula gets an apostrophe before it, which makes it a
-// text there, too (OWASP, CSV Injection). Names of scenes and of files are anybody's.
+// Puts an apostrophe before a text that a spreadsheet would take for a formula, so that it stays a
+// text (OWASP, CSV Injection). Names of scenes and files may come from anyone.
 std::string textField(const std::string& text) {
     const bool is_formula =
         !text.empty() && std::string_view("=+-@\t\r\n").find(text.front()) != std::string::npos;
     return is_formula ? '\'' + text : text;
 }
 
-// The member as a table shows it: numbers as they are.
+// Returns the member as a table shows it. Numbers get no apostrophe.
 std::string memberField(const scene::Json& object, const std::string& member) {
     const std::string text = cellText(object, member);
     const auto found = object.find(member);
@@ -140,9 +140,9 @@ std::string line(const std::vector<std::string>& cells) {
     return text + '\n';
 }
 
-// RFC 4180, but lines end with LF alone: a row for each metric of each case, with a column for each
-// axis, and a row with the reason for each case that has none. Empty fields are not known. No text
-// is a formula to spreadsheets.
+// Exports CSV by RFC 4180, except that lines end with LF alone. It has a row for each metric of
+// each case, with a column for each axis, and a row with the reason for each case without metrics.
+// A field is empty if its value is unknown. Spreadsheets read no text as a formula.
 std::string csv(const scene::Json& report) {
     const std::vector<std::string> pointers = axisPointers(report);
     std::vector<std::string> titles{"case"};
@@ -173,8 +173,8 @@ std::string csv(const scene::Json& report) {
 
 // ---- github-action-benchmark --------------------------------------------------------------------
 
-// What github-action-benchmark takes as customSmallerIsBetter: times and memory, with the median
-// absolute deviation as range.
+// Exports customSmallerIsBetter of github-action-benchmark: times and memory, with the median
+// absolute deviation as the range.
 std::string customSmallerIsBetter(const scene::Json& report) {
     scene::Json entries = scene::Json::array();
     for (const Reading& reading : readings(report)) {
@@ -202,7 +202,7 @@ scene::Json context(const scene::Json& report) {
     if (environment.contains("started")) context["date"] = environment["started"];
     if (!environment.at("command").empty()) context["executable"] = environment["command"][0];
     take("num_cpus", "host", "processor_count");
-    context["caches"] = scene::Json::array();  // bencher wants the member
+    context["caches"] = scene::Json::array();  // Bencher requires the member
     take("library_version", "build", "version");
     context["library_build_type"] =
         environment.at("build").value("type", "") == "Debug" ? "debug" : "release";
@@ -212,9 +212,9 @@ scene::Json context(const scene::Json& report) {
     return context;
 }
 
-// google-benchmark's JSON, of times only: its aggregates and counters are taken for times by those
-// who read it. Each metric is a benchmark of its own, "<case>/<metric>", whose real time and CPU
-// time are both the median, as some readers look at the one and some at the other.
+// Exports google-benchmark's JSON with times only, because its readers take aggregates and counters
+// for times. Each metric is its own benchmark, "<case>/<metric>". Its real time and CPU time are
+// both the median, because some readers use one and some the other.
 std::string gbench(const scene::Json& report) {
     scene::Json benchmarks = scene::Json::array();
     for (const Reading& reading : readings(report)) {
@@ -240,7 +240,7 @@ std::string gbench(const scene::Json& report) {
 
 // ---- Markdown -----------------------------------------------------------------------------------
 
-// Inside a table's cell: no line ends, and nothing that begins a column or markup.
+// Escapes text for a table cell: no line breaks, and nothing that starts a column or markup.
 std::string escaped(const std::string& text) {
     std::string result;
     for (const char c : text) {
@@ -254,8 +254,8 @@ void addCell(std::string& line, const std::string& text) { line += ' ' + text + 
 
 const MetricId kRate = ofFrame(Measured::rate);
 
-// Frames per second and the times of the frame and of each pass, in the order in which they first
-// occur.
+// Returns frames per second, and the times of the frame and of each pass, in order of first
+// occurrence.
 std::vector<MetricId> columnMetrics(const scene::Json& report) {
     std::vector<MetricId> metrics;
     for (const Reading& reading : readings(report)) {
@@ -285,7 +285,7 @@ std::string aboutTheRun(const scene::Json& report) {
     return text + "\n\n";
 }
 
-// A table in GitHub's Markdown, a row a case: axes, FPS, medians in ms, how it went.
+// Exports a table in GitHub's Markdown with a row per case: axes, FPS, medians in ms, status.
 std::string markdown(const scene::Json& report) {
     const std::vector<std::string> pointers = axisPointers(report);
     const std::vector<MetricId> metrics = columnMetrics(report);
@@ -316,13 +316,14 @@ std::string markdown(const scene::Json& report) {
 
 // ---- Perfetto -----------------------------------------------------------------------------------
 
-// Whole, so that slices that end together do so in the file too; the viewer counts in ns as well.
+// Integers, so that slices with the same end have the same end in the file. The viewer also counts
+// in ns.
 using Nanoseconds = std::int64_t;
 
 constexpr double kNanosecondsPerMillisecond = 1e6;
 constexpr double kNanosecondsPerMicrosecond = 1e3;
 
-// A case is a process of the trace, its tracks are threads.
+// A case is a process of the trace, and its tracks are threads.
 enum Track { isolated = 1, overlapped = 2 };
 
 struct Series {
@@ -359,9 +360,9 @@ private:
     scene::Json events_ = scene::Json::array();
 };
 
-// Each frame is as long as it was and holds its parts one after another from its start; a part
-// that ends after its frame, by some other clock, lengthens it. `parts` may lack samples: a pass
-// that some frames have not is laid into the first ones.
+// Lays the frames one after another, each with its parts from its start. A frame has its measured
+// length, or the sum of its parts if that is longer because they use another clock. `parts` may
+// lack samples: a pass that some frames lack is put into the first frames.
 void layFrames(
     Trace& trace, int process, Track track, const std::vector<Nanoseconds>& frames,
     const std::vector<Series>& parts) {
@@ -383,7 +384,7 @@ void layFrames(
 }
 
 std::vector<Nanoseconds> samplesOf(const MetricReading& metric) {
-    constexpr double kLongest = 1e7;  // ms, three hours: a million of them are counted in ns
+    constexpr double kLongest = 1e7;  // ms, about three hours: a million of these still fit in ns
     std::vector<Nanoseconds> samples;
     for (const double sample : metric.samples) {
         if (!(sample >= 0.0 && sample <= kLongest))
@@ -393,7 +394,7 @@ std::vector<Nanoseconds> samplesOf(const MetricReading& metric) {
     return samples;
 }
 
-// None where there is no such metric.
+// Returns no samples if the metric is absent.
 std::vector<Nanoseconds> samplesOf(const std::vector<MetricReading>& metrics, const MetricId& id) {
     const MetricReading* const metric = findMetric(metrics, id);
     return metric ? samplesOf(*metric) : std::vector<Nanoseconds>();
@@ -422,8 +423,8 @@ void addCase(Trace& trace, int process, const scene::Json& result) {
     layFrames(trace, process, overlapped, samplesOf(metrics, ofFrame(Measured::time)), work);
 }
 
-// Chrome's trace events, which Perfetto opens: for each case, its isolated frames one after another
-// with their passes, and its overlapped frames with what the CPU did for each.
+// Exports Chrome's trace events, which Perfetto opens. Each case has its isolated frames one after
+// another with their passes, and its overlapped frames with the CPU's work for each.
 std::string perfetto(const scene::Json& report) {
     Trace trace;
     int process = 0;

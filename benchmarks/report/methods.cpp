@@ -136,7 +136,7 @@ std::string Methods::statisticText() const {
     return text;
 }
 
-// What /run/clocks asked for in the cases that were measured.
+// Says what /run/clocks asked for in the measured cases.
 std::string Methods::clocksChoiceText() const {
     std::string text;
     if (locked_ > 0)

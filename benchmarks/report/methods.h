@@ -6,21 +6,21 @@
 
 #include "benchmarks/scene/json.h"
 
-// What a report's numbers are, in words.
+// Describes in words how a report's numbers were measured.
 namespace benchmarks::report {
 
-// A paragraph for a paper's section on methods, in English: device, driver, clocks, warm-up,
-// samples, statistic and interval, and what was left out. Hoefler and Belli, Scientific
+// Returns a paragraph for the methods section of a paper, in English: device, driver, clocks,
+// warm-up, samples, statistic and interval, and what was left out. Hoefler and Belli, Scientific
 // Benchmarking of Parallel Computing Systems (SC 2015, doi 10.1145/2807591.2807644), ask for these
 // in their rules 2 (what was measured and what not), 5 and 6 (nondeterminism, distributions,
-// intervals), 9 (the whole setting) and 10 (how time was taken). Says nothing of what the report
-// does not know. `report` is a whole one, without its samples' sidecar if need be.
+// intervals), 9 (the whole setting) and 10 (how time was taken). Leaves out whatever the report
+// does not know. `report` is a whole report; its samples may be absent.
 std::string methodsText(const scene::Json& report);
 
-// The same of a report whose cases are looked at one by one and not kept.
+// Builds the same paragraph from cases that are visited one by one and not kept.
 class Methods {
 public:
-    // `header` is a report with or without its cases, and outlives this.
+    // `header` is a report with or without its cases. It must outlive this.
     explicit Methods(const scene::Json& header) : header_(header) {}
 
     void add(const scene::Json& result);
@@ -48,7 +48,7 @@ private:
     std::uint64_t measured_ = 0, failed_ = 0, skipped_ = 0;
     std::uint64_t warned_ = 0;
     std::uint64_t warmup_rounds_ = 0, throttled_rounds_ = 0;
-    std::uint64_t locked_ = 0, free_ = 0;  // measured, by what /run/clocks asked for
+    std::uint64_t locked_ = 0, free_ = 0;  // measured cases, by the choice in /run/clocks
     Range plays_;
     Range clocks_, lowest_clocks_;  // MHz
     Range temperatures_;  // degrees Celsius

@@ -37,7 +37,7 @@ constexpr MetricKind kKinds[] = {
     {Of::cpu, What::record_time, "cpu.record.time", "ms", lower},
     {Of::cpu, What::submit_time, "cpu.submit.time", "ms", lower},
     {Of::cpu, What::host_time, "cpu.host.time", "ms", lower},
-    // One waits longer where others are faster.
+    // A thread waits longer where others are faster.
     {Of::cpu, What::wait_time, "cpu.wait.time", "ms", neither},
     {Of::gpu, What::wait_time, "gpu.wait.time", "ms", neither},
     {Of::pass, What::time, "pass.*.time", "ms", lower},
@@ -57,7 +57,7 @@ constexpr MetricKind kKinds[] = {
     {Of::strands, What::time, "strands.time", "ms", lower},
     {Of::strands, What::time_per_point, "strands.time_per_point", "ns", lower},
     {Of::strands, What::time_per_sample, "strands.time_per_sample", "ns", lower},
-    // What a model counts: more of it is another case, not a worse one.
+    // Counts of a model: more of them is another case, not a worse one.
     {Of::strands, What::bytes, "strands.bytes", "B", neither},
     {Of::strands, What::operations, "strands.*.operations", "1", neither},
     {Of::strands, What::limit, "strands.limit", "ms", neither},
@@ -66,7 +66,7 @@ constexpr MetricKind kKinds[] = {
     {Of::device, What::arithmetic, "device.*.arithmetic", "GFLOP/s", neither},
 };
 
-// Null for MetricOf::other.
+// Returns null for MetricOf::other.
 const MetricKind* kindOf(const MetricId& id) {
     const auto found = std::ranges::find_if(
         kKinds, [&](const MetricKind& kind) { return kind.of == id.of && kind.what == id.what; });
@@ -74,8 +74,8 @@ const MetricKind* kindOf(const MetricId& id) {
     return found == std::end(kKinds) ? nullptr : found;
 }
 
-// What stands in the place of the pattern's '*', empty where it has none. Nothing where the name is
-// another one.
+// Returns the text in the place of the pattern's '*', empty for a pattern without one. Returns
+// nothing if the name does not match.
 std::optional<std::string> partOf(std::string_view name, std::string_view pattern) {
     const std::size_t place = pattern.find(kPart);
     if (place == pattern.npos) return name == pattern ? std::optional(std::string()) : std::nullopt;

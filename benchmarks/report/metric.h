@@ -9,24 +9,23 @@
 
 #include "benchmarks/scene/json.h"
 
-// What is measured of a case. A metric's name is made from what it is, and looked up in one place
-// where a report is read: nothing else takes a name to pieces.
+// Metrics of a case. This is the only place that builds a metric's name and takes it apart.
 namespace benchmarks::report {
 
-// What a metric is of.
+// The subject of a metric.
 enum class MetricOf {
     frame,
     cpu,  // the host's work on overlapped frames
-    gpu,  // its work on overlapped frames
-    pass,  // one pass, by its name
+    gpu,  // the GPU's work on overlapped frames
+    pass,  // one pass, by name
     image,  // the picture, against a reference
-    memory,  // of the device
+    memory,  // the device's memory
     strands,  // the passes points and strands together
-    device,  // what it can do, by a measurement of its own
-    other,  // not known here: some other program's report has it
+    device,  // the device's speed, from a separate measurement
+    other,  // unknown here: from another program's report
 };
 
-// Which quantity is measured. results/README.md says what each is.
+// The measured quantity. results/README.md defines each.
 enum class Measured {
     rate,
     low_1_percentile,
@@ -52,15 +51,15 @@ enum class Measured {
     psnr,
     ssim,
     flip,
-    flip_tessellation,  // against the picture by that back end
-    flip_many_samples,  // against 64 samples a pixel
+    flip_tessellation,  // against the picture by tessellation
+    flip_many_samples,  // against 64 samples per pixel
     allocated,  // all memory
     heap,
     purpose,
     transparency,
-    bytes,  // that must be moved
-    operations,  // that must be done
-    limit,  // the least time for both
+    bytes,  // that must be moved, by a model
+    operations,  // that must be done, by a model
+    limit,  // least time for both
     limit_share,
     time_per_point,
     time_per_sample,
@@ -71,16 +70,16 @@ enum class Measured {
 
 enum class Better { neither, lower, higher };
 
-// How it was timed, never compared across modes.
+// The mode in which a metric was timed. Metrics are never compared across modes.
 enum class Mode {
-    none,  // in no mode
+    none,  // not timed in a mode
     overlapped,
     isolated,
     wall_clock,
-    other,  // one that is not known here
+    other,  // unknown here
 };
 
-// Metrics of one kind differ in their part alone.
+// A kind of metric. Metrics of one kind differ only in their part.
 struct MetricKind {
     MetricOf of;
     Measured what;
@@ -89,21 +88,21 @@ struct MetricKind {
     Better better;
 };
 
-// All kinds that there are, but for MetricOf::other.
+// Returns all kinds except MetricOf::other.
 std::span<const MetricKind> metricKinds();
 
-// Which metric it is. Two that are equal have the same name, and the other way round.
+// Identifies a metric. Two ids are equal exactly if their names are.
 struct MetricId {
     MetricOf of = MetricOf::other;
     Measured what = Measured::other;
-    // The pass, the index of the heap, the purpose of memory or the kind of stage, without dots;
-    // the whole name of MetricOf::other; otherwise empty.
+    // The pass, heap index, purpose of memory or kind of stage, without dots. For MetricOf::other,
+    // the whole name. Otherwise empty.
     std::string part{};
 
-    // "pass.strands.time". A pair of `of` and `what` that metricKinds() lacks is our own bug.
+    // "pass.strands.time". Asserts that metricKinds() has the pair of `of` and `what`.
     std::string name() const;
 
-    // Empty where it is of no pass.
+    // Returns the pass's name, empty for a metric of something else.
     std::string pass() const { return of == MetricOf::pass ? part : std::string(); }
 
     bool operator==(const MetricId&) const = default;
@@ -126,63 +125,63 @@ inline MetricId ofMemory(Measured what, std::string part = {}) {
     return {MetricOf::memory, what, std::move(part)};
 }
 
-// The metric of that name in a report; MetricOf::other where no kind has such a name.
+// Returns the metric of that name in a report; MetricOf::other for an unknown name.
 MetricId metricNamed(std::string_view name);
 
-// Whether it is the time of a pass by the wall clock or by timestamps.
+// Whether it is the time of a pass, by the wall clock or by timestamps.
 bool isPassTime(const MetricId& id);
 
 // Whether it is the time of a whole frame or of a pass, by the wall clock or by timestamps.
 bool isFrameOrPassTime(const MetricId& id);
 
-// Whether it is what a frame or a pass used of the processor: its CPU time or instructions.
+// Whether it is the CPU time or the instructions of a frame or a pass.
 bool isOfProcessor(const MetricId& id);
 
-// Whether it is what a frame or a pass costs by any measure: time, CPU time or instructions.
+// Whether it is a cost of a frame or a pass: time, CPU time or instructions.
 bool isFrameOrPassCost(const MetricId& id);
 
-// Whether it is of a frame or of a pass, and the same quantity of it as the other one is.
+// Whether `id` is a metric of a frame or a pass and measures the same quantity as `other`.
 bool isSameOfFrameOrPass(const MetricId& id, const MetricId& other);
 
-// Samples of one quantity. Unit and better direction follow from what it is; where it was read from
-// a report they are as the report says.
+// Samples of one quantity. Its unit and better direction follow from its id, or come from the
+// report that it was read from.
 struct Metric {
     MetricId id;
     std::string unit;  // "ms", "1/s", "B"
     Better better = Better::neither;
     Mode mode = Mode::none;
-    std::vector<double> samples;  // those that are not finite are missing
+    std::vector<double> samples;  // values that are not finite count as missing
 
     Metric() = default;
     Metric(MetricId id, std::vector<double> samples, Mode mode = Mode::none);
 
     std::string name() const { return id.name(); }
 
-    // Whether it is a duration of which less is better: no difference of two, which may be
-    // negative, nor a wait, which grows when others get faster.
+    // Whether it is a duration of which less is better. Excludes differences, which may be
+    // negative, and waits, which grow when other work gets faster.
     bool isTime() const { return unit == "ms" && better == Better::lower; }
 
-    // Whether both were timed in the same mode; false where a mode is not known here.
+    // Whether both were timed in the same mode; false for unknown modes.
     bool isTimedAs(const Metric& metric) const {
         return mode == metric.mode && mode != Mode::other;
     }
 };
 
-// A metric of a case as a report has it, with all of its samples that the report has.
+// A metric of a case with all samples in the report.
 struct MetricReading : Metric {
     double median = 0.0;
 
-    // The entry of that name in a case's metrics. Reports of 1.0 say no direction: it then follows
-    // from what the metric is, and is not known of MetricOf::other. A member that an entry must
-    // have and has not is thrown by nlohmann.
+    // Reads the entry of that name in a case's metrics. Reports of 1.0 have no direction: it then
+    // follows from the id, and is unknown for MetricOf::other. nlohmann throws if a required member
+    // is missing.
     static MetricReading fromReport(std::string_view name, const scene::Json& entry);
 };
 
-// All metrics of a case in a report, in its order. Thrown as by MetricReading::fromReport(), also
-// where the case has no metrics at all.
+// Returns all metrics of a case in the report's order. Throws like MetricReading::fromReport(), and
+// also for a case without metrics.
 std::vector<MetricReading> readMetrics(const scene::Json& result);
 
-// The metric with that id; null where there is none.
+// Returns the metric with that id, or null.
 template <class Found>
 const Found* findMetric(const std::vector<Found>& metrics, const MetricId& id) {
     const auto found = std::ranges::find(metrics, id, &Found::id);

@@ -25,7 +25,8 @@
 namespace benchmarks::report {
 namespace {
 
-// In the order in which the page has them: what a script uses while it is read stands before it.
+// In the order in which the page includes them. Code that a script runs on loading may only use
+// earlier scripts.
 constexpr const char* kScripts[] = {
     "page.js", "figures.js", "backends.js", "devices.js", "details.js"};
 
@@ -43,7 +44,7 @@ std::string replaced(std::string_view text, char what, std::string_view with) {
     return result;
 }
 
-// Text as HTML shows it, in an element or a quoted attribute.
+// Escapes text for HTML, in an element or a quoted attribute.
 std::string escapedHtml(std::string_view text) {
     std::string result = replaced(text, '&', "&amp;");
     result = replaced(result, '<', "&lt;");
@@ -56,7 +57,7 @@ std::string labelOf(std::size_t index) {
     return index < 26 ? std::string(1, static_cast<char>('A' + index)) : std::to_string(index + 1);
 }
 
-// The pictures are beside the report.
+// Adds the report's pictures, whose paths are relative to the report.
 void addPictures(scene::Json& report, const std::filesystem::path& file, scene::Json& pictures) {
     for (scene::Json& each : report.at("cases")) {
         const auto picture = each.find("picture");
@@ -72,7 +73,7 @@ void addPictures(scene::Json& report, const std::filesystem::path& file, scene::
     }
 }
 
-// Which metrics are of passes and of pictures.
+// Collects the metrics of pass times and of pictures.
 void addMetrics(const scene::Json& report, scene::Json& pass_times, scene::Json& image_metrics) {
     for (const scene::Json& each : report.at("cases")) {
         const auto metrics = each.find("metrics");
@@ -85,7 +86,7 @@ void addMetrics(const scene::Json& report, scene::Json& pass_times, scene::Json&
     }
 }
 
-// The scene's name, or the scenes' if there are several.
+// Returns the names of the scenes, without duplicates.
 std::string titleOf(const scene::Json& reports) {
     std::vector<std::string> names;
     for (const scene::Json& report : reports) {
@@ -97,7 +98,7 @@ std::string titleOf(const scene::Json& reports) {
     return title;
 }
 
-// Each report with the first of its scene, where they have cases in common.
+// Compares each report with the first report of its scene if they have cases in common.
 scene::Json comparisonsOf(const scene::Json& reports, const std::vector<OnDevice>& devices) {
     scene::Json comparisons = scene::Json::array();
     for (const OnDevice& each : devices) {
@@ -113,8 +114,8 @@ scene::Json comparisonsOf(const scene::Json& reports, const std::vector<OnDevice
     return comparisons;
 }
 
-// Why a file that is none of our reports is left out: "hairbench-physics/1.0.0". Nothing where it
-// is not known what it is.
+// Returns the kind of a file that is not a run's report, such as "hairbench-physics/1.0.0". Returns
+// nothing if the kind is unknown.
 std::optional<std::string> otherKind(const std::filesystem::path& file) {
     const scene::Json found = scene::parseJson(engine::readFile(file), file.string());
     if (!found.is_object()) return std::nullopt;
@@ -125,7 +126,7 @@ std::optional<std::string> otherKind(const std::filesystem::path& file) {
     return std::nullopt;
 }
 
-// The reports of runs among the files, and which are left out.
+// Reads the reports of runs among the files, and lists the other files.
 void readReports(
     std::span<const std::filesystem::path> files, std::vector<std::filesystem::path>& of_runs,
     scene::Json& reports, scene::Json& left_out) {
@@ -256,7 +257,7 @@ std::string assemblePage(const PageParts& parts, const scene::Json& data) {
     const std::string title =
         escapedHtml(data.at("title").get_ref<const std::string&>()) + " - hairbench";
     const std::string json = scriptJson(data);
-    // In the order of the page, so that what is put in is never searched.
+    // In the order of the page, so that inserted text is never searched.
     const std::pair<std::string_view, std::string_view> places[] = {
         {"@title@", title},
         {"@style@", parts.style},

@@ -8,13 +8,13 @@
 
 #include "benchmarks/scene/json.h"
 
-// The page of `hairbench report`: one HTML file with its reports and what draws them. What it is
-// made of lies in page/, and docs/report_page.md says how.
+// Builds the page of `hairbench report`: one HTML file with the reports and the code that draws
+// them. Its parts lie in page/; docs/report_page.md describes them.
 namespace benchmarks::report {
 
 // ---- Parts --------------------------------------------------------------------------------------
 
-// What a page is made of, besides its data.
+// The parts of a page except its data.
 struct PageParts {
     std::string page;  // HTML with places: @title@, @style@, @data@, @plotly@, @script@
     std::string style;  // CSS
@@ -36,35 +36,35 @@ PageParts readPageParts(std::string_view plotly);
 
 // ---- Data ---------------------------------------------------------------------------------------
 
-// RFC 4648, section 4: with padding, no line breaks.
+// RFC 4648, section 4: with padding, without line breaks.
 std::string base64(std::string_view bytes);
 
-// A picture file as a URI that holds it: "data:image/png;base64,...". Nothing where there is no
-// such file, or what is there is neither PNG nor JPEG.
+// Returns a picture file as a data URI: "data:image/png;base64,...". Returns nothing if the file is
+// missing or is neither PNG nor JPEG.
 std::optional<std::string> pictureUri(const std::filesystem::path& file);
 
-// All that the page shows, as one object:
+// Returns all data of the page as one object:
 //   title
-//   reports[]      each as it was read, with `label` ("A", "B", ...) and `file`; a case with a
-//                  picture has `picture_id`, one whose picture is not there `picture_missing`
-//   pass_times     name of a pass's time -> the pass
-//   image_metrics  name of a picture's error -> true
+//   reports[]      each report as read, with `label` ("A", "B", ...) and `file`; a case with a
+//                  picture has `picture_id`, or `picture_missing` if the file is missing
+//   pass_times     metric name of a pass's time -> the pass
+//   image_metrics  metric name of a picture's error -> true
 //   pictures       `picture_id` -> data URI; equal files once
-//   comparisons[]  of each report with the first of its scene, as `hairbench compare --json` says,
-//                  and their places in reports[]: `with` the first and `report`
-//   devices[]      of each report, as devicesJson() says
-//   left_out[]     files that are of another kind: `file`, `reason`
-// Throws engine::Error for a report that cannot be read, and where all are left out.
+//   comparisons[]  each report with the first of its scene, like `hairbench compare --json`, and
+//                  their indices in reports[]: `with` for the first and `report`
+//   devices[]      one per report, from devicesJson()
+//   left_out[]     files of another kind: `file`, `reason`
+// Throws engine::Error if a report cannot be read or no file is a report.
 scene::Json pageData(std::span<const std::filesystem::path> reports);
 
 // ---- Page ---------------------------------------------------------------------------------------
 
-// JSON that ends no script element and begins no comment in one: "<" is written "\u003c", which is
-// the same to JSON. What is no UTF-8 is replaced.
+// Returns JSON that can stand in a script element: "<" is written "\u003c", which means the same in
+// JSON, so that it cannot end the element or begin a comment. Replaces bytes that are not UTF-8.
 std::string scriptJson(const scene::Json& data);
 
-// The whole page, with pageData() in its place. Throws engine::Error for a page without one of the
-// places.
+// Returns the whole page with the data from pageData(). Throws engine::Error if the HTML lacks one
+// of the places.
 std::string assemblePage(const PageParts& parts, const scene::Json& data);
 
 }  // namespace benchmarks::report

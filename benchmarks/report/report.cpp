@@ -85,7 +85,7 @@ scene::Json toJson(const SceneRecord& scene) {
     return {{"path", scene.path}, {"hash", scene.hash}, {"document", scene.document.json()}};
 }
 
-// Null if there is no finite sample.
+// Returns null if no sample is finite.
 scene::Json toJson(const Metric& metric) {
     std::vector<double> samples = metric.samples;
     const std::size_t missing =
@@ -234,7 +234,7 @@ scene::Json toJson(const CaseResult& result) {
             {"device", result.memory_need->device}, {"host", result.memory_need->host}};
     put(object, "backend", result.backend);
     put(object, "start", result.start);
-    // A case that was throttled throughout has failed, and what was measured says by how much.
+    // A case that was throttled throughout has failed, but its measurements show by how much.
     if (result.status == Status::ok || !result.metrics.empty()) putMeasured(object, result);
     return object;
 }
@@ -296,7 +296,7 @@ namespace {
 
 // ---- Samples beside a report --------------------------------------------------------------------
 
-// Beside what a link points to, as the report itself.
+// The folder of the report itself, if the path is a link.
 fs::path folderOf(const fs::path& report) { return fs::weakly_canonical(report).parent_path(); }
 
 fs::path samplesFile(const fs::path& report) {
@@ -305,7 +305,7 @@ fs::path samplesFile(const fs::path& report) {
 
 using Key = std::pair<std::string, std::string>;  // case, metric
 
-// Calls `visit` with the case's name, the metric's, and the metric, of each of a case's.
+// Calls `visit` with the case's name, the metric's name and the metric, for each metric of a case.
 template <class Visit>
 void forEachMetric(scene::Json& result, Visit visit) {
     const auto metrics = result.find("metrics");
@@ -314,7 +314,7 @@ void forEachMetric(scene::Json& result, Visit visit) {
         visit(result.at("name").template get<std::string>(), name, metric);
 }
 
-// Puts `value` under `key` in the place of `old_key`.
+// Replaces the member `old_key` by `value` under `key`, in the same place.
 void replaceMember(scene::Json& object, const char* old_key, const char* key, scene::Json value) {
     scene::Json replaced = scene::Json::object();
     for (auto& [name, member] : object.items()) {
@@ -336,20 +336,21 @@ std::map<Key, scene::Json> readSamples(const fs::path& path) {
     return samples;
 }
 
-// A report and samples of two runs can meet where one was killed between writing them.
+// A report and the samples of another run can lie together if a run was killed between writing
+// them.
 bool fits(const scene::Json& metric, const scene::Json& samples) {
     return samples.size() == metric.at("sample_count").get<std::size_t>() && !samples.empty() &&
            summarize(samples.get<std::vector<double>>()).median ==
                metric.at("median").get<double>();
 }
 
-// Whether a metric's samples are to lie beside the report.
+// Whether the metric's samples belong in a file beside the report.
 bool isLarge(const scene::Json& metric) {
     const auto samples = metric.find("samples");
     return samples != metric.end() && samples->size() > kMostSamplesInReport;
 }
 
-// Writes what is large of a case as lines of the samples file.
+// Writes the large samples of a case as lines of the samples file.
 void writeLargeSamples(std::ostream& file, scene::Json& result) {
     forEachMetric(
         result, [&](const std::string& name, const std::string& metric, scene::Json& value) {
@@ -360,7 +361,7 @@ void writeLargeSamples(std::ostream& file, scene::Json& result) {
         });
 }
 
-// Names the samples file in the place of what is large of a case.
+// Replaces the large samples of a case by the name of the samples file.
 void nameSamplesFile(scene::Json& result, const fs::path& file) {
     forEachMetric(result, [&](const std::string&, const std::string&, scene::Json& value) {
         if (!isLarge(value)) return;
@@ -381,14 +382,14 @@ bool hasLargeSamples(const EachCase& each_case) {
     return any;
 }
 
-// Removes the samples file of an older report at `path`.
+// Removes the samples file of an earlier report at `path`.
 void removeSamples(const fs::path& path) {
     std::error_code ignored;
     fs::remove(samplesFile(path), ignored);
 }
 
-// Undoes nameSamplesFile() for a report that was read from `path`. Throws engine::Error where the
-// file is missing, damaged or of another report.
+// Undoes nameSamplesFile() for a report that was read from `path`. Throws engine::Error if the
+// samples file is missing, damaged or of another report.
 void moveSamplesIn(scene::Json& report, const fs::path& path) {
     std::map<std::string, std::map<Key, scene::Json>> files;
     const auto move_in = [&](const std::string& name, const std::string& metric,
@@ -396,7 +397,7 @@ void moveSamplesIn(scene::Json& report, const fs::path& path) {
         const auto member = value.find("samples_file");
         if (member == value.end()) return;
         const auto file_name = member->get<std::string>();
-        const fs::path file = folderOf(path) / fs::path(file_name).filename();  // beside it
+        const fs::path file = folderOf(path) / fs::path(file_name).filename();  // beside the report
         if (!fs::is_regular_file(file))
             throw engine::Error(path.string(), "its samples are missing: " + file.string());
         if (!files.contains(file_name)) files[file_name] = readSamples(file);
@@ -423,7 +424,7 @@ bool isReadable(std::string_view schema) {
 
 namespace {
 
-// Absent where the member is; throws engine::Error for what is no number of things.
+// Returns nothing if the member is absent. Throws engine::Error if it is not an unsigned integer.
 std::optional<std::size_t> countAt(const scene::Json& object, const char* member) {
     const auto found = object.find(member);
     if (found == object.end()) return std::nullopt;
@@ -432,8 +433,8 @@ std::optional<std::size_t> countAt(const scene::Json& object, const char* member
     return found->get<std::size_t>();
 }
 
-// What a report counts is used as it stands by those who read it. Throws engine::Error for numbers
-// that no sweep has: a case's number that is not below their count, or another's.
+// Readers rely on a report's counts without a check. Throws engine::Error for impossible ones: a
+// case index that is not below the case count, or that occurs twice, or a shard outside its count.
 void checkCounts(const scene::Json& report) {
     const std::optional<std::size_t> count = countAt(report, "case_count");
     if (const auto shard = report.find("shard"); shard != report.end()) {
@@ -446,7 +447,7 @@ void checkCounts(const scene::Json& report) {
     std::set<std::size_t> seen;
     for (const scene::Json& each : *cases) {
         const std::optional<std::size_t> index = countAt(each, "index");
-        if (!index) continue;  // of an older report
+        if (!index) continue;  // from an older report
         if (count && *index >= *count)
             throw engine::Error(
                 "/cases", "one has the number " + std::to_string(*index) + ", counted from 0, of " +
@@ -475,7 +476,7 @@ scene::Json readReport(const std::filesystem::path& path) {
         throw damaged(error);
     }
     try {
-        moveSamplesIn(report, path);  // its errors name the file that is meant
+        moveSamplesIn(report, path);  // its errors name the file at fault
     } catch (const scene::Json::exception& error) {
         throw damaged(error);
     }
@@ -484,25 +485,25 @@ scene::Json readReport(const std::filesystem::path& path) {
 
 namespace {
 
-// The text of a value that is a member so many levels deep. What drivers and commands say need not
+// Returns the text of a value at that indentation level. Texts from drivers and commands need not
 // be UTF-8.
 std::string textOf(const scene::Json& value, int level) {
     const std::string text = value.dump(2, ' ', false, scene::Json::error_handler_t::replace);
     std::string indented;
     indented.reserve(text.size());
-    for (const char c : text) {  // within strings there are no line breaks
+    for (const char c : text) {  // strings contain no line breaks
         indented += c;
         if (c == '\n') indented.append(2 * static_cast<std::size_t>(level), ' ');
     }
     return indented;
 }
 
-// An object's text, member by member.
+// Writes an object's text, member by member.
 class ObjectText {
 public:
     explicit ObjectText(std::ostream& stream) : stream_(stream) {}
 
-    // What is written next is the member's value.
+    // Writes a member's name. The caller writes its value next.
     void key(const std::string& name) {
         stream_ << (is_empty_ ? "{\n  " : ",\n  ") << textOf(scene::Json(name), 1) << ": ";
         is_empty_ = false;
@@ -518,16 +519,16 @@ private:
     bool is_empty_ = true;
 };
 
-// Writes a report in which `behind`, called once the cases are written, says what follows them.
+// Writes a report. `behind` returns the members after the cases, once the cases are written.
 void writeReport(
     const scene::Json& before, const EachCase& each_case,
     const std::function<scene::Json()>& behind, const fs::path& path) {
-    // What is no file, /dev/stdout or a pipe, has no neighbours.
+    // No samples file lies beside something that is not a regular file, like /dev/stdout or a pipe.
     std::error_code ignored;
     const bool is_file = !fs::exists(path, ignored) || fs::is_regular_file(path, ignored);
     const bool moves_samples = is_file && hasLargeSamples(each_case);
     const fs::path samples = moves_samples ? samplesFile(path) : fs::path();
-    // Before the report, so that nobody sees it without them.
+    // Written before the report, so that nobody sees the report without its samples.
     if (moves_samples)
         engine::writeFileAtomically(samples, [&](std::ostream& file) {
             each_case([&](scene::Json result) { writeLargeSamples(file, result); });

@@ -12,7 +12,7 @@
 namespace benchmarks::report {
 namespace {
 
-// valijson's tokens are <root>, [name] and [number], names of some releases with quotes.
+// valijson's tokens are <root>, [name] and [number]. Some releases put names in quotes.
 std::string pointerOf(const std::vector<std::string>& context) {
     std::string pointer;
     for (std::string_view token : context) {

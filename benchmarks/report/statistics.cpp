@@ -66,7 +66,7 @@ Summary summarize(std::span<const double> samples) {
 
 double quantile(std::span<const double> samples, double p) {
     if (samples.empty()) throw engine::Error("statistics", "no samples");
-    // No more is put in order than is asked for: this is done to hundreds of thousands of frames.
+    // Sorts no more than needed, because there may be hundreds of thousands of frames.
     std::vector<double> values(samples.begin(), samples.end());
     const double position = static_cast<double>(values.size() - 1) * std::clamp(p, 0.0, 1.0);
     const auto below = static_cast<std::size_t>(position);
@@ -83,7 +83,7 @@ double framesPerSecond(std::span<const double> frame_ms) {
 
 LowRates lowRates(std::span<const double> frame_ms, double fraction) {
     const std::vector<double> longest = sorted(frame_ms, std::greater<>{});
-    // The tolerance keeps a product such as 0.01 * 300 = 3.0000000000000004 from counting a fourth
+    // The tolerance keeps rounding, as in 0.01 * 300 = 3.0000000000000004, from counting a fourth
     // frame.
     const double share = fraction * static_cast<double>(longest.size());
     const auto worst = std::clamp(
@@ -103,8 +103,8 @@ namespace {
 
 // ---- Signed-rank test ---------------------------------------------------------------------------
 
-// P(sum = s) of the ranks with a positive sign, each sign as likely as the other. Every step is a
-// mean of two earlier probabilities, so that nothing cancels.
+// Returns P(sum = s) of the ranks with a positive sign, if both signs are equally likely. Every
+// step is a mean of two earlier probabilities, so there is no cancellation.
 std::vector<double> sumProbabilities(std::span<const std::size_t> ranks) {
     const std::size_t most = std::accumulate(ranks.begin(), ranks.end(), std::size_t{0});
     std::vector<double> probabilities(most + 1, 0.0);
@@ -140,8 +140,8 @@ void requireDifferences(std::span<const double> differences) {
         throw engine::Error("signed rank", "a difference is not finite");
 }
 
-// Mean ranks of sorted magnitudes, as multiples of the largest number that makes them whole: 1
-// without ties, often 1/2 with them.
+// Returns the mean ranks of sorted magnitudes, divided by the largest unit that makes them all
+// integers: 1 without ties, often 1/2 with them.
 std::vector<std::size_t> meanRanks(std::span<const double> sorted) {
     std::vector<std::size_t> ranks(sorted.size());
     for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
@@ -168,7 +168,7 @@ MedianInterval signedRankInterval(std::span<const double> differences, double al
     requireDifferences(differences);
     const std::vector<double> averages = walshAverages(differences);
     const std::vector<double> distribution = signedRankDistribution(differences.size());
-    // So many Walsh averages may be cut off at either end.
+    // The number of Walsh averages to cut off at either end.
     std::size_t cut = 0;
     while (2 * cut + 2 < averages.size() && 2.0 * distribution[cut] <= alpha) ++cut;
     MedianInterval interval{
@@ -211,8 +211,8 @@ namespace {
 
 // ---- Confidence interval of a median ------------------------------------------------------------
 
-// Of n independent samples so many may be cut off at either end, and with what confidence the
-// median is then inside: 1 - 2 P(Binomial(n, 1/2) < cut).
+// The number of n independent samples that can be cut off at either end, and the confidence that
+// the median then lies inside: 1 - 2 P(Binomial(n, 1/2) < cut).
 struct Cut {
     std::size_t count = 0;
     double confidence = 1.0;
@@ -221,7 +221,8 @@ struct Cut {
 Cut largestCut(std::size_t n, double alpha) {
     const auto size = static_cast<double>(n);
     Cut cut;
-    double log_probability = -size * std::log(2.0);  // of exactly cut.count below the median
+    double log_probability = -size * std::log(2.0);  // of exactly cut.count samples below the
+                                                     // median
     double below = 0.0;
     while (2 * cut.count + 2 <= n) {
         below += std::exp(log_probability);
@@ -242,11 +243,12 @@ MedianInterval medianInterval(std::span<const double> samples, double alpha, dou
     const auto size = static_cast<double>(samples.size());
     effective = std::clamp(std::floor(effective), 1.0, size);
     const Cut cut = largestCut(static_cast<std::size_t>(effective), alpha);
-    // Ranks count from 1: cut.count is at this share of the way from the middle to the ends.
+    // Ranks count from 1. The rank cut.count lies at this share of the way from the middle to the
+    // ends.
     const double middle = 0.5 * (size + 1.0);
     const double share =
         (0.5 * (effective + 1.0) - static_cast<double>(cut.count)) / (0.5 * effective);
-    const double rank = std::floor(middle - share * 0.5 * size + 1e-9);  // whole but for rounding
+    const double rank = std::floor(middle - share * 0.5 * size + 1e-9);  // integer up to rounding
     if (cut.count == 0 || rank < 1.0) return interval;
     std::vector<double> sorted(samples.begin(), samples.end());
     std::ranges::sort(sorted);
@@ -264,20 +266,21 @@ MedianInterval medianInterval(std::span<const double> samples, double alpha) {
 double effectiveSamples(std::span<const double> samples) {
     const std::size_t n = samples.size();
     const double median = quantile(samples, 0.5);
-    std::vector<double> side;  // a median splits evenly: the mean of these is about 0
+    std::vector<double> side;  // a median splits evenly, so their mean is about 0
     double variance = 0.0;
     for (const double value : samples) {
         side.push_back(value > median ? 1.0 : value < median ? -1.0 : 0.0);
         variance += side.back() * side.back();
     }
     const auto size = static_cast<double>(n);
-    if (variance == 0.0) return size;  // all the same: nothing to be dependent
+    if (variance == 0.0) return size;  // all equal: no dependence
     const auto correlation = [&](std::size_t lag) {
         double sum = 0.0;
         for (std::size_t i = lag; i < n; ++i) sum += side[i] * side[i - lag];
         return sum / variance;
     };
-    // Sums of two neighbours are positive and fall for a reversible process; noise ends that.
+    // For a reversible process, sums of two neighbours are positive and decreasing. The sum stops
+    // where noise breaks that.
     double time = -1.0;
     double previous = std::numeric_limits<double>::infinity();
     for (std::size_t lag = 0; lag + 1 < n; lag += 2) {
@@ -317,8 +320,8 @@ namespace {
 
 // ---- Power laws ---------------------------------------------------------------------------------
 
-// P(|t| <= x) of Student's t: Abramowitz and Stegun 1964, 26.7.3 and 26.7.4, finite sums that are
-// exact for whole degrees of freedom.
+// P(|t| <= x) of Student's t, by Abramowitz and Stegun 1964, 26.7.3 and 26.7.4: finite sums that
+// are exact for integer degrees of freedom.
 double studentWithin(double x, std::size_t degrees) {
     const double n = static_cast<double>(degrees);
     const double angle = std::atan(x / std::sqrt(n));

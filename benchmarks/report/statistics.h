@@ -5,108 +5,110 @@
 #include <span>
 #include <vector>
 
-// Order statistics, confidence intervals of medians, signed-rank tests and their correction for
+// Order statistics, confidence intervals of medians, signed-rank tests, and their correction for
 // multiple testing.
 namespace benchmarks::report {
 
-// The signed-rank test: Wilcoxon 1945, Individual comparisons by ranking methods; exact throughout.
-// It takes differences to be independent and each distributed symmetrically about one median;
-// nothing about the shape.
+// The signed-rank test: Wilcoxon 1945, Individual comparisons by ranking methods. All results are
+// exact. It assumes that the differences are independent and symmetric about one median, and makes
+// no other assumption about their distributions.
 
-// More differences than this are an engine::Error: the distribution of the sum has n (n + 1) / 2
+// More differences than this throw engine::Error: the distribution of the sum has n (n + 1) / 2
 // steps.
 inline constexpr std::size_t kMostDifferences = 256;
 
-// P(T+ <= t) for t = 0 ... n (n + 1) / 2: T+ is the sum of the ranks of the positive differences,
-// of n without ties or zeros, when either sign is equally likely.
+// Returns P(T+ <= t) for t = 0 ... n (n + 1) / 2. T+ is the sum of the ranks of the positive ones
+// among n differences without ties or zeros, if either sign is equally likely.
 std::vector<double> signedRankDistribution(std::size_t n);
 
 struct MedianInterval {
     double estimate;
     double lower;
     double upper;
-    double confidence;  // achieved: at least what was asked for
+    double confidence;  // achieved: at least the requested confidence
 };
 
-// The Hodges-Lehmann estimate of the differences' median, which is the median of all Walsh averages
-// (x[i] + x[j]) / 2, i <= j, with the interval of those medians that a two-sided signed-rank test
-// at level `alpha` does not reject; Hollander and Wolfe 1999, Nonparametric Statistical Methods,
-// 3.3. Where so few differences can reject nothing (2^(1 - n) > alpha) it is infinite, with
-// confidence 1. Ties and zeros only make it wider than it has to be. At least one difference,
-// all finite, or engine::Error.
+// Returns the Hodges-Lehmann estimate of the differences' median: the median of all Walsh averages
+// (x[i] + x[j]) / 2, i <= j. The interval contains the medians that a two-sided signed-rank test at
+// level `alpha` does not reject; Hollander and Wolfe 1999, Nonparametric Statistical Methods, 3.3.
+// With too few differences to reject anything (2^(1 - n) > alpha), it is infinite with confidence
+// 1. Ties and zeros only make it wider than necessary. Throws engine::Error without a difference,
+// or if one is not finite.
 MedianInterval signedRankInterval(std::span<const double> differences, double alpha);
 
-// How likely signed ranks at least this extreme are if the median is `median`.
+// Probabilities of signed ranks at least this extreme if the median is `median`.
 struct SignedRankP {
     double greater;  // alternative: the median is greater
-    double less;  // alternative: it is less
-    double two_sided;  // twice the smaller one, at most 1
+    double less;  // alternative: the median is less
+    double two_sided;  // twice the smaller of both, at most 1
 };
 
-// Differences equal to the median are left out, as scipy.stats.wilcoxon does by default; if none is
-// left, all three are 1. Ties share their mean rank, and the distribution is that of the ranks at
-// hand: scipy's `exact` without ties, its exhaustive PermutationMethod with them, but up to
-// kMostDifferences.
+// Leaves out differences equal to the median, like scipy.stats.wilcoxon by default; if none is
+// left, all three are 1. Ties share their mean rank, and the distribution is that of the actual
+// ranks. This equals scipy's `exact` without ties, and its exhaustive PermutationMethod with ties,
+// up to kMostDifferences.
 SignedRankP signedRankP(std::span<const double> differences, double median = 0.0);
 
-// How well a median is known, without assuming a distribution.
+// Confidence intervals of medians, without an assumption about the distribution.
 
-// The sample's median and two of its order statistics between which the distribution's median lies,
-// for independent samples: David and Nagaraja 2003, Order Statistics, 7.1. `samples` may count as
-// `effective` independent ones, fewer than they are: the ranks then lie further apart, in the same
-// proportion to what is between the ends. An infinite interval with confidence 1 where so few can
-// give none (2^(1 - n) > alpha). No sample is an engine::Error.
+// Returns the sample's median and two order statistics that enclose the distribution's median, for
+// independent samples: David and Nagaraja 2003, Order Statistics, 7.1. `effective`, at most the
+// number of samples, is the number of independent samples that they count as: the ranks then lie
+// further apart, in the same proportion to the whole range. With too few samples for an interval
+// (2^(1 - n) > alpha), it is infinite with confidence 1. Throws engine::Error without samples.
 MedianInterval medianInterval(std::span<const double> samples, double alpha, double effective);
 MedianInterval medianInterval(std::span<const double> samples, double alpha);
 
-// How many independent samples tell as much of the median as these, in the order in which they were
-// taken; between 1 and their number. What counts for a median is how being above it is correlated
-// from sample to sample (Heidelberger and Lewis 1984, Quantile estimation in dependent sequences,
-// Operations Research 32); these correlations are added up as Geyer's initial monotone sequence
-// does (1992, Practical Markov chain Monte Carlo, Statistical Science 7).
+// Returns how many independent samples tell as much about the median as these, in the order in
+// which they were taken; between 1 and their number. It uses the autocorrelation of the indicator
+// of being above the median (Heidelberger and Lewis 1984, Quantile estimation in dependent
+// sequences, Operations Research 32), summed by Geyer's initial monotone sequence (1992, Practical
+// Markov chain Monte Carlo, Statistical Science 7).
 double effectiveSamples(std::span<const double> samples);
 
-// Half the interval over the median's magnitude; infinite for a median of 0 or no interval.
+// Returns half the interval over the median's magnitude; infinite for a median of 0 or an infinite
+// interval.
 double relativeHalfWidth(const MedianInterval& interval);
 
-// Each p-value as Benjamini and Hochberg adjust it (1995, Controlling the false discovery rate, J.
-// R. Statist. Soc. B 57): the smallest rate of false discoveries at which its test is among the
-// rejected, in the order given; scipy.stats.false_discovery_control. The rate holds for tests that
-// are independent or positively dependent (Benjamini and Yekutieli 2001), as passes are that slow
-// down together. Values outside [0, 1] are an engine::Error.
+// Returns the p-values as adjusted by Benjamini and Hochberg (1995, Controlling the false discovery
+// rate, J. R. Statist. Soc. B 57), in the given order: the smallest false discovery rate at which
+// each test is rejected; equals scipy.stats.false_discovery_control. The rate holds for tests that
+// are independent or positively dependent (Benjamini and Yekutieli 2001), like passes that slow
+// down together. Throws engine::Error for values outside [0, 1].
 std::vector<double> falseDiscoveryAdjusted(std::span<const double> p_values);
 
-// A decision may be tried after 12 pairs, after 24 and after 48. Each try has a third of the whole
-// level (Bonferroni): whatever makes one go on, the chance of any false decision, and the rate of
-// false discoveries at whichever try it ends, is at most the sum. Spending functions that leave
-// more for the last try (O'Brien and Fleming 1979) would have little left for the first, at which
-// most gates should end.
+// A decision may be tried after 12, 24 and 48 pairs. Each try has a third of the total level
+// (Bonferroni). Whatever the reason to continue, the chance of a false decision and the false
+// discovery rate at the last try are then at most the sum. Spending functions that leave more for
+// the last try (O'Brien and Fleming 1979) would leave little for the first, where most gates should
+// end.
 inline constexpr std::size_t kStages[] = {12, 24, 48};
 
 inline constexpr double stageLevel(double whole_level) {
     return whole_level / static_cast<double>(std::size(kStages));
 }
 
-// How a cost grows: y = factor * x^exponent, by least squares of log y over log x.
+// Growth of a cost: y = factor * x^exponent, by least squares of log y over log x.
 struct PowerLaw {
     double exponent;
     double factor;
-    // Between which the exponent lies with the confidence that was asked for, if the logarithms'
-    // residuals are independent and normal: Student's t with two fewer degrees of freedom than
-    // points. Infinite of two points.
+    // Bounds of the exponent's confidence interval, if the residuals of the logarithms are
+    // independent and normal: Student's t, with two degrees of freedom fewer than points. Infinite
+    // for two points.
     double lower;
     double upper;
 };
 
-// `x` and `y` are as many, at least two, all greater than 0, and not all of x are equal, or
-// engine::Error. Two-sided at level `alpha`.
+// Throws engine::Error unless `x` and `y` have the same size of at least two, all are greater than
+// 0, and not all of x are equal. The interval is two-sided at level `alpha`.
 PowerLaw fitPowerLaw(std::span<const double> x, std::span<const double> y, double alpha);
 
-// The quantile of Student's t distribution, `p` in (0, 1), or engine::Error.
+// Returns the quantile of Student's t distribution. Throws engine::Error unless `p` is in (0, 1)
+// and there is at least one degree of freedom.
 double studentQuantile(double p, std::size_t degrees_of_freedom);
 
-// Order statistics of a sample. Everything here wants at least one value, all finite: none at all
-// is an engine::Error. Results are in the samples' unit unless said otherwise.
+// Order statistics of a sample. The functions below need finite values and throw engine::Error
+// without any. Results are in the samples' unit unless stated otherwise.
 struct Summary {
     std::size_t count;
     double minimum;
@@ -115,29 +117,30 @@ struct Summary {
     double third_quartile;
     double maximum;
     double mean;
-    // Median absolute deviation from the median, raw: multiply by 1.4826 for a normal sample's
+    // Median absolute deviation from the median, unscaled: 1.4826 times it is a normal sample's
     // sigma.
     double mad;
-    // Sample standard deviation (n - 1) / |mean|, a ratio; 0 for a single value, infinite for a
-    // mean of 0 with any spread.
+    // Sample standard deviation (n - 1) / |mean|, a ratio. 0 for a single value; infinite for a
+    // mean of 0 unless all values are equal.
     double relative_deviation;
 };
 
 Summary summarize(std::span<const double> samples);
 
-// Quantile by linear interpolation, type 7 of Hyndman and Fan 1996, Sample quantiles in statistical
-// packages: at position (n - 1) p of the sorted values, counted from 0. `p` is in [0, 1].
+// Returns the quantile by linear interpolation, type 7 of Hyndman and Fan 1996, Sample quantiles in
+// statistical packages: at position (n - 1) p of the sorted values, counted from 0. `p` is in [0,
+// 1].
 double quantile(std::span<const double> samples, double p);
 
-// Frames per second: frames / total time, which is not the mean of the frames' rates.
+// Returns frames / total time, which is not the mean of the frames' rates.
 double framesPerSecond(std::span<const double> frame_ms);
 
-// The three things that are called "the 1 % low" (fraction 0.01), as rates in frames per second.
+// The three definitions of "the 1 % low" (fraction 0.01), as rates in frames per second.
 struct LowRates {
     double percentile;  // of the frame time at quantile 1 - fraction (MangoHud, CapFrameX)
     double mean;  // of the mean of the longest ceil(fraction n) frames (CapFrameX's average)
-    double integral;  // of the frame at which the longest frames, summed, reach the fraction of all
-                      // the time
+    double integral;  // of the frame at which the sum of the longest frames reaches that fraction
+                      // of the total time
 };
 
 LowRates lowRates(std::span<const double> frame_ms, double fraction);

@@ -73,14 +73,14 @@ constexpr std::size_t kLongestReason = 45;
 
 // ---- Cells of a case ----------------------------------------------------------------------------
 
-// The member's value; null where it is absent.
+// Returns the member's value, or null if it is absent.
 const scene::Json& member(const scene::Json& object, const std::string& name) {
     static const scene::Json absent;
     const auto found = object.find(name);
     return found == object.end() ? absent : *found;
 }
 
-// Empty where it is absent.
+// Returns the member's text, empty if it is absent.
 std::string text(const scene::Json& object, const std::string& name) {
     const scene::Json& value = member(object, name);
     return value.is_string() ? value.get<std::string>() : std::string();
@@ -96,7 +96,7 @@ std::string countCell(const scene::Json& result, const std::string& name) {
     return count.is_number() ? count.dump() : "-";
 }
 
-// The first line, cut at a word.
+// Returns the first line, shortened at a word.
 std::string shortened(const std::string& reason) {
     const std::string first = reason.substr(0, reason.find('\n'));
     if (first.size() <= kLongestReason) return first;
@@ -115,13 +115,13 @@ std::string statusCell(const scene::Json& result) {
 
 // ---- Columns of a report ------------------------------------------------------------------------
 
-// Whether what drew the strands is not to be seen from the axes.
+// Whether the axes do not show which back end drew the strands.
 bool drawnByAnother(const scene::Json& result) {
     const std::string name = text(member(result, "backend"), "name");
     return !name.empty() && text(member(result, "axes"), kBackendAxis) != name;
 }
 
-// What decides which columns there are.
+// Collects the facts that decide the table's columns.
 class CasesSeen {
 public:
     void add(const scene::Json& result) {
@@ -138,7 +138,7 @@ public:
         drawn_by_another_ = drawn_by_another_ || drawnByAnother(result);
     }
 
-    // Pointers of the axes that have more than one value in the report, in the sweep's order.
+    // Returns the pointers of axes with more than one value in the report, in the sweep's order.
     std::vector<std::string> varyingAxes() const {
         std::vector<std::string> pointers = pointers_;
         std::erase_if(
@@ -157,7 +157,7 @@ private:
     bool drawn_by_another_ = false;
 };
 
-// The table's columns with all their cells.
+// Returns the table's columns with all their cells.
 std::vector<Column> columns(const scene::Json& header, const EachCase& each_case) {
     CasesSeen seen;
     each_case([&](const scene::Json& result) { seen.add(result); });
@@ -169,7 +169,7 @@ std::vector<Column> columns(const scene::Json& header, const EachCase& each_case
         cells.emplace_back(std::forward<decltype(cell)>(cell));
     };
     std::vector<std::string> pointers;
-    // A suite's scenes vary different things: only names tell their cases apart.
+    // The scenes of a suite vary different things, so only names tell their cases apart.
     if (member(member(member(header, "scene"), "document"), "suite").is_null())
         pointers = seen.varyingAxes();
     const std::vector<std::string> labels = scene::axisLabels(pointers);

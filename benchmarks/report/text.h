@@ -19,14 +19,14 @@ struct Column {
     std::vector<std::string> cells{};
 };
 
-// One line of the table, wide enough for the widest cell of each column: row 0 the titles, then the
-// cells.
+// Returns one line of the table: row 0 has the titles, the next rows the cells. Each column is as
+// wide as its widest cell.
 std::string columnsLine(const std::vector<Column>& columns, std::size_t row);
 
-// All lines of the table, each as columnsLine() has it.
+// Returns all lines of the table, as from columnsLine().
 std::string columnsText(const std::vector<Column>& columns);
 
-// Quantities for people.
+// Quantities in readable form.
 
 // "1,600,000".
 std::string countText(std::uint64_t count);
@@ -37,7 +37,7 @@ std::string countText(std::uint64_t count, std::string_view what);
 // Six significant digits without zeros at the end: "0.01", "16", "1e-07".
 std::string plainNumber(double number);
 
-// A unit of length in which numbers of a certain size are easy to read: nm, µm, mm, m, km.
+// A unit of length that makes numbers of a certain size easy to read: nm, µm, mm, m, km.
 struct LengthUnit {
     std::string_view symbol;
     double metres;
@@ -50,12 +50,12 @@ std::string lengthText(double metres);
 // "1.2 MB", in powers of 1000.
 std::string sizeText(std::uint64_t bytes);
 
-// A report (reportJson) for a terminal: a line on the device and the scene, then a row per case:
-// the axes that vary, FPS, the median of the frame and of every pass, strands, and how it went.
-// What is not known is "-".
+// Returns a table of a report (reportJson): a line on the device and the scene, then a row per case
+// with the axes that vary, FPS, the median times of the frame and of every pass, strands, and
+// status. Unknown values are "-".
 std::string table(const scene::Json& report);
 
-// The same of a report's header (headerJson) and its cases, which are looked at one by one.
+// Returns the same table from a report's header (headerJson) and cases that are visited one by one.
 std::string table(const scene::Json& header, const EachCase& each_case);
 
 // About three significant digits without an exponent: "1234", "123", "12.3", "1.23", "0.0123".

@@ -1,11 +1,11 @@
-// Strand back ends against each other, where a report has several: how their cost grows with the
-// strands, how it compares with that of tessellation, and how far their pictures are from others.
-// Slopes, ratios and their intervals are C++'s: nothing is worked out here.
+// Compares strand back ends where a report has several: how their cost grows with the strands, how
+// it compares with tessellation, and how far their pictures differ. C++ computes the slopes, ratios
+// and intervals; this only draws them.
 
 const kBackendAxis = "/strands/backend";
 const backends = {xType: "log", yType: "log"};
 
-// The lines of all reports whose every case the filter leaves, or the part of them that it does.
+// Returns the lines of all reports, each with the points that the filter shows.
 function backendLines() {
     const shown = new Map(filteredOk().map((row) => [row.id, row]));
     return page.reports.flatMap((report, reportIndex) => (report.backends?.lines ?? []).map(
@@ -15,7 +15,7 @@ function backendLines() {
         .filter((line) => line.points.length);
 }
 
-// "msaa 4"; the report too, where there are several.
+// "msaa 4". With several reports, the report's label too.
 function heldText(line) {
     return [...Object.entries(line.held).filter(([pointer]) => axisOf.has(pointer)).map(
         ([pointer, value]) => `${axisOf.get(pointer).label} ${valueText(value)}`),
@@ -70,7 +70,7 @@ function backendTraces(line, dashes) {
         hoverinfo: "skip", line: style, x: ends,
         y: ends.map((strands) => line.law.factor * strands ** line.law.exponent),
     };
-    // In the legend only: points and the law in one.
+    // An empty trace for the legend only, with the marker and the line in one entry.
     return [measured, law, {...law, mode: "lines+markers", showlegend: true, x: [null], y: [null],
         marker: {color: hue, size: 8, symbol: seriesSymbol(index)}}];
 }

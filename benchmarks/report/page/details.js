@@ -1,7 +1,7 @@
-// Comparison, Pictures, Cases and Environment, and the page that is built of all sections.
+// Sections Comparison, Pictures, Cases and Environment, and the start of the page.
 
 // ---- Comparison ---------------------------------------------------------------------------------
-// The verdicts are those of hairbench compare: nothing is decided here.
+// The verdicts come from hairbench compare; this decides nothing.
 
 const kVerdicts = {
     regressed: "\u25b2", improved: "\u25bc", same: "=", inconclusive: "?", mismatch: "\u2260",
@@ -24,13 +24,13 @@ function rangeText(change) {
         ? "too few samples" : `${bound(change.lower)} to ${bound(change.upper)}`;
 }
 
-// In two lines where there is little room.
+// Returns the label in two lines on a narrow page.
 function changeLabel(metric, name, narrow) {
     return narrow ? `${plain(shortened(metric, 24))}<br>${plain(shortened(name, 24))}`
         : plain(shortened(`${name}  ${metric}`, 70));
 }
 
-// The largest changes with their intervals, worst first.
+// Draws the largest changes with their intervals, worst first.
 function drawChanges() {
     const kMost = 40;
     const all = shownChanges().filter((each) => Number.isFinite(each.change))
@@ -166,7 +166,7 @@ function buildComparison() {
     onThemeChange(drawChanges);
 }
 
-// ---- Pictures: one a case -----------------------------------------------------------------------
+// ---- Pictures: one per case ---------------------------------------------------------------------
 
 const kMostCards = 60;
 const pictures = {mode: "slider", gain: "1"};
@@ -238,7 +238,7 @@ function fillThumbnails() {
             : ""].filter(Boolean).join(" ");
 }
 
-// The same case of the first two reports, or two cases of the only one.
+// Returns the same case of two reports, or two cases of a single report.
 function firstPair(found) {
     const [left] = found;
     const right = found.find((row) => row.name === left.name && row !== left) ?? found[1] ?? left;
@@ -268,7 +268,7 @@ function buildPictures() {
     onFilterChange(fillThumbnails);
 }
 
-// The left one lies on the right one, cut off at the slider.
+// Lays the left picture over the right one and clips it at the slider.
 function sliderView(left, right) {
     const view = element("div", {class: "wipe"}, pictureElement(right),
         pictureElement(left, {class: "over"}),
@@ -303,7 +303,7 @@ function sameImageText(left, right) {
 
 // ---- Cases --------------------------------------------------------------------------------------
 
-// Half the median's interval over the median: how well it is known.
+// Half the median's interval over the median.
 function precision(row) {
     const {interval, median: middle} = row.metrics["frame.time"] ?? {};
     return interval && middle ? (interval.upper - interval.lower) / 2 / middle : undefined;
@@ -370,13 +370,13 @@ function buildCases() {
 }
 
 // ---- Environment --------------------------------------------------------------------------------
-// Where and how it was measured.
+// The machines, and how the measurements were made.
 
 function factText(key, value) {
     return key === "memory_bytes" ? `${number(value / 2 ** 30)} GiB` : valueText(value);
 }
 
-// "device.limits.x" -> text, of everything below an object.
+// Returns the entries of nested objects as ["device.limits.x", text].
 function flattened(object, prefix = "") {
     return Object.entries(object ?? {}).flatMap(([key, value]) => {
         const name = prefix ? `${prefix}.${key}` : key;
@@ -392,7 +392,7 @@ function rangeOf(numbers, text) {
     return least === most ? text(least) : `${text(least)} to ${text(most)}`;
 }
 
-// Over all cases: what the conditions were and how samples came about.
+// Returns the conditions and the sampling over all cases.
 function measuredConditions(report) {
     const of = (key) => report.cases.map((each) => each.conditions?.[key])
         .filter((value) => value !== undefined);

@@ -1,8 +1,8 @@
-// Reports of several devices, scenes or builds beside each other.
+// Compares reports of several devices, scenes or builds.
 
 // ---- Devices ------------------------------------------------------------------------------------
 
-// What page.devices says of a report: its times over those of the first report of its scene.
+// Returns the entry of a report in page.devices: its times over those of its scene's first report.
 function onDevice(report) { return page.devices[page.reports.indexOf(report)]; }
 
 function isFirst(report) { return page.reports[onDevice(report).first] === report; }
@@ -21,7 +21,7 @@ function deviceNote(report) {
     ].filter(Boolean).join("; ");
 }
 
-// The reports that have a case which the filter shows.
+// Returns the reports with a case that the filter shows.
 function filteredReports() {
     const shown = new Set(filteredRows().map((row) => row.report));
     return page.reports.filter((report) => shown.has(report));

@@ -2,13 +2,13 @@
 
 // ---- Scaling: a metric over an axis -------------------------------------------------------------
 
-const scaling = {held: new Map()};  // pointer -> text of the value it is held at; absent: all
+const scaling = {held: new Map()};  // pointer -> text of its fixed value; absent: all values
 
-// An axis whose value follows from x's is no other axis: tied axes move together.
+// Whether the axis's value follows from x's value. Tied axes change together, so they are not free.
 function followsFrom(axis, x) {
     const seen = new Map();
     return rows.every((row) => {
-        if (row.values[x.pointer] === undefined) return true;  // of another scene
+        if (row.values[x.pointer] === undefined) return true;  // a case of another scene
         const at = valueText(row.values[x.pointer]), value = valueText(row.values[axis.pointer]);
         if (!seen.has(at)) seen.set(at, value);
         return seen.get(at) === value;
@@ -25,7 +25,7 @@ function suitsLog(all) {
     return values.every((value) => value > 0) && Math.max(...values) >= 8 * Math.min(...values);
 }
 
-// How many of an axis's values have figures that the filter shows.
+// Returns how many of the axis's values have results that the filter shows.
 function measuredValues(axis) {
     return new Set(filteredOk().map((row) => row.values[axis.pointer])
         .filter((value) => value !== undefined).map(valueText)).size;
@@ -45,7 +45,8 @@ function startScaling() {
     holdOthers();
 }
 
-// More lines than anyone tells apart: the other axes are held at the values of the first case shown.
+// If there would be too many lines to tell apart, fixes the other axes at the values of the first
+// case shown.
 function holdOthers() {
     const shown = filteredOk();
     const texts = (axis) => new Set(shown.map((row) => valueText(row.values[axis.pointer])));
@@ -63,11 +64,11 @@ function holdOthers() {
 function scalingRows() {
     return filteredOk().filter((row) => row.metrics[scaling.metric] &&
         row.values[scaling.x] !== undefined && [...scaling.held].every(([pointer, text]) =>
-        // What an older report does not know is as it is held.
+        // A value that an older report lacks matches any.
         row.values[pointer] === undefined || valueText(row.values[pointer]) === text));
 }
 
-// Lines of the plot: the rows that differ in x only.
+// Returns the lines of the plot. The rows of a line differ only in x.
 function scalingLines() {
     const free = freeAxes();
     const lines = new Map();
@@ -117,11 +118,11 @@ function hoverText(row, name) {
     return lines.join("<br>");
 }
 
-// The bars of an uncertainty round the medians, as Plotly wants them.
+// Returns error bars for Plotly around the medians.
 function errorBars(metrics, kind) {
     const size = shownUnit(metrics[0]?.unit).size;
     const ends = metrics.map((metric) => spread(metric, kind));
-    // Plotly draws nothing for what is no number.
+    // Plotly draws nothing for NaN.
     const end = (place, length) => metrics.map((metric, i) =>
         ends[i] ? Math.max(0, length(ends[i][place], metric.median)) / size : NaN);
     return {
@@ -132,7 +133,7 @@ function errorBars(metrics, kind) {
     };
 }
 
-// `seen`: what lines before it have used, names for the legend and dashes.
+// `seen` has the legend names and dashes of earlier lines.
 function scalingTrace(line, facets, seen) {
     const color = axisOf.get(scaling.color), facet = axisOf.get(scaling.facet);
     const [first] = line;
@@ -171,7 +172,7 @@ function scalingTrace(line, facets, seen) {
     };
 }
 
-// Axes of a grid of facets, side by side where there is room.
+// Lays out the axes of a grid of facets, side by side where there is room.
 function facetAxes(div, facets) {
     const x = axisOf.get(scaling.x), count = Math.max(1, facets.length);
     const columns = Math.min(count, Math.max(1, Math.floor(div.clientWidth / 330)));
@@ -202,7 +203,7 @@ function facetAxes(div, facets) {
     return layout;
 }
 
-// ---- Scaling: what is chosen --------------------------------------------------------------------
+// ---- Scaling: choices ---------------------------------------------------------------------------
 
 const kScales = [["linear", "linear"], ["log", "logarithmic"]];
 
@@ -296,7 +297,7 @@ function passSum(row) {
 function passRows() {
     const measured = filteredOk().filter((row) => passMetrics.some((name) => row.metrics[name]));
     if (passes.order === "time") measured.sort((a, b) => passSum(b) - passSum(a));
-    // The same case of several reports side by side.
+    // Puts the same case of several reports side by side.
     else measured.sort((a, b) => a.number - b.number || a.reportIndex - b.reportIndex);
     return measured;
 }
@@ -337,7 +338,7 @@ function wallTrace(shown, labels) {
 function drawPasses() {
     const div = byId("passes-plot");
     const all = passRows(), shown = all.slice(0, passes.limit);
-    // Plotly joins bars of equal names: places tell them apart, names label them.
+    // Plotly joins bars of equal names, so the bars are told apart by index and labelled by name.
     const places = shown.map((_, place) => place);
     const used = passMetrics.filter((name) => shown.some((row) => row.metrics[name]));
     const traces = used.map((name) =>
@@ -405,7 +406,7 @@ function sampledMetrics(row) {
         (name) => row.metrics[name].samples?.length > 1) : [];
 }
 
-// The chosen case in every report that has it.
+// Returns the chosen case from every report that has it.
 function sampleRows() {
     return rows.filter((row) => row.name === samples.name && row.metrics[samples.metric]?.samples);
 }
@@ -432,7 +433,7 @@ function buildSampleControls() {
             samples.kind, change("kind")));
 }
 
-// Called from a point or a row somewhere else on the page.
+// Called on a click on a point or row elsewhere on the page.
 function showSamplesOf(id, metric) {
     const row = rows.find((each) => each.id === id);
     if (!row || !byId("samples-plot")) return;
@@ -474,8 +475,8 @@ function orderTrace(row, values, hue) {
 
 const kBins = 30;
 
-// Equal bins of which the first ends at the least value and the last at the greatest of all reports,
-// so that bars of several reports stand side by side.
+// Bins of equal width from the least to the greatest value of all reports, so that bars of several
+// reports have the same bins.
 function histogramTrace(common, values, range, hue) {
     const width = (range[1] - range[0]) / kBins || 1;
     const counts = new Array(kBins).fill(0);
@@ -491,7 +492,7 @@ function histogramTrace(common, values, range, hue) {
         hoverinfo: "text", textposition: "none"};
 }
 
-// The share of the samples that are not above a value.
+// Draws the share of the samples that are not above each value.
 function cumulativeTrace(common, values, hue) {
     const sorted = [...values].sort((a, b) => a - b);
     return {...common, type: "scatter", mode: "lines", line: {color: hue, width: 2, shape: "vh"},
@@ -499,8 +500,8 @@ function cumulativeTrace(common, values, hue) {
         hovertemplate: "%{x:.3~g} % are at most %{y:.4~g}<extra></extra>"};
 }
 
-// Quartiles and the 5th and 95th percentile as the report has them: a box with its whiskers, as one
-// line that gaps interrupt.
+// Draws a box with whiskers from the report's quartiles and its 5th and 95th percentiles, as one
+// line with gaps.
 function boxTrace(common, row, hue) {
     const metric = row.metrics[samples.metric], size = shownUnit(metric.unit).size;
     const points = [], at = row.reportIndex;
@@ -528,7 +529,7 @@ function boxTrace(common, row, hue) {
         hoverinfo: "text"};
 }
 
-// What is drawn beside the samples in order.
+// Plots beside the samples in order.
 const kSpreads = {
     histogram: {title: "samples", trace: (common, row, values, range, hue) =>
         histogramTrace(common, values, range, hue)},
@@ -537,7 +538,7 @@ const kSpreads = {
     box: {title: "", trace: (common, row, values, range, hue) => boxTrace(common, row, hue)},
 };
 
-// The median as a line, its interval as a band.
+// Returns the median as a line and its interval as a band.
 function medianShapes(row, hue) {
     const metric = row.metrics[samples.metric], size = shownUnit(metric.unit).size;
     const across = {xref: "paper", x0: 0, x1: 1, yref: "y", layer: "below"};
@@ -594,7 +595,8 @@ function drawSamples() {
 
 const quality = {};
 
-// Errors, of which less is better: 1 - SSIM, and PSNR as it is.
+// Errors, of which less is better: SSIM is shown as 1 - SSIM. PSNR stays as it is, and more of it
+// is better.
 const kErrors = {
     "image.ssim": {title: "1 \u2212 image.ssim", of: (value) => 1 - value},
 };
@@ -616,7 +618,7 @@ function qualityRows() {
         median(row, quality.time) !== undefined);
 }
 
-// Cases that no other one beats in both.
+// Returns the Pareto front: cases that no other case beats in both time and error.
 function bestRows(found) {
     const sign = moreIsBetter() ? -1 : 1;
     const sorted = [...found].sort((a, b) =>

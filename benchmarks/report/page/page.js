@@ -1,5 +1,6 @@
-// What every section of the page is made with, and what stands above all sections: the summary and
-// the filter. Text goes in as text, never as HTML: names of cases are not ours.
+// Helpers for every section of the page, and the parts above all sections: the summary and the
+// filter. Text is always inserted as text, never as HTML, because names of cases may come from
+// anyone.
 
 // ---- Elements -----------------------------------------------------------------------------------
 
@@ -17,7 +18,7 @@ function element(name, attributes, ...children) {
 
 function byId(id) { return document.getElementById(id); }
 
-// A labelled list to choose from; `options` are [value, text].
+// A labelled drop-down list; `options` are [value, text].
 function choice(label, id, options, value, onChange) {
     const list = element("select", {id, onchange: () => onChange(list.value)},
         options.map(([each, text]) => element("option", {value: each}, text)));
@@ -25,7 +26,7 @@ function choice(label, id, options, value, onChange) {
     return element("label", {class: "choice", for: id}, element("span", {}, label), list);
 }
 
-// A button that is on or off.
+// A button with an on state and an off state.
 function toggle(text, on, onChange, attributes) {
     const button = element("button", {type: "button", class: "chip", "aria-pressed": String(on),
         onclick: () => {
@@ -40,16 +41,16 @@ function heading(text) { return element("h2", {}, text); }
 
 function note(text) { return element("p", {class: "note"}, text); }
 
-// A figure's place, and what it is for those who don't see it.
+// An empty place for a figure, with a description for screen readers.
 function figure(id, description) {
     return element("div", {id, class: "figure", role: "img", "aria-label": description});
 }
 
 function showOnly(section, ...children) { section.replaceChildren(...children.flat(Infinity)); }
 
-// ---- Numbers and names as people read them ------------------------------------------------------
+// ---- Numbers and names for people ---------------------------------------------------------------
 
-// Four significant digits, never an exponent where digits do.
+// Four significant digits; uses an exponent only for very small or large numbers.
 function number(value) {
     if (value === undefined || value === null || !Number.isFinite(value)) return "";
     const size = Math.abs(value);
@@ -63,14 +64,14 @@ function percent(share, digits = 1) {
     return `${(share * 100).toFixed(digits)} %`.replace("-", "\u2212");
 }
 
-// With a sign, for changes.
+// Formats a change in percent, with its sign.
 function signedPercent(share) {
     return Number.isFinite(share) ? (share > 0 ? "+" : "") + percent(share) : "";
 }
 
 const kMebibyte = 1048576;
 
-// The unit that a metric is shown in, and how many of its own make one.
+// Returns the unit to show a metric in, and how many of the metric's units make one of it.
 function shownUnit(unit) {
     if (unit === "B") return {text: "MiB", size: kMebibyte};
     return {text: unit === "1" || !unit ? "" : unit, size: 1};
@@ -86,13 +87,13 @@ function metricTitle(name, unit) {
     return shown.text ? `${name} (${shown.text})` : name;
 }
 
-// An axis's value: a string as it is, all else as JSON.
+// Returns an axis value as text: a string as it is, anything else as JSON.
 function valueText(value) {
     if (value === undefined) return "\u2013";
     return typeof value === "string" ? value : JSON.stringify(value);
 }
 
-// Plotly takes some HTML in its texts; names of cases mean none.
+// Escapes text for Plotly, which reads some HTML in its texts.
 function plain(text) {
     return String(text).replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;");
 }
@@ -109,13 +110,14 @@ const page = JSON.parse(byId("data").textContent);
 const kReportAxis = "report";
 const severalReports = page.reports.length > 1;
 
-// "scenes/thesis.json" is "thesis".
+// Returns "thesis" for "scenes/thesis.json".
 function sceneName(report) {
     return (report.scene?.path ?? "").split("/").at(-1).replace(/\.json$/, "");
 }
 const severalScenes = new Set(page.reports.map(sceneName)).size > 1;
 
-// A device of one name is another one with another driver.
+// Returns the device's name, with the driver's version if another report has the same device with
+// another driver.
 function deviceName(report) {
     const {name, driver_version} = report.environment?.device ?? {};
     const twin = page.reports.some((each) => each.environment?.device?.name === name &&
@@ -123,19 +125,20 @@ function deviceName(report) {
     return twin ? `${name}, ${driver_version}` : name;
 }
 
-// What drew the strands; older reports know only what was asked for.
+// Returns the back end that drew the strands. Older reports only know the back end that was asked
+// for.
 function drawnBy(report, each) {
     return each.backend?.name ?? each.axes["/strands/backend"] ??
         report.scene?.document?.strands?.backend;
 }
 
-// The value in a document that a JSON pointer names (RFC 6901).
+// Returns the value that a JSON pointer (RFC 6901) names in a document, or undefined.
 function valueAt(document, pointer) {
     return pointer.split("/").slice(1).reduce(
         (value, token) => value?.[token.replaceAll("~1", "/").replaceAll("~0", "~")], document);
 }
 
-// A case's value on an axis that only another report's sweep has is its scene's.
+// If only another report's sweep has an axis, a case's value on it is its scene's value.
 const sweptPointers = [...new Set(page.reports.flatMap((report) => report.cases.flatMap(
     (each) => Object.keys(each.axes))))];
 function allValues(report, each) {
@@ -145,7 +148,7 @@ function allValues(report, each) {
         ...Object.fromEntries(filled.filter(([, value]) => value !== undefined))};
 }
 
-// One row a case of a report; the report counts as one more axis where there are several.
+// One row per case of every report. With several reports, the report is an axis of its own.
 const rows = page.reports.flatMap((report, index) => report.cases.map((each, place) => ({
     ...each,
     report,
@@ -167,13 +170,13 @@ function axisValues(pointer) {
     return found;
 }
 
-// Cases of other scenes have no value on an axis, which sort() puts last.
+// Cases of other scenes have no value on an axis; sort() puts undefined last.
 function areNumbers(values) {
     const known = values.filter((value) => value !== undefined);
     return known.length > 0 && known.every((value) => typeof value === "number");
 }
 
-// "/strands/density" is "density", unless two axes would be called the same.
+// Returns "density" for "/strands/density", unless two axes would get the same label.
 function axisLabel(pointer, pointers) {
     const parts = pointer.split("/");
     const last = parts.at(-1);
@@ -195,14 +198,14 @@ const axisOf = new Map(axes.map((axis) => [axis.pointer, axis]));
 
 const sweptAxes = axes.filter((axis) => axis.pointer !== kReportAxis);
 
-// What tells a case from the others, by name: "density 64, msaa 4".
+// Returns a label with the values that tell the case from others: "density 64, msaa 4".
 function caseLabel(row, among = axes) {
     if (severalScenes) return `${row.report.label}: ${row.name}`;
     const parts = among.map((axis) => `${axis.label} ${valueText(row.values[axis.pointer])}`);
     return parts.length ? parts.join(", ") : row.name;
 }
 
-// A case by its values alone, "64 \u00b7 4"; caseValuesTitle() says of which axes.
+// Returns the case's values alone, "64 \u00b7 4". caseValuesTitle() names their axes.
 function caseValues(row, among = axes) {
     if (severalScenes) return caseLabel(row);
     const parts = among.map((axis) => valueText(row.values[axis.pointer]));
@@ -224,7 +227,7 @@ function passName(metric) { return page.pass_times[metric]; }
 
 function median(row, metric) { return row.metrics[metric]?.median; }
 
-// [lower, upper] of what is drawn as a metric's uncertainty, if the report has it.
+// Returns [lower, upper] of the uncertainty to draw for a metric, if the report has it.
 function spread(metric, kind) {
     if (kind === "interval" && metric.interval)
         return [metric.interval.lower, metric.interval.upper];
@@ -235,7 +238,7 @@ function spread(metric, kind) {
 const hasIntervals = rows.some((row) =>
     Object.values(row.metrics).some((metric) => metric.interval));
 
-// The metric that comes first where one is to be chosen.
+// Returns the preferred metric for a choice, otherwise the first one.
 function preferred(names, ...wanted) {
     return wanted.find((name) => names.includes(name)) ?? names[0];
 }
@@ -250,7 +253,8 @@ function color(name) {
     return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }
 
-// Okabe and Ito 2008, Color universal design: told apart by the colour-blind. Lighter on dark.
+// Okabe and Ito 2008, Color universal design: colour-blind people can tell them apart. The dark
+// theme has lighter colours.
 const kSeriesColors = {
     light: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#d29200", "#3a9bd4", "#6a4c93", "#555555"],
     dark: ["#56b4e9", "#ff8a3d", "#2fc79a", "#e79bc4", "#f0c419", "#9ad0f5", "#b79ce0", "#bbbbbb"],
@@ -266,7 +270,7 @@ function seriesColor(index) {
 }
 function seriesSymbol(index) { return kSymbols[index % kSymbols.length]; }
 function seriesDash(index) { return kDashes[index % kDashes.length]; }
-// Tells series apart beside the colour, where there are more of them than colours.
+// Tells series apart by pattern once the colours repeat.
 function seriesPattern(index) {
     return kPatterns[Math.floor(index / kSeriesColors.light.length) % kPatterns.length];
 }
@@ -295,9 +299,9 @@ function startTheme() {
     addEventListener("afterprint", () => setTheme(screen));
 }
 
-// ---- What all figures have in common ------------------------------------------------------------
+// ---- Helpers for all figures --------------------------------------------------------------------
 
-const kNarrow = 620;  // px: below it, legends go under the figure
+const kNarrow = 620;  // px: on narrower figures, the legend goes below
 
 function isNarrow(div) { return div.clientWidth < kNarrow; }
 
@@ -308,7 +312,7 @@ function axisStyle(extra) {
     };
 }
 
-// A logarithmic axis has ticks at 1, 2 and 5 where it is short.
+// With dtick undefined, a short logarithmic axis has ticks at 1, 2 and 5.
 function scaleStyle(type) {
     return type === "log" ? {type: "log", dtick: undefined, exponentformat: "none"} : {type};
 }
@@ -339,23 +343,23 @@ function drawFigure(div, traces, layout) {
         ...layout,
     }, {
         responsive: true, displaylogo: false,
-        // These only: Plotly's own list has one that sends the figure to its cloud.
+        // Only these buttons: Plotly's default list has one that sends the figure to its cloud.
         modeBarButtons: [["toImage"], ["zoom2d", "pan2d"],
             ["zoomIn2d", "zoomOut2d", "resetScale2d"]],
         plotlyServerURL: "",
-        // A vector picture, for papers.
+        // Saves a vector picture, for papers.
         toImageButtonOptions: {format: "svg", filename: `hairbench-${div.id}`},
     });
 }
 
-// ---- Tables that sort by what is clicked --------------------------------------------------------
+// ---- Tables that sort by a clicked column -------------------------------------------------------
 
-// Columns: title; text(row); numeric, value(row): what it sorts by; cell(row): its element.
+// Columns have title; text(row); numeric; value(row), the key to sort by; cell(row), its element.
 function sortValue(column, row) {
     return column.numeric ? (column.value ?? column.text)(row) : column.text(row);
 }
 
-// What is not known comes last, whichever way it is sorted.
+// Puts unknown values last in either direction.
 function compareRows(column, direction) {
     return (a, b) => {
         const left = sortValue(column, a), right = sortValue(column, b);
@@ -400,7 +404,7 @@ function fillTable(table, columns, shown) {
 }
 
 // ---- Summary ------------------------------------------------------------------------------------
-// What was measured, where, and what to know before believing it.
+// The measured cases, the machines, and warnings about the results.
 
 function described(terms) {
     return element("dl", {}, terms.filter(([, value]) => value !== undefined && value !== "")
@@ -423,7 +427,7 @@ function deviceText(device) {
     return [device?.name, device?.type && `(${device.type})`].filter(Boolean).join(" ");
 }
 
-// Drivers say their name again in their version, some of them.
+// Some drivers repeat their name in their version.
 function driverText(device) {
     return [device?.driver, device?.driver_version,
         device?.api_version && `Vulkan ${device.api_version}`].filter(Boolean).join(", ");
@@ -469,7 +473,7 @@ function reportCard(report) {
             ? note("The validation layer was on: these times are of no use.") : "");
 }
 
-// Equal sentences of several cases once.
+// Groups the cases of equal sentences.
 function grouped(pairs) {
     const groups = new Map();
     for (const [text, row] of pairs) groups.set(text, [...(groups.get(text) ?? []), row]);
@@ -504,9 +508,9 @@ function buildSummary() {
 }
 
 // ---- Filter -------------------------------------------------------------------------------------
-// Which cases are shown: one filter for all figures and tables.
+// One filter of the cases for all figures and tables.
 
-const filter = {text: "", hidden: new Map()};  // pointer -> texts of the values left out
+const filter = {text: "", hidden: new Map()};  // pointer -> texts of the hidden values
 const filterListeners = [];
 
 function onFilterChange(listener) { filterListeners.push(listener); }
@@ -515,7 +519,7 @@ function rowText(row) {
     return [row.name, row.status, row.reason, ...row.warnings].filter(Boolean).join("\n");
 }
 
-// A regular expression where it is one, a text where it is not, in any case of letters.
+// Matches a regular expression, or a plain text if it is not one. Ignores case.
 function textMatcher(text) {
     if (!text) return () => true;
     try {
@@ -540,7 +544,7 @@ function filteredRows() {
         ([key, hidden]) => !hidden.has(filterValue(row, key))));
 }
 
-// Those that have something to plot.
+// Returns the filtered cases with results to plot.
 function filteredOk() { return filteredRows().filter((row) => row.status === "ok"); }
 
 function filterChanged() {
@@ -576,7 +580,7 @@ function buildFilter() {
     const facets = severalReports ? kFacets.map(([key, label]) => [key, label,
         [...new Set(rows.map((row) => filterValue(row, key)))]])
         .filter(([, , texts]) => texts.length > 1) : [];
-    // Figures of several scenes at once say nothing: they start with the first.
+    // Figures of several scenes at once are meaningless, so the page starts with the first scene.
     if (severalScenes) filter.hidden.set("scene", new Set(page.reports.map(sceneName).filter(
         (name) => name !== sceneName(page.reports[0]))));
     const groups = [
