@@ -24,14 +24,15 @@ using report::Measured;
 
 // ---- Pictures -----------------------------------------------------------------------------------
 
-// Back ends that draw the quads of `tessellation` whatever the device has, nearest first.
+// Back ends that draw the quads of `tessellation`, most similar first. The list includes some that
+// every device supports.
 constexpr std::array kQuadBackends{
     Backend::tessellation, Backend::pulling_geometry, Backend::pulling, Backend::expanded};
 
-// Pictures that are kept for other cases.
+// Number of pictures that are kept for other cases.
 constexpr std::size_t kMostReferences = 64;
 
-// The simulation of the frames up to a round's last one.
+// Replays the simulation up to the last frame of a round.
 void replay(const engine::Device& device, measure::Case& test_case, const hair::RunSettings& run) {
     test_case.reset();
     engine::FrameLoop loop(device, engine::Timing::isolated);
@@ -51,7 +52,8 @@ std::vector<std::uint8_t> drawn(
     return engine::readOutput(device, renderer.target());
 }
 
-// 64 samples a pixel; alpha covers some of a rendered pixel's, so that it needs several there.
+// 64 samples per pixel. Alpha to coverage covers a share of a rendered pixel's samples, so it needs
+// several of them.
 hair::Settings withManySamples(hair::Settings settings) {
     const bool covers = settings.render.transparency == hair::Transparency::alpha_to_coverage;
     settings.render.msaa = covers ? 4 : 1;
@@ -59,7 +61,8 @@ hair::Settings withManySamples(hair::Settings settings) {
     return settings;
 }
 
-// Opaque hair of one display colour in every light, over what the case shows beside it.
+// Gives the hair one display colour in every light and makes it opaque. The rest of the picture
+// stays as in the case.
 hair::Settings withPlainHair(hair::Settings settings, float brightness) {
     settings.strands.opacity = 1.0f;
     settings.shading = {};
@@ -78,7 +81,7 @@ hair::Settings withPlainHair(hair::Settings settings, float brightness) {
 
 // ---- Metrics ------------------------------------------------------------------------------------
 
-// ms of each frame; absent where the passes were not timed.
+// Returns the time of each frame in ms; nothing if the passes were not timed.
 std::optional<report::Metric> strandsTime(const report::CaseResult& result) {
     const auto* const strands =
         report::findMetric(result.metrics, report::ofPass("strands", Measured::time));

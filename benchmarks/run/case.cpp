@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint32_t kWidest = 480;  // px
 
-// The mean over squares of `factor` x `factor` pixels; what is left over at the edges is cut off.
+// Averages squares of `factor` x `factor` pixels. Drops the remainder at the edges.
 std::vector<std::uint8_t> shrunk(
     std::span<const std::uint8_t> pixels, std::uint32_t width, std::uint32_t height,
     std::uint32_t factor) {
@@ -66,7 +66,7 @@ namespace {
 
 // ---- Pictures of older runs ---------------------------------------------------------------------
 
-// "12.png", or what a run that was killed left of writing it; anything else is the user's.
+// "12.png", or the partial file of a run that was killed. Other files belong to the user.
 bool isCasePicture(const std::string& name) {
     const std::size_t digits = name.find_first_not_of("0123456789");
     return digits != 0 && digits != std::string::npos &&
@@ -104,7 +104,7 @@ report::CaseResult without(const PlannedCase& planned, report::Status status, co
     return result;
 }
 
-// What was measured is no worse without it.
+// A failure to write the picture only adds a warning, because it does not affect the measurements.
 void keepPicture(
     std::span<const std::uint8_t> pixels, const hair::RenderSettings& render,
     const std::filesystem::path& report, report::CaseResult& result) {

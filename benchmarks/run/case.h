@@ -16,22 +16,21 @@
 #include "benchmarks/run/plan.h"
 #include "engine/device.h"
 
-// One case of a run: its measurement and the picture beside the report.
+// Runs one case: its measurement, and the picture beside the report.
 namespace benchmarks::run {
 
 // Writes a case's picture, [row][column] RGBA, top row first, beside the report, as a PNG at most
-// 480 px wide: "<report without extension>.pictures/<index>.png". Returns that file relative to the
+// 480 px wide: "<report without extension>.pictures/<index>.png". Returns that path relative to the
 // report's folder, with forward slashes. Throws engine::Error "<path>: <reason>".
 std::string writeCasePicture(
     std::span<const std::uint8_t> pixels, std::uint32_t width, std::uint32_t height,
     const std::filesystem::path& report, std::size_t index);
 
-// Removes the pictures that older runs left beside the report and that are none of `pictures`,
-// those that it names.
+// Removes pictures of earlier runs beside the report that are not in `pictures`, the report's own.
 void removeOtherPictures(
     const std::set<std::string>& pictures, const std::filesystem::path& report);
 
-// What the cases of a run are compared with.
+// References for the cases of a run.
 struct CaseComparisons {
     reference::ReferenceComparison references;
     BackendComparison backends;
@@ -39,12 +38,13 @@ struct CaseComparisons {
 
 struct PlayedCase {
     report::CaseResult result;
-    bool lost_device = false;  // nothing more can be done with it
+    bool lost_device = false;  // the device cannot be used any more
 };
 
-// Measures a case. One that can't run here, or that fails, is part of the result with its reason;
-// for lack of memory (measure/memory_need.h), or of `max_memory`, B, it is not even made. `report`
-// is the file beside which its picture goes; empty: none is written. Throws Interrupted.
+// Measures a case. A case that cannot run here, or that fails, gives a result with the reason. If
+// the device, the host or `max_memory`, B, has too little memory (measure/memory_need.h), the case
+// is not even created. The picture goes beside the file `report`; if that is empty, none is
+// written. Throws Interrupted.
 PlayedCase runCase(
     const engine::Device& device, const PlannedCase& planned, const measure::MeasureHooks& hooks,
     const std::filesystem::path& report, CaseComparisons& comparisons, measure::HairCache& cache,

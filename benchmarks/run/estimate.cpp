@@ -32,25 +32,25 @@ using Clock = std::chrono::steady_clock;
 
 // ---- Work ---------------------------------------------------------------------------------------
 
-constexpr std::uint32_t kThesisGuides = 86;  // where a scene names no number
-// Of a file, whose points nobody has counted yet.
+constexpr std::uint32_t kThesisGuides = 86;  // if the scene gives no number
+// For a file whose points are not counted yet.
 constexpr std::uint32_t kUncountedVertices = 16;
 
-// What a case has at most that is tried as it is on a software device.
+// Upper limits of a case that is tried unchanged on a software device.
 constexpr FrameWork kSmall{.updates = 200'000.0, .segments = 200'000.0, .samples = 400'000.0};
 constexpr double kSmallSettling = 5e6;  // updates
 
-// And one that is made smaller.
+// Upper limits of a case that is made smaller.
 constexpr std::uint32_t kMostStrands = 300;
 constexpr std::uint32_t kMostGuides = 172;
-constexpr std::uint32_t kMostGrownGuides = 20'000;  // by the processor, whatever the device is
-constexpr std::uint32_t kMostDensity = 4;  // of a root triangle
-constexpr double kMostSamples = 200'000.0;  // of the picture
+constexpr std::uint32_t kMostGrownGuides = 20'000;  // the processor grows them, whatever the device
+constexpr std::uint32_t kMostDensity = 4;  // per root triangle
+constexpr double kMostSamples = 200'000.0;  // samples of the picture
 constexpr std::uint32_t kMostShadowResolution = 256;
 constexpr std::uint32_t kMostEnvironmentLights = 2;
 constexpr std::uint32_t kMostFieldResolution = 32;
 
-// Lights that see the hair or the meshes.
+// Number of shadow views of the hair or the meshes.
 double shadowViews(const hair::Settings& settings) {
     const hair::ShadingSettings& shading = settings.shading;
     if (!shading.shadows.meshes && shading.shadows.hair == hair::HairShadows::none) return 0.0;
@@ -82,7 +82,7 @@ FrameWork frameWork(const hair::Settings& settings) {
     if (settings.render.hair) {
         const float level = settings.lod.mode == hair::LodMode::forced ? settings.lod.level : 0.0f;
         const float scale = std::exp2(-level);
-        // Euler's formula of a disc: 2 guides - 2 - those on its edge.
+        // Euler's formula for a triangulated disc: 2 guides - 2 - (guides on the edge) triangles.
         const double triangles = std::max(
             1.0, 2.0 * guides - 2.0 - hair::groom::boundaryRootCount(std::uint32_t(guides)));
         const double all =
@@ -141,22 +141,22 @@ namespace {
 
 // Overlapped, isolated, and by the CPU's clock where timestamps are not trusted.
 constexpr double kModes = 3;
-// Of /run/max_time, for the check of the timestamps.
+// Share of /run/max_time for the check of the timestamps.
 constexpr double kCheckShare = 0.1;
-// Pictures of /run/compare_backends: one of 64 samples a pixel, tessellation's and two of what is
-// covered.
+// Number of frames that cost as much as the pictures of /run/compare_backends: one of 64 samples
+// per pixel, one by tessellation, and two for the covered samples.
 constexpr double kComparisonFrames = 67;
 
-// Of any GPU beside a software device.
+// Speed of any GPU relative to a software device.
 constexpr double kDeviceSpeed = 100.0;
 
-// In which another case is begun to be tried, after the first.
+// After the first trial, new trials start within this time.
 constexpr std::chrono::seconds kTrials{4};
 
 struct Estimate {
     std::optional<double> frame;  // ms
     std::optional<std::uint64_t> bytes;  // of the device's memory
-    bool was_tried = false;  // as it is
+    bool was_tried = false;  // unchanged, not made smaller
     std::string problem;
 };
 
@@ -165,7 +165,7 @@ struct Trial {
     double frame = 0.0;  // ms
 };
 
-// The second frame: the first one compiles pipelines.
+// Returns the time of the second frame, because the first one compiles pipelines.
 double frameTime(const engine::Device& device, measure::Case& test_case) {
     engine::FrameLoop loop(device, engine::Timing::isolated);
     for (int i = 0; i < 2; ++i) {
@@ -176,13 +176,12 @@ double frameTime(const engine::Device& device, measure::Case& test_case) {
     return frame.record + frame.wall;
 }
 
-// Seconds that measuring a case takes if its median is not known well enough before /run/max_time,
-// its timestamps are tested as long as they may be and are not trusted in the end, and every
-// picture that it is compared with has to be drawn. Making the case is not in it. `frame_ms`: of
-// one frame.
+// Returns an upper bound in seconds for measuring a case, except for its creation: every mode takes
+// /run/max_time without reaching the precision, the check of the timestamps takes its longest and
+// fails, and every reference picture has to be drawn. `frame_ms` is the time of one frame.
 double mostSeconds(const hair::RunSettings& run, double frame_ms) {
     const double round = (run.warmup + run.frames + 1) * frame_ms / 1e3;
-    // Rounds begin until max_time; the last one is played to its end.
+    // A round may start until max_time and is then finished.
     const double mode = double{run.max_time} + round;
     const double compared = run.compare_backends ? round + kComparisonFrames * frame_ms / 1e3 : 0.0;
     return kModes * mode + kCheckShare * double{run.max_time} + compared;
@@ -196,9 +195,9 @@ public:
         findNeeds();
     }
 
-    // Tries cases as long as there is time. Throws Interrupted.
+    // Tries cases until the time is up. Throws Interrupted.
     void play();
-    // Gives the cases that were not tried what the others say of them.
+    // Estimates the cases that were not tried from the trials.
     void estimateOthers();
 
     const std::vector<Estimate>& estimates() const { return estimates_; }
@@ -211,7 +210,7 @@ private:
     const hair::Settings& settings(std::size_t place) const {
         return plan_.cases[place].spec.settings;
     }
-    // What is known of all cases before any is made.
+    // Collects what is known of all cases before any is created.
     void findNeeds();
     bool fits(std::size_t place) const { return estimates_[place].problem.empty(); }
     enum class Size { whole, smaller };
@@ -255,7 +254,7 @@ void Trials::tryCase(std::size_t place, Size size) {
     } catch (const engine::Unsupported& error) {
         estimate = {.was_tried = true, .problem = error.what()};
     } catch (const engine::Error& error) {
-        // A smaller case may lack what this one has: a guide that is pulled at.
+        // A smaller case may lack something that this one needs, like a guide that is pulled.
         if (size == Size::whole) estimate = {.was_tried = true, .problem = error.what()};
     }
 }
@@ -268,7 +267,7 @@ void Trials::play() {
         return work(place).updates + work(place).segments + work(place).samples;
     };
     std::ranges::stable_sort(order, {}, all);
-    // From the second trial on: the first one compiles what they have in common.
+    // Starts after the first trial, which compiles the shared pipelines.
     std::optional<Clock::time_point> start;
     const auto is_over = [&] { return start && Clock::now() > *start + kTrials; };
     const auto try_case = [&](std::size_t place, Size size) {
@@ -279,8 +278,8 @@ void Trials::play() {
     std::erase_if(order, [&](std::size_t place) { return !fits(place); });
     if (order.empty()) return;
 
-    // Cases with the most work of a kind, made smaller, tell more of the large ones than small
-    // ones do.
+    // Cases with the most work of a kind, made smaller, predict large cases better than small cases
+    // do.
     std::set<std::size_t> largest;
     for (double FrameWork::* const part :
          {&FrameWork::segments, &FrameWork::updates, &FrameWork::samples})
@@ -292,7 +291,7 @@ void Trials::play() {
     }
     for (const std::size_t place : order) {
         const bool small = isSmall(settings(place), speed_);
-        // What the device can't do may be all that is known so far.
+        // Unsupported cases leave no trial, so a large case is tried if there is none yet.
         if (is_over() || (!small && !trials_.empty())) break;
         try_case(place, small ? Size::whole : Size::smaller);
     }
@@ -303,7 +302,7 @@ void Trials::estimateOthers() {
         Estimate& estimate = estimates_[place];
         if (estimate.was_tried || !fits(place)) continue;
         const FrameWork work = frameWork(settings(place));
-        // Each is an upper bound.
+        // Each trial gives an upper bound.
         for (const Trial& trial : trials_) {
             const double frame = trial.frame * std::max(1.0, mostTimesLonger(work, trial.work));
             estimate.frame = std::min(frame, estimate.frame.value_or(frame));

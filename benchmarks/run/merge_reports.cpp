@@ -25,7 +25,7 @@ struct Part {
     scene::Json report;
 };
 
-// Throws what is wrong, or with `force` notes it.
+// Throws an objection, or notes it with `force`.
 class Judge {
 public:
     Judge(bool force, std::vector<std::string>& notes) : force_(force), notes_(notes) {}
@@ -40,12 +40,12 @@ private:
     std::vector<std::string>& notes_;
 };
 
-// Cases of older reports, which state no index, come last.
+// Cases of older reports have no index and come last.
 std::size_t indexOf(const scene::Json& result) {
     return result.value("index", std::numeric_limits<std::size_t>::max());
 }
 
-// The file as seen from the new report's folder.
+// Rewrites the picture's path relative to the new report's folder.
 void moveReference(scene::Json& result, const fs::path& from, const fs::path& to) {
     if (!result.contains("picture")) return;
     const fs::path file = fs::absolute(from).parent_path() / result["picture"].get<std::string>();
@@ -54,7 +54,7 @@ void moveReference(scene::Json& result, const fs::path& from, const fs::path& to
     result["picture"] = (relative.empty() ? file : relative).generic_string();
 }
 
-// Takes the cases out of the parts.
+// Moves the cases out of the parts.
 std::vector<scene::Json> joinedCases(std::vector<Part>& parts, const fs::path& out, Judge& judge) {
     std::vector<scene::Json> cases;
     std::map<std::string, fs::path> names;
@@ -83,8 +83,8 @@ std::vector<scene::Json> joinedCases(std::vector<Part>& parts, const fs::path& o
     return cases;
 }
 
-// Whether the reports are all of a sweep's shards and each is complete: what is not there was left
-// out by --filter.
+// Whether the reports are all the shards of a sweep and each is complete. Missing cases were then
+// left out by --filter.
 bool areAllShards(const std::vector<Part>& parts) {
     std::set<std::size_t> indices;
     std::set<std::size_t> counts;
@@ -97,8 +97,8 @@ bool areAllShards(const std::vector<Part>& parts) {
     return counts.size() == 1 && indices.size() == *counts.begin();
 }
 
-// "5 of 12 cases are missing: number 1, 4, 7 ... of the sweep, counted from 0"; empty where none
-// is. `count` is what a report says, and nothing is made of that size.
+// "5 of 12 cases are missing: number 1, 4, 7 ... of the sweep, counted from 0"; empty if none is
+// missing. `count` comes from a report, so nothing of that size is allocated.
 std::string missingText(const std::vector<scene::Json>& cases, std::size_t count) {
     std::set<std::size_t> found;
     for (const scene::Json& result : cases)
@@ -133,7 +133,7 @@ merged(std::vector<Part> parts, const MergeRules& rules, std::vector<std::string
         interrupted = !missing.empty();
     }
     header.erase("shard");
-    // Where each part had its own there is none of the whole.
+    // If the parts have different seeds, the whole has none.
     const scene::Json seed = header.value("order_seed", scene::Json());
     if (std::ranges::any_of(parts, [&](const Part& part) {
             return &part != &parts.front() &&

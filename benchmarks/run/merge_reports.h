@@ -6,20 +6,20 @@
 
 #include "benchmarks/scene/json.h"
 
-// Joins the reports of a sweep's shards.
+// Merges the reports of a sweep's shards.
 namespace benchmarks::run {
 
 struct MergeRules {
-    std::filesystem::path out;  // what pictures' file names are to be relative to
-    bool force = false;  // join what does not belong together; of a case that is there twice the
-                         // first is taken
+    std::filesystem::path out;  // the merged report, to which picture paths become relative
+    bool force = false;  // merge even reports that do not belong together; of two equal cases, keep
+                         // the first
 };
 
-// One report of a sweep's parts: its cases in the sweep's order, all else of the first report,
-// "interrupted" where cases are missing. `notes` gets a line for each thing to know: what `force`
-// passed over, which cases are missing. Throws engine::Error "<path>: <reason>" as readReport, and
-// for a report of another scene, build or device than the first's, or with a case of an earlier
-// one.
+// Merges the reports of parts of a sweep: the cases in the sweep's order, everything else from the
+// first report, "interrupted" if cases are missing. Adds a line to `notes` for each objection that
+// `force` overrode, and for missing cases. Throws engine::Error "<path>: <reason>" like readReport,
+// for a report of another scene, build or device than the first one, and for a case that an earlier
+// report has.
 scene::Json mergedReport(
     const std::vector<std::filesystem::path>& reports, const MergeRules& rules,
     std::vector<std::string>& notes);

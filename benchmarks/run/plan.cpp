@@ -92,7 +92,7 @@ RunPlan planRun(
 std::vector<std::size_t> shuffledOrder(std::size_t count, std::uint32_t seed) {
     std::vector<std::size_t> order(count);
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::mt19937 random(seed);  // whose numbers the standard fixes, unlike those of distributions
+    std::mt19937 random(seed);  // the standard fixes its numbers, but not those of distributions
     for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random() % i]);
     return order;
 }

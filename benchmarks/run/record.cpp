@@ -47,7 +47,7 @@ constexpr Member kMembers[] = {
     {"driver version", "/environment/device/driver_version"},
     {"validation layer", "/environment/validation"},
 };
-// What a software device runs on.
+// A software device runs on this processor.
 constexpr Member kProcessor = {"processor", "/environment/host/processor"};
 
 std::string known(std::string text) { return text.empty() ? "unknown" : text; }
@@ -71,16 +71,16 @@ namespace {
 
 // ---- Journal ------------------------------------------------------------------------------------
 
-// Reads and compares like any file, but is not in the folder after a crash unless that is written.
+// Syncs the folder. Without that, a new file may be missing from it after a crash.
 void syncFolderOf(const std::filesystem::path& path) {
     const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
     const int file = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (file < 0) return;  // a folder that may be written but not read
+    if (file < 0) return;  // the folder may be writable but not readable
     fsync(file);
     close(file);
 }
 
-// Errno's; 0: all is written.
+// Returns errno; 0: everything is written.
 int writeAt(int file, std::string_view text, std::uintmax_t offset) {
     while (!text.empty()) {
         const ssize_t taken = pwrite(file, text.data(), text.size(), static_cast<off_t>(offset));
@@ -93,7 +93,7 @@ int writeAt(int file, std::string_view text, std::uintmax_t offset) {
     return 0;
 }
 
-// How many bytes there are up to the end of the file, at most as many as there is room for.
+// Reads up to the end of the file or of `bytes`. Returns the number of bytes read.
 std::size_t readAt(int file, std::span<char> bytes, std::uintmax_t offset) {
     std::size_t done = 0;
     while (done < bytes.size()) {
@@ -106,8 +106,8 @@ std::size_t readAt(int file, std::span<char> bytes, std::uintmax_t offset) {
     return done;
 }
 
-constexpr std::size_t kPiece = std::size_t{1} << 20;  // B that are read at once
-// B, far beyond a case's: what has no end of a line is some other file.
+constexpr std::size_t kPiece = std::size_t{1} << 20;  // B per read
+// B, far more than a case needs: a file without line breaks is not a journal.
 constexpr std::size_t kLongestLine = std::size_t{1} << 28;
 
 constexpr std::string_view kBeforeHash = R"({"hash":")";
@@ -115,7 +115,7 @@ constexpr std::string_view kBeforeValue = R"(","line":)";
 constexpr std::size_t kHashSize = 16;
 
 std::string lineOf(const scene::Json& value) {
-    // What drivers and commands say need not be UTF-8.
+    // Texts from drivers and the command line need not be UTF-8.
     const std::string text = value.dump(-1, ' ', false, scene::Json::error_handler_t::replace);
     return std::string(kBeforeHash)
         .append(report::hashText(text))
@@ -124,7 +124,7 @@ std::string lineOf(const scene::Json& value) {
         .append("}\n");
 }
 
-// Nothing where the line, without its end, is not as it was written.
+// Returns nothing if the line, without its line break, is damaged.
 std::optional<scene::Json> valueIn(std::string_view line) {
     constexpr std::size_t kStart = kBeforeHash.size() + kHashSize + kBeforeValue.size();
     if (line.size() <= kStart || !line.starts_with(kBeforeHash) || !line.ends_with('}') ||
@@ -133,7 +133,7 @@ std::optional<scene::Json> valueIn(std::string_view line) {
     const std::string_view text = line.substr(kStart, line.size() - kStart - 1);
     if (line.substr(kBeforeHash.size(), kHashSize) != report::hashText(text)) return std::nullopt;
     try {
-        return scene::parseJson(text, "line");  // not too deep, and no member twice
+        return scene::parseJson(text, "line");  // rejects deep nesting and duplicate members
     } catch (const engine::Error&) {
         return std::nullopt;
     }
@@ -146,7 +146,7 @@ Journal::Journal(std::filesystem::path path, Lasts lasts) : path_(std::move(path
     if (path_.has_parent_path()) std::filesystem::create_directories(path_.parent_path(), error);
     file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (file_ < 0) throw engine::Error(path_.string(), std::strerror(errno));
-    // Some file systems know no locks: there it goes without.
+    // Some file systems have no locks; continues without one there.
     if (flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
         close(file_);
         throw engine::Error(path_.string(), "another run is writing it");
@@ -175,12 +175,12 @@ void Journal::read(const std::function<void(scene::Json value, const Place& plac
         size_ += line.size() + 1;
         ++number;
     };
-    std::string text;  // what was read behind the last whole line
+    std::string text;  // read after the last whole line
     std::vector<char> piece(kPiece);
     while (true) {
         const std::size_t taken = readAt(file_, piece, size_ + text.size());
         if (taken == 0) return;
-        const std::size_t known = text.size();  // without the end of a line
+        const std::size_t known = text.size();  // contains no line break
         text.append(piece.data(), taken);
         std::size_t begin = 0;
         for (std::size_t end = text.find('\n', known); end != std::string::npos;
@@ -210,7 +210,7 @@ Journal::Place Journal::append(const scene::Json& line) {
     if (error == 0) error = writeAt(file_, text, size_);
     if (error == 0 && lasts_ == Lasts::crash && fsync(file_) != 0) error = errno;
     if (error != 0) {
-        // Should that fail too, the next one who reads leaves the rest out.
+        // If this fails too, the next reader skips the rest.
         [[maybe_unused]] const int ignored = ftruncate(file_, static_cast<off_t>(size_));
         throw engine::WriteFailed(path_.string() + ": cannot be written: " + std::strerror(error));
     }
@@ -250,7 +250,8 @@ journalHead(const RunPlan& plan, const report::ReportHeader& header, const std::
         {"planned", plan.cases.size()}};
 }
 
-// In what the journal's run is another one than that of `head`; nothing where it is the same.
+// Returns the difference between the journal's run and that of `head`; nothing if it is the same
+// run.
 std::optional<std::string> headDifference(const scene::Json& journal, const scene::Json& head) {
     if (auto difference = identityDifference(journal.at("header"), head.at("header")))
         return difference;
@@ -267,8 +268,8 @@ std::string ofCases(std::size_t done, std::size_t planned) {
     return std::to_string(done) + " of " + std::to_string(planned) + " cases";
 }
 
-// Whether to go on with a journal of so many cases. Throws where it is not to be gone on with and
-// not to be replaced either.
+// Whether to continue with a journal that has `cases` cases. Throws if it can neither be continued
+// nor replaced.
 bool goesOn(
     const scene::Json& journal, std::size_t cases, const scene::Json& head, bool resume,
     const std::string& name) {
@@ -288,7 +289,7 @@ bool goesOn(
     return false;
 }
 
-// Whether all that a report says of a case can be made of it.
+// Whether a report can be written from the case's JSON.
 bool canBeReported(const scene::Json& result) {
     try {
         report::methodsText({{"cases", scene::Json::array({result})}});
@@ -298,15 +299,15 @@ bool canBeReported(const scene::Json& result) {
     }
 }
 
-// The cases of a plan that no line of a journal was of yet.
+// The cases of a plan that no line of the journal covers yet.
 class CasesLeft {
 public:
     explicit CasesLeft(const RunPlan& plan) {
         for (const PlannedCase& each : plan.cases) left_.emplace(each.index, &each.spec.name);
     }
 
-    // The case's number in the sweep; nothing where the line is none of the plan's cases, or of one
-    // that was taken before.
+    // Returns the case's index in the sweep; nothing if the line is not a case of the plan, or
+    // repeats one.
     std::optional<std::size_t> take(const scene::Json& line) {
         if (!line.is_object() || !line.contains("index") || !line.contains("order")) return {};
         if (!line["index"].is_number_unsigned() || !line["order"].is_number_unsigned()) return {};

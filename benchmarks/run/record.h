@@ -17,86 +17,87 @@
 // Journal of a run, from which an interrupted run is resumed.
 namespace benchmarks::run {
 
-// In what two reports, or their headers (headerJson), differ that one sweep has in common: the
-// scene, the number of its cases, the build, the device and its driver, on a software device the
-// processor. "driver version: 1.2 is not 1.3", `a` first; nothing where they belong together.
+// Returns a difference between two reports, or their headers (headerJson), in what the parts of one
+// sweep share: the scene, its number of cases, the build, the device and its driver, and the
+// processor for a software device. "driver version: 1.2 is not 1.3", `a` first; nothing if they
+// belong together.
 std::optional<std::string> identityDifference(const scene::Json& a, const scene::Json& b);
 
-// A file of JSON values, one a line, that survives the end of its writer at any moment: a line is
-// handed over in one piece and on the disk when append() returns, and one that was cut short is not
-// there for who reads. A line has the hash of its value's text with it (report::hashText()), so
-// that one that was damaged is left out, and no other:
+// A file of JSON values, one per line, that survives the death of its writer at any moment.
+// append() writes a line in one piece and returns once it is on disk. Readers ignore a line that
+// was cut short. Each line contains the hash of its value's text (report::hashText()), so that
+// readers leave out damaged lines only:
 //   {"hash":"ef46db3751d8e999","line":VALUE}
-// No two processes have it at a time.
+// Only one process can have it open at a time.
 class Journal {
 public:
-    // What a line outlives once append() returns.
+    // What a line survives once append() has returned.
     enum class Lasts { crash, process };
 
-    // Opens it, or makes it with its folder. Throws engine::Error "<path>: <reason>" where another
-    // process has it or it can't be opened.
+    // Opens the file, or creates it and its folder. Throws engine::Error "<path>: <reason>" if
+    // another process has it open or opening fails.
     explicit Journal(std::filesystem::path path, Lasts lasts = Lasts::crash);
-    // An empty one is removed.
+    // Removes an empty file.
     ~Journal();
     Journal(const Journal&) = delete;
     Journal& operator=(const Journal&) = delete;
 
-    // Where a line is in the file, B.
+    // Position of a line in the file, B.
     struct Place {
         std::uintmax_t begin = 0;
-        std::size_t size = 0;  // without its end
+        std::size_t size = 0;  // without the line break
     };
 
-    // Calls `visit` with the values of the whole lines, one after another. Throws engine::Error
-    // where the first has none: it is some other file.
+    // Calls `visit` with the value of each whole line. Throws engine::Error if the first line is
+    // not valid, because the file is then not a journal.
     void read(const std::function<void(scene::Json value, const Place& place)>& visit);
-    // The numbers of the lines, the first is 1, that read() left out.
+    // Numbers, from 1, of the lines that read() left out.
     const std::vector<std::size_t>& damaged() const { return damaged_; }
 
-    // The value of a line that read() or append() has given. Throws engine::Error where it is not
-    // there any more as it was.
+    // Returns the value of a line from read() or append(). Throws engine::Error if the line has
+    // changed.
     scene::Json at(const Place& place) const;
 
-    // Appends behind the last whole line. Throws WriteFailed, and leaves those before as
-    // they were.
+    // Appends after the last whole line. Throws WriteFailed, and then leaves the earlier lines
+    // unchanged.
     Place append(const scene::Json& line);
 
-    // Forgets all lines: the next append() is the first.
+    // Forgets all lines: the next append() writes the first one.
     void clear();
 
-    // Removes the file, once nobody needs it.
+    // Removes the file when it is no longer needed.
     void remove();
 
 private:
     std::filesystem::path path_;
     Lasts lasts_;
     int file_;
-    std::uintmax_t size_ = 0;  // B, of the whole lines
-    bool ends_there_ = false;  // where false, something may be behind them
+    std::uintmax_t size_ = 0;  // B of whole lines
+    bool ends_there_ = false;  // false: the file may have more bytes after them
     std::vector<std::size_t> damaged_;
 };
 
 inline constexpr const char* kJournalSchema = "hairbench-journal/2.0.0";
 
 struct RecordOptions {
-    std::filesystem::path out;  // the report
-    std::string filter;  // that the plan was made with
-    bool resume = false;  // go on with the journal that is there
+    std::filesystem::path out;  // path of the report
+    std::string filter;  // of the plan
+    bool resume = false;  // continue an existing journal
 };
 
 enum class RunEnd { complete, interrupted };
 
-// What a run has done and has still to do, kept in "<out>.journal" until its report is written, so
-// that a run that was killed can go on. Its first line says whose it is; each other is a case as
-// reports have it, in the order in which they ran. What is none of the plan's, or there twice, is
-// left out with a line on stderr, and so is a damaged line: such a case is played again. In memory
-// is of a case only where its line is.
+// The finished and remaining cases of a run. They are kept in "<out>.journal" until the report is
+// written, so that a run that was killed can continue. The journal's first line identifies the run.
+// Each other line is a case as in reports, in order of execution. Lines that are not a case of the
+// plan, repeat one or are damaged are left out with a message on stderr; such a case is played
+// again. Memory holds only the position of each case's line.
 class RunRecord {
 public:
-    // Throws engine::Error "<journal>: <reason>" where the journal is of another run and `resume`
-    // is set, or of this one and it is not; WriteFailed as Journal. Without `resume` another run's
-    // is replaced, with a line on stderr. Where `out` is no file (/dev/stdout) the journal is one
-    // that nobody keeps.
+    // Throws engine::Error "<journal>: <reason>" if `resume` is set and the journal belongs to
+    // another run, or if it is not set and the journal belongs to this run; throws WriteFailed like
+    // Journal. Without `resume`, replaces the journal of another run, with a message on stderr. If
+    // `out` is not a file (/dev/stdout), the journal is temporary.
     RunRecord(
         const RunPlan& plan, const report::ReportHeader& header, const RecordOptions& options);
     ~RunRecord();
@@ -104,28 +105,28 @@ public:
     RunRecord& operator=(const RunRecord&) = delete;
 
     struct Turn {
-        std::size_t place = 0;  // of the case in the plan
-        std::size_t order = 0;  // in which it runs, from 0
+        std::size_t place = 0;  // index of the case in the plan
+        std::size_t order = 0;  // position in the order of execution, from 0
     };
-    // The cases that are left, in the order that the seed of the run's beginning decides.
+    // The remaining cases, in the order from the run's original seed.
     const std::vector<Turn>& remaining() const { return remaining_; }
     std::size_t done() const { return done_.size(); }
-    // Of these, cases that were measured: neither skipped nor failed.
+    // Number of finished cases that were measured, neither skipped nor failed.
     std::size_t measured() const { return measured_; }
-    // False where `out` is no file, beside which nothing can be.
+    // False if `out` is not a file, so that no journal can lie beside it.
     bool hasJournal() const { return !scratch_; }
 
-    // Throws WriteFailed "<journal>: <reason>; <what is kept>".
+    // Throws WriteFailed "<journal>: <reason>; <kept cases>".
     void add(const report::CaseResult& result);
 
-    // The report but for its cases.
+    // The report without its cases.
     const scene::Json& header() const { return *header_; }
-    // Calls `visit` with each case, in the sweep's order. Throws engine::Error where the journal
-    // was changed by others.
+    // Calls `visit` with each case, in the sweep's order. Throws engine::Error if the journal was
+    // changed from outside.
     void eachCase(const std::function<void(scene::Json)>& visit) const;
 
-    // Writes the report, all cases in the sweep's order; where the run is complete the journal is
-    // removed, and nothing is left here. Throws WriteFailed, and keeps the journal.
+    // Writes the report with all cases in the sweep's order. For a complete run, then removes the
+    // journal and forgets the cases. Throws WriteFailed, and then keeps the journal.
     void write(RunEnd end);
 
 private:
@@ -136,7 +137,7 @@ private:
     void keep(std::size_t index, const std::string& status, const Journal::Place& line);
 
     std::filesystem::path out_;
-    std::unique_ptr<engine::ScratchFolder> scratch_;  // of a journal that nobody keeps
+    std::unique_ptr<engine::ScratchFolder> scratch_;  // for a temporary journal
     std::unique_ptr<Journal> journal_;
     std::unique_ptr<scene::Json> header_;
     std::vector<Done> done_;
@@ -146,8 +147,8 @@ private:
 
 std::filesystem::path journalFile(const std::filesystem::path& report);
 
-// How many cases of the report at `out` were measured, if it is complete and of the same plan on
-// the same build and device, and no journal says that a run is under way.
+// Returns how many cases of the report at `out` were measured. Returns nothing unless it is
+// complete, of the same plan, build and device, and without a journal of a run in progress.
 std::optional<std::size_t> measuredInComplete(
     const RunPlan& plan, const report::ReportHeader& header, const std::filesystem::path& out);
 

@@ -33,10 +33,10 @@ headerOf(const RunOptions& options, const RunPlan& plan, const engine::Device& d
     return header;
 }
 
-// What ended it before the last case.
+// What ended the run before its last case.
 struct Ended {
     bool interrupted = false;  // by the user
-    std::string no_device;  // why there is none any more
+    std::string no_device;  // why no device is left
 };
 
 Ended playCases(
@@ -91,7 +91,7 @@ FinishedRun finishedRun(const RunRecord& record) {
     return finished;
 }
 
-// Files relative to the report.
+// Returns the picture files, relative to the report.
 std::set<std::string> picturesOf(const RunRecord& record) {
     std::set<std::string> pictures;
     record.eachCase([&](const scene::Json& each) {

@@ -10,27 +10,27 @@
 #include "benchmarks/run/plan.h"
 #include "engine/device.h"
 
-// A run: its plan's cases played one after another, recorded, and made into a report.
+// Plays the cases of a plan one after another, records them, and makes a report.
 namespace benchmarks::measure {
 class HairCache;
 }  // namespace benchmarks::measure
 
 namespace benchmarks::run {
 
-// The file that --out names; or results/local/<scene>.json, and <scene>.2of8.json of a shard, so
-// that shards in one folder do not take each other's place.
+// Returns the file from --out, otherwise results/local/<scene>.json, or <scene>.2of8.json for a
+// shard, so that shards in one folder do not overwrite each other.
 std::filesystem::path reportFile(const RunOptions& options, const RunPlan& plan);
 
-// Throws engine::Error where a picture that a case is to be compared with is not there.
+// Throws engine::Error if a reference picture of a case is missing.
 void checkReferences(const RunPlan& plan);
 
-// The device of a run. Where a case lost it, those after it have another.
+// The device of a run. After a case loses it, the next cases get a new one.
 class RunDevice {
 public:
     explicit RunDevice(engine::DeviceOptions options) : options_(std::move(options)) {}
 
-    // Made where there is none. Throws as engine::Device does, but NoDevice where one was lost and
-    // no other can be made.
+    // Creates the device if there is none. Throws like engine::Device, but NoDevice if one was lost
+    // and no other can be created.
     const engine::Device& get();
     void drop() { device_.reset(); }
 
@@ -41,21 +41,22 @@ private:
 };
 
 struct FinishedRun {
-    // For a terminal: the table of the cases, then their warnings; empty where was_complete.
+    // For a terminal: the table of cases, then their warnings; empty if was_complete.
     std::string summary;
     std::size_t done = 0;  // cases
-    std::size_t measured = 0;  // of these: neither skipped nor failed
+    std::size_t measured = 0;  // cases neither skipped nor failed
     bool interrupted = false;  // by the user: cases are missing
-    // Cases are missing: one lost the device, and this is why there is no other.
+    // Set if a case lost the device and no other could be created: the reason. Cases are then
+    // missing.
     std::string no_device;
     bool was_complete = false;  // --resume found a report with nothing left to do
 };
 
-// Plays what a plan has left to do, with progress on stderr, and writes the report to `out`.
-// Where an interrupt finds the device at a long frame, what it would return, whose report is
-// written, is given to `last_words`, and the program ends (engine/process.h).
-// A case that loses the device fails, and the next one has a new device; where none can be made the
-// run ends.
+// Plays the remaining cases of a plan, with progress on stderr, and writes the report to `out`. If
+// an interrupt arrives during a long frame, writes the report, passes the result to `last_words`
+// and ends the program (engine/process.h).
+// A case that loses the device fails, and the next case gets a new device. If none can be created,
+// the run ends.
 // Throws engine::Error, and WriteFailed (record.h).
 FinishedRun playRun(
     RunDevice& device, const RunOptions& options, const RunPlan& plan,
