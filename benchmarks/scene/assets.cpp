@@ -25,7 +25,7 @@
 namespace benchmarks::scene {
 namespace {
 
-// Returns what is odd about them.
+// Checks the meshes of distance fields. Returns warnings about odd ones.
 std::vector<std::string> checkFields(
     const hair::Settings& settings, const std::optional<hair::groom::Mesh>& grown_on,
     const std::filesystem::path& scene, const Reach& reach) {
@@ -61,14 +61,14 @@ void checkMeshes(const hair::RenderSettings& render, const std::filesystem::path
     }
 }
 
-// Gives the material of that name so much of its own colour, the rest of the one with the most
-// triangles beside it.
+// Mixes the base colour of the material named `scalp`: the share `own` of its own colour, and the
+// rest from the other material with the most triangles.
 void tintScalp(hair::groom::Mesh& mesh, const std::string& scalp, float own) {
     if (own == 1.0f) return;
     const auto named = [&](const hair::groom::Material& material) {
         return material.name == scalp;
     };
-    // An importer may have put materials there that no triangle has.
+    // An importer may add materials that no triangle has.
     std::vector<std::size_t> triangles(mesh.materials.size(), 0);
     for (const std::uint32_t material : mesh.triangle_materials)
         if (!named(mesh.materials[material])) ++triangles[material];
@@ -80,7 +80,7 @@ void tintScalp(hair::groom::Mesh& mesh, const std::string& scalp, float own) {
         if (named(material)) material.base_color = glm::mix(around, material.base_color, own);
 }
 
-// Of what `owner` names.
+// Returns a check of the files that `owner` names.
 hair::groom::NamedFileCheck checkOf(const Reach& reach, const std::filesystem::path& owner) {
     return [&reach, owner](const std::filesystem::path& file) { reach.check(file, owner); };
 }
@@ -107,9 +107,9 @@ std::optional<hair::groom::Mesh> loadMesh(
 
 namespace {
 
-// ---- What was made before -----------------------------------------------------------------------
+// ---- Keys of the store --------------------------------------------------------------------------
 
-// A file as it is: its name, size and time.
+// Identifies a version of a file: its name, size and modification time.
 std::string stampOf(const std::filesystem::path& directory, const std::string& file) {
     if (file.empty()) return "-\n";
     const std::filesystem::path path = directory / file;
@@ -251,7 +251,8 @@ hair::rendering::RenderAssets loadRenderAssets(
 
 namespace {
 
-// Animations of the mesh that hair grows on which nobody plays; empty: none.
+// Returns a warning about animations of the mesh under the hair that are not played; empty if there
+// are none.
 std::string
 unplayedAnimations(const hair::Settings& settings, const std::filesystem::path& directory) {
     const std::string& file = meshFile(settings.groom);
@@ -261,14 +262,14 @@ unplayedAnimations(const hair::Settings& settings, const std::filesystem::path& 
         for (const std::string& name : hair::groom::animationNames(directory / file))
             names.append(names.empty() ? "'" : ", '").append(name + '\'');
     } catch (const engine::Error&) {
-        return {};  // of skins or animations alone, which nobody asks for
+        return {};  // a file with only skins or animations, which is no fault here
     }
     if (names.empty()) return {};
     return "/simulation/animation/clip: is empty, so nothing plays the animations of " + file +
            ": " + names;
 }
 
-// What bodies miss of a mesh that deforms; empty: nothing.
+// Returns a warning that bodies do not follow the deformation of a mesh; empty if they need not.
 std::string stiffBodies(const hair::Settings& settings) {
     if (settings.simulation.animation.clip.empty()) return {};
     const auto& fields = settings.simulation.distance_fields;

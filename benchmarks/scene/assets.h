@@ -15,22 +15,22 @@
 #include "hair/rendering/render_assets.h"
 #include "hair/settings.h"
 
-// What a case reads from files, before there is a device. `directory` is what file names in the
-// settings are relative to; errors begin with the path of the file. `reach` is for files that those
-// of the settings name, such as the buffers of a .gltf.
+// Loads a case's files, before there is a device. File names in the settings are relative to
+// `directory`; errors begin with the path of the file. `reach` checks files that the loaded files
+// name themselves, such as the buffers of a .gltf.
 namespace benchmarks::scene {
 
-// The mesh that the hair grows on and that is drawn under it. Absent where hair comes from a file
-// and nobody says what it grows on.
+// Loads the mesh that the hair grows on and that is drawn under it. Returns nothing if hair comes
+// from a file and the settings name no mesh for it.
 std::optional<hair::groom::Mesh> loadMesh(
     const hair::Settings& settings, const std::filesystem::path& directory,
     const Reach& reach = {});
 
-// Meshes and grooms, each made once however often it is asked for, as long as the files stay as
-// they are. Files that other files name (the buffers of a .gltf) are not watched.
+// Meshes and grooms. Each is made once, as long as its files do not change. Files that those files
+// name (the buffers of a .gltf) are not watched.
 class AssetStore {
 public:
-    // As loadMesh() and buildGroom() of it. Valid until trim().
+    // Results of loadMesh() and of buildGroom() on it. Valid until trim().
     const std::optional<hair::groom::Mesh>& mesh(
         const hair::Settings& settings, const std::filesystem::path& directory,
         const Reach& reach = {});
@@ -38,13 +38,13 @@ public:
         const hair::Settings& settings, const std::filesystem::path& directory,
         const Reach& reach = {});
 
-    // The same where it was made before; null where it wasn't.
+    // Return the same if it is in the store, otherwise null.
     const std::optional<hair::groom::Mesh>*
     knownMesh(const hair::Settings& settings, const std::filesystem::path& directory);
     const hair::groom::Groom*
     knownGroom(const hair::Settings& settings, const std::filesystem::path& directory);
 
-    // Lets go of what was used longest ago, if it is much.
+    // Removes the least recently used entries above the memory limit.
     void trim();
 
 private:
@@ -55,31 +55,31 @@ private:
     Recent<hair::groom::Groom> grooms_{kMostGrooms};
 };
 
-// The meshes of /simulation/distance_fields, in their order. `grown_on` is what loadMesh gave.
+// Loads the meshes of /simulation/distance_fields, in their order. `grown_on` is from loadMesh().
 std::vector<hair::groom::Mesh> loadFieldMeshes(
     const hair::Settings& settings, const std::optional<hair::groom::Mesh>& grown_on,
     const std::filesystem::path& directory, const Reach& reach = {});
 
-// The mesh that loadMesh gave as /simulation/animation deforms it; null where that names no clip.
-// Throws engine::Error also where there is no mesh.
+// Returns the mesh from loadMesh() as /simulation/animation deforms it; null if that names no clip.
+// Also throws engine::Error if there is no mesh.
 std::unique_ptr<hair::groom::DeformingMesh> loadDeforming(
     const hair::Settings& settings, const std::optional<hair::groom::Mesh>& grown_on,
     const std::filesystem::path& directory);
 
-// The strands of /strands/offsets; absent where it is empty.
+// Loads the strands of /strands/offsets; nothing if it is empty.
 std::optional<hair::groom::StrandSet> loadOffsets(
     const hair::Settings& settings, const std::filesystem::path& directory,
     const Reach& reach = {});
 
-// What pictures show beside the hair. `head` is what loadMesh gave, or null.
+// Loads everything else in the picture besides the hair. `head` is from loadMesh(), or null.
 hair::rendering::RenderAssets loadRenderAssets(
     const hair::Settings& settings, const hair::groom::Mesh* head,
     const std::filesystem::path& directory, const Reach& reach = {});
 
-// Reads and checks all that a case of this scene needs, without a device: the errors of a bad asset
-// before anything runs. Where the fault is in how the scene uses a file, the error is
-// "<scene>: <JSON pointer>: <reason>". What it makes is left in `assets`. Returns warnings in the
-// same form: what is odd and can be used.
+// Loads and checks everything that a case of this scene needs, without a device, so that errors in
+// assets show before anything runs. If the scene uses a file wrongly, the error is "<scene>: <JSON
+// pointer>: <reason>". Keeps what it loads in `assets`. Returns warnings in the same form about
+// assets that are odd but usable.
 std::vector<std::string> checkAssets(
     const hair::Settings& settings, const std::filesystem::path& scene, AssetStore& assets,
     const Reach& reach = {});

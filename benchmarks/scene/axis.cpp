@@ -21,9 +21,9 @@ namespace {
 // ---- Ranges -------------------------------------------------------------------------------------
 
 constexpr std::string_view kPowersOfTwo = "pow2:";
-constexpr double kLargestExponent = 52.0;  // doubles, and with them JSON readers, count further
+constexpr double kLargestExponent = 52.0;  // doubles, and thus JSON readers, are exact up to here
 
-// Numbers between colons; nothing if a part is none.
+// Returns the numbers between colons; nothing if a part is not a number.
 std::optional<std::vector<double>> numbers(std::string_view text) {
     std::vector<double> found;
     for (bool more = true; more;) {
@@ -47,12 +47,11 @@ Json wholeIfItIs(double number) {
     return number;
 }
 
-// The values that a range of the command line stands for, or nothing if the text is none:
+// Returns the values of a command-line range; nothing if the text is not a range:
 //   pow2:6:12     64, 128 ... 4096; pow2:6:12:2 takes every second one
 //   10:50:20      10, 30, 50; 10:12 has steps of 1. Steps begin at the first number, and the last
 //                 value is the largest that is not above the second
-// Throws engine::Error "<text>: <reason>" for one without values or with more than a sweep may
-// have.
+// Throws engine::Error "<text>: <reason>" for a range without values or with too many for a sweep.
 std::optional<std::vector<Document>> rangeValues(std::string_view text) {
     const bool powers = text.starts_with(kPowersOfTwo);
     const auto parts = numbers(powers ? text.substr(kPowersOfTwo.size()) : text);
@@ -65,7 +64,7 @@ std::optional<std::vector<Document>> rangeValues(std::string_view text) {
     if (powers && (first < 0.0 || last > kLargestExponent || first != std::trunc(first) ||
                    step != std::trunc(step)))
         throw engine::Error(std::string(text), "exponents are whole numbers in [0, 52]");
-    // 0:1:0.1 has eleven values, though 0.1 * 10 rounds.
+    // The tolerance gives 0:1:0.1 its eleven values although 0.1 * 10 is rounded.
     const double count = std::floor((last - first) / step * (1.0 + 1e-12)) + 1.0;
     if (count > static_cast<double>(kMaximumCases))
         throw engine::Error(
@@ -123,7 +122,7 @@ void requireFew(const std::string& axis, std::size_t values) {
                       std::to_string(kMostAxisValues));
 }
 
-// checkedAxis() for an axis that may have a value more than once, as tied ones do.
+// Like checkedAxis(), but an axis may have the same value twice, as tied axes do.
 Axis echoedAxis(const Axis& axis, const Json& resolved) {
     if (axis.values.empty()) throw engine::Error(axis.pointer, "an axis needs at least one value");
     requireFew(axis.pointer, axis.values.size());
@@ -143,7 +142,7 @@ Axis echoedAxis(const Axis& axis, const Json& resolved) {
 Document parseValue(const std::string& text) {
     Json value = Json::parse(text, nullptr, false);
     if (!value.is_discarded()) return Document(std::move(value));
-    // Settings are UTF-8, and a command line need not be.
+    // Settings are UTF-8, but a command line need not be.
     return Document(Json::parse(Document(text).text()));
 }
 
@@ -199,7 +198,7 @@ namespace {
 
 // ---- A scene's sweep ----------------------------------------------------------------------------
 
-// Calls `action` and puts the context in front of the reasons it throws.
+// Calls `action` and prepends the context to its errors.
 template <class Action>
 void within(const std::string& context, Action&& action) {
     try {
@@ -217,7 +216,8 @@ Axis writtenAxis(const std::string& pointer, const Json& values) {
     return axis;
 }
 
-// Calls `read` with each element of an array of objects that are not empty, within its pointer.
+// Calls `read` with each element of an array of non-empty objects; errors name the element's
+// pointer.
 template <class Read>
 void readObjects(const std::string& member, const Json& list, Read read) {
     if (!list.is_array())
@@ -230,7 +230,7 @@ void readObjects(const std::string& member, const Json& list, Read read) {
         });
 }
 
-// One axis of several fields: the first, and the others tied to it.
+// Makes one axis of several fields: the first one, with the others tied to it.
 Axis tied(std::vector<Axis> fields) {
     Axis axis = std::move(fields.front());
     axis.tied.assign(

@@ -12,11 +12,11 @@ namespace benchmarks::scene {
 
 inline constexpr std::size_t kMostAxisValues = 10000;
 
-// A field that a sweep varies, with those that change with it.
+// A field that a sweep varies, and the fields tied to it.
 struct Axis {
     std::string pointer;  // JSON pointer of a field, such as /strands/density
     std::vector<Document> values;  // 64, "lines", [0,0,1]
-    std::vector<Axis> tied{};  // as many values each; the i-th ones go together
+    std::vector<Axis> tied{};  // each with as many values; the i-th values of all go together
 };
 
 // The value of one axis in one case.
@@ -25,28 +25,29 @@ struct AxisValue {
     Document value;
 };
 
-// A value of the command line: JSON if it reads as such, otherwise a string.
+// Returns a command-line value: parsed JSON if it is valid, otherwise a string.
 Document parseValue(const std::string& text);
 
-// "POINTER=V1,V2" of the command line. Commas inside brackets and quotes belong to the value:
-// /camera/position=[0,0,1],[0,0,2] has two. Ranges stand for their values:
+// Parses "POINTER=V1,V2" from the command line. Commas inside brackets and quotes belong to the
+// value: /camera/position=[0,0,1],[0,0,2] has two values. A range stands for its values:
 // /groom/guides=pow2:6:12,86. Throws engine::Error.
 Axis parseAxis(std::string_view argument);
 
-// The axis if its pointer names a field of `resolved` (a scene's document with every field) and
-// each value is one that the field takes, each once; otherwise engine::Error "<JSON pointer>:
-// <reason>". Values come back as the report echoes them: 64 for 64.0. An object is merged into the
-// group it is for, so that one axis can vary several fields together.
+// Returns the checked axis. Its pointer must name a field of `resolved` (a scene's document with
+// every field), and each value must be valid for the field and occur once. Otherwise throws
+// engine::Error "<JSON pointer>: <reason>". Returns values as reports have them: 64 for 64.0. A
+// value that is an object is merged into its group, so that one axis can vary several fields
+// together.
 Axis checkedAxis(const Axis& axis, const Json& resolved);
 
-// A short, distinct name for each pointer: its last token, with tokens before it as far as it takes
-// to tell two apart, or for an index: "density", "wind.strength", "position.2".
+// Returns a short unique name for each pointer: its last token, with as many earlier tokens as it
+// takes to tell two apart, and at least one for an index: "density", "wind.strength", "position.2".
 std::vector<std::string> axisLabels(const std::vector<std::string>& pointers);
 
-// The value as names and tables show it: a string without its quotes.
+// Returns the value as names and tables show it: a string without its quotes.
 std::string valueLabel(const Json& value);
 
-// Cases in which each of these fields has one of the values of its axis.
+// Excludes the cases in which each of these fields has one of its listed values.
 using Exclusion = std::vector<Axis>;
 
 struct SweepMember {
@@ -54,17 +55,17 @@ struct SweepMember {
     std::vector<Exclusion> exclusions;
 };
 
-// A scene's "sweep", checked against a document with every field:
+// Reads a scene's "sweep" and checks it against a document with every field:
 //   "/strands/density": [16, 64]       an axis
 //   "zip": [{"/groom/guides": [10, 86], "/strands/density": [64, 16]}]
 //                                      fields that change together: the first values of all, then
 //                                      the second ones; each element of the list is one axis
 //   "cases": [{"/render/msaa": 4}, {"/render/msaa": 1, "/strands/density": 64}]
-//                                      the same by rows: one axis whose values are these; a field
+//                                      the same by rows: one axis with these values; a field
 //                                      that a row leaves out has the scene's value there
 //   "exclude": [{"/render/msaa": [4, 8], "/strands/density": [64]}]
-//                                      combinations that are left out: those for which all the
-//                                      fields of an element have one of its values
+//                                      combinations to leave out: those in which every field of an
+//                                      element has one of its values
 // Throws engine::Error "<JSON pointer>: <reason>".
 SweepMember readSweep(const Json& sweep, const Json& resolved);
 

@@ -15,7 +15,7 @@
 namespace benchmarks::scene {
 namespace {
 
-// What the settings have of a field.
+// The file and parameters of an extension field in the settings.
 template <class Settings, class Parameters>
 struct Named {
     const std::string& file;
@@ -57,7 +57,7 @@ void checkValue(
             double{value.value[i]}, {parameter.minimum, parameter.maximum, parameter.unit.c_str()});
 }
 
-// All of the file's, in its order.
+// Returns all parameters of the file in its order, with defaults for those that are not set.
 std::vector<hair::ExtensionValue> completed(
     const std::vector<hair::ExtensionValue>& set, const hair::Extension& extension,
     const std::string& pointer) {
@@ -74,7 +74,7 @@ std::vector<hair::ExtensionValue> completed(
     return all;
 }
 
-// Host and shaders have to know how far strands may come.
+// The host and the shaders must know how far an offset can move strands.
 void checkReach(const hair::Extension& extension) {
     if (extension.kind != hair::ExtensionKind::offset) return;
     const auto reach =
@@ -116,7 +116,7 @@ void loadOne(
     parameters.values = completed(parameters.values, *parameters.file, field.parameters);
 }
 
-// An entry point that calls functions of that kind.
+// Returns an entry point that calls extensions of that kind.
 const char* calledBy(hair::ExtensionKind kind) {
     switch (kind) {
     case hair::ExtensionKind::shading:

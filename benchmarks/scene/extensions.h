@@ -8,10 +8,10 @@
 #include "hair/extension.h"
 #include "hair/settings.h"
 
-// Files of GLSL that scenes name: docs/extending_scenes.md.
+// GLSL files that scenes name: docs/extending_scenes.md.
 namespace benchmarks::scene {
 
-// A field that may name one, and the one of its parameters.
+// A field that may name a GLSL file, and the field of its parameters.
 struct ExtensionField {
     hair::ExtensionKind kind;
     const char* pointer;
@@ -23,32 +23,32 @@ inline constexpr ExtensionField kExtensionFields[]{
     {hair::ExtensionKind::offset, "/strands/offset_function", "/strands/offset_parameters"},
     {hair::ExtensionKind::force, "/simulation/force", "/simulation/force_parameters"}};
 
-// Parameters that the file does not declare.
+// Treatment of parameters that the file does not declare.
 enum class UnknownParameters { refused, dropped };
 
-// Reads the files that the settings name, and completes and checks their parameters. `directory` is
-// what names are relative to. Throws engine::Error "<JSON pointer>: <reason>" for a file that can't
-// be read, or is out of reach, and for parameters that are not its own.
+// Reads the files that the settings name, and completes and checks their parameters. Names are
+// relative to `directory`. Throws engine::Error "<JSON pointer>: <reason>" for a file that cannot
+// be read or is out of reach, and for parameters that it does not declare.
 void loadExtensions(
     hair::Settings& settings, const std::filesystem::path& directory, const Reach& reach = {},
     UnknownParameters unknown = UnknownParameters::refused);
 
-// The settings with their files read.
+// Returns the settings with their files read.
 hair::Settings
 withExtensions(const hair::Settings& settings, const std::filesystem::path& directory);
 
-// Reads them anew, where that is possible, and drops parameters that they don't have. Others stay
-// as they are, and whoever plays them hears why.
+// Reads the files again and drops parameters that they no longer have. If that fails, leaves the
+// settings unchanged; playing them then reports the error.
 void rereadExtensions(hair::Settings& settings, const std::filesystem::path& directory);
 
-// Compiles the files, for the errors. Throws engine::Error "<JSON pointer>: <file>:<line>:
+// Compiles the files to find errors. Throws engine::Error "<JSON pointer>: <file>:<line>:
 // <reason>".
 void checkExtensions(const hair::Settings& settings);
 
-// A file that was read.
+// A GLSL file that was read.
 struct NamedExtension {
     std::string pointer;  // of the field that names it
-    std::string file;  // as the field has it
+    std::string file;  // as the field names it
     std::string text;
 };
 std::vector<NamedExtension> namedExtensions(const hair::Settings& settings);

@@ -25,7 +25,7 @@ stands for the element's place, from 0.
 
 )";
 
-// A field's pointer with N for places in lists -> the scene whose example is shown.
+// Pointer of a field, with N for list indices -> the scene that is its example.
 using Examples = std::map<std::string, std::string>;
 
 bool isPlace(const std::string& token) {
@@ -38,12 +38,12 @@ std::string withoutPlaces(const std::string& pointer) {
     std::string all;
     std::istringstream tokens(pointer);
     std::string token;
-    std::getline(tokens, token, '/');  // before the first one
+    std::getline(tokens, token, '/');  // the empty token before the first slash
     while (std::getline(tokens, token, '/')) all += '/' + (isPlace(token) ? "N" : token);
     return all;
 }
 
-// Notes the scene for all that its document sets: members, and axes of its sweep.
+// Records the scene as an example of every member that its document sets.
 void addExamples(
     const Json& document, const std::string& pointer, const std::string& name, Examples& examples) {
     examples.emplace(pointer, name);
@@ -74,7 +74,7 @@ Examples examplesIn(const std::filesystem::path& folder) {
     return examples;
 }
 
-// In a cell of a table.
+// Escapes text for a table cell.
 std::string escaped(const std::string& text) {
     std::string all;
     for (const char c : text) {
@@ -113,7 +113,7 @@ std::string valuesOf(const Json& schema) {
     return name == "integer" ? range + ", whole" : range;
 }
 
-// Splits "… [kg]" into what a field is and its unit.
+// Splits "… [kg]" into the description and the unit.
 std::pair<std::string, std::string> helpAndUnit(const std::string& description) {
     const std::size_t open = description.rfind(" [");
     if (open == std::string::npos || !description.ends_with(']')) return {description, ""};
@@ -125,7 +125,7 @@ class Page {
 public:
     explicit Page(Examples examples) : examples_(std::move(examples)) {}
 
-    // The fields of an object, then the objects in it, each under a heading.
+    // Adds the fields of an object, then the objects in it, each under a heading.
     void add(const Json& members, const std::string& pointer) {
         bool has_table = false;
         for (const auto& [name, schema] : members.items()) {

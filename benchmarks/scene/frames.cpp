@@ -26,7 +26,7 @@ FramePaths::FramePaths(const std::filesystem::path& pattern) {
         }
         if (has_number_) refuse("has more than one number");
         has_number_ = true;
-        // "%4d" would pad with spaces.
+        // "%4d" is refused because it would pad with spaces.
         if (text.compare(i, 1, "0") == 0 && i + 1 < text.size() && text[i + 1] >= '1' &&
             text[i + 1] <= '9') {
             digits_ = static_cast<std::size_t>(text[i + 1] - '0');
@@ -49,7 +49,7 @@ FrameRange parseFrameRange(std::string_view text) {
     const auto refuse = [&](const char* reason) {
         throw engine::Error("--frames " + std::string(text), reason);
     };
-    constexpr std::uint32_t kMost = 1'000'000;  // that a frame's number may be
+    constexpr std::uint32_t kMost = 1'000'000;  // largest frame number
     std::vector<std::uint32_t> numbers;
     const char* at = text.data();
     const char* const end = at + text.size();

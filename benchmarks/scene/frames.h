@@ -8,14 +8,14 @@
 // Ranges of frames and the names of their files.
 namespace benchmarks::scene {
 
-// Names of the files of a sequence: a path with one "%d" or "%04d", in whose place the frame's
-// number goes; "%%" is a percent sign.
+// File names of a sequence: a path with one "%d" or "%04d" for the frame's number; "%%" is a
+// percent sign.
 class FramePaths {
 public:
-    // Throws engine::Error for a pattern with anything else after a "%", or more than one number.
+    // Throws engine::Error for a pattern with more than one number or anything else after a "%".
     explicit FramePaths(const std::filesystem::path& pattern);
 
-    // Whether each frame has a name of its own.
+    // Whether each frame has its own name.
     bool hasNumber() const { return has_number_; }
 
     std::filesystem::path of(std::uint32_t frame) const;
@@ -23,11 +23,11 @@ public:
 private:
     std::string before_;
     std::string after_;
-    std::size_t digits_ = 0;  // at least
+    std::size_t digits_ = 0;  // minimum number of digits
     bool has_number_ = false;
 };
 
-// Frames `first`, `first` + `step` ... that are below `end`.
+// The frames `first`, `first` + `step` ... below `end`.
 struct FrameRange {
     std::uint32_t first = 0;
     std::uint32_t end = 1;
@@ -39,8 +39,7 @@ struct FrameRange {
     }
 };
 
-// The range that "A:B" or "A:B:STEP" names. Throws engine::Error for anything else, and where there
-// is no frame.
+// Parses "A:B" or "A:B:STEP". Throws engine::Error for other text and for an empty range.
 FrameRange parseFrameRange(std::string_view text);
 
 }  // namespace benchmarks::scene

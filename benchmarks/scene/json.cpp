@@ -16,7 +16,8 @@ namespace benchmarks::scene {
 // ---- Unknown names ------------------------------------------------------------------------------
 
 std::size_t editDistance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);  // row[j]: from the read part of a to b[0, j)
+    std::vector<std::size_t> row(b.size() + 1);  // row[j]: from the part of a read so far to b[0,
+                                                 // j)
     std::iota(row.begin(), row.end(), std::size_t{0});
     for (std::size_t i = 0; i < a.size(); ++i) {
         std::size_t diagonal = row[0]++;
@@ -31,7 +32,7 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 
 std::string
 unknownName(std::string_view what, std::string_view name, const std::vector<std::string>& known) {
-    // What a line has room for, in bytes.
+    // Limits of the message's length, in bytes.
     constexpr std::size_t kLongestName = 64;
     constexpr std::size_t kLongestList = 1000;
     std::string text(what);
@@ -147,7 +148,7 @@ void patch(Json& document, std::string_view pointer, const Json& value) {
 }
 
 std::string described(const Json& value) {
-    constexpr std::size_t kLongest = 40;  // bytes of a string that are worth showing
+    constexpr std::size_t kLongest = 40;  // longer strings are shortened, bytes
     if (value.is_object()) return "an object";
     if (value.is_array()) return "an array of " + std::to_string(value.size());
     const bool cut = value.is_string() && value.get_ref<const std::string&>().size() > kLongest;
@@ -162,11 +163,11 @@ namespace {
 // ---- Documents and parsing ----------------------------------------------------------------------
 
 constexpr std::size_t kDeepest = 64;
-// Members are looked for one by one.
+// The limit matters because members are searched one by one.
 constexpr std::size_t kMostMembers = 4096;
 constexpr std::size_t kLongestKey = 512;  // bytes
 
-// "file:line:column", both counted from 1; `position` is the number of bytes read.
+// Returns "file:line:column", both counted from 1. `position` is the number of bytes read.
 std::string placeName(std::string_view text, std::size_t position, const std::string& name) {
     const std::size_t last = std::min(position, text.size() + 1) - (position > 0 ? 1 : 0);
     const std::string_view before = text.substr(0, last);
@@ -185,8 +186,8 @@ std::string reasonOf(std::string text) {
     return text;
 }
 
-// Builds the document from parsing events; nlohmann's own parser keeps the last of duplicate keys
-// silently.
+// Builds the document from parsing events, because nlohmann's own parser silently keeps the last of
+// duplicate keys.
 class Builder : public nlohmann::json_sax<Json> {
 public:
     Builder(std::string_view text, const std::string& name) : text_(text), name_(name) {}
@@ -229,7 +230,7 @@ public:
 private:
     struct Level {
         Json value;
-        std::string key;  // of the member being read, in an object
+        std::string key;  // key of the member being read, in an object
     };
 
     std::string pointer() const {
@@ -266,7 +267,7 @@ private:
     std::string_view text_;
     const std::string& name_;
     Json document_;
-    std::vector<Level> levels_;  // what is open, outermost first
+    std::vector<Level> levels_;  // open objects and arrays, outermost first
 };
 
 }  // namespace

@@ -13,12 +13,11 @@
 // JSON documents, JSON pointers and errors about names.
 namespace benchmarks::scene {
 
-// Members keep the order in which they were written: reports and sweeps are read by people.
+// Members keep their written order, because people read reports and sweeps.
 using Json = nlohmann::ordered_json;
 
-// A JSON value that others own: a scene, the value of an axis, what a report quotes. Headers that
-// hold one need not know how JSON is made. Copies are deep; a default one, and one that was moved
-// from, is null.
+// Owns a JSON value, such as a scene, the value of an axis or part of a report, so that headers
+// need not include nlohmann's. Copies are deep. A default or moved-from document is null.
 class Document {
 public:
     Document();
@@ -30,58 +29,59 @@ public:
     ~Document();
 
     const Json& json() const;
-    // Compact, with members in the order in which they were written; bytes that are not UTF-8 are
-    // U+FFFD there.
+    // Returns compact text with members in their written order. Replaces bytes that are not UTF-8
+    // by U+FFFD.
     std::string text() const;
 
 private:
-    std::unique_ptr<const Json> value_;  // absent: null
+    std::unique_ptr<const Json> value_;  // absent: JSON null
 };
 
-// Whether their texts are the same: 1 differs from 1.0, and the order of members counts.
+// Compares their texts: 1 differs from 1.0, and the order of members counts.
 bool operator==(const Document& a, const Document& b);
 
-// Parses one JSON document. `name` is what the text is called in errors, usually its file:
+// Parses one JSON document. Errors call the text `name`, usually its file:
 //   scene.json:3:17: syntax error while parsing value - unexpected '}'; ...
 //   scene.json: /strands/density: is there twice
-// Stricter than JSON: a member written twice and nesting deeper than 64 are errors. No comments.
+// Stricter than JSON: duplicate members and nesting deeper than 64 are errors. No comments.
 Json parseJson(std::string_view text, const std::string& name);
 
-// Insertions, deletions and substitutions that turn `a` into `b` (Levenshtein 1966), in bytes.
+// Returns the number of insertions, deletions and substitutions that turn `a` into `b` (Levenshtein
+// 1966), in bytes.
 std::size_t editDistance(std::string_view a, std::string_view b);
 
-// What to say of a name that is not among `known`, without its final stop:
+// Returns an error text about a name that is not among `known`, without a final full stop:
 //   unknown key (did you mean "density"?); known: backend, density
-// `what` is the beginning, here "unknown key". The nearest name is suggested if it shares at least
-// half.
+// `what` is the beginning, here "unknown key". Suggests the nearest name if the edit distance is at
+// most half the length of the longer name.
 std::string
 unknownName(std::string_view what, std::string_view name, const std::vector<std::string>& known);
 
 // JSON pointers (RFC 6901) into a document that holds every field.
 
-// One token as it stands in a pointer: ~ and / are escaped, control characters are shown as '?' so
-// that an error stays one line.
+// Returns one token as written in a pointer: ~ and / are escaped, and control characters become '?'
+// so that an error stays on one line.
 std::string escapedToken(std::string_view token);
 
-// "/lod/level" -> {"lod", "level"}. Throws engine::Error if the text is no JSON pointer or is the
-// whole document's ("").
+// "/lod/level" -> {"lod", "level"}. Throws engine::Error if the text is not a JSON pointer or is
+// empty, which would be the whole document.
 std::vector<std::string> pointerTokens(std::string_view pointer);
 
-// The value that the pointer names. An absent one is an engine::Error at the first token that is
-// unknown.
+// Returns the value that the pointer names. If it is absent, throws engine::Error at the first
+// unknown token.
 Json& valueAt(Json& document, std::string_view pointer);
 
-// Puts a value where the pointer leads, which must exist. An object is merged (RFC 7386) into the
-// object that is there, so that members it does not name stay as they are.
+// Sets the value at the pointer, which must exist. An object is merged (RFC 7386) into an existing
+// object, so that members it does not name stay unchanged.
 void patch(Json& document, std::string_view pointer, const Json& value);
 
-// The type with its article, for errors: "an array", "the string \"x\"", "3".
+// Returns the type with its article, for errors: "an array of 3", "the string \"x\"", "3".
 std::string described(const Json& value);
 
-// The value at a JSON pointer as text, a string without its quotes; empty where it is absent.
+// Returns the value at a JSON pointer as text, a string without its quotes; empty if it is absent.
 std::string textAt(const Json& document, const char* pointer);
 
-// The shortest decimal that reads back as the same float, whatever the locale.
+// Returns the shortest decimal that reads back as the same float, in any locale.
 inline std::string decimalText(double value) {
     std::array<char, 32> text{};
     const auto end =
@@ -89,7 +89,7 @@ inline std::string decimalText(double value) {
     return {text.data(), end.ptr};
 }
 
-// The coordinates of a glm vector, with `separator` between them.
+// Returns the coordinates of a glm vector with `separator` between them.
 template <class Vector>
 std::string decimalTexts(const Vector& values, const char* separator) {
     std::string text = decimalText(values[0]);

@@ -10,19 +10,19 @@ class RE2;
 
 namespace benchmarks::scene {
 
-// A regular expression that a user or a file gives, as RE2 knows them: as in ECMAScript, but for
-// references back and looking around. Time is linear in the text and memory bounded, whatever they
-// are.
+// A regular expression from a user or a file, in RE2's syntax: like ECMAScript, but without back
+// references and look-around. Matching takes time linear in the text and bounded memory, whatever
+// the input.
 class Pattern {
 public:
-    // Throws engine::Error, without the expression, for what is none.
+    // Throws engine::Error, without the expression, for an invalid one.
     explicit Pattern(const std::string& regex);
 
-    // Whether it is found anywhere in the text; an empty one is in all.
+    // Whether it matches anywhere in the text; an empty one matches every text.
     bool isIn(std::string_view text) const;
 
 private:
-    std::shared_ptr<const re2::RE2> expression_;  // of all copies, which std::function asks for
+    std::shared_ptr<const re2::RE2> expression_;  // shared by copies; std::function needs copies
 };
 
 }  // namespace benchmarks::scene

@@ -22,12 +22,13 @@ namespace fs = std::filesystem;
 
 // ---- Folders ------------------------------------------------------------------------------------
 
-// Where a name leads once links are followed, as far as there is something.
+// Resolves links as far as the path exists.
 fs::path placeOf(const fs::path& path) {
     std::error_code error;
     const fs::path absolute = fs::absolute(path, error);
     const fs::path place = fs::weakly_canonical(absolute, error);
-    return error ? absolute.lexically_normal() : place;  // links in a circle: nothing is opened
+    return error ? absolute.lexically_normal() : place;  // circular links: such a file cannot be
+                                                         // opened
 }
 
 bool isBelow(const fs::path& file, const fs::path& folder) {
@@ -35,7 +36,7 @@ bool isBelow(const fs::path& file, const fs::path& folder) {
            folder.end();
 }
 
-// Not where anybody may put the mark, as in /tmp.
+// Ignores the mark in folders that anyone may write to, like /tmp.
 bool isMarked(const fs::path& folder) {
     std::error_code error;
     const fs::perms permissions = fs::status(folder, error).permissions();
@@ -112,7 +113,7 @@ namespace {
 
 using NameVisitor = std::function<void(const std::string& pointer, const std::string& name)>;
 
-// "groom/file" -> "groom", and "file" is left; nothing is left where it was the last.
+// "groom/file" -> "groom", leaving "file" in `rest`; leaves nothing after the last token.
 std::string_view takeToken(std::string_view& rest) {
     const std::size_t end = std::min(rest.find('/'), rest.size());
     const std::string_view token = rest.substr(0, end);
@@ -120,8 +121,8 @@ std::string_view takeToken(std::string_view& rest) {
     return token;
 }
 
-// Visits the file names in a JSON value of the settings, or of their member at `rest`,
-// "groom/file". `pointer` is where the settings are.
+// Visits the file names in a JSON value of the settings, or of their member at `rest`, such as
+// "groom/file". `pointer` is the pointer of the settings.
 void visitNames(
     const Json& value, std::string_view rest, hair::SettingsView settings,
     const std::string& pointer, const NameVisitor& visit);

@@ -6,48 +6,48 @@
 
 #include "benchmarks/scene/json.h"
 
-// Where scenes lie, and which files they may name: one that a stranger made ought to open none but
-// its own.
+// Finds scenes and limits the files that they may name, so that a scene from a stranger can only
+// open its own files.
 namespace benchmarks::scene {
 
-// The file that is meant by the name of a scene: the file of that name where there is one, else
-// the scene of that name that comes with the program: "thesis", "scenes/thesis.json",
-// "portraits/braid". The name as it is where there is neither.
+// Returns the file for a scene's name: the file of that name if it exists, otherwise the scene of
+// that name that comes with the program: "thesis", "scenes/thesis.json", "portraits/braid". Returns
+// the name unchanged if neither exists.
 std::filesystem::path sceneNamed(const std::filesystem::path& name);
 
-// Names of the scenes that come with the program, as sceneNamed() takes them, in alphabetical
-// order: "thesis", "portraits/braid".
+// Returns the names of the scenes that come with the program, as sceneNamed() takes them, in
+// alphabetical order: "thesis", "portraits/braid".
 std::vector<std::string> shippedScenes();
 
-// What the user says of files outside: --allow-outside.
+// The user's choice about files outside: --allow-outside.
 enum class Outside { refused, allowed };
 
-// The folders that files named by a scene may lie in, after links are followed:
-//   - the scene's own folder; where that or one above it holds scene.schema.json, the nearest that
-//     does, so that the scenes of a folder may lie in folders of it and share assets
-//   - the program's own scenes, on which others are built
+// The folders in which files named by a scene may lie, after links are followed:
+//   - the nearest folder with scene.schema.json, from the scene's own folder upwards, so that
+//     scenes in subfolders can share assets; without one, the scene's own folder
+//   - the program's own scenes, which can be bases of others
 class Reach {
 public:
-    // Everywhere.
+    // Allows every file.
     Reach() = default;
-    // Of the file that the user opens. Those that it leads to, bases and members of a suite, have
-    // the same reach.
+    // Reach of the file that the user opens. Its bases and the members of a suite have the same
+    // reach.
     Reach(const std::filesystem::path& opened, Outside outside);
 
-    // Throws engine::Error "<file>: <reason>" for one that lies elsewhere.
+    // Throws engine::Error "<file>: <reason>" for a file elsewhere.
     void check(const std::filesystem::path& file) const;
 
-    // The same for a file that `owner` names. Those beside the owner and in folders there are its
-    // own, wherever it is.
+    // The same for a file that `owner` names. Files in the owner's folder and below always belong
+    // to it.
     void check(const std::filesystem::path& file, const std::filesystem::path& owner) const;
 
 private:
-    std::vector<std::filesystem::path> folders_;  // canonical; empty: everywhere
+    std::vector<std::filesystem::path> folders_;  // canonical; empty: every file is allowed
 };
 
-// Every file that a value of the field at `pointer` names, or where that is empty a document, of a
-// scene in `directory`. Throws engine::Error "<JSON pointer>: <file>: <reason>" for one out of
-// reach.
+// Checks every file named by a value of the field at `pointer`, or by a whole document if `pointer`
+// is empty, of a scene in `directory`. Throws engine::Error "<JSON pointer>: <file>: <reason>" for
+// a file out of reach.
 void checkNamedFiles(
     const Json& value, const std::string& pointer, const std::filesystem::path& directory,
     const Reach& reach);

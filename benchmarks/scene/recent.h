@@ -8,14 +8,14 @@
 
 namespace benchmarks::scene {
 
-// Values by key, of which the ones that were used last are kept.
+// An LRU cache: values by key.
 template <class Value>
 class Recent {
 public:
-    // Bytes of all values together; the last one may be more by itself.
+    // `most_bytes` limits the size of all values together, but the last value is always kept.
     explicit Recent(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
-    // Null where it is not there. Valid until trim().
+    // Returns null if the key is absent. Valid until trim().
     const Value* find(std::string_view key) {
         for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
             if (entry->key != key) continue;
@@ -25,14 +25,14 @@ public:
         return nullptr;
     }
 
-    // `bytes` is what the value takes, about. The key must be new.
+    // `bytes` is the approximate size of the value. The key must be new.
     const Value& add(std::string key, Value value, std::size_t bytes) {
         entries_.push_front({std::move(key), std::move(value), bytes});
         bytes_ += bytes;
         return entries_.front().value;
     }
 
-    // Lets go of what was used longest ago and is too much.
+    // Removes the least recently used values above the limit.
     void trim() {
         while (bytes_ > most_bytes_ && entries_.size() > 1) {
             bytes_ -= entries_.back().bytes;
@@ -49,7 +49,7 @@ private:
 
     std::size_t most_bytes_;
     std::size_t bytes_ = 0;
-    std::list<Entry> entries_;  // used last first
+    std::list<Entry> entries_;  // most recently used first
 };
 
 }  // namespace benchmarks::scene

@@ -72,7 +72,7 @@ namespace {
 
 // ---- Scene file ---------------------------------------------------------------------------------
 
-// Calls `action` and puts the file's name in front of the reasons it throws.
+// Calls `action` and prepends the file's name to its errors.
 template <class Action>
 auto inFile(const fs::path& path, Action&& action) {
     try {
@@ -82,7 +82,7 @@ auto inFile(const fs::path& path, Action&& action) {
     }
 }
 
-// The text of a scene file, or of the scene in a screenshot.
+// Returns the text of a scene file, or of the scene in a screenshot.
 std::string readScene(const fs::path& path) {
     if (std::error_code error; fs::is_directory(path, error))
         throw engine::Error(path.string(), "is a folder, not a scene file");
@@ -160,8 +160,8 @@ void moveFileName(
         moveFileNames(object[name][i], folder, row.at(settings, i));
 }
 
-// File names are relative to the scene that is opened, so a base in another folder has its own
-// rewritten, those that it takes from the defaults too.
+// File names are relative to the opened scene, so file names from a base in another folder are
+// rewritten, including its defaults.
 void moveFileNames(Json& object, const fs::path& folder, hair::SettingsView settings) {
     for (const hair::Field& field : settings.fields())
         std::visit(
@@ -177,7 +177,7 @@ Json everyMember() {
 
 struct Loaded {
     Scene scene;
-    Json document;  // what the scene is made from: bases merged, with the reader's own members
+    Json document;  // source of the scene: bases merged, with the scene reader's own members
 };
 
 constexpr std::size_t kMostBases = 16;
@@ -187,7 +187,7 @@ void checkValues(const Scene& scene, const Axis& axis) {
         checkNamedFiles(value.json(), axis.pointer, scene.directory, scene.reach);
 }
 
-// `opened`: the files that led here.
+// `opened` lists the files that led here.
 Loaded load(const fs::path& path, const Reach& reach, std::vector<fs::path> opened) {
     const std::string text = readScene(path);
     Json document = parseJson(text, path.string());
@@ -248,7 +248,7 @@ Scene loadScene(const fs::path& path, const Reach& reach) {
 
 namespace {
 
-// Takes parameters away that the settings don't have.
+// Removes parameters that the settings do not have.
 void dropParameters(Json& document, const Json& settings) {
     for (const ExtensionField& field : kExtensionFields) {
         const Json::json_pointer pointer(field.parameters);
@@ -265,8 +265,8 @@ void setField(Scene& scene, const std::string& pointer, const Json& value) {
     Json document = scene.document.json();
     document[Json::json_pointer(pointer)] = value;
     scene.settings = readSettings(document);
-    // What the user names may lie anywhere. Another file need not have the parameters of the one
-    // before.
+    // Files that the user names may lie anywhere. Another file need not have the parameters of the
+    // previous one.
     const auto names = [&](const ExtensionField& field) {
         return (std::string(field.pointer) + '/').starts_with(pointer + '/');
     };

@@ -15,51 +15,50 @@
 // Scene files.
 namespace benchmarks::scene {
 
-// Applies a scene's document to its base's, as JSON merge patch (RFC 7386): objects are merged,
-// null removes, anything else replaces. Stricter in one thing: a null for a member that neither
-// `target` nor `known` (every member there can be) has is an engine::Error "<JSON pointer>:
-// <reason>", because a misspelt removal would silently remove nothing.
+// Applies a scene's document to its base's as a JSON merge patch (RFC 7386): objects are merged,
+// null removes, anything else replaces. It is stricter in one respect: throws engine::Error "<JSON
+// pointer>: <reason>" for a null member that neither `target` nor `known` (every possible member)
+// has, because a misspelt removal would silently remove nothing.
 void mergePatch(Json& target, const Json& patch, const Json& known);
 
-// Of a screenshot, which has its picture beside the scene.
+// Limit for screenshots, which contain a picture as well as the scene, B.
 inline constexpr std::size_t kLargestSceneFile = std::size_t{256} << 20;
 
-// A scene file of at most 16 MiB, checked: hair::Settings members plus
+// A scene file of at most 16 MiB, checked: hair::Settings members and
 //   "$schema"  a string for editors, ignored
 //   "base"     another scene file, relative to this one; this document is applied to it as a JSON
-//              merge patch (RFC 7386), so null takes a member of the base away; at most 16
-//              follow one another
+//              merge patch (RFC 7386), so null removes a member of the base; at most 16 in a chain
 //   "sweep"    JSON pointer -> array of values, and the members in axis.h; one case for each
 //              combination, in the written order
-// A screenshot of the viewer is one too: a PNG with the text of a scene file in it.
+// A screenshot of the viewer also works: a PNG that contains the text of a scene file.
 struct Scene {
     std::filesystem::path path;  // as given
-    std::filesystem::path directory;  // what file names in the scene are relative to
-    Reach reach;  // where files may lie that it names
+    std::filesystem::path directory;  // file names in the scene are relative to this
+    Reach reach;  // where the files that it names may lie
     std::string name;  // file name without its extension
-    Document document;  // what is written, bases merged, without the three members above
-    Document resolved;  // every field, absent ones with their defaults
-    hair::Settings settings;  // of `resolved`: no axis applied
+    Document document;  // as written, with bases merged, without the three members above
+    Document resolved;  // every field, with defaults for absent ones
+    hair::Settings settings;  // of `resolved`, without any axis applied
     std::vector<Axis> axes;
-    std::vector<Exclusion> exclusions;  // of what the axes make: without axes they mean nothing
+    std::vector<Exclusion> exclusions;  // from combinations of the axes; ignored without axes
 };
 
-// Reads and checks everything but the rules between fields, which hold for cases: expand() checks
-// those. Throws engine::Error, one line: "<file>: <JSON pointer>: <reason>"; what is wrong in a
-// base is reported as "<file>: /base: <base file>: ...". A file out of reach is an error before it
-// is opened; the second is of a member of a suite, with the suite's reach.
+// Loads a scene and checks everything except the rules between fields, which hold for cases:
+// expand() checks those. Throws engine::Error in one line: "<file>: <JSON pointer>: <reason>";
+// errors in a base read "<file>: /base: <base file>: ...". Files are checked against the reach
+// before they are opened. The second overload loads a member of a suite with the suite's reach.
 Scene loadScene(const std::filesystem::path& path, Outside outside = Outside::refused);
 Scene loadScene(const std::filesystem::path& path, const Reach& reach);
 
-// Sets one field of every case, as if the file had it. Throws engine::Error "<JSON pointer>:
+// Sets one field of every case, as if the file contained it. Throws engine::Error "<JSON pointer>:
 // <reason>".
 void setField(Scene& scene, const std::string& pointer, const Json& value);
 
-// The keyword of the scene in the texts of a screenshot's PNG.
+// The keyword of the scene among the texts of a screenshot's PNG.
 inline constexpr std::string_view kSceneKeyword = "hairbench-scene";
 
-// The scene, JSON text, in a PNG; none where there is none. Throws engine::Error for what is no
-// whole PNG.
+// Returns the JSON text of the scene in a PNG; nothing if it contains none. Throws engine::Error
+// for a damaged PNG or another kind of file.
 std::optional<std::string> sceneOfScreenshot(const std::filesystem::path& path);
 
 }  // namespace benchmarks::scene

@@ -23,8 +23,8 @@ namespace {
 
 using Broken = std::optional<std::string>;  // the reason, if the rule is broken
 
-// Sine of the angle under which two directions count as parallel: a look-at matrix loses half of a
-// float's digits there.
+// Directions count as parallel below this sine of their angle: a look-at matrix then loses half of
+// a float's digits.
 constexpr float kParallel = 1e-4f;
 
 Broken hasGuides(const hair::Settings& s) {
@@ -128,8 +128,8 @@ Broken pullKeysAscend(const hair::Settings& s) {
     return {};
 }
 
-// Whether angles are whole turns apart, to a thousandth of a degree, which is what large ones are
-// rounded to.
+// Whether all angles differ by whole turns, to a thousandth of a degree, the rounding of large
+// angles.
 bool sameDirection(const glm::vec3& a, const glm::vec3& b) {
     for (int i = 0; i < 3; ++i)
         if (std::abs(std::remainder(double{a[i]} - double{b[i]}, 360.0)) > 1e-3) return false;
@@ -190,7 +190,7 @@ Broken stampsAreOfOneQueue(const hair::Settings& s) {
     return "is on, but passes on two queues have no common order: /run/async_compute is on, too";
 }
 
-// A frame's passes are stamped one by one, and its stamps have room for so many steps.
+// Each pass of a frame has timestamps, and there is only room for this many steps per frame.
 constexpr float kMostStepsPerFrame = 200.0f;
 
 Broken frameHasRoomForItsSteps(const hair::Settings& s) {
@@ -262,8 +262,8 @@ namespace {
 
 // ---- JSON Schema --------------------------------------------------------------------------------
 
-// Whether null may stand for a member: not inside a list, whose elements a merge patch replaces as
-// a whole.
+// Whether null may stand for a member. Not inside a list, because a merge patch replaces lists as a
+// whole.
 enum class Removal { possible, impossible };
 
 Json objectSchema(hair::SettingsView defaults, Removal removal);
@@ -320,7 +320,7 @@ Json fieldSchema(const char* help, const hair::ChoiceOrFile& row, hair::Settings
     return {{"description", help}, {"anyOf", {{{"enum", names}}, file}}};
 }
 
-// Its members are the file's that another field names.
+// Another field names a file, which declares the members.
 Json fieldSchema(const char* help, const hair::Parameters&, hair::SettingsView) {
     const Json number = {{"type", "number"}};
     const Json vector = {{"type", "array"}, {"items", number}, {"minItems", 3}, {"maxItems", 3}};
@@ -368,8 +368,8 @@ Json objectSchema(hair::SettingsView defaults, Removal removal) {
         {"type", "object"}, {"additionalProperties", false}, {"properties", std::move(members)}};
 }
 
-// An axis for every field, so that editors know its values; other pointers (a group, an element)
-// are for the scene reader to judge.
+// Adds an axis for every field, so that editors know its values. The scene reader checks other
+// pointers (to a group or an element).
 void addAxes(
     const Json& members, const std::string& pointer, const std::string& schema_pointer,
     Json& axes) {

@@ -7,13 +7,13 @@
 // Rules between settings, and the JSON Schema of scene files.
 namespace benchmarks::scene {
 
-// The rules between fields, which no table row can say, such as a near plane in front of the far
-// plane. A broken one is an engine::Error "<JSON pointer>: <reason>".
+// Checks the rules between fields, which the tables cannot express, such as a near plane in front
+// of the far plane. Throws engine::Error "<JSON pointer>: <reason>" for a broken rule.
 void checkSettings(const hair::Settings& settings);
 
-// JSON Schema (draft-07) of a scene file, from the tables of hair/settings.h: types, ranges, names,
-// units, defaults. Ends with a newline; scenes/scene.schema.json is this text. null is allowed for
-// a member because a scene with a base takes members away by it.
+// Returns the JSON Schema (draft-07) of a scene file, from the tables of hair/settings.h: types,
+// ranges, names, units, defaults. Ends with a newline; scenes/scene.schema.json is this text. It
+// allows null for a member, because a scene with a base removes members by it.
 std::string sceneSchema();
 
 }  // namespace benchmarks::scene

@@ -29,12 +29,12 @@ std::string shown(double number) {
     return {text, std::to_chars(text, text + sizeof text, number, format).ptr};
 }
 
-// " m", but nothing for a plain ratio.
+// Returns " m", or nothing for a plain ratio.
 std::string withUnit(std::string_view unit) { return unit == "1" ? "" : ' ' + std::string(unit); }
 
 enum class Numbers { whole, real };
 
-// Throws where the range does not allow it.
+// Throws engine::Error if the number is out of range or, where required, not an integer.
 void checkNumber(
     const Json& value, const std::string& pointer, Numbers allowed, const hair::Range& range) {
     const bool whole = allowed == Numbers::whole;
@@ -131,7 +131,7 @@ void read(
     read(value, pointer, static_cast<const hair::Choice&>(row), settings);
 }
 
-// Ranges are the file's: extensions.h.
+// The file declares the ranges: extensions.h.
 void read(
     const Json& value, const std::string& pointer, const hair::Parameters& row,
     hair::SettingsRef settings) {
@@ -170,7 +170,7 @@ void read(
         throw engine::Error(
             pointer, std::to_string(value.size()) + " elements are more than " +
                          std::to_string(row.maximum_count));
-    row.resize(settings, 0);  // what is absent in an element is as in a new one
+    row.resize(settings, 0);  // absent members of an element get a new element's defaults
     row.resize(settings, value.size());
     for (std::size_t i = 0; i < value.size(); ++i)
         readFields(value[i], pointer + '/' + std::to_string(i), row.at(settings, i));
@@ -214,7 +214,7 @@ namespace {
 
 // ---- Writing ------------------------------------------------------------------------------------
 
-// The shortest decimal that reads back as the same float: 0.002, not 0.0020000000949949026.
+// Returns the shortest decimal that reads back as the same float: 0.002, not 0.0020000000949949026.
 Json shortestNumber(float value) {
     char text[32];
     const char* const end = std::to_chars(text, text + sizeof text, value).ptr;
@@ -285,7 +285,7 @@ Json changedFields(hair::SettingsView settings, hair::SettingsView original) {
     Json object = Json::object();
     for (const hair::Field& field : settings.fields()) {
         Json value = fieldJson(field, settings);
-        // Texts are compared: numbers that are equal can differ in the sign of zero.
+        // Compares texts, because equal numbers can differ in the sign of zero.
         if (value.dump() == fieldJson(field, original).dump()) continue;
         if (const auto* const group = std::get_if<hair::Group>(&field.kind))
             value = changedFields(group->in(settings), group->in(original));

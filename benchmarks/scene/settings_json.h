@@ -15,32 +15,32 @@ struct Range;
 // Settings as JSON, by the tables of hair/settings.h.
 namespace benchmarks::scene {
 
-// Members of a scene file that are not settings but the scene reader's.
+// Members of a scene file that the scene reader uses itself; they are not settings.
 inline constexpr std::array<std::string_view, 3> kSceneKeys{"$schema", "base", "sweep"};
 
-// The settings that a scene's document describes; an absent member keeps its default, and
-// kSceneKeys are passed over. What the tables of hair/settings.h do not allow is an engine::Error
-// "<JSON pointer>: <reason>": an unknown key or name, another type, a number out of range, not
-// whole or not finite, a list too long. Members are checked one by one: schema.h has the
-// rules between them.
+// Reads the settings from a scene's document. An absent member keeps its default, and kSceneKeys
+// are skipped. Throws engine::Error "<JSON pointer>: <reason>" for anything that the tables of
+// hair/settings.h do not allow: an unknown key or name, a wrong type, a number out of range, not
+// whole or not finite, a list too long. Checks members one by one; schema.h has the rules between
+// them.
 hair::Settings readSettings(const Json& document);
 
-// Every field, resolved: the inverse of readSettings. A float is written as the shortest decimal
-// that reads back bit-equal.
+// Returns every field, resolved: the inverse of readSettings(). Writes a float as the shortest
+// decimal that reads back bit-equal.
 Json writeSettings(const hair::Settings& settings);
 
-// Writes a part of the settings, as writeSettings() does the whole.
+// Writes a part of the settings, like writeSettings() for all of them.
 Json writeFields(hair::SettingsView settings);
 
-// The members of settings that are not the defaults, in the table's order: what a scene has to say.
-// A list is there whole where anything in it differs, its elements without what is as in a new one.
-// Floats are compared by their bits.
+// Returns the members of the settings that differ from the defaults, in the table's order: the
+// members that a scene has to contain. A list with any difference is written as a whole, but its
+// elements leave out whatever equals a new element. Floats are compared by their bits.
 Json changedFields(const hair::Settings& settings);
 
-// Throws engine::Error "<JSON pointer>: 0 is outside [1, 4096] count" for a number that is.
+// Throws engine::Error "<JSON pointer>: 0 is outside [1, 4096] count" for a number out of range.
 void checkInRange(const std::string& pointer, double number, const hair::Range& range);
 
-// Without a fraction if it has none, so that 64 stays 64 and a name or a schema reads well.
+// Returns an integer if the number has no fraction, so that 64 stays 64 in names and schemas.
 Json cleanNumber(double value);
 
 }  // namespace benchmarks::scene

@@ -21,11 +21,11 @@ namespace {
 
 // ---- Suites -------------------------------------------------------------------------------------
 
-// Null where the file is none: loadScene() says what is wrong with it.
+// Returns null if the file is missing or not a suite. loadScene() reports errors in it.
 Json suiteDocument(const std::filesystem::path& path) {
     if (!std::filesystem::is_regular_file(path)) return nullptr;
     const std::string text = engine::readFile(path, kLargestSceneFile);
-    // Only a file that has the word can be one, and scenes are not parsed twice.
+    // Only a file with this word can be a suite, so other scenes are not parsed twice.
     if (text.find("\"suite\"") == std::string::npos) return nullptr;
     Json document = parseJson(text, path.string());
     if (!document.is_object() || !document.contains("suite")) return nullptr;
@@ -82,7 +82,7 @@ namespace {
 
 // ---- Cases of a sweep ---------------------------------------------------------------------------
 
-// The pointers that change with the axis.
+// Returns the pointers that change with the axis.
 std::vector<std::string> fields(const Axis& axis) {
     std::vector<std::string> pointers{axis.pointer};
     for (const Axis& other : axis.tied) pointers.push_back(other.pointer);
@@ -110,7 +110,7 @@ std::vector<Axis> withOverrides(const Scene& scene, std::span<const Axis> overri
     return axes;
 }
 
-// Every pointer of the sweep, each once and none inside another.
+// Requires that the sweep's pointers are distinct and none lies inside another.
 void requireIndependent(const std::vector<std::string>& pointers) {
     for (const std::string& outer : pointers) {
         if (std::ranges::count(pointers, outer) > 1) throw engine::Error(outer, "is swept twice");
@@ -130,7 +130,7 @@ std::size_t caseCount(const std::vector<Axis>& axes) {
     return count;
 }
 
-// The index-th combination: its axes count like digits, the last one fastest.
+// Returns the index-th combination. The axes count like digits, the last one fastest.
 std::vector<AxisValue> combination(const std::vector<Axis>& axes, std::size_t index) {
     std::vector<std::size_t> digits(axes.size());
     for (std::size_t i = axes.size(); i-- > 0;) {
@@ -167,7 +167,7 @@ std::string caseName(
     return name;
 }
 
-// Whether the field is an axis, or a group of which it is.
+// Whether the field or a group that contains it is an axis.
 bool isSwept(std::span<const AxisValue> axes, const ExtensionField& field) {
     return std::ranges::any_of(axes, [&](const AxisValue& axis) {
         return (std::string(field.pointer) + '/').starts_with(axis.pointer + '/');
@@ -176,7 +176,7 @@ bool isSwept(std::span<const AxisValue> axes, const ExtensionField& field) {
 
 Json patched(const Scene& scene, std::span<const AxisValue> axes) {
     Json document = scene.resolved.json();
-    // The scene's own file may have completed its parameters: another one's defaults are others.
+    // The scene's own file may have completed its parameters, but another file has other defaults.
     for (const ExtensionField& field : kExtensionFields)
         if (isSwept(axes, field)) {
             const Json::json_pointer parameters(field.parameters);
@@ -194,7 +194,8 @@ Json patched(const Scene& scene, std::span<const AxisValue> axes) {
     return document;
 }
 
-// The settings of a case. Where a sweep varies the file, each takes the parameters that it has.
+// Returns the settings of a case. If a sweep varies the file, each file takes only its own
+// parameters.
 hair::Settings settingsOf(const Scene& scene, std::span<const AxisValue> axes) {
     hair::Settings settings = readSettings(patched(scene, axes));
     const bool swept = std::ranges::any_of(
@@ -245,7 +246,7 @@ namespace {
 
 // ---- Cases that the command line selects --------------------------------------------------------
 
-// "POINTER=VALUE".
+// Sets the field of "POINTER=VALUE".
 void setField(Scene& scene, const std::string& argument) {
     const std::size_t equals = argument.find('=');
     try {
@@ -261,7 +262,7 @@ void setField(Scene& scene, const std::string& argument) {
     }
 }
 
-// The number as a scene file would have it: 0.02, though settings are floats.
+// Returns the number as a scene file would have it: 0.02, although settings are floats.
 Json decimal(double number) {
     if (!std::isfinite(number)) throw engine::Error("neither infinite numbers nor NaN are taken");
     return Json::parse(decimalText(number));
