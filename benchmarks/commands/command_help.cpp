@@ -21,7 +21,7 @@ std::vector<const CommandHelp*> withCommandsBelow(const CommandHelp& command) {
 }
 
 ValueKind kindOf(const OptionHelp& option) {
-    // As the command line names what is a path.
+    // These lists contain the names that the command line uses for paths.
     constexpr auto kFiles = std::to_array<std::string_view>(
         {"FILE", "A", "B", "CMD_OR_BUILD", "HEAD", "IN", "OUT", "PNG", "REPORT"});
     constexpr auto kFolders = std::to_array<std::string_view>({"DIR", "FOLDER"});

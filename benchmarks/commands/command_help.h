@@ -3,20 +3,20 @@
 #include <string>
 #include <vector>
 
-// The command line's own help as data, from which completions and manual pages are made.
+// The command line's own help as data, for completions and manual pages.
 namespace benchmarks::commands {
 
 struct OptionHelp {
-    std::vector<std::string> names;  // "-o", "--out"; empty: an argument by its place
-    std::string value;  // what it is called: "FILE", "UINT"; empty: it takes none
-    std::vector<std::string> choices;  // the values that there are; empty: not a list
+    std::vector<std::string> names;  // "-o", "--out"; empty: a positional argument
+    std::string value;  // name of the value: "FILE", "UINT"; empty: takes no value
+    std::vector<std::string> choices;  // allowed values; empty: not a list
     std::string description;
     bool required = false;
-    bool repeated = false;  // may be given several times, or takes several values
+    bool repeated = false;  // may be given repeatedly, or takes several values
 };
 
 struct CommandHelp {
-    std::vector<std::string> words;  // as they are typed: "hairbench", "groom", "info"
+    std::vector<std::string> words;  // as typed: "hairbench", "groom", "info"
     std::string description;
     std::string notes;  // lines
     std::vector<std::string> examples;
@@ -24,10 +24,10 @@ struct CommandHelp {
     std::vector<CommandHelp> commands;
 };
 
-// What is typed to get it: "hairbench groom info".
+// Returns the typed name: "hairbench groom info".
 std::string typedName(const CommandHelp& command);
 
-// A command and all below it, in that order.
+// Returns a command and all its subcommands, in depth-first order.
 std::vector<const CommandHelp*> withCommandsBelow(const CommandHelp& command);
 
 // The kinds of values that a shell can complete.

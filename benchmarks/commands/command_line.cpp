@@ -22,7 +22,7 @@ physics or of doctor failed, 10 slower, 11 inconclusive, 12 pictures or states d
 baseline or one of something else, 14 nothing ran, 77 no suitable device, 130 interrupted (what was
 done is saved) or merged with cases missing.)";
 
-// The program's commands, declared for one command line.
+// The commands of the program, declared for one command line.
 struct Declared {
     explicit Declared(const std::vector<std::string>& arguments);
 
@@ -35,7 +35,7 @@ std::vector<CLI::App*> commandsOf(CLI::App& app) {
     return app.get_subcommands([](CLI::App*) { return true; });
 }
 
-// The first example of each command, in the order of the list of commands.
+// Adds the first example of each command, in the order of the list of commands.
 void addFirstExamples(Declared& declared, CLI::App& app, std::vector<std::string>& examples) {
     for (CLI::App* const command : commandsOf(app)) {
         if (commandsOf(*command).empty())
@@ -70,8 +70,8 @@ Declared::Declared(const std::vector<std::string>& arguments) {
 
 // ---- Help as data -------------------------------------------------------------------------------
 
-// "TEXT:{locked,free}" -> TEXT and its choices; "UINT:POSITIVE" -> UINT. Types that a row has named
-// itself stay: "A:B[:STEP]".
+// "TEXT:{locked,free}" -> TEXT and its choices; "UINT:POSITIVE" -> UINT. Leaves types that an
+// option names itself: "A:B[:STEP]".
 void splitType(const std::string& type, OptionHelp& option) {
     option.value = type;
     if (const std::size_t list = type.find(":{"); list != std::string::npos) {
@@ -113,7 +113,7 @@ CommandHelp helpOf(Declared& declared, CLI::App& app, std::vector<std::string> w
     return help;
 }
 
-// CLI11 takes them from the end, without the program's name.
+// CLI11 takes the arguments in reverse, without the program's name.
 std::vector<std::string> reversedArguments(const std::vector<std::string>& words) {
     return {words.rbegin(), words.rend() - std::ptrdiff_t{!words.empty()}};
 }

@@ -5,18 +5,18 @@
 
 #include "benchmarks/commands/command_help.h"
 
-// The command line: which commands there are, their options and help.
+// Declares the commands of the command line with their options and help.
 namespace benchmarks::commands {
 
-// Parses the command line and runs the command that it names; the exit status. Prints help, the
-// version and errors of the command line. Throws what the command throws.
+// Parses the command line, runs its command and returns the exit status. Prints help, the version
+// and errors of the command line. Throws whatever the command throws.
 int runCommandLine(int argc, char** argv);
 
-// What --help says of the program and of all its commands.
+// Returns the text of --help for the program and all its commands.
 CommandHelp programHelp();
 
-// Why these words, the program's name first, are no command line; empty where they are one. Nothing
-// is run.
+// Returns the error of a command line, whose first word is the program's name; empty if it is
+// valid. Runs nothing.
 std::string whyNotParsed(const std::vector<std::string>& words);
 
 }  // namespace benchmarks::commands

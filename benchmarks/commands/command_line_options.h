@@ -12,23 +12,22 @@
 #include "benchmarks/scene/sweep.h"
 #include "engine/device.h"
 
-// What declaring the commands of the command line takes: a row for each, and the options that
-// several of them have.
+// Helpers to declare commands: a call for each, and the options that several of them share.
 namespace benchmarks::commands {
 
-// What the parsed command line asks for.
+// The action that the parsed command line asks for.
 using Command = std::function<int()>;
 
-// What is said of a command beside its options.
+// Help text of a command, without its options.
 struct CommandText {
     std::string name;
     std::string description;
-    std::vector<std::string> examples;  // command lines, the most usual first
+    std::vector<std::string> examples;  // command lines, most common first
     std::string notes = {};  // lines of at most 100 columns
 };
 
-// Where commands are added: the one that is parsed puts what it does into `chosen`. `arguments` is
-// the whole command line, as reports quote it; `texts` gets what was said of each.
+// Context for adding commands. The parsed command stores its action in `chosen`. `arguments` is the
+// whole command line, as reports quote it; `texts` collects the help text of each command.
 struct CommandLine {
     CLI::App& app;
     Command& chosen;
@@ -36,10 +35,10 @@ struct CommandLine {
     std::map<const CLI::App*, CommandText>& texts;
 };
 
-// Adds a command without options, or one that commands are added to.
+// Adds a command without options, or a parent of other commands.
 CLI::App* addPlainCommand(const CommandLine& line, CLI::App& parent, const CommandText& text);
 
-// Refuses what CLI11 reads as numbers, and nobody means.
+// Refuses infinity and NaN, which CLI11 reads as numbers.
 void refuseWhatIsNotFinite(CLI::App& command);
 
 // Adds a command whose options live as long as the app.
@@ -58,7 +57,7 @@ CLI::App* addCommand(
     return command;
 }
 
-// The same without options.
+// Adds a command without options.
 void addCommand(const CommandLine& line, CLI::App& parent, const CommandText& text, int (*run)());
 
 // ---- Options that several commands have ---------------------------------------------------------
@@ -66,12 +65,12 @@ void addCommand(const CommandLine& line, CLI::App& parent, const CommandText& te
 // "2%" and "0.02" -> 0.02
 std::string asShare(std::string& text);
 
-// An option that may be given several times, with a value each.
+// Adds an option that may be repeated, with one value each time.
 CLI::Option* addRepeated(
     CLI::App& command, const std::string& name, std::vector<std::string>& values,
     const std::string& description);
 
-// A scene or several, which may be shipped ones; `name` is that of the argument or option.
+// Adds an argument or option called `name` for one or more scenes, which may be shipped ones.
 template <class Value>
 CLI::Option*
 addScene(CLI::App& command, const std::string& name, Value& value, const std::string& description) {

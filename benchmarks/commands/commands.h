@@ -15,16 +15,16 @@
 #include "benchmarks/scene/sweep.h"
 #include "engine/device.h"
 
-// The program's commands. Each prints what it has to say, returns the exit status, and throws
-// engine::Error for what the user has to mend.
+// The program's commands. Each prints its output, returns the exit status, and throws engine::Error
+// for errors that the user has to fix.
 namespace benchmarks::viewer {
 struct ViewOptions;
 }  // namespace benchmarks::viewer
 
 namespace benchmarks::commands {
 
-// An error's words, in at most 500 bytes: what a stranger's file can put into a message is not to
-// bury the rest of it.
+// Returns an error's message in at most 500 bytes, so that long text from a file cannot bury the
+// rest of it.
 std::string shortMessage(const std::exception& error);
 
 int runScene(const run::RunOptions& options);
@@ -32,7 +32,7 @@ int runScene(const run::RunOptions& options);
 struct MergeOptions {
     std::vector<std::filesystem::path> reports;
     std::filesystem::path out;
-    bool force = false;  // join what does not belong together
+    bool force = false;  // merge reports even if they do not belong together
 };
 int mergeReports(const MergeOptions& options);
 
@@ -51,7 +51,7 @@ struct AblateOptions {
     scene::SceneOptions scene;
     std::string filter;
     std::filesystem::path out;  // empty: results/local/ablation-<scene>.json
-    std::uint32_t passes = 8;  // up and down the ladder, each
+    std::uint32_t passes = 8;  // upward and downward passes over the ladder, each
     std::vector<std::string> command;
 };
 int ablateScene(const AblateOptions& options);
@@ -64,37 +64,37 @@ int writeReportPage(const ReportPageOptions& options);
 
 struct DoctorOptions {
     engine::DeviceOptions device;
-    std::uint32_t pairs = 0;  // of the A/A calibration; 0: none
-    bool planted = false;  // look for planted slowdowns too
+    std::uint32_t pairs = 0;  // pairs of the A/A calibration; 0: none
+    bool planted = false;  // also test for planted slowdowns
     std::filesystem::path out;  // findings as JSON; empty: none
-    std::filesystem::path rules;  // a report that is held against rules instead; empty: none
-    std::vector<std::filesystem::path> reports;  // that are examined instead; empty: none
+    std::filesystem::path rules;  // report to check against rules instead; empty: none
+    std::vector<std::filesystem::path> reports;  // reports to examine instead; empty: none
     std::vector<std::string> command;
 };
 int examineMachine(const DoctorOptions& options);
 
 struct RenderOptions {
     scene::SceneOptions scene;
-    std::filesystem::path out;  // .exr: linear light; others: PNG
+    std::filesystem::path out;  // .exr: linear light; otherwise PNG
     std::uint32_t frame = 0;
-    std::string frames;  // "A:B" or "A:B:STEP", and `out` is a pattern; empty: `frame`
+    std::string frames;  // "A:B" or "A:B:STEP", with `out` as a pattern; empty: only `frame`
 };
 int renderScene(const RenderOptions& options);
 
 struct PhysicsOptions {
-    std::vector<std::string> solvers;  // empty: all but none
+    std::vector<std::string> solvers;  // empty: all except none
     std::string check;  // regex of check names
     std::filesystem::path out;  // empty: results/local/physics.json
     engine::DeviceOptions device;
-    std::vector<std::string> command;  // as the report quotes it
+    std::vector<std::string> command;  // for the report
 };
 int checkPhysics(const PhysicsOptions& options);
 
 struct GroomInfoOptions {
     std::filesystem::path file;
-    std::filesystem::path mesh;  // that the hair grows on; empty: none
-    std::optional<double> scale;  // metres in the file's unit
-    std::uint32_t points_per_strand = 0;  // where the file doesn't say it
+    std::filesystem::path mesh;  // mesh that the hair grows on; empty: none
+    std::optional<double> scale;  // metres per unit of the file
+    std::uint32_t points_per_strand = 0;  // if the file does not state it
     bool json = false;
 };
 int inspectGroom(const GroomInfoOptions& options);
@@ -103,12 +103,12 @@ struct GroomSceneOptions {
     std::filesystem::path hair;
     std::filesystem::path head;  // mesh that the hair grows on; empty: none
     std::filesystem::path out;
-    std::optional<double> scale;  // metres in the unit of the file of hair
-    std::string up;  // axis that is up there: "x", "y" or "z"; empty: guessed
-    std::uint32_t points_per_strand = 0;  // where the file doesn't say it
+    std::optional<double> scale;  // metres per unit of the hair file
+    std::string up;  // upward axis of the hair file: "x", "y" or "z"; empty: guessed
+    std::uint32_t points_per_strand = 0;  // if the file does not state it
     std::filesystem::path sheet;  // PNG of four views; empty: none
-    engine::DeviceOptions device;  // for that
-    bool force = false;  // replace files that are there
+    engine::DeviceOptions device;  // device for the sheet
+    bool force = false;  // replace existing files
 };
 int makeGroomScene(const GroomSceneOptions& options);
 
@@ -118,9 +118,9 @@ int convertGroom(const groom::ConvertOptions& options);
 struct EditGroomOptions {
     std::filesystem::path in;
     std::filesystem::path out;
-    std::filesystem::path mesh;  // of a head, in metres; empty: none
-    std::optional<double> scale;  // metres in IN's unit
-    std::uint32_t points_per_strand = 0;  // of IN, where it doesn't say it
+    std::filesystem::path mesh;  // head, in metres; empty: none
+    std::optional<double> scale;  // metres per unit of IN
+    std::uint32_t points_per_strand = 0;  // of IN, if it does not state it
     // Lengths in mm.
     std::optional<double> shortest;
     std::optional<double> longest;
@@ -140,17 +140,17 @@ int fixGroom(const EditGroomOptions& options);
 struct CompareGroomsOptions {
     std::filesystem::path first;  // the reference
     std::filesystem::path second;
-    std::filesystem::path mesh;  // of a head; empty: none
-    std::optional<double> first_scale;  // metres in the file's unit
+    std::filesystem::path mesh;  // head; empty: none
+    std::optional<double> first_scale;  // metres per unit of the file
     std::optional<double> second_scale;
-    std::uint32_t first_points_per_strand = 0;  // where the file doesn't say it
+    std::uint32_t first_points_per_strand = 0;  // if the file does not state it
     std::uint32_t second_points_per_strand = 0;
-    std::vector<std::string> thresholds;  // "MM/DEGREES"; empty: the usual ones
+    std::vector<std::string> thresholds;  // "MM/DEGREES"; empty: the defaults
     double spacing = 2.0;  // mm
     double curvature_step = 5.0;  // mm
-    std::uint32_t consistency_samples = 16;  // of a strand; 0: all
-    std::uint32_t threads = 0;  // 0: as many as the machine has
-    bool undirected = false;  // root and tip are not told apart
+    std::uint32_t consistency_samples = 16;  // per strand; 0: all
+    std::uint32_t threads = 0;  // 0: one per processor of the machine
+    bool undirected = false;  // do not distinguish root and tip
     bool json = false;
     std::filesystem::path out;  // JSON; empty: none
 };
@@ -172,7 +172,7 @@ int exportScene(const ExportOptions& options);
 struct ReferenceOptions {
     scene::SceneOptions scene;
     std::filesystem::path out;
-    std::uint32_t samples = 64;  // of a pixel
+    std::uint32_t samples = 64;  // per pixel
     std::uint32_t frame = 0;
 };
 int renderReference(const ReferenceOptions& options);
@@ -191,10 +191,10 @@ struct LodOptions {
     double from = 0.5;  // m, distance from /camera/target
     double to = 20.0;
     std::uint32_t steps = 40;
-    bool reference = false;      // compares levels with the path-traced level 0 too
-    std::uint32_t samples = 64;  // of a pixel of that
+    bool reference = false;  // also compare levels with the path-traced level 0
+    std::uint32_t samples = 64;  // per pixel of the reference
     std::uint32_t frame = 0;
-    std::vector<std::string> command;  // as the report quotes it
+    std::vector<std::string> command;  // for the report
 };
 int walkLod(const LodOptions& options);
 
@@ -203,18 +203,19 @@ int viewScene(const viewer::ViewOptions& options);
 struct ValidateOptions {
     std::vector<std::filesystem::path> scenes;
     scene::Outside outside = scene::Outside::refused;
-    bool start = false;  // look at the hair of each scene on the device
-    engine::DeviceOptions device;  // for that
+    bool start = false;  // also inspect each scene's hair on the device
+    engine::DeviceOptions device;  // device for `start`
 };
 int validateScenes(const ValidateOptions& options);
 struct SchemaOptions {
-    std::filesystem::path examples;  // of a page of Markdown; empty: JSON Schema
+    std::filesystem::path examples;  // folder of example scenes, for a page of Markdown; empty:
+                                     // print the JSON Schema
 };
 int printSchema(const SchemaOptions& options);
 int printDevices();
 
 struct ScenesOptions {
-    bool names = false;  // alone
+    bool names = false;  // print only names
 };
 int printScenes(const ScenesOptions& options);
 
@@ -225,7 +226,7 @@ int printCompletion(const CompletionOptions& options);
 
 struct ManualOptions {
     std::vector<std::string> words;  // of the command, without the program's name
-    std::filesystem::path out;       // folder for its page and all below; empty: stdout
+    std::filesystem::path out;  // folder for its page and those of its subcommands; empty: stdout
 };
 int printManual(const ManualOptions& options);
 

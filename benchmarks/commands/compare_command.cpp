@@ -18,7 +18,7 @@ struct Pair {
     std::filesystem::path b;
 };
 
-// With a baseline the only report is B, whichever place it was given in.
+// With a baseline, the only report is B, whether it was given first or second.
 Pair wantedReports(const report::CompareOptions& options) {
     const bool both = !options.a.empty() && !options.b.empty();
     if (options.baseline.empty()) {

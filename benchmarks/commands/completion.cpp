@@ -18,14 +18,14 @@ std::string joined(const std::vector<std::string>& words, std::string_view betwe
     return text;
 }
 
-// In single quotes of a POSIX shell.
+// Quotes text for a POSIX shell.
 std::string shellQuoted(std::string_view text) {
     std::string result = "'";
     for (const char each : text) result += each == '\'' ? std::string("'\\''") : std::string{each};
     return result + '\'';
 }
 
-// The kind that the command's arguments by place complete to: that of the first.
+// Returns the kind of a command's first positional argument, which all of them complete to.
 ValueKind argumentKind(const CommandHelp& command) {
     for (const OptionHelp& option : command.options)
         if (option.names.empty()) return kindOf(option);
@@ -94,7 +94,7 @@ _hairbench() {
 }
 )sh";
 
-// What completes `word` to a value, as a command of bash.
+// Returns the bash command that completes `word` to a value.
 std::string
 bashValue(ValueKind kind, const std::vector<std::string>& choices, const std::string& word) {
     switch (kind) {
@@ -144,7 +144,7 @@ std::string bashCompletion(const CommandHelp& program) {
 
 // ---- zsh ----------------------------------------------------------------------------------------
 
-// A description within a specification of _arguments or _describe.
+// Escapes a description for a specification of _arguments or _describe.
 std::string zshText(std::string_view text) {
     std::string result;
     for (const char each : text) {
@@ -169,7 +169,7 @@ std::string zshAction(const OptionHelp& option) {
     }
 }
 
-// A word of _arguments: '(-o --out)'{-o,--out}'[report file]:FILE:_files'
+// Returns a word of _arguments: '(-o --out)'{-o,--out}'[report file]:FILE:_files'
 std::string zshSpecification(const OptionHelp& option) {
     const std::string value =
         option.value.empty() ? "" : ':' + zshText(option.value) + ':' + zshAction(option);
@@ -211,7 +211,7 @@ __hairbench_scenes() {
 )sh";
     for (const CommandHelp* const command : withCommandsBelow(program))
         text += zshFunction(*command);
-    // It is read by autoload, as the body of the function, or by source.
+    // zsh reads the file by autoload, as the function's body, or by source.
     return text + "\nif [[ $funcstack[1] == _hairbench ]]; then\n    _hairbench \"$@\"\nelse\n"
                   "    compdef _hairbench hairbench\nfi\n";
 }

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint32_t kPlantedGates = 10;
 
-// In this process, whose device is gone when others measure theirs.
+// Runs in this process, but releases its device before other processes measure.
 void examineDevice(const DoctorOptions& options, doctor::DoctorReport& report) {
     engine::processUse();  // counts threads that start from here on
     const engine::Device device(options.device);
@@ -45,7 +45,7 @@ void examineGates(const DoctorOptions& options, doctor::DoctorReport& report) {
 int examineReports(const std::vector<std::filesystem::path>& reports) {
     int status = report::kOk;
     for (const std::filesystem::path& path : reports) {
-        if (path.string().ends_with(".schema.json")) continue;  // results/*.json names it too
+        if (path.string().ends_with(".schema.json")) continue;  // results/*.json matches it too
         std::string said;
         bool accepted = false;
         try {

@@ -38,7 +38,7 @@ int gateBuilds(const gate::GateOptions& options) {
     const std::filesystem::path out = reportFile(options);
     engine::checkWritable(out);
     const gate::GateRun run = gate::runGate(options);
-    // What drivers and commands say need not be UTF-8.
+    // Texts from drivers and the command line need not be UTF-8.
     engine::writeFileAtomically(
         out, gate::gateReport(run, options.verdict, options.command)
                      .dump(1, ' ', false, scene::Json::error_handler_t::replace) +

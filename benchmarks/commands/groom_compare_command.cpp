@@ -19,7 +19,8 @@
 namespace benchmarks::commands {
 namespace {
 
-// A file with its strands in metres, by `scale` or what the file states or looks like.
+// Reads a file and converts its strands to metres, by `scale` or the unit that the file states or
+// suggests.
 groom::ComparedFile readCompared(
     const std::filesystem::path& path, std::optional<double> scale,
     std::uint32_t points_per_strand) {
@@ -52,7 +53,7 @@ hair::groom::MatchThreshold parsedThreshold(const std::string& text) {
             const double angle = std::stod(rest, &used);
             if (used == rest.size()) return {distance / 1000.0, angle};
         }
-    } catch (const std::exception&) {  // no number: as below
+    } catch (const std::exception&) {  // not a number: see below
     }
     throw engine::Error("--threshold", "'" + text + "' is not like 2/20, for 2 mm and 20 degrees");
 }

@@ -9,7 +9,7 @@ namespace benchmarks::commands {
 
 int convertGroom(const groom::ConvertOptions& options) {
     const groom::ConvertLog log{
-        .say = [](const std::string& line) { std::cout << line << std::endl; },  // work may follow
+        .say = [](const std::string& line) { std::cout << line << std::endl; },  // flushes early
         .warn =
             [](const std::filesystem::path& file, const std::string& warning) {
                 std::cerr << "hairbench: " << file.string() << ": " << warning << '\n';

@@ -26,7 +26,7 @@ namespace {
 using hair::groom::EditedStrands;
 using hair::groom::StrandSet;
 
-// An edit of strands whose unit has so many metres.
+// Edits strands with the given number of metres per unit.
 using GroomEdit = std::function<EditedStrands(StrandSet strands, double metres_per_unit)>;
 
 double metresOf(double millimetres) { return millimetres / 1000.0; }
@@ -49,10 +49,10 @@ void warnOf(const std::filesystem::path& file, const std::vector<std::string>& w
 void say(const char* did, const std::filesystem::path& file, const StrandSet& strands) {
     std::cout << did << ": " << file.string() << ", "
               << report::countText(strands.strandCount(), "strand") << ", "
-              << report::countText(strands.points.size(), "point") << std::endl;  // work may follow
+              << report::countText(strands.points.size(), "point") << std::endl;  // flushes early
 }
 
-// Metres in the file's unit: by --scale, what it states, or a guess, which is said.
+// Returns metres per unit of the file: from --scale, from the file, or a guess with a warning.
 double unitOf(const StrandSet& strands, const EditGroomOptions& options) {
     if (options.scale) return *options.scale;
     const auto findings = hair::groom::inspect(strands, nullptr, {});
@@ -79,7 +79,7 @@ int editGroom(const EditGroomOptions& options, const GroomEdit& edit) {
     }
     for (const hair::groom::EditNote& note : edited.notes)
         std::cout << note.what << ": " << report::countText(note.count) << '\n';
-    // The one format that has no other unit.
+    // .hgl is the only format that is always in metres.
     if (exporter.extension == ".hgl" && edited.strands.metres_per_unit != 1.0 && unit != 1.0) {
         edited.strands = hair::groom::scaleLengths(std::move(edited.strands), unit);
         edited.strands.metres_per_unit = 1.0;

@@ -45,7 +45,7 @@ void refuseToReplace(const fs::path& path, const GroomSceneOptions& options) {
         throw engine::Error(path.string(), "is there already; --force replaces it");
 }
 
-// As a scene at `scene` names a file.
+// Returns the name of a file relative to the scene, as the scene names it.
 std::string namedFrom(const fs::path& scene, const fs::path& file) {
     const fs::path folder = fs::absolute(scene).parent_path();
     return fs::absolute(file).lexically_proximate(folder.lexically_normal()).generic_string();
@@ -57,13 +57,13 @@ bool formatStatesAxes(const fs::path& head) {
 }
 
 void tell(const std::string& what, const std::string& text) {
-    std::cout << what << ": " << text << std::endl;  // work may follow
+    std::cout << what << ": " << text << std::endl;  // flushes early
 }
 
-// What the scene has of the head.
+// The head of the scene.
 struct SceneHead {
     std::optional<hair::groom::Mesh> mesh;  // metres, +y up
-    fs::path file;  // the head's own, or a converted copy
+    fs::path file;  // the original file or a converted copy
 };
 
 SceneHead headOf(
@@ -91,10 +91,10 @@ std::string descriptionOf(const GroomSceneOptions& options, const groom::LayGues
 
 constexpr std::uint32_t kViewSize = 320;  // px
 
-// The scene's first frame from each of the views, side by side.
+// Draws the scene's first frame from each of the views, side by side.
 void drawSheet(const GroomSceneOptions& options, const std::vector<hair::CameraSettings>& views) {
     scene::Scene scene =
-        scene::loadScene(options.out, scene::Outside::allowed);  // hair and head are the user's
+        scene::loadScene(options.out, scene::Outside::allowed);  // the user chose hair and head
     measure::HairCache cache = measure::userHairCache(true);
     hair::Settings settings =
         scene::singleCase(scene, {.scene = options.out}, &cache.assets()).settings;
@@ -122,7 +122,7 @@ void drawSheet(const GroomSceneOptions& options, const std::vector<hair::CameraS
     tell("wrote", options.sheet.string() + ": front, left, back and right");
 }
 
-// What opening the scene takes: hair and head may lie where a scene opens nothing by itself.
+// Returns the option needed to open the scene, if hair or head lie outside its reach.
 std::string optionsToOpen(const fs::path& scene) {
     try {
         scene::loadScene(scene);

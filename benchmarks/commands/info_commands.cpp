@@ -24,12 +24,12 @@
 namespace benchmarks::commands {
 
 std::string shortMessage(const std::exception& error) {
-    constexpr std::size_t kLongest = 480;  // leaves room for what stands before it
+    constexpr std::size_t kLongest = 480;  // leaves room for a prefix
     constexpr std::size_t kEnd = 140;
     constexpr std::string_view kCut = " [...] ";
     const std::string_view text = error.what();
     if (text.size() <= kLongest) return std::string(text);
-    // Not within a character of UTF-8.
+    // Moves a position to the start of a UTF-8 character.
     const auto boundary = [&](std::size_t at) {
         while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80) ++at;
         return at;
@@ -74,7 +74,7 @@ int validateScenes(const ValidateOptions& options) {
     measure::Progress progress(options.scenes.size());
     for (const std::filesystem::path& path : options.scenes) {
         progress.begin(path.string());
-        if (path.string().ends_with(".schema.json")) continue;  // scenes/*.json names it too
+        if (path.string().ends_with(".schema.json")) continue;  // scenes/*.json matches it too
         try {
             std::size_t count = 0;
             std::vector<std::string> warnings;
@@ -123,7 +123,7 @@ int printSchema(const SchemaOptions& options) {
 
 namespace {
 
-// What the device lacks of what only some cases need.
+// Prints features that the device lacks and only some cases need.
 void printLacking(const engine::DeviceInfo& device) {
     std::string lacking;
     for (const engine::Feature feature : engine::allFeatures())

@@ -19,7 +19,8 @@ namespace {
 
 // ---- roff ---------------------------------------------------------------------------------------
 
-// Text as roff prints it: '-' is a minus, as it is typed, and a line does not begin a request.
+// Escapes text for roff: '-' becomes a minus, which can be copied as typed, and no line begins a
+// request.
 std::string roff(std::string_view text) {
     std::string result;
     bool line_begins = true;
@@ -49,7 +50,7 @@ std::string roff(std::string_view text) {
     return result;
 }
 
-// As they stand, lines that are not filled.
+// Returns the lines without filling.
 std::string verbatim(const std::vector<std::string>& lines) {
     std::string text = ".nf\n";
     for (const std::string& line : lines) text += roff(line) + '\n';
@@ -115,7 +116,7 @@ std::string notesText(const CommandHelp& command) {
     std::vector<std::string> lines;
     std::istringstream notes(command.notes);
     for (std::string line; std::getline(notes, line);) lines.push_back(line);
-    // Lists keep their lines, sentences are filled.
+    // Lists keep their line breaks; sentences are filled.
     const bool is_list =
         std::ranges::any_of(lines, [](const std::string& each) { return each.starts_with(' '); });
     return ".SH NOTES\n" + (is_list ? verbatim(lines) : roff(command.notes) + '\n');
@@ -144,7 +145,7 @@ std::string environmentText() {
     return text;
 }
 
-// The program and the commands above and below.
+// Lists the program and the commands above and below in the hierarchy.
 std::string seeAlso(const CommandHelp& command, const CommandHelp& program) {
     std::string text;
     for (const CommandHelp* const each : withCommandsBelow(program)) {

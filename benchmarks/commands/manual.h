@@ -4,13 +4,14 @@
 
 #include "benchmarks/commands/command_help.h"
 
-// Pages of the manual, for man(1), made from the command line's own help.
+// Writes manual pages for man(1) from the command line's own help.
 namespace benchmarks::commands {
 
 // "hairbench-groom-info.1"
 std::string manualFile(const CommandHelp& command);
 
-// The page of a command of `program`, or of the program itself: roff, with the macros of man(7).
+// Returns the page of a command of `program`, or of the program itself: roff with the macros of
+// man(7).
 std::string manualPage(const CommandHelp& command, const CommandHelp& program);
 
 }  // namespace benchmarks::commands

@@ -37,8 +37,8 @@ void writePicture(
     }
 }
 
-// Plays a case from its first frame, the frames being the pieces of `progress`, and draws those of
-// the range; `drawn` is called after each that is.
+// Plays a case from its first frame, one step of `progress` per frame, and draws the frames of the
+// range. Calls `drawn` after each drawn frame.
 void play(
     const engine::Device& device, measure::Case& picture, const scene::FrameRange& range,
     measure::Progress& progress, const std::function<void(std::uint32_t)>& drawn) {

@@ -27,7 +27,7 @@ int conclude(
     if (any_ran && !options.baseline.empty())
         status = compareReports(
             {.a = {}, .b = out, .baseline = options.baseline, .verdict = options.verdict});
-    // Only now: the name may be that of the baseline that was compared with.
+    // Saved after the comparison, because it may replace the baseline that was compared with.
     if (!options.save_baseline.empty()) report::saveBaseline(options.save_baseline, out);
     return status;
 }
@@ -46,13 +46,13 @@ int printNothingToRun(const run::RunOptions& options, const run::RunPlan& plan) 
 int runScene(const run::RunOptions& options) {
     measure::HairCache cache = measure::userHairCache(options.scene.cache);
     scene::SceneOptions scene = options.scene;
-    scene.reads_assets = !options.dry_run;  // growing hair takes longer than an estimate may
+    scene.reads_assets = !options.dry_run;  // growing hair takes too long for an estimate
     run::RunPlan plan = run::planRun(scene, options.filter, options.shard, &cache.assets());
     plan.max_memory = options.max_memory;
     if (options.list) return run::printNames(plan);
     if (options.dry_run) return run::estimateRun(plan, options.scene.device, cache);
     if (plan.cases.empty()) return printNothingToRun(options, plan);
-    // What is wrong shows before hours of work, not after them.
+    // Checks the baselines first, so that errors do not show only after hours of work.
     if (!options.save_baseline.empty()) report::baselineFile(options.save_baseline, plan.name);
     if (!options.baseline.empty())
         if (const auto file = report::baselineFile(options.baseline, plan.name);
@@ -64,7 +64,7 @@ int runScene(const run::RunOptions& options) {
     engine::checkWritable(out);
     run::checkReferences(plan);
 
-    engine::processUse();  // counts the threads that begin from here on: those of the device too
+    engine::processUse();  // counts threads that start from here on, including the device's
     run::RunDevice device(options.scene.device);
     std::cerr << report::versionOnDevice(device.get()) << '\n';
     const auto print_short = [&](const char* why, const run::FinishedRun& finished) {

@@ -16,7 +16,7 @@ int simulateScene(const SimulateOptions& options) {
     scene::Scene scene = scene::loadScene(options.scene.scene, options.scene.outside);
     measure::HairCache cache = measure::userHairCache(options.scene.cache);
     const scene::CaseSpec spec = scene::singleCase(scene, options.scene, &cache.assets());
-    hair::groom::strandExporterOf(recording.out);  // or there is nothing to play for
+    hair::groom::strandExporterOf(recording.out);  // throws early for an unknown format
     engine::checkWritable(recording.out);
 
     const engine::Device device(options.scene.device);
@@ -30,7 +30,7 @@ int simulateScene(const SimulateOptions& options) {
     for (const std::string& message : device.messages().take()) std::cerr << message << '\n';
     for (const std::string& warning : recorded.warnings) std::cerr << warning << '\n';
     const std::string last = std::to_string(recording.frames - 1);
-    std::error_code no_size;  // of a pipe
+    std::error_code no_size;  // for a pipe
     const std::uintmax_t size = std::filesystem::file_size(recording.out, no_size);
     std::cout << recording.out.string() << ": " << recorded.strands.strandCount() << " strands, "
               << recorded.strands.points.size() << " points, "

@@ -15,7 +15,7 @@
 namespace benchmarks::commands {
 namespace {
 
-// That a picture may take which is being drawn when the window closes.
+// Time for a picture in progress to finish when the window closes.
 constexpr std::chrono::milliseconds kPatience{300};
 
 int view(const viewer::ViewOptions& options) {
@@ -28,7 +28,7 @@ int view(const viewer::ViewOptions& options) {
             if (!viewer.frame()) break;
             if (options.frames > 0 && i + 1 == options.frames) break;
         }
-    } catch (const engine::Interrupted&) {  // within a step that was long
+    } catch (const engine::Interrupted&) {  // during a long step
     }
     if (script && !engine::interrupted()) script->finish();
     for (const std::string& message : viewer.takeMessages()) std::cerr << message << '\n';
@@ -38,8 +38,8 @@ int view(const viewer::ViewOptions& options) {
     }
     const int status = engine::interrupted() ? report::kInterrupted : report::kOk;
     if (!viewer.finish(kPatience)) {
-        // Nothing can end what a device has begun to draw but the end of its process, and whoever
-        // closed the window has seen enough of it.
+        // Only the end of the process stops drawing that a device has begun, and the user has
+        // already closed the window.
         viewer.keepPreferences();
         std::cerr.flush();
         std::cout.flush();
@@ -51,7 +51,7 @@ int view(const viewer::ViewOptions& options) {
 }  // namespace
 
 int viewScene(const viewer::ViewOptions& options) {
-    engine::processUse();  // counts the threads that begin from here on: those of the device too
+    engine::processUse();  // counts threads that start from here on, including the device's
     try {
         return view(options);
     } catch (const engine::NoDisplay& error) {
