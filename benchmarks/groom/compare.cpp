@@ -21,13 +21,13 @@ using hair::groom::PenetrationFindings;
 using hair::groom::SampledStrands;
 using hair::groom::StrandDirections;
 
-// The mean of both means: what Mescheder et al. 2019, Occupancy networks, call Chamfer-L1.
+// The mean of both means, called Chamfer-L1 by Mescheder et al. 2019, Occupancy networks.
 double chamfer(const hair::groom::StrandComparison& found) {
     return 0.5 * (found.first_to_second.mean + found.second_to_first.mean);
 }
 
 // The sum of both mean squares: Fan, Su and Guibas 2017, A point set generation network, eq. 1,
-// with means for sums.
+// with means in place of sums.
 double chamferSquared(const hair::groom::StrandComparison& found) {
     return found.first_to_second.mean_square + found.second_to_first.mean_square;
 }
@@ -145,7 +145,7 @@ std::string tableText(const std::vector<report::Column>& columns) {
     return text;
 }
 
-// Less than a picometre is what sums and squares round to.
+// Values below a picometre are rounding errors of sums and squares.
 std::string distanceText(double metres) {
     return metres < 1e-12 ? "0 m" : report::lengthText(metres);
 }

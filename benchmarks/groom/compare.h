@@ -8,16 +8,16 @@
 #include "hair/groom/groom.h"
 #include "hair/groom/inspect.h"
 
-// What `hairbench groom compare` says of two files of hair.
+// Reports of `hairbench groom compare` on two files of hair.
 namespace benchmarks::groom {
 
 inline constexpr std::string_view kGroomComparisonSchema = "hairbench-groom-comparison/1.0.0";
 
-// A file that is compared.
+// A compared file.
 struct ComparedFile {
     std::filesystem::path file;
     std::string_view format;
-    hair::groom::Unit unit;  // of its lengths
+    hair::groom::Unit unit;  // original unit of its lengths
     hair::groom::StrandSet strands{};  // in metres
 };
 
@@ -28,10 +28,10 @@ struct GroomComparison {
     const hair::groom::StrandComparison& found;
 };
 
-// For a terminal.
+// Text for a terminal.
 std::string groomComparisonText(const GroomComparison& comparison);
 
-// Lengths in metres, shares from 0 to 1, angles in degrees.
+// JSON with lengths in metres, shares from 0 to 1, angles in degrees.
 std::string groomComparisonJson(const GroomComparison& comparison);
 
 }  // namespace benchmarks::groom

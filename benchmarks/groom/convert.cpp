@@ -17,10 +17,10 @@
 namespace benchmarks::groom {
 namespace {
 
-constexpr std::uint32_t kMostPoints = 65536;      // of a strand: what .hair can count
-constexpr std::uint32_t kMostGuideVertices = 256;  // of .hgl
+constexpr std::uint32_t kMostPoints = 65536;  // per strand, the limit of .hair
+constexpr std::uint32_t kMostGuideVertices = 256;  // limit of .hgl
 
-// The thesis's guide file: metres, root triangles, at most 256 vertices.
+// A .hgl file, the thesis's guide format: metres, root triangles, at most 256 vertices.
 bool isGuideFile(const hair::groom::StrandExporter& exporter) {
     return exporter.extension == ".hgl";
 }
@@ -50,7 +50,7 @@ void checkOptions(const ConvertOptions& options, const hair::groom::StrandExport
             "--followers", "without --follower-radius they are all where their strand is");
 }
 
-// The factor that takes lengths to metres, where they are to be; absent where they stay.
+// Returns the factor that converts lengths to metres; nothing if lengths stay as they are.
 std::optional<double> scaleOf(
     const hair::groom::StrandSet& strands, const ConvertOptions& options, const ConvertLog& log) {
     if (options.scale || !isGuideFile(hair::groom::strandExporterOf(options.out)))
@@ -133,7 +133,7 @@ void convert(const ConvertOptions& options, const ConvertLog& log) {
     warnAll(
         log, options.out,
         hair::groom::exportStrands(strands, options.out, engine::checkInterrupted));
-    std::error_code no_size;  // of a pipe
+    std::error_code no_size;  // for a pipe
     const std::uintmax_t size = std::filesystem::file_size(options.out, no_size);
     log.say(
         "wrote: " + options.out.string() + ", " + contents(strands) +

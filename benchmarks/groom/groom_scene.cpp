@@ -33,7 +33,7 @@ std::string shareText(std::size_t part, std::size_t all) {
     return report::shortNumber(100.0 * static_cast<double>(part) / static_cast<double>(all)) + " %";
 }
 
-// At most so many strands, evenly among all.
+// Returns at most `most` strands, evenly spaced by index.
 StrandSet someOf(const StrandSet& strands, std::uint32_t most) {
     if (strands.strandCount() <= most) return strands;
     std::vector<std::uint32_t> indices(most);
@@ -48,7 +48,7 @@ constexpr std::uint32_t kFewestGuides = 400;
 constexpr std::uint32_t kMostGuides = 2000;
 constexpr std::uint32_t kStrandsPerGuide = 10;
 
-// Below so many strands a file holds guides rather than hair, and new strands grow between them.
+// With fewer strands, a file holds guides rather than hair, and new strands grow between them.
 constexpr std::uint32_t kFewestStrandsOfHair = 3000;
 constexpr std::uint32_t kFewestForTriangles = 10;
 constexpr double kDrawnBetweenGuides = 20000.0;
@@ -57,7 +57,7 @@ std::uint32_t guideCount(std::uint32_t strands) {
     return std::min(strands, std::clamp(strands / kStrandsPerGuide, kFewestGuides, kMostGuides));
 }
 
-// The distance of a point from a polyline.
+// Returns the distance of a point from a polyline.
 double distanceFrom(std::span<const glm::vec3> line, const glm::dvec3& point) {
     double least = glm::distance(glm::dvec3(line[0]), point);
     for (std::size_t k = 1; k < line.size(); ++k) {
@@ -71,8 +71,8 @@ double distanceFrom(std::span<const glm::vec3> line, const glm::dvec3& point) {
     return least;
 }
 
-// What 95 % of the strands lose at most, m, with so many vertices: how far their points are from
-// the polyline through the vertices.
+// Returns the loss of 95 % of the strands, in m, if each has only `vertices` vertices: the largest
+// distance of its points from the polyline through the vertices.
 double lossOf(const StrandSet& strands, std::uint32_t vertices) {
     const StrandSet coarse = hair::groom::resample(strands, vertices);
     std::vector<float> losses(strands.strandCount(), 0.0f);
@@ -84,7 +84,7 @@ double lossOf(const StrandSet& strands, std::uint32_t vertices) {
 }
 
 constexpr std::array kVertices{8u, 12u, 16u, 24u, 32u, 48u, 64u};
-constexpr double kMostLoss = 1e-3;  // m: what shows
+constexpr double kMostLoss = 1e-3;  // m: above this it is visible
 
 struct VertexChoice {
     std::uint32_t vertices;
@@ -127,7 +127,7 @@ void chooseStrands(const StrandSet& strands, GroomScene& scene) {
         scene.choices.push_back({"strands", "the file's own, each moved by its guides"});
         return;
     }
-    // A triangulation has about two triangles a vertex.
+    // A triangulation has about two triangles per vertex.
     const double triangles = 2.0 * settings.groom.guides;
     drawn.density = static_cast<std::uint32_t>(
         std::clamp(std::round(kDrawnBetweenGuides / triangles), 1.0, 512.0));
@@ -164,7 +164,7 @@ void chooseSimulation(const Mesh* head, GroomScene& scene) {
 
 // ---- Light and colour ---------------------------------------------------------------------------
 
-// A head has about 100,000 hairs, 0.08 mm wide; fewer strands cover as much when they are wider.
+// A head has about 100,000 hairs, 0.08 mm wide. Fewer strands cover as much if they are wider.
 constexpr double kHairs = 100000.0;
 constexpr double kHairWidth = 80e-6;  // m
 constexpr double kNarrowest = 60e-6;  // m
@@ -223,7 +223,7 @@ void chooseColor(const StrandSet& strands, GroomScene& scene) {
 // ---- View ---------------------------------------------------------------------------------------
 
 struct Front {
-    glm::dvec3 direction{0.0, 0.0, 1.0};  // level, along an axis
+    glm::dvec3 direction{0.0, 0.0, 1.0};  // horizontal, along an axis
     std::string reason = "+z, as most files have it";
 };
 
@@ -240,11 +240,11 @@ double lowestRoot(const StrandSet& strands) {
     return hair::groom::quantileOf(heights, 0.05);
 }
 
-// A scalp lies behind the middle of a head: where that is, at the height of the roots, less the
-// middle of the roots points to the front.
+// The scalp lies behind the middle of the head, so the direction from the middle of the roots to
+// the middle of the head, at the height of the roots, points to the front.
 Front frontOf(const StrandSet& strands, const Mesh* head) {
     if (!head) return {};
-    constexpr double kLeastOffset = 3e-3;  // m; less tells nothing
+    constexpr double kLeastOffset = 3e-3;  // m; smaller offsets are inconclusive
     const double floor = lowestRoot(strands);
     glm::dvec3 low(std::numeric_limits<double>::infinity());
     glm::dvec3 high = -low;
@@ -270,7 +270,7 @@ Front frontOf(const StrandSet& strands, const Mesh* head) {
 
 glm::vec3 rounded(const glm::dvec3& point) { return glm::vec3(glm::round(1e3 * point) * 1e-3); }
 
-// All hair, and the head down to below the lowest roots.
+// Returns points of all hair, and of the head down to below the lowest roots.
 std::vector<glm::dvec3> shownPoints(const StrandSet& strands, const Mesh* head) {
     std::vector<glm::dvec3> points;
     for (const glm::vec3& point : someOf(strands, 2000).points) points.emplace_back(point);
@@ -283,9 +283,10 @@ std::vector<glm::dvec3> shownPoints(const StrandSet& strands, const Mesh* head) 
 }
 
 constexpr double kFieldOfView = 30.0;  // deg
-constexpr double kFilled = 0.88;  // of a picture
+constexpr double kFilled = 0.88;  // share of the picture
 
-// As near as shows all points, from the direction `toward` the eye, unit length and not upright.
+// Returns the nearest camera that shows all points, looking from `toward`: of unit length and not
+// vertical.
 hair::CameraSettings cameraFrom(const std::vector<glm::dvec3>& points, const glm::dvec3& toward) {
     glm::dvec3 low = points.front();
     glm::dvec3 high = low;
@@ -315,7 +316,7 @@ void chooseView(const StrandSet& strands, const Mesh* head, GroomScene& scene) {
     constexpr double kAbove = 8.0;  // deg
     const Front front = frontOf(strands, head);
     const glm::dvec3 up(0.0, 1.0, 0.0);
-    const glm::dvec3 aside = glm::cross(up, front.direction);  // where the head's left is
+    const glm::dvec3 aside = glm::cross(up, front.direction);  // the head's left
     const glm::dvec3 level =
         std::cos(glm::radians(kAside)) * front.direction + std::sin(glm::radians(kAside)) * aside;
     const std::vector<glm::dvec3> points = shownPoints(strands, head);
@@ -348,7 +349,7 @@ void chooseView(const StrandSet& strands, const Mesh* head, GroomScene& scene) {
          "dual_scattering with deep_shadow, a key light, a weaker one and one from behind"});
 }
 
-// ---- What is odd --------------------------------------------------------------------------------
+// ---- Warnings -----------------------------------------------------------------------------------
 
 constexpr double kShortestHair = 3e-3;  // m
 constexpr double kLongestHair = 1.5;  // m
@@ -370,7 +371,7 @@ void findOnHead(
     std::optional<hair::groom::DepthInside> depth;
     try {
         depth.emplace(hair::groom::bodyMesh(head));
-    } catch (const engine::Error&) {  // no body: chooseSimulation() says so
+    } catch (const engine::Error&) {  // no body: chooseSimulation() warns
     }
     const hair::groom::NearestSurface surface(head.positions, head.triangles);
     const std::size_t count = some.strandCount();

@@ -10,10 +10,10 @@
 #include "hair/groom/mesh/mesh.h"
 #include "hair/settings.h"
 
-// From a file of hair and a head to the settings of a scene that shows and simulates them.
+// Chooses settings of a scene that shows and simulates a file of hair on a head.
 namespace benchmarks::groom {
 
-// A setting, or some that go together, and why they are as they are.
+// A setting or a group of them, and the reason for its value.
 struct SceneChoice {
     std::string name;
     std::string reason;
@@ -21,23 +21,24 @@ struct SceneChoice {
 
 struct GroomScene {
     hair::Settings
-        settings;  // without /groom/file and /groom/mesh, which depend on the scene's place
+        settings;  // without /groom/file and /groom/mesh, which depend on the scene's folder
     std::vector<SceneChoice> choices;
-    std::vector<hair::CameraSettings> views;  // from the front, its left, the back, its right
-    std::vector<std::string> warnings;  // what is odd, with figures, and what to do
+    std::vector<hair::CameraSettings> views;  // from the front, the head's left, the back, its
+                                              // right
+    std::vector<std::string> warnings;  // oddities with figures and advice
 };
 
-// Strands, at least one, and the head that they grow on, or null, where `guess` puts them: both in
-// metres with +y up.
+// Makes a scene from strands, at least one, and the head that they grow on, which may be null. Both
+// are placed by `guess`, in metres with +y up.
 GroomScene sceneOf(
     const hair::groom::StrandSet& strands, const hair::groom::Mesh* head, const LayGuess& guess);
 
-// Strands in the scene's coordinates, with their widths in metres.
+// Return the strands in the scene's coordinates with their widths in metres, and the head likewise.
 hair::groom::StrandSet placed(hair::groom::StrandSet strands, const Lay& lay);
 hair::groom::Mesh placed(hair::groom::Mesh head, const Lay& lay);
 
-// The mesh as Wavefront OBJ: positions, normals, texture coordinates and triangles. Its materials
-// are left out.
+// Writes the mesh as Wavefront OBJ: positions, normals, texture coordinates and triangles, without
+// materials.
 void writeObj(const hair::groom::Mesh& mesh, std::ostream& out);
 
 }  // namespace benchmarks::groom

@@ -23,7 +23,7 @@ namespace {
 
 // ---- Choice of guides ---------------------------------------------------------------------------
 
-// A length of a file, in metres where the unit is known.
+// Returns a length in the file, in metres if the unit is known.
 std::string fileLength(double length, std::optional<double> metres_per_unit) {
     return metres_per_unit ? report::lengthText(length * *metres_per_unit)
                            : report::shortNumber(length) + " units";
@@ -70,14 +70,14 @@ rootTriangles(const hair::groom::StrandSet& strands, const hair::groom::Mesh* me
 
 namespace {
 
-// ---- What is odd about a groom ------------------------------------------------------------------
+// ---- Oddities of a groom ------------------------------------------------------------------------
 
-// Human hair is 17 to 181 µm thick; wider and narrower than by a factor of ten is another unit, or
-// a width to draw with.
+// Human hair is 17 to 181 µm thick. Widths outside these limits by more than a factor of ten are in
+// another unit, or are for drawing only.
 constexpr double kThinnest = 1.7e-6;  // m
 constexpr double kThickest = 1.81e-3;  // m
 
-// Bounds of the median strand's length: stubble and the longest hair that is worn.
+// Limits of the median strand's length: stubble and the longest hair that is worn.
 constexpr double kShortest = 0.5e-3;  // m
 constexpr double kLongest = 3.0;  // m
 
@@ -197,7 +197,7 @@ std::size_t countGuides(const hair::groom::StrandSet& strands) {
 
 // ---- JSON ---------------------------------------------------------------------------------------
 
-// JSON has no NaN and no infinity.
+// Leaves out NaN and infinity, which JSON cannot express.
 void put(scene::Json& object, const char* key, double value) {
     if (std::isfinite(value)) object[key] = value;
 }
@@ -289,7 +289,7 @@ std::string groomInfoJson(const GroomInfo& info) {
              {"count", each.count},
              {"what", each.what},
              {"advice", each.advice}});
-    // What files say of themselves need not be UTF-8.
+    // Texts in files need not be UTF-8.
     return object.dump(2, ' ', false, scene::Json::error_handler_t::replace) + '\n';
 }
 
@@ -300,7 +300,7 @@ namespace {
 constexpr std::size_t kNameWidth = 16;
 constexpr std::size_t kLineWidth = 100;
 
-// A name and its text, which goes on below itself where the line is full.
+// Returns a name and its text, wrapped into lines below the text.
 std::string line(const std::string& name, const std::string& text) {
     std::string all =
         "  " + name + std::string(kNameWidth - std::min(kNameWidth, name.size()), ' ');
@@ -318,7 +318,7 @@ std::string line(const std::string& name, const std::string& text) {
     return all;
 }
 
-// What a file says of itself may hold anything.
+// Replaces control characters in text from a file.
 std::string printable(std::string text) {
     std::ranges::replace_if(
         text, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, ' ');
@@ -341,7 +341,7 @@ std::string numbers(const glm::dvec3& v) {
            report::shortNumber(v.z);
 }
 
-// The box in one unit, that of its longest side.
+// Returns the bounding box in the unit that fits its longest side.
 std::string boxText(const hair::groom::StrandFindings& found) {
     const glm::dvec3 low = glm::dvec3(found.minimum) * found.metres_per_unit;
     const glm::dvec3 high = glm::dvec3(found.maximum) * found.metres_per_unit;

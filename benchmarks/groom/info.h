@@ -11,14 +11,14 @@
 #include "hair/groom/inspect.h"
 #include "hair/groom/mesh/mesh.h"
 
-// What `hairbench groom` says of a file of hair, and guides chosen from strands.
+// Describes files of hair for `hairbench groom`, and chooses guides from strands.
 namespace benchmarks::groom {
 
-// Guides chosen from strands, with every attribute but root triangles.
+// Guides chosen from strands, with every attribute except root triangles.
 struct GuideChoice {
     hair::groom::StrandSet guides;
-    // For people: of the strands that are made from the guides alone, and of those that a scene
-    // with the file and as many guides draws.
+    // Text for people: the error of strands made from the guides alone, and of strands that a scene
+    // draws from the file and as many guides.
     std::string error;
     std::string left;
 };
@@ -27,14 +27,14 @@ struct GuideChoice {
 GuideChoice
 chooseGuides(const hair::groom::StrandSet& strands, std::uint32_t count, std::uint32_t seed);
 
-// `mesh`: what the strands grow on, or null.
+// Finds the root triangles of the strands. `mesh` is the mesh that they grow on, or null.
 std::vector<std::array<std::uint32_t, 3>>
 rootTriangles(const hair::groom::StrandSet& strands, const hair::groom::Mesh* mesh);
 
-// Something about a groom that its maker may not have meant.
+// A property of a groom that its maker may not have intended.
 struct Oddity {
     std::string_view name;  // snake_case
-    std::uint64_t count = 0;  // of the things that are odd
+    std::uint64_t count = 0;  // number of odd elements
     std::string what;
     std::string advice;
 };
@@ -42,7 +42,7 @@ struct Oddity {
 std::vector<Oddity>
 findOddities(const hair::groom::StrandSet& strands, const hair::groom::StrandFindings& findings);
 
-// What `hairbench groom info` has to say of a file.
+// All that `hairbench groom info` reports about a file.
 struct GroomInfo {
     std::filesystem::path file;
     std::string_view format;
@@ -53,10 +53,10 @@ struct GroomInfo {
 
 inline constexpr std::string_view kGroomSchema = "hairbench-groom/1.0.0";
 
-// For a terminal; what is odd comes last.
+// Text for a terminal; oddities come last.
 std::string groomInfoText(const GroomInfo& info);
 
-// The findings as JSON. Lengths are in metres; what is not known is absent.
+// Returns the findings as JSON. Lengths are in metres; unknown values are absent.
 std::string groomInfoJson(const GroomInfo& info);
 
 }  // namespace benchmarks::groom

@@ -32,7 +32,7 @@ glm::dmat3 turned(double degrees, const glm::dvec3& axis) {
     return glm::dmat3(glm::rotate(glm::dmat4(1.0), glm::radians(degrees), axis));
 }
 
-// A quarter turn that takes an axis to +y.
+// Returns the quarter turn that takes an axis to +y.
 glm::dmat3 uprightOf(int up) {
     if (up == 0) return turned(90.0, {0.0, 0.0, 1.0});
     if (up == 2) return turned(-90.0, {1.0, 0.0, 0.0});
@@ -62,8 +62,8 @@ Box boxOf(const hair::groom::Mesh& mesh) {
     return box;
 }
 
-// A head is 0.2 to 0.3 m high, a bust 0.5 m, a whole figure 1.8 m. The scatter is a factor: it
-// leaves a figure in metres, and a head alone in any unit, where they are.
+// A head is 0.2 to 0.3 m high, a bust 0.5 m, a whole figure 1.8 m. The scatter is a factor. It is
+// chosen so that a figure in metres, and a head alone in any unit, are recognised.
 constexpr double kHeadSize = 0.35;
 constexpr double kHeadScatter = 1.8;
 constexpr double kSmallestHead = 0.12;
@@ -82,7 +82,7 @@ double headUnit(double size) {
 
 constexpr std::uint32_t kMostSamples = 500;
 
-// Some strands, evenly among all.
+// Returns the indices of some strands, evenly spaced.
 std::vector<std::uint32_t> sampled(const hair::groom::StrandSet& strands) {
     std::vector<std::uint32_t> samples(std::min(strands.strandCount(), kMostSamples));
     for (std::size_t i = 0; i < samples.size(); ++i)
@@ -100,7 +100,7 @@ public:
 
     const Box& head() const { return head_; }
 
-    // Attempts that place the hair alike on the head have the same fit to the bit.
+    // Two attempts that place the hair equally on the head have exactly the same fit.
     RootFit fit(const Lay& hair, const Lay& head) {
         const glm::dmat3 rotation = glm::transpose(head.rotation()) * hair.rotation();
         std::array<double, 10> key{hair.metres_per_unit / head.metres_per_unit};
@@ -111,7 +111,8 @@ public:
         return entry->second;
     }
 
-    // How far the roots' middle is above that of the head, in units of the head's size.
+    // Returns how far the middle of the roots lies above the middle of the head, in units of the
+    // head's size.
     double above(const Lay& hair, const Lay& head) const {
         glm::dvec3 middle(0.0);
         for (const glm::vec3& root : roots_)
@@ -137,7 +138,7 @@ private:
             .median = hair::groom::quantileOf(distances, 0.5)};
     }
 
-    hair::groom::NearestSurface surface_;  // of the head as its file has it
+    hair::groom::NearestSurface surface_;  // of the head in its file's coordinates
     Box head_;
     std::vector<glm::vec3> roots_;
     std::map<std::array<double, 10>, RootFit> fits_;
@@ -145,8 +146,8 @@ private:
 
 // ---- Hair by itself -----------------------------------------------------------------------------
 
-// Up in the file of hair, with how much more speaks for it than for the next axis: strands leave
-// the scalp along its normal, which is up in the mean, and hang down from there.
+// Returns the upward axis in the file of hair, and its lead over the next axis: strands leave the
+// scalp along its normal, which points up on average, and hang down from there.
 std::pair<int, double> upOf(const hair::groom::StrandSet& strands) {
     glm::dvec3 leaves(0.0);
     glm::dvec3 hangs(0.0);
@@ -172,9 +173,9 @@ std::pair<int, double> upOf(const hair::groom::StrandSet& strands) {
 
 // ---- The guess ----------------------------------------------------------------------------------
 
-// Less of the roots on the head than this, and no attempt tells anything.
+// With fewer of the roots on the head, no attempt is conclusive.
 constexpr double kLeastShare = 0.3;
-// Attempts are as good as one another within this.
+// Attempts within these differences are equally good.
 constexpr double kEqualShare = 0.02;
 constexpr double kEqualMedian = 5e-4;  // m
 
@@ -196,7 +197,8 @@ bool placesAlike(const LayAttempt& a, const LayAttempt& b) {
     return most < 0.5;
 }
 
-// How much an attempt supposes: that hair and head differ is more than that both are unusual.
+// Returns a penalty for an attempt's assumptions: different axes or units for hair and head cost
+// more than an unusual axis for both.
 int suppositions(const LayAttempt& attempt) {
     return 4 * (attempt.hair.turn != attempt.head.turn) + 4 * (attempt.hair.up != attempt.head.up) +
            2 * (attempt.hair.metres_per_unit != attempt.head.metres_per_unit) +
@@ -233,7 +235,8 @@ const LayAttempt& bestOf(const std::vector<LayAttempt>& attempts, const Roots& r
         if (each.fit.share < first->fit.share - kEqualShare ||
             each.fit.median > first->fit.median + kEqualMedian)
             continue;
-        // In steps of a tenth of the head's size: less is not a matter of what is up.
+        // In steps of a tenth of the head's size: smaller differences say nothing about the upward
+        // axis.
         const std::tuple worth{
             -std::round(10.0 * roots.above(each.hair, each.head)), suppositions(each)};
         if (best && worth >= least) continue;
@@ -243,7 +246,7 @@ const LayAttempt& bestOf(const std::vector<LayAttempt>& attempts, const Roots& r
     return *best;
 }
 
-// Hair and head each by itself.
+// Guesses the placement of hair and head separately.
 void guessApart(
     const hair::groom::StrandSet& strands, const hair::groom::StrandFindings& findings,
     const LayHints& hints, LayGuess& guess) {
@@ -273,7 +276,7 @@ glm::vec3 Lay::eulerAngles() const {
     };
     const double sine = -m[0][2];
     if (std::abs(sine) < 0.5) return {degrees(m[1][2], m[2][2]), 0.0f, degrees(m[0][1], m[0][0])};
-    // A quarter turn about y: the one about x can be none.
+    // A quarter turn about y, so the turn about x may be zero.
     return {0.0f, sine > 0.0 ? 90.0f : -90.0f, degrees(-m[1][0], m[1][1])};
 }
 

@@ -10,22 +10,23 @@
 #include "hair/groom/groom.h"
 #include "hair/groom/mesh/mesh.h"
 
-// How files of hair and of heads lie in a scene, which is in metres with +y up: units and axes that
-// files do not state, guessed by how well the roots fit the head.
+// Places files of hair and heads in a scene, which is in metres with +y up. Guesses units and axes
+// that files do not state by how well the roots fit the head.
 namespace benchmarks::groom {
 
-// What takes the coordinates of a file to the scene's: scaled, the upward axis to +y by a quarter
-// turn, then turned about +y.
+// Transform from a file's coordinates to the scene's: scales, turns the upward axis to +y by a
+// quarter turn, then turns about +y.
 struct Lay {
     double metres_per_unit = 1.0;
-    int up = 1;  // the axis that is up in the file: 0 x, 1 y, 2 z
+    int up = 1;  // upward axis in the file: 0 x, 1 y, 2 z
     int turn = 0;  // about +y by the right-hand rule, deg: 0, 90, 180 or 270
 
     glm::dmat3 rotation() const;
     glm::dvec3 operator()(const glm::vec3& point) const {
         return rotation() * (metres_per_unit * glm::dvec3(point));
     }
-    // Angles about x, then y, then z that make rotation(), deg: /groom/placement/rotation.
+    // Returns the angles about x, then y, then z that give rotation(), deg:
+    // /groom/placement/rotation.
     glm::vec3 eulerAngles() const;
     bool changesNothing() const { return metres_per_unit == 1.0 && up == 1 && turn == 0; }
     bool operator==(const Lay&) const = default;
@@ -34,14 +35,14 @@ struct Lay {
 // "in cm, +z up, turned by 90 degrees".
 std::string layText(const Lay& lay);
 
-// A root counts as on the head within this distance, m: hair that is combed from points slightly
-// off the surface is still meant for it, and by another unit or axis roots are off by centimetres.
+// A root within this distance, m, counts as on the head. Hair that is combed from points slightly
+// off the surface still counts, but with a wrong unit or axis, roots are off by centimetres.
 inline constexpr double kFitTolerance = 5e-3;
 
-// Roots on a head.
+// Fit of the roots to a head.
 struct RootFit {
-    double share = 0.0;  // of the roots that are within kFitTolerance of its surface
-    double median = 0.0;  // distance from it, m
+    double share = 0.0;  // of the roots, within kFitTolerance of its surface
+    double median = 0.0;  // distance from its surface, m
 };
 
 struct LayAttempt {
@@ -50,30 +51,29 @@ struct LayAttempt {
     RootFit fit;
 };
 
-// What is known before a guess.
+// Known facts for a guess.
 struct LayHints {
-    std::optional<double>
-        metres_per_unit;  // of the hair; where absent, what the file states counts
-    std::optional<int> up;  // axis that is up in the file of hair
+    std::optional<double> metres_per_unit;  // of the hair; absent: as the file states
+    std::optional<int> up;  // upward axis in the file of hair
     bool head_is_stated = false;  // the head's format states metres and +y up
 };
 
 struct LayGuess {
     Lay hair;
     Lay head;
-    std::optional<LayAttempt> best;  // absent: there is no head
-    std::optional<LayAttempt> runner_up;  // the best that places the hair otherwise on the head
-    bool fits = false;  // most roots are on the head; else hair and head are placed each by itself
+    std::optional<LayAttempt> best;  // absent without a head
+    std::optional<LayAttempt> runner_up;  // best attempt with another placement on the head
+    bool fits = false;  // most roots are on the head; otherwise hair and head are placed separately
     std::string hair_reason;  // sentences
-    std::string head_reason;  // empty: there is no head
+    std::string head_reason;  // empty without a head
 };
 
-// The guess for these strands, at least one, and the head, as its file has it or null: of every
-// unit among m, cm, mm and inch, axis that is up and turn that the hints leave open the one with
-// the most roots on the head. Of those that are as good as the best (2 % of the roots and 0.5 mm)
-// it takes one that has the hair on top of the head, and then the one that changes the least.
-// Without a head, and where few roots fit it, the unit is hair::groom::inspect()'s, and up is where
-// strands leave the scalp to and what they hang down from.
+// Guesses the placement of strands, at least one, and a head in its file's coordinates, or null.
+// Tries every unit among m, cm, mm and inch, every upward axis and every turn that the hints leave
+// open, and takes the attempt with the most roots on the head. Among attempts as good as the best
+// (within 2 % of the roots and 0.5 mm), prefers hair on top of the head, then the fewest changes.
+// Without a head, or if few roots fit it, takes the unit from hair::groom::inspect(), and takes as
+// up the direction in which strands leave the scalp and against which they hang.
 LayGuess guessLay(
     const hair::groom::StrandSet& strands, const hair::groom::Mesh* head, const LayHints& hints);
 

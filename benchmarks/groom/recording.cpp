@@ -30,7 +30,7 @@ public:
     std::vector<std::string> warnings() const { return case_.warnings(); }
 
 private:
-    // Plays the frames without drawing them; `after` is called with the number of each.
+    // Plays the frames without drawing them. Calls `after` with the index of each.
     void play(const std::function<void(std::uint32_t)>& after);
     hair::groom::StrandSet strands() const;
 

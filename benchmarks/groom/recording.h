@@ -10,7 +10,7 @@
 #include "hair/groom/groom.h"
 #include "hair/settings.h"
 
-// Strands of a simulation, written to a file.
+// Writes the strands of a simulation to a file.
 namespace benchmarks::measure {
 class HairCache;
 }  // namespace benchmarks::measure
@@ -20,20 +20,22 @@ namespace benchmarks::groom {
 struct RecordingOptions {
     std::filesystem::path out;
     std::uint32_t frames = 60;
-    bool guides = false;  // the simulated guides instead of the strands that are drawn
+    bool guides = false;  // simulated guides instead of the drawn strands
 };
 
-// Whether a file holds every frame of a simulation; others hold the last alone.
+// Whether the file's format holds every frame of a simulation; other formats hold only the last.
 bool holdsFrames(const std::filesystem::path& file);
 
 struct Recorded {
-    hair::groom::StrandSet strands;  // of the first frame where the file holds all, of the last
-    std::vector<std::string> warnings;  // of the case, and what the format can't hold
+    hair::groom::StrandSet strands;  // of the first frame if the file holds all, otherwise of the
+                                     // last
+    std::vector<std::string> warnings;  // about the case, and about data that the format cannot
+                                        // hold
 };
 
 // Plays a scene's frames, with progress and without drawing them, and writes the strands. Throws
-// engine::Error, also where the strands that are drawn change from frame to frame and the file
-// holds every frame; Interrupted, and then nothing is written.
+// engine::Error, also if the file holds every frame and the drawn strands' point counts or widths
+// change between frames. Throws Interrupted, and then writes nothing.
 Recorded recordStrands(
     const engine::Device& device, const scene::Scene& scene, const hair::Settings& settings,
     const RecordingOptions& options, measure::HairCache& cache);
