@@ -1,8 +1,8 @@
 """Files of hair as numpy arrays, by way of `hairbench groom convert`.
 
-What lies between is read as Cem Yuksel's HAIR, a header of 128 bytes and arrays
-(cemyuksel.com/research/hairmodels), and written as PLY: both hold strands of any length and widths
-to the last bit, and PLY no colours where nobody stated them.
+Exchanges data with the program as Cem Yuksel's HAIR for reading, a header of 128 bytes and arrays
+(cemyuksel.com/research/hairmodels), and as PLY for writing. Both hold strands of any length and
+exact widths, and PLY does not invent colours.
 """
 
 from __future__ import annotations
@@ -21,18 +21,18 @@ if TYPE_CHECKING:
     import numpy
 
 HEADER = struct.Struct("<4sIIII5f88s")
-SEGMENTS, THICKNESS = 1, 4  # bits that say which arrays there are
+SEGMENTS, THICKNESS = 1, 4  # bits for the arrays in the file
 
 
 @dataclass(frozen=True)
 class Groom:
-    """Strands, one after the other, root first, in the file's unit.
+    """Strands one after another, root first, in the file's unit.
 
     points   float32 [n, 3]
     offsets  int64 [strands + 1]: strand i is points[offsets[i]:offsets[i + 1]]
-    widths   float32 [n], diameters; None where they are not known
+    widths   float32 [n], diameters; None if unknown
 
-    Other types of numbers are converted. Raises ValueError where the arrays don't fit each other.
+    Converts other types of numbers. Raises ValueError if the arrays do not fit together.
     """
 
     points: numpy.ndarray
@@ -72,14 +72,14 @@ class Groom:
         return len(self.offsets) - 1
 
     def strand(self, index: int) -> numpy.ndarray:
-        """The points of a strand, float32 [its points, 3]; a view."""
+        """Returns the points of a strand, float32 [its points, 3], as a view."""
         if not 0 <= index < len(self):
             raise IndexError(f"strand {index} of {len(self)}")
         return self.points[self.offsets[index]:self.offsets[index + 1]]
 
 
 def groom_of_hair(data: bytes) -> Groom:
-    """Of a file that `groom convert` has written, which is exactly such a file."""
+    """Reads a HAIR file from `groom convert`, with exactly the parts that it writes."""
     import numpy
 
     _, strands, count, arrays, segments, thickness, *_ = HEADER.unpack_from(data)
@@ -116,7 +116,7 @@ def ply_of_groom(groom: Groom) -> bytes:
         "ply", "format binary_little_endian 1.0", f"element vertex {len(groom.points)}",
         *(f"property float {name}" for name in properties), f"element strand {len(groom)}",
         "property list uint uint vertex_indices", "end_header", ""]
-    # Each list is its length and the points of a strand.
+    # Each list is its length, then the indices of a strand's points.
     lists = numpy.insert(
         numpy.arange(len(groom.points)), groom.offsets[:-1], numpy.diff(groom.offsets))
     vertices = numpy.hstack(columns).astype("<f4")
@@ -124,7 +124,7 @@ def ply_of_groom(groom: Groom) -> bytes:
 
 
 def convert(source: Path, target: Path, options: dict[str, Option]) -> list[tuple[str, str]]:
-    """Returns the program's warnings: of which file, and what."""
+    """Returns the program's warnings as pairs of file and text."""
     arguments = ["groom", "convert", str(source), str(target), *option_arguments(options)]
     finished = succeed(arguments, None)
     found = []
@@ -136,28 +136,28 @@ def convert(source: Path, target: Path, options: dict[str, Option]) -> list[tupl
 
 
 def read_groom(path: str | os.PathLike[str], **options: Option) -> Groom:
-    """Reads any format of docs/grooms.md. What the file has and a reader leaves out is a warning.
+    """Reads any format of docs/grooms.md. Warns about data in the file that is not read.
 
-    options  of `hairbench groom convert --help`, with _ for -: scale=0.01, guides=200,
+    options  as in `hairbench groom convert --help`, with _ for -: scale=0.01, guides=200,
              points_per_strand=100
 
-    Raises ProgramError "path: place: reason" where the file is not its format.
+    Raises ProgramError "path: place: reason" if the file is not in its format.
     """
     source = Path(path)
     with tempfile.TemporaryDirectory(prefix="hairbench-") as folder:
         between = Path(folder) / "groom.hair"
         for of, warning in convert(source, between, options):
-            # What HAIR does not hold no Groom has.
+            # A Groom lacks everything that HAIR cannot hold, so warnings about that are dropped.
             if of == str(source):
                 warnings.warn(f"{source}: {warning}", stacklevel=2)
         return groom_of_hair(between.read_bytes())
 
 
 def write_groom(path: str | os.PathLike[str], groom: Groom, **options: Option) -> None:
-    """Writes any format of docs/grooms.md that the program writes, by the extension of `path`.
+    """Writes any format of docs/grooms.md that the program can write, by the extension of `path`.
 
-    What the format can't hold is a warning, and points are in its unit: of .hgl in metres. The file
-    is replaced when all is written. `options` are as for read_groom().
+    Warns about data that the format cannot hold. Points are in the format's unit: metres for .hgl.
+    The file is replaced once everything is written. `options` are as for read_groom().
     """
     target = Path(path)
     with tempfile.TemporaryDirectory(prefix="hairbench-") as folder:

@@ -1,4 +1,4 @@
-"""The program hairbench: where it is, and calls of it."""
+"""Finds and calls the program hairbench."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ if TYPE_CHECKING:
 
 Value = Union[str, int, float, bool, "os.PathLike[str]"]
 Option = Union[Value, Sequence[Value], None]
-Progress = Callable[[str], object]  # is given each line that the program says meanwhile
+Progress = Callable[[str], object]  # called with each line that the program prints meanwhile
 
 PROGRAM_VARIABLE = "HAIRBENCH_PROGRAM"
 PACKAGE = Path(__file__).resolve().parent
 
-# Exit statuses (README.md) that are findings of a comparison and no failure.
+# Exit statuses (README.md) that are results of a comparison, not failures.
 VERDICTS = {0: "ok", 10: "slower", 11: "inconclusive", 12: "differs"}
 
 
 class ProgramError(RuntimeError):
-    """The program failed: `status` as README.md lists them, and what it said last."""
+    """The program failed: `status` as in README.md, and the last message."""
 
     def __init__(self, status: int, message: str):
         super().__init__(message)
@@ -37,9 +37,9 @@ class ProgramError(RuntimeError):
 
 
 def program() -> Path:
-    """$HAIRBENCH_PROGRAM, the program that was installed with this package, or that on the PATH.
+    """Returns $HAIRBENCH_PROGRAM, the program installed with this package, or that on the PATH.
 
-    Raises FileNotFoundError where there is none.
+    Raises FileNotFoundError if there is none.
     """
     wanted = os.environ.get(PROGRAM_VARIABLE)
     if wanted:
@@ -57,8 +57,8 @@ def program() -> Path:
 
 
 def scenes() -> Path:
-    """The folder of the shipped scenes: beside the program where it is installed, or in the source
-    tree that it was built in. Raises FileNotFoundError where there is none."""
+    """Returns the folder of the shipped scenes: beside the installed program, or in the source tree
+    that it was built in. Raises FileNotFoundError if there is none."""
     start = program()
     for folder in start.parents:
         for place in (folder / "share" / "hairbench" / "scenes", folder / "scenes"):
@@ -70,7 +70,7 @@ def scenes() -> Path:
 def option_arguments(options: Mapping[str, Option]) -> list[str]:
     """{"max_time": 0.5, "no_pictures": True, "filter": None} -> --max-time 0.5 --no-pictures
 
-    A sequence repeats its option; None and False leave it out.
+    A sequence repeats its option. None and False omit it.
     """
     arguments: list[str] = []
     for name, value in options.items():
@@ -88,7 +88,7 @@ def option_arguments(options: Mapping[str, Option]) -> list[str]:
 
 
 def json_text(value: object) -> str:
-    """As the command line takes a value of a scene: "rod" without quotes, others as JSON."""
+    """Returns a scene's value for the command line: "rod" without quotes, other types as JSON."""
     return value if isinstance(value, str) else json.dumps(value)
 
 
@@ -119,9 +119,9 @@ class Finished:
 
 
 def call(arguments: Sequence[str], progress: Progress | None = to_stderr) -> Finished:
-    """Runs the program and waits for it. What it says on stderr goes to `progress` line by line.
+    """Runs the program and waits for it. Passes each line of its stderr to `progress`.
 
-    An interrupt of Python (KeyboardInterrupt) ends the program too, which saves what is done first.
+    A KeyboardInterrupt also interrupts the program, which first saves what is done.
     """
     with subprocess.Popen(
             [str(program()), *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
@@ -129,7 +129,7 @@ def call(arguments: Sequence[str], progress: Progress | None = to_stderr) -> Fin
         said: list[str] = []
         errors: list[str] = []
 
-        # Two pipes are read at a time, so that neither fills and holds the program up.
+        # A thread reads stdout meanwhile, so that a full pipe cannot block the program.
         def read(pipe: IO[str]) -> None:
             said.append(pipe.read())
 
@@ -142,7 +142,7 @@ def call(arguments: Sequence[str], progress: Progress | None = to_stderr) -> Fin
                 if progress:
                     progress(errors[-1])
         except BaseException:
-            # A notebook's interrupt reaches Python alone.
+            # In a notebook, only Python receives the interrupt.
             process.send_signal(signal.SIGINT)
             for _ in process.stderr:
                 pass
@@ -156,7 +156,7 @@ def call(arguments: Sequence[str], progress: Progress | None = to_stderr) -> Fin
 def failure(finished: Finished, arguments: Sequence[str]) -> ProgramError:
     own = [line.removeprefix("hairbench: ") for line in finished.errors
            if line.startswith("hairbench: ")]
-    # Faults of the command line itself have no name before them, and a line on --help after them.
+    # Errors of the command line have no such prefix, and a line about --help follows them.
     others = [line for line in finished.errors if line and not line.startswith("Run with --help")]
     said = own or others
     what = said[-1] if said else f"hairbench {arguments[0]} ended with status {finished.status}"
@@ -164,7 +164,7 @@ def failure(finished: Finished, arguments: Sequence[str]) -> ProgramError:
 
 
 def succeed(arguments: Sequence[str], progress: Progress | None = to_stderr) -> Finished:
-    """call(), where nothing but success will do."""
+    """Like call(), but raises ProgramError unless the program succeeds."""
     finished = call(arguments, progress)
     if finished.status != 0:
         raise failure(finished, arguments)
@@ -173,7 +173,7 @@ def succeed(arguments: Sequence[str], progress: Progress | None = to_stderr) -> 
 
 @dataclass(frozen=True)
 class RunResult:
-    """What a run left: the report's file, the exit status and the table that it printed."""
+    """Result of a run: the report's file, the exit status and the printed table."""
 
     path: Path
     status: int
@@ -181,7 +181,7 @@ class RunResult:
 
     @property
     def verdict(self) -> str:
-        """What the comparison with `baseline` says, "ok" without one: a value of VERDICTS."""
+        """Returns the verdict against `baseline`, a value of VERDICTS; "ok" without a baseline."""
         return VERDICTS[self.status]
 
     def frame(self) -> pandas.DataFrame:
@@ -191,7 +191,7 @@ class RunResult:
 
 @dataclass(frozen=True)
 class GateResult:
-    """A gate's report as results/gate.schema.json describes it, its file and its exit status."""
+    """A gate's report (results/gate.schema.json), its file and its exit status."""
 
     path: Path
     status: int
@@ -200,7 +200,7 @@ class GateResult:
 
     @property
     def verdict(self) -> str:
-        """mismatch, regressed, inconclusive, improved or same."""
+        """Returns mismatch, regressed, inconclusive, improved or same."""
         return str(self.report["verdict"])
 
     @property
@@ -208,7 +208,7 @@ class GateResult:
         return self.status == 0
 
     def frame(self) -> pandas.DataFrame:
-        """A row for each judged metric of each case, with its change and interval as shares."""
+        """Returns a row per judged metric of each case, with its change and interval as shares."""
         import pandas
         return pandas.DataFrame(self.report.get("changes", []))
 
@@ -227,11 +227,11 @@ def run(
     """`hairbench run`: plays the cases of a scene or a suite and writes a report.
 
     axes     pointer -> values: replaces or adds axes of the sweep
-    sets     pointer -> value of every case
+    sets     pointer -> value for every case
     out      the report; the program's own default is results/local/<scene>.json
-    options  of `hairbench run --help`, with _ for -: max_time=0.5, no_pictures=True
+    options  as in `hairbench run --help`, with _ for -: max_time=0.5, no_pictures=True
 
-    Raises ProgramError where the program fails, is interrupted or runs nothing.
+    Raises ProgramError if the program fails, is interrupted or runs nothing.
     """
     path = Path(out) if out is not None else Path("results/local") / f"{Path(scene).stem}.json"
     arguments = [
@@ -249,10 +249,10 @@ def gate(
     """`hairbench gate`: whether build B is slower than build A (docs/comparing.md).
 
     a, b     a build folder, a program, or a command line
-    options  of `hairbench gate --help`, as for run(): pairs=24, calibrate=48, max_time=0
+    options  as in `hairbench gate --help`, like run(): pairs=24, calibrate=48, max_time=0
 
-    That B is slower or draws something else is a result and not an exception: see `status`,
-    `passed` and `verdict`. Raises ProgramError where the gate itself fails or is interrupted.
+    A slower or different B is a result, not an exception: see `status`, `passed` and `verdict`.
+    Raises ProgramError if the gate itself fails or is interrupted.
     """
     stem = f"gate-{Path(scene).stem}.json"
     path = Path(out) if out is not None else Path("results/local") / stem
@@ -265,7 +265,7 @@ def gate(
 
 
 def main() -> None:
-    """The command `hairbench` of a wheel: becomes the program that lies in the package."""
+    """The command `hairbench` of a wheel: replaces itself by the program in the package."""
     installed = PACKAGE / "bin" / "hairbench"
     if not installed.exists():
         sys.exit(f"hairbench: {installed}: this package was installed without the program")

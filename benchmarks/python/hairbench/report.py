@@ -1,4 +1,4 @@
-"""Reports of `hairbench run` as pandas frames; results/README.md has every field."""
+"""Reads reports of `hairbench run` as pandas frames; results/README.md has every field."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 SCHEMA = "hairbench-report/1."
 
-# Members of a metric beside its median that are columns under their own names.
+# Members of a metric, except its median, that become columns under their own names.
 OTHER_FIGURES = (
     "mad", "mean", "minimum", "first_quartile", "third_quartile", "maximum",
     "percentile_5", "percentile_95", "percentile_99", "relative_deviation", "effective_samples",
@@ -20,7 +20,7 @@ OTHER_FIGURES = (
 
 
 def axis_value(value: Any) -> Any:
-    """A value that frames can group by: lists are tuples, objects JSON."""
+    """Returns a hashable value, for grouping: lists as tuples, objects as JSON."""
     if isinstance(value, list):
         return tuple(axis_value(each) for each in value)
     return json.dumps(value) if isinstance(value, dict) else value
@@ -50,15 +50,15 @@ def metric_columns(name: str, metric: dict[str, Any]) -> dict[str, Any]:
 
 
 def read_report(path: str | os.PathLike[str]) -> pandas.DataFrame:
-    """A row for each metric of each case; a case that was skipped or failed has one row without.
+    """Returns a row per metric of each case, and one without metrics for a skipped or failed case.
 
-    Columns: `case`, an axis each under its JSON pointer with its value there, `status`, `reason`,
-    `backend`, `warnings` (how many), `counts.strands` and the like; `metric`, `unit`, `hint`
-    (whether lower or higher is better), `mode`, `median`, the bounds `lower` and `upper` of its
-    interval, `confidence`, and the other figures of a metric under their names. What is not known
-    is missing. `frame.attrs` has `path`, `schema`, `scene`, `environment` and `interrupted`.
+    Columns: `case`, the value on each axis under its JSON pointer, `status`, `reason`, `backend`,
+    `warnings` (their number), `counts.strands` and other counts; `metric`, `unit`, `hint` (whether
+    lower or higher is better), `mode`, `median`, the bounds `lower` and `upper` of its interval,
+    `confidence`, and the metric's other figures under their names. Unknown values are missing.
+    `frame.attrs` has `path`, `schema`, `scene`, `environment` and `interrupted`.
 
-    Raises ValueError "path: reason" where the file is no report.
+    Raises ValueError "path: reason" if the file is not a report.
     """
     import pandas
 
