@@ -20,8 +20,8 @@ using namespace benchmarks;
 
 namespace {
 
-// A standard stream that is closed would be the next file that is opened: a report, a device. What
-// is written to a closed standard output fails, as on a full disk.
+// Opens missing standard streams. Otherwise the next opened file, a report or a device, would take
+// the number of a closed stream. Writing to a closed standard output then fails, as on a full disk.
 void openMissingStreams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (fcntl(stream, F_GETFD) < 0)
@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
     openMissingStreams();
     const int status = statusOf(argc, argv);
     std::cout.flush();
-    // Another thread's flush may have failed: then the file alone knows.
+    // Another thread's flush may have failed; then only the file has the error.
     if (std::cout && std::ferror(stdout) == 0) return status;
     return fail(
         "", "standard output can't be written",
