@@ -17,7 +17,7 @@ constexpr int kCtrl = ImGuiMod_Ctrl;
 constexpr int kShift = ImGuiMod_Shift;
 constexpr int kAlt = ImGuiMod_Alt;
 
-// W, A, S, D, Q, E and the arrows fly the camera.
+// W, A, S, D, Q, E and the arrows are taken: they fly the camera.
 constexpr std::array kActions{
     ActionRow{
         Action::open_scene, "File", "Open scene...", kCtrl | ImGuiKey_O, "Ctrl+O",
@@ -188,7 +188,7 @@ struct Gesture {
     const char* what;
     const char* does;
 };
-// Gestures that are no actions.
+// Gestures that are not actions.
 constexpr std::array kMouse{
     Gesture{"Left drag", "camera: orbits; other tools: moves their handles"},
     Gesture{"Right or middle drag", "pans"},
@@ -238,7 +238,7 @@ void keysOf(std::span<const ActionRow> rows) {
 
 // ---- Menu bar -----------------------------------------------------------------------------------
 
-// Whether a menu has a separator before an action.
+// Whether the menu has a separator before this action.
 bool startsGroup(Action action) {
     switch (action) {
     case Action::copy_axes:
@@ -294,7 +294,7 @@ std::vector<Action> pressedActions() {
         return actions;
     for (const ActionRow& row : kActions)
         if (isPressed(row)) actions.push_back(row.action);
-    // Where the sign is depends on the keyboard.
+    // Keyboard layouts place the question mark differently, so its character is checked, not a key.
     if (ImGui::GetIO().InputQueueCharacters.contains('?')) actions.push_back(Action::help);
     return actions;
 }
@@ -338,7 +338,7 @@ std::vector<Action> menuBar(const std::function<ActionState(Action)>& state) {
     return chosen;
 }
 
-// ---- What an action stands for ------------------------------------------------------------------
+// ---- Effects of actions -------------------------------------------------------------------------
 
 bool* switchOf(Action action, hair::Settings& settings) {
     hair::OverlaySettings& overlays = settings.render.overlays;

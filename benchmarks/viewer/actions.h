@@ -9,7 +9,7 @@
 #include "benchmarks/viewer/toolbar.h"
 #include "hair/settings.h"
 
-// What the menus and keys do: a table of actions, from which menu bar, keys and help are made.
+// A table of the actions in the viewer. It defines the menu bar, the keys and the help.
 namespace benchmarks::viewer {
 
 enum class Action {
@@ -18,14 +18,14 @@ enum class Action {
     save_scene_as,
     copy_axes,
     screenshot,
-    record,  // on and off
+    record,  // toggles recording
     quit,
     undo,
     redo,
     play,  // plays or pauses
     step,
     restart,
-    preview,  // of what moves, on and off
+    preview,  // toggles previews of motion
     frame_groom,
     view_front,
     view_side,
@@ -53,8 +53,8 @@ enum class Action {
     tool_head,
     tool_colliders,
     tool_lights,
-    compare,  // on and off
-    edit_other,  // the other of two sides
+    compare,  // toggles comparing
+    edit_other,  // edits the other side
     present_fifo,
     present_mailbox,
     present_immediate,
@@ -62,7 +62,7 @@ enum class Action {
     light_theme,
     larger,
     smaller,
-    left_column,  // shown or not
+    left_column,  // toggles the column
     right_column,
     panel_scene,
     panel_files,
@@ -79,7 +79,7 @@ struct ActionRow {
     const char* menu;  // the menu's name
     const char* name;  // the item's name
     int key;           // ImGuiKeyChord; 0: none
-    const char* keys;  // the keys as people read them
+    const char* keys;  // text for the keys
     const char* help;
 };
 
@@ -89,34 +89,34 @@ const ActionRow& rowOf(Action action);
 // The rows of each menu.
 std::vector<std::span<const ActionRow>> actionMenus();
 
-// The actions whose keys were pressed since the last picture; none while text is being typed or a
+// Returns the actions of keys pressed since the last picture; none while text is being typed or a
 // menu is open.
 std::vector<Action> pressedActions();
 
-// A window of Dear ImGui with the keys and the mouse's buttons, over everything else while `open`;
-// Escape closes it.
+// Shows a Dear ImGui window with the keys and mouse gestures above everything else while `open` is
+// set; Escape closes it.
 void helpPanel(bool& open);
 
-// How an action is shown.
+// How an action appears in the menu.
 struct ActionState {
     bool checked = false;
     bool enabled = true;
 };
 
-// Shows the window's menu, made from the table of actions, and returns the actions that were
-// chosen. `state` is asked about the actions that are seen.
+// Shows the window's menu bar from the table of actions, and returns the chosen actions. `state` is
+// called for the visible actions.
 std::vector<Action> menuBar(const std::function<ActionState(Action)>& state);
 
-// The setting that an action switches on and off; null where it switches none.
+// Returns the setting that an action toggles, or null.
 bool* switchOf(Action action, hair::Settings& settings);
 
-// What an action has strands show; none where it changes nothing of that.
+// Returns the mode that an action shows strands in, if any.
 std::optional<hair::Show> showOf(Action action);
 
-// The tool that an action takes up; none where it takes up none.
+// Returns the tool that an action selects, if any.
 std::optional<Tool> toolOf(Action action);
 
-// The preset that an action looks from, which has its name; null where there is none.
+// Returns the camera preset of an action, which has the same name, or null.
 const CameraPreset* presetOf(Action action);
 
 }  // namespace benchmarks::viewer

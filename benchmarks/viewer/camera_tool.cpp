@@ -25,7 +25,7 @@ constexpr CameraPreset kPresets[] = {
     {"Back", {0, 0.1f, -1}, 1.0f},         {"Top", {0, 1, 0.25f}, 1.0f},
     {"Close-up", {0.5f, 0.25f, 1}, 0.25f}, {"Far", {0, 0.1f, 1}, 9.0f}};
 
-// rad: the smallest angle between the view and /camera/up.
+// rad: smallest angle between the view and /camera/up.
 constexpr float kClosest = 0.02f;
 
 struct Frame {
@@ -37,7 +37,7 @@ glm::vec3 upOf(const hair::CameraSettings& camera) {
     return length > 0.0f ? camera.up / length : glm::vec3{0, 1, 0};
 }
 
-// Some unit vector across `up`.
+// Returns some unit vector perpendicular to `up`.
 glm::vec3 across(glm::vec3 up) {
     return glm::normalize(
         glm::cross(up, std::abs(up.z) < 0.9f ? glm::vec3{0, 0, 1} : glm::vec3{1, 0, 0}));
@@ -56,19 +56,19 @@ float distanceOf(const hair::CameraSettings& camera) {
     return glm::length(camera.position - camera.target);
 }
 
-// Height of the plane through the target that the picture shows, m.
+// Returns the height that the picture shows of the plane through the target, m.
 float visibleHeight(const hair::CameraSettings& camera) {
     return 2.0f * distanceOf(camera) * std::tan(glm::radians(camera.field_of_view) / 2.0f);
 }
 
-// The distance from which a sphere's outline fills the picture's shorter side. A field of view
-// wider than 90 degrees counts as 90: the camera would be at the sphere's surface.
+// Returns the distance from which a sphere's outline fills the picture's shorter side. A field of
+// view above 90 degrees counts as 90; otherwise the camera would reach the sphere's surface.
 float fittingDistance(const hair::CameraSettings& camera, float radius, float aspect) {
     const float half = std::tan(glm::radians(std::min(camera.field_of_view, 90.0f)) / 2.0f);
     return radius / std::sin(std::atan(half * std::min(aspect, 1.0f)));
 }
 
-// The nearest distance at which the target is well between the near and the far plane.
+// Clamps a distance so that the target lies well between the near and the far plane.
 float allowedDistance(const hair::CameraSettings& camera, float distance) {
     return std::clamp(
         distance, 2.0f * camera.near_plane,
@@ -77,14 +77,14 @@ float allowedDistance(const hair::CameraSettings& camera, float distance) {
 
 // ---- Mouse and keys -----------------------------------------------------------------------------
 
-constexpr float kPictureOfZoom = 20.0f;  // steps of zoom for a drag as long as the picture is high
-constexpr float kZoomSpeed = 8.0f;  // steps per s while a key is down
+constexpr float kPictureOfZoom = 20.0f;  // zoom steps for a drag over the picture's height
+constexpr float kZoomSpeed = 8.0f;  // zoom steps per s while a key is down
 constexpr float kFlySpeed = 0.8f;  // distances to the target per s
 constexpr float kFaster = 4.0f;  // factor with Shift
 constexpr double kPause = 0.3;  // s within which moves are one edit
-constexpr float kLongest = 0.1f;  // s that a slow frame counts: nobody wants to leap
+constexpr float kLongest = 0.1f;  // s; limits a slow frame, so that the camera does not leap
 
-// 1 while a key of `forward` is down, -1 while one of `backward` is, 0 for both or neither.
+// Returns 1 while a `forward` key is down, -1 while a `backward` key is, 0 for both or neither.
 float direction(std::array<ImGuiKey, 2> forward, std::array<ImGuiKey, 2> backward) {
     const auto down = [](std::array<ImGuiKey, 2> keys) {
         return ImGui::IsKeyDown(keys[0]) || ImGui::IsKeyDown(keys[1]) ? 1.0f : 0.0f;
@@ -96,7 +96,7 @@ bool differs(const hair::CameraSettings& a, const hair::CameraSettings& b) {
     return a.position != b.position || a.target != b.target || a.up != b.up;
 }
 
-// Undoes a move to where no scene could have the camera.
+// Undoes a move to a position that scenes do not allow.
 void keepAllowed(hair::CameraSettings& camera, const hair::CameraSettings& before) {
     using S = hair::CameraSettings;
     if (allowed(&S::position, camera.position) != camera.position ||
@@ -204,8 +204,8 @@ Edit CameraTool::mouse(const Pointer& pointer, Left left, hair::CameraSettings& 
     return {.changed = true, .continues = true};
 }
 
-// Whether keys move this picture's camera: of two pictures the one under the mouse; the first where
-// the mouse is elsewhere.
+// Whether keys move this picture's camera: the one under the mouse, or the first one if the mouse
+// is elsewhere.
 bool CameraTool::takesKeys(const Pointer& pointer) {
     const int frame = ImGui::GetFrameCount();
     if (pointer.hovers) {

@@ -24,7 +24,8 @@ glm::vec3 toWorld(
     return collider.follows == hair::Follows::head ? glm::vec3(head(point)) : point;
 }
 
-// Unit vector across the capsule and the view, from its axis to the rim's handle.
+// Returns the unit vector perpendicular to the capsule and the view, from its axis to the rim's
+// handle.
 glm::vec3 rimDirection(const ColliderAxis& axis, const PictureView& view) {
     const glm::vec3 side = glm::cross(axis.b - axis.a, view.back());
     const float length = glm::length(side);
@@ -35,7 +36,8 @@ glm::vec3 allowedPoint(glm::vec3 point) { return allowed(&hair::Collider::a, poi
 
 // ---- The tool -----------------------------------------------------------------------------------
 
-// Outlines that are drawn at most: more would hide the picture. All colliders can be selected.
+// Maximum number of drawn outlines; more would hide the picture. All colliders can still be
+// selected.
 constexpr std::size_t kMostOutlines = 200;
 
 const char* tooltipOf(ColliderPart part) {
@@ -53,8 +55,8 @@ const char* tooltipOf(ColliderPart part) {
     return "";
 }
 
-// Radius in px of a sphere's outline, which is where the camera's rays touch it, wider than its
-// middle. 0 where the camera is inside.
+// Returns the radius of a sphere's outline in px. The camera's rays touch the sphere there, so it
+// is wider than the sphere's cross-section through its centre. 0 if the camera is inside.
 float outlineRadius(const PictureView& view, const glm::vec3& center, float radius) {
     const float distance = glm::length(view.eye() - center);
     if (distance <= radius) return 0.0f;
@@ -62,7 +64,7 @@ float outlineRadius(const PictureView& view, const glm::vec3& center, float radi
     return radius / touching * view.pixelsPerMetre(center);
 }
 
-// Draws a capsule as it is seen: two circles and the lines that touch both.
+// Draws a capsule's outline: two circles and the lines that touch both.
 void outline(
     const PictureView& view, Handles& handles, const ColliderAxis& axis, float radius,
     Handles::Color color) {
@@ -97,7 +99,7 @@ bool same(const hair::Collider& a, const hair::Collider& b) {
     return a.a == b.a && a.b == b.b && a.radius == b.radius;
 }
 
-// The collider that is in front under a pixel.
+// Returns the frontmost collider under a pixel.
 std::optional<std::size_t> pickCollider(
     const PictureView& view, std::span<const hair::Collider> colliders,
     const hair::simulation::RigidMotion& head, glm::vec2 pixel) {

@@ -17,10 +17,10 @@
 // The tool that moves, stretches, adds and removes colliders in the picture.
 namespace benchmarks::viewer {
 
-// What a capsule is held by. A sphere has no ends: its `stretch` makes it a capsule.
+// The handles of a capsule. A sphere has no ends; `stretch` turns it into a capsule.
 enum class ColliderPart { middle, end_a, end_b, stretch, rim };
 
-// Where the parts of a collider are in the world; `head` is where the head is.
+// World positions of a collider's handles. `head` is the head's motion.
 struct ColliderHandle {
     ColliderPart part = ColliderPart::middle;
     glm::vec3 point{0.0f};
@@ -29,34 +29,34 @@ std::vector<ColliderHandle> colliderHandles(
     const hair::Collider& collider, const hair::simulation::RigidMotion& head,
     const PictureView& view);
 
-// The ends of a capsule's axis in the world.
+// The ends of a capsule's axis in world space.
 struct ColliderAxis {
     glm::vec3 a, b;
 };
 ColliderAxis axisOf(const hair::Collider& collider, const hair::simulation::RigidMotion& head);
 
-// The collider after one of its parts was moved through the world by so much.
+// Returns the collider after one of its handles has moved by `by` in world space.
 hair::Collider withMoved(
     const hair::Collider& collider, const hair::simulation::RigidMotion& head,
     const PictureView& view, ColliderPart part, const glm::vec3& by);
 
-// A sphere in front of the face of a groom, as it is on a head that has not moved (+z is where
-// faces look); it follows the head.
+// Returns a sphere in front of the face of a groom (+z) on a head that has not moved. It follows
+// the head.
 hair::Collider colliderInFront(const Sphere& groom);
 
-// Moves the capsules of /simulation/colliders with the mouse.
+// Edits the capsules of /simulation/colliders with the mouse.
 class ColliderTool {
 public:
     Edit
     update(const Pointer& pointer, Handles& handles, hair::Settings& settings, const Shown& played);
     bool drags() const { return drag_.has_value(); }
 
-    // Buttons that add a collider and remove the selected one, in one line.
+    // Buttons in one line: add a collider, remove the selected one.
     Edit options(OptionsLine& line, hair::Settings& settings, const Shown& played);
 
 private:
     struct Drag {
-        const Shown* played;  // whose picture the mouse is in
+        const Shown* played;  // side of the picture under the mouse
         ColliderHandle held;
         hair::Collider start;
         glm::vec2 from;  // px

@@ -27,7 +27,7 @@ ImGuiCol backgroundOf(Surface surface) {
     }
 }
 
-// A bar has one line of widgets, in the middle of its height.
+// Centres a bar's single line of widgets vertically.
 ImVec2 paddingOf(Surface surface, const Box& box) {
     const ImVec2 usual = ImGui::GetStyle().WindowPadding;
     if (surface == Surface::splitter) return {0.0f, 0.0f};
@@ -35,7 +35,7 @@ ImVec2 paddingOf(Surface surface, const Box& box) {
     return {usual.x, std::max(std::floor((box.height - ImGui::GetFrameHeight()) / 2.0f), 0.0f)};
 }
 
-// Heights of a letter that the bar was dragged to the right by.
+// Returns how far the splitter was dragged to the right, in letter heights.
 float splitter(const char* name, const Box& box) {
     float dragged = 0.0f;
     pane(name, box, Surface::splitter, [&] {
@@ -55,20 +55,20 @@ float splitter(const char* name, const Box& box) {
     return dragged;
 }
 
-// Dragging starts from the width that the column got, not from one that there was no room for.
+// Drags start from the column's actual width, not from a wanted one that did not fit.
 void drag(Column& column, const Box& box, float letters) {
     if (letters == 0.0f) return;
     column.width = std::max(box.width / ImGui::GetFontSize() + letters, kNarrowestColumn);
 }
 
 constexpr std::array kTabs{Tab::scene, Tab::files, Tab::timings, Tab::compare, Tab::shaders};
-constexpr std::size_t kLeft = 2;  // the first ones are the left column's
+constexpr std::size_t kLeft = 2;  // tabs of the left column, which come first
 
 // ---- Status line --------------------------------------------------------------------------------
 
 float widthOf(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
 
-// A text cut to the room that it has, px, never within a character.
+// Shortens a text to fit, px, without splitting a UTF-8 character.
 std::string cut(const std::string& text, float room) {
     if (widthOf(text) <= room) return text;
     std::size_t length = text.size();
@@ -189,7 +189,7 @@ void statusLine(const StatusText& status) {
     const float gap = 1.5f * ImGui::GetFontSize();
     const float room = ImGui::GetContentRegionAvail().x;
     const float picture = widthOf(status.picture);
-    // The device's name gives way first.
+    // The device's name is shortened first.
     float device = std::min(widthOf(status.device), 0.3f * room);
     float left = std::max(room - picture - device - 2.0f * gap, 0.0f);
     if (widthOf(status.text) > left) {

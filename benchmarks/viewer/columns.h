@@ -7,49 +7,48 @@
 
 #include "benchmarks/viewer/preferences.h"
 
-// What the window is laid out with: panes, splitters, tabs, buttons to choose from, the status
-// line.
+// Layout elements of the window: panes, splitters, tabs, choice buttons, the status line.
 namespace benchmarks::viewer {
 
-// What a part of the window looks like.
+// Appearance of a part of the window.
 enum class Surface {
     panel,
     stage,  // behind the picture
-    bar,    // as the menu
+    bar,  // like the menu
     splitter,
 };
 
-// A fixed part of the window, with what `body` shows in it; nothing for an empty box.
+// A fixed part of the window with the widgets of `body`; does nothing for an empty box.
 void pane(const char* name, const Box& box, Surface surface, const std::function<void()>& body);
 
-// The bars between columns and picture: what is dragged of them changes the columns' widths.
+// Splitters between columns and picture. Dragging them changes the columns' widths.
 void splitters(const Layout& layout, Preferences& preferences);
 
-// The panels that columns have.
+// The panels of the columns.
 enum class Tab { scene, files, timings, compare, shaders };
 
 const char* tabName(Tab tab);
 
-// The panels of each column, and those of the one column of a narrow window.
+// Panels of each column, and of the single column of a narrow window.
 std::span<const Tab> leftTabs();
 std::span<const Tab> rightTabs();
 std::span<const Tab> allTabs();
 
-// Which panel each column shows, in wide windows and in those with one column.
+// The selected panel of each column in wide windows, and of the single column in narrow ones.
 struct Tabs {
     Tab left = Tab::scene;
     Tab right = Tab::timings;
     Tab only = Tab::scene;
 
-    // Brings a panel to the front, wherever it is.
+    // Selects a panel in its column and in the single column.
     void choose(Tab tab);
 };
 
-// The names of tabs to choose from, within the current window of Dear ImGui, in as many lines as it
-// takes. True where another tab was chosen.
+// Shows tab buttons within the current Dear ImGui window, in as many lines as needed. Returns
+// whether the choice changed.
 bool tabStrip(std::span<const Tab> tabs, Tab& chosen);
 
-// A button of a group in which one looks pressed: the value that is chosen.
+// One button of a group; the button of the chosen value looks pressed.
 template <class Value>
 struct Choice {
     const char* label;
@@ -59,13 +58,13 @@ struct Choice {
 
 enum class Chosen { no, yes };
 
-// Puts the next item on the line of the last one where it has room for a button `label`, else on
-// the next line.
+// Places the next item on the current line if a button `label` fits there, otherwise on the next
+// line.
 void sameLineIfItFits(const char* label);
 bool choiceButton(const char* label, const char* help, Chosen chosen);
 
-// Shows a button for each choice, in one line or as many as they take, and sets `value` to the one
-// that is pressed.
+// Shows a button for each choice, in as many lines as needed, and sets `value` to that of a pressed
+// button.
 template <class Value>
 void choiceButtons(std::span<const Choice<Value>> choices, Value& value) {
     for (std::size_t i = 0; i < choices.size(); ++i) {
@@ -80,11 +79,11 @@ struct StatusText {
     std::string text;  // a message, or a hint
     enum class Tone { hint, message, problem } tone = Tone::hint;
     std::string device;
-    std::string picture;  // the picture's size, the frame and what else there is to say of it
+    std::string picture;  // the picture's size, the frame, and other facts about it
 };
 
-// One line within the current window of Dear ImGui. What there is no room for is cut, and its
-// tooltip has it whole.
+// Shows one line within the current Dear ImGui window. Text that does not fit is shortened, and its
+// tooltip has all of it.
 void statusLine(const StatusText& status);
 
 }  // namespace benchmarks::viewer

@@ -21,7 +21,7 @@ bool isListOfGroups(const scene::Json& value) {
     return value.is_array() && !value.empty() && value.front().is_object();
 }
 
-// A vector has spaces where its line may be broken.
+// Puts spaces into a vector, so that its line can wrap.
 std::string textOf(const scene::Json* value) {
     if (!value) return "";
     if (!value->is_array()) return value->dump();
@@ -30,13 +30,13 @@ std::string textOf(const scene::Json* value) {
     return '[' + text + ']';
 }
 
-// Adds how two values differ; null: one side has no such value.
+// Adds the differences of two values. Null: one side lacks the value.
 void compare(
     const std::string& pointer, const scene::Json* a, const scene::Json* b,
     std::vector<SettingDifference>& differences) {
     if (a && b && *a == *b) return;
     if (a && b && a->is_object() && b->is_object()) {
-        // Both are written from one table, so they have the same members.
+        // Both are written from the same tables, so they have the same members.
         for (const auto& [key, value] : a->items())
             compare(pointer + '/' + scene::escapedToken(key), &value, &b->at(key), differences);
         return;
@@ -100,7 +100,7 @@ CompareWish sideButtons() {
     return wish;
 }
 
-// Each figure has a line: a narrow panel would break a line of all within a number.
+// One line per figure, because a narrow panel would break a long line within a number.
 void figureLines(const DifferenceFigures& figures) {
     ImGui::BeginGroup();
     if (figures.different == 0) {
@@ -134,7 +134,7 @@ void settingsPart(const std::vector<SettingDifference>& differences) {
         ImGui::TextWrapped("None: A and B have the same settings.");
         return;
     }
-    // A few lines at least: a panel that is too low for them scrolls.
+    // At least a few lines. A panel that is too low for them scrolls.
     const float height =
         std::max(ImGui::GetContentRegionAvail().y, 6.0f * ImGui::GetTextLineHeightWithSpacing());
     constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |

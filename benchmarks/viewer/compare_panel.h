@@ -6,38 +6,38 @@
 #include "benchmarks/viewer/picture_area.h"
 #include "hair/settings.h"
 
-// The panel for comparing two settings: how their pictures are shown, and what differs.
+// The panel for comparing two settings: how to show their pictures, and the differences.
 namespace benchmarks::viewer {
 
-// What the user wants of the two sides.
+// The user's request about the two sides.
 enum class CompareWish {
     nothing,
-    start,  // a second side, equal to the first
-    stop,   // a is shown alone
+    start,  // start a second side, equal to the first
+    stop,  // show only a
     swap,
-    copy_a_to_b,  // b gets a's settings
+    copy_a_to_b,  // give b the settings of a
 };
 
 class ComparePanel {
 public:
-    int edited = 0;           // the side that the settings panel changes; 0: a, 1: b
-    bool same_camera = true;  // what the mouse does to one picture's camera, it does to both
+    int edited = 0;  // the side that the settings panel edits; 0: a, 1: b
+    bool same_camera = true;  // mouse and keys move both cameras
 
-    // Within the current window of Dear ImGui. `b` is null while nothing is compared.
+    // Shows the panel within the current Dear ImGui window. `b` is null while nothing is compared.
     CompareWish show(PictureArea& area, const hair::Settings& a, const hair::Settings* b);
 };
 
-// A field that two settings have different values of.
+// A field with different values in two settings.
 struct SettingDifference {
     std::string pointer;  // JSON pointer: /strands/density
-    std::string a;        // JSON on one line; empty where a has no such field
+    std::string a;  // JSON on one line; empty if a lacks the field
     std::string b;
 
     bool operator==(const SettingDifference&) const = default;
 };
 
-// The fields that differ, in the order of scene files. Numbers of one vector are one value; members
-// of a list are compared one by one.
+// Returns the fields that differ, in the order of scene files. A vector counts as one value;
+// elements of a list are compared one by one.
 std::vector<SettingDifference>
 settingsDifferences(const hair::Settings& a, const hair::Settings& b);
 

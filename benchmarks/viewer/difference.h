@@ -15,13 +15,13 @@ class Commands;
 class Image;
 }  // namespace engine
 
-// Copies of the drawn pictures for widgets, and the difference of two: as a picture and in figures.
+// Copies of drawn pictures for widgets, and the difference of two as a picture and in figures.
 namespace benchmarks::viewer {
 
-// How much two pictures differ, in steps of 1/255 of display colours. Exact.
+// Difference of two pictures, in steps of 1/255 of display colours. Exact.
 struct DifferenceFigures {
-    std::uint64_t pixels = 0;  // that a picture has
-    std::uint64_t different = 0;  // pixels that differ in at least one channel
+    std::uint64_t pixels = 0;  // in one picture
+    std::uint64_t different = 0;  // pixels with a difference in at least one channel
     std::uint32_t most = 0;  // largest difference of a channel
     std::uint64_t sum = 0;  // sum of differences over red, green and blue of all pixels
 
@@ -33,19 +33,20 @@ struct DifferenceFigures {
     bool operator==(const DifferenceFigures&) const = default;
 };
 
-// Makes the picture of the difference of two, and its figures.
+// Computes the difference picture of two pictures and its figures.
 class DifferencePass {
 public:
     explicit DifferencePass(const engine::Device& device);
 
-    // `a` and `b` are 8-bit RGBA of one size and in SHADER_READ_ONLY_OPTIMAL; `difference` is a
-    // storage image of that size and in GENERAL, and gets |a - b| times `gain`. Their alpha does
-    // not count. What was written before must be visible to compute.
+    // `a` and `b` are 8-bit RGBA of the same size in SHADER_READ_ONLY_OPTIMAL. `difference` is a
+    // storage image of that size in GENERAL and receives |a - b| times `gain`. Alpha is ignored.
+    // Earlier writes must be visible to compute.
     void record(
         engine::Commands& commands, const engine::Image& a, const engine::Image& b,
         const engine::Image& difference, std::uint32_t gain);
 
-    // The figures of the pictures recorded last, once the device is done with them.
+    // Returns the figures of the last recorded pictures; call it after the device has finished
+    // them.
     DifferenceFigures figures() const;
 
 private:
@@ -58,29 +59,29 @@ private:
 // "at most 37 of 255, on average 0.42; 12.3 % of the pixels differ", or "identical".
 std::string differenceText(const DifferenceFigures& figures);
 
-// A picture that widgets can show, pixel by pixel as it was drawn, on whichever device that was.
+// A picture for widgets, with unchanged pixels. Another device may have drawn it.
 class ShownPicture {
 public:
     explicit ShownPicture(const engine::Device& device) : device_(device) {}
 
-    // Records the copy of a picture of the host's, RGBA, top row first, unless it is the one that
-    // was copied last, by its number. It is shown as large as `size` says: of a preview it has
-    // fewer pixels. The device must be done with the last copy. False where widgets that were made
-    // before show the last picture still, which had another size.
+    // Records a copy of a host picture, RGBA, top row first, unless `number` is that of the last
+    // copy. It is shown at the size `size`, which is larger than a preview's pixels. The device
+    // must have finished the last copy. Returns false if existing widgets still show the last
+    // picture because it had another size.
     bool copy(
         engine::Commands& commands, std::uint64_t number, std::span<const std::uint8_t> rgba,
         VkExtent2D extent, VkExtent2D size);
 
-    // The image, of that size and with undefined contents, for callers that record into it instead
-    // of a copy and leave it in SHADER_READ_ONLY_OPTIMAL. The device must be done with the last
-    // picture.
+    // Returns the image, of that size and with undefined contents, for callers that record into it
+    // instead of a copy and leave it in SHADER_READ_ONLY_OPTIMAL. The device must have finished the
+    // last picture.
     const engine::Image& renew(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage);
 
     bool isThere() const { return shown_ != nullptr; }
     const engine::Image& image() const { return shown_->image; }
     ImTextureID id() const { return shown_->texture.id(); }
     VkExtent2D extent() const { return shown_->image.extent(); }
-    // px of the picture that it stands for.
+    // Size of the whole picture, px, which a preview stands for.
     VkExtent2D size() const { return size_; }
 
 private:
@@ -93,20 +94,20 @@ private:
 
     const engine::Device& device_;
     std::unique_ptr<Texture> shown_;
-    // The last picture of another size: widgets that are about to be drawn still show it.
+    // The last picture of another size, which widgets may still show in the next frame.
     std::unique_ptr<Texture> retired_;
     VkExtent2D size_{};
     engine::Buffer staging_;
-    std::optional<std::uint64_t> number_;  // of the picture that was copied last
+    std::optional<std::uint64_t> number_;  // of the last copied picture
 };
 
-// The difference of two pictures that are shown, as a picture that can be shown too.
+// The difference of two shown pictures, as a picture that can also be shown.
 class PictureDifference {
 public:
     explicit PictureDifference(const engine::Device& device) : pass_(device), picture_(device) {}
 
-    // Records the difference of pictures of one size whose copies were recorded before. The device
-    // must be done with the last difference.
+    // Records the difference of two pictures of the same size, after their copies. The device must
+    // have finished the last difference.
     void record(
         engine::Commands& commands, const ShownPicture& a, const ShownPicture& b,
         std::uint32_t gain);
@@ -116,7 +117,7 @@ public:
 
     bool isThere() const { return recorded_; }
     const ShownPicture& picture() const { return picture_; }
-    // The figures of the difference before the last one, which the device is done with.
+    // Figures of the previous difference, which the device has finished.
     const std::optional<DifferenceFigures>& figures() const { return figures_; }
 
 private:

@@ -10,13 +10,13 @@
 
 #include "hair/fields.h"
 
-// A change of settings by widgets or the mouse, and the values that the settings' tables allow.
+// Changes of settings by widgets or the mouse, limited to values that the settings' tables allow.
 namespace benchmarks::viewer {
 
-// What widgets or the mouse did to settings in one frame of the window.
+// The effect of widgets or the mouse on settings in one frame of the window.
 struct Edit {
-    bool changed = false;    // the settings have other values now
-    bool continues = false;  // something is being dragged, and goes on changing them
+    bool changed = false;  // some settings changed
+    bool continues = false;  // a drag is in progress and may change more
 
     Edit& operator|=(const Edit& other) {
         changed |= other.changed;
@@ -27,13 +27,13 @@ struct Edit {
 
 inline float within(float value, double minimum, double maximum) {
     float inside = static_cast<float>(std::fmin(std::fmax(double{value}, minimum), maximum));
-    // The nearest float to a limit can be beyond it.
+    // Rounding to float can exceed a limit.
     if (double{inside} < minimum) inside = std::nextafter(inside, 1e30f);
     if (double{inside} > maximum) inside = std::nextafter(inside, -1e30f);
     return inside;
 }
 
-// The value that is nearest to `value` among those that the table of `Owner` allows for a member.
+// Returns the nearest value that the table of `Owner` allows for a member.
 template <class Owner, class Value>
 Value allowed(Value Owner::* member, Value value) {
     const Owner owner;
@@ -46,7 +46,7 @@ Value allowed(Value Owner::* member, Value value) {
     return value;
 }
 
-// How many elements the table of `Owner` allows in a list.
+// Returns the maximum number of elements of a list in the table of `Owner`.
 template <class Owner, class Element>
 std::size_t mostOf(std::vector<Element> Owner::* member) {
     const Owner owner;

@@ -16,17 +16,17 @@ namespace {
 // ---- Gizmo --------------------------------------------------------------------------------------
 
 constexpr int kArcSegments = 48;
-constexpr float kArrow = 0.8f;  // of the rings' radius: behind its tip a ring can be held
+constexpr float kArrow = 0.8f;  // of the rings' radius; leaves the ring free to grab beyond the tip
 constexpr float kFacing = 0.85f;  // cosine between a ring's axis and the view
-// Cosine between a ring's plane and the view below which the ring is seen from its edge: then the
-// mouse drags along it instead of round it.
+// Below this cosine between a ring's plane and the view, the ring is seen edge-on. The mouse then
+// drags along it, not around it.
 constexpr double kEdge = 0.2;
 
 struct Plane {
-    glm::vec3 u, v;  // across the axis, unit length; u x v is the axis
+    glm::vec3 u, v;  // unit vectors perpendicular to the axis, which is u x v
 };
 
-// The plane of a ring, with u toward the camera.
+// Returns the plane of a ring, with u toward the camera.
 Plane planeOf(const PictureView& view, const Gizmo& gizmo, int axis) {
     const glm::vec3 normal = gizmo.turn_axes[static_cast<std::size_t>(axis)];
     const glm::vec3 toward = glm::normalize(view.eye() - gizmo.origin);
@@ -36,7 +36,7 @@ Plane planeOf(const PictureView& view, const Gizmo& gizmo, int axis) {
     return {u, glm::cross(normal, u)};
 }
 
-// m along a line through `from` to where it is nearest to a ray.
+// Returns the distance, m, along a line through `from` to its nearest point to a ray.
 double nearestAlong(const Ray& ray, const glm::dvec3& from, const glm::dvec3& axis) {
     const glm::dvec3 arm = ray.from - from;
     const double cosine = glm::dot(axis, ray.direction);
@@ -55,7 +55,7 @@ angleUnder(const PictureView& view, const Gizmo& gizmo, const Plane& plane, glm:
     return std::atan2(glm::dot(point, v), glm::dot(point, u));
 }
 
-// px from a point to a line between two others.
+// Returns the distance in px from a point to a line segment.
 float pixelsToSegment(glm::vec2 point, glm::vec2 a, glm::vec2 b) {
     const glm::vec2 line = b - a;
     const float square = glm::dot(line, line);
@@ -68,13 +68,13 @@ float pixelsToSegment(glm::vec2 point, glm::vec2 a, glm::vec2 b) {
 
 constexpr ImU32 kBox = IM_COL32(0, 0, 0, 190);
 
-// What is faint has a faint outline.
+// Faint colours get a faint outline.
 ImU32 outlineOf(ImU32 color) {
     const ImU32 alpha = (color >> IM_COL32_A_SHIFT) * 190u / 255u;
     return IM_COL32(0, 0, 0, alpha);
 }
 
-// Sizes in heights of the font.
+// Sizes in font heights.
 constexpr float kLine = 0.13f;
 constexpr float kBorder = 0.09f;  // width of the outline on each side
 constexpr float kDot = 0.36f;
@@ -110,7 +110,7 @@ glm::vec3 arrowTip(const Gizmo& gizmo, int axis) {
 
 bool canBeDragged(const PictureView& view, const Gizmo& gizmo, int axis) {
     const float along = glm::dot(moveAxis(axis), glm::normalize(view.eye() - gizmo.origin));
-    return std::abs(along) < 0.97f;  // a quarter of its length is seen
+    return std::abs(along) < 0.97f;  // at least a quarter of its length is visible
 }
 
 std::vector<glm::vec3> ringArc(const PictureView& view, const Gizmo& gizmo, int axis) {
@@ -165,7 +165,7 @@ float turned(const PictureView& view, const Gizmo& gizmo, int axis, glm::vec2 fr
     if (before && after)
         return static_cast<float>(
             std::remainder(*after - *before, 2.0 * std::numbers::pi_v<double>));
-    // Along the ring where it is nearest to the camera.
+    // Edge-on: along the ring at its nearest point to the camera.
     const glm::vec3 nearest = gizmo.origin + plane.u * gizmo.size;
     return glm::dot(view.dragged(nearest, from, to), plane.v) / gizmo.size;
 }
@@ -254,7 +254,8 @@ void OptionsLine::place(float width) {
     if (!is_empty_) {
         const float bar = separates_ ? ImGui::CalcTextSize(kBar).x + spacing() : 0.0f;
         const float end = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
-        // The next line has begun. To go back and then find no room would count as contents there.
+        // The cursor is already on the next line. Going back and then finding no room would add
+        // contents to it.
         if (ImGui::GetItemRectMax().x + spacing() + bar + width <= end) {
             ImGui::SameLine();
             if (separates_) {

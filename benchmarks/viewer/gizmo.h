@@ -14,14 +14,14 @@
 
 struct ImDrawList;
 
-// What tools show: the gizmo that moves and turns, handles over the picture, a line of options.
+// Elements of tools: the gizmo that moves and turns, handles over the picture, a line of options.
 namespace benchmarks::viewer {
 
-// Three arrows that move something along the axes of the world, and three rings that turn it:
-// where it is in a picture, and what dragging a part of it means. HeadTool draws it.
+// Three arrows that move an object along the world axes, and three rings that turn it. Computes
+// their place in a picture and the effect of a drag. HeadTool draws it.
 struct Gizmo {
     glm::vec3 origin{0.0f};
-    std::array<glm::vec3, 3> turn_axes{};  // axes of the rings, unit length; right-handed turns
+    std::array<glm::vec3, 3> turn_axes{};  // axes of the rings, unit length; right-handed
     float size = 1.0f;  // radius of the rings, m; arrows are shorter
 };
 
@@ -33,31 +33,31 @@ struct GizmoPart {
     bool operator==(const GizmoPart&) const = default;
 };
 
-// The axis of an arrow: x, y or z of the world.
+// Returns the axis of an arrow: x, y or z of the world.
 glm::vec3 moveAxis(int axis);
 
-// Where an arrow ends.
+// Returns the end of an arrow.
 glm::vec3 arrowTip(const Gizmo& gizmo, int axis);
-// Whether an arrow is long enough in the picture to be dragged: one that points at the camera is
-// not.
+// Whether an arrow is long enough in the picture to be dragged. An arrow that points at the camera
+// is not.
 bool canBeDragged(const PictureView& view, const Gizmo& gizmo, int axis);
 
-// The ring's half that is nearer to the camera, from end to end; all of a ring that faces it.
+// Returns the nearer half of a ring, from end to end, or all of a ring that faces the camera.
 std::vector<glm::vec3> ringArc(const PictureView& view, const Gizmo& gizmo, int axis);
 
-// The arrow that is nearest to a pixel, at most `reach` px from it; where there is none, the ring.
+// Returns the arrow nearest to a pixel, at most `reach` px away, or else the nearest such ring.
 std::optional<GizmoPart>
 pickGizmo(const PictureView& view, const Gizmo& gizmo, glm::vec2 pixel, float reach);
 
-// m along an arrow's axis that dragging it from one pixel to another moves.
+// Returns the movement, m, along an arrow's axis for a drag between two pixels.
 float moved(const PictureView& view, const Gizmo& gizmo, int axis, glm::vec2 from, glm::vec2 to);
 
-// rad about a ring's axis, less than half a turn, that dragging it from one pixel to another turns.
+// Returns the turn, rad, about a ring's axis for a drag between two pixels; less than half a turn.
 float turned(const PictureView& view, const Gizmo& gizmo, int axis, glm::vec2 from, glm::vec2 to);
 
-// Lines and dots over a picture, each with an outline that makes it stand out from bright and dark.
-// Draws into the current window of Dear ImGui, within what is seen of the picture; all sizes scale
-// with its font.
+// Lines and dots over a picture, outlined so that they stand out from bright and dark areas. Draws
+// into the current Dear ImGui window, within the visible part of the picture. All sizes scale with
+// the font.
 class Handles {
 public:
     explicit Handles(const PictureRect& seen);
@@ -68,23 +68,23 @@ public:
     using Color = std::uint32_t;  // IM_COL32
     static constexpr Color kPlain = 0xffffffff;
     static constexpr Color kFaint = 0x60ffffff;
-    static constexpr Color kHot = 0xff40d8ff;  // under the mouse, or held: yellow
+    static constexpr Color kHot = 0xff40d8ff;  // under the mouse or held: yellow
     static constexpr Color kAxes[] = {
         0xff6060ff, 0xff70e070, 0xffff9060};  // x red, y green, z blue
 
-    // How near the mouse must be to a handle, px.
+    // Maximum distance from the mouse to a handle, px.
     static float reach();
 
     void line(glm::vec2 a, glm::vec2 b, Color color);
     void path(std::span<const glm::vec2> points, Color color);
-    // Of many, without outlines.
+    // A path without an outline, for when there are many.
     void thinPath(std::span<const glm::vec2> points, Color color);
     void circle(glm::vec2 center, float radius, Color color);
     void dot(glm::vec2 center, Color color);
     void arrow(glm::vec2 from, glm::vec2 tip, Color color);
-    // Text beside a point, moved to where the picture has room for it.
+    // Text beside a point, moved to where the picture has room.
     void label(glm::vec2 beside, const std::string& text);
-    // Text at the top of the picture: what the user should know.
+    // A message at the top of the picture.
     void hint(const std::string& text);
 
 private:
@@ -94,25 +94,24 @@ private:
     ImDrawList* list_;
 };
 
-// A tool's options: widgets in a line that goes on in the next one where the window has no more
-// room.
+// A tool's options: widgets in one line, which wraps if the window is too narrow.
 class OptionsLine {
 public:
-    // True when it was pressed.
+    // Returns whether it was pressed.
     bool button(const char* name, bool enabled, const char* tooltip);
 
-    // A button of several of which the chosen one looks pressed.
+    // One button of a group; the chosen one looks pressed.
     enum class Choice { open, chosen };
     bool choice(const char* name, Choice choice, const char* tooltip);
 
-    // True where the value was changed. Ctrl+click takes a number beyond the slider's ends.
+    // Returns whether the value changed. Ctrl+click accepts numbers beyond the slider's ends.
     bool slider(const char* name, float& value, float minimum, float maximum, const char* format);
 
-    // Between groups of widgets that are in one line.
+    // Separates groups of widgets on one line.
     void separator();
 
 private:
-    // Moves to where the next widget goes, which is `width` px wide.
+    // Moves to the place of the next widget, of `width` px.
     void place(float width);
 
     bool is_empty_ = true;

@@ -18,9 +18,9 @@ namespace {
 
 // ---- The path of a hand -------------------------------------------------------------------------
 
-constexpr std::size_t kKeysOfAPull = 3;  // the present, the next frame, and where it stays
+constexpr std::size_t kKeysOfAPull = 3;  // the present, the next frame, and the position it keeps
 
-// Cuts a path to what was played, with a key at the present; to nothing where it begins later.
+// Cuts a path after the present and adds a key there. Clears a path that begins later.
 void cut(std::vector<hair::PullKey>& path, float now) {
     if (path.empty()) return;
     const glm::vec3 present = handAt(path, now);
@@ -45,7 +45,7 @@ bool samePath(const std::vector<hair::PullKey>& a, const std::vector<hair::PullK
 }
 
 std::optional<GuideVertex> under(const Pointer& pointer, const Shown& played) {
-    // Of two vertices that are equally near to the mouse, the one in front.
+    // Depth decides between two vertices at the same distance from the mouse.
     return pickVertex(
         pointer.view, played.guides, played.vertices_per_guide, pointer.at, 2.5f * Handles::reach(),
         played.rest.radius);
@@ -55,9 +55,9 @@ std::optional<GuideVertex> under(const Pointer& pointer, const Shown& played) {
 
 // Lengths in radii of the groom.
 constexpr float kStill = 0.35f;
-constexpr float kDoubling = 0.4f;  // more for every doubling of the wind that is strong
+constexpr float kDoubling = 0.4f;  // added per doubling of a strong wind
 
-// The wind from which on each doubling makes the arrow kDoubling longer: a light breeze.
+// From this wind on, a light breeze, each doubling adds kDoubling to the arrow.
 float breeze(const hair::WindSettings& wind) {
     return wind.mode == hair::WindMode::drag ? 2.0f : 3.0f;  // m/s; m/s^2
 }
@@ -66,7 +66,7 @@ const char* windUnit(const hair::WindSettings& wind) {
     return wind.mode == hair::WindMode::drag ? "m/s" : "m/s²";
 }
 
-// The direction with unit length.
+// Returns the direction as a unit vector.
 glm::vec3 windDirection(const hair::WindSettings& wind) {
     const float length = glm::length(wind.direction);
     return length > 0.0f ? wind.direction / length : glm::vec3{1, 0, 0};
@@ -74,7 +74,7 @@ glm::vec3 windDirection(const hair::WindSettings& wind) {
 
 // ---- The tool of the wind -----------------------------------------------------------------------
 
-// The groom at rest, where the head is: its arrow does not sway with the hair.
+// Returns the groom at rest, moved with the head, so that the arrow does not sway with the hair.
 Sphere groomOf(const Shown& played) {
     Sphere groom = played.rest;
     groom.center = played.head(groom.center);
@@ -110,7 +110,7 @@ void moveHand(std::vector<hair::PullKey>& path, const Moment& moment, glm::vec3 
     position = allowed(&hair::PullKey::position, position);
     cut(path, moment.now);
     if (path.empty()) path.push_back({moment.now, position});
-    // A hand that rests needs no key for every frame.
+    // A resting hand needs no key per frame.
     if (path.size() >= 2 && path.back().position == position &&
         path[path.size() - 2].position == position)
         path.pop_back();
@@ -144,7 +144,7 @@ Edit GrabTool::drag(const Pointer& pointer, hair::Settings& settings, const Show
              .radius = allowed(&hair::PullSettings::radius, radius_),
              .path = {{moment.now, drag_->start}}});
     }
-    // The pull may have been undone meanwhile.
+    // The pull may have been undone in the meantime.
     if (!drag_->pull || *drag_->pull >= pulls.size()) {
         if (!pointer.holds || drag_->pull) drag_.reset();
         return edit;
@@ -192,7 +192,7 @@ void GrabTool::draw(
     const bool drags = drag_ && drag_->played == &played;
     if (!drags && !pointer.hovers) return;
     const auto held = drags ? std::optional(drag_->held) : under(pointer, played);
-    // The groom may have become another since it was held, and guides are not there for all frames.
+    // The groom may have changed since it was held, and some frames lack guides.
     if (!held || indexOf(*held, played) >= played.guides.size()) return;
     const glm::vec3 vertex = played.guides[indexOf(*held, played)];
     const auto shown = pointer.view.pixel(vertex);
@@ -254,7 +254,7 @@ void setWind(hair::WindSettings& wind, float value) {
         wind.speed = allowed(&hair::WindSettings::speed, value);
     else
         wind.strength = allowed(&hair::WindSettings::strength, value);
-    // A wind that blows needs somewhere to blow to.
+    // A wind above 0 needs a direction.
     if (windOf(wind) > 0.0f) wind.direction = windDirection(wind);
 }
 

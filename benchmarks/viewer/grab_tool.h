@@ -13,53 +13,53 @@
 #include "benchmarks/viewer/player.h"
 #include "hair/settings.h"
 
-// The tools that put forces on hair: hands that pull at it, and the wind.
+// Tools that apply forces to hair: hands that pull it, and the wind.
 namespace benchmarks::viewer {
 
-// Pulls at hair with the mouse: an entry of /simulation/pulls, whose path is written while frames
-// are played.
+// Pulls hair with the mouse: writes the path of an entry of /simulation/pulls while frames are
+// played.
 class GrabTool {
 public:
-    // `runs`: whether frames are being played.
+    // `runs`: frames are being played.
     Edit update(
         const Pointer& pointer, Handles& handles, hair::Settings& settings, const Shown& played,
         bool runs);
     bool drags() const { return drag_.has_value(); }
 
-    // How much hair is held, and a button that clears all pulls, in one line.
+    // Options in one line: the amount of hair to hold, and a button that clears all pulls.
     Edit options(OptionsLine& line, hair::Settings& settings);
 
 private:
     struct Drag {
-        const Shown* played;  // whose picture the mouse is in
+        const Shown* played;  // side of the picture under the mouse
         GuideVertex held;
-        glm::vec3 start;  // where the vertex was
+        glm::vec3 start;  // position of the vertex
         glm::vec2 from;   // px
-        std::optional<std::size_t> pull;  // the entry that is written; none before the mouse moves
+        std::optional<std::size_t> pull;  // the entry being written; absent until the mouse moves
     };
     Edit drag(const Pointer& pointer, hair::Settings& settings, const Shown& played);
     void draw(
         const Pointer& pointer, Handles& handles, const hair::Settings& settings,
         const Shown& played) const;
 
-    float radius_ = hair::PullSettings{}.radius;  // m, of the next pull
+    float radius_ = hair::PullSettings{}.radius;  // m, for the next pull
     std::optional<Drag> drag_;
 };
 
-// Turns and stretches the wind's arrow: the tip is dragged.
+// Turns and stretches the wind's arrow by its tip.
 class WindTool {
 public:
     Edit
     update(const Pointer& pointer, Handles& handles, hair::Settings& settings, const Shown& played);
     bool drags() const { return drag_.has_value(); }
 
-    // A slider for the wind and a button for still air, in one line.
+    // Options in one line: a slider for the wind, and a button for still air.
     static Edit options(OptionsLine& line, hair::Settings& settings);
 
 private:
     struct Drag {
-        const Shown* played;  // whose picture the mouse is in
-        glm::vec3 tip;  // where the arrow was held
+        const Shown* played;  // side of the picture under the mouse
+        glm::vec3 tip;  // where the arrow was grabbed
         glm::vec2 from;  // px
     };
     std::optional<Drag> drag_;
@@ -67,18 +67,18 @@ private:
 
 // ---- The path of a hand -------------------------------------------------------------------------
 
-// The mouse writes a path key by key while frames are played. What was played keeps its keys:
-// playing the path anew gives the same hair.
+// The mouse writes a path key by key while frames are played. Keys of played frames never change,
+// so replaying the path gives the same hair.
 
-// Where the hand is: straight between keys, and at the first or last key before and after them.
+// Returns the hand's position: linear between keys, constant before the first and after the last.
 // `path` has at least one key.
 glm::vec3 handAt(std::span<const hair::PullKey> path, float time);
 
-// The hand is at `position` from the next frame on, and stays there.
+// Puts the hand at `position` from the next frame on, where it stays.
 void moveHand(std::vector<hair::PullKey>& path, const Moment& moment, glm::vec3 position);
 
-// Ends the pull now; a pull of which no frame was played pulls for the next frame. The path becomes
-// empty where it would have begun after now, because time was set back.
+// Ends the pull now. A pull without a played frame still pulls for the next frame. Clears a path
+// that would begin after now, because time was set back.
 void letGo(std::vector<hair::PullKey>& path, const Moment& moment);
 
 // Whether a path has room for the keys of moveHand().
@@ -86,17 +86,18 @@ bool hasRoom(std::span<const hair::PullKey> path);
 
 // ---- The wind's arrow ---------------------------------------------------------------------------
 
-// The arrow points from the middle of the groom to where the wind blows. Its length grows with the
-// logarithm of the wind, so that a breeze and a storm both fit a picture; in still air it has a
-// length too, so that it can be held.
+// The arrow points from the middle of the groom in the wind's direction. Its length grows with the
+// logarithm of the wind, so that a breeze and a storm both fit a picture. In still air it keeps
+// some length, so that it can be grabbed.
 
-// The wind that the arrow's length shows: strength, m/s^2, or in drag mode the mean speed, m/s.
+// Returns the wind that the arrow's length shows: strength, m/s^2, or in drag mode the mean speed,
+// m/s.
 float windOf(const hair::WindSettings& wind);
 
-// Where the arrow of a groom ends.
+// Returns the end of a groom's arrow.
 glm::vec3 windTip(const hair::WindSettings& wind, const Sphere& groom);
 
-// Sets the wind whose arrow ends at `tip`; a tip at the middle of the groom leaves the direction.
+// Sets the wind from the arrow's end. A tip at the middle of the groom keeps the direction.
 void setWindTip(hair::WindSettings& wind, const Sphere& groom, const glm::vec3& tip);
 void setWind(hair::WindSettings& wind, float value);
 

@@ -19,8 +19,8 @@ namespace {
 
 // ---- Keyframes ----------------------------------------------------------------------------------
 
-// Differences up to which poses count as the same: some steps of the floats that keyframes are made
-// of, far below what can be seen.
+// Poses count as equal within these differences: some rounding steps of the keyframes' floats, far
+// below visible changes.
 constexpr float kDegrees = 1e-3f;
 constexpr float kMetres = 1e-6f;
 
@@ -30,7 +30,7 @@ std::size_t mostKeys() { return mostOf(&hair::MotionSettings::keyframes); }
 
 bool same(const hair::Keyframe& a, const hair::Keyframe& b) {
     for (int i = 0; i < 3; ++i) {
-        // Whole turns apart is the same pose.
+        // Whole turns apart are the same pose.
         if (std::abs(std::remainder(a.rotation[i] - b.rotation[i], 360.0f)) > kDegrees)
             return false;
         if (std::abs(a.translation[i] - b.translation[i]) > kMetres) return false;
@@ -44,7 +44,7 @@ hair::Keyframe keyOf(const HeadPose& pose, float time) {
 
 HeadPose poseOf(const hair::Keyframe& key) { return {key.rotation, key.translation}; }
 
-// The angles that are whole turns from `key`'s and nearest to those of the key before.
+// Returns the key with angles shifted by whole turns to lie nearest to those of the key before.
 hair::Keyframe unwound(hair::Keyframe key, const hair::Keyframe& before) {
     for (int i = 0; i < 3; ++i)
         key.rotation[i] =
@@ -52,7 +52,7 @@ hair::Keyframe unwound(hair::Keyframe key, const hair::Keyframe& before) {
     return key;
 }
 
-// Cuts a motion to what was played, with a keyframe at the present.
+// Cuts a motion after the present and adds a keyframe there.
 void cut(hair::MotionSettings& motion, float now) {
     const hair::Keyframe present = keyOf(headAt(motion, double{now}), now);
     motion.repeat = false;
@@ -63,9 +63,9 @@ void cut(hair::MotionSettings& motion, float now) {
 
 // ---- The tool -----------------------------------------------------------------------------------
 
-constexpr float kSize = 5.0f;  // radius of the gizmo, font sizes
-// Shares of the picture's height and of the distance to the camera that the gizmo has at most: it
-// would fill small pictures and wide views.
+constexpr float kSize = 5.0f;  // radius of the gizmo, in font heights
+// Maximum size of the gizmo as shares of the picture's height and of the distance to the camera.
+// Otherwise it would fill small pictures and wide views.
 constexpr float kMostShare = 0.3f;
 constexpr float kMostDepth = 0.4f;
 constexpr const char* kMoves[] = {"x", "y", "z"};
@@ -191,7 +191,7 @@ Edit HeadTool::update(
     const PictureView& view = pointer.view;
     const hair::MotionSettings& motion = played.settings.simulation.motion;
     const Moment moment = momentOf(played);
-    // What is set while it is paused is there in the next frame only: the gizmo is there now.
+    // While paused, an edit takes effect in the next frame, but the gizmo shows it now.
     HeadPose pose = headAt(motion, double{runs ? moment.now : moment.next});
     bool drags = drag_ && drag_->played == &played;
     if (drags && !pointer.pressed) pose = drag_->pose;

@@ -13,14 +13,14 @@
 namespace benchmarks::viewer {
 namespace {
 
-constexpr float kHandleDistance = 0.8f;  // radii of the groom
+constexpr float kHandleDistance = 0.8f;  // in radii of the groom
 constexpr float kRingRadius = 0.95f;
-constexpr float kArrow = 0.35f;  // radii that an arrow goes towards the middle
+constexpr float kArrow = 0.35f;  // length of an arrow towards the middle, in radii
 constexpr int kRing = 1;  // the gizmo's ring about +y
 constexpr float kMostStrength = 3.0f;  // at the end of the slider
 constexpr float kFarthest = 10.0f;  // m, at the end of the slider
 
-// The groom at rest, where the head is.
+// Returns the groom at rest, moved with the head.
 Sphere lightedGroom(const Shown& played) {
     Sphere groom = played.rest;
     groom.center = played.head(groom.center);

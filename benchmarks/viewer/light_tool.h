@@ -18,37 +18,38 @@ namespace benchmarks::viewer {
 
 // ---- Where light comes from ---------------------------------------------------------------------
 
-// The unit vector from the groom's middle to a light; of a directional light, against it.
+// Returns the unit vector from the groom's middle to a light; for a directional light, against its
+// direction.
 glm::vec3 lightDirection(const hair::LightSettings& light, const Sphere& groom);
 
-// Moves a light round the groom's middle, at its distance: a directional light shines from there
-// through it, a rectangle goes on facing it.
+// Moves a light around the groom's middle at its distance. A directional light then shines from
+// there through the middle, and a rectangle still faces it.
 void setLightDirection(hair::LightSettings& light, const Sphere& groom, const glm::vec3& direction);
 
-// m from the groom's middle; absent for a directional light, which has none.
+// Returns the distance from the groom's middle, m; nothing for a directional light.
 std::optional<float> lightDistance(const hair::LightSettings& light, const Sphere& groom);
 void setLightDistance(hair::LightSettings& light, const Sphere& groom, float distance);
 
-// Turns the environment by so many degrees, kept from -180 to 180.
+// Turns the environment by `degrees`, and keeps its angle within -180 to 180.
 void turnEnvironment(hair::RenderSettings& render, float degrees);
 
 // ---- The tool -----------------------------------------------------------------------------------
 
-// A handle for each light, on a sphere round the groom, from where it shines: lights may be far
-// outside of the picture. A ring turns the environment.
+// A handle for each light, on a sphere around the groom in the direction of the light, which may
+// itself be far outside the picture. A ring turns the environment.
 class LightTool {
 public:
     Edit
     update(const Pointer& pointer, Handles& handles, hair::Settings& settings, const Shown& played);
     bool drags() const { return drag_.has_value() || turn_.has_value(); }
 
-    // The chosen light's strength and distance and the environment's turn, in one line.
+    // Options in one line: the chosen light's strength and distance, and the environment's turn.
     Edit options(OptionsLine& line, hair::Settings& settings, const Shown& played);
 
 private:
     struct Drag {
-        const Shown* played;  // whose picture the mouse is in
-        glm::vec3 handle;  // where it was held
+        const Shown* played;  // side of the picture under the mouse
+        glm::vec3 handle;  // where it was grabbed
         glm::vec2 from;  // px
     };
     struct Turn {

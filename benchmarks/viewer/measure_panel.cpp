@@ -18,12 +18,12 @@
 namespace benchmarks::viewer {
 namespace {
 
-// A number's text; "-" where it is not known.
+// Returns a number's text; "-" if it is unknown.
 std::string numberText(std::optional<double> number) {
     return number ? report::shortNumber(*number) : "-";
 }
 
-// ---- What was measured --------------------------------------------------------------------------
+// ---- Results of a measurement -------------------------------------------------------------------
 
 constexpr double kAlpha = 0.05;
 
@@ -36,8 +36,7 @@ void sampling(const report::Sampling& mode) {
     ImGui::TextWrapped("%s", text.c_str());
 }
 
-// "12.3 (12.1 to 12.6)": the median, and where it lies with 95 % confidence; without an interval
-// where there are too few samples for one.
+// "12.3 (12.1 to 12.6)": the median and its 95 % interval, or only the median with too few samples.
 std::string medianText(const report::Metric& metric) {
     std::string text = report::shortNumber(report::summarize(metric.samples).median);
     if (metric.samples.size() < 2) return text;
@@ -49,8 +48,8 @@ std::string medianText(const report::Metric& metric) {
     return text;
 }
 
-// Medians of a measured case's times and rates with the intervals that its report has, how many
-// rounds it took, and its warnings.
+// Shows medians of a measured case's times and rates with their intervals, the number of rounds,
+// and warnings.
 void measuredTable(const report::CaseResult& result) {
     for (const report::Sampling& mode : result.sampling) sampling(mode);
     ImGui::PushTextWrapPos(0.0f);
@@ -73,8 +72,8 @@ void measuredTable(const report::CaseResult& result) {
 }
 
 constexpr const char* kPopup = "Measuring";
-// Time between two looks at the window's events. A look takes some microseconds, which then is no
-// share of a frame's time that matters.
+// Time between two checks of the window's events. A check takes some microseconds, a negligible
+// share of a frame's time.
 constexpr std::chrono::milliseconds kLook{100};
 
 }  // namespace

@@ -13,24 +13,23 @@
 #include "benchmarks/measure/measure.h"
 #include "benchmarks/viewer/timings.h"
 
-// The runner's measurement at a button, with the widgets for figures and files that the panel of
-// timings has too.
+// Runs the runner's measurement at a button. Also has widgets for figures and files that the
+// timings panel shares.
 namespace benchmarks::viewer {
 
-// A tooltip for the last item; none for an empty text.
+// A tooltip for the last item; nothing for an empty text.
 void helpMarker(const char* help);
 
-// Text at the right end of the room that is left in a line or cell.
+// Right-aligns text in the rest of a line or cell.
 void rightText(const std::string& text);
 
-// A table of lines "what  figure", and where two sides are compared "what  A  B  B / A". Long names
-// take several lines.
+// A table with rows "name  figure", or "name  A  B  B / A" when comparing. Long names wrap.
 class FigureTable {
 public:
     enum class Columns { one, compared };
 
-    // Within the current window of Dear ImGui, until the table leaves its scope. `title` says what
-    // all figures are; it may be empty.
+    // Opens the table within the current Dear ImGui window, until this leaves its scope. `title`
+    // describes all figures; it may be empty.
     FigureTable(const char* id, Columns columns, const char* title = "");
     ~FigureTable();
     FigureTable(const FigureTable&) = delete;
@@ -46,13 +45,13 @@ private:
     bool open_ = false;
 };
 
-// A button that asks for a path and writes a file there, and says what came of it.
+// A button that asks for a path, writes a file there, and reports the result.
 class SaveBox {
 public:
     explicit SaveBox(std::string button) : button_(std::move(button)) {}
 
-    // Within the current window of Dear ImGui. `suggested` is asked for when the box opens; `write`
-    // throws engine::Error.
+    // Shows the button within the current Dear ImGui window. `suggested` is the initial path;
+    // `write` may throw engine::Error.
     void show(
         const std::filesystem::path& suggested,
         const std::function<void(const std::filesystem::path&)>& write);
@@ -63,21 +62,21 @@ private:
     std::string button_;
     std::string path_;
     std::string problem_;  // why the last try failed
-    std::string told_;  // what was written
+    std::string told_;  // message about the written file
 };
 
-// What passes between the window and the thread that measures: how far it is, and whether it is to
-// go on. The window holds still meanwhile, for what it draws would be in the figures: it draws one
-// picture after each round, and the next round begins when that is done.
+// Passes progress and cancellation between the window and the measuring thread. The window must not
+// draw during a measurement, because that would distort the figures. So it draws one picture after
+// each round, and the next round starts once that is done.
 class MeasureLink {
 public:
-    // `told` is called on the thread that measures when there is something to show.
+    // `told` is called on the measuring thread when there is progress to show.
     explicit MeasureLink(std::function<void()> told) : told_(std::move(told)) {}
 
-    // For the thread that measures.
+    // For the measuring thread.
     measure::MeasureHooks hooks();
 
-    // For the window: the state that it is to show, after which it calls shown().
+    // For the window: returns the state to show. The window then calls shown().
     std::optional<measure::SamplingState> take();
     void shown();
     void cancel();
@@ -91,31 +90,30 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     std::optional<measure::SamplingState> state_;
-    bool waits_ = false;  // the thread that measures, for the window
+    bool waits_ = false;  // the measuring thread waits for the window
     std::atomic<bool> cancelled_ = false;
 };
 
-// Asks for measurements of what a side shows as the runner measures it, and shows and saves what
-// came of them.
+// Requests measurements of a side as the runner makes them, and shows and saves their results.
 class MeasurePanel {
 public:
-    // `told` as MeasureLink.
+    // `told`: see MeasureLink.
     MeasurePanel(const engine::Device& device, std::function<void()> told)
         : device_(device), link_(std::move(told)) {}
 
-    // Shows, within the current window of Dear ImGui, a button for each of one or two sides, what
-    // was measured and the button that saves it. While it is measured: how far it is, in front of
-    // everything else, and a button that ends it.
+    // Shows, within the current Dear ImGui window, a measure button for each of one or two sides,
+    // the results, and a button that saves them. During a measurement, shows progress and a cancel
+    // button above everything else.
     void show(std::size_t sides, const ReportOrigin& origin);
 
-    // The side whose button was pressed; begin() is to be called, with the window's next picture
-    // shown before the measurement begins, and end() once it is over.
+    // Returns the side with a pressed button. The caller then calls begin(), shows one more picture
+    // of the window before the measurement starts, and calls end() after it.
     std::optional<std::size_t> wanted() const { return wanted_; }
     measure::MeasureHooks begin();
     void end(std::optional<SideMeasurement> measured, const std::string& why_not);
     bool isMeasuring() const { return measuring_; }
 
-    // Whether another picture is to be shown while it is measured; the measurement goes on after
+    // Whether to show another picture during the measurement. The measurement continues after
     // shown().
     bool wantsPicture();
     void shown() { link_.shown(); }
@@ -128,7 +126,7 @@ private:
     const engine::Device& device_;
     MeasureLink link_;
     std::optional<std::size_t> wanted_;
-    std::size_t side_ = 0;  // that is measured
+    std::size_t side_ = 0;  // the measured side
     std::string kind_ = "viewer";  // kind of the last report, for its file name
     bool measuring_ = false;
     std::optional<measure::SamplingState> state_;

@@ -79,14 +79,14 @@ Side* OpenScene::find(std::uint64_t id) {
 void OpenScene::startComparing() {
     if (b_) return;
     a_->settle();
-    // What was refused is not shown either.
+    // Does not copy refused settings either.
     auto side =
         makeSide(a_->problem().empty() ? a_->wanted() : a_->shown().settings, file_.directory);
     side->setOriginal(file_.settings);
     coming_ = Coming{.side = std::move(side), .file = std::nullopt};
 }
 
-// What was being made is there.
+// Puts the finished side into place.
 void OpenScene::arrive(News& news) {
     if (coming_->file) {
         b_.reset();
@@ -111,7 +111,7 @@ void OpenScene::stopComparing() {
 
 void OpenScene::swapSides() {
     if (!b_) return;
-    // What the file has stays the first side's to be compared with.
+    // The first side is still compared with the file's settings.
     const hair::Settings original = a_->original();
     std::swap(a_, b_);
     a_->setOriginal(original);
@@ -141,7 +141,7 @@ bool OpenScene::isDragged() const { return a_->isDragged() || (b_ && b_->isDragg
 Order OpenScene::order(PlayState& state, double seconds, Frames frames) {
     Order order;
     for (Side* const each : sides()) order.sides.push_back(each->order());
-    // What is being made starts where the rest is, so that nothing is played meanwhile.
+    // A new side starts at the current frame, so nothing is played while it is made.
     if (isMaking()) {
         if (coming_) {
             order.sides.push_back(coming_->side->order());
@@ -170,7 +170,7 @@ Order OpenScene::order(PlayState& state, double seconds, Frames frames) {
     }
     if (frames == Frames::every_one) order.frames = std::min(order.frames, 1u);
     if (order.frames > 0) {
-        // In turns, so that the timings panel has both.
+        // Alternates the modes, so that the timings panel has both.
         timing_ = timing_ == engine::Timing::isolated ? engine::Timing::overlapped
                                                       : engine::Timing::isolated;
         order.timing = timing_;
@@ -191,7 +191,7 @@ OpenScene::News OpenScene::take(std::vector<SideReply> replies, Side::Beside bes
             }
             continue;
         }
-        // A side that was closed meanwhile has no more use for it.
+        // Drops replies for a side that was closed in the meantime.
         Side* const side = find(reply.side);
         if (!side) continue;
         if (reply.failure) news.failure = reply.failure;
@@ -211,7 +211,7 @@ void OpenScene::savedAs(const std::filesystem::path& path, const hair::Settings&
 // ---- The widgets of time ------------------------------------------------------------------------
 
 void playPanel(PlayState& state, const Shown& shown) {
-    // As wide as the wider of its two names, so that nothing moves when it is pressed.
+    // Wide enough for both of its names, so that nothing moves when it is pressed.
     if (ImGui::Button(state.playing ? "Pause###play" : "Play###play", {letters(4.5f), 0.0f}))
         state.playing = !state.playing;
     tip("plays or pauses: Space");

@@ -13,77 +13,77 @@
 #include "benchmarks/viewer/scene_file.h"
 #include "benchmarks/viewer/studio.h"
 
-// The scene that is open, on one side or two, and the widgets of its time.
+// The open scene with one or two sides, and the widgets of its time.
 namespace benchmarks::viewer {
 
-// Whether the camera of one side is the other's too.
+// Whether both sides share one camera.
 enum class Cameras { linked, separate };
 
-// The scene that is open: a side that is played, or two that are compared, and how time goes by for
-// them. It says what is to be played and takes what came of it; whoever plays may take their time.
+// The open scene: one side that is played, or two that are compared, and how their time advances.
+// Gives orders to play and takes the results, which may arrive later.
 class OpenScene {
 public:
-    // `settings` may differ from the file's.
+    // `settings` may differ from the file's settings.
     OpenScene(const SceneFile& file, const hair::Settings& settings);
 
     const SceneFile& file() const { return file_; }
 
-    // Another scene is to be opened in place of this one, on one side. It is once its first
-    // picture is there; this scene is kept until then, and where that fails.
+    // Starts to open another scene on one side. It replaces this one when its first picture exists.
+    // This scene stays until then, or if opening fails.
     void open(const SceneFile& file);
 
     std::size_t sideCount() const { return b_ ? 2 : 1; }
     Side& side(std::size_t index) { return index == 1 && b_ ? *b_ : *a_; }
     const Side& side(std::size_t index) const { return index == 1 && b_ ? *b_ : *a_; }
-    // Null where there is none of that number.
+    // Returns null for an unknown id.
     Side* find(std::uint64_t id);
     std::vector<Side*> sides();
 
-    // A second side is to be added, with the settings and at the frame of the first. It is once its
-    // first picture is there.
+    // Starts to add a second side, with the settings and frame of the first. It appears when its
+    // first picture exists.
     void startComparing();
     void stopComparing();
     void swapSides();
 
-    // The side that panels and keys change.
+    // The side that panels and keys edit.
     std::size_t edited() const { return edited_; }
     void setEdited(std::size_t index) { edited_ = index < sideCount() ? index : 0; }
     Side& editedSide() { return side(edited_); }
     const Side& editedSide() const { return side(edited_); }
-    // What the edited side's settings are compared with: the file's, or for the second side those
-    // of the first.
+    // Returns the settings that the edited side is compared with: the file's, or for the second
+    // side those of the first.
     const hair::Settings& reference() const;
 
     Cameras cameras = Cameras::linked;
-    // Side::edit() of a side; where cameras are linked, the other side's camera follows.
+    // Edits a side with Side::edit(). With linked cameras, the other side's camera follows.
     void edit(std::size_t index, const hair::Settings& settings, Edit edit);
 
-    // What is to be played now, `seconds` after the last order: the sides' settings, the frame that
-    // was asked for and the frames that are due; at most one where every frame is wanted. A step
-    // and a seek are taken from `state`.
+    // Returns what to play now, `seconds` after the last order: the sides' settings, a requested
+    // frame, and the frames that are due, or at most one with `every_one`. Consumes a step or seek
+    // from `state`.
     enum class Frames { as_due, every_one };
     Order order(PlayState& state, double seconds, Frames frames);
-    // Whether something is to be made that has no picture yet: it is what order() asks for.
+    // Whether a side is being made that has no picture yet. order() then asks for it.
     bool isMaking() const { return coming_ || !a_->shown().isThere(); }
-    // Whether an order with no frame to be played would change nothing.
+    // Whether an order without frames to play would change nothing.
     bool isFollowed() const;
-    // Whether a side is being dragged.
+    // Whether an edit on a side is in progress.
     bool isDragged() const;
 
-    // What came of an order.
+    // News from the replies to an order.
     struct News {
-        bool opened = false;  // another scene
-        bool compares = false;  // since now
-        std::exception_ptr failure;  // why a scene or a second side isn't there; or null
+        bool opened = false;  // another scene was opened
+        bool compares = false;  // comparing has started
+        std::exception_ptr failure;  // why a scene or a second side could not be made; or null
     };
     News take(std::vector<SideReply> replies, Side::Beside beside);
 
-    // The scene was written to this file, with these settings.
+    // Notes that the scene was written to this file with these settings.
     void savedAs(const std::filesystem::path& path, const hair::Settings& settings);
     bool wasSaved() const { return was_saved_; }
 
 private:
-    // A side that is being made: that of another scene, or the second one of this.
+    // A side that is being made: for another scene, or the second one of this scene.
     struct Coming {
         std::unique_ptr<Side> side;
         std::optional<SceneFile> file;  // of the other scene
@@ -99,12 +99,12 @@ private:
     std::optional<Coming> coming_;
     std::size_t edited_ = 0;
     bool was_saved_ = false;
-    engine::Timing timing_ = engine::Timing::isolated;  // how the last frame was timed
+    engine::Timing timing_ = engine::Timing::isolated;  // mode of the last frame
     Pacer pacer_;
 };
 
-// Pause, single step, restart, speed, seek and the timeline, in one line within the current window
-// of Dear ImGui.
+// Pause, single step, restart, speed, seek and the timeline, on one line within the current Dear
+// ImGui window.
 void playPanel(PlayState& state, const Shown& shown);
 
 }  // namespace benchmarks::viewer

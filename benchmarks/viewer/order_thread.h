@@ -13,24 +13,23 @@
 
 namespace benchmarks::viewer {
 
-// Whether whoever works is asked to end.
+// Whether the work is asked to end early.
 using Stop = std::function<bool()>;
 
-// A thread that does one order at a time and answers it. Orders and replies are values that are
-// moved through a mailbox with room for one: whoever gives orders and the thread share nothing
-// else, and neither sees half of what the other writes. All functions are for the thread that made
-// it.
+// A thread that works on one order at a time and replies to it. Orders and replies are values that
+// move through a mailbox with room for one. Both threads share nothing else, and neither sees
+// partial writes of the other. All functions are for the thread that created this.
 template <class Order, class Reply>
 class OrderThread {
 public:
-    // Called on the thread. `stop`: the one who waits has lost patience.
+    // Called on the thread. `stop` returns true once requestStop() was called.
     using Work = std::function<Reply(const Order& order, const Stop& stop)>;
 
-    // `replied` is called on the thread once there is a reply to take.
+    // `replied` is called on the thread when a reply is ready.
     OrderThread(Work work, std::function<void()> replied)
         : work_(std::move(work)), replied_(std::move(replied)), thread_([this] { run(); }) {}
 
-    // Asks the thread to stop, and waits for the order that it works on.
+    // Asks the thread to stop and waits for the current order.
     ~OrderThread() {
         requestStop();
         thread_.join();
@@ -38,10 +37,10 @@ public:
     OrderThread(const OrderThread&) = delete;
     OrderThread& operator=(const OrderThread&) = delete;
 
-    // Whether an order was given whose reply was not taken.
+    // Whether an order was given and its reply is not taken yet.
     bool busy() const { return busy_; }
 
-    // Hands an order over. Not while it is busy.
+    // Hands over an order. Must not be busy.
     void begin(Order order) {
         const std::scoped_lock lock(mutex_);
         order_ = std::move(order);
@@ -49,7 +48,7 @@ public:
         changed_.notify_all();
     }
 
-    // The reply, once it is there; throws what the work threw. It is not busy then.
+    // Returns the reply once it is ready, or throws the exception of the work. Then no longer busy.
     std::optional<Reply> take() {
         const std::scoped_lock lock(mutex_);
         if (!isDone()) return std::nullopt;
@@ -58,14 +57,13 @@ public:
         return std::exchange(reply_, std::nullopt);
     }
 
-    // Waits until there is something to take, or nothing to wait for; false where that takes
-    // longer.
+    // Waits until a reply is ready or nothing is pending. Returns false on a timeout.
     bool waitFor(std::chrono::microseconds patience) {
         std::unique_lock lock(mutex_);
         return !busy_ || changed_.wait_for(lock, patience, [this] { return isDone(); });
     }
 
-    // Asks the work to end early, for good.
+    // Asks the work to end early, permanently.
     void requestStop() {
         const std::scoped_lock lock(mutex_);
         stops_ = true;
@@ -102,7 +100,7 @@ private:
 
     Work work_;
     std::function<void()> replied_;
-    bool busy_ = false;  // of the thread that gives orders alone
+    bool busy_ = false;  // only for the thread that gives orders
     std::mutex mutex_;
     std::condition_variable changed_;
     std::optional<Order> order_;

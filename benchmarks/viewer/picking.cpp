@@ -16,7 +16,8 @@
 namespace benchmarks::viewer {
 namespace {
 
-// Möller and Trumbore 1997, Fast, minimum storage ray/triangle intersection: m along the ray.
+// Returns the distance along the ray, m, by Möller and Trumbore 1997, Fast, minimum storage
+// ray/triangle intersection.
 std::optional<double>
 hitTriangle(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const glm::dvec3 p = glm::cross(ray.direction, c - a);
@@ -31,7 +32,7 @@ hitTriangle(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const glm:
     return distance;
 }
 
-// The smaller root of x^2 + 2 b x + c.
+// Returns the smaller root of x^2 + 2 b x + c if it is positive.
 std::optional<double> firstRoot(double b, double c) {
     const double square = b * b - c;
     if (square < 0.0) return {};
@@ -53,7 +54,7 @@ hitCylinder(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, double rad
     const auto across = [&](const glm::dvec3& v) { return v - axis * glm::dot(v, axis); };
     const glm::dvec3 direction = across(ray.direction), arm = across(ray.from - a);
     const double square = glm::dot(direction, direction);
-    if (square < 1e-12) return {};  // along the axis: its ends are met first
+    if (square < 1e-12) return {};  // parallel to the axis: the ray meets an end first
     const auto root = firstRoot(
         glm::dot(arm, direction) / square, (glm::dot(arm, arm) - radius * radius) / square);
     if (!root) return {};
@@ -158,7 +159,8 @@ std::optional<glm::vec3> pickHair(
     glm::vec2 pixel, float reach) {
     std::optional<glm::vec3> best;
     for (std::size_t i = 0; i + 1 < guides.size(); ++i) {
-        if ((i + 1) % vertices_per_guide == 0) continue;  // the tip of one, the root of another
+        if ((i + 1) % vertices_per_guide == 0) continue;  // from the tip of one guide to the root
+                                                          // of the next
         const auto a = view.pixel(guides[i]);
         const auto b = view.pixel(guides[i + 1]);
         if (!a || !b) continue;
@@ -167,7 +169,8 @@ std::optional<glm::vec3> pickHair(
         const float share =
             square > 0.0f ? std::clamp(glm::dot(pixel - *a, line) / square, 0.0f, 1.0f) : 0.0f;
         if (glm::length(pixel - *a - line * share) > reach) continue;
-        // Equal steps along a line are shorter in the picture the farther off they are.
+        // Perspective: equal steps along a line are shorter in the picture the farther away they
+        // are.
         const float near = view.depth(guides[i]), far = view.depth(guides[i + 1]);
         const float along = share * near / (share * near + (1.0f - share) * far);
         const glm::vec3 point = glm::mix(guides[i], guides[i + 1], along);

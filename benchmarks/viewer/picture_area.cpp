@@ -9,7 +9,7 @@
 
 #include <glm/common.hpp>
 #include <imgui.h>
-#include <imgui_internal.h>  // owners of keys
+#include <imgui_internal.h>  // key owners
 
 #include "benchmarks/viewer/columns.h"
 #include "benchmarks/viewer/player.h"
@@ -17,18 +17,18 @@
 namespace benchmarks::viewer {
 namespace {
 
-// ---- Where pictures go --------------------------------------------------------------------------
+// ---- Placement of pictures ----------------------------------------------------------------------
 
 enum Axis { kHorizontal, kVertical };
 
 glm::vec2 middleOf(const PictureRect& rect) { return rect.corner + rect.size * 0.5f; }
 
-// The largest scale at which a picture fits a room.
+// Returns the largest scale at which a picture fits a room.
 float fittingScale(glm::vec2 room, glm::vec2 picture) {
     return glm::max(glm::min(room.x / picture.x, room.y / picture.y), 0.0f);
 }
 
-// The room that two pictures take beside each other along an axis, without a gap.
+// Returns the room for two adjacent pictures along an axis, without a gap.
 glm::vec2 sizeOfBoth(const std::array<glm::vec2, 2>& sizes, Axis along) {
     glm::vec2 size = glm::max(sizes[0], sizes[1]);
     size[along] = sizes[0][along] + sizes[1][along];
@@ -42,7 +42,7 @@ float scaleOfBoth(
     return fittingScale(left, sizeOfBoth(pixels, along));
 }
 
-// Two pictures as large as there is room, together in its middle; each fills its pane.
+// Places two pictures as large as possible, together in the middle. Each fills its pane.
 std::array<Placed, 2>
 fitted(const PictureRect& room, const std::array<glm::vec2, 2>& pixels, float gap, Axis along) {
     const float scale = scaleOfBoth(room, pixels, gap, along);
@@ -60,12 +60,12 @@ fitted(const PictureRect& room, const std::array<glm::vec2, 2>& pixels, float ga
 
 // ---- The line between two pictures --------------------------------------------------------------
 
-constexpr float kGrab = 1.0f;  // width of what can be grabbed, in font sizes
-constexpr float kStep = 0.01f;  // share that a key moves the line by
+constexpr float kGrab = 1.0f;  // width of the grab area, in font heights
+constexpr float kStep = 0.01f;  // share of the area per key press
 constexpr float kFastStep = 0.1f;
 
-// The step that the arrow keys ask for. The keys are taken from all other widgets: they would move
-// the keyboard's focus, and the camera.
+// Returns the step from the arrow keys. Takes the keys from all other widgets; otherwise they would
+// move the keyboard focus and the camera.
 float stepOfKeys() {
     const ImGuiID owner = ImGui::GetItemID();
     const auto pressed = [&](ImGuiKey key) {
@@ -77,8 +77,8 @@ float stepOfKeys() {
     return (right ? step : 0.0f) - (left ? step : 0.0f);
 }
 
-// Draws the line light in dark edges, so that it is seen on every picture; a handle in the middle
-// says that it moves.
+// Draws a light line with dark edges, so that it is visible on every picture. A handle in the
+// middle shows that it can move.
 void draw(float x, const PictureRect& rect, ImU32 color) {
     const float font = ImGui::GetFontSize();
     const float top = rect.corner.y, bottom = top + rect.size.y;
@@ -96,13 +96,13 @@ void draw(float x, const PictureRect& rect, ImU32 color) {
     }
 }
 
-// An upright line in `rect` that is dragged, or moved with the left and right keys while it has the
-// keyboard; with Shift they are faster. `share` of the rect is left of it.
+// A vertical line in `rect` that can be dragged, or moved with the left and right keys while it has
+// the keyboard focus; faster with Shift. `share` of the rect lies left of it.
 void divider(const char* id, const PictureRect& rect, float& share) {
     const float grab = std::min(ImGui::GetFontSize() * kGrab, rect.size.x);
     if (grab <= 0.0f || rect.size.y <= 0.0f) return;
     const auto at = [&] { return rect.corner.x + share * rect.size.x; };
-    // Within the pictures, also where the line is at their edge.
+    // Keeps the grab area inside the pictures, even with the line at their edge.
     const float left =
         std::clamp(at() - grab / 2, rect.corner.x, rect.corner.x + rect.size.x - grab);
     ImGui::SetCursorScreenPos({left, rect.corner.y});
@@ -124,14 +124,14 @@ void divider(const char* id, const PictureRect& rect, float& share) {
 
 enum class Corner { top_left, top_right, bottom_left };
 
-// A few words over a corner of a picture, readable on every picture; in more lines where it is
-// narrow, and none where there is no room for them. `rect` is what is seen of the picture.
+// Shows some words in a corner of a picture, readable on every picture. Wraps in a narrow picture,
+// and shows nothing without enough room. `rect` is the visible part of the picture.
 void pictureTag(const std::string& text, const PictureRect& rect, Corner corner) {
     const float font = ImGui::GetFontSize();
     const float margin = font * 0.4f, padding = font * 0.35f;
     const float widest = rect.size.x - 2 * (margin + padding);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, widest);
-    // Nothing is better than half of a word.
+    // No text is better than half a word.
     if (widest < 2 * font || size.x > widest || size.y > rect.size.y - 2 * (margin + padding))
         return;
     const float left = corner == Corner::top_right
@@ -160,7 +160,7 @@ constexpr std::array kZooms{
     Choice<Zoom>{"4x", 4, "A pixel of the picture is 4 x 4 of the screen's."},
     Choice<Zoom>{"8x", 8, "A pixel of the picture is 8 x 8 of the screen's."}};
 
-constexpr double kSteps = 1e6;  // steps that a scroll bar divides a picture into
+constexpr double kSteps = 1e6;  // resolution of a scroll bar
 
 void scrollBar(const char* id, const ImRect& bar, ImGuiAxis axis, float visible, float& focus) {
     const double first = (double{focus} - double{visible} / 2) * kSteps;
@@ -173,7 +173,7 @@ void scrollBar(const char* id, const ImRect& bar, ImGuiAxis axis, float visible,
         focus = static_cast<float>(static_cast<double>(scroll) / kSteps) + visible / 2;
 }
 
-// Buttons for how large pictures are shown, in one line or as many as it takes.
+// Buttons for the zoom, in as many lines as needed.
 void zoomBar(std::optional<int>& zoom) {
     choiceButtons<Zoom>(kZooms, zoom);
     if (!zoom) return;
@@ -183,11 +183,11 @@ void zoomBar(std::optional<int>& zoom) {
     ImGui::TextDisabled("%s", kHint);
 }
 
-// How thick a bar for scrolling is.
+// Thickness of a scroll bar.
 float scrollBarWidth() { return ImGui::GetStyle().ScrollbarSize; }
 
-// Bars below and at the right of `room` for the axes along which less than all of a picture is
-// seen. They move what is in the middle.
+// Shows scroll bars below and right of `room` for the axes along which only part of a picture is
+// visible. They move the point in the middle.
 void pictureScrollBars(const PictureRect& room, glm::vec2 visible_share, glm::vec2& focus) {
     const ImVec2 from{room.corner.x, room.corner.y};
     const ImVec2 to{from.x + room.size.x, from.y + room.size.y};
@@ -204,7 +204,7 @@ void pictureScrollBars(const PictureRect& room, glm::vec2 visible_share, glm::ve
 
 // ---- The area -----------------------------------------------------------------------------------
 
-constexpr ImGuiKey kMoveKey = ImGuiKey_M;  // held, the mouse moves magnified pictures
+constexpr ImGuiKey kMoveKey = ImGuiKey_M;  // while it is held, the mouse moves magnified pictures
 
 glm::vec2 pixelsOf(const ShownPicture& picture) {
     return {picture.size().width, picture.size().height};
@@ -242,7 +242,7 @@ bool isMouseDown() {
 
 }  // namespace
 
-// ---- Where pictures go --------------------------------------------------------------------------
+// ---- Placement of pictures ----------------------------------------------------------------------
 
 PictureRect common(const PictureRect& a, const PictureRect& b) {
     const glm::vec2 from = glm::max(a.corner, b.corner);
@@ -264,7 +264,7 @@ Placed arrangeOne(const PictureRect& room, glm::vec2 pixels, const Magnification
     Placed placed{room, {{}, size}};
     const glm::vec2 focus = reachableFocus(magnification.focus, visibleShare(placed));
     placed.picture.corner = middleOf(room) - focus * size;
-    // Pixels that have a size of their own start where the screen's do.
+    // Aligns magnified pixels with the screen's pixels.
     if (magnification.scale) placed.picture.corner = glm::floor(placed.picture.corner);
     return placed;
 }
@@ -291,7 +291,7 @@ std::array<Placed, 2> arrangeTwo(
 PictureArea::PictureArea(const engine::Device& device)
     : a_(device), b_(device), difference_(device) {}
 
-// Also where both stand for pictures of one size, but one is a preview.
+// Sizes also differ if both stand for pictures of one size but only one is a preview.
 bool PictureArea::sizesDiffer() const {
     if (!a_.isThere() || !b_.isThere()) return true;
     const VkExtent2D a = a_.extent(), b = b_.extent();
@@ -306,7 +306,7 @@ bool PictureArea::copy(engine::Commands& commands, const viewer::Shown& a, const
             commands, shown.number, shown.picture, {shown.width, shown.height},
             {render.width, render.height});
     };
-    // A picture that was not there before has no widget either.
+    // A new picture has no widget yet.
     bool all = a_.isThere() || !a.isThere();
     all &= copyOf(a_, a);
     if (b) all &= copyOf(b_, *b);
@@ -332,7 +332,8 @@ std::vector<Placed> PictureArea::arrange(const PictureRect& room) const {
     return {both.begin(), both.end()};
 }
 
-// The size of the room beside scroll bars. A bar takes room, which may make the other one needed.
+// Returns the room without scroll bars. A second pass is needed, because one bar takes room and may
+// make the other necessary.
 glm::vec2 PictureArea::roomBesideBars(const PictureRect& room) const {
     PictureRect left = room;
     for (int i = 0; i < 2; ++i) {
@@ -381,7 +382,7 @@ PictureArea::show(const std::array<std::string, 2>& captions, const std::string&
     return shown;
 }
 
-// The item over a picture. What the mouse does on it is the caller's, but with the move key.
+// The item over a picture. The caller handles the mouse on it, except with the move key.
 PictureArea::Shown PictureArea::item(const Placed& placed, const PictureRect& clip, int side) {
     Shown shown{.rect = placed.picture, .side = side, .clip = clip};
     if (clip.size.x <= 0.0f || clip.size.y <= 0.0f) return shown;
@@ -410,7 +411,7 @@ void PictureArea::showPicture(
     shown.push_back(item(placed, clip, side));
 }
 
-// Shows one picture, or both in panes of their own.
+// Shows one picture, or both in separate panes.
 void PictureArea::showAlone(
     std::vector<Shown>& shown, const std::vector<Placed>& placed,
     const std::array<std::string, 2>& captions) {

@@ -20,12 +20,12 @@
 namespace benchmarks::viewer {
 namespace {
 
-// What a change of settings affects.
+// The effect of a change of settings.
 enum class Effect {
     none,
     camera,
     drawing,
-    forces,  // what a running simulation can take
+    forces,  // a running simulation can take the change
     everything,
 };
 
@@ -52,9 +52,9 @@ scene::Document documentOf(const hair::Settings& settings) {
     return scene::Document(scene::writeSettings(settings));
 }
 
-constexpr std::size_t kFewVertices = 1u << 19;  // as many bytes as a picture of 1080 lines
+constexpr std::size_t kFewVertices = 1u << 19;  // about as many bytes as a 1080p picture
 
-constexpr double kPause = 0.5;  // s without a new frame: longer than a slow device takes for one
+constexpr double kPause = 0.5;  // s without a new frame; longer than a frame on a slow device
 
 }  // namespace
 
@@ -85,7 +85,7 @@ Player::Player(
     seek(0);
 }
 
-// A text that is not watched yet is that of the case.
+// Watches the scene's GLSL files. The case's own text counts as the last one read.
 void Player::watch() {
     for (const scene::NamedExtension& each : scene::namedExtensions(case_->settings()))
         files_.watch(each.file, each.text);
@@ -123,13 +123,13 @@ void Player::preview(const hair::Settings& settings) {
     drawWith(settings);
 }
 
-// From the next picture on.
+// Changes the drawing from the next picture on.
 void Player::drawWith(const hair::Settings& settings) {
     if (effectOf(settings_, settings) == Effect::camera) {
         case_->setCamera(settings.camera);
         for (const auto& renderer : coarse_)
             if (renderer) renderer->setCamera(settings.camera);
-        // A level by distance is another where the camera is.
+        // A level by distance depends on the camera.
         if (settings.lod.mode == hair::LodMode::distance) coarse_ = {};
     } else {
         case_->setDrawing(settings);
@@ -158,7 +158,7 @@ void Player::replace(std::unique_ptr<measure::Case> other, const hair::Settings&
     coarse_ = {};
     case_ = std::move(other);
     settings_ = settings;
-    // It is as if it had been made now: nothing of it went on from somewhere else.
+    // Everything is new and starts again, so it is no longer a preview.
     previews_ = false;
     seek(frame_);
 }
@@ -171,14 +171,14 @@ void Player::play(engine::Timing timing, const std::function<void(engine::Passes
 
 hair::rendering::Renderer& Player::coarse() {
     std::unique_ptr<hair::rendering::Renderer>& renderer = coarse_[level_];
-    // It can't be moved, as make_unique() would.
+    // It cannot be moved, so make_unique() does not work.
     if (!renderer)
         renderer.reset(
             new hair::rendering::Renderer(case_->rendererOf(previewSettings(settings_, level_))));
     return *renderer;
 }
 
-// Draws after what `simulate` records, which may be nothing.
+// Draws after the commands of `simulate`, if there are any.
 void Player::drawFrame(
     engine::Timing timing, const std::function<void(engine::Passes&)>& simulate) {
     hair::rendering::Renderer* const renderer = level_ > 0 ? &coarse() : nullptr;
@@ -195,7 +195,7 @@ void Player::drawFrame(
 }
 
 void Player::next(engine::Timing timing) {
-    // What was submitted before is in none of the frame's times.
+    // Keeps earlier submissions out of the frame's times.
     device_.runOnce([](engine::Commands&) {});
     drawFrame(timing, [&](engine::Passes& passes) { case_->simulate(passes); });
     ++frame_;
@@ -211,7 +211,7 @@ void Player::refresh() {
 }
 
 void Player::seek(std::uint32_t frame, const std::function<bool()>& stop) {
-    // What a preview's simulation would be reset to is of the settings before.
+    // After a preview, a reset would return to the simulation's old settings.
     if (std::exchange(previews_, false)) {
         coarse_ = {};
         case_ = caseOf(settings_);
@@ -264,7 +264,7 @@ Shown Player::shown(Guides guides) const {
     return shown;
 }
 
-// ---- What is shown ------------------------------------------------------------------------------
+// ---- Shown values -------------------------------------------------------------------------------
 
 double Shown::time() const {
     return (static_cast<double>(frame) + 1.0) * double{settings.run.frame_time};
@@ -375,8 +375,8 @@ void Side::take(SideReply reply, Beside beside) {
 
 Moment momentAfter(std::uint32_t frame, double frame_time, double time_step) {
     const double step = frame_time > 0.0 ? frame_time : time_step;
-    // A frame's time is one product, whichever frame it is asked in: a key that was written for a
-    // frame is at that frame's time, to the last bit.
+    // Computes a frame's time as one product, whichever frame asks for it. A key for a frame then
+    // has exactly that frame's time.
     const auto after = [&](double frames) {
         if (frame_time > 0.0)
             return static_cast<float>((static_cast<double>(frame) + 1.0 + frames) * step);

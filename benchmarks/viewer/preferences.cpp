@@ -19,13 +19,13 @@ namespace {
 
 // ---- Layout -------------------------------------------------------------------------------------
 
-// Sizes in heights of a letter.
+// Sizes in letter heights.
 constexpr float kSplitter = 0.4f;
 constexpr float kPlay = 2.3f;
 constexpr float kStatus = 1.8f;
 constexpr float kLeastPicture = 8.0f;  // beside the last column
 
-// Whole pixels: letters are blurred between them.
+// Rounds to whole pixels, because letters at fractions of a pixel are blurred.
 float pixels(float letters, float letter) { return std::round(letters * letter); }
 
 // ---- Theme --------------------------------------------------------------------------------------
@@ -35,14 +35,14 @@ struct Palette {
     unsigned text, faint;
     unsigned ground;  // behind panels
     unsigned trough;  // behind pictures and scroll bars
-    unsigned raised;  // menus and what lies over panels
+    unsigned raised;  // menus and other things above panels
     unsigned field, field_hovered, field_active;
     unsigned button, button_hovered, button_active;
-    unsigned grab;  // of scroll bars
+    unsigned grab;  // for scroll bars
     unsigned chosen;  // tabs, selected lines
     unsigned line;
     unsigned accent;  // handles, marks and plots
-    unsigned changed;  // what differs from the scene
+    unsigned changed;  // settings that differ from the scene
 };
 
 constexpr Palette kDark{
@@ -137,7 +137,7 @@ std::filesystem::path folderFrom(const char* variable) {
     return value ? value : "";
 }
 
-// Reads a member where it is a number in this range.
+// Reads a member if it is a number in this range.
 template <class Number>
 void readNumber(
     const scene::Json& object, const char* name, Number minimum, Number maximum, Number& value) {
@@ -148,7 +148,7 @@ void readNumber(
         value = static_cast<Number>(number);
 }
 
-// Reads a member where it is one of these names.
+// Reads a member if it is one of these names.
 template <class Values, class Value, class Name>
 void readName(
     const scene::Json& object, const char* name, const Values& values, Name nameOf, Value& value) {
@@ -248,7 +248,7 @@ ImGuiStyle styleOf(Theme theme, float scale) {
 
 std::optional<std::filesystem::path> usersPreferences() {
     std::filesystem::path folder = folderFrom("XDG_CONFIG_HOME");
-    // The specification has paths that are not absolute ignored.
+    // The XDG specification says to ignore relative paths.
     if (!folder.is_absolute()) {
         folder = folderFrom("HOME");
         if (!folder.is_absolute()) return std::nullopt;

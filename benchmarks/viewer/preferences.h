@@ -10,13 +10,12 @@
 
 struct ImGuiStyle;
 
-// What the user wants of the window and what is kept of it: layout, theme and the file of
-// preferences.
+// Layout, theme and other preferences of the window, and the file that keeps them.
 namespace benchmarks::viewer {
 
 // ---- Layout -------------------------------------------------------------------------------------
 
-// A part of the window, in Dear ImGui's coordinates.
+// A part of the window, in Dear ImGui coordinates.
 struct Box {
     float x = 0.0f;
     float y = 0.0f;
@@ -28,15 +27,15 @@ struct Box {
     bool empty() const { return width <= 0.0f || height <= 0.0f; }
 };
 
-// A column of panels beside the picture, as the user wants it.
+// The user's choice for a column of panels beside the picture.
 struct Column {
-    float width = 20.0f;  // in heights of a letter, so that it is right at any scale
+    float width = 20.0f;  // in letter heights, so that it suits any scale
     bool shown = true;
 
     bool operator==(const Column&) const = default;
 };
 
-// What is where in a window. Boxes that there is no room for, or that are not wanted, are empty.
+// Places of the parts of a window. Boxes that are hidden or have no room are empty.
 struct Layout {
     Box left;
     Box left_splitter;
@@ -45,16 +44,17 @@ struct Layout {
     Box right;
     Box play;
     Box status;
-    bool merged = false;  // the one column that has room has the panels of both
+    bool merged = false;  // the single column has the panels of both
 };
 
-// The narrowest column whose widgets are whole, and the narrowest picture beside two columns, in
-// heights of a letter.
+// The narrowest column with complete widgets, and the narrowest picture beside two columns, in
+// letter heights.
 inline constexpr float kNarrowestColumn = 18.0f;
 inline constexpr float kNarrowestPicture = 22.0f;
 
-// The layout of a window of this size whose menu ends at `top`; `letter` is the height of a letter.
-// Columns give way to the picture, and where there is no room for two they become one.
+// Returns the layout of a window of this size with a menu that ends at `top`; `letter` is the
+// height of a letter. The picture has priority over columns, and two columns without enough room
+// become one.
 Layout arrange(
     float width, float height, float top, float letter, const Column& left, const Column& right);
 
@@ -64,22 +64,22 @@ enum class Theme { dark, light };
 
 const char* themeName(Theme theme);
 
-// Colours and sizes of widgets, for letters that are `scale` times as large as usual.
+// Colours and sizes of widgets for letters of `scale` times the normal size.
 ImGuiStyle styleOf(Theme theme, float scale);
 
 // ---- Preferences --------------------------------------------------------------------------------
 
-// What the viewer remembers from one time to the next. Nothing that bears on a picture or a number
-// of a scene is in it.
+// Settings that the viewer remembers between sessions. None of them affects a scene's picture or
+// numbers.
 struct Preferences {
     Theme theme = Theme::dark;
-    float zoom = 1.0f;  // scale of letters and widgets, over the screen's
+    float zoom = 1.0f;  // scale of letters and widgets, relative to the screen's
     Column left{.width = 19.0f};
     Column right{.width = 19.0f};
-    std::uint32_t width = 1600;  // the window's, in screen coordinates
+    std::uint32_t width = 1600;  // of the window, in screen coordinates
     std::uint32_t height = 900;
     engine::PresentMode present_mode = engine::PresentMode::fifo;
-    std::vector<std::filesystem::path> recent;  // scenes, the last one first
+    std::vector<std::filesystem::path> recent;  // scenes, the latest first
 
     bool operator==(const Preferences&) const = default;
 };
@@ -88,32 +88,32 @@ inline constexpr float kSmallestZoom = 0.5f;
 inline constexpr float kLargestZoom = 4.0f;
 inline constexpr std::size_t kMostRecent = 10;
 
-// $XDG_CONFIG_HOME/hairbench/viewer.json, else ~/.config/hairbench/viewer.json; none where neither
-// folder is known.
+// Returns $XDG_CONFIG_HOME/hairbench/viewer.json, otherwise ~/.config/hairbench/viewer.json;
+// nothing if neither folder is known.
 std::optional<std::filesystem::path> usersPreferences();
 
-// Preferences as JSON text, and read from it. What the text lacks, or has out of range, is as in
-// Preferences{}; text that is no JSON object throws engine::Error.
+// Convert preferences to and from JSON text. Missing or out-of-range values are as in
+// Preferences{}. Text that is not a JSON object throws engine::Error.
 std::string preferencesText(const Preferences& preferences);
 Preferences readPreferences(const std::string& text);
 
-// Puts a scene that was opened first among the recent ones.
+// Moves an opened scene to the front of the recent ones.
 void remember(Preferences& preferences, const std::filesystem::path& scene);
 
-// The preferences and the file that they are kept in.
+// The preferences and their file.
 class PreferencesFile {
 public:
-    // With an empty path nothing is read or written. A file that can't be read becomes problem(),
-    // and the preferences are Preferences{}.
+    // With an empty path, reads and writes nothing. If the file cannot be read, sets problem() and
+    // uses Preferences{}.
     explicit PreferencesFile(const std::filesystem::path& path);
 
     Preferences now;
 
-    // Writes the preferences where they have changed. The first failure becomes problem(), and
-    // nothing is written from then on.
+    // Writes the preferences if they have changed. The first failure sets problem(), and later
+    // calls write nothing.
     void keep();
 
-    // One line; empty: all is well.
+    // One line; empty without a problem.
     const std::string& problem() const { return problem_; }
 
 private:

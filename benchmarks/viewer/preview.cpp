@@ -8,20 +8,20 @@
 namespace benchmarks::viewer {
 namespace {
 
-constexpr float kCoarsestLod = 8.0f;  // of /lod/level's table
+constexpr float kCoarsestLod = 8.0f;  // limit of /lod/level
 
-// A level is at most 2.5 times the work of the next coarser one.
+// A level takes at most 2.5 times the work of the next coarser one.
 constexpr double kLittle = 0.4 * PreviewControl::kAim;
 constexpr double kClearlyWithin = 0.8 * PreviewControl::kAim;
 constexpr unsigned kMostPatience = 256;  // pictures
 
-// A picture that is refined within this time, ms, is hardly noticed by whoever moves it again.
+// ms. A picture that is refined within this time hardly delays the user's next move.
 constexpr double kAtOnce = 250.0;
-constexpr double kShareOfWait = 0.25;  // of a picture's time that it waits for
+constexpr double kShareOfWait = 0.25;  // share of a picture's time to wait before it is drawn
 constexpr double kShortestWait = 0.15;  // s
 constexpr double kLongestWait = 3.0;
 
-// thesis 2.3.8.1, as hair/rendering/strand_plan.cpp has it for every root.
+// Thesis 2.3.8.1, as in hair/rendering/strand_plan.cpp for every root.
 float lodAtTarget(const hair::LodSettings& lod, const hair::CameraSettings& camera) {
     if (lod.mode == hair::LodMode::forced) return lod.level;
     const float distance = glm::length(camera.position - camera.target);
@@ -64,7 +64,7 @@ previewText(unsigned level, double strand_share, std::uint32_t width, std::uint3
            std::to_string(height);
 }
 
-// ---- Which level is drawn -----------------------------------------------------------------------
+// ---- Choice of the level ------------------------------------------------------------------------
 
 double PreviewControl::expected(unsigned level) const {
     double factor = 1.0;
@@ -78,12 +78,12 @@ void PreviewControl::drawn(unsigned level, double milliseconds) {
     took_[level] = milliseconds;
     crawling_ = level == kCoarsestPreview && milliseconds > kCrawl ? crawling_ + 1 : 0;
     if (level != moving_) {
-        // A finer picture was drawn since nothing moved: the next move may begin with its level.
+        // A finer picture was drawn while nothing moved, so the next move may start at its level.
         if (level < moving_ && milliseconds < kClearlyWithin) {
             moving_ = level;
             calm_ = 0;
         }
-        // Of what moves nothing is known yet.
+        // Nothing is known yet about pictures in motion.
         while (moving_ < level && took_[moving_] == 0.0 && expected(moving_) > kAim) ++moving_;
         return;
     }
